@@ -88,13 +88,13 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok)
     return ok.problem();
   if (options.reality)
-    if (auto ok = assess_sights(*scene, scenario.value(), 1, options, interrupt, progress, out);
+    if (auto ok = assess_sights(*scene, scenario.value(), {}, options, interrupt, progress, out);
         !ok)
       return ok.problem();
   for (const double factor : options.smoke_factors) {
     Assessment at_density;
-    if (auto ok = assess_sights(*scene, scenario.value(), factor, options, interrupt, progress,
-                                at_density);
+    if (auto ok = assess_sights(*scene, scenario.value(), {factor, {}, false}, options, interrupt,
+                                progress, at_density);
         !ok)
       return ok.problem();
     count_sweep(factor, at_density.sights, out.sweep);

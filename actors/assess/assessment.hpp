@@ -10,6 +10,7 @@
 #include "actors/assess/judged_state.hpp"
 #include "actors/inspect/inspect.hpp"
 #include "actors/run/run_executor.hpp"
+#include "scenes/emergency/guidance.hpp"
 #include "scenes/emergency/legibility.hpp"
 #include "scenes/emergency/rules.hpp"
 
@@ -24,16 +25,20 @@ inline constexpr int sight_rounds = 8;
 inline constexpr size_t ageings = 16;
 }  // namespace limits
 
+struct SightRow;
+
 struct AssessOptions {
   /// Of the reality mode; its doors are the code mode's too. Empty: see judged_scenario.
   std::string scenario;
   std::vector<std::string> rules, deviations;  // by name; empty: those of the scene
   uint64_t seed = 1;
   int threads = 1;
-  RunExecutor* executor = nullptr;         // who traces; null: the threads
-  int rounds = 4;                          // until nothing is undecided, or so many
-  bool reality = true;                     // else the code mode alone
-  std::string sign;                        // judged alone, by name; "": all are
+  RunExecutor* executor = nullptr;  // who traces; null: the threads
+  int rounds = 4;                   // until nothing is undecided, or so many
+  bool reality = true;              // else the code mode alone
+  std::string sign;                 // judged alone, by name; "": all are
+  /// Which views are judged, before anything is known of their light; empty: all are.
+  std::function<bool(const SightRow& view)> wanted = {};
   std::vector<double> smoke_factors = {};  // of a sweep over the density of all smoke
 };
 
@@ -89,12 +94,46 @@ struct SweepRow {
   int64_t places = 0, legible = 0, undecided = 0;
 };
 
+/// A state of an assessment over time.
+struct TimedState {
+  double at_s = 0;
+  Operation operation = Operation::mains;
+  std::optional<double> seconds_after_failure;
+  size_t lit = 0;  // luminaires
+  struct Frame {
+    std::string medium;
+    double time_s = 0;
+  };
+  std::vector<Frame> frames;  // of fire simulations: the time that they were computed for
+};
+
+/// How one route guides eyes of one height, over all states.
+struct RouteOverTime {
+  std::string route;
+  double eye_height_m = 0;
+  GuidedRoute guided;
+  GuidedRoute by_jin;  // what Jin's law would say of the same signs
+  /// By state and place: the sign that guides, or would if it were read; "" where there is none.
+  std::vector<std::vector<std::string>> signs;
+  std::vector<Walk> walks;  // who sets out at each state, where a speed is said
+};
+
+struct OverTime {
+  std::vector<TimedState> states;
+  std::vector<RouteOverTime> routes;
+  std::optional<double> walking_speed_m_s;
+  double low_albedo = 0, high_albedo = 0;  // for which verdicts hold; both 0: there was no smoke
+  double depth_error = 0;                  // of sources of smoke, largest
+  int64_t paths = 0;                       // from eyes
+};
+
 struct Assessment {
   AssessedState state;
   bool reality = true;  // views were judged
   std::vector<Check> checks;
   std::vector<SightRow> sights;
   std::vector<SweepRow> sweep;
+  std::optional<OverTime> over_time;
   std::vector<PlanLevel> levels;  // from below; at least one
   std::vector<Problem> warnings;
   std::vector<Finding> findings;  // of the inspection; its warnings are among the above

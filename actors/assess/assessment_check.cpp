@@ -121,6 +121,30 @@ constexpr RequiredKey keys[] = {
     {"sweep[].sign", Kind::text},
     {"sweep[].places", Kind::number},
     {"sweep[].legible", Kind::number},
+    {"over_time?.what", Kind::text},
+    {"over_time?.walking_speed", Kind::object_or_null},
+    {"over_time?.walking_speed?.value", Kind::number},
+    {"over_time?.holds_for.albedo_min", Kind::number},
+    {"over_time?.holds_for.albedo_max", Kind::number},
+    {"over_time?.holds_for.optical_depth_error", Kind::number},
+    {"over_time?.states[].at.value", Kind::number},
+    {"over_time?.routes[].route", Kind::text},
+    {"over_time?.routes[].eye_height.value", Kind::number},
+    {"over_time?.routes[].length.value", Kind::number},
+    {"over_time?.routes[].places[]", Kind::number},
+    {"over_time?.routes[].guided[]", Kind::text},
+    {"over_time?.routes[].jin[]", Kind::text},
+    {"over_time?.routes[].signs[]", Kind::list},
+    {"over_time?.routes[].time.until?.value", Kind::number},
+    {"over_time?.routes[].time.lost_by?.value", Kind::number},
+    {"over_time?.routes[].time.lost_at?.value", Kind::number},
+    {"over_time?.routes[].time_by_jin.until?.value", Kind::number},
+    {"over_time?.routes[].time_by_jin.lost_by?.value", Kind::number},
+    {"over_time?.routes[].time_by_jin.lost_at?.value", Kind::number},
+    {"over_time?.routes[].walks[].start.value", Kind::number},
+    {"over_time?.routes[].walks[].end", Kind::text},
+    {"over_time?.routes[].walks[].at.value", Kind::number},
+    {"over_time?.routes[].walks[].at_time.value", Kind::number},
     {"warnings[]", Kind::text},
     {"cameras[]", Kind::text},
     {"scenario.media[].name", Kind::text},
@@ -317,6 +341,36 @@ Fault bad_plan(const Json& a) {
   return std::nullopt;
 }
 
+/// Tables of states and places that are not as large as these: maps read them by both.
+Fault bad_over_time(const Json& a) {
+  const auto over = a.find("over_time");
+  if (over == a.end() || over->is_null()) return std::nullopt;
+  const size_t states = (*over)["states"].size();
+  if (states == 0) return "over_time.states is empty";
+  for (const char* key : {"until", "lost_by", "lost_at"})
+    for (const Json& route : (*over)["routes"])
+      for (const char* time : {"time", "time_by_jin"})
+        if (route[time].find(key) == route[time].end())
+          return std::string("over_time.routes: a ") + time + " has no \"" + key + "\"";
+  for (const Json& route : (*over)["routes"]) {
+    const size_t places = route["places"].size();
+    const auto is_whole = [&](const char* key) {
+      return route[key].size() == states &&
+             std::all_of(route[key].begin(), route[key].end(), [&](const Json& row) {
+               return (row.is_string() ? row.text().size() : row.size()) == places;
+             });
+    };
+    if (places == 0 || !is_whole("guided") || !is_whole("jin") || !is_whole("signs"))
+      return "over_time.routes: a table has not as many values as states and places";
+    for (const Json& row : route["signs"])
+      for (const Json& name : row)
+        if (!name.is_string()) return "over_time.routes: a sign is no name";
+    if (!route["walks"].empty() && !(*over)["walking_speed"].is_object())
+      return "over_time: people walk without a speed";
+  }
+  return std::nullopt;
+}
+
 bool is_listed(const Json& state, const char* key, const std::string& id) {
   const auto rows = state.find(key);
   return rows != state.end() && rows->is_array() &&
@@ -373,6 +427,7 @@ std::optional<std::string> fault_of_assessment(const Json& a) {
   for (const RequiredKey& key : keys)
     if (Fault fault = missing(a, key.path, key.kind, "")) return fault;
   if (Fault fault = bad_plan(a)) return fault;
+  if (Fault fault = bad_over_time(a)) return fault;
   if (Fault fault = bad_checks(a)) return fault;
   return bad_counts(a);
 }

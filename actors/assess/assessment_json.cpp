@@ -8,6 +8,7 @@
 #include "actors/assess/assessment_check.hpp"
 #include "actors/assess/assessment_inputs.hpp"
 #include "actors/assess/guid_results.hpp"
+#include "actors/assess/over_time_json.hpp"
 #include "actors/assess/state_words.hpp"
 #include "actors/output/csv.hpp"
 #include "runtime/core/regular_file.hpp"
@@ -191,6 +192,7 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
   Json& sights = out["sights"] = Json::array();
   for (const SightRow& row : assessment.sights) sights.push_back(sight_json(row));
   out["sweep"] = sweep_json(assessment);
+  if (assessment.over_time) out["over_time"] = over_time_json(*assessment.over_time);
   Json& warnings = out["warnings"] = Json::array();
   for (const Problem& warning : assessment.warnings) warnings.push_back(warning.text());
   out["project"] = project_json(scene.project);
@@ -246,6 +248,8 @@ Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
   if (auto ok = write_csv(folder / "sights.csv", sights); !ok) return ok.problem();
   if (const auto by_guid = results_by_guid(assessment))
     if (auto ok = write_csv(folder / "by_guid.csv", *by_guid); !ok) return ok.problem();
+  if (const auto over = assessment.find("over_time"); over != assessment.end())
+    return write_csv(folder / "guided.csv", guidance_csv(*over));
   return {};
 }
 

@@ -23,11 +23,6 @@ constexpr double far_apart_m = 5;
 
 constexpr std::array medium_words{"homogeneous", "layered", "bounded", "data set"};
 
-/// A flame lets its light out and is met by nobody; a data set of a fire holds smoke, too.
-bool is_flame(const Medium& medium) {
-  return medium.emission && medium.kind != MediumKind::data_set;
-}
-
 double stated(const SmokeOptics& optics) {
   return optics.extinction.spectrum().at(stated_nm);
 }
@@ -94,7 +89,8 @@ std::string candidates(const SceneDescription& scene) {
   std::string out;
   for (const Scenario& s : scene.scenarios)
     out += fmt::format("{}\"{}\" ({} operation, {})", out.empty() ? "" : ", ", s.name,
-                       name_of(s.operation), has_smoke(scene, s) ? "with smoke" : "without smoke");
+                       name_of(s.written_operation),
+                       has_smoke(scene, s) ? "with smoke" : "without smoke");
   return out;
 }
 
@@ -194,7 +190,10 @@ void add_time(const SceneDescription& scene, const AssessedState& state,
               std::vector<std::string>& remarks) {
   if (!state.seconds_after_failure) return;
   const double seconds = *state.seconds_after_failure, rated = rated_hours(state.codes);
-  if (state.operation == Operation::emergency && seconds > 3600 * rated)
+  const bool unknown =
+      std::any_of(scene.emitters.begin(), scene.emitters.end(),
+                  [](const Emitter& e) { return e.emergency_flux > 0 && !e.duration_s; });
+  if (state.operation == Operation::emergency && seconds > 3600 * rated && unknown)
     remarks.push_back(
         fmt::format("{:g} s after the failure of the mains is later than the rated "
                     "duration of {:g} h that the rules ask for: batteries may be "
@@ -303,6 +302,11 @@ void add_remarks(const SceneDescription& scene, const Scenario& scenario, Assess
 
 }  // namespace
 
+// It lets its light out and is met by nobody; a data set of a fire holds smoke, too.
+bool is_flame(const Medium& medium) {
+  return medium.emission && medium.kind != MediumKind::data_set;
+}
+
 bool has_smoke(const SceneDescription& scene, const Scenario& scenario) {
   return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& medium) {
     return !is_flame(medium) && extinction_factor(scenario, medium.name) > 0 &&
@@ -322,7 +326,7 @@ Result<Scenario> judged_scenario(const SceneDescription& scene, const std::strin
   const char* const with = smoky ? " with smoke" : "";
   const Scenario* one = nullptr;
   for (const Scenario& s : scene.scenarios) {
-    if (s.operation != Operation::emergency || has_smoke(scene, s) != smoky) continue;
+    if (s.written_operation != Operation::emergency || has_smoke(scene, s) != smoky) continue;
     if (one != nullptr)
       return unclear(scene, s.place,
                      fmt::format("\"{}\" and \"{}\" are both in emergency operation{}", one->name,
@@ -333,7 +337,7 @@ Result<Scenario> judged_scenario(const SceneDescription& scene, const std::strin
     return unclear(scene, scene.scenarios.front().place,
                    fmt::format("no scenario{} is in emergency operation", with));
   for (const Scenario& s : scene.scenarios)
-    if (s.operation == Operation::mains && has_smoke(scene, s) == smoky &&
+    if (s.written_operation == Operation::mains && has_smoke(scene, s) == smoky &&
         !differ_in_operation_alone(s, *one))
       return unclear(scene, s.place,
                      fmt::format("\"{}\"{} is in mains operation and differs from \"{}\" in more "

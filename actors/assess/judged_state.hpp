@@ -43,10 +43,11 @@ struct AssessedState {
 
 /// The state that is judged: the one that is named, in whatever operation. Without a name, the one
 /// scenario in emergency operation that has smoke; in a scene none of whose scenarios has smoke,
-/// the one in emergency operation. Nothing else in the scene may be mistaken for it: a scenario in
-/// mains operation that differs in more than its operation (its media, flames, circuits, doors) may
-/// be one whose `operation` was forgotten.
-/// Errors: no such scenario, none at all, or a choice; each says what to write.
+/// the one in emergency operation. What counts is the operation after the mains have failed, which
+/// a clock may not yet have reached. Nothing else in the scene may be mistaken for it: a scenario
+/// in mains operation that differs in more than its operation (its media, flames, circuits, doors)
+/// may be one whose `operation` was forgotten. Errors: no such scenario, none at all, or a choice;
+/// each says what to write.
 Result<Scenario> judged_scenario(const SceneDescription& scene, const std::string& named);
 
 /// The rule sets and deviations that were asked for, else those that the scene names.
@@ -57,6 +58,9 @@ Result<std::vector<CodeChoice>> judged_codes(const SceneDescription& scene,
 
 /// Whether media other than flames are left in a scenario.
 bool has_smoke(const SceneDescription& scene, const Scenario& scenario);
+
+/// Of a scene's media, those that only glow: no smoke.
+bool is_flame(const Medium& medium);
 
 /// Errors: there is smoke, and the scene does not say whether it stings.
 Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& scenario);

@@ -156,12 +156,8 @@ class RealityMode {
  public:
   /// `observers`: those that the scene names. Requires: all outlive it.
   RealityMode(const JudgedScene& judged, const std::vector<Observer>& observers,
-              double smoke_factor, const AssessOptions& options, Assessment& out)
-      : judged_(judged),
-        observers_(observers),
-        smoke_factor_(smoke_factor),
-        options_(options),
-        out_(out) {}
+              const OtherSmoke& smoke, const AssessOptions& options, Assessment& out)
+      : judged_(judged), observers_(observers), smoke_(smoke), options_(options), out_(out) {}
 
   /// Who can see what, by straight lines. Errors: as assess_sights.
   Result<void> look_for_lines(const AssessProgress& progress);
@@ -185,7 +181,7 @@ class RealityMode {
   const JudgedScene& judged_;
   const SceneDescription& scene_ = judged_.scene;
   const std::vector<Observer>& observers_;
-  const double smoke_factor_;
+  const OtherSmoke smoke_;
   const AssessOptions& options_;
   Assessment& out_;
   std::vector<Stand> stands_;
@@ -215,7 +211,7 @@ Result<void> RealityMode::look_for_lines(const AssessProgress& progress) {
       const Sign& sign = scene_.signs[s];
       if (!options_.sign.empty() && sign.name != options_.sign) continue;
       SightRow row = row_of(stand, sign);
-      if (row.view.behind) continue;
+      if (row.view.behind || (options_.wanted && !options_.wanted(row))) continue;
       const double seen = building.seen_share(access, sign, row.view, row.eye);
       row.look.visible_share = seen;
       if (seen == 0) row.sight.verdict = SightVerdict::hidden;
@@ -246,7 +242,7 @@ Result<void> RealityMode::look_for_lines(const AssessProgress& progress) {
 
 /// Those who still have to look, and as many paths as the round has.
 RoundState RealityMode::round_state(int round) const {
-  RoundState out{judged_.scenario.name, smoke_factor_, 0, {}};
+  RoundState out{judged_.scenario.name, scene_.at_s, smoke_, 0, {}};
   size_t last = stands_.size();
   for (const Open& open : open_) {
     if (open.stand != last) {
@@ -412,13 +408,13 @@ Result<void> RealityMode::trace(int round, const std::atomic<bool>& interrupt,
 }  // namespace
 
 Result<void> assess_sights(const SceneDescription& scene, const Scenario& scenario,
-                           double smoke_factor, const AssessOptions& options,
+                           const OtherSmoke& smoke, const AssessOptions& options,
                            const std::atomic<bool>& interrupt, const AssessProgress& progress,
                            Assessment& out) {
-  const auto judged = judged_scene(scene, thickened(scenario, smoke_factor));
+  const auto judged = judged_scene(scene, scenario, smoke);
   if (!judged) return judged.problem();
   if (auto ok = irritation_is_said(scene, judged->scenario); !ok) return ok.problem();
-  RealityMode mode(judged.value(), scene.observers, smoke_factor, options, out);
+  RealityMode mode(judged.value(), scene.observers, smoke, options, out);
   if (auto ok = mode.look_for_lines(progress); !ok) return ok.problem();
   for (int round = 0; round < options.rounds && mode.anything_open(); ++round)
     if (auto ok = mode.trace(round, interrupt, progress); !ok) return ok.problem();

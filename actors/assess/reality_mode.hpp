@@ -9,11 +9,11 @@
 
 namespace luxodus {
 
-/// Adds sights to `out`, in smoke of so many times the scenario's density. Requires, where nodes
+/// Adds sights to `out`, in the scenario's smoke or another. Requires, where nodes
 /// trace: the scenario is one of the scene's file. Errors: as judged_scene; irritation_is_said;
 /// `interrupt`; more pairs of place and sign than a limit.
 Result<void> assess_sights(const SceneDescription& scene, const Scenario& scenario,
-                           double smoke_factor, const AssessOptions& options,
+                           const OtherSmoke& smoke, const AssessOptions& options,
                            const std::atomic<bool>& interrupt, const AssessProgress& progress,
                            Assessment& out);
 

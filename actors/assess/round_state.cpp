@@ -9,10 +9,31 @@ namespace luxodus {
 
 namespace {
 
+/// By the name of a simulation's smoke: how much denser it may be.
+void thicken_by_errors(const SceneDescription& scene, Scenario& scenario) {
+  for (const Medium& medium : scene.media) {
+    if (!medium.simulation || medium.simulation->depth_error == 0) continue;
+    const double factor = extinction_factor(scenario, medium.name);
+    std::erase_if(scenario.media, [&](const auto& one) { return one.name == medium.name; });
+    scenario.media.push_back({medium.name, factor * (1 + medium.simulation->depth_error)});
+  }
+}
+
+/// Of all smoke; what flames are made of stays.
+void set_albedo(SceneDescription& scene, double albedo) {
+  for_each_smoke(scene, [&](SmokeOptics& optics) { optics.albedo = Spectrum::constant(albedo); });
+  for (Medium& medium : scene.media)
+    if (!is_flame(medium)) medium.data.albedo.clear();
+}
+
 // What is not there or of another type is thrown by Json, and caught below.
 
 glm::dvec3 vector_of(const Json& list) {
   return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
+}
+
+std::optional<double> maybe_number(const Json& value) {
+  return value.is_null() ? std::nullopt : std::optional(value.get<double>());
 }
 
 Observer observer_of(const Json& one) {
@@ -37,10 +58,12 @@ std::string round_text(const RoundState& round) {
                          {"gaze", vector_json(observer.gaze)},
                          {"signs", std::move(signs)}});
   }
-  const Json object = {{"scenario", round.scenario},
-                       {"smoke_factor", round.smoke_factor},
-                       {"eye_path_factor", round.eye_path_factor},
-                       {"observers", std::move(observers)}};
+  const OtherSmoke& smoke = round.smoke;
+  const Json object = {
+      {"scenario", round.scenario},       {"at_s", round.at_s ? Json(*round.at_s) : Json()},
+      {"smoke_factor", smoke.factor},     {"albedo", smoke.albedo ? Json(*smoke.albedo) : Json()},
+      {"by_errors", smoke.by_errors},     {"eye_path_factor", round.eye_path_factor},
+      {"observers", std::move(observers)}};
   return object.dump();
 }
 
@@ -48,7 +71,10 @@ Result<RoundState> parse_round(const std::string& text) try {
   const Json object = Json::parse(text);
   RoundState out;
   out.scenario = object.at("scenario").get<std::string>();
-  out.smoke_factor = object.at("smoke_factor").get<double>();
+  out.at_s = maybe_number(object.at("at_s"));
+  out.smoke.factor = object.at("smoke_factor").get<double>();
+  out.smoke.albedo = maybe_number(object.at("albedo"));
+  out.smoke.by_errors = object.at("by_errors").get<bool>();
   out.eye_path_factor = object.at("eye_path_factor").get<double>();
   if (object.at("observers").size() > limits::sights)
     return problem("a round of an assessment has too many observers");
@@ -64,8 +90,11 @@ Scenario thickened(Scenario scenario, double factor) {
   return scenario;
 }
 
-Result<JudgedScene> judged_scene(const SceneDescription& scene, const Scenario& scenario) {
-  JudgedScene out{scenario, without_measurements(scene), {}};
+Result<JudgedScene> judged_scene(const SceneDescription& scene, const Scenario& scenario,
+                                 const OtherSmoke& smoke) {
+  JudgedScene out{thickened(scenario, smoke.factor), without_measurements(scene), {}};
+  if (smoke.by_errors) thicken_by_errors(scene, out.scenario);
+  if (smoke.albedo) set_albedo(out.scene, *smoke.albedo);
   auto ageing = group_by_ageing(out.scene, scenario.operation);
   if (!ageing) return ageing.problem();
   out.ageing = std::move(ageing).value();
@@ -90,9 +119,11 @@ Result<std::shared_ptr<const TracedState>> RoundStates::make(const std::string& 
   if (state_ && text == text_) return state_;
   const auto round = parse_round(text);
   if (!round) return round.problem();
-  const auto scenario = find_scenario(*scene_, round->scenario);
+  const auto described = scene_of_(round->at_s);
+  if (!described) return described.problem();
+  const auto scenario = find_scenario(*described.value(), round->scenario);
   if (!scenario) return scenario.problem();
-  const auto judged = judged_scene(*scene_, thickened(scenario.value(), round->smoke_factor));
+  const auto judged = judged_scene(*described.value(), scenario.value(), round->smoke);
   if (!judged) return judged.problem();
   auto scene = compile_round(judged.value(), round.value());
   if (!scene) return scene.problem();

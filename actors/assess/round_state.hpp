@@ -2,8 +2,10 @@
 // who trace it elsewhere know the scene's file, and make what they trace from a text.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +21,18 @@ namespace limits {
 inline constexpr int64_t round_batch_particles = 256;
 }  // namespace limits
 
+/// Other smoke than the scene and the scenario state.
+struct OtherSmoke {
+  double factor = 1;             // of all extinctions, beside the scenario's own
+  std::optional<double> albedo;  // of all smoke
+  bool by_errors = false;        // denser by the largest error of its source
+};
+
 /// What a round has beside the scene.
 struct RoundState {
-  std::string scenario;             // by name
-  double smoke_factor = 1;          // of all extinctions, beside the scenario's own
+  std::string scenario;        // by name
+  std::optional<double> at_s;  // of a scene that changes in time: the state that it is of
+  OtherSmoke smoke;
   double eye_path_factor = 0;       // as in RunSettings
   std::vector<Observer> observers;  // each with the signs that it is asked about
 };
@@ -31,6 +41,18 @@ struct RoundState {
 std::string round_text(const RoundState& round);
 /// Errors: a text that is none; more observers than limits::sights.
 Result<RoundState> parse_round(const std::string& text);
+
+/// Calls `work` with the optics of all smoke; flames are none.
+template <class Scene, class Work>
+void for_each_smoke(Scene& scene, const Work& work) {
+  for (auto& medium : scene.media) {
+    if (is_flame(medium)) continue;
+    if (medium.kind == MediumKind::layered)
+      for (auto& layer : medium.layers) work(layer.optics);
+    else
+      work(medium.optics);
+  }
+}
 
 /// The scene of a judged state, which measures nothing but what eyes look at.
 struct JudgedScene {
@@ -43,23 +65,28 @@ struct JudgedScene {
 Scenario thickened(Scenario scenario, double factor);
 
 /// Errors: as group_by_ageing.
-Result<JudgedScene> judged_scene(const SceneDescription& scene, const Scenario& scenario);
+Result<JudgedScene> judged_scene(const SceneDescription& scene, const Scenario& scenario,
+                                 const OtherSmoke& smoke = {});
 
 /// What a round traces: BatchTracer's particles and its paths from the eyes.
 /// Errors: as compile_scene.
 Result<std::shared_ptr<const CompiledScene>> compile_round(const JudgedScene& judged,
                                                            const RoundState& round);
 
+/// The scene as it is at a time [s], or as it is written. Errors: as reading it.
+using SceneOfState =
+    std::function<Result<std::shared_ptr<const SceneDescription>>(std::optional<double> at_s)>;
+
 /// Rounds as nodes make them. The nodes of a process share the last that any of them was asked for.
 /// Any thread.
 class RoundStates final : public StateMaker {
  public:
-  explicit RoundStates(std::shared_ptr<const SceneDescription> scene) : scene_(std::move(scene)) {}
-  /// Errors: as parse_round, find_scenario, judged_scene and compile_round.
+  explicit RoundStates(SceneOfState scene_of) : scene_of_(std::move(scene_of)) {}
+  /// Errors: as parse_round, find_scenario, judged_scene and compile_round; as reading the scene.
   Result<std::shared_ptr<const TracedState>> make(const std::string& text) override;
 
  private:
-  const std::shared_ptr<const SceneDescription> scene_;
+  const SceneOfState scene_of_;
   std::mutex mutex_;
   std::string text_;
   std::shared_ptr<const TracedState> state_;

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/assess/check_words.hpp"
+#include "actors/assess/over_time.hpp"
+#include "actors/assess/over_time_json.hpp"
 #include "actors/assess/state_words.hpp"
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
@@ -15,12 +18,14 @@
 #include "actors/cli/load_scene.hpp"
 #include "actors/cli/nodes_option.hpp"
 #include "actors/cli/progress_line.hpp"
+#include "actors/cli/quantities.hpp"
 #include "actors/cli/report_options.hpp"
 #include "actors/cli/signals.hpp"
 #include "actors/cli/version.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/output/output_folder.hpp"
 #include "runtime/core/log.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 
 namespace luxodus::cli {
 
@@ -33,7 +38,7 @@ struct AssessCommandOptions {
   std::string out;
   AssessOptions assess;
   int nodes = 0;
-  std::string at;
+  std::vector<std::string> at;
   bool codes_alone = false;
   bool strict = false;
   bool overwrite = false;
@@ -86,15 +91,57 @@ void print_summary(const Json& a) {
   if (!seen.empty()) std::printf("signs, from routes and areas: %s\n", seen.c_str());
   if (const std::string behind = behind_words(a); !behind.empty())
     std::printf("%s\n", behind.c_str());
+  if (const auto over = a.find("over_time"); over != a.end())
+    std::printf("%s", guidance_text(*over).c_str());
+}
+
+/// What stays to be done, from what is done.
+class Estimate {
+ public:
+  std::string left(double share) const {
+    const double passed =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    if (!(share > 0.01 && share < 1) || passed < 1) return "";
+    return ", about " + time_text(passed * (1 - share) / share) + " left";
+  }
+
+ private:
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
+/// Errors: as assess_over_time.
+Result<void> add_over_time(const std::string& file, const std::vector<double>& times,
+                           const AssessOptions& options, ProgressLine& line, Assessment& out) {
+  const auto scene_at = [&](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
+    ReadScene read = read_scene(file, at_s);
+    if (!read.scene) return read.problems.list().front();
+    return std::make_shared<const SceneDescription>(std::move(*read.scene));
+  };
+  const Estimate estimate;
+  auto over_time = assess_over_time(
+      times, scene_at, options, interrupt_flag(), [&](const std::string& what, double share) {
+        line.put(fmt::format("{}: {:.0f} %{}", what, 100 * share, estimate.left(share)), share >= 1,
+                 share);
+      });
+  if (!over_time) return over_time.problem();
+  out.over_time = std::move(over_time).value();
+  return {};
 }
 
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
-  const auto scene =
-      load_scene(options.scene, ReadingWarnings::left_to_inspection, time_asked(options.at));
-  if (!scene) return ExitCode::bad_input;
-  AssessmentJob job{scene,          options.out,   options.assess, options.overwrite,
-                    options.strict, options.report};
-  if (options.out.empty()) job.folder = fs::path("out") / file_name_of(scene->name + "-assessed");
+  const auto states = assessed_states(options.scene, times_asked(options.at));
+  if (!states) return ExitCode::bad_input;
+  const auto& scene = states->last;
+  AssessmentJob job;
+  job.scene = scene;
+  job.scene_file = options.scene;
+  job.times = states->times;
+  job.folder = options.out.empty() ? fs::path("out") / file_name_of(scene->name + "-assessed")
+                                   : fs::path(options.out);
+  job.options = options.assess;
+  job.overwrite = options.overwrite;
+  job.strict = options.strict;
+  job.report = options.report;
   install_interrupt_handler();
   job.options.reality = !options.codes_alone;
   const auto nodes = nodes_that_trace(options.nodes);
@@ -117,16 +164,30 @@ Result<ExitCode> compare_folders(const std::string& before, const std::string& a
 
 }  // namespace
 
+std::optional<AssessedStates> assessed_states(const std::string& file, std::vector<double> times) {
+  AssessedStates out{std::move(times), nullptr};
+  const auto at = [&](std::optional<double> time) {
+    return load_scene(file, ReadingWarnings::left_to_inspection, time);
+  };
+  if (out.times.empty()) {
+    out.last = at(std::nullopt);
+    if (out.last && out.last->time) out.times = times_of(*out.last->time);
+    if (out.times.size() < 2) return out.last ? std::optional(out) : std::nullopt;
+  }
+  out.last = at(out.times.back());
+  return out.last ? std::optional(out) : std::nullopt;
+}
+
 Result<ExitCode> assess_into(const AssessmentJob& job) {
-  const OutputPlan plan{
-      {"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv", "by_guid.csv"},
-      {"plans", "schedules"}};
+  const OutputPlan plan{{"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv",
+                         "guided.csv", "by_guid.csv"},
+                        {"plans", "schedules"}};
   const auto out = OutputFolder::claim(job.folder, plan);
   if (!out) return out.problem();
   if (!job.overwrite)
     if (auto ok = refuse_files_of_others(out->path(), plan.files); !ok) return ok.problem();
   ProgressLine line("assess");
-  const auto assessed =
+  auto assessed =
       assess(job.scene, job.options, interrupt_flag(), [&](const std::string& what, double share) {
         line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
       });
@@ -137,6 +198,15 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
     }
     log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
+  }
+  if (job.options.reality && job.times.size() > 1) {
+    AssessOptions asked = job.options;
+    asked.scenario = assessed->state.scenario;
+    if (auto ok = add_over_time(job.scene_file, job.times, asked, line, assessed.value()); !ok) {
+      if (!interrupt_flag()) return ok.problem();
+      log_warning("interrupted; nothing was written");
+      return ExitCode::interrupted;
+    }
   }
   tell_findings(assessed->findings);
   for (const Problem& warning : assessed->warnings)
@@ -165,7 +235,7 @@ Command assess_command() {
             {.form = Form::name,
              .otherwise = "the scenario in emergency operation, with smoke where any has it; none "
                           "is guessed"}},
-           at_option(o->at),
+           times_option(o->at),
            {"--out",
             &o->out,
             "Folder of the results",
@@ -201,13 +271,15 @@ Command assess_command() {
             "Exit code 1 where anything fails, is undecided, not assessed or not verified"}},
       .notes =
           "Needs routes, areas or observers in the scene. Writes report.html, assessment.json, "
-          "checks.csv, sights.csv, by_guid.csv (of what came from IFC), plans/ (SVG, DXF), "
-          "schedules/ (CSV).\n"
+          "checks.csv, sights.csv, guided.csv (over time), by_guid.csv (of what came from IFC), "
+          "plans/ (SVG, DXF), schedules/ (CSV). Over several times routes are followed; all else "
+          "is of the last of them.\n"
           "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
           "  luxodus assess office.toml --scenario fire --rules en1838-2013 \\\n"
           "    --deviation de-asr-a3.4-3\n"
           "  luxodus assess office.toml --rules en1838-2024,nfpa101 --codes-alone\n"
-          "  luxodus assess office.toml --smoke-scale 0.1,0.3,1,3,10",
+          "  luxodus assess office.toml --smoke-scale 0.1,0.3,1,3,10\n"
+          "  luxodus assess office.toml --at 30s,60s,90s",
       .run = [o] { return exit_code_of(assess_scene(*o)); }};
   add_report_options(command, o->report);
   return command;

@@ -3,6 +3,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "actors/assess/assessment.hpp"
 #include "actors/cli/command.hpp"
@@ -10,8 +13,19 @@
 
 namespace luxodus::cli {
 
+/// The times of the states that are assessed, and the scene at the last of them.
+struct AssessedStates {
+  std::vector<double> times;  // none: the scene does not change in time
+  std::shared_ptr<const SceneDescription> last;
+};
+
+/// Without times those that the scene says. None after every problem was told.
+std::optional<AssessedStates> assessed_states(const std::string& file, std::vector<double> times);
+
 struct AssessmentJob {
-  std::shared_ptr<const SceneDescription> scene;
+  std::shared_ptr<const SceneDescription> scene;  // of several states the last
+  std::string scene_file;
+  std::vector<double> times;  // of the states; one or none: there is one
   std::filesystem::path folder;
   AssessOptions options;
   bool overwrite = false;  // files that no assessment has written

@@ -14,6 +14,7 @@ Command import_ifc_command();
 // results
 Command run_command();
 Command render_command();
+Command export_command();
 Command converge_command();
 // assessment
 Command assess_command();

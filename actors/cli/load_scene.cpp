@@ -1,5 +1,7 @@
 #include "actors/cli/load_scene.hpp"
 
+#include <algorithm>
+
 #include "actors/cli/command.hpp"
 #include "actors/cli/quantities.hpp"
 #include "scenes/pack/scene_pack.hpp"
@@ -29,19 +31,44 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
   return std::make_shared<const SceneDescription>(std::move(*read.scene));
 }
 
+namespace {
+
+std::string fault_of_time(const std::string& text) {
+  const auto seconds = parse_time(text);
+  return seconds ? std::string() : seconds.problem().what;
+}
+
+}  // namespace
+
+Option times_option(std::vector<std::string>& at) {
+  return {"--at",
+          &at,
+          "Times of the states of a scene that changes in time, e.g. 60s or 0s,60s,120s; routes "
+          "are followed over several",
+          {.form = Form::duration,
+           .otherwise = "all states of [time], else the scene's own",
+           .comma_separated = true,
+           .fault = fault_of_time}};
+}
+
+std::vector<double> times_asked(const std::vector<std::string>& at) {
+  std::vector<double> out;
+  for (const std::string& text : at) out.push_back(parse_time(text).value());
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 Option at_option(std::string& at) {
   return {"--at",
           &at,
-          "Time of the scene's fire simulations, e.g. 60s, instead of at_s",
-          {.form = Form::duration, .fault = [](const std::string& text) {
-             const auto seconds = parse_seconds(text);
-             return seconds ? std::string() : seconds.problem().what;
-           }}};
+          "Time of the state of a scene that changes in time, e.g. 60s, instead of its own",
+          {.form = Form::duration, .fault = fault_of_time}};
 }
 
 std::optional<double> time_asked(const std::string& at) {
   if (at.empty()) return std::nullopt;
-  return parse_seconds(at).value();
+  return parse_time(at).value();
 }
 
 Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene,

@@ -27,6 +27,10 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
 
 /// The option --at, whose text goes to `at`.
 Option at_option(std::string& at);
+/// The same option, which takes several times.
+Option times_option(std::vector<std::string>& at);
+/// Those it says, each once, ascending. Requires: they were read as that option.
+std::vector<double> times_asked(const std::vector<std::string>& at);
 /// The time it says; none where it is empty. Requires: it was read as that option.
 std::optional<double> time_asked(const std::string& at);
 

@@ -26,6 +26,7 @@
 #include "actors/supervise/node_executor.hpp"
 #include "actors/view/live_states.hpp"
 #include "runtime/core/log.hpp"
+#include "scenes/scene_file/scene_file.hpp"
 
 namespace luxodus::cli {
 
@@ -153,10 +154,14 @@ class WorkerWatch {
   bool any_ = false;
 };
 
-/// What a cluster's file asks for in its table [assess].
-AssessmentJob assessment_of(const ClusterConfig& cluster, const LocalRun& base) {
+/// What a cluster's file asks for in its table [assess]. None after every problem was told.
+std::optional<AssessmentJob> assessment_of(const ClusterConfig& cluster, const LocalRun& base) {
+  const auto states = assessed_states(cluster.run.scene.string(), {});
+  if (!states) return std::nullopt;
   AssessmentJob job;
-  job.scene = base.scene().description;
+  job.scene = states->last;
+  job.scene_file = cluster.run.scene.string();
+  job.times = states->times;
   job.folder = cluster.run.out;
   job.options.scenario = cluster.run.scenario;
   job.options.rules = cluster.assess.rules;
@@ -168,21 +173,37 @@ AssessmentJob assessment_of(const ClusterConfig& cluster, const LocalRun& base) 
   return job;
 }
 
+/// The scene of a cluster at a time. That of the last question is kept: several ask for it.
+SceneOfState scene_of_states(const std::shared_ptr<const SceneDescription>& base) {
+  const auto last = std::make_shared<std::shared_ptr<const SceneDescription>>(base);
+  return [last](std::optional<double> at_s) -> Result<std::shared_ptr<const SceneDescription>> {
+    if ((*last)->at_s == at_s) return *last;
+    ReadScene read = read_scene((*last)->file, at_s);
+    if (!read.scene) return read.problems.list().front();
+    *last = std::make_shared<const SceneDescription>(std::move(*read.scene));
+    return *last;
+  };
+}
+
 /// The nodes of a cluster whose file has a table [assess].
 Result<ExitCode> assess_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process) {
-  AssessmentJob job = assessment_of(cluster, process.local_run());
-  RoundStates states(job.scene);
+  RoundStates states(scene_of_states(process.local_run().scene().description));
   ExitCode code = ExitCode::success;
   NodeWork work = work_of_states(states);
   work.controller = [&](const RunSetup& run, const Machine& machine,
                         const NodeSetup& node) -> Result<StopReason> {
+    auto job = assessment_of(cluster, process.local_run());
+    if (!job) {
+      code = ExitCode::bad_input;
+      return StopReason::interrupted;
+    }
     auto started = NodeExecutor::start(run, machine, node);
     if (!started) return started.problem();
     NodeExecutor& executor = *started.value();
     WorkerWatch watch(cluster, executor);
     RunInPieces pieces(executor, [&] { return watch.fault(); });
-    job.options.executor = &pieces;
-    const auto assessed = assess_into(job);
+    job->options.executor = &pieces;
+    const auto assessed = assess_into(*job);
     if (!assessed) return assessed.problem();
     code = watch.fault() ? ExitCode::failure : assessed.value();
     return StopReason::particles;

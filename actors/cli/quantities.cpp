@@ -58,8 +58,8 @@ Result<double> parse_share(const std::string& text) {
   return value;
 }
 
-Result<double> parse_seconds(const std::string& text) {
-  const Problem problem = not_understood("the time", text, "90, 60s, 5m, 1h or 1ms");
+Result<double> parse_time(const std::string& text) {
+  const Problem problem = not_understood("the time", text, "90, 60s, 5m, 1h or 0s");
   double value = 0;
   std::string rest;
   if (!split_number(text, value, rest)) return problem;
@@ -71,8 +71,14 @@ Result<double> parse_seconds(const std::string& text) {
     value *= 3600;
   else if (!rest.empty() && rest != "s")
     return problem;
-  if (!(value > 0 && value < 1e8)) return problem;
+  if (!(std::abs(value) < 1e8)) return problem;
   return value;
+}
+
+Result<double> parse_seconds(const std::string& text) {
+  const auto time = parse_time(text);
+  if (time && time.value() > 0) return time;
+  return not_understood("the time", text, "90, 60s, 5m, 1h or 1ms");
 }
 
 std::string short_number(double v) {

@@ -119,7 +119,7 @@ class Race {
       asked.rounds = rounds;
       Assessment found;
       const auto ok = assess_sights(
-          *one.layout.variant, scenario.value(), 1, asked, interrupt_,
+          *one.layout.variant, scenario.value(), {}, asked, interrupt_,
           [](const std::string&, double) {}, found);
       if (!ok) return ok.problem();
       seen.push_back(places_of(found));

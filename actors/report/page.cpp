@@ -17,13 +17,14 @@ struct Section {
   const char* css_class = "";
 };
 
-constexpr std::array<Section, 14> sections{
+constexpr std::array<Section, 15> sections{
     {{"verdict", "heading.verdict", verdict_section, "fresh"},
      {"state", "heading.state", state_section},
      {"plans", "heading.plans", plans_section, "plans"},
      {"schedules", "heading.schedules", schedules_section, "fresh"},
      {"places", "heading.places", places_section, "fresh"},
      {"sights", "heading.sights", sights_section, "fresh"},
+     {"over-time", "heading.over_time", over_time_section, "fresh"},
      {"thumb", "heading.thumb", thumb_section},
      {"inputs", "heading.inputs", inputs_section, "fresh"},
      {"clauses", "heading.clauses", clauses_section, "fresh"},
@@ -32,7 +33,7 @@ constexpr std::array<Section, 14> sections{
      {"appendix-checks", "heading.appendix_checks", other_checks_appendix, "fresh"},
      {"appendix-signs", "heading.appendix_signs", signs_appendix, "fresh"},
      {"appendix-thumb", "heading.appendix_thumb", thumb_appendix, "fresh"}}};
-constexpr size_t numbered = 11;  // the rest are appendices
+constexpr size_t numbered = 12;  // the rest are appendices
 
 constexpr std::array<const char*, 5> notices{"notice.calculation", "notice.secondary",
                                              "notice.legibility", "notice.authority",

@@ -3,8 +3,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
+#include "actors/output/file_names.hpp"
+#include "actors/report/guidance_map.hpp"
 #include "actors/report/hand_over.hpp"
 #include "actors/report/pdf.hpp"
 #include "actors/report/plan_svg.hpp"
@@ -62,6 +65,24 @@ Result<void> write_plans(const fs::path& folder, const Json& a, const Schedule& 
   return {};
 }
 
+/// One map of place and time for each route and height of eyes.
+Result<void> write_guidance(const fs::path& folder, const Json& a, const Texts& texts) {
+  const auto over = a.find("over_time");
+  if (over == a.end()) return {};
+  constexpr double sheet_mm = 180;
+  std::vector<std::string> names;
+  for (const Json& route : (*over)["routes"])
+    names.push_back("guided_" + text_in(route, "route") + "_" +
+                    height_name(route["eye_height"]["value"].get<double>()));
+  names = file_names_of(names, std::array{".svg"});
+  for (size_t i = 0; i < names.size(); ++i)
+    if (auto ok = write_file_atomically(folder / (names[i] + ".svg"),
+                                        guidance_map(*over, (*over)["routes"][i], texts, sheet_mm));
+        !ok)
+      return ok.problem();
+  return {};
+}
+
 Result<void> write_schedules(const fs::path& folder, const Json& a, const Schedule& schedule) {
   if (auto ok = make_folder(folder); !ok) return ok.problem();
   for (const auto& [name, table] : {std::pair{"luminaires.csv", luminaires_csv(a, schedule)},
@@ -114,6 +135,7 @@ Result<void> write_report(const fs::path& folder, const Json& a, const ReportOpt
   const auto pictures = pictures_in(folder);
   if (auto ok = write_plans(folder / "plans", a, schedule, texts, options.grid_values); !ok)
     return ok.problem();
+  if (auto ok = write_guidance(folder / "plans", a, texts); !ok) return ok.problem();
   if (auto ok = write_schedules(folder / "schedules", a, schedule); !ok) return ok.problem();
   if (auto ok = write_file_atomically(folder / "report.html",
                                       report_html(a, pictures, named(folder, options), options));

@@ -159,6 +159,77 @@ constexpr ReportText sections_rows[] = {
       "Von wie vielen Stellen jedes Zeichen lesbar ist, wenn aller Rauch so viel dichter ist.",
       "De combien de lieux chaque panneau est lisible quand toute la fumée est autant de fois plus "
       "dense."}},
+    {"column.route", {"Route", "Weg", "Chemin"}},
+    {"column.guided", {"Guided", "Geführt", "Guidé"}},
+    {"column.guided_jin", {"By Jin's law", "Nach Jin", "Selon Jin"}},
+    {"column.lost_at", {"Lost at", "Verloren bei", "Perdu à"}},
+    {"column.start", {"Sets out", "Geht los", "Part à"}},
+    {"column.walk", {"How far", "Wie weit", "Jusqu’où"}},
+    {"guided.lead",
+     {"A place of a route is guided if a sign ahead, within 60° of the way, that leads to this "
+      "route "
+      "and points along it is legible. Undecided, hidden and not assessed count as not guided. A "
+      "route is guided up to the last state up to which every place was guided. Between two states "
+      "the worse holds: guidance is lost somewhere between the two times.",
+      "Eine Stelle eines Weges ist geführt, wenn ein Zeichen voraus, bis 60° neben dem Weg, das zu "
+      "diesem Weg gehört und ihn entlang weist, lesbar ist. Unentschieden, verdeckt und nicht "
+      "beurteilt gelten als nicht geführt. Ein Weg ist geführt bis zum letzten Zustand, bis zu dem "
+      "jede Stelle geführt war. Zwischen zwei Zuständen gilt der schlechtere: die Führung geht "
+      "zwischen den beiden Zeiten verloren.",
+      "Un lieu d’un chemin est guidé si un panneau devant, à 60° au plus du chemin, qui mène à ce "
+      "chemin et indique son sens, est lisible. Indécis, caché et non évalué comptent comme non "
+      "guidé. Un chemin est guidé jusqu’au dernier état jusqu’auquel chaque lieu l’était. Entre "
+      "deux "
+      "états le pire vaut : le guidage se perd entre les deux instants."}},
+    {"guided.no_aset",
+     {"This is no analysis of available and required safe egress time (ASET/RSET): heat, gases and "
+      "when people set out are not in it.",
+      "Das ist keine Analyse von verfügbarer und benötigter Räumungszeit (ASET/RSET): Wärme, Gase "
+      "und wann Menschen losgehen, sind nicht darin.",
+      "Ceci n’est pas une analyse des temps d’évacuation disponible et nécessaire (ASET/RSET) : "
+      "chaleur, gaz et moment du départ n’y figurent pas."}},
+    {"guided.holds_for",
+     {"Guided is what holds for albedos of the smoke from {0} to {1}, and for optical depths up to "
+      "{2} "
+      "% larger. What holds for a part of them is undecided.",
+      "Geführt ist, was für Albedos des Rauchs von {0} bis {1} gilt und für bis zu {2} % größere "
+      "optische Dicken. Was nur für einen Teil davon gilt, ist unentschieden.",
+      "Est guidé ce qui vaut pour des albédos de la fumée de {0} à {1} et pour des épaisseurs "
+      "optiques jusqu’à {2} % plus grandes. Ce qui ne vaut que pour une partie est indécis."}},
+    {"guided.never",
+     {"not from the first state on", "nicht vom ersten Zustand an", "pas dès le premier état"}},
+    {"guided.always",
+     {"up to the last state, {0} s", "bis zum letzten Zustand, {0} s",
+      "jusqu’au dernier état, {0} s"}},
+    {"guided.until",
+     {"up to {0} s, lost by {1} s", "bis {0} s, verloren bis {1} s",
+      "jusqu’à {0} s, perdu à {1} s"}},
+    {"guided.map", {"{0}, eyes at {1} m.", "{0}, Augen in {1} m Höhe.", "{0}, yeux à {1} m."}},
+    {"guided.map_note",
+     {"Colours from one state to the next are those of the worse. Lines are people who set out.",
+      "Von einem Zustand zum nächsten gilt die Farbe des schlechteren. Linien sind Menschen, die "
+      "losgehen.",
+      "D’un état au suivant la couleur est celle du pire. Les lignes sont des personnes qui "
+      "partent."}},
+    {"guided.along", {"along the route [m]", "entlang des Weges [m]", "le long du chemin [m]"}},
+    {"guided.time", {"time [s]", "Zeit [s]", "temps [s]"}},
+    {"guided.guided", {"guided", "geführt", "guidé"}},
+    {"guided.undecided", {"undecided", "unentschieden", "indécis"}},
+    {"guided.not_guided", {"not guided", "nicht geführt", "non guidé"}},
+    {"guided.walks", {"People who walk", "Menschen, die gehen", "Personnes qui marchent"}},
+    {"guided.walks_lead",
+     {"At {0} m/s, from the beginning of the route.", "Mit {0} m/s, vom Anfang des Weges.",
+      "À {0} m/s, du début du chemin."}},
+    {"walk.arrives",
+     {"guided to the end, at {0} s", "geführt bis zum Ende, um {0} s",
+      "guidé jusqu’au bout, à {0} s"}},
+    {"walk.lost",
+     {"guidance is lost at {0} m, at {1} s", "die Führung geht bei {0} m verloren, um {1} s",
+      "le guidage se perd à {0} m, à {1} s"}},
+    {"walk.unknown",
+     {"still on the way after the last state, at {0} m, at {1} s",
+      "nach dem letzten Zustand noch unterwegs, bei {0} m, um {1} s",
+      "encore en chemin après le dernier état, à {0} m, à {1} s"}},
     {"sights.of", {"{0} of {1}", "{0} von {1}", "{0} sur {1}"}},
     {"sights.pictures", {"Pictures from the eye", "Bilder vom Auge aus", "Images depuis l’œil"}},
     {"sights.no_pictures",

@@ -109,7 +109,10 @@ std::map<std::string, double> shares_after(const SceneDescription& scene, Operat
   std::map<std::string, double> out;
   if (!seconds || operation == Operation::mains) return out;
   for (const Emitter& e : scene.emitters)
-    if (!e.onset.empty()) out[group_of_luminaire(e.name)] = onset_share(e.onset, *seconds);
+    if (!e.onset.empty() || e.duration_s)
+      out[group_of_luminaire(e.name)] = emergency_share(e, *seconds);
+  for (const Sign& sign : scene.signs)
+    if (is_exhausted(sign.duration_s, *seconds)) out[group_of_sign(sign.name)] = 0;
   for (const Sign& sign : scene.signs)
     if (const double first = decay_share(sign.decay, 0); !sign.decay.empty() && first > 0)
       out[group_of_sign(sign.name)] = decay_share(sign.decay, *seconds) / first;

@@ -82,7 +82,7 @@ Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
   asked.sign = sign;
   Assessment found;
   const auto done = assess_sights(
-      now.value(), scenario.value(), edits.smoke, asked, interrupt,
+      now.value(), scenario.value(), {edits.smoke, {}, false}, asked, interrupt,
       [](const std::string&, double) {}, found);
   if (!done) return refused(done.problem().what);
   Json rows = Json::array();

@@ -94,13 +94,47 @@ std::vector<Check> checks_of_task_onset(const SceneDescription& scene, const std
   return {in_time(rule_of("E10t", codes), scene, subject, plane, task_s, demanded_lx)};
 }
 
+namespace {
+
+/// Of all that is lit on emergency supply, but for signs that glow by themselves.
+struct SupplyHours {
+  size_t said = 0, unsaid = 0;
+  double shortest = std::numeric_limits<double>::infinity();
+
+  void take(const std::optional<double>& duration_s) {
+    constexpr double hour_s = 3600;
+    ++(duration_s ? said : unsaid);
+    if (duration_s) shortest = std::min(shortest, *duration_s / hour_s);
+  }
+};
+
+SupplyHours supply_of(const SceneDescription& scene) {
+  SupplyHours out;
+  for (const Emitter& e : scene.emitters)
+    if (e.emergency_flux > 0) out.take(e.duration_s);
+  for (const Sign& sign : scene.signs)
+    if (sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 > 0)
+      out.take(sign.duration_s);
+  return out;
+}
+
+}  // namespace
+
 std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice& codes) {
   std::vector<Check> out;
   const auto add = [&](const char* id, const char* subject, const char* reason) {
     out.push_back(not_assessed(rule_of(id, codes), subject, reason));
   };
   const auto add_duration = [&](const char* id, double hours) {
-    add(id, "all luminaires and signs", "a scene says nothing of how long their batteries last");
+    const SupplyHours supply = supply_of(scene);
+    const char* const what = "all luminaires and signs";
+    if (supply.said > 0 && supply.unsaid == 0) {
+      out.push_back(judged(rule_of(id, codes), what, supply.shortest, hours, true, "h"));
+      return;
+    }
+    add(id, what,
+        supply.said == 0 ? "a scene says nothing of how long their batteries last"
+                         : "not all of them say how long their supply lasts (duration_h)");
     out.back().limit = hours;
     out.back().unit = "h";
   };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/emergency/onset.hpp"
+
 namespace luxodus {
 namespace {
 
@@ -32,6 +34,7 @@ double sign_luminance(const Sign& sign, SignColour colour, Operation operation,
   const bool glows = sign.lighting == SignLighting::photoluminescent;
   if (operation == Operation::dark && !glows) return 0;
   const bool mains = operation == Operation::mains;
+  if (!mains && !glows && is_exhausted(sign.duration_s, seconds_after_failure)) return 0;
   const SignState& state = mains ? sign.mains : sign.emergency;
   const double normal_cd_m2 = colour == SignColour::white ? state.white_cd_m2 : state.green_cd_m2;
   const double left = glows && !mains ? decay_share(sign.decay, seconds_after_failure) : 1.0;

@@ -479,6 +479,11 @@ const char* source_words(FireSource source) {
   return "Smoke3D";
 }
 
+double largest_depth_error(FireSource source) {
+  const bool cells = source == FireSource::cell_extinction || source == FireSource::cell_soot;
+  return cells ? 0 : source == FireSource::smoke3d ? 0.07 : 0.10;
+}
+
 const char* accuracy_words(FireSource source) {
   switch (source) {
     case FireSource::cell_extinction:

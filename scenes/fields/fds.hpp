@@ -76,5 +76,8 @@ Result<LoadedFire> read_fire(const std::filesystem::path& index, const FireOptio
 /// What the source is, for people, and how far it is from cell-centred values.
 const char* source_words(FireSource source);
 const char* accuracy_words(FireSource source);
+/// The largest relative difference of optical depths from those of FDS's cells in the reference
+/// cases; 0 of cells.
+double largest_depth_error(FireSource source);
 
 }  // namespace luxodus

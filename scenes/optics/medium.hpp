@@ -94,6 +94,7 @@ struct FireSimulation {
   bool glows = false;          // the light of its flames is in the scene
   Frame frame;                 // of the simulation's coordinates
   std::vector<Bounds> meshes;  // in those coordinates [m]; nothing is known outside of them
+  double depth_error = 0;      // largest relative error of optical depths from this source
 };
 
 struct Medium {

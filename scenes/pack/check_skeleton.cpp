@@ -131,6 +131,7 @@ void check(const Emitter& e) {
   need(within(e.mains_flux, 0, brightest) && within(e.emergency_flux, 0, brightest),
        "an emitter's flux cannot be");
   need_shape(e.spectrum, e.mains_flux > 0 || e.emergency_flux > 0);
+  need(within(e.duration_s.value_or(1), 0, 1e12), "an emitter's duration cannot be");
   glm::dvec2 last(0, 0);
   for (const glm::dvec2& at : e.onset) {
     need(at.x >= last.x && at.y >= last.y && at.y <= any_factor, "an onset does not ascend");
@@ -170,6 +171,7 @@ void check(const Sign& s) {
   for (const SignState* state : {&s.mains, &s.emergency})
     need(within(state->white_cd_m2, 0, brightest) && within(state->green_cd_m2, 0, brightest),
          "a sign's luminance cannot be");
+  need(within(s.duration_s.value_or(1), 0, 1e12), "a sign's duration cannot be");
   need(within(s.angular_exponent, 0, 1e3), "a sign's luminance falls off in no way that can be");
   for (size_t i = 0; i < s.decay.size(); ++i)
     need(within(s.decay[i].y, 0, any_factor) && (i == 0 || s.decay[i].x > s.decay[i - 1].x),

@@ -65,7 +65,7 @@ void serialize(A& a, Emitter& x) {
   a(x.name, x.place, x.circuit, x.group, choice(x.shape, EmitterShape::mesh), x.frame, x.size,
     x.mesh, choice(x.distribution, Distribution::web), x.cosine_power, x.spot_inner_deg,
     x.spot_outer_deg, x.spectrum, x.radiometric, x.mains_flux, x.emergency_flux, x.emergency_ageing,
-    x.onset, x.body_material);
+    x.onset, x.duration_s, x.body_material);
 }
 template <class A>
 void serialize(A& a, SignFace& x) {
@@ -90,8 +90,9 @@ template <class A>
 void serialize(A& a, Sign& x) {
   a(x.name, x.place, x.circuit, x.group, x.frame, x.width_m, x.height_m, x.smallest_detail_m,
     x.letters, x.double_sided, x.thickness_m, x.face,
-    choice(x.lighting, SignLighting::photoluminescent), x.mains, x.emergency, x.angular_exponent,
-    x.decay, x.white_shape, x.green_shape, x.white_reflectance, x.green_reflectance);
+    choice(x.lighting, SignLighting::photoluminescent), x.mains, x.emergency, x.duration_s,
+    x.angular_exponent, x.decay, x.white_shape, x.green_shape, x.white_reflectance,
+    x.green_reflectance);
 }
 template <class A>
 void serialize(A& a, PlaneMeasure& x) {

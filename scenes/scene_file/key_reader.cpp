@@ -1,5 +1,9 @@
 #include "scenes/scene_file/key_reader.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace luxodus {
 
 namespace {
@@ -76,6 +80,51 @@ glm::dvec3 KeyReader::scale(std::string_view key) {
   return c ? vector_of(*c) : glm::dvec3(some_number(key));
 }
 
+bool KeyReader::changes_in_time(std::string_view key) {
+  return has(key) && value(key)->as_list() != nullptr;
+}
+
+std::optional<double> KeyReader::maybe_course(std::string_view key) {
+  if (!changes_in_time(key)) {
+    const toml::Value* said = value(key);
+    return said != nullptr ? checked(key, *said) : default_number(key);
+  }
+  reading_.changes_in_time = reading_.goes_by_clock = true;
+  const auto course = vectors_of(rows<2>(key, "course", 1));
+  if (course.empty()) {
+    if (value(key)->as_list()->empty())
+      problem(key, fmt::format("'{}' has no row [seconds, value]", key));
+    return std::nullopt;
+  }
+  for (size_t i = 1; i < course.size(); ++i)
+    if (!(course[i].x > course[i - 1].x)) {
+      problem(key, fmt::format("the times of '{}' must ascend: {:g} s follows {:g} s", key,
+                               course[i].x, course[i - 1].x));
+      return std::nullopt;
+    }
+  const auto now = reading_.time_s();
+  if (!now) {
+    problem(key, fmt::format("'{}' changes in time, and no time is said: give --at 60s, or add "
+                             "[time] with 'from', 'to' and 'step'",
+                             key));
+    return std::nullopt;
+  }
+  if (*now < course.front().x || *now > course.back().x) {
+    problem(key, fmt::format("'{}' is known from {:g} to {:g} s, and the time is {:g} s", key,
+                             course.front().x, course.back().x, *now));
+    return std::nullopt;
+  }
+  const auto next = std::find_if(course.begin(), course.end(),
+                                 [&](const glm::dvec2& row) { return row.x >= *now; });
+  if (next->x == *now) return next->y;
+  const glm::dvec2 a = *(next - 1), b = *next;
+  return a.y + (b.y - a.y) * (*now - a.x) / (b.x - a.x);
+}
+
+double KeyReader::course(std::string_view key) {
+  return maybe_course(key).value_or(some_number(key));
+}
+
 KeyReader kind_reader(const toml::Table& table, const std::string& base, std::string_view key,
                       SceneReading& reading, std::string& kind) {
   const toml::Schema& schema = scene_schema();
@@ -83,6 +132,12 @@ KeyReader kind_reader(const toml::Table& table, const std::string& base, std::st
   KeyReader keys(table, toml::specs_of_kind(schema, base, key, kind), reading);
   if (kind.empty()) keys.maybe_choice(key);
   return keys;
+}
+
+std::optional<double> duration_s(KeyReader& keys) {
+  constexpr double hour_s = 3600;
+  const auto hours = keys.maybe_number("duration_h");
+  return hours ? std::optional(*hours * hour_s) : std::nullopt;
 }
 
 std::string read_name(KeyReader& keys, std::string_view kind) {

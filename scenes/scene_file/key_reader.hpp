@@ -35,6 +35,12 @@ class KeyReader : public toml::TableReader {
   std::vector<glm::dvec2> corners(std::string_view key);
   /// Rows [x, y, z] of points; the range holds for all three.
   std::vector<glm::dvec3> points(std::string_view key);
+  /// A number, or rows [seconds, value], linear between, read at the time of the state. A problem
+  /// where that time is not said, or where the rows do not hold it.
+  double course(std::string_view key);
+  std::optional<double> maybe_course(std::string_view key);
+  /// Whether the key is written as rows.
+  bool changes_in_time(std::string_view key);
   /// One number for all three axes, or three.
   glm::dvec3 scale(std::string_view key);
 
@@ -47,6 +53,9 @@ class KeyReader : public toml::TableReader {
 /// Fills in `kind`.
 KeyReader kind_reader(const toml::Table& table, const std::string& base, std::string_view key,
                       SceneReading& reading, std::string& kind);
+
+/// The key `duration_h`, in seconds.
+std::optional<double> duration_s(KeyReader& keys);
 
 /// A name: declares it for its kind. An absent name is a problem; "" is then returned.
 std::string read_name(KeyReader& keys, std::string_view kind);

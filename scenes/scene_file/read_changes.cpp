@@ -112,6 +112,14 @@ bool removes(KeyReader& keys) {
   return true;
 }
 
+/// Whether the change is of a medium that is not there at this time.
+bool is_absent(KeyReader& keys) {
+  const auto& media = keys.reading().scene.media;
+  const std::string of = keys.text("of");
+  return keys.reading().declared("medium", of) &&
+         std::none_of(media.begin(), media.end(), [&](const Medium& m) { return m.name == of; });
+}
+
 /// In every scenario, whether it names the medium or not.
 void thicken(SceneDescription& scene, const std::string& medium, double factor) {
   if (scene.scenarios.empty()) {
@@ -159,6 +167,8 @@ void read_change(const toml::Table& table, SceneReading& reading) {
     move(keys, emitter->frame, frame_aiming);
     turn(keys, emitter->frame);
     brighten(*emitter, factor);
+  } else if (is_absent(keys)) {
+    return;
   } else if (const Medium* const medium = named(scene.media, keys, kind)) {
     if (keys.has("copy"))
       keys.problem("copy", "a medium is not copied: it takes a 'factor' alone");

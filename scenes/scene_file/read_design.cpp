@@ -50,7 +50,7 @@ bool alike(const Emitter& a, const Emitter& b) {
   return a.web == b.web && a.shape == b.shape && a.size == b.size &&
          a.distribution == b.distribution && a.cosine_power == b.cosine_power &&
          a.emergency_flux == b.emergency_flux && a.emergency_ageing == b.emergency_ageing &&
-         a.onset == b.onset && a.maintained == b.maintained;
+         a.onset == b.onset && a.duration_s == b.duration_s && a.maintained == b.maintained;
 }
 
 /// The emergency luminaires of the scene that look down, each kind once, by the names of their

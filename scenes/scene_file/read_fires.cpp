@@ -105,7 +105,7 @@ void tell_fire(KeyReader& keys, const std::string& name, const LoadedFire& fire,
                   fire.version.empty() ? "FDS" : fire.version, source_words(fire.source),
                   accuracy_words(fire.source), extent_words(fire)));
   if (std::abs(fire.time_s - asked_s) > far_from_asked_s)
-    reading.warning(keys.place("at_s"),
+    reading.warning(keys.place(keys.has("at_s") ? "at_s" : "file"),
                     fmt::format("the nearest frame lies {:.3g} s from the time that is asked for",
                                 std::abs(fire.time_s - asked_s)));
   if (fire.overlapping)
@@ -139,6 +139,17 @@ void tell_fire(KeyReader& keys, const std::string& name, const LoadedFire& fire,
                   100 * fire.flame_extinction_share));
 }
 
+/// One clock rules a scene: that of [time], or the medium's own.
+double time_of_state(KeyReader& keys) {
+  const SceneReading& reading = keys.reading();
+  const auto own = keys.maybe_number("at_s");
+  if (own && reading.scene.time)
+    keys.problem("at_s", "'at_s' and [time] both say when; leave 'at_s' out");
+  if (!own && !reading.time_s() && keys.clean())
+    keys.problem("the key 'at_s' is missing: at which time? Or add [time], or give --at 60s");
+  return reading.at_s.value_or(own.value_or(reading.time_s().value_or(0)));
+}
+
 void hash_fire(SceneReading& reading, const LoadedFire& fire) {
   // Not the files: of gigabytes of frames a scene holds one.
   const auto take = [&](const void* data, size_t bytes) {
@@ -157,7 +168,7 @@ void hash_fire(SceneReading& reading, const LoadedFire& fire) {
 
 void read_fire_medium(KeyReader& keys, Medium m) {
   SceneReading& reading = keys.reading();
-  reading.has_fire = true;
+  reading.changes_in_time = true;
   m.kind = MediumKind::data_set;
   m.frame.origin = keys.point("position");
   m.frame.axes = turn_about_axes(keys.point("rotate_deg"));
@@ -167,7 +178,7 @@ void read_fire_medium(KeyReader& keys, Medium m) {
   m.optics.phase.kind = PhaseKind::henyey_greenstein;
   m.optics.phase.g = keys.number("g");
   FireOptions options;
-  options.at_s = reading.at_s.value_or(keys.number("at_s"));
+  options.at_s = time_of_state(keys);
   options.sources = sources_named(keys.choice("source"));
   options.mass_extinction_m2_per_kg = keys.maybe_number("mass_extinction");
   const auto flames = read_flames(keys);
@@ -184,7 +195,8 @@ void read_fire_medium(KeyReader& keys, Medium m) {
                             source_words(fire->source),
                             false,
                             m.frame,
-                            fire->meshes};
+                            fire->meshes,
+                            largest_depth_error(fire->source)};
   for (const FireGrid& grid : fire->grids) simulation.glows |= flames && grid.heat_kw > 0;
   for (size_t i = 0; i < fire->grids.size(); ++i) {
     FireGrid& grid = fire->grids[i];

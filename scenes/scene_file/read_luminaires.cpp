@@ -56,7 +56,7 @@ void read_operation(KeyReader& keys, Emitter& e, double rated, bool flux_needed 
   e.mains_flux = mains ? rated * dimming * maintenance.value_or(1) : 0;
   if (emergency == "false") {
     for (const char* key :
-         {"emergency_flux", "emergency_factor", "end_of_duration_factor", "onset"}) {
+         {"emergency_flux", "emergency_factor", "end_of_duration_factor", "onset", "duration_h"}) {
       if (keys.has(key)) {
         keys.problem(key, "'" + std::string(key) +
                               "' is given, but 'emergency' is not; say "
@@ -89,6 +89,7 @@ void read_operation(KeyReader& keys, Emitter& e, double rated, bool flux_needed 
   e.emergency_flux =
       (contained ? stated : flux.value_or(rated * factor.value_or(0))) * e.emergency_ageing;
   read_onset(keys, e);
+  e.duration_s = duration_s(keys);
 }
 
 void read_body(KeyReader& keys, Emitter& e) {

@@ -36,7 +36,7 @@ void warn_of_units(KeyReader& keys, const std::string& given) {
   const auto warn = [&](const char* key, const std::string& what) {
     keys.reading().warning(keys.place(key), "'" + std::string(key) + "' is " + what);
   };
-  const double value = keys.number(given);
+  const double value = keys.course(given);
   const bool percent = given == "percent_per_m" || given == "percent_per_ft";
   if (percent && value > 0 && value < 1)
     warn(given.c_str(), shortest_number(value) + " %, next to nothing: half of the light is 50");
@@ -54,7 +54,7 @@ void warn_of_units(KeyReader& keys, const std::string& given) {
 
 /// Extinction [1/m] of the key that was used, by the definitions T = exp(-K d) = 10^(-OD d).
 double extinction_of(KeyReader& keys, const std::string& given, const std::string& smoke) {
-  const double value = keys.number(given);
+  const double value = keys.course(given);
   if (given == "extinction") return value;
   if (given == "od_per_m") return value * ln10;
   if (given == "db_per_m") return value * ln10 / 10;
@@ -183,6 +183,11 @@ void read_homogeneous(KeyReader& keys, Medium& m) {
   }
 }
 
+/// Of a value that is another at other times.
+std::string at_words(KeyReader& keys, bool moves) {
+  return moves ? " at " + shortest_number(keys.reading().time_s().value_or(0)) + " s" : "";
+}
+
 void read_layers(KeyReader& keys, Medium& m) {
   m.kind = MediumKind::layered;
   read_footprint(keys, m.footprint);
@@ -191,20 +196,25 @@ void read_layers(KeyReader& keys, Medium& m) {
     SourcePlace place;
   };
   std::vector<Placed> layers;
-  bool good = true;
+  bool good = true, any = false;
   for (const toml::Table* t : keys.tables("layer")) {
     KeyReader layer(*t, {"medium.layer", "medium.optics"}, keys.reading());
     Layer l;
-    l.z_low = layer.number("z_low");
-    l.z_high = layer.number("z_high");
-    if (layer.clean() && !(l.z_low < l.z_high)) {
-      layer.problem("z_high", "'z_high' must lie above 'z_low'");
+    l.z_low = layer.course("z_low");
+    l.z_high = layer.course("z_high");
+    const bool moves = layer.changes_in_time("z_low") || layer.changes_in_time("z_high");
+    // A layer that grows has no thickness before it begins.
+    const bool absent = moves && l.z_low == l.z_high;
+    if (layer.clean() && !absent && !(l.z_low < l.z_high)) {
+      layer.problem("z_high", "'z_high' must lie above 'z_low'" + at_words(layer, moves));
     }
     l.optics = read_optics(layer);
     good = good && layer.clean();
+    any = true;
+    if (absent) continue;
     layers.push_back({std::move(l), layer.place()});
   }
-  if (keys.clean() && layers.empty()) keys.problem("a layered medium needs a [[medium.layer]]");
+  if (keys.clean() && !any) keys.problem("a layered medium needs a [[medium.layer]]");
   std::stable_sort(layers.begin(), layers.end(),
                    [](const Placed& a, const Placed& b) { return a.layer.z_low < b.layer.z_low; });
   for (size_t i = 1; good && i < layers.size(); ++i) {
@@ -226,7 +236,7 @@ void read_placed(KeyReader& keys, Medium& m) {
   if (!table) return;
   KeyReader emission(*table, {"medium.emission"}, keys.reading());
   MediumEmission e;
-  e.power_w = emission.number("power_w");
+  e.power_w = emission.course("power_w");
   const double kelvin = emission.number("temperature_k");
   if (emission.clean() && (kelvin < coldest_flame_k || kelvin > hottest_flame_k))
     keys.reading().warning(
@@ -247,6 +257,8 @@ void read_placed(KeyReader& keys, Medium& m) {
     keys.reading().note("circuit", e.circuit, emission.place("circuit"));
   }
   e.group = emission.text("group");
+  // A fire that has not begun.
+  if (e.power_w == 0 && emission.changes_in_time("power_w")) return;
   m.emission = std::move(e);
 }
 
@@ -259,13 +271,17 @@ void read_medium(const toml::Table& table, SceneReading& reading) {
   m.name = read_name(keys, "medium");
   keys.maybe_choice("kind");
   if (kind == "homogeneous") read_homogeneous(keys, m);
-  if (kind == "layered") read_layers(keys, m);
+  if (kind == "layered") {
+    read_layers(keys, m);
+    if (m.layers.empty()) return;  // a design fire that has not begun
+  }
   if (kind == "bounded") {
     m.kind = MediumKind::bounded;
     m.optics = read_optics(keys);
     read_placed(keys, m);
     keys.maybe_choice("body");
     if (!body.empty()) read_body(keys, body, m);
+    if (keys.has("emission") && !m.emission) return;  // a flame that does not burn yet
   }
   if (kind == "fds") return read_fire_medium(keys, std::move(m));
   if (kind == "data_set") {

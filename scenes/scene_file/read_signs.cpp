@@ -127,6 +127,9 @@ void read_luminances(KeyReader& keys, Sign& sign) {
   sign.mains = {mains_white.value_or(0), mains_green.value_or(0)};
   sign.emergency = {emergency_white.value_or(0), emergency_green.value_or(0)};
   sign.decay = keys.pairs("decay");
+  sign.duration_s = duration_s(keys);
+  if (keys.has("duration_h") && lighting != "internal")
+    keys.problem("duration_h", "'duration_h' belongs to a sign with lighting = \"internal\"");
   const auto needed = [&](const char* key) {
     if (!keys.has(key)) {
       keys.problem("the key '" + std::string(key) + "' is missing: a sign with lighting = \"" +
@@ -159,6 +162,24 @@ void read_luminances(KeyReader& keys, Sign& sign) {
     bool good = sign.decay.size() >= 2 && sign.decay.front().x == 0;
     for (size_t i = 1; i < sign.decay.size(); ++i) good &= sign.decay[i].x > sign.decay[i - 1].x;
     if (!good) keys.problem("decay", "'decay' needs two or more rows, times ascending from 0");
+  }
+}
+
+SignArrow arrow_named(const std::string& word) {
+  return word == "left" ? SignArrow::left : word == "right" ? SignArrow::right : SignArrow::ahead;
+}
+
+/// Routes are read after signs: whether these exist is seen then.
+void read_ways(KeyReader& keys, Sign& sign) {
+  for (const toml::Table* table : keys.tables("leads_to")) {
+    KeyReader way(*table, {"sign.leads_to"}, keys.reading());
+    const std::string route = way.text("route");
+    const SignArrow arrow = arrow_named(way.choice("arrow"));
+    const auto same = [&](const LeadsTo& one) { return one.route == route; };
+    if (std::any_of(sign.leads_to.begin(), sign.leads_to.end(), same))
+      way.problem("route", "this sign leads to the route '" + route + "' already");
+    sign.leads_to.push_back({route, arrow});
+    keys.reading().routes_named.push_back({route, way.place("route")});
   }
 }
 
@@ -200,6 +221,7 @@ void read_sign(const toml::Table& stated, SceneReading& reading) {
   sign.white_reflectance = property(keys, "white_reflectance");
   sign.green_reflectance = property(keys, "green_reflectance");
   read_luminances(keys, sign);
+  read_ways(keys, sign);
   read_face(keys, sign);
   reading.scene.signs.push_back(std::move(sign));
 }

@@ -139,6 +139,7 @@ void read_head(const Documents& documents, const fs::path& path, SceneReading& r
     if (const toml::Table* run = keys.table("run")) read_run(*run, reading);
     if (const toml::Table* assessment = keys.table("assessment"))
       read_assessment(*assessment, reading);
+    if (const toml::Table* time = keys.table("time")) read_time(*time, reading);
     if (const toml::Table* project = keys.table("project")) read_project(*project, reading);
   }
 }
@@ -176,6 +177,13 @@ void check_whole(SceneReading& reading) {
     reading.warning({s.file, 1}, "nothing in this scene gives light");
   }
   if (s.objects.empty()) reading.warning({s.file, 1}, "this scene has no surfaces");
+  const bool fails = std::any_of(s.scenarios.begin(), s.scenarios.end(), [](const Scenario& one) {
+    return one.written_operation != Operation::mains;
+  });
+  if (s.time && s.time->mains_fail_at_s && !fails)
+    reading.problem(s.time->place,
+                    "the mains fail, and no scenario says what is lit then: add [[scenario]] with "
+                    "operation = \"emergency\"");
 }
 
 }  // namespace
@@ -212,13 +220,18 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
       {"scenario", read_scenario},
   };
   for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);
+  for (const auto& route : reading.routes_named) reading.require("route", route.name, route.place);
   read_designs(documents, reading);
   read_all(documents, "change", read_change, reading);
   check_whole(reading);
-  if (at_s && !reading.has_fire && !reading.incomplete)
+  reading.scene.at_s = reading.time_s();
+  if (const auto now = reading.scene.at_s; now && reading.goes_by_clock)
+    reading.hash_bytes({reinterpret_cast<const char*>(&*now), sizeof *now});
+  if (at_s && !reading.changes_in_time && !reading.scene.time && !reading.incomplete)
     reading.problem({path.string(), 0},
-                    "a time is asked for, and no medium of this scene changes in time: only "
-                    "kind = \"fds\" does");
+                    "a time is asked for, and nothing in this scene changes in time: media of "
+                    "kind = \"fds\" do, values written as rows [seconds, value], and scenes with "
+                    "[time]");
   ReadScene out;
   for (Problem& renamed : reading.findings.take_warnings())
     reading.scene.warnings.push_back(std::move(renamed));

@@ -35,6 +35,7 @@ void read_emphasis(const toml::Table& table, SceneReading& reading);
 void read_design(const toml::Table& table, SceneReading& reading, DesignSettings& design);
 /// Gives the scene its design, with types where none are stated.
 void complete_design(SceneReading& reading, DesignSettings design);
+void read_time(const toml::Table& table, SceneReading& reading);
 void read_scenario(const toml::Table& table, SceneReading& reading);
 void read_change(const toml::Table& table, SceneReading& reading);
 

@@ -41,10 +41,23 @@ class SceneReading {
   /// missed.
   bool incomplete = false;
 
-  /// Time of every fire simulation, instead of the one that its medium states [s].
+  /// Time that was asked for, instead of the one that the scene states [s].
   std::optional<double> at_s;
-  /// A fire simulation was named.
-  bool has_fire = false;
+  /// Something in the scene is another thing at another time; it is so by the clock, not by frames
+  /// of a simulation, which are hashed themselves.
+  bool changes_in_time = false, goes_by_clock = false;
+  /// Of the state: what was asked for, else where [time] begins [s].
+  std::optional<double> time_s() const {
+    if (at_s || !scene.time) return at_s;
+    return scene.time->from_s;
+  }
+
+  /// By signs, before routes are read.
+  struct NamedRoute {
+    std::string name;
+    SourcePlace place;
+  };
+  std::vector<NamedRoute> routes_named;
 
   toml::Findings findings;
 

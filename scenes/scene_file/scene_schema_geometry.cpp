@@ -47,6 +47,8 @@ TableSpec scene_keys() {
           {"task_area", "tables", "", "", "", "places of high-risk work"},
           {"emphasis", "tables", "", "", "", "what emergency luminaires must be near to"},
           {"design", "table", "", "", "", "where emergency luminaires may be placed"},
+          {"time", "table", "", "", "",
+           "states that are assessed one after another, and the clock"},
           {"scenario", "tables", "", "", "", "states of the building; none: mains, as written"},
           {"change", "tables", "", "", "", "what a variant changes in the files it includes"},
       }};

@@ -48,6 +48,9 @@ std::vector<KeySpec> operation_keys() {
        "rows [seconds after the mains have failed, share of the emergency flux], ascending in both "
        "from 0 s, the last share 1; linear between; without it the light is there at once, and "
        "whether it comes in time is not assessed"},
+      {"duration_h", "number", "h", "", "(0, 1000]",
+       "how long the emergency supply lasts: from then on after the failure it is dark; lit for as "
+       "long as is asked for unless said"},
       {"spectrum", "emission", "", "\"led 4000 K\"", "[0, 1e9]", "shape of its spectrum"},
   };
 }
@@ -185,6 +188,9 @@ TableSpec sign_keys() {
            "`photoluminescent`); mandatory with `internal` and `photoluminescent`"},
           {"emergency_green", "number", "cd/m2", "", "[0, 1e6]",
            "of green; mandatory with `internal` and `photoluminescent`"},
+          {"duration_h", "number", "h", "", "(0, 1000]",
+           "how long the emergency supply of an `internal` sign lasts: from then on after the "
+           "failure it is dark; lit for as long as is asked for unless said"},
           {"luminance_map", "path", "", "", "", "PNG of the brightness pattern over the face"},
           {"angular_exponent", "number", "", "0", "[0, 20]",
            "luminance ~ cos^n of the angle from the normal; 0: Lambertian"},
@@ -199,19 +205,21 @@ TableSpec sign_keys() {
           {"green_reflectance", "reflectance", "", "0.15", "[0, 1]", "reflectance of green"},
           {"circuit", "name", "", "", "", "circuit it hangs on"},
           {"group", "name", "", "", "", "source group with tallies of its own"},
+          {"leads_to", "tables", "", "", "",
+           "routes that it belongs to, see below; needed where guidance is assessed over time"},
       }};
 }
 
 Keys optics_keys() {
   return {
-      {"extinction", "number", "1/m", "", "[0, 1e6]",
+      {"extinction", "course", "1/m", "", "[0, 1e6]",
        "extinction; exactly one of this and the next six keys"},
-      {"od_per_m", "number", "1/m", "", "[0, 1e6]", "optical density per metre, x ln 10"},
-      {"db_per_m", "number", "dB/m", "", "[0, 1e6]", "decibel per metre, x ln 10 / 10"},
-      {"percent_per_m", "number", "%", "", "[0, 100)", "share lost in a metre: -ln(1 - p/100)"},
-      {"percent_per_ft", "number", "%", "", "[0, 100)",
+      {"od_per_m", "course", "1/m", "", "[0, 1e6]", "optical density per metre, x ln 10"},
+      {"db_per_m", "course", "dB/m", "", "[0, 1e6]", "decibel per metre, x ln 10 / 10"},
+      {"percent_per_m", "course", "%", "", "[0, 100)", "share lost in a metre: -ln(1 - p/100)"},
+      {"percent_per_ft", "course", "%", "", "[0, 100)",
        "share lost in a foot: -ln(1 - p/100) / 0.3048"},
-      {"soot_density", "number", "kg/m3", "", "[0, 100]", "soot, x `mass_extinction`"},
+      {"soot_density", "course", "kg/m3", "", "[0, 100]", "soot, x `mass_extinction`"},
       {"extinction_table", "spectrum", "1/m", "", "[0, 1e6]",
        "extinction by wavelength: rows [nm, 1/m]"},
       {"mass_extinction", "number", "m2/kg", "", "(0, 1e6]",
@@ -268,8 +276,8 @@ std::vector<TableSpec> medium_keys() {
       {"medium.layer",
        "`[[medium.layer]]`, besides the optics",
        {
-           {"z_low", "number", "m", "required", "[-1e7, 1e7]", "lower end"},
-           {"z_high", "number", "m", "required", "[-1e7, 1e7]", "upper end; layers do not overlap"},
+           {"z_low", "course", "m", "required", "[-1e7, 1e7]", "lower end"},
+           {"z_high", "course", "m", "required", "[-1e7, 1e7]", "upper end; layers do not overlap"},
        }},
       {"medium.bounded", "`[[medium]]` with `kind = \"bounded\"`, besides the optics",
        joined({{"body", "choice", "", "required", "ellipsoid, cylinder, cone, paraboloid, quadric",
@@ -307,7 +315,7 @@ std::vector<TableSpec> medium_keys() {
       {"medium.emission",
        "`[medium.emission]`: light of flames",
        {
-           {"power_w", "number", "W", "required", "[0, 1e12]",
+           {"power_w", "course", "W", "required", "[0, 1e12]",
             "radiant power over all wavelengths"},
            {"temperature_k", "number", "K", "required", "[600, 6000]", "of Planck's law"},
            {"emissivity", "choice", "", "\"soot\"", "soot, black",
@@ -340,6 +348,14 @@ std::vector<TableSpec> light_schema() {
   std::vector<TableSpec> all = luminaire_keys();
   all.push_back(sign_keys());
   all.push_back(sign_type_keys());
+  all.push_back({"sign.leads_to",
+                 "`[[sign.leads_to]]`: a route that a sign belongs to",
+                 {{"route", "text", "", "required", "", "name of the route"},
+                  {"arrow", "choice", "", "required", "left, right, ahead",
+                   "where the arrow of the front points, as its reader sees it; `ahead`: on past "
+                   "the sign, or through the door below it. An arrow to the left or right points "
+                   "the same way on the back of a double-sided sign, one ahead away from its "
+                   "reader"}}});
   for (auto& t : medium_keys()) all.push_back(std::move(t));
   for (auto& t : data_set_schema()) all.push_back(std::move(t));
   return all;

@@ -5,6 +5,21 @@ namespace luxodus {
 
 std::vector<TableSpec> scenario_schema() {
   return {
+      {"time",
+       "`[time]`: the states that are assessed one after another, and the clock of all of them",
+       {
+           {"from", "number", "s", "0", "[-1e6, 1e6]",
+            "first state; without `--at` the scene is taken at this time"},
+           {"to", "number", "s", "required", "[-1e6, 1e6]", "last state"},
+           {"step", "number", "s", "required", "(0, 1e6]", "from one state to the next"},
+           {"mains_fail_at", "number", "s", "", "[-1e6, 1e6]",
+            "when the mains fail: scenarios in emergency and dark operation are in mains operation "
+            "until then, and `seconds_after_failure` counts from then; they never fail unless "
+            "said"},
+           {"walking_speed", "number", "m/s", "", "(0, 5]",
+            "of people who set out on the routes at the time of each state; nobody walks unless "
+            "said"},
+       }},
       {"scenario",
        "`[[scenario]]`: one state of the building",
        {
@@ -23,6 +38,10 @@ std::vector<TableSpec> scenario_schema() {
            {"emission_factor", "number", "", "1", "[0, 1e6]", "factor for the power of all flames"},
            {"doors_open", "texts", "", "", "", "names of doors that stand open"},
            {"doors_closed", "texts", "", "", "", "names of doors that are closed"},
+           {"doors_open_at", "factors", "s", "", "[-1e6, 1e6]",
+            "times from which doors stand open, by name"},
+           {"doors_close_at", "factors", "s", "", "[-1e6, 1e6]",
+            "times from which doors are closed, by name"},
        }},
       {"change",
        "`[[change]]`: what a variant has otherwise than the files that it includes",

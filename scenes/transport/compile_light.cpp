@@ -22,7 +22,7 @@ double emitter_flux(const Emitter& e, const Scenario& scenario) {
       return e.mains_flux;
     case Operation::emergency:
       return e.emergency_flux *
-             (scenario.says_seconds ? onset_share(e.onset, scenario.seconds_after_failure) : 1);
+             (scenario.says_seconds ? emergency_share(e, scenario.seconds_after_failure) : 1);
     case Operation::dark:
       return 0;
   }

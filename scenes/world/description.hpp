@@ -113,7 +113,8 @@ struct Emitter {
   /// After a failure of the mains: time [s], share of emergency_flux; ascending in both, linear
   /// between, the last holds. Empty: not said.
   std::vector<glm::dvec2> onset;
-  std::string body_material;  // "" for none: returning light passes
+  std::optional<double> duration_s;  // of the emergency supply, after which it is dark
+  std::string body_material;         // "" for none: returning light passes
 };
 
 // ---- signs ------------------------------------------------------------------------------------
@@ -131,6 +132,15 @@ struct SignFace {
   std::vector<float>
       relative_luminance;  // empty: uniform in each colour; else per texel, mean 1 per colour
   SignColour legend = SignColour::white;
+};
+
+/// Where the arrow of a sign's front points, as its reader sees it.
+enum class SignArrow { left, right, ahead };
+
+/// A route that a sign belongs to.
+struct LeadsTo {
+  std::string route;
+  SignArrow arrow = SignArrow::ahead;
 };
 
 struct SignState {
@@ -164,7 +174,9 @@ struct Sign {
   SignLighting lighting = SignLighting::internal;
   SignState mains;
   SignState emergency;
-  double angular_exponent = 0;  // luminance ~ cos^n from the normal; 0: Lambertian
+  std::optional<double> duration_s;  // of the emergency supply, after which it is dark
+  std::vector<LeadsTo> leads_to;     // routes that it belongs to
+  double angular_exponent = 0;       // luminance ~ cos^n from the normal; 0: Lambertian
   std::vector<glm::dvec2>
       decay;  // photoluminescent: time after excitation [s], share of the luminance
   Spectrum white_shape = equal_energy_shape();
@@ -298,6 +310,19 @@ struct AssessmentSettings {
   SourcePlace place;
 };
 
+namespace limits {
+/// States of one assessment over time: each is traced.
+inline constexpr int max_states = 1000;
+}  // namespace limits
+
+/// The states that are assessed one after another, and the clock that all of them go by.
+struct TimeSettings {
+  SourcePlace place;
+  double from_s = 0, to_s = 0, step_s = 1;
+  std::optional<double> mains_fail_at_s;    // never unless said
+  std::optional<double> walking_speed_m_s;  // nobody walks unless said
+};
+
 /// What a report says of the project, on its first page and in its footers. "" where not said.
 struct ProjectSettings {
   std::string name, client, address, document, revision, date, author, checker;
@@ -326,8 +351,9 @@ struct Scenario {
   };
   std::string name;
   SourcePlace place;
-  Operation operation = Operation::mains;
-  double seconds_after_failure = 0;     // photoluminescent decay, onset of luminaires
+  Operation operation = Operation::mains;          // at the time of the state
+  Operation written_operation = Operation::mains;  // once the mains have failed
+  double seconds_after_failure = 0;                // photoluminescent decay, onset of luminaires
   bool says_seconds = false;            // it is written; else luminaires are taken as fully on
   std::vector<Factor> circuits;         // by circuit name; others 1
   std::vector<Factor> media;            // extinction factor by medium name; 0 removes it
@@ -385,6 +411,8 @@ struct SceneDescription {
   std::vector<EmphasisPoint> emphasis;
   AssessmentSettings assessment;
   ProjectSettings project;
+  std::optional<TimeSettings> time;
+  std::optional<double> at_s;                    // of the state that this is, where a time was said
   std::shared_ptr<const DesignSettings> design;  // null in a pack, and in scenes made by programs
   std::vector<Side> open_sides;                  // through which light is meant to leave
   std::vector<Scenario> scenarios;               // empty: mains, as written

@@ -24,7 +24,8 @@ std::string two_ageings() {
 
 /// Nodes of this process that trace rounds of a scene.
 struct RoundNodes {
-  explicit RoundNodes(const std::shared_ptr<const SceneDescription>& scene) : states(scene) {
+  explicit RoundNodes(const std::shared_ptr<const SceneDescription>& scene)
+      : states([scene](std::optional<double>) { return Result(scene); }) {
     auto compiled = compile_scene(scene, find_scenario(*scene, "failed").value(), {1});
     REQUIRE(compiled.ok());
     auto started = ProcessExecutor::start(compiled.value(), states, NodesOptions{});
@@ -47,7 +48,7 @@ void same_look(const SignLook& a, const SignLook& b) {
 }  // namespace
 
 TEST_CASE("a round of an assessment is read back from its text, to the bit", "[assess]") {
-  RoundState round{"smoke \"grey\"", 1.0 / 3, 0.1, {}};
+  RoundState round{"smoke \"grey\"", 60.25, {1.0 / 3, 0.1, true}, 0.1, {}};
   Observer observer;
   observer.name = "somebody";
   observer.eye = {1e-17, -2.0 / 3, 1.65};
@@ -57,7 +58,10 @@ TEST_CASE("a round of an assessment is read back from its text, to the bit", "[a
   const auto read = parse_round(round_text(round));
   REQUIRE(read.ok());
   CHECK(read->scenario == round.scenario);
-  CHECK(read->smoke_factor == round.smoke_factor);
+  CHECK(read->at_s == round.at_s);
+  CHECK(read->smoke.factor == round.smoke.factor);
+  CHECK(read->smoke.albedo == round.smoke.albedo);
+  CHECK(read->smoke.by_errors);
   CHECK(read->eye_path_factor == round.eye_path_factor);
   REQUIRE(read->observers.size() == 2);
   CHECK(read->observers[1].name == observer.name);
@@ -68,7 +72,7 @@ TEST_CASE("a round of an assessment is read back from its text, to the bit", "[a
 
 TEST_CASE("what is no round of an assessment is refused in words", "[assess]") {
   const auto scene = described_text(with_smoke(0.3, 0.5));
-  RoundStates states(scene);
+  RoundStates states([scene](std::optional<double>) { return Result(scene); });
   const auto refused = [&](const std::string& text, const std::string& words) {
     const auto made = states.make(text);
     REQUIRE_FALSE(made.ok());
@@ -78,10 +82,10 @@ TEST_CASE("what is no round of an assessment is refused in words", "[assess]") {
   refused("", "no round");
   refused("{}", "no round");
   refused("[1, 2]", "no round");
-  RoundState round{"failed", 1, 1, {}};
+  RoundState round{"failed", {}, {}, 1, {}};
   round.observers.emplace_back().signs = {7};
   refused(round_text(round), "a sign that the scene has not");
-  refused(round_text({"there is none", 1, 1, {}}), "there is none");
+  refused(round_text({"there is none", {}, {}, 1, {}}), "there is none");
 }
 
 TEST_CASE("nodes that know the scene alone give an assessment the looks of threads",
@@ -129,7 +133,7 @@ TEST_CASE("a run in pieces goes on from what an interrupt has left of it", "[run
   RoundNodes nodes(scene);
   const auto judged = judged_scene(*scene, find_scenario(*scene, "failed").value());
   REQUIRE(judged.ok());
-  RoundState round{"failed", 1, 1, {}};
+  RoundState round{"failed", {}, {}, 1, {}};
   Observer& observer = round.observers.emplace_back();
   observer.eye = {2, 0.5, 1.65};
   observer.signs = {0};

@@ -116,7 +116,7 @@ TEST_CASE("a time from outside takes the place of the one that a simulation stat
   CHECK(at_0.scene->media[0].simulation->time_s == 0);
   CHECK(at_0.scene->content_hash != at_10.scene->content_hash);
   const ReadScene none = read_scene(folder.put("b.toml", "title = \"no fire\"\n"), 5);
-  CHECK(all_problems(none).find("no medium of this scene changes in time") != std::string::npos);
+  CHECK(all_problems(none).find("nothing in this scene changes in time") != std::string::npos);
 }
 
 TEST_CASE("the hash of a scene follows the smoke that it takes and nothing else of the results",

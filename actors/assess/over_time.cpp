@@ -1,0 +1,261 @@
+#include "actors/assess/over_time.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "actors/assess/reality_mode.hpp"
+#include "scenes/transport/compile.hpp"
+#include "scenes/transport/compile_light.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Smoke of fires has about these albedos: what a verdict does not survive between them, nobody
+/// knows. FDS computes none.
+constexpr double least_albedo = 0.1, greatest_albedo = 0.5;
+/// Of a state's work, what its own light takes; the rest is the two ends of the albedo.
+constexpr double first_share = 0.6;
+
+/// A view of the assessment: who looks at what.
+struct ViewKey {
+  std::string from;
+  double along_m, height_m;
+  std::string sign;
+  auto operator<=>(const ViewKey&) const = default;
+};
+ViewKey key_of(const SightRow& row) {
+  return {row.from, row.along_m, row.height_m, row.sign};
+}
+
+std::string from_route(const EscapeRoute& route) {
+  return "route \"" + route.name + "\"";
+}
+
+/// Mean over the wavelengths.
+double mean_albedo(const SmokeOptics& optics) {
+  return optics.albedo.integral() / Spectrum::constant(1).integral();
+}
+
+/// The pairs of place and sign of a scene that may guide, of all its routes.
+class GuidingViews {
+ public:
+  explicit GuidingViews(const SceneDescription& scene) : scene_(scene) {
+    for (const EscapeRoute& route : scene.routes) {
+      auto& people = people_.emplace_back(walkers(route, scene.assessment.spacing_m));
+      for (const Walker& walker : people)
+        places_[{from_route(route), walker.along_m}] = {&route, walker};
+    }
+  }
+
+  bool can_guide(const SightRow& row) const {
+    const auto place = places_.find({row.from, row.along_m});
+    if (place == places_.end()) return false;
+    const auto sign = std::find_if(scene_.signs.begin(), scene_.signs.end(),
+                                   [&](const Sign& one) { return one.name == row.sign; });
+    return luxodus::can_guide(*place->second.first, place->second.second, *sign, row.view);
+  }
+  const std::vector<Walker>& people(size_t route) const { return people_[route]; }
+
+ private:
+  const SceneDescription& scene_;
+  std::vector<std::vector<Walker>> people_;
+  std::map<std::pair<std::string, double>, std::pair<const EscapeRoute*, Walker>> places_;
+};
+
+/// One state of the scene, traced for its views.
+class StateOfTime {
+ public:
+  StateOfTime(std::shared_ptr<const SceneDescription> scene, Scenario scenario,
+              const AssessOptions& options)
+      : scene_(std::move(scene)),
+        scenario_(std::move(scenario)),
+        options_(options),
+        views_(*scene_) {
+    options_.wanted = [this](const SightRow& row) { return views_.can_guide(row); };
+  }
+  StateOfTime(const StateOfTime&) = delete;
+  StateOfTime& operator=(const StateOfTime&) = delete;
+
+  /// The state as it is stated, then what of it holds for other smoke. Errors: as assess_sights.
+  Result<void> trace(const std::atomic<bool>& interrupt, const AssessProgress& progress,
+                     OverTime& out);
+  TimedState facts() const;
+  /// Adds this state to each route's table.
+  void add_to(OverTime& out) const;
+  int64_t paths() const { return nominal_.paths; }
+
+ private:
+  Result<void> try_albedo(double albedo, const std::atomic<bool>& interrupt,
+                          const AssessProgress& progress);
+
+  std::shared_ptr<const SceneDescription> scene_;
+  Scenario scenario_;
+  AssessOptions options_;
+  GuidingViews views_;
+  Assessment nominal_;
+  std::set<ViewKey> doubted_;  // legible, but not in all smoke that this may be
+};
+
+Result<void> StateOfTime::trace(const std::atomic<bool>& interrupt, const AssessProgress& progress,
+                                OverTime& out) {
+  const auto first = [&](const std::string& what, double share) {
+    progress(what, first_share * share);
+  };
+  if (auto ok = assess_sights(*scene_, scenario_, {}, options_, interrupt, first, nominal_); !ok)
+    return ok;
+  if (!has_smoke(*scene_, scenario_)) return {};
+  double low = least_albedo, high = greatest_albedo;
+  for_each_smoke(*scene_, [&](const SmokeOptics& optics) {
+    low = std::min(low, mean_albedo(optics));
+    high = std::max(high, mean_albedo(optics));
+  });
+  out.low_albedo = out.high_albedo == 0 ? low : std::min(out.low_albedo, low);
+  out.high_albedo = std::max(out.high_albedo, high);
+  for (const Medium& medium : scene_->media)
+    if (medium.simulation)
+      out.depth_error = std::max(out.depth_error, medium.simulation->depth_error);
+  const double left = (1 - first_share) / 2;
+  for (const auto& [albedo, begun] : {std::pair{low, first_share}, {high, first_share + left}})
+    if (auto ok = try_albedo(albedo, interrupt,
+                             [&](const std::string& what, double share) {
+                               progress(fmt::format("albedo {:.2g}, {}", albedo, what),
+                                        begun + left * share);
+                             });
+        !ok)
+      return ok;
+  return {};
+}
+
+Result<void> StateOfTime::try_albedo(double albedo, const std::atomic<bool>& interrupt,
+                                     const AssessProgress& progress) {
+  std::set<ViewKey> legible;
+  for (const SightRow& row : nominal_.sights)
+    if (row.sight.verdict == SightVerdict::legible && !doubted_.contains(key_of(row)))
+      legible.insert(key_of(row));
+  if (legible.empty()) return {};
+  AssessOptions options = options_;
+  options.wanted = [&](const SightRow& row) { return legible.contains(key_of(row)); };
+  Assessment other;
+  if (auto ok =
+          assess_sights(*scene_, scenario_, {1, albedo, true}, options, interrupt, progress, other);
+      !ok)
+    return ok;
+  nominal_.paths += other.paths;
+  for (const SightRow& row : other.sights)
+    if (row.sight.verdict != SightVerdict::legible) doubted_.insert(key_of(row));
+  return {};
+}
+
+TimedState StateOfTime::facts() const {
+  TimedState out;
+  out.at_s = scene_->at_s.value_or(0);
+  out.operation = scenario_.operation;
+  if (scenario_.operation != Operation::mains && scenario_.says_seconds)
+    out.seconds_after_failure = scenario_.seconds_after_failure;
+  for (const ActiveSource& source : active_sources(*scene_, scenario_))
+    out.lit += source.emitter != nullptr ? 1 : 0;
+  for (const Medium& medium : scene_->media)
+    if (medium.simulation) out.frames.push_back({medium.name, medium.simulation->time_s});
+  return out;
+}
+
+/// Of the signs at a place the best counts.
+struct BestSign {
+  Guidance guidance = Guidance::not_guided;
+  bool jin = false;
+  std::string name;
+
+  void take(const SightRow& row, bool doubted) {
+    const SightVerdict verdict = row.sight.verdict;
+    const Guidance here = verdict == SightVerdict::legible && !doubted ? Guidance::guided
+                          : verdict == SightVerdict::undecided || verdict == SightVerdict::legible
+                              ? Guidance::undecided
+                              : Guidance::not_guided;
+    const bool hidden = verdict == SightVerdict::hidden;
+    if (!hidden && (name.empty() || here < guidance)) name = row.sign;
+    guidance = std::min(guidance, here);
+    jin = jin || (!hidden && row.sight.jin_legible);
+  }
+};
+
+void StateOfTime::add_to(OverTime& out) const {
+  std::map<std::tuple<std::string, double, double>, BestSign> best;  // route, eyes, place
+  for (const SightRow& row : nominal_.sights)
+    best[{row.from, row.height_m, row.along_m}].take(row, doubted_.contains(key_of(row)));
+  const double now_s = scene_->at_s.value_or(0);
+  size_t at = 0;
+  for (size_t r = 0; r < scene_->routes.size(); ++r)
+    for (const double height : scene_->assessment.eye_heights_m) {
+      if (at == out.routes.size()) {
+        RouteOverTime& made = out.routes.emplace_back();
+        made.route = scene_->routes[r].name;
+        made.eye_height_m = height;
+        made.guided.length_m = length_of(scene_->routes[r]);
+        for (const Walker& walker : views_.people(r)) made.guided.along_m.push_back(walker.along_m);
+        made.by_jin = made.guided;
+      }
+      RouteOverTime& route = out.routes[at++];
+      std::vector<Guidance> guided, jin;
+      std::vector<std::string> signs;
+      for (const double along : route.guided.along_m) {
+        const BestSign one = best[{from_route(scene_->routes[r]), height, along}];
+        guided.push_back(one.guidance);
+        jin.push_back(one.jin ? Guidance::guided : Guidance::not_guided);
+        signs.push_back(one.name);
+      }
+      for (GuidedRoute* table : {&route.guided, &route.by_jin}) table->times_s.push_back(now_s);
+      route.guided.at.push_back(std::move(guided));
+      route.by_jin.at.push_back(std::move(jin));
+      route.signs.push_back(std::move(signs));
+    }
+}
+
+std::optional<Problem> cannot_guide(const SceneDescription& scene) {
+  if (scene.routes.empty())
+    return problem_in(scene.file, "guidance over time is that of routes: add [[route]]");
+  if (std::all_of(scene.signs.begin(), scene.signs.end(),
+                  [](const Sign& sign) { return sign.leads_to.empty(); }))
+    return problem_in(scene.signs.empty() ? SourcePlace{scene.file, 0} : scene.signs.front().place,
+                      "no sign says which route it leads to, so that none guides: add "
+                      "[[sign.leads_to]] with route = \"" +
+                          scene.routes.front().name + "\" and arrow = \"ahead\"");
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<OverTime> assess_over_time(const std::vector<double>& times_s, const SceneAtTime& scene_at,
+                                  const AssessOptions& options, const std::atomic<bool>& interrupt,
+                                  const AssessProgress& progress) {
+  OverTime out;
+  for (size_t i = 0; i < times_s.size(); ++i) {
+    auto scene = scene_at(times_s[i]);
+    if (!scene) return scene.problem();
+    if (auto problem = cannot_guide(*scene.value())) return *problem;
+    auto scenario = judged_scenario(*scene.value(), options.scenario);
+    if (!scenario) return scenario.problem();
+    StateOfTime state(scene.value(), std::move(scenario).value(), options);
+    const auto told = [&](const std::string& what, double share) {
+      progress(fmt::format("state {} of {} ({:g} s), {}", i + 1, times_s.size(), times_s[i], what),
+               (static_cast<double>(i) + share) / static_cast<double>(times_s.size()));
+    };
+    if (auto ok = state.trace(interrupt, told, out); !ok) return ok.problem();
+    out.states.push_back(state.facts());
+    state.add_to(out);
+    out.paths += state.paths();
+    if (scene.value()->time) out.walking_speed_m_s = scene.value()->time->walking_speed_m_s;
+  }
+  if (out.walking_speed_m_s)
+    for (RouteOverTime& route : out.routes)
+      for (const double start : times_s)
+        route.walks.push_back(walk(route.guided, start, *out.walking_speed_m_s));
+  progress("all states", 1);
+  return out;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,25 @@
+// Guided routes over time: each state of a scene is traced, and says at which places of which
+// routes a sign is read that leads on. No analysis of available and required safe egress time: it
+// knows neither heat nor gases nor when people set out. Thread rule: one thread, which has batches
+// traced by others.
+#pragma once
+
+#include "actors/assess/assessment.hpp"
+
+namespace luxodus {
+
+/// The scene as it is at a time [s]. Errors: as reading it.
+using SceneAtTime = std::function<Result<std::shared_ptr<const SceneDescription>>(double at_s)>;
+
+/// Judges the views of signs that lead along routes, at each of these times, all with the same
+/// random numbers. A view that is legible is traced again with the smoke's albedo at either end of
+/// 0.1 to 0.5 (wider, where the scene states another) and its extinction raised by the largest
+/// error of its source; where the verdict does not hold it is undecided.
+/// `options.scenario`: by name; see judged_scenario. Requires: times that ascend.
+/// Errors: a scene without routes or without signs that lead along one; as `scene_at`, as
+/// assess_sights.
+Result<OverTime> assess_over_time(const std::vector<double>& times_s, const SceneAtTime& scene_at,
+                                  const AssessOptions& options, const std::atomic<bool>& interrupt,
+                                  const AssessProgress& progress);
+
+}  // namespace luxodus

@@ -1,0 +1,193 @@
+// Guided routes over time, in rooms where the answer is known: smoke that sinks below a sign, mains
+// that fail, a supply that ends, people who walk.
+#include "actors/assess/over_time.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "actors/assess/assessment_check.hpp"
+#include "actors/assess/assessment_json.hpp"
+#include "actors/assess/over_time_json.hpp"
+#include "tests/unit/actors/assess/assessed_room.hpp"
+
+namespace luxodus {
+namespace {
+
+/// The room, whose sign leads along its route; the first table of `more` may be of the sign.
+std::string timed_room(const std::string& sign_more, const std::string& more) {
+  return test::replaced(test::room, "lighting = \"internal\"\n",
+                        "lighting = \"internal\"\n" + sign_more +
+                            "[[sign.leads_to]]\nroute = \"way\"\narrow = \"ahead\"\n") +
+         more;
+}
+
+/// Dense smoke under the ceiling, whose lower end is at 3 m at 0 s and sinks by 2 cm a second.
+std::string sinking(const std::string& extinction) {
+  return "[[medium]]\nname = \"smoke\"\nkind = \"layered\"\n[[medium.layer]]\n"
+         "z_low = [[0, 3], [100, 1]]\nz_high = 3\nalbedo = 0.3\nextinction = " +
+         extinction + "\n";
+}
+
+SceneAtTime scenes_of(const std::string& text) {
+  return [text](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
+    const test::TemporaryFolder folder;
+    ReadScene read = read_scene(folder.write("scene.toml", text), at_s);
+    if (!read.scene) return read.problems.list().front();
+    return std::make_shared<const SceneDescription>(std::move(*read.scene));
+  };
+}
+
+Result<OverTime> tried_over(const std::string& text, const std::vector<double>& times) {
+  static const std::atomic<bool> nobody{false};
+  return assess_over_time(times, scenes_of(text), {}, nobody, [](const std::string&, double) {});
+}
+
+OverTime over(const std::string& text, const std::vector<double>& times) {
+  auto result = tried_over(text, times);
+  INFO((result.ok() ? "" : result.problem().text()));
+  REQUIRE(result.ok());
+  return std::move(result).value();
+}
+
+size_t guided_places(const RouteOverTime& route, size_t state) {
+  size_t out = 0;
+  for (size_t i = 0; i < route.guided.along_m.size(); ++i) out += route.guided.holds(state, i);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a route is guided until the smoke's lower end passes the sign", "[assess][time]") {
+  // The sign's letters end at 2.125 and 2.275 m: reached at 43.75 and 36.25 s.
+  const OverTime all = over(timed_room("", sinking("40")), {0, 20, 35, 46, 60});
+  REQUIRE(all.routes.size() == 1);
+  const RouteOverTime& route = all.routes.front();
+  CHECK(route.route == "way");
+  CHECK(route.eye_height_m == 1.65);
+  REQUIRE(route.guided.along_m.size() == 3);
+  for (size_t t = 0; t < 3; ++t) CHECK(guided_places(route, t) == 3);
+  for (size_t t = 3; t < 5; ++t) CHECK(guided_places(route, t) == 0);
+  const GuidedTime time = guided_time(route.guided);
+  CHECK(time.until_s == 35);
+  CHECK(time.lost_by_s == 46);
+  CHECK(time.lost_at_m == 0);
+  CHECK(route.signs.at(0).at(0) == "exit");
+  CHECK(all.low_albedo == 0.1);
+  CHECK(all.high_albedo == 0.5);
+}
+
+TEST_CASE("thickening smoke guides at no more places than before", "[assess][time]") {
+  const std::string smoke =
+      "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nalbedo = 0.3\n"
+      "extinction = [[0, 0], [60, 1.2]]\n";
+  const OverTime all = over(timed_room("", smoke), {0, 15, 30, 45, 60});
+  const RouteOverTime& route = all.routes.front();
+  CHECK(guided_places(route, 0) == 3);
+  CHECK(guided_places(route, 4) < 3);
+  for (size_t t = 1; t < 5; ++t) CHECK(guided_places(route, t) <= guided_places(route, t - 1));
+}
+
+TEST_CASE("a sign that only the mains light guides until they fail", "[assess][time]") {
+  const std::string dark_then = test::replaced(
+      test::replaced(timed_room("", "[time]\nto = 60\nstep = 20\nmains_fail_at = 30\n"),
+                     "emergency_white = 100", "emergency_white = 0"),
+      "emergency_green = 10", "emergency_green = 0");
+  const OverTime all = over(dark_then, {0, 20, 40, 60});
+  const GuidedTime time = guided_time(all.routes.front().guided);
+  CHECK(time.until_s == 20);
+  CHECK(time.lost_by_s == 40);
+  CHECK(all.states.at(1).operation == Operation::mains);
+  CHECK_FALSE(all.states.at(1).seconds_after_failure.has_value());
+  CHECK(all.states.at(2).operation == Operation::emergency);
+  CHECK(all.states.at(2).seconds_after_failure == 10);
+  CHECK(all.states.at(2).lit == 1);
+}
+
+TEST_CASE("a sign guides on its supply until that is exhausted", "[assess][time]") {
+  // 0.01 h are 36 s, from the failure at 10 s on.
+  const OverTime all =
+      over(timed_room("duration_h = 0.01\n", "[time]\nto = 60\nstep = 20\nmains_fail_at = 10\n"),
+           {0, 20, 45, 46});
+  const GuidedTime time = guided_time(all.routes.front().guided);
+  CHECK(time.until_s == 45);
+  CHECK(time.lost_by_s == 46);
+}
+
+TEST_CASE("the rated duration is checked where all that is lit says it", "[assess][time]") {
+  const auto check_of = [](const std::string& text) {
+    const Assessment a = test::assessed(text, test::codes_alone());
+    const auto at = std::find_if(a.checks.begin(), a.checks.end(),
+                                 [](const Check& one) { return one.rule.id == "E11"; });
+    REQUIRE(at != a.checks.end());
+    return *at;
+  };
+  const auto hours = [](const std::string& lamp, const std::string& sign) {
+    return test::replaced(
+        timed_room(sign.empty() ? "" : "duration_h = " + sign + "\n", ""),
+        "end_of_duration_factor = 0.75\n",
+        "end_of_duration_factor = 0.75\n" + (lamp.empty() ? "" : "duration_h = " + lamp + "\n"));
+  };
+  CHECK(check_of(hours("", "")).verdict == CheckVerdict::not_assessed);
+  CHECK(check_of(hours("1", "")).verdict == CheckVerdict::not_assessed);
+  CHECK(check_of(hours("1", "3")).verdict == CheckVerdict::pass);
+  CHECK(check_of(hours("1", "3")).value == 1);
+  CHECK(check_of(hours("3", "0.5")).verdict == CheckVerdict::fail);
+}
+
+TEST_CASE("people who set out in time are guided to the end", "[assess][time]") {
+  const OverTime all =
+      over(timed_room("", sinking("40") + "[time]\nto = 100\nstep = 10\nwalking_speed = 0.5\n"),
+           {0, 20, 35, 46});
+  const auto& walks = all.routes.front().walks;
+  REQUIRE(walks.size() == 4);
+  // The last place is 6.67 m along the route: 13.3 s on the way.
+  CHECK(walks.at(0).end == Walk::End::arrives);
+  CHECK(walks.at(1).end == Walk::End::arrives);
+  CHECK(walks.at(2).end == Walk::End::lost);
+  CHECK(walks.at(2).at_m == Approx(10.0 / 3));
+  CHECK(walks.at(3).end == Walk::End::lost);
+  CHECK(walks.at(3).at_m == 0);
+}
+
+TEST_CASE("an arrow that points elsewhere guides nobody, and no sign at all is an error",
+          "[assess][time]") {
+  const std::string left =
+      test::replaced(timed_room("", sinking("0.01")), "arrow = \"ahead\"", "arrow = \"left\"");
+  CHECK_FALSE(guided_time(over(left, {0, 10}).routes.front().guided).until_s.has_value());
+  const auto silent = tried_over(test::room + sinking("1"), {0, 10});
+  REQUIRE_FALSE(silent.ok());
+  CHECK(silent.problem().text().find("[[sign.leads_to]]") != std::string::npos);
+}
+
+TEST_CASE("a state is traced with the same random numbers whatever the others are",
+          "[assess][time]") {
+  const std::string text = timed_room("", sinking("0.6"));
+  const OverTime both = over(text, {20, 60}), one = over(text, {60});
+  CHECK(both.routes.front().guided.at.at(1) == one.routes.front().guided.at.at(0));
+}
+
+TEST_CASE("guidance over time goes through its JSON, whose faults are named", "[assess][time]") {
+  const std::string text = timed_room("",
+                                      "[time]\nto = 60\nstep = 20\nmains_fail_at = 30\n"
+                                      "walking_speed = 1\n");
+  Assessment assessment = test::assessed(text, test::codes_alone());
+  assessment.over_time = over(text, {0, 20, 40, 60});
+  const Json json = assessment_json(*test::described_text(text), assessment, "1");
+  CHECK_FALSE(fault_of_assessment(json).has_value());
+  const Json& route = json["over_time"]["routes"][0];
+  CHECK(route["guided"][0].text() == "ggg");
+  CHECK(route["time"]["until"]["value"] == 60);
+  CHECK(route["time"]["lost_by"].is_null());
+  CHECK(route["walks"].size() == 4);
+  const std::string csv = guidance_csv(json["over_time"]).text();
+  CHECK(csv.find("way,1.65,0,0,guided,exit,guided\n") != std::string::npos);
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 1 + 4 * 3);
+  CHECK(guidance_text(json["over_time"]).find("up to the last state, 60 s") != std::string::npos);
+  Json cut = json;
+  cut["over_time"]["routes"][0]["guided"][0] = "gg";
+  CHECK(fault_of_assessment(cut).value_or("").find("as many values") != std::string::npos);
+  Json silent = json;
+  silent["over_time"]["states"] = Json::array();
+  CHECK(fault_of_assessment(silent).value_or("") == "over_time.states is empty");
+}
+
+}  // namespace luxodus

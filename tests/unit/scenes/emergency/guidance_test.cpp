@@ -1,0 +1,161 @@
+// Which signs guide on a route, up to when, and how far a walker comes.
+#include "scenes/emergency/guidance.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace luxodus {
+namespace {
+
+EscapeRoute route_along(std::vector<glm::dvec3> path) {
+  EscapeRoute route;
+  route.name = "way";
+  route.path = std::move(path);
+  route.width_m = 1.6;
+  return route;
+}
+
+/// At `centre`, its face towards `facing` (level), its top up.
+Sign sign_at(const glm::dvec3& centre, const glm::dvec3& facing, SignArrow arrow) {
+  Sign sign;
+  sign.name = "exit";
+  const glm::dvec3 up(0, 0, 1);
+  sign.frame.origin = centre;
+  sign.frame.axes = glm::dmat3(glm::cross(up, facing), up, facing);
+  sign.width_m = 0.4;
+  sign.height_m = 0.2;
+  sign.leads_to = {{"way", arrow}};
+  return sign;
+}
+
+Walker walker_at(const glm::dvec3& foot, const glm::dvec3& ahead, double along_m) {
+  return {foot, ahead, along_m};
+}
+
+bool guides(const EscapeRoute& route, const Walker& walker, const Sign& sign) {
+  return can_guide(route, walker, sign, view_of_sign(sign, walker.foot + glm::dvec3(0, 0, 1.65)));
+}
+
+/// Rows of letters, one a time from 0 s in steps of 10 s: g guided, u undecided, else not guided.
+GuidedRoute table(std::vector<std::string> rows) {
+  GuidedRoute out;
+  for (size_t t = 0; t < rows.size(); ++t) {
+    out.times_s.push_back(10 * static_cast<double>(t));
+    std::vector<Guidance> row;
+    for (const char c : rows[t])
+      row.push_back(c == 'g'   ? Guidance::guided
+                    : c == 'u' ? Guidance::undecided
+                               : Guidance::not_guided);
+    out.at.push_back(row);
+  }
+  for (size_t i = 0; i < rows.front().size(); ++i)
+    out.along_m.push_back(5 * static_cast<double>(i));
+  out.length_m = 5 * static_cast<double>(rows.front().size());
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("states begin at from and end at to", "[emergency][guidance]") {
+  TimeSettings time;
+  time.from_s = 10, time.to_s = 40, time.step_s = 10;
+  CHECK(times_of(time) == std::vector<double>{10, 20, 30, 40});
+  time.to_s = 35;
+  CHECK(times_of(time) == std::vector<double>{10, 20, 30, 35});
+  time.to_s = 10;
+  CHECK(times_of(time) == std::vector<double>{10});
+  time.from_s = 0, time.to_s = 1, time.step_s = 0.1;
+  CHECK(times_of(time).size() == 11);
+}
+
+TEST_CASE("a sign at the end of a route guides all who see it ahead, if it leads to this route",
+          "[emergency][guidance]") {
+  const EscapeRoute route = route_along({{0, 0, 0}, {10, 0, 0}});
+  const Walker walker = walker_at({2, 0, 0}, {1, 0, 0}, 2);
+  Sign sign = sign_at({10, 0, 2.2}, {-1, 0, 0}, SignArrow::ahead);
+  CHECK(guides(route, walker, sign));
+  CHECK(guides(route, walker_at({9.5, 0, 0}, {1, 0, 0}, 9.5), sign));  // steeply above the walker
+  CHECK_FALSE(guides(route, walker_at({2, 0, 0}, {-1, 0, 0}, 2), sign));
+  sign.leads_to = {{"another way", SignArrow::ahead}};
+  CHECK_FALSE(guides(route, walker, sign));
+}
+
+TEST_CASE("an arrow against the way does not guide", "[emergency][guidance]") {
+  // Reader and walker look east; the route turns north, to the reader's left.
+  const EscapeRoute route = route_along({{0, 0, 0}, {10, 0, 0}, {10, 8, 0}});
+  const Walker walker = walker_at({2, 0, 0}, {1, 0, 0}, 2);
+  CHECK(guides(route, walker, sign_at({10.8, 0, 2.2}, {-1, 0, 0}, SignArrow::left)));
+  CHECK_FALSE(guides(route, walker, sign_at({10.8, 0, 2.2}, {-1, 0, 0}, SignArrow::right)));
+  CHECK_FALSE(guides(route, walker, sign_at({10.8, 0, 2.2}, {-1, 0, 0}, SignArrow::ahead)));
+}
+
+TEST_CASE("a sign aside of the way guides within 60 degrees, and none that is passed",
+          "[emergency][guidance]") {
+  const EscapeRoute route = route_along({{0, 0, 0}, {20, 0, 0}});
+  const Sign sign = sign_at({10, 3, 2.2}, {-1, 0, 0}, SignArrow::ahead);
+  CHECK(guides(route, walker_at({8, 0, 0}, {1, 0, 0}, 8), sign));            // 56 degrees
+  CHECK_FALSE(guides(route, walker_at({8.5, 0, 0}, {1, 0, 0}, 8.5), sign));  // 63 degrees
+  // A way that comes back: the sign stands by its first leg, the walker on its last.
+  const EscapeRoute back = route_along({{0, 0, 0}, {10, 0, 0}, {10, 4, 0}, {0, 4, 0}});
+  const Sign by_first = sign_at({2, 0, 2.2}, {1, 0, 0}, SignArrow::ahead);
+  CHECK_FALSE(guides(back, walker_at({8, 4, 0}, {-1, 0, 0}, 16), by_first));
+}
+
+TEST_CASE("the back of a double-sided sign keeps left and right in the room, and turns ahead round",
+          "[emergency][guidance]") {
+  const Sign sign = sign_at({5, 0, 2.4}, {-1, 0, 0}, SignArrow::ahead);
+  CHECK(glm::length(arrow_direction(sign, SignArrow::ahead, false) - glm::dvec3(1, 0, 0)) < 1e-12);
+  CHECK(glm::length(arrow_direction(sign, SignArrow::ahead, true) - glm::dvec3(-1, 0, 0)) < 1e-12);
+  // Who looks east has the north to the left.
+  CHECK(glm::length(arrow_direction(sign, SignArrow::left, false) - glm::dvec3(0, 1, 0)) < 1e-12);
+  CHECK(glm::length(arrow_direction(sign, SignArrow::left, true) - glm::dvec3(0, 1, 0)) < 1e-12);
+}
+
+TEST_CASE("a route's time is the last state before the first gap", "[emergency][guidance]") {
+  const GuidedTime some = guided_time(table({"ggg", "ggg", "gng", "ggg"}));
+  CHECK(some.until_s == 10);
+  CHECK(some.lost_by_s == 20);
+  CHECK(some.lost_at_m == 5);
+  const GuidedTime undecided = guided_time(table({"ggg", "ggu"}));
+  CHECK(undecided.until_s == 0);
+  CHECK(undecided.lost_by_s == 10);
+  CHECK(undecided.lost_at_m == 10);
+  const GuidedTime never = guided_time(table({"ngg", "ggg"}));
+  CHECK_FALSE(never.until_s.has_value());
+  CHECK(never.lost_by_s == 0);
+  const GuidedTime always = guided_time(table({"gg", "gg"}));
+  CHECK(always.until_s == 10);
+  CHECK_FALSE(always.lost_by_s.has_value());
+}
+
+TEST_CASE("a walker is guided where both states around the time guide", "[emergency][guidance]") {
+  // Places at 0, 5, 10 m; the route is 15 m long. The far end is lost from 20 s on.
+  const GuidedRoute route = table({"ggg", "ggg", "ggn", "gnn"});
+  const Walk in_time = walk(route, 0, 1);  // at 10 m at 10 s, a state's own time
+  CHECK(in_time.end == Walk::End::arrives);
+  CHECK(in_time.at_m == 15);
+  CHECK(in_time.at_s == 15);
+  const Walk late = walk(route, 1, 1);  // at 10 m at 11 s, between a good and a bad state
+  CHECK(late.end == Walk::End::lost);
+  CHECK(late.at_m == 10);
+  CHECK(late.at_s == 11);
+  const Walk later = walk(route, 20, 1);  // at 5 m at 25 s
+  CHECK(later.end == Walk::End::lost);
+  CHECK(later.at_m == 5);
+  const Walk slow = walk(table({"ggg", "ggg"}), 0, 0.5);  // at 10 m at 20 s
+  CHECK(slow.end == Walk::End::unknown);
+  CHECK(slow.at_m == 10);
+}
+
+TEST_CASE("who sets out later comes no farther where guidance only falls",
+          "[emergency][guidance]") {
+  const GuidedRoute route = table({"gggg", "gggn", "ggnn", "gnnn", "nnnn"});
+  double last = 1e9;
+  for (const double start : {0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0}) {
+    const Walk one = walk(route, start, 1);
+    CHECK(one.end != Walk::End::unknown);
+    CHECK(one.at_m <= last);
+    last = one.at_m;
+  }
+}
+
+}  // namespace luxodus
