@@ -1,4 +1,7 @@
 // luxodus render: pictures from a finished run, without tracing particles again.
+#include <fmt/format.h>
+
+#include <cmath>
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
@@ -6,12 +9,15 @@
 #include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
 #include "actors/cli/load_scene.hpp"
-#include "actors/cli/picture_limits.hpp"
+#include "actors/cli/picture_choices.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/signals.hpp"
+#include "actors/display/film.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/display/result_files.hpp"
+#include "actors/output/file_names.hpp"
 #include "actors/run/flux_store.hpp"
+#include "runtime/core/log.hpp"
 #include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
@@ -24,10 +30,86 @@ struct RenderOptions {
   std::string folder;
   std::string view;
   int threads = default_threads();
-  PictureLimits limits;
+  PictureChoices limits;
   bool full_paths = false;
   bool raw = false;
+  std::string route;
+  double speed = Walk().speed_m_s, fps = Walk().frames_per_s;
+  double eye_height = Walk().eye_height_m;
+  bool human = false;
 };
+
+/// The route that is walked, by its name. Errors: there is none; the known ones are listed.
+Result<const EscapeRoute*> route_named(const SceneDescription& scene, const std::string& name) {
+  std::string known;
+  for (const EscapeRoute& route : scene.routes) {
+    if (route.name == name) return &route;
+    known += (known.empty() ? "\"" : ", \"") + route.name + "\"";
+  }
+  return problem_in(scene.file,
+                    "there is no route \"" + name + "\"; there " +
+                        (known.empty() ? "are none: add a [[route]]" : "are: " + known));
+}
+
+/// Size and angle of view of a film: those of the camera that is named, or a camera's usual ones.
+Result<Camera> lens_of(const SceneDescription& scene, const std::string& view) {
+  if (auto ok = check_views(scene, view, {}); !ok) return ok.problem();
+  for (const Camera& camera : scene.cameras)
+    if (!view.empty() && camera.name == view) return camera;
+  return Camera();
+}
+
+Result<std::vector<Camera>> cameras_of_film(const SceneDescription& scene,
+                                            const RenderOptions& options) {
+  if (!options.limits.time.empty() || !options.limits.error.empty())
+    return problem("--route excludes --picture-time and --picture-error: say how many --paths");
+  const auto route = route_named(scene, options.route);
+  if (!route) return route.problem();
+  auto lens = lens_of(scene, options.view);
+  if (!lens) return lens.problem();
+  lens->name = options.route;
+  return cameras_of(*route.value(), {options.speed, options.fps, options.eye_height}, lens.value());
+}
+
+/// Frames into DIR/films/ROUTE, and the film of them beside that.
+Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, const Film& film,
+                               const RenderOptions& options, const PictureOptions& picture) {
+  const std::string name = file_name_of(options.route);
+  const fs::path frames = folder / "films" / name;
+  const size_t count = film.cameras.size();
+  std::optional<ProgressLine> line("film");
+  const auto made = render_film(frames, run, film, picture, [&](double done) {
+    line->show_share(done / static_cast<double>(count),
+                     fmt::format(", frame {:.0f} of {}", std::floor(done) + 1, count));
+  });
+  line.reset();
+  if (!made) return made.problem();
+  if (made.value() < count) {
+    log_warning("interrupted; {} of {} frames are there", made.value(), count);
+    return ExitCode::interrupted;
+  }
+  const fs::path file = folder / "films" / (name + ".mp4");
+  const auto video = write_video(file, frames, count, options.fps);
+  if (!video) return video.problem();
+  if (video.value())
+    log_info("film: {} frames, and {}", count, file.string());
+  else
+    log_info("film: {} frames in {}; there is no ffmpeg on the path to make an MP4 file of them",
+             count, frames.string());
+  return ExitCode::success;
+}
+
+OutputPlan plan_of_views(const SceneDescription& scene) {
+  OutputPlan plan{{}, {"views"}};
+  for (size_t i = 0; i < scene.cameras.size(); ++i)
+    for (std::string& file : files_of_view(scene, i)) plan.files.push_back(std::move(file));
+  return plan;
+}
+
+OutputPlan plan_of_film(const RenderOptions& options) {
+  const std::string name = file_name_of(options.route);
+  return {{"films/" + name + ".mp4"}, {"films", "films/" + name}};
+}
 
 Result<ExitCode> render(const RenderOptions& options) {
   const fs::path folder = options.folder;
@@ -44,16 +126,22 @@ Result<ExitCode> render(const RenderOptions& options) {
                              {finished->cells, finished->error_of, finished->batch_shares});
   if (!scene) return scene.problem();
   PictureOptions picture;
-  if (auto ok = read_limits(options.limits, picture); !ok) return ok.problem();
+  if (auto ok = read_choices(options.limits, picture); !ok) return ok.problem();
   if (auto ok = check_views(*description, options.view, picture); !ok) return ok.problem();
-  if (description->cameras.empty())
+  Film film;
+  film.human = options.human;
+  if (!options.route.empty()) {
+    auto cameras = cameras_of_film(*description, options);
+    if (!cameras) return cameras.problem();
+    film.cameras = std::move(cameras).value();
+  }
+  const bool is_film = !options.route.empty();
+  if (!is_film && description->cameras.empty())
     return problem_in(finished->scene_file, "the scene has no [[camera]] to render");
   if (!passes_inspection(description, {scenario.value()}, options.threads))
     return problem_in(finished->scene_file, "the scene has errors, told above");
-  OutputPlan plan{{}, {"views"}};
-  for (size_t i = 0; i < description->cameras.size(); ++i)
-    for (std::string& file : files_of_view(*description, i)) plan.files.push_back(std::move(file));
-  const auto out = OutputFolder::claim(folder, plan);
+  const auto out =
+      OutputFolder::claim(folder, is_film ? plan_of_film(options) : plan_of_views(*description));
   if (!out) return out.problem();
   LocalRun run(scene.value(), finished->seed, options.threads);
   if (auto ok = load_flux(out->path() / "flux.lux", run); !ok) return ok.problem();
@@ -62,6 +150,7 @@ Result<ExitCode> render(const RenderOptions& options) {
   picture.gather = !options.full_paths;
   picture.raw = options.raw;
   picture.interrupt = &interrupt_flag();
+  if (is_film) return render_frames(out->path(), run, film, options, picture);
   std::optional<ProgressLine> line("pictures");
   const auto rendered =
       render_views(out->path(), run, options.view, picture,
@@ -91,6 +180,28 @@ std::vector<Option> render_options(RenderOptions& o) {
        "Number of threads",
        {.otherwise = "all cores", .range = Range{1, 1024}}}};
   all.insert(all.end(), more.begin(), more.end());
+  const std::vector<Option> film{
+      {"--route",
+       &o.route,
+       "Name of the route that a film walks, into DIR/films",
+       {.form = Form::name, .otherwise = "no film", .group = "Film"}},
+      {"--speed",
+       &o.speed,
+       "Walking speed [m/s]",
+       {.range = Range{0.01, 100}, .group = "Film", .needs = "--route"}},
+      {"--fps",
+       &o.fps,
+       "Frames a second",
+       {.range = Range{0.1, 240}, .group = "Film", .needs = "--route"}},
+      {"--eye-height",
+       &o.eye_height,
+       "Height of the eyes above the route [m]",
+       {.range = Range{0.1, 10}, .group = "Film", .needs = "--route"}},
+      {"--human",
+       &o.human,
+       "Frames as an adapted eye sees them, instead of one exposure each",
+       {.group = "Film", .needs = "--route"}}};
+  all.insert(all.end(), film.begin(), film.end());
   return all;
 }
 
@@ -107,7 +218,10 @@ Command render_command() {
           "Reads DIR/result.json, DIR/flux.lux and the scene file; refuses if the scene has "
           "changed. A first picture of each view is there after seconds; it is replaced by better "
           "ones. Equal paths give equal pictures, bit for bit, however they came together. Ctrl-C "
-          "keeps the pictures of the paths that all of their pixels have.",
+          "keeps the pictures of the paths that all of their pixels have.\n\n"
+          "With --route it renders a film instead: what somebody sees who walks a route of the "
+          "scene, as DIR/films/ROUTE/000000.png and so on, and where there is ffmpeg as "
+          "DIR/films/ROUTE.mp4. Ctrl-C keeps whole frames.",
       .run = [o] { return exit_code_of(render(*o)); }};
 }
 

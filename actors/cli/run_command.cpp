@@ -98,7 +98,7 @@ Result<RunDisplayOptions> display_options(const RunFolder& folder, const RunReco
   display.keep_particles = folder.keep_particles;
   display.make_room = [room = folder.room.get()] { room->release(); };
   display.pictures = !options.no_views;
-  if (auto ok = read_limits(options.picture, display.picture); !ok) return ok.problem();
+  if (auto ok = read_choices(options.picture, display.picture); !ok) return ok.problem();
   display.picture.progressive = true;
   display.picture.raw = options.raw;
   display.preview.paths_per_pixel = preview_paths;
@@ -183,7 +183,7 @@ Result<PreparedScenario> prepare_scenario(
   if (!scene) return scene.problem();
   for (const Problem& w : scene.value()->warnings) warn(w);
   PictureOptions picture;
-  if (auto ok = read_limits(options.picture, picture); !ok) return ok.problem();
+  if (auto ok = read_choices(options.picture, picture); !ok) return ok.problem();
   if (auto ok = check_views(*description, "", picture); !ok && !options.no_views)
     return ok.problem();
   PreparedScenario prepared{scenario, scene.value(), std::nullopt};

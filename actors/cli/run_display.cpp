@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "actors/cli/picture_limits.hpp"
+#include "actors/cli/picture_choices.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/report_aloud.hpp"
 #include "actors/cli/signals.hpp"

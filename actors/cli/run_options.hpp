@@ -8,7 +8,7 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/options.hpp"
-#include "actors/cli/picture_limits.hpp"
+#include "actors/cli/picture_choices.hpp"
 #include "actors/run/local_run.hpp"
 #include "runtime/core/clock.hpp"
 
@@ -46,7 +46,7 @@ struct RunOptions {
   bool raw = false;
   bool json = false;
   bool verbose = false;
-  PictureLimits picture;
+  PictureChoices picture;
 
   size_t part_cache_bytes() const { return static_cast<size_t>(part_cache_mib * 1024 * 1024); }
 };

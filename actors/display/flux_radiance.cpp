@@ -63,11 +63,16 @@ void mark_triangle(const VoxelGrid& grid, const TriangleRecord& t, VoxelMarks& m
   });
 }
 
+/// Of a voxel: fluence, and the net flux along x, y, z.
+constexpr size_t voxel_values = 4;
+constexpr size_t max_voxel_table_bytes = size_t{256} << 20;
+
 class FluxRadiance final : public KnownRadiance {
  public:
   explicit FluxRadiance(const LocalRun& run)
       : scene_(run.scene()),
         readout_(run.scene(), run.totals()),
+        run_threads_(run.threads()),
         bands_(static_cast<size_t>(run.scene().bands.count())),
         table_(size_t{run.scene().patch_count} * bands_),
         patch_errors_(run.scene().patch_count) {
@@ -86,6 +91,7 @@ class FluxRadiance final : public KnownRadiance {
     auto gas = voxels_of_gas(scene_);
     if (!gas) throw std::runtime_error(gas.problem().text());
     gas_ = std::move(gas).value();
+    fill_voxels();
   }
 
   double of_surface(const Hit& hit, bool front, int band) const override {
@@ -105,12 +111,11 @@ class FluxRadiance final : public KnownRadiance {
   double of_medium(const Vec3& place, const Vec3& direction, const PhaseFunction& phase,
                    int band) const override {
     const uint32_t voxel = voxel_of(scene_.voxels, place);
-    const auto edge = static_cast<double>(scene_.voxels.edge);
-    const auto mean = [&](uint32_t quantity) {
-      return readout_.watts(scene_.blocks.voxels, voxel, band, quantity).value /
-             (edge * edge * edge);
-    };
-    return turned(mean(0), {mean(1), mean(2), mean(3)}, direction, phase);
+    const size_t at = voxel_values * (voxel * bands_ + static_cast<size_t>(band));
+    if (!voxels_.empty()) return turned(&voxels_[at], direction, phase);
+    std::array<float, voxel_values> values;
+    read_voxel(voxel, band, values.data());
+    return turned(values.data(), direction, phase);
   }
 
   /// By the errors of the fluence and of each component of the net flux, as if they were
@@ -118,17 +123,23 @@ class FluxRadiance final : public KnownRadiance {
   KnownError error_of_medium(const Vec3& place, const Vec3& direction,
                              const PhaseFunction& phase) const override {
     const uint32_t voxel = voxel_of(scene_.voxels, place);
-    const auto lumens = [&](uint32_t q) { return readout_.lumens(scene_.blocks.voxels, voxel, q); };
-    const Estimate fluence = lumens(0);
-    const std::array<Estimate, 3> flux{lumens(1), lumens(2), lumens(3)};
-    const glm::dvec3 net(flux[0].value, flux[1].value, flux[2].value);
-    const double light = turned(fluence.value, net, direction, phase);
-    double squares = std::pow(fluence.standard_error / (4 * static_cast<double>(pi_f)), 2);
-    for (int k = 0; k < 3; ++k) {
-      glm::dvec3 off(0.0);
-      off[k] = flux[static_cast<size_t>(k)].standard_error;
-      const double change = turned(fluence.value, net + off, direction, phase) -
-                            turned(fluence.value, net - off, direction, phase);
+    std::array<float, voxel_values> values, errors;
+    for (uint32_t q = 0; q < voxel_values; ++q) {
+      const size_t at = voxel_values * voxel + q;
+      const bool filled = !voxel_errors_.empty();
+      const Estimate e =
+          filled ? voxel_errors_[at] : readout_.lumens(scene_.blocks.voxels, voxel, q);
+      values[q] = static_cast<float>(e.value);
+      errors[q] = static_cast<float>(e.standard_error);
+    }
+    const double light = turned(values.data(), direction, phase);
+    double squares = std::pow(static_cast<double>(errors[0]) / (4 * static_cast<double>(pi_f)), 2);
+    for (size_t q = 1; q < voxel_values; ++q) {
+      std::array<float, voxel_values> more = values, less = values;
+      more[q] += errors[q];
+      less[q] -= errors[q];
+      const double change =
+          turned(more.data(), direction, phase) - turned(less.data(), direction, phase);
       squares += change * change / 4;
     }
     return {uint64_t{scene_.patch_count} + voxel, light > 0 ? std::sqrt(squares) / light : 0};
@@ -141,16 +152,49 @@ class FluxRadiance final : public KnownRadiance {
     return t.first_patch + (front ? 0 : n * n) + sub_triangle(hit.u, hit.v, n);
   }
 
-  /// What one scattering sends against `direction` of light of that fluence and net flux. Of the
+  /// What one scattering sends against `direction` of light of such fluence and net flux. Of the
   /// fluence, as much as the net flux goes one way; the rest comes from everywhere. That has the
   /// moments of the light up to the first, and is exact for a beam and for even light.
-  static double turned(double fluence, const glm::dvec3& net, const Vec3& direction,
-                       const PhaseFunction& phase) {
+  static double turned(const float* values, const Vec3& direction, const PhaseFunction& phase) {
+    const glm::dvec3 net(values[1], values[2], values[3]);
     const double beam = glm::length(net);
-    const double even = std::max(0.0, fluence - beam) / (4 * static_cast<double>(pi_f));
+    const double even =
+        std::max(0.0, static_cast<double>(values[0]) - beam) / (4 * static_cast<double>(pi_f));
     if (!(beam > 0)) return even;
     const double cosine = -glm::dot(net, glm::dvec3(direction)) / beam;
     return even + beam * static_cast<double>(evaluate(phase, static_cast<Real>(cosine)));
+  }
+
+  /// Fluence and net flux of a voxel in a band [W/m2].
+  void read_voxel(uint32_t voxel, int band, float* values) const {
+    const auto edge = static_cast<double>(scene_.voxels.edge);
+    for (uint32_t q = 0; q < voxel_values; ++q)
+      values[q] = static_cast<float>(readout_.watts(scene_.blocks.voxels, voxel, band, q).value /
+                                     (edge * edge * edge));
+  }
+
+  /// Every path that ends in a voxel reads it in all bands: from sums of 128 bits that takes longer
+  /// than to trace the path. Where there are too many voxels for that, they are read as they are
+  /// asked for.
+  void fill_voxels() {
+    const size_t bytes = gas_.size() * voxel_values * (bands_ * sizeof(float) + sizeof(Estimate));
+    if (bytes > max_voxel_table_bytes) return;
+    voxels_.resize(gas_.size() * bands_ * voxel_values);
+    voxel_errors_.resize(gas_.size() * voxel_values);
+    constexpr size_t per_row = 1024;  // voxels
+    const auto fill_row = [&](int64_t row) {
+      const size_t first = static_cast<size_t>(row) * per_row;
+      for (size_t voxel = first; voxel < std::min(gas_.size(), first + per_row); ++voxel) {
+        if (!gas_[voxel]) continue;
+        const auto bin = static_cast<uint32_t>(voxel);
+        for (size_t b = 0; b < bands_; ++b)
+          read_voxel(bin, static_cast<int>(b), &voxels_[voxel_values * (voxel * bands_ + b)]);
+        for (uint32_t q = 0; q < voxel_values; ++q)
+          voxel_errors_[voxel_values * voxel + q] = readout_.lumens(scene_.blocks.voxels, bin, q);
+      }
+    };
+    parallel_for(static_cast<int64_t>((gas_.size() + per_row - 1) / per_row), run_threads_,
+                 [&] { return fill_row; });
   }
 
   void fill_triangle(const TriangleRecord& t) {
@@ -172,10 +216,13 @@ class FluxRadiance final : public KnownRadiance {
 
   const CompiledScene& scene_;
   const Readout readout_;
+  int run_threads_;
   size_t bands_;
   std::vector<float> table_;         // of patches, by band
   std::vector<float> patch_errors_;  // relative, of all bands together
   std::vector<bool> gas_;            // by voxel; empty without voxels
+  std::vector<float> voxels_;  // voxel_values by voxel and band; empty where they are too many
+  std::vector<Estimate> voxel_errors_;  // [lm m], voxel_values by voxel
 };
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "runtime/core/atomic_file.hpp"
 #include "scenes/vision/picture.hpp"
 #include "scenes/vision/regression_filter.hpp"
+#include "scenes/vision/tone.hpp"
 
 namespace luxodus {
 
@@ -41,7 +42,8 @@ struct PictureOptions {
   /// End paths in the run's flux. Without it they are traced to their end: slower and noisier, free
   /// of the patches' size. A run that has traced nothing has no flux to end in.
   bool gather = true;
-  bool raw = false;  // PNG files show light as traced, instead of filtered
+  bool raw = false;      // PNG files show light as traced, instead of filtered
+  DisplayModel display;  // the monitor that human views are made for
   /// When it is set, what is under way ends within a pixel, and pictures that are not whole are not
   /// written. Null: nobody interrupts.
   const std::atomic<bool>* interrupt = nullptr;

@@ -130,7 +130,7 @@ class GrowingViews {
       if (int64_t{view.camera.width} * view.camera.height < min_first_pixels) continue;
       interrupted_ |= !view.passes.add_first(min_step, options_);
       if (interrupted_) return {};
-      const ShownView half(view.passes.first_picture(), min_step, options_.raw, run_.threads());
+      const ShownView half(view.passes.first_picture(), min_step, options_, run_.threads());
       if (auto ok = write_first_view(view.stem, run_, view.camera, half); !ok) return ok;
     }
     written_s_ = watch_.seconds();
@@ -190,7 +190,7 @@ class GrowingViews {
       if (paths == 0 || paths == view.written_paths) continue;
       shown.emplace_back(
           std::piecewise_construct, std::forward_as_tuple(&view),
-          std::forward_as_tuple(view.passes.picture(), paths, options_.raw, run_.threads()));
+          std::forward_as_tuple(view.passes.picture(), paths, options_, run_.threads()));
       view.error = shown.back().second.error();
       view.written_paths = paths;
     }

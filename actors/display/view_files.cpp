@@ -1,6 +1,8 @@
 // From traced pictures to files.
 #include "actors/display/view_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,6 +58,11 @@ void add_features(ExrImage& image, const NoisyPicture& noisy) {
   }
 }
 
+/// Angle of view of a pixel in the middle, from bottom to top.
+double degrees_per_pixel(const Camera& camera) {
+  return glm::degrees(2 * std::tan(glm::radians(camera.vertical_fov_deg) / 2) / camera.height);
+}
+
 ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view) {
   const TracedPicture& traced = view.traced;
   const FilteredView* filtered = view.filtered ? &*view.filtered : nullptr;
@@ -100,7 +107,10 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view
           "N: normal; nearness: 1/m; transmittance of smoke up to the surface; albedo: relative to "
           "white.");
   image.numbers = {{"paths_per_pixel", static_cast<double>(view.paths)},
-                   {"particles", static_cast<double>(run.particles())}};
+                   {"particles", static_cast<double>(run.particles())},
+                   {"display_white_cd_m2", view.display.white_cd_m2},
+                   {"display_black_cd_m2", view.display.black_cd_m2},
+                   {"degrees_per_pixel", degrees_per_pixel(camera)}};
   return image;
 }
 
@@ -173,13 +183,20 @@ FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera, cons
 }
 
 /// What an eye before the picture sees.
-PngImage human_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced) {
+PngImage human_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced,
+                   const DisplayModel& display) {
   HumanTone human;
-  human.degrees_per_pixel =
-      glm::degrees(2 * std::tan(glm::radians(camera.vertical_fov_deg) / 2) / camera.height);
-  return png_of(tone_human(balanced, human), texts_of(run, camera),
-                "What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko 1997), shown "
-                "on a monitor of 200 cd/m2; luminance data is in the EXR file");
+  human.display = display;
+  human.degrees_per_pixel = degrees_per_pixel(camera);
+  std::vector<ImageText> texts = texts_of(run, camera);
+  texts.emplace_back("Display white [cd/m2]", fmt::format("{:g}", display.white_cd_m2));
+  texts.emplace_back("Display black [cd/m2]", fmt::format("{:g}", display.black_cd_m2));
+  texts.emplace_back("Degrees per pixel", fmt::format("{:.6g}", human.degrees_per_pixel));
+  return png_of(tone_human(balanced, human), texts,
+                fmt::format("What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko "
+                            "1997), shown on a monitor of {:g} cd/m2; luminance data is in the EXR "
+                            "file",
+                            display.white_cd_m2));
 }
 
 PngImage plain_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced) {
@@ -212,10 +229,11 @@ XyzPicture enlarged(const XyzPicture& half, int width, int height) {
 
 }  // namespace
 
-ShownView::ShownView(TracedPicture picture, int paths_per_pixel, bool wants_raw, int threads)
-    : traced(std::move(picture)), paths(paths_per_pixel) {
+ShownView::ShownView(TracedPicture picture, int paths_per_pixel, const PictureOptions& options,
+                     int threads)
+    : traced(std::move(picture)), paths(paths_per_pixel), display(options.display) {
   if (paths >= min_filtered_paths) filtered = filter_traced(traced, threads);
-  raw = wants_raw || !filtered;
+  raw = options.raw || !filtered;
 }
 
 double ShownView::error() const {
@@ -223,17 +241,23 @@ double ShownView::error() const {
              : relative_error(filtered->light, filtered->standard_error_y);
 }
 
+Result<void> write_shown_png(const std::filesystem::path& file, bool human, const LocalRun& run,
+                             const Camera& camera, const ShownView& view) {
+  const XyzPicture balanced = white_balanced(run.scene(), view.shown());
+  return write_png(file, human ? human_png(run, camera, balanced, view.display)
+                               : plain_png(run, camera, balanced));
+}
+
 Result<void> write_view_file(const std::filesystem::path& stem, ViewFile file, const LocalRun& run,
                              const Camera& camera, const ShownView& view) {
   const auto path = [&](const char* ending) { return std::filesystem::path(stem) += ending; };
-  const auto balanced = [&] { return white_balanced(run.scene(), view.shown()); };
   switch (file) {
     case ViewFile::light:
       return write_exr(path(".exr"), exr_of(run, camera, view));
     case ViewFile::plain:
-      return write_png(path(".png"), plain_png(run, camera, balanced()));
+      return write_shown_png(path(".png"), false, run, camera, view);
     case ViewFile::human:
-      return write_png(path("_human.png"), human_png(run, camera, balanced()));
+      return write_shown_png(path("_human.png"), true, run, camera, view);
     case ViewFile::luminance:
       break;
   }

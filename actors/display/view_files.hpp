@@ -11,8 +11,9 @@ namespace luxodus {
 
 /// A picture with all that its files hold.
 struct ShownView {
-  /// Filters it, where it has the paths for that. `raw`: PNG files show what was traced.
-  ShownView(TracedPicture picture, int paths_per_pixel, bool wants_raw, int threads);
+  /// Filters it, where it has the paths for that. `options`: whether PNG files show what was
+  /// traced, and on what monitor.
+  ShownView(TracedPicture picture, int paths_per_pixel, const PictureOptions& options, int threads);
 
   /// As PNG files show it.
   const XyzPicture& shown() const { return raw ? traced.light : filtered->light; }
@@ -22,6 +23,7 @@ struct ShownView {
   int paths;                             // per pixel
   std::optional<FilteredView> filtered;  // nothing where there are too few paths
   bool raw;
+  DisplayModel display;
 };
 
 /// In the order of `view_endings`.
@@ -31,6 +33,10 @@ inline constexpr size_t view_file_count = 4;
 /// Writes one file of a camera; `stem` is its path without ending. A luminance map is left out
 /// where it is too large (is_mapped). Errors: as write_exr and write_png.
 Result<void> write_view_file(const std::filesystem::path& stem, ViewFile file, const LocalRun& run,
+                             const Camera& camera, const ShownView& view);
+
+/// Writes what PNG files show, as a camera takes it or as an eye sees it. Errors: as write_png.
+Result<void> write_shown_png(const std::filesystem::path& file, bool human, const LocalRun& run,
                              const Camera& camera, const ShownView& view);
 
 /// Writes the plain picture alone, from one of half the size.

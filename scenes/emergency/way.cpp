@@ -139,6 +139,17 @@ std::vector<Walker> walkers(const EscapeRoute& route, double spacing_m) {
   return out;
 }
 
+glm::dvec3 place_along(const EscapeRoute& route, double along_m) {
+  double before = 0;
+  for (size_t i = 1;; ++i) {
+    const glm::dvec3 from = route.path[i - 1], way = route.path[i] - from;
+    const double length = glm::length(way);
+    if (along_m <= before + length || i + 1 == route.path.size())
+      return from + way * ((along_m - before) / length);
+    before += length;
+  }
+}
+
 bool in_plan_of(const EscapeRoute& route, const glm::dvec2& place) {
   return nearest_of(route, place).first <= route.width_m / 2 + on_edge_m;
 }

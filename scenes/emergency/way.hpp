@@ -33,6 +33,10 @@ struct Walker {
 /// At most `spacing_m` apart, from the start to the end of the route.
 std::vector<Walker> walkers(const EscapeRoute& route, double spacing_m);
 
+/// Where on the centre line somebody is who has come so far; beyond its end, straight ahead of the
+/// last leg.
+glm::dvec3 place_along(const EscapeRoute& route, double along_m);
+
 /// Whether a place lies over a route or an area, or on its edge, seen from above.
 bool in_plan_of(const EscapeRoute& route, const glm::dvec2& place);
 bool in_plan_of(const AssessedArea& area, const glm::dvec2& place);

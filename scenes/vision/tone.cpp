@@ -35,6 +35,12 @@ Pixel pixel(const XyzPicture& picture, size_t i) {
   return p;
 }
 
+// Whether a pixel is light, if it be none: no number that went wrong.
+bool is_light(const XyzPicture& picture, size_t i) {
+  const float* xyz = &picture.xyz[3 * i];
+  return std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]) && xyz[1] >= 0;
+}
+
 double leading(const std::array<double, 3>& rgb) {
   return std::max({rgb[0], rgb[1], rgb[2]});
 }
@@ -219,11 +225,55 @@ Seen see(const XyzPicture& picture, const HumanTone& tone) {
   return seen;
 }
 
-// Adaptation at a pixel, bilinear between the centres of the cells, so that no cell shows as a
-// square.
-double adaptation_at(const Seen& seen, int x, int y) {
+// Sums over all pixels above and to the left: means over rectangles in four steps.
+class SummedArea {
+ public:
+  // `value(i)`: of a pixel.
+  template <class ValueOf>
+  SummedArea(int width, int height, ValueOf&& value)
+      : stride_(static_cast<size_t>(width) + 1),
+        sums_(stride_ * (static_cast<size_t>(height) + 1)) {
+    size_t i = 0;
+    for (size_t y = 1; y <= static_cast<size_t>(height); ++y) {
+      double row = 0;
+      for (size_t x = 1; x < stride_; ++x) {
+        row += value(i++);
+        sums_[y * stride_ + x] = sums_[(y - 1) * stride_ + x] + row;
+      }
+    }
+  }
+
+  // Over columns [x0, x1) and rows [y0, y1).
+  double mean(int x0, int y0, int x1, int y1) const {
+    const double sum = at(x1, y1) - at(x0, y1) - at(x1, y0) + at(x0, y0);
+    return std::max(0.0, sum / (static_cast<double>(x1 - x0) * (y1 - y0)));
+  }
+
+ private:
+  double at(int x, int y) const {
+    return sums_[static_cast<size_t>(y) * stride_ + static_cast<size_t>(x)];
+  }
+  size_t stride_;
+  std::vector<double> sums_;
+};
+
+// Means over squares of real width around a pixel, between those of the next odd widths; what lies
+// beyond the edge is left out.
+double mean_around(const SummedArea& sums, const XyzPicture& picture, int x, int y, double width) {
+  const int reach = static_cast<int>((width - 1) / 2);
+  const double more = (width - 1) / 2 - reach;
+  const auto within = [&](int r) {
+    return sums.mean(std::max(0, x - r), std::max(0, y - r), std::min(picture.width, x + r + 1),
+                     std::min(picture.height, y + r + 1));
+  };
+  return (1 - more) * within(reach) + more * within(reach + 1);
+}
+
+// A value of cells at a pixel, bilinear between the centres of the cells, so that no cell shows as
+// a square.
+double at_pixel(const Seen& seen, const std::vector<double>& by_cell, int x, int y) {
   const int wide = seen.cells_wide;
-  const int high = static_cast<int>(seen.cell_adaptation.size()) / wide;
+  const int high = static_cast<int>(by_cell.size()) / wide;
   const auto place = [&](int pixel_index, int cells) {
     const double at = (pixel_index + 0.5) / seen.cell_px - 0.5;
     return std::clamp(at, 0.0, static_cast<double>(cells - 1));
@@ -233,12 +283,40 @@ double adaptation_at(const Seen& seen, int x, int y) {
   const int j = std::min(static_cast<int>(v), std::max(0, high - 2));
   const double fu = u - i, fv = v - j;
   const auto m = [&](int a, int b) {
-    return seen
-        .cell_adaptation[static_cast<size_t>(std::min(b, high - 1)) * static_cast<size_t>(wide) +
-                         static_cast<size_t>(std::min(a, wide - 1))];
+    return by_cell[static_cast<size_t>(std::min(b, high - 1)) * static_cast<size_t>(wide) +
+                   static_cast<size_t>(std::min(a, wide - 1))];
   };
   return (1 - fv) * ((1 - fu) * m(i, j) + fu * m(i + 1, j)) +
          fv * ((1 - fu) * m(i, j + 1) + fu * m(i + 1, j + 1));
+}
+
+// The picture as an eye resolves it: each pixel is the mean over the finest spot, half a cycle of
+// the finest grating, of an eye that is adapted to its degree of view.
+XyzPicture as_resolved(const XyzPicture& picture, const Seen& seen, double degrees_per_pixel) {
+  const auto spot_px = [&](int x, int y) {
+    const double adaptation = at_pixel(seen, seen.cell_luminance, x, y);
+    return 0.5 / (visual_acuity_cycles_per_degree(adaptation) * degrees_per_pixel);
+  };
+  const double darkest = *std::min_element(seen.cell_luminance.begin(), seen.cell_luminance.end());
+  if (0.5 / (visual_acuity_cycles_per_degree(darkest) * degrees_per_pixel) <= 1) return picture;
+  std::vector<SummedArea> sums;
+  for (const size_t c : {size_t{0}, size_t{1}, size_t{2}})
+    sums.emplace_back(picture.width, picture.height,
+                      [&](size_t i) { return pixel(picture, i).xyz[c]; });
+  if (!picture.scotopic.empty())
+    sums.emplace_back(picture.width, picture.height,
+                      [&](size_t i) { return seen.pixel_scotopic[i]; });
+  XyzPicture out = picture;
+  size_t i = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x, ++i) {
+      const double width = spot_px(x, y);
+      if (width <= 1 || !is_light(picture, i)) continue;
+      for (size_t c = 0; c < sums.size(); ++c)
+        (c < 3 ? out.xyz[3 * i + c] : out.scotopic[i]) =
+            static_cast<float>(mean_around(sums[c], picture, x, y, width));
+    }
+  return out;
 }
 
 }  // namespace
@@ -323,10 +401,23 @@ ToneCurve human_curve(const std::vector<double>& adaptation_cd_m2, const Display
   return curve;
 }
 
-SrgbPicture tone_human(const XyzPicture& picture, const HumanTone& tone) {
-  SrgbPicture out = empty_like(picture);
-  if (picture.pixels() == 0) return out;
-  const Seen seen = see(picture, tone);
+double visual_acuity_cycles_per_degree(double adaptation_cd_m2) {
+  const double l = std::log10(std::max(adaptation_cd_m2, darkest_cd_m2));
+  return 17.25 * std::atan(1.4 * l + 0.35) + 25.72;
+}
+
+SrgbPicture tone_human(const XyzPicture& whole, const HumanTone& tone) {
+  SrgbPicture out = empty_like(whole);
+  if (whole.pixels() == 0) return out;
+  Seen seen = see(whole, tone);
+  XyzPicture picture = whole;
+  if (tone.lose_acuity && tone.degrees_per_pixel > 0) {
+    picture = as_resolved(whole, seen, tone.degrees_per_pixel);
+    // Cells stay what they were: adaptation is taken before the blur.
+    const Seen resolved = see(picture, tone);
+    seen.pixel_photopic = resolved.pixel_photopic;
+    seen.pixel_scotopic = resolved.pixel_scotopic;
+  }
   const ToneCurve curve = human_curve(seen.cell_luminance, tone.display);
   const double black = tone.display.black_cd_m2;
   const double range = tone.display.white_cd_m2 - black;
@@ -335,7 +426,7 @@ SrgbPicture tone_human(const XyzPicture& picture, const HumanTone& tone) {
       const size_t i =
           static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(x);
       Pixel p = pixel(picture, i);
-      const double m = adaptation_at(seen, x, y);
+      const double m = at_pixel(seen, seen.cell_adaptation, x, y);
       const double l = mesopic_luminance_adapted(seen.pixel_photopic[i], seen.pixel_scotopic[i], m);
       if (tone.lose_colour && p.luminance > 0) {
         // Rods see no colour: the cones' share of the adaptation is the share of the colour kept.

@@ -1,10 +1,10 @@
 // Tone reproduction: from the light of a picture (XYZ, cd/m2) to the bytes a monitor shows. `plain`
 // is a camera: one exposure, one shoulder. `human` shows what an adapted eye could tell apart:
 // histogram adjustment with human contrast limits (Ward Larson, Rushmeier and Piatko, "A visibility
-// matching tone reproduction operator for high dynamic range scenes", IEEE TVCG 3(4), 1997) and the
-// loss of colour at low light (CIE 191). It blurs nothing and adds no veil: glare belongs to the
-// light that reaches the eye and is computed elsewhere. Nothing is judged from these pictures: a
-// sign is judged from luminance data. Pure functions; any thread.
+// matching tone reproduction operator for high dynamic range scenes", IEEE TVCG 3(4), 1997), their
+// loss of acuity in the dark, and the loss of colour at low light (CIE 191). It adds no veil: glare
+// belongs to the light that reaches the eye and is computed elsewhere. Nothing is judged from these
+// pictures: a sign is judged from luminance data. Pure functions; any thread.
 #pragma once
 
 #include <optional>
@@ -51,7 +51,12 @@ struct HumanTone {
   /// fovea.
   double degrees_per_pixel = 0.1;
   bool lose_colour = true;  // desaturate by mesopic and scotopic adaptation
+  bool lose_acuity = true;  // blur what an eye as dark-adapted does not resolve
 };
+
+/// Finest grating that an eye adapted to this luminance [cd/m2] resolves [cycles per degree]:
+/// Shlaer 1937, as fitted by Ward Larson et al. 1997, eq. 15.
+double visual_acuity_cycles_per_degree(double adaptation_cd_m2);
 
 /// Smallest difference [cd/m2] that an eye adapted to this luminance [cd/m2] sees: Ferwerda et al.
 /// 1996, lower envelope of rods and cones, as stated in Ward Larson et al. 1997, table 1.

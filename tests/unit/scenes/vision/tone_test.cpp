@@ -251,3 +251,170 @@ TEST_CASE("adaptation is taken over a degree of view", "[vision][tone]") {
   const Rgb8 lit = at(tone_human(p, coarse), 64 * 32 + 31);
   CHECK(spread(lit) > 60);
 }
+
+// ---- the published operator, on test patterns
+// ----------------------------------------------------
+
+namespace {
+
+// Adaptation luminances of views that an operator meets.
+std::vector<std::vector<double>> test_patterns() {
+  std::vector<std::vector<double>> patterns;
+  patterns.push_back(even_logs(1e-4, 1e4, 2000));  // a ramp over eight decades
+  // A dark room with a window: two levels, four decades apart.
+  std::vector<double> window = even_logs(0.02, 0.2, 900);
+  for (const double l : even_logs(500, 5000, 100)) window.push_back(l);
+  patterns.push_back(window);
+  // A crowded middle with long tails.
+  std::vector<double> crowd = even_logs(1e-3, 3e3, 100);
+  for (const double l : even_logs(0.8, 1.2, 3000)) crowd.push_back(l);
+  patterns.push_back(crowd);
+  return patterns;
+}
+
+const std::array<DisplayModel, 3> displays{DisplayModel{100, 0.5}, DisplayModel{200, 1},
+                                           DisplayModel{1000, 0.01}};
+
+// A grating of bars two pixels wide, with its upper half of the picture blank at the same mean.
+XyzPicture grating(double mean_cd_m2) {
+  std::vector<double> lights;
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 48; ++x)
+      lights.push_back(y < 24 ? mean_cd_m2 : mean_cd_m2 * (x / 2 % 2 == 0 ? 1.6 : 0.4));
+  XyzPicture p = row(lights);
+  p.width = p.height = 48;
+  return p;
+}
+
+// Michelson contrast of the grating as it is shown, far from edges.
+double shown_contrast(const SrgbPicture& p) {
+  double low = 1, high = 0;
+  for (size_t x = 16; x < 32; ++x) {
+    const double l = luminance(at(p, 48 * 38 + x));
+    low = std::min(low, l);
+    high = std::max(high, l);
+  }
+  return (high - low) / (high + low);
+}
+
+}  // namespace
+
+TEST_CASE("on every monitor the human curve is monotone, and ends at its black and its white",
+          "[vision][tone]") {
+  for (const DisplayModel& display : displays)
+    for (const std::vector<double>& pattern : test_patterns()) {
+      const ToneCurve curve = human_curve(pattern, display);
+      double before = 0;
+      for (const double l : even_logs(1e-5, 1e5, 1000)) {
+        const double shown = curve.display(l);
+        CHECK(shown >= before);
+        CHECK(shown <= display.white_cd_m2 * (1 + 1e-9));
+        before = shown;
+      }
+      if (curve.linear) continue;
+      CHECK(curve.display(std::exp(curve.log_world.front())) == Approx(display.black_cd_m2));
+      CHECK(curve.display(1e5) == Approx(display.white_cd_m2));
+    }
+}
+
+TEST_CASE("on no monitor a pattern is shown with more contrast than an eye sees in it",
+          "[vision][tone]") {
+  for (const DisplayModel& display : displays)
+    for (const std::vector<double>& pattern : test_patterns()) {
+      const ToneCurve curve = human_curve(pattern, display);
+      if (curve.linear) continue;
+      for (size_t k = 1; k < curve.log_world.size(); ++k) {
+        const double w = std::exp(0.5 * (curve.log_world[k] + curve.log_world[k - 1]));
+        const double d = std::exp(0.5 * (curve.log_display[k] + curve.log_display[k - 1]));
+        const double slope = (curve.log_display[k] - curve.log_display[k - 1]) /
+                             (curve.log_world[k] - curve.log_world[k - 1]) * d / w;
+        // The trimming stops within its tolerance.
+        CHECK(slope <= 1.1 * threshold_difference_cd_m2(d) / threshold_difference_cd_m2(w));
+      }
+    }
+}
+
+TEST_CASE("a grey ramp is shown as a ramp", "[vision][tone]") {
+  std::vector<double> lights;
+  for (int y = 0; y < 8; ++y)
+    for (const double l : even_logs(1e-4, 1e3, 256)) lights.push_back(l);
+  XyzPicture p = row(lights);
+  p.width = 256;
+  p.height = 8;
+  for (const DisplayModel& display : displays) {
+    HumanTone tone;
+    tone.display = display;
+    const SrgbPicture out = tone_human(p, tone);
+    for (size_t x = 1; x < 256; ++x) CHECK(at(out, 4 * 256 + x).g >= at(out, 4 * 256 + x - 1).g);
+    CHECK(at(out, 4 * 256 + 255).g > at(out, 4 * 256).g + 100);
+  }
+}
+
+TEST_CASE("acuity is 50 cycles a degree in daylight and falls to a few in the dark",
+          "[vision][tone]") {
+  // S. Shlaer 1937, as Ward Larson et al. 1997 plot it.
+  CHECK(visual_acuity_cycles_per_degree(1000) == Approx(49).margin(2));
+  CHECK(visual_acuity_cycles_per_degree(1) == Approx(31.5).margin(2));
+  CHECK(visual_acuity_cycles_per_degree(0.001) == Approx(3).margin(1));
+  double before = 0;
+  for (const double l : even_logs(1e-7, 1e5, 200)) {
+    const double acuity = visual_acuity_cycles_per_degree(l);
+    CHECK(acuity > 0);
+    CHECK(acuity >= before);
+    before = acuity;
+  }
+}
+
+TEST_CASE("a grating that the eye resolves in the light fades in the dark", "[vision][tone]") {
+  // Bars of 0.06 degrees: 8.3 cycles a degree.
+  HumanTone eye;
+  eye.degrees_per_pixel = 0.03;
+  HumanTone sharp = eye;
+  sharp.lose_acuity = false;
+  const auto kept = [&](double mean) {
+    return shown_contrast(tone_human(grating(mean), eye)) /
+           shown_contrast(tone_human(grating(mean), sharp));
+  };
+  CHECK(tone_human(grating(100), eye).rgb == tone_human(grating(100), sharp).rgb);
+  CHECK(tone_human(grating(1), eye).rgb == tone_human(grating(1), sharp).rgb);
+  const double dusk = kept(0.05), night = kept(0.02), darkest = kept(0.004);
+  INFO("contrast kept: " << dusk << ", " << night << ", " << darkest);
+  CHECK(dusk < 0.95);
+  CHECK(night < 0.85 * dusk);
+  CHECK(darkest < 0.5 * night);
+}
+
+TEST_CASE("what an eye does not resolve keeps its mean, and an even field stays as it is",
+          "[vision][tone]") {
+  HumanTone eye;
+  eye.degrees_per_pixel = 0.03;
+  HumanTone sharp = eye;
+  sharp.lose_acuity = false;
+  XyzPicture even = row(std::vector<double>(32 * 32, 0.004), {0.3, 1, 0.5});
+  even.width = even.height = 32;
+  even.scotopic.assign(32 * 32, 0.008f);
+  CHECK(tone_human(even, eye).rgb == tone_human(even, sharp).rgb);
+  // The blank half has the grating's mean.
+  const SrgbPicture out = tone_human(grating(0.004), eye);
+  double sum = 0;
+  for (size_t x = 16; x < 32; ++x) sum += luminance(at(out, 48 * 38 + x)) / 16;
+  CHECK(sum == Approx(luminance(at(out, 48 * 10 + 24))).epsilon(0.1));
+}
+
+TEST_CASE("colours fade steadily as cones give way to rods", "[vision][tone]") {
+  HumanTone sharp;
+  sharp.lose_acuity = false;
+  double before = 1;
+  for (const double level : {10.0, 1.0, 0.1, 0.03, 0.01, 0.001}) {
+    const Rgb8 c = at(tone_human(row({level / 2, level, level * 2}, {0.1, 1, 0.3}), sharp), 1);
+    const std::array<double, 3> rgb{test::linear_of_srgb_byte(c.r), test::linear_of_srgb_byte(c.g),
+                                    test::linear_of_srgb_byte(c.b)};
+    const double least = *std::min_element(rgb.begin(), rgb.end());
+    const double most = *std::max_element(rgb.begin(), rgb.end());
+    REQUIRE(most > 0);
+    const double saturation = 1 - least / most;
+    CHECK(saturation <= before + 0.03);  // bytes
+    before = saturation;
+  }
+  CHECK(before < 0.1);
+}

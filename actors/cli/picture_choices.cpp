@@ -1,4 +1,4 @@
-#include "actors/cli/picture_limits.hpp"
+#include "actors/cli/picture_choices.hpp"
 
 #include <fmt/format.h>
 
@@ -26,38 +26,50 @@ std::string paths_text(int paths) {
 
 }  // namespace
 
-std::vector<Option> options_of(PictureLimits& limits, const char* paths_name) {
+std::vector<Option> options_of(PictureChoices& choices, const char* paths_name) {
   return {{paths_name,
-           &limits.paths,
+           &choices.paths,
            "Number of paths per pixel at most",
            {.otherwise = "32; with --picture-time or --picture-error 65536",
-            .range = Range{1, luxodus::limits::max_paths_per_pixel}}},
+            .range = Range{1, limits::max_paths_per_pixel}}},
           {"--picture-time",
-           &limits.time,
+           &choices.time,
            "Time for all pictures together, after which no more paths are added, e.g. 60s",
            {.form = Form::duration, .otherwise = "none"}},
           {"--picture-error",
-           &limits.error,
+           &choices.error,
            "Error at which pictures end: the root mean square over pixels of the relative standard "
            "error of luminance, of the worst picture as PNG files show it, e.g. 10%",
-           {.form = Form::share, .otherwise = "none"}}};
+           {.form = Form::share, .otherwise = "none"}},
+          {"--display-white",
+           &choices.display.white_cd_m2,
+           "Luminance of white on the monitor that NAME_human.png is made for [cd/m2]",
+           {.range = Range{1, 1e5}}},
+          {"--display-black",
+           &choices.display.black_cd_m2,
+           "Luminance of its black, with the light of the room that it reflects [cd/m2]",
+           {.range = Range{1e-4, 1e3}}}};
 }
 
-Result<void> read_limits(const PictureLimits& limits, PictureOptions& picture) {
-  if (!limits.time.empty()) {
-    const auto time = parse_seconds(limits.time);
+Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture) {
+  if (!choices.time.empty()) {
+    const auto time = parse_seconds(choices.time);
     if (!time) return of_option("--picture-time", time.problem());
     picture.max_seconds = time.value();
   }
-  if (!limits.error.empty()) {
-    const auto error = parse_share(limits.error);
+  if (!choices.error.empty()) {
+    const auto error = parse_share(choices.error);
     if (!error) return of_option("--picture-error", error.problem());
     picture.target_error = error.value();
   }
-  if (limits.paths)
-    picture.paths_per_pixel = static_cast<int>(*limits.paths);
+  picture.display = choices.display;
+  if (!(choices.display.white_cd_m2 > choices.display.black_cd_m2))
+    return problem(fmt::format("--display-white {:g} must be above --display-black {:g}",
+                               choices.display.white_cd_m2, choices.display.black_cd_m2));
+  if (choices.paths)
+    picture.paths_per_pixel = static_cast<int>(*choices.paths);
   else if (picture.max_seconds > 0 || picture.target_error > 0)
-    picture.paths_per_pixel = luxodus::limits::max_paths_per_pixel;
+    picture.paths_per_pixel = limits::max_paths_per_pixel;
   return {};
 }
 

@@ -1,5 +1,5 @@
-// How long pictures are refined: options of `luxodus run` and `luxodus render`, and what is said of
-// pictures on the way. One thread.
+// How long pictures are refined and on what monitor they are shown: options of `luxodus run` and
+// `luxodus render`; and what is said of pictures on the way. One thread.
 #pragma once
 
 #include <optional>
@@ -12,17 +12,19 @@
 
 namespace luxodus::cli {
 
-struct PictureLimits {
+struct PictureChoices {
   std::optional<uint64_t> paths;
   std::string time, error;
+  DisplayModel display;
 };
 
-/// `paths_name`: of the option that counts paths. Requires: `limits` outlives them.
-std::vector<Option> options_of(PictureLimits& limits, const char* paths_name);
+/// `paths_name`: of the option that counts paths. Requires: `choices` outlives them.
+std::vector<Option> options_of(PictureChoices& choices, const char* paths_name);
 
 /// Into `picture`. Without a number of paths, a time or an error alone ends pictures.
-/// Errors: a time or a share that is none, or not above 0.
-Result<void> read_limits(const PictureLimits& limits, PictureOptions& picture);
+/// Errors: a time or a share that is none, or not above 0; a monitor whose white is not above its
+/// black.
+Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture);
 
 /// "34 %, 12 paths, error 18 %, about 40 s left".
 void show_pictures(ProgressLine& line, const PictureProgress& progress);

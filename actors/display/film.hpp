@@ -1,0 +1,53 @@
+// Films: what somebody sees who walks a route, frame by frame, from the flux of one run. A frame is
+// the filtered picture of a camera, with that camera's own exposure. One call at a time per run.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "actors/display/pictures.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// An hour and more at 24 frames a second.
+inline constexpr int max_film_frames = 100'000;
+}  // namespace limits
+
+struct Walk {
+  double speed_m_s = 1;
+  double frames_per_s = 12;
+  double eye_height_m = 1.6;  // above the route's centre line
+};
+
+/// A camera for each frame, from the start of a route to its end, `speed_m_s` / `frames_per_s`
+/// apart along its centre line. Who walks looks where he is going to be in 1.5 m, so that he turns
+/// before a corner. `lens`: whose size and angle of view they have.
+/// Errors: more than limits::max_film_frames; they name the route.
+Result<std::vector<Camera>> cameras_of(const EscapeRoute& route, const Walk& walk,
+                                       const Camera& lens);
+
+struct Film {
+  std::vector<Camera> cameras;
+  bool human = false;  // as an adapted eye sees it, instead of one exposure
+};
+
+/// A frame's file within its folder: "000041.png".
+std::string name_of_frame(size_t frame);
+
+/// Renders the frames into `folder` (made if missing); frames of an earlier film there are removed
+/// first. Returns how many are there: fewer than cameras where it was interrupted. All frames have
+/// the random numbers of the scene's first camera: one that stands where that does is its picture,
+/// bit for bit. `progress`: frames that are done, the one under way by its share.
+/// Errors: as write_png; a folder that cannot be made.
+Result<size_t> render_film(const std::filesystem::path& folder, const LocalRun& run,
+                           const Film& film, const PictureOptions& options,
+                           const std::function<void(double frames)>& progress);
+
+/// Has ffmpeg make a film (H.264, MP4) of the first `frames` of a folder. False where there is no
+/// ffmpeg on the path. Errors: it fails; the file cannot be put into its place.
+Result<bool> write_video(const std::filesystem::path& file, const std::filesystem::path& folder,
+                         size_t frames, double frames_per_s);
+
+}  // namespace luxodus

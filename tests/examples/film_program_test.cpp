@@ -1,0 +1,140 @@
+// Films and pictures that grow, as typed on a command line.
+#include <catch2/catch.hpp>
+
+#include "tests/examples/program_kit.hpp"
+#include "tests/kit/room_texts.hpp"
+
+using namespace luxodus::program;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string walked_room =
+    "title = \"A room\"\npatch_edge_m = 1\n" + luxodus::test::white_room("[5, 4, 3]") + R"(
+[[emitter]]
+name = "lamp"
+shape = "rectangle"
+position = [2.5, 2, 2.9]
+size = [0.6, 0.6]
+flux_lm = 3000
+[[route]]
+name = "to the door"
+path = [[1, 2, 0], [4, 2, 0]]
+width = 1.2
+[[route]]
+name = "along the wall"
+path = [[1, 1, 0], [1, 3, 0]]
+width = 1.2
+[[camera]]
+name = "small"
+eye = [0.3, 0.3, 1.6]
+target = [3, 2.4, 1.6]
+width = 16
+height = 10
+)";
+
+/// A room with a run in it.
+struct WalkedRoom : ScenePlace {
+  WalkedRoom() : ScenePlace("room.toml", walked_room) {
+    REQUIRE(run("--particles 20k --no-views").code == 0);
+  }
+  Outcome render(const std::string& options, const std::string& under = "") const {
+    return luxodus("render " + out.string() + " " + options, under);
+  }
+};
+
+/// At two frames a second, with few paths.
+const std::string walk = "--route \"to the door\" --view small --fps 2 --paths 4";
+
+}  // namespace
+
+TEST_CASE("a film is frames, and says so where there is no ffmpeg", "[program][film]") {
+  const WalkedRoom place;
+  const Outcome made = place.render(walk, "env PATH=/nowhere ");
+  INFO(made.err);
+  CHECK(made.code == 0);
+  CHECK_THAT(made.err, Contains("7 frames"));
+  CHECK_THAT(made.err, Contains("no ffmpeg"));
+  const fs::path frames = place.out / "films/to_the_door";
+  CHECK(fs::exists(frames / "000006.png"));
+  CHECK_FALSE(fs::exists(frames / "000007.png"));
+  CHECK_FALSE(fs::exists(place.out / "films/to_the_door.mp4"));
+  CHECK_FALSE(fs::exists(place.out / "views"));
+}
+
+TEST_CASE("ffmpeg makes a film of the frames, and a film that fails is an error",
+          "[program][film]") {
+  const WalkedRoom place;
+  const fs::path tools = place.folder / "tools";
+  fs::create_directory(tools);
+  // Stands for ffmpeg: writes what it was told into the file that it was to make.
+  const auto install = [&](const std::string& last_line) {
+    std::ofstream(tools / "ffmpeg") << "#!/bin/sh\nfor last; do :; done\necho \"$@\" > \"$last\"\n"
+                                    << last_line << "\n";
+    fs::permissions(tools / "ffmpeg", fs::perms::owner_all);
+  };
+  const std::string with_tools = "env PATH=" + tools.string() + ":/usr/bin:/bin ";
+  install("exit 3");
+  const Outcome failed = place.render(walk, with_tools);
+  CHECK(failed.code == 2);
+  CHECK_THAT(failed.err, Contains("ffmpeg failed with code 3"));
+  CHECK_FALSE(fs::exists(place.out / "films/to_the_door.mp4"));
+  install("exit 0");
+  CHECK(place.render(walk, with_tools).code == 0);
+  const std::string told = slurp(place.out / "films/to_the_door.mp4");
+  CHECK_THAT(told, Contains("-framerate 2 "));
+  CHECK_THAT(told, Contains("-frames:v 7 "));
+  CHECK_THAT(told, Contains("films/to_the_door/%06d.png"));
+}
+
+TEST_CASE("a film that cannot be made is refused with one clear error", "[program][film]") {
+  const WalkedRoom place;
+  const auto refused = [&](const std::string& options, const std::string& why) {
+    const Outcome outcome = place.render(options);
+    INFO(options << "\n" << outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains(why));
+    CHECK_FALSE(fs::exists(place.out / "films"));
+  };
+  refused("--route cellar", "there are: \"to the door\", \"along the wall\"");
+  refused("--route \"to the door\" --speed 0", "--speed");
+  refused("--route \"to the door\" --fps -1", "--fps");
+  refused("--route \"to the door\" --speed 0.01 --fps 240 --paths 1", "frames");
+  refused("--route \"to the door\" --view nowhere", "there is no camera \"nowhere\"");
+  refused("--route \"to the door\" --picture-time 5s", "excludes --picture-time");
+  refused("--speed 2", "--route");
+  fs::remove(place.out / "flux.lux");
+  refused("--route \"to the door\" --paths 1 --fps 1", "flux.lux");
+}
+
+TEST_CASE("wrong limits of pictures are refused before anything is traced", "[program][film]") {
+  const ScenePlace place("room.toml", walked_room);
+  for (const std::string wrong :
+       {"--picture-time -5", "--picture-time 0", "--picture-time soon", "--picture-error 0",
+        "--picture-error 150%", "--picture-paths 0", "--picture-paths 65537", "--display-white 0.5",
+        "--display-white 0"}) {
+    const Outcome outcome = place.run("--particles 20k " + wrong);
+    INFO(wrong << "\n" << outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains(wrong.substr(0, wrong.find(' '))));
+    CHECK_FALSE(fs::exists(place.out / "flux.lux"));
+  }
+  const ScenePlace large("room.toml", walked_room +
+                                          "[[camera]]\nname = \"large\"\n"
+                                          "eye = [1, 1, 1]\ntarget = [2, 2, 1]\n"
+                                          "width = 100000\nheight = 100000\n");
+  const Outcome too_large = large.run("--particles 20k");
+  CHECK(too_large.code == 2);
+  CHECK_THAT(too_large.err, Contains("width"));
+}
+
+TEST_CASE("pictures end by a time or an error, and say how good they are", "[program][film]") {
+  const WalkedRoom place;
+  const Outcome timed = place.render("--picture-time 1ms --threads 2");
+  CHECK(timed.code == 0);
+  CHECK_THAT(timed.err, Contains("pictures: 4 paths a pixel, error "));
+  const Outcome good = place.render("--picture-error 20%");
+  CHECK(good.code == 0);
+  CHECK_THAT(good.err, Contains(" paths a pixel, error "));
+  CHECK(fs::exists(place.out / "views/small.exr"));
+}
