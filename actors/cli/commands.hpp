@@ -11,6 +11,7 @@ Command pack_command();
 Command import_command();
 Command import_gldf_command();
 Command import_ifc_command();
+Command import_dxf_command();
 // results
 Command run_command();
 Command render_command();

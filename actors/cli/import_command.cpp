@@ -5,8 +5,8 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
-#include "actors/import/import_files.hpp"
 #include "actors/cli/load_scene.hpp"
+#include "actors/import/import_files.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "scenes/fields/fds_building.hpp"
 
@@ -120,7 +120,8 @@ Command import_command() {
   return {.name = "import",
           .summary = "Make a scene of what other programs know",
           .heading = "Scenes",
-          .commands = {std::move(fds), import_gldf_command(), import_ifc_command()}};
+          .commands = {std::move(fds), import_gldf_command(), import_ifc_command(),
+                       import_dxf_command()}};
 }
 
 }  // namespace luxodus::cli

@@ -9,6 +9,7 @@
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
 #include "actors/cli/words.hpp"
+#include "actors/import/write_plan.hpp"
 #include "actors/study/study_schema.hpp"
 #include "runtime/config/cluster_schema.hpp"
 #include "runtime/toml/words.hpp"
@@ -27,6 +28,7 @@ struct KeysOptions {
 const toml::Schema& schema_of(const std::string& kind) {
   return kind == "cluster" ? config::cluster_schema()
          : kind == "study" ? study_schema()
+         : kind == "plan"  ? plan_schema()
                            : scene_schema();
 }
 
@@ -111,12 +113,12 @@ Result<void> print_keys(const KeysOptions& options) {
 Command keys_command() {
   const auto o = std::make_shared<KeysOptions>();
   return {.name = "keys",
-          .summary = "Explain the keys of scene, cluster and study files",
+          .summary = "Explain the keys of scene, cluster, study and plan files",
           .heading = "Tools",
           .options = {{"kind",
                        &o->kind,
                        "Kind of the file",
-                       {.choices = {"scene", "cluster", "study"}, .required = true}},
+                       {.choices = {"scene", "cluster", "study", "plan"}, .required = true}},
                       {"name",
                        &o->names,
                        "Tables or keys that are shown",

@@ -8,18 +8,14 @@
 #include <set>
 
 #include "actors/import/import_files.hpp"
+#include "actors/import/own_tables.hpp"
 #include "runtime/core/atomic_file.hpp"
-#include "runtime/core/regular_file.hpp"
-#include "runtime/toml/document.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
 
 namespace luxodus {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Of materials.toml and fixtures.toml, as of every scene file.
-constexpr size_t max_table_bytes = size_t{16} << 20;
 
 /// To a tenth of a millimetre, which is what shapes are good for.
 double rounded(double metres) {
@@ -37,47 +33,6 @@ std::string axis_text(const glm::dvec3& v) {
 
 // ---- a person's tables
 // ---------------------------------------------------------------------------
-
-/// A file of tables that a person edits: what it names, and what is to be added.
-struct OwnTables {
-  fs::path file;
-  std::string text;
-  std::set<std::string> named;  // by the tables in it
-  std::string added;
-
-  /// Named by a table, or by one that is commented out.
-  bool mentions(const std::string& name) const {
-    return named.contains(name) ||
-           text.find("name = " + toml_text(name) + "\n") != std::string::npos;
-  }
-};
-
-Result<OwnTables> own_tables(const fs::path& file, std::initializer_list<const char*> kinds) {
-  OwnTables out;
-  out.file = file;
-  std::error_code failed;
-  if (!fs::exists(fs::symlink_status(file, failed))) return out;
-  auto text = read_regular_file(file, max_table_bytes);
-  if (!text) return text.problem();
-  out.text = std::move(text).value();
-  const auto document = toml::parse(out.text, file.string(), max_table_bytes);
-  if (!document) return document.problem();
-  for (const char* kind : kinds) {
-    const toml::Value* list = document->top.find(kind);
-    if (list == nullptr || list->as_list() == nullptr) continue;
-    for (const toml::Value& table : *list->as_list()) {
-      const toml::Value* name = table.as_table() ? table.as_table()->find("name") : nullptr;
-      if (name != nullptr && name->as_text()) out.named.insert(*name->as_text());
-    }
-  }
-  return out;
-}
-
-Result<void> save(const OwnTables& tables, const std::string& head) {
-  if (!tables.text.empty() && tables.added.empty()) return {};
-  const std::string text = (tables.text.empty() ? head : tables.text) + tables.added;
-  return write_file_atomically(tables.file, std::string_view(text));
-}
 
 void add_materials(const Building& building, OwnTables& tables) {
   for (const auto& [name, material] : building.materials) {
