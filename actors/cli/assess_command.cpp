@@ -23,7 +23,6 @@
 #include "actors/output/file_names.hpp"
 #include "actors/output/output_folder.hpp"
 #include "runtime/core/log.hpp"
-#include "scenes/scene_file/scene_file.hpp"
 
 namespace luxodus::cli {
 
@@ -129,16 +128,11 @@ class Estimate {
 };
 
 /// Errors: as assess_over_time.
-Result<void> add_over_time(const std::string& file, const std::vector<double>& times,
+Result<void> add_over_time(const SceneAtTime& reader, const std::vector<double>& times,
                            const AssessOptions& options, ProgressLine& line, Assessment& out) {
-  const auto scene_at = [&](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
-    ReadScene read = read_scene(file, at_s);
-    if (!read.scene) return read.problems.list().front();
-    return std::make_shared<const SceneDescription>(std::move(*read.scene));
-  };
   const Estimate estimate;
   auto over_time = assess_over_time(
-      times, scene_at, options, interrupt_flag(), [&](const std::string& what, double share) {
+      times, reader, options, interrupt_flag(), [&](const std::string& what, double share) {
         line.put(fmt::format("{}: {:.0f} %{}", what, 100 * share, estimate.left(share)), share >= 1,
                  share);
       });
@@ -181,7 +175,9 @@ Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   }
   if (asked.reality && states->times.size() > 1) {
     asked.scenario = assessed->state.scenario;
-    if (auto ok = add_over_time(options.scene, states->times, asked, line, assessed.value()); !ok) {
+    if (auto ok = add_over_time(reader_at_times(options.scene), states->times, asked, line,
+                                assessed.value());
+        !ok) {
       if (!interrupt_flag()) return ok.problem();
       log_warning("interrupted; nothing was written");
       return ExitCode::interrupted;
