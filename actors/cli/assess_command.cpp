@@ -25,7 +25,6 @@
 #include "actors/output/file_names.hpp"
 #include "actors/output/output_folder.hpp"
 #include "runtime/core/log.hpp"
-#include "scenes/scene_file/scene_file.hpp"
 
 namespace luxodus::cli {
 
@@ -110,16 +109,11 @@ class Estimate {
 };
 
 /// Errors: as assess_over_time.
-Result<void> add_over_time(const std::string& file, const std::vector<double>& times,
+Result<void> add_over_time(const SceneAtTime& reader, const std::vector<double>& times,
                            const AssessOptions& options, ProgressLine& line, Assessment& out) {
-  const auto scene_at = [&](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
-    ReadScene read = read_scene(file, at_s);
-    if (!read.scene) return read.problems.list().front();
-    return std::make_shared<const SceneDescription>(std::move(*read.scene));
-  };
   const Estimate estimate;
   auto over_time = assess_over_time(
-      times, scene_at, options, interrupt_flag(), [&](const std::string& what, double share) {
+      times, reader, options, interrupt_flag(), [&](const std::string& what, double share) {
         line.put(fmt::format("{}: {:.0f} %{}", what, 100 * share, estimate.left(share)), share >= 1,
                  share);
       });
@@ -202,7 +196,9 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
   if (job.options.reality && job.times.size() > 1) {
     AssessOptions asked = job.options;
     asked.scenario = assessed->state.scenario;
-    if (auto ok = add_over_time(job.scene_file, job.times, asked, line, assessed.value()); !ok) {
+    if (auto ok = add_over_time(reader_at_times(job.scene_file), job.times, asked, line,
+                                assessed.value());
+        !ok) {
       if (!interrupt_flag()) return ok.problem();
       log_warning("interrupted; nothing was written");
       return ExitCode::interrupted;

@@ -1,6 +1,7 @@
 // The scene that a command is about, with all its problems told.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,13 @@ enum class ReadingWarnings { told, left_to_inspection };
 std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
                                                    ReadingWarnings warnings = ReadingWarnings::told,
                                                    std::optional<double> at_s = std::nullopt);
+
+/// Reads a scene file at other times.
+std::function<Result<std::shared_ptr<const SceneDescription>>(double at_s)> reader_at_times(
+    const std::string& file);
+/// The same where the scene has a clock; empty elsewhere, and of a pack.
+std::function<Result<std::shared_ptr<const SceneDescription>>(double at_s)> reader_of_times(
+    const std::string& file, const SceneDescription& scene);
 
 /// The option --at, whose text goes to `at`.
 Option at_option(std::string& at);

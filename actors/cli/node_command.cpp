@@ -11,6 +11,7 @@
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
 #include "actors/cli/load_cluster.hpp"
+#include "actors/cli/load_scene.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/run_display.hpp"
 #include "actors/cli/serve_view.hpp"
@@ -25,8 +26,8 @@
 #include "actors/supervise/cluster_process.hpp"
 #include "actors/supervise/node_executor.hpp"
 #include "actors/view/live_states.hpp"
+#include "actors/view/timed_scenes.hpp"
 #include "runtime/core/log.hpp"
-#include "scenes/scene_file/scene_file.hpp"
 
 namespace luxodus::cli {
 
@@ -101,13 +102,15 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
                                                 ClusterProcessRun& process) {
   const LocalRun& base = process.local_run();
   const auto& scene = base.scene().description;
-  LiveStates states(scene);
+  const SceneReader scene_at = reader_of_times(cluster.run.scene.string(), *scene);
+  LiveStates states(scene, scene_at);
   NodeWork work = work_of_states(states);
   work.controller = [&](const RunSetup& run, const Machine& machine,
                         const NodeSetup& node) -> Result<StopReason> {
     auto started = NodeExecutor::start(run, machine, node);
     if (!started) return started.problem();
     HubOptions hub{{}, {}, cluster.view.save_folder.empty() ? "." : cluster.view.save_folder};
+    hub.live.scene_at = scene_at;
     hub.live.seed = base.seed();
     hub.live.threads = default_threads();
     if (cluster.run.particles) hub.live.particles = static_cast<int64_t>(*cluster.run.particles);
@@ -173,21 +176,11 @@ std::optional<AssessmentJob> assessment_of(const ClusterConfig& cluster, const L
   return job;
 }
 
-/// The scene of a cluster at a time. That of the last question is kept: several ask for it.
-SceneOfState scene_of_states(const std::shared_ptr<const SceneDescription>& base) {
-  const auto last = std::make_shared<std::shared_ptr<const SceneDescription>>(base);
-  return [last](std::optional<double> at_s) -> Result<std::shared_ptr<const SceneDescription>> {
-    if ((*last)->at_s == at_s) return *last;
-    ReadScene read = read_scene((*last)->file, at_s);
-    if (!read.scene) return read.problems.list().front();
-    *last = std::make_shared<const SceneDescription>(std::move(*read.scene));
-    return *last;
-  };
-}
-
 /// The nodes of a cluster whose file has a table [assess].
 Result<ExitCode> assess_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process) {
-  RoundStates states(scene_of_states(process.local_run().scene().description));
+  const auto& scene = process.local_run().scene().description;
+  TimedScenes scenes(scene, reader_of_times(cluster.run.scene.string(), *scene));
+  RoundStates states([&scenes](std::optional<double> at_s) { return scenes.at(at_s); });
   ExitCode code = ExitCode::success;
   NodeWork work = work_of_states(states);
   work.controller = [&](const RunSetup& run, const Machine& machine,

@@ -44,11 +44,10 @@ Moves read_moves(const Json& object) {
 }  // namespace
 
 std::string edits_text(const SceneEdits& edits) {
-  const Json object = {{"scenario", edits.scenario},
-                       {"smoke", edits.smoke},
-                       {"signs", moves_json(edits.signs)},
-                       {"luminaires", moves_json(edits.luminaires)},
-                       {"added", copies_json(edits.added)}};
+  const Json object = {
+      {"scenario", edits.scenario},        {"smoke", edits.smoke},
+      {"signs", moves_json(edits.signs)},  {"luminaires", moves_json(edits.luminaires)},
+      {"added", copies_json(edits.added)}, {"at_s", edits.at_s ? Json(*edits.at_s) : Json()}};
   return object.dump();
 }
 
@@ -64,6 +63,7 @@ Result<SceneEdits> parse_edits(std::string_view text) {
     for (const Json& one : object.at("added"))
       out.added.push_back({one.at("is_sign").get<bool>(), one.at("of").get<std::string>(),
                            one.at("name").get<std::string>()});
+    if (const Json& at = object.at("at_s"); !at.is_null()) out.at_s = at.get<double>();
     return out;
   } catch (const Json::exception& e) {
     return problem(std::string("this is no wish of a live view: ") + e.what());

@@ -33,6 +33,15 @@ Json scenarios_json(const SceneDescription& scene) {
   return out;
 }
 
+/// Which times there are, and which is shown; null where there is one state.
+Json states_json(const SceneDescription& scene, const SceneEdits& edits) {
+  if (!scene.time || !edits.at_s) return {};
+  return {{"from", scene.time->from_s},
+          {"to", scene.time->to_s},
+          {"step", scene.time->step_s},
+          {"at", *edits.at_s}};
+}
+
 double number_of(const std::map<std::string, double>& numbers, const std::string& group) {
   const auto at = numbers.find(group);
   return at == numbers.end() ? 1.0 : at->second;
@@ -140,7 +149,8 @@ Json live_scene_json(const SceneDescription& scene, const LiveGeneration& genera
           {"generation", generation.number},
           {"name", scene.name},
           {"title", scene.title},
-          {"scenarios", scenarios_json(scene)},
+          {"scenarios", scenarios_json(*compiled.description)},
+          {"states", states_json(scene, generation.edits)},
           {"scenario", compiled.scenario.name},
           {"smoke", generation.edits.smoke},
           {"seconds", dimming.seconds ? Json(*dimming.seconds) : Json()},

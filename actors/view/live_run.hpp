@@ -3,6 +3,7 @@
 // rule: one thread, which has batches traced by others.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -56,6 +57,11 @@ class LiveRun {
   /// From now on these show their own light, as it is.
   void tell(const std::vector<int>& groups);
 
+  /// All own light is news again: whoever showed it shows another state now.
+  void tell_anew() { std::fill(told_.begin(), told_.end(), 0); }
+  /// What its totals take.
+  size_t bytes() const { return own_->totals.bytes(); }
+
   ShownLight light(int group) const { return lights_[static_cast<size_t>(group)]; }
   const std::vector<ShownLight>& lights() const { return lights_; }
   int64_t groups_with(ShownLight light) const;
@@ -71,6 +77,7 @@ class LiveRun {
   double seconds() const;
 
   const CompiledScene& scene() const { return *scene_; }
+  const std::shared_ptr<const CompiledScene>& shared_scene() const { return scene_; }
   const SceneIndex& index() const { return geometry_->index; }
   const ParallelFor& rows() const { return rows_; }
 

@@ -25,6 +25,8 @@ struct SceneEdits {
     std::string of, name;
   };
   std::vector<Copy> added = {};  // in their order
+  /// Of the state, where the scene has a clock; none: as it was opened [s].
+  std::optional<double> at_s = {};
 };
 
 /// Which source group an emitter, a sign or a flame has.

@@ -10,7 +10,9 @@ Result<std::shared_ptr<const TracedState>> LiveStates::make(const std::string& e
   if (state_ && edits == edits_) return state_;
   auto parsed = parse_edits(edits);
   if (!parsed) return parsed.problem();
-  auto scene = compile_live(*scene_, parsed.value());
+  const auto described = scenes_.at(parsed->at_s);
+  if (!described) return described.problem();
+  auto scene = compile_live(*described.value(), parsed.value());
   if (!scene) return scene.problem();
   state_ = std::make_shared<TracedState>(std::move(scene).value());
   edits_ = edits;

@@ -7,19 +7,22 @@
 #include <string>
 
 #include "actors/run/scene_state.hpp"
-#include "scenes/world/description.hpp"
+#include "actors/view/timed_scenes.hpp"
 
 namespace luxodus {
 
 /// What the nodes of a process share: the last state that any of them was asked for.
 class LiveStates final : public StateMaker {
  public:
-  explicit LiveStates(std::shared_ptr<const SceneDescription> scene) : scene_(std::move(scene)) {}
-  /// Compiles it, unless it is the last. Errors: as parse_edits and compile_live.
+  /// `read`: the scene at other times, where it has a clock; may be empty.
+  explicit LiveStates(std::shared_ptr<const SceneDescription> scene, SceneReader read = {})
+      : scenes_(std::move(scene), std::move(read)) {}
+  /// Compiles it, unless it is the last. Errors: as parse_edits, TimedScenes::at and
+  /// compile_live.
   Result<std::shared_ptr<const TracedState>> make(const std::string& edits) override;
 
  private:
-  const std::shared_ptr<const SceneDescription> scene_;
+  TimedScenes scenes_;
   std::mutex mutex_;
   std::string edits_;
   std::shared_ptr<const TracedState> state_;

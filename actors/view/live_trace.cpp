@@ -1,5 +1,6 @@
 #include "actors/view/live_trace.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -48,7 +49,7 @@ LiveAnswer answer_to(const LiveQuestion& question, const LiveRun& run, const Liv
 
 LiveTrace::LiveTrace(std::shared_ptr<const SceneDescription> scene, const LiveOptions& options,
                      SceneEdits first, LiveAudience& audience)
-    : scene_(std::move(scene)),
+    : scenes_(std::move(scene), options.scene_at),
       options_(options),
       executor_(options.executor ? options.executor
                                  : std::make_shared<ThreadExecutor>(options.threads)),
@@ -123,32 +124,92 @@ StateObject LiveTrace::state_of(const SceneEdits& edits) const {
   return {options_.seed, edits_text(edits)};
 }
 
+namespace {
+
+/// Whether these are of one building, maybe at two times.
+bool same_but_for_time(SceneEdits a, const SceneEdits& b) {
+  a.at_s = b.at_s;
+  return edits_text(a) == edits_text(b);
+}
+
+}  // namespace
+
+void LiveTrace::keep(const SceneEdits& next) {
+  if (!same_but_for_time(traced_, next)) return kept_.clear();
+  size_t bytes = run_->bytes();
+  kept_.push_front({traced_, std::move(run_), geometry_, smoke_});
+  size_t stays = 1;
+  for (; stays < kept_.size() && stays < limits::kept_states; ++stays) {
+    bytes += kept_[stays].run->bytes();
+    if (bytes > limits::kept_state_bytes) break;
+  }
+  kept_.resize(stays);
+}
+
+bool LiveTrace::take_kept(const SceneEdits& edits) {
+  const auto at = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& one) {
+    return one.edits.at_s == edits.at_s && same_but_for_time(one.edits, edits);
+  });
+  if (at == kept_.end()) return false;
+  Kept taken = std::move(*at);
+  kept_.erase(at);
+  if (run_) keep(edits);
+  run_ = std::move(taken.run);
+  run_->tell_anew();
+  if (taken.geometry.frame != geometry_.frame) {
+    geometry_ = std::move(taken.geometry);
+    geometry_.frame = readdressed(geometry_.frame, generation_ + 1, 0);
+  }
+  smoke_ = taken.smoke ? readdressed(taken.smoke, generation_ + 1, 0) : nullptr;
+  return true;
+}
+
 void LiveTrace::begin(const SceneEdits& edits) {
   executor_->foresee(state_of(edits));
-  auto compiled = compile_live(*scene_, edits);
-  if (!compiled) return audience_.refuses(number_, compiled.problem().text());
-  const bool same_air = run_ && traced_.scenario == edits.scenario && traced_.smoke == edits.smoke;
+  std::shared_ptr<const std::vector<uint32_t>> triangles_before;
+  const bool again = run_ && traced_.at_s != edits.at_s && take_kept(edits);
+  if (!again && !begin_anew(edits, triangles_before)) return;
+  executor_->enter(state_of(edits));
+  traced_ = edits;
+  ++generation_;
+  refined_ = false;
+  error_ = std::numeric_limits<double>::quiet_NaN();
+  // What is kept is of another state than what is shown: no viewer has it.
+  const auto lights =
+      again ? std::vector<ShownLight>(run_->lights().size(), ShownLight::none) : run_->lights();
+  audience_.begins({generation_, edits, run_->shared_scene(), geometry_.frame, smoke_, lights,
+                    std::move(triangles_before)});
+}
+
+bool LiveTrace::begin_anew(const SceneEdits& edits,
+                           std::shared_ptr<const std::vector<uint32_t>>& triangles_before) {
+  const auto refuse = [&](const Problem& why) {
+    audience_.refuses(number_, why.text());
+    return false;
+  };
+  const auto scene = scenes_.at(edits.at_s);
+  if (!scene) return refuse(scene.problem());
+  auto compiled = compile_live(*scene.value(), edits);
+  if (!compiled) return refuse(compiled.problem());
+  const bool same_air = run_ && traced_.scenario == edits.scenario &&
+                        traced_.smoke == edits.smoke && traced_.at_s == edits.at_s;
   auto run = std::make_unique<LiveRun>(compiled.value(), options_.seed, options_.threads,
                                        run_.get(), same_air);
   const uint32_t generation = generation_ + 1;
-  std::shared_ptr<const std::vector<uint32_t>> triangles_before;
+  std::optional<LiveGeometry> other;
   if (!run->same_geometry()) {
     auto geometry = geometry_of(run->scene(), generation);
-    if (!geometry) return audience_.refuses(number_, geometry.problem().text());
+    if (!geometry) return refuse(geometry.problem());
     if (same_air && run->bins() && !run->bins()->is_same())
       triangles_before = triangles_from(geometry_.patches, geometry->patches, *run->bins());
-    geometry_ = std::move(geometry).value();
+    other = std::move(geometry).value();
   }
+  if (run_) keep(edits);
+  if (other) geometry_ = *std::move(other);
   if (!same_air || !run->same_geometry())
     smoke_ = smoke_frame(run->scene(), run->index(), generation);
   run_ = std::move(run);
-  executor_->enter(state_of(edits));
-  traced_ = edits;
-  generation_ = generation;
-  refined_ = false;
-  error_ = std::numeric_limits<double>::quiet_NaN();
-  audience_.begins({generation, edits, compiled.value(), geometry_.frame, smoke_, run_->lights(),
-                    std::move(triangles_before)});
+  return true;
 }
 
 void LiveTrace::tell(bool done) {

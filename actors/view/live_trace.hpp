@@ -5,11 +5,13 @@
 #pragma once
 
 #include <condition_variable>
+#include <deque>
 #include <mutex>
 #include <thread>
 
 #include "actors/view/frames.hpp"
 #include "actors/view/live_scene.hpp"
+#include "actors/view/timed_scenes.hpp"
 
 namespace luxodus {
 
@@ -65,10 +67,17 @@ class LiveAudience {
 struct LiveOptions {
   uint64_t seed = 1;
   int threads = 1;
-  int64_t particles = 100'000'000;            // of a generation, at most
-  double relative_error = 0.002;              // at which it ends
+  int64_t particles = 100'000'000;          // of a generation, at most
+  double relative_error = 0.002;            // at which it ends
   std::shared_ptr<Executor> executor = {};  // null: `threads` of this process
+  SceneReader scene_at = {};                // at other times; empty: there is one state
 };
+
+namespace limits {
+/// States whose light is kept while another time is shown, and what their totals may take [bytes].
+inline constexpr size_t kept_states = 8;
+inline constexpr size_t kept_state_bytes = size_t{1} << 30;
+}  // namespace limits
 
 class LiveTrace {
  public:
@@ -81,11 +90,23 @@ class LiveTrace {
 
   /// `number`: under which it is refused, if it is; the first has 0.
   void edits(SceneEdits edits, uint64_t number);
+  /// The scene at a time, as TimedScenes::at.
+  Result<std::shared_ptr<const SceneDescription>> scene_at(std::optional<double> at_s) {
+    return scenes_.at(at_s);
+  }
   void ask(LiveQuestion question);
 
  private:
   void work();
   void begin(const SceneEdits& edits);
+  /// A new generation of edits whose light is not kept. False after it was refused.
+  bool begin_anew(const SceneEdits& edits,
+                  std::shared_ptr<const std::vector<uint32_t>>& triangles_before);
+  /// The light of these edits, which differ from those that are traced in their time alone.
+  /// False where it is not kept.
+  bool take_kept(const SceneEdits& edits);
+  /// Keeps what is traced, where another time of it is asked for, and forgets it elsewhere.
+  void keep(const SceneEdits& next);
   StateObject state_of(const SceneEdits& edits) const;
   /// Traces until it is good enough or something comes.
   void refine();
@@ -94,7 +115,7 @@ class LiveTrace {
   void tell(bool done);
   void answer_all();
 
-  const std::shared_ptr<const SceneDescription> scene_;
+  TimedScenes scenes_;
   const LiveOptions options_;
   const std::shared_ptr<Executor> executor_;
   LiveAudience& audience_;
@@ -113,6 +134,14 @@ class LiveTrace {
   LiveGeometry geometry_;
   LiveFrame smoke_;
   std::unique_ptr<LiveRun> run_;
+  /// States of other times, the last shown first.
+  struct Kept {
+    SceneEdits edits;
+    std::unique_ptr<LiveRun> run;
+    LiveGeometry geometry;
+    LiveFrame smoke;
+  };
+  std::deque<Kept> kept_;
   bool refined_ = false;
   double error_ = 0;
   std::thread thread_;  // the last: it begins when all else is there

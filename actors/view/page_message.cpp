@@ -97,6 +97,8 @@ std::optional<PageMessage> read_message(const std::string& type, Members& m) {
     return FactorEdit{m.text("group"), m.number("factor", 0, limits::max_view_factor)};
   if (type == "scenario") return ScenarioEdit{m.text("name")};
   if (type == "smoke") return SmokeEdit{m.number("factor", 0, limits::max_view_smoke)};
+  if (type == "state")
+    return StateEdit{m.number("at", -limits::max_view_seconds, limits::max_view_seconds)};
   if (type == "time")
     return m.has("seconds") ? TimeEdit{m.number("seconds", 0, limits::max_view_seconds)}
                             : TimeEdit{};

@@ -30,6 +30,10 @@ struct ScenarioEdit {
 struct SmokeEdit {
   double factor = 1;
 };
+/// Another state of a scene that has a clock.
+struct StateEdit {
+  double at_s = 0;
+};
 struct TimeEdit {
   std::optional<double> seconds;  // after the mains have failed; none: fully on
 };
@@ -62,8 +66,8 @@ struct ProbeAsk {
 struct JudgeAsk {
   std::string sign;
 };
-using PageMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, TimeEdit, MoveEdit, AddEdit,
-                                 RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk>;
+using PageMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, StateEdit, TimeEdit, MoveEdit,
+                                 AddEdit, RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk>;
 
 /// Errors: what is no message, one sentence.
 Result<PageMessage> decode_page_message(std::string_view text);

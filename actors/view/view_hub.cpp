@@ -45,10 +45,10 @@ bool is_plain_name(const std::string& name) {
 /// Under another name first, where it is read back and inspected as `luxodus check` does: a variant
 /// that is kept is a scene that may be computed.
 Result<void> save_variant(const std::filesystem::path& file, const std::string& text,
-                          const std::string& scenario) {
+                          const std::string& scenario, std::optional<double> at_s) {
   const auto trial = file.parent_path() / ("." + file.stem().string() + ".trial.toml");
   if (auto ok = write_file_atomically(trial, text); !ok) return ok.problem();
-  auto read = read_scene(trial);
+  auto read = read_scene(trial, at_s);
   std::error_code ignored;
   std::filesystem::remove(trial, ignored);
   const auto unfit = [](const Problem& why) {
@@ -78,13 +78,14 @@ ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions
     : scene_(std::move(scene)), options_(options), post_(std::move(post)), edits_(options.first) {
   if (const auto scenario = find_scenario(*scene_, edits_.scenario); scenario)
     dimming_.seconds = seconds_said(scenario.value());
+  if (scene_->time && options_.live.scene_at) edits_.at_s = scene_->at_s;
   trace_.reset(new LiveTrace(scene_, options_.live, edits_, *this));
 }
 
 ViewHub::~ViewHub() {
   ends_ = true;
-  trace_.reset();
   if (judge_.joinable()) judge_.join();
+  trace_.reset();
 }
 
 // ---- from the tracing thread -------------------------------------------------------------------
@@ -92,6 +93,8 @@ ViewHub::~ViewHub() {
 void ViewHub::begins(const LiveGeneration& generation) {
   post_([this, generation] {
     const LiveGeneration before = std::exchange(generation_, generation);
+    if (before.scene && before.edits.at_s != generation.edits.at_s)
+      take_seconds(generation.edits.scenario);
     share();
     const bool same_geometry = before.geometry == generation.geometry;
     const bool same_smoke = before.smoke == generation.smoke;
@@ -181,9 +184,7 @@ void ViewHub::take_back() {
                      [&](const SceneEdits::Copy& one) { return one.name == copy.name; }))
       dimming_.factors.erase(copy.is_sign ? group_of_sign(copy.name)
                                           : group_of_luminaire(copy.name));
-  if (edits_.scenario != generation_.edits.scenario)
-    if (const auto before = find_scenario(*scene_, generation_.edits.scenario); before)
-      dimming_.seconds = seconds_said(before.value());
+  if (edits_.scenario != generation_.edits.scenario) take_seconds(generation_.edits.scenario);
   edits_ = generation_.edits;
 }
 
@@ -260,13 +261,29 @@ void ViewHub::handle(Viewer& viewer, const ScenarioEdit& edit) {
   const auto found = find_scenario(*scene_, edit.name);
   if (!found) return refuse(viewer, found.problem().what);
   edits_.scenario = edit.name;
-  dimming_.seconds = seconds_said(found.value());
+  take_seconds(edit.name);
   edits();
 }
 
 void ViewHub::handle(Viewer&, const SmokeEdit& edit) {
   edits_.smoke = edit.factor;
   edits();
+}
+
+void ViewHub::handle(Viewer& viewer, const StateEdit& edit) {
+  if (!scene_->time || !options_.live.scene_at)
+    return refuse(viewer, "this scene has one state: [time] gives it others");
+  if (edit.at_s < scene_->time->from_s || edit.at_s > scene_->time->to_s)
+    return refuse(viewer, "the states of this scene are from " +
+                              readable_number(scene_->time->from_s, 6) + " to " +
+                              readable_number(scene_->time->to_s, 6) + " s");
+  edits_.at_s = edit.at_s;
+  edits();
+}
+
+void ViewHub::take_seconds(const std::string& scenario) {
+  if (const auto found = find_scenario(scene_now(), scenario); found)
+    dimming_.seconds = seconds_said(found.value());
 }
 
 void ViewHub::share() {
@@ -375,7 +392,7 @@ void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
     return refuse(viewer, file.string() + " is there already: take another name");
   const auto saved =
       save_variant(behind_links(file), variant_text(*scene_, edits_, dimming_.factors, edit.name),
-                   edits_.scenario);
+                   edits_.scenario, scene_->at_s);
   if (!saved) return refuse(viewer, saved.problem().text());
   viewer.send_text(text_of({{"type", "saved"}, {"file", file.string()}}));
 }
@@ -412,7 +429,10 @@ void ViewHub::judge_next() {
   // Beside the tracing: it shares the processors with it for some seconds.
   judge_ = std::thread(
       [this, asker = number, sign = ask.sign, edits = edits_, factors = dimming_.both()] {
-        const Json verdicts = sign_verdicts(*scene_, edits, factors, sign, options_.live, ends_);
+        const auto scene = trace_->scene_at(edits.at_s);
+        const Json verdicts =
+            scene ? sign_verdicts(*scene.value(), edits, factors, sign, options_.live, ends_)
+                  : Json{{"type", "refused"}, {"why", scene.problem().text()}};
         post_([this, asker, verdicts] {
           judging_ = false;
           if (Viewer* const asked = viewer_of(asker)) asked->send_text(text_of(verdicts));

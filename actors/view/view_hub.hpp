@@ -53,6 +53,7 @@ class ViewHub final : private LiveAudience {
   void handle(Viewer& viewer, const FactorEdit& edit);
   void handle(Viewer& viewer, const ScenarioEdit& edit);
   void handle(Viewer& viewer, const SmokeEdit& edit);
+  void handle(Viewer& viewer, const StateEdit& edit);
   void handle(Viewer& viewer, const TimeEdit& edit);
   void handle(Viewer& viewer, const MoveEdit& edit);
   void handle(Viewer& viewer, const AddEdit& edit);
@@ -77,6 +78,12 @@ class ViewHub final : private LiveAudience {
   /// Begins with the next sign that somebody wants judged, where none is being judged.
   void judge_next();
   void make_editor(Viewer* viewer);
+  /// The scene at the time of the generation; as it was opened, before the first.
+  const SceneDescription& scene_now() const {
+    return generation_.scene ? *generation_.scene->description : *scene_;
+  }
+  /// Takes over how long the mains have failed in a scenario of the scene as it is now.
+  void take_seconds(const std::string& scenario);
   /// Brings the shares of groups up to the time and the scenario.
   void share();
   Json scene_json(const Viewer& viewer, bool follows) const;

@@ -35,6 +35,19 @@ test('a scene with a wrong part is refused, and the part named', () => {
   assert.throws(harmed((s) => (s.luminaires[0] = null)), ProtocolError);
 });
 
+test('the states of a scene are from a time to a later one, or there is none', () => {
+  const server = new MockServer();
+  assert.equal(read(server.scene(null)).states, null);
+  const states = { from: 0, to: 90, step: 30, at: 60 };
+  assert.deepEqual(read({ ...server.scene(null), states }).states, states);
+  const refused = (change) =>
+    assert.throws(() => read({ ...server.scene(null), states: { ...states, ...change } }),
+      ProtocolError);
+  refused({ to: -1 });
+  refused({ step: 0 });
+  refused({ at: 'now' });
+});
+
 test('time since a failure is a number or none, and shares are numbers', () => {
   assert.deepEqual(read({ type: 'time', seconds: 5, shares: { lamp: 0.5 } }),
     { type: 'time', seconds: 5, shares: [{ name: 'lamp', share: 0.5 }] });

@@ -35,6 +35,10 @@ TEST_CASE("what a viewer may say is read", "[view]") {
   CHECK(decode_page_message(R"({"type":"edit","wanted":true})").ok());
   CHECK(decode_page_message(R"({"type":"judge","sign":"exit"})").ok());
   CHECK(decode_page_message(R"({"type":"smoke","factor":0})").ok());
+  const auto state = decode_page_message(R"({"type":"state","at":60.5})");
+  REQUIRE(state.ok());
+  CHECK(std::get<StateEdit>(state.value()).at_s == 60.5);
+  CHECK(is_edit(state.value()));
   CHECK(decode_page_message(R"({"type":"scenario","name":"dark"})").ok());
   const auto time = decode_page_message(R"({"type":"time","seconds":5})");
   REQUIRE(time.ok());
@@ -70,6 +74,8 @@ TEST_CASE("all else is refused with a reason", "[view]") {
   CHECK(refused(R"({"type":"time","seconds":-1})").find("range") != std::string::npos);
   CHECK(refused(R"({"type":"time","seconds":"now"})").find("a number") != std::string::npos);
   CHECK(refused(R"({"type":"smoke","factor":-1})").find("range") != std::string::npos);
+  CHECK(refused(R"({"type":"state","at":2e6})").find("range") != std::string::npos);
+  CHECK(refused(R"({"type":"state"})").find("\"at\" must be a number") != std::string::npos);
   CHECK(refused(R"({"type":"smoke","factor":1e999})").find("JSON") != std::string::npos);
   CHECK(refused(R"({"type":"move","kind":"sign","name":"a","position":[1,2]})")
             .find("three numbers") != std::string::npos);

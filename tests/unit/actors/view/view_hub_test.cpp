@@ -506,3 +506,92 @@ TEST_CASE("what would be no scene is not saved, whenever it is asked for", "[vie
   CHECK(live.why().find("it is not saved") == 0);
   CHECK(std::filesystem::is_empty(live.folder / ""));
 }
+
+TEST_CASE("states of a scene with a clock are chosen, and come back with the light that they had",
+          "[view][time]") {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write(
+      "room.toml", "[time]\nto = 60\nstep = 30\nmains_fail_at = 20\n" + test::two_lamps +
+                       "emergency = \"maintained\"\nemergency_factor = 0.5\n"
+                       "maintenance_factor = 1\nend_of_duration_factor = 1\nonset = [[0, 0], [20, "
+                       "1]]\n"
+                       "[[medium]]\nname = \"smoke\"\nkind = \"layered\"\n[[medium.layer]]\n"
+                       "z_low = [[0, 3], [60, 1]]\nz_high = 3\nextinction = 0.5\nalbedo = 0.5\n"
+                       "[[scenario]]\nname = \"fire\"\noperation = \"emergency\"\n");
+  HubOptions options = small_runs(folder);
+  int reads = 0;
+  options.live.scene_at = [&](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
+    ++reads;
+    ReadScene read = read_scene(file, at_s);
+    if (!read.scene) return read.problems.list().front();
+    return std::make_shared<const SceneDescription>(std::move(*read.scene));
+  };
+  options.first.scenario = "fire";
+  Posts posts;
+  Remembers viewer;
+  ViewHub hub(test::described(file), options, posts.post());
+  hub.joins(viewer);
+  const auto generation = [&] {
+    const Json* const scene = viewer.last("scene");
+    return scene == nullptr ? uint32_t{0} : (*scene)["generation"].get<uint32_t>();
+  };
+  const auto done = [&] {
+    const Json* const progress = viewer.last("progress");
+    return progress != nullptr && (*progress)["generation"] == generation() &&
+           (*progress)["done"] == true;
+  };
+  posts.until([&] { return generation() == 1 && done(); });
+  const Json first = *viewer.last("scene");
+  CHECK(first["states"]["at"] == 0);
+  CHECK(first["states"]["to"] == 60);
+  CHECK(first["groups"].size() == 2);  // the mains are on
+  CHECK(first["scenarios"][0]["operation"] == "mains");
+  CHECK(viewer.frames_of(3, 1) == 0);  // no smoke yet
+
+  hub.says(viewer, R"({"type":"state","at":30})");
+  posts.until([&] { return generation() == 2 && done(); });
+  const Json second = *viewer.last("scene");
+  CHECK(second["states"]["at"] == 30);
+  CHECK(second["seconds"] == 10);
+  REQUIRE(second["groups"].size() == 1);  // the other lamp is not on emergency supply
+  CHECK(second["groups"][0]["share"] == 0.5);
+  CHECK(viewer.frames_of(3, 2) == 1);
+  CHECK(viewer.frames_of(2, 2) > 1);
+  const int64_t particles = (*viewer.last("progress"))["particles"].get<int64_t>();
+
+  hub.says(viewer, R"({"type":"state","at":0})");
+  posts.until([&] { return generation() == 3 && done(); });
+  CHECK((*viewer.last("scene"))["groups"].size() == 2);
+  CHECK(viewer.frames_of(2, 3) == 2);  // each group's light once: it was there
+
+  hub.says(viewer, R"({"type":"state","at":30})");
+  posts.until([&] { return generation() == 4 && done(); });
+  CHECK((*viewer.last("progress"))["particles"] == particles);
+  CHECK(viewer.frames_of(2, 4) == 1);
+  CHECK(viewer.frames_of(3, 4) == 1);
+  CHECK((*viewer.last("scene"))["seconds"] == 10);
+  CHECK(reads == 1);  // the first was opened, the other read once
+
+  hub.says(viewer, R"({"type":"state","at":60})");
+  posts.until([&] { return generation() == 5 && done(); });
+  CHECK(viewer.frames_of(3, 5) == 1);
+  CHECK((*viewer.last("scene"))["groups"][0]["share"] == 1);
+
+  hub.says(viewer, R"({"type":"state","at":61})");
+  CHECK((*viewer.last("refused"))["why"].get<std::string>().find("from 0 to 60 s") !=
+        std::string::npos);
+  hub.leaves(viewer);
+}
+
+TEST_CASE("a scene without a clock has one state", "[view][time]") {
+  const test::TemporaryFolder folder;
+  Posts posts;
+  Remembers viewer;
+  ViewHub hub(scene_in(folder), small_runs(folder), posts.post());
+  hub.joins(viewer);
+  posts.until([&] { return viewer.last("scene") != nullptr; });
+  CHECK((*viewer.last("scene"))["states"].is_null());
+  hub.says(viewer, R"({"type":"state","at":0})");
+  CHECK((*viewer.last("refused"))["why"].get<std::string>().find("one state") != std::string::npos);
+  hub.leaves(viewer);
+}

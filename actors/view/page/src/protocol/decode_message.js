@@ -137,6 +137,19 @@ const scenario = (s, path) => ({
   operation: oneOf(s.operation, `${path}.operation`, ['mains', 'emergency', 'dark']),
 });
 
+/** The times that a scene with a clock has; null where it has none. */
+function statesOf(s, path) {
+  if (s === null || s === undefined) return null;
+  const from = number(s.from, `${path}.from`, -1e6, 1e6);
+  const to = number(s.to, `${path}.to`, from, 1e6);
+  return {
+    from,
+    to,
+    step: number(s.step, `${path}.step`, Number.MIN_VALUE, 1e6),
+    at: number(s.at, `${path}.at`, -1e9, 1e9),
+  };
+}
+
 const readers = {
   scene: (m) => ({
     generation: whole(m.generation, 'generation', 0, 0xffffffff),
@@ -144,6 +157,7 @@ const readers = {
     title: textOr(m.title, 'title', ''),
     scenarios: list(m.scenarios ?? [], 'scenarios', scenario),
     scenario: textOr(m.scenario, 'scenario', ''),
+    states: statesOf(m.states, 'states'),
     smoke: number(m.smoke, 'smoke', 0, 1e6),
     seconds: numberOrNull(m.seconds, 'seconds'),
     low: place(m.low, 'low'),
