@@ -6,6 +6,7 @@
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
 #include "actors/cli/library.hpp"
+#include "actors/cli/progress_line.hpp"
 #include "actors/import/building.hpp"
 #include "actors/import/ifc_shapes.hpp"
 #include "actors/import/write_building.hpp"
@@ -65,9 +66,15 @@ Result<ExitCode> import_ifc(const ImportIfcOptions& options) {
   if (!bytes) return bytes.problem();
   const auto model = ifc_model_of(std::move(bytes).value(), options.model);
   if (!model) return model.problem();
-  auto shapes = ifc_shapes(options.model, shapes_script(), options.seconds);
+  ProgressLine line("import");
+  auto shapes = ifc_shapes(options.model, shapes_script(), options.seconds, [&](double seconds) {
+    line.put(fmt::format("computing shapes for {:.0f} s", seconds), false);
+  });
   if (!shapes) return shapes.problem();
-  const Building building = building_of(model.value(), std::move(shapes).value());
+  const Building building = building_of(
+      model.value(), std::move(shapes).value(), [&](const std::string& what, double share) {
+        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
+      });
   const auto written = write_building(building, options.out, options.photometry);
   if (!written) return written.problem();
   tell(building, written.value(), options.out);

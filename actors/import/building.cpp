@@ -69,7 +69,8 @@ double grey_of(const ImportedPart& part) {
 
 class Assembly {
  public:
-  Assembly(const IfcModel& model, IfcShapes shapes) : model_(model), shapes_(std::move(shapes)) {}
+  Assembly(const IfcModel& model, IfcShapes shapes, const ImportProgress& told)
+      : model_(model), shapes_(std::move(shapes)), told_(told) {}
 
   Building build() {
     out_.title = model_.project;
@@ -294,9 +295,15 @@ class Assembly {
     for (BuildingExit& exit : out_.exits) step_into_room(exit);
     for (const std::string& guid : out_of_rooms_)
       out_.notes.push_back("fire exit " + guid + " leads to no room; its point lies in the door");
+    const PartRays rays(out_.storeys);
     for (BuildingFixture& fixture : out_.fixtures)
-      if (fixture.is_sign) turn_sign(fixture);
-    for (BuildingRoom& room : out_.rooms) look_for_openings(out_.storeys, room);
+      if (fixture.is_sign) turn_sign(rays, fixture);
+    for (size_t i = 0; i < out_.rooms.size(); ++i) {
+      look_for_openings(rays, out_.rooms[i]);
+      if (told_)
+        told_("looking for openings of rooms",
+              static_cast<double>(i + 1) / static_cast<double>(out_.rooms.size()));
+    }
     std::erase_if(out_.rooms, [&](const BuildingRoom& room) {
       if (room.has_floor) return false;
       out_.notes.push_back("room \"" + room.name + "\" " + room.guid +
@@ -329,10 +336,11 @@ class Assembly {
     tell_apart(out_.exits);
   }
 
-  void turn_sign(BuildingFixture& fixture);
+  static void turn_sign(const PartRays& rays, BuildingFixture& fixture);
 
   const IfcModel& model_;
   IfcShapes shapes_;
+  const ImportProgress& told_;
   std::map<std::string, std::vector<size_t>> shapes_of_;
   std::map<std::string, size_t> storey_at_;
   std::vector<std::string> out_of_rooms_;
@@ -408,10 +416,10 @@ void Assembly::place_sign(const IfcProduct& p, const Mesh& mesh, BuildingFixture
 }
 
 /// To the side where there is more room; to both where there is room.
-void Assembly::turn_sign(BuildingFixture& fixture) {
+void Assembly::turn_sign(const PartRays& rays, BuildingFixture& fixture) {
   constexpr double room_m = 0.5;
   const auto free = [&](const glm::dvec3& way) {
-    return distance_to_part(out_.storeys, fixture.position, way).value_or(1e9);
+    return rays.first(fixture.position, way).value_or(1e9);
   };
   const double ahead = free(fixture.direction), behind = free(-fixture.direction);
   if (behind > ahead) fixture.direction = -fixture.direction;
@@ -420,8 +428,8 @@ void Assembly::turn_sign(BuildingFixture& fixture) {
 
 }  // namespace
 
-Building building_of(const IfcModel& model, IfcShapes shapes) {
-  return Assembly(model, std::move(shapes)).build();
+Building building_of(const IfcModel& model, IfcShapes shapes, const ImportProgress& told) {
+  return Assembly(model, std::move(shapes), told).build();
 }
 
 }  // namespace luxodus

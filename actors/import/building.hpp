@@ -4,6 +4,7 @@
 // Any thread.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <map>
 #include <optional>
@@ -98,7 +99,9 @@ struct Building {
 };
 
 /// Puts a model and its shapes together. Nothing is guessed: what is missing is in `unread`.
-Building building_of(const IfcModel& model, IfcShapes shapes);
+/// `told`, where given, hears what is done and which share of that is.
+using ImportProgress = std::function<void(const std::string& what, double share)>;
+Building building_of(const IfcModel& model, IfcShapes shapes, const ImportProgress& told = {});
 
 // ---- steps of it, apart for tests
 // ----------------------------------------------------------------
@@ -128,12 +131,20 @@ DoorPieces door_pieces(const std::vector<DoorPiece>& parts, const Transform& pla
 /// without points on straight lines. Empty where there is none.
 std::vector<glm::dvec2> floor_outline(const Mesh& mesh);
 
-/// Share of rays from the middle of a room that meet none of the parts, and the way most of them
-/// go.
-void look_for_openings(const std::vector<BuildingStorey>& storeys, BuildingRoom& room);
+/// Rays at the parts of storeys, which outlive it. Every part in whose box a ray comes is asked.
+class PartRays {
+ public:
+  explicit PartRays(const std::vector<BuildingStorey>& storeys);
 
-/// Distance to the first part that a ray meets; nothing where it meets none.
-std::optional<double> distance_to_part(const std::vector<BuildingStorey>& storeys,
-                                       const glm::dvec3& from, const glm::dvec3& direction);
+  /// Distance to the first part that a ray meets; nothing where it meets none.
+  std::optional<double> first(const glm::dvec3& from, const glm::dvec3& direction) const;
+
+ private:
+  std::vector<std::pair<const Mesh*, Bounds>> parts_;
+};
+
+/// Share of rays from the middle of a room that meet none of the parts, the way most of them go,
+/// and whether it has a floor.
+void look_for_openings(const PartRays& rays, BuildingRoom& room);
 
 }  // namespace luxodus

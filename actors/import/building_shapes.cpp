@@ -65,32 +65,6 @@ bool passes_box(const glm::dvec3& from, const glm::dvec3& way, const Bounds& box
   return enter <= leave;
 }
 
-/// Parts with the boxes around them, made once for many rays.
-class Solids {
- public:
-  explicit Solids(const std::vector<BuildingStorey>& storeys) {
-    for (const BuildingStorey& storey : storeys)
-      for (const BuildingPart& part : storey.parts)
-        if (!part.mesh.triangles.empty()) all_.push_back({&part.mesh, bounds_of(part.mesh)});
-  }
-
-  std::optional<double> first(const glm::dvec3& from, const glm::dvec3& way) const {
-    std::optional<double> nearest;
-    for (const auto& [mesh, box] : all_) {
-      if (!passes_box(from, way, box)) continue;
-      for (const glm::uvec3& t : mesh->triangles) {
-        const auto d =
-            meets(from, way, mesh->positions[t.x], mesh->positions[t.y], mesh->positions[t.z]);
-        if (d && (!nearest || *d < *nearest)) nearest = d;
-      }
-    }
-    return nearest;
-  }
-
- private:
-  std::vector<std::pair<const Mesh*, Bounds>> all_;
-};
-
 // ---- outlines ----------------------------------------------------------------------------------
 
 /// Loops of directed edges, each from a vertex to the next.
@@ -305,12 +279,26 @@ std::vector<glm::dvec2> floor_outline(const Mesh& mesh) {
   return checked ? checked.value() : std::vector<glm::dvec2>();
 }
 
-std::optional<double> distance_to_part(const std::vector<BuildingStorey>& storeys,
-                                       const glm::dvec3& from, const glm::dvec3& direction) {
-  return Solids(storeys).first(from, direction);
+PartRays::PartRays(const std::vector<BuildingStorey>& storeys) {
+  for (const BuildingStorey& storey : storeys)
+    for (const BuildingPart& part : storey.parts)
+      if (!part.mesh.triangles.empty()) parts_.push_back({&part.mesh, bounds_of(part.mesh)});
 }
 
-void look_for_openings(const std::vector<BuildingStorey>& storeys, BuildingRoom& room) {
+std::optional<double> PartRays::first(const glm::dvec3& from, const glm::dvec3& way) const {
+  std::optional<double> nearest;
+  for (const auto& [mesh, box] : parts_) {
+    if (!passes_box(from, way, box)) continue;
+    for (const glm::uvec3& t : mesh->triangles) {
+      const auto d =
+          meets(from, way, mesh->positions[t.x], mesh->positions[t.y], mesh->positions[t.z]);
+      if (d && (!nearest || *d < *nearest)) nearest = d;
+    }
+  }
+  return nearest;
+}
+
+void look_for_openings(const PartRays& solids, BuildingRoom& room) {
   const auto triangles = triangulate(room.outline);
   if (!triangles) return;
   // The middle of the largest triangle of the floor is within the room, whatever its shape.
@@ -325,7 +313,6 @@ void look_for_openings(const std::vector<BuildingStorey>& storeys, BuildingRoom&
     }
   }
   const glm::dvec3 from(middle, room.z_m + room.height_m / 2);
-  const Solids solids(storeys);
   constexpr double under_m = 0.5;
   const auto floor = solids.first(from, {0, 0, -1});
   room.has_floor = floor && *floor < room.height_m / 2 + under_m;

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -54,7 +55,8 @@ class AnswerFolder {
 
 /// Exit code of a process; nothing where it did not end in time and was killed.
 Result<std::optional<int>> run_process(const std::vector<std::string>& words, const fs::path& out,
-                                       const fs::path& err, double seconds) {
+                                       const fs::path& err, double seconds,
+                                       const std::function<void(double)>& told) {
   std::vector<std::string> held = words;
   std::vector<char*> arguments;
   for (std::string& word : held) arguments.push_back(word.data());
@@ -74,8 +76,15 @@ Result<std::optional<int>> run_process(const std::vector<std::string>& words, co
   // glibc 2.36 declares pidfd_open without extern "C".
   const FileDescriptor watched(static_cast<int>(::syscall(SYS_pidfd_open, process, 0)));
   pollfd ends{watched.number(), POLLIN, 0};
-  const int patience_ms = static_cast<int>(std::min(seconds, 1e6) * 1000);
-  const int ready = watched.valid() ? ::poll(&ends, 1, patience_ms) : 1;
+  constexpr double look_s = 0.5;
+  int ready = watched.valid() ? 0 : 1;
+  for (double waited_s = 0; ready == 0 && waited_s < seconds;) {
+    const double wait_s = std::min(look_s, seconds - waited_s);
+    ready = ::poll(&ends, 1, static_cast<int>(std::ceil(wait_s * 1000)));
+    if (ready < 0) ready = errno == EINTR ? 0 : 1;
+    waited_s += wait_s;
+    if (told && ready == 0) told(waited_s);
+  }
   if (ready == 0) ::kill(process, SIGKILL);
   int status = 0;
   while (::waitpid(process, &status, 0) < 0)
@@ -138,7 +147,8 @@ double opacity_of(const ImportedPart& part) {
   return opacity >= 0 && opacity <= 1 ? opacity : 1;
 }
 
-Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, double seconds) {
+Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, double seconds,
+                             const std::function<void(double)>& told) {
   const std::string file = model.string();
   std::error_code failed;
   if (!fs::is_regular_file(script, failed))
@@ -150,8 +160,9 @@ Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, doub
     return system_problem(fs::temp_directory_path(failed).string(), "no folder can be made", errno);
   const fs::path glb = folder.path() / "shapes.glb", out = folder.path() / "out",
                  err = folder.path() / "err";
-  const auto code = run_process(
-      {"node", script.string(), fs::absolute(model).string(), glb.string()}, out, err, seconds);
+  const auto code =
+      run_process({"node", script.string(), fs::absolute(model).string(), glb.string()}, out, err,
+                  seconds, told);
   if (!code) return code.problem();
   if (!code.value())
     return problem_in(file, fmt::format("its shapes take longer than {:g} s to compute: give more "

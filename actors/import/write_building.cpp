@@ -219,6 +219,7 @@ glm::dvec3 free_place(const Building& building) {
   }
   if (box.empty()) return glm::dvec3(0);
   constexpr int steps = 5;
+  const PartRays rays(building.storeys);
   glm::dvec3 best = (box.low + box.high) / 2.0;
   double farthest = -1;
   for (int i = 0; i < steps * steps * steps; ++i) {
@@ -229,7 +230,7 @@ glm::dvec3 free_place(const Building& building) {
       for (const double sign : {1.0, -1.0}) {
         glm::dvec3 way(0);
         way[axis] = sign;
-        nearest = std::min(nearest, distance_to_part(building.storeys, at, way).value_or(nearest));
+        nearest = std::min(nearest, rays.first(at, way).value_or(nearest));
       }
     if (nearest <= farthest) continue;
     farthest = nearest;
