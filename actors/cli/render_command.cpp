@@ -34,8 +34,8 @@ struct RenderOptions {
   bool full_paths = false;
   bool raw = false;
   std::string route;
-  double speed = Walk().speed_m_s, fps = Walk().frames_per_s;
-  double eye_height = Walk().eye_height_m;
+  double speed = FilmedWalk().speed_m_s, fps = FilmedWalk().frames_per_s;
+  double eye_height = FilmedWalk().eye_height_m;
   bool human = false;
 };
 

@@ -24,7 +24,8 @@ constexpr double look_ahead_m = 1.5;
 /// What is so near is the same place, as in a hairpin bend [m].
 constexpr double same_place_m = 1e-3;
 
-Camera camera_at(const EscapeRoute& route, double along_m, const Walk& walk, const Camera& lens) {
+Camera camera_at(const EscapeRoute& route, double along_m, const FilmedWalk& walk,
+                 const Camera& lens) {
   Camera camera = lens;
   camera.up = {0, 0, 1};
   const glm::dvec3 foot = place_along(route, along_m);
@@ -81,7 +82,7 @@ Result<int> run_quietly(const std::vector<std::string>& words) {
 
 }  // namespace
 
-Result<std::vector<Camera>> cameras_of(const EscapeRoute& route, const Walk& walk,
+Result<std::vector<Camera>> cameras_of(const EscapeRoute& route, const FilmedWalk& walk,
                                        const Camera& lens) {
   const double step_m = walk.speed_m_s / walk.frames_per_s;
   // A step that ends at the end but for rounding is one.

@@ -15,7 +15,7 @@ namespace limits {
 inline constexpr int max_film_frames = 100'000;
 }  // namespace limits
 
-struct Walk {
+struct FilmedWalk {
   double speed_m_s = 1;
   double frames_per_s = 12;
   double eye_height_m = 1.6;  // above the route's centre line
@@ -25,7 +25,7 @@ struct Walk {
 /// apart along its centre line. Who walks looks where he is going to be in 1.5 m, so that he turns
 /// before a corner. `lens`: whose size and angle of view they have.
 /// Errors: more than limits::max_film_frames; they name the route.
-Result<std::vector<Camera>> cameras_of(const EscapeRoute& route, const Walk& walk,
+Result<std::vector<Camera>> cameras_of(const EscapeRoute& route, const FilmedWalk& walk,
                                        const Camera& lens);
 
 struct Film {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double lit_share_below_white = 0.98;
 /// Corners nearer to each other are one [m]; normals that differ by less are one.
-constexpr float same_place_m = 1e-4f, same_normal = 1e-2f;
+constexpr float one_place_m = 1e-4f, same_normal = 1e-2f;
 
 /// What a patch sends back: luminance as XYZ [cd/m2] of a surface that scatters evenly.
 using PatchXyz = std::array<double, 3>;
@@ -74,8 +74,8 @@ class SideOfSurface {
 
   uint32_t index_of(const glm::vec3& p, const glm::vec3& n) {
     const auto step = [](float value, float unit) { return std::llround(value / unit); };
-    const Key key{step(p.x, same_place_m), step(p.y, same_place_m), step(p.z, same_place_m),
-                  step(n.x, same_normal),  step(n.y, same_normal),  step(n.z, same_normal)};
+    const Key key{step(p.x, one_place_m), step(p.y, one_place_m), step(p.z, one_place_m),
+                  step(n.x, same_normal), step(n.y, same_normal), step(n.z, same_normal)};
     const auto [at, is_new] = indices_.try_emplace(key, static_cast<uint32_t>(points_.size()));
     if (is_new) {
       points_.push_back(p);

@@ -30,7 +30,7 @@ Camera lens() {
   return camera;
 }
 
-std::vector<Camera> walked(const EscapeRoute& route, const Walk& walk) {
+std::vector<Camera> walked(const EscapeRoute& route, const FilmedWalk& walk) {
   auto cameras = cameras_of(route, walk, lens());
   if (!cameras.ok()) FAIL(cameras.problem().text());
   return std::move(cameras).value();

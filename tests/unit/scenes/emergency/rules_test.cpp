@@ -452,7 +452,7 @@ TEST_CASE("luminaires hang 2 m above the floor that is met below them", "[emerge
 TEST_CASE("a code that knows no areas says so, and what a scene does not name is not assessed",
           "[emergency][rules]") {
   SceneDescription scene = corridor();
-  const AssessedArea hall{"hall", {}, {{0, 0}, {4, 0}, {4, 4}, {0, 4}}, 0, 0};
+  const AssessedArea hall{"hall", {}, {{0, 0}, {4, 0}, {4, 4}, {0, 4}}, 0, 0, ""};
   CHECK(of(checks_of_open_area(scene, hall, {at(1, 5, 5)}, nfpa), "N1").verdict ==
         CheckVerdict::not_assessed);
   CHECK(of(checks_of_task_area(scene, hall, {at(1, 5, 5)}, nfpa), "N1").verdict ==
