@@ -55,7 +55,7 @@ void write(wire::Identity::Builder out, const Identity& identity) {
 }
 
 void write(wire::Beat::Builder out, const Beat& beat) {
-  out.setEpoch(beat.epoch);
+  out.setViewHash(beat.view_hash);
   auto pools = out.initPools(beat.pool_count);
   for (unsigned i = 0; i < beat.pool_count; ++i) {
     const PoolState& pool = beat.pools[i];
@@ -297,7 +297,7 @@ Identity read_identity(wire::Identity::Reader in) {
 
 Beat read_beat(wire::Beat::Reader in) {
   Beat out;
-  out.epoch = in.getEpoch();
+  out.view_hash = in.getViewHash();
   const auto pools = in.getPools();
   if (pools.size() > out.pools.size()) throw malformed("too many pools");
   for (const auto pool : pools)

@@ -171,7 +171,7 @@ struct PoolState {
   friend bool operator==(const PoolState&, const PoolState&) = default;
 };
 struct Beat {
-  uint64_t epoch = 0;
+  uint64_t view_hash = 0;  // of what the sender knows of links
   uint8_t pool_count = 0;
   std::array<PoolState, routed_kinds.size() * limits::hops> pools;
   friend bool operator==(const Beat&, const Beat&) = default;

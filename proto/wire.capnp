@@ -86,7 +86,7 @@ struct Refuse {
 }
 
 struct Beat {
-  epoch @0 :UInt64;
+  viewHash @0 :UInt64;  # of what the sender knows of links
   pools @1 :List(PoolState);
 }
 

@@ -28,7 +28,7 @@ std::shared_ptr<const SceneDescription> with_scenario(
   auto out = std::make_shared<SceneDescription>(*scene);
   Scenario emergency;
   emergency.name = "emergency";
-  emergency.operation = Operation::emergency;
+  emergency.operation = emergency.written_operation = Operation::emergency;
   emergency.place = {scene->file, 1};
   out->scenarios.push_back(std::move(emergency));
   return out;

@@ -109,11 +109,11 @@ void Link::tick(Nanoseconds now) {
     state_.unreachable(now);
 }
 
-void Link::beat(uint64_t epoch) {
+void Link::beat(uint64_t view_hash) {
   if (!state_.accepted()) return;
   for (const Lane lane : {Lane::control, Lane::bulk}) {
     Beat beat;
-    beat.epoch = epoch;
+    beat.view_hash = view_hash;
     for (const Kind kind : routed_kinds) {
       if (lane_of(kind) != lane) continue;
       for (uint8_t hops = 1; hops <= around_.config.hop_limit; ++hops) {
@@ -130,7 +130,7 @@ void Link::say_bye() {
 }
 
 void Link::say(const LinkChanges& changes) {
-  if (state_.usable()) (void)say(Message{changes}, Lane::control);  // told again when epochs differ
+  if (state_.usable()) (void)say(Message{changes}, Lane::control);  // told again while views differ
 }
 
 void Link::tell_grants() {

@@ -55,7 +55,7 @@ class Link {
   void tick(Nanoseconds now);
   void forgive(Nanoseconds span) { state_.forgive(span); }
   /// One beat on each lane, to a neighbour that listens: all totals and limits of the lane.
-  void beat(uint64_t epoch);
+  void beat(uint64_t view_hash);
   void say_bye();
   void say(const LinkChanges& changes);
 

@@ -1,6 +1,9 @@
 #include "runtime/net/link_view.hpp"
 
+#include <xxhash.h>
+
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace luxodus {
@@ -27,8 +30,7 @@ bool LinkView::set(Edge edge, bool up) {
   Known* known = find(edge);
   if (known == nullptr) throw std::invalid_argument("the graph has no such link");
   if ((known->version % 2 == 0) == up) return false;
-  ++known->version;
-  ++epoch_;
+  raise(*known, known->version + 1);
   return true;
 }
 
@@ -43,9 +45,19 @@ bool LinkView::merge(const LinkChange& change) {
   Known* known = find({change.a, change.b});
   if (known == nullptr || change.version <= known->version) return false;
   if (change.version - known->version > max_unheard) return false;
-  epoch_ += change.version - known->version;
-  known->version = change.version;
+  raise(*known, change.version);
   return true;
+}
+
+/// Each link has its own part in the hash, so that it is the same in whatever order they change.
+void LinkView::raise(Known& known, uint32_t version) {
+  const auto part = [&](uint32_t of) {
+    const std::array<uint32_t, 3> words{known.edge.a.value, known.edge.b.value, of};
+    return of == 0 ? 0 : XXH3_64bits(words.data(), sizeof words);
+  };
+  hash_ ^= part(known.version) ^ part(version);
+  epoch_ += version - known.version;
+  known.version = version;
 }
 
 std::vector<Edge> LinkView::down() const {

@@ -155,7 +155,7 @@ bool Network::poll(Nanoseconds now) {
   for (Link& link : links_) link.tick(now);
   watch_links();
   if (now >= next_beat_) {
-    for (Link& link : links_) link.beat(view_.epoch());
+    for (Link& link : links_) link.beat(view_.hash());
     next_beat_ = now + config_.times.beat;
     LinkChanges news;
     for (size_t i = 0; i < links_.size(); ++i) {
@@ -247,7 +247,7 @@ void Network::take_link_message(Link& link, const OpenedFrame& frame, Lane lane,
   if (!link.take(frame.envelope, lane, opened->message, now) || !link.state().usable()) return;
   if (const auto* changes = std::get_if<LinkChanges>(&opened->message)) learn(*changes, link);
   if (const auto* beat = std::get_if<Beat>(&opened->message))
-    if (beat->epoch < view_.epoch()) link.say(view_.changes());
+    if (beat->view_hash != view_.hash()) link.say(view_.changes());
 }
 
 bool Network::consistent(const Envelope& envelope, size_t body_bytes) const {
@@ -379,7 +379,7 @@ void Network::watch_links() {
     if (last.usable && (!state.usable() || another_session)) ++counters_.links_down;
     if (another_session) {
       ++counters_.links_up;
-      links_[i].beat(view_.epoch());  // the first grants
+      links_[i].beat(view_.hash());  // the first grants
       links_[i].say(view_.changes());
     }
     last.usable = state.usable();

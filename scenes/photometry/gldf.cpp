@@ -239,17 +239,16 @@ Result<const GldfLight*> chosen_light(const GldfProduct& product, const GldfVari
 Result<double> emergency_flux(const GldfProduct& product, const GldfVariant& variant,
                               const GldfLight& light, double rated_lm,
                               std::optional<double> duration_h) {
-  if (duration_h) {
+  if (duration_h && !variant.durations.empty()) {
     std::vector<std::string> hours;
     for (const GldfDuration& row : variant.durations) {
       if (row.hours == *duration_h) return row.flux_lm;
       hours.push_back(fmt::format("{:g}", row.hours));
     }
-    return problem_in(product.file,
-                      "variant \"" + excerpt(variant.id) + "\" has no emergency flux for " +
-                          fmt::format("{:g} h; ", *duration_h) +
-                          (hours.empty() ? "it states none by duration"
-                                         : "it has those for " + choices(hours) + " h"));
+    return problem_in(product.file, "variant \"" + excerpt(variant.id) +
+                                        "\" has no emergency flux for " +
+                                        fmt::format("{:g} h; it has those for ", *duration_h) +
+                                        choices(hours) + " h");
   }
   if (light.emergency_lm) return *light.emergency_lm;
   if (light.ballast_factor) return rated_lm * *light.ballast_factor;

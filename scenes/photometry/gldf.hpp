@@ -94,7 +94,7 @@ struct GldfLuminaire {
 };
 
 /// `variant`, `emitter`: "" where there is only one. `duration_h`: takes the flux of that row of
-/// the variant's table. The emergency flux otherwise is what the emitter rates for emergency; else
+/// the variant's table, where it has one. The emergency flux otherwise is what the emitter rates for emergency; else
 /// its rated flux times the ballast's factor; else, of an emitter for emergency only, its rated
 /// flux; else not known, and never guessed.
 /// Errors: no such variant, emitter or duration, with those there are; a photometric file that is

@@ -260,7 +260,7 @@ struct ContainerKeys {
 
 /// `other_file`: the luminaire's file is none, so that the keys have no meaning.
 ContainerKeys read_container_keys(KeyReader& keys, bool other_file) {
-  for (const char* key : {"variant", "emitter", "duration_h"})
+  for (const char* key : {"variant", "emitter"})
     if (other_file && keys.has(key))
       keys.problem(key, "'" + std::string(key) + "' belongs to a GLDF container (.gldf)");
   return {keys.maybe_text("variant").value_or(""), keys.maybe_text("emitter").value_or(""),

@@ -15,9 +15,6 @@ std::vector<KeySpec> photometric_file_keys(const char* whether) {
       {"variant", "text", "", "", "", "id of the variant in a GLDF container that has several"},
       {"emitter", "text", "", "", "",
        "id of the light emitter, where the variant has several; `ID#2` for the second of an id"},
-      {"duration_h", "number", "h", "", "(0, 100]",
-       "takes the emergency flux that the container states for this duration; without it what its "
-       "emitter rates for emergency, else its rated flux times its ballast's factor"},
       {"point_source", "flag", "", "false", "",
        "emit from a point instead of the luminous opening of the file"},
   };
@@ -50,7 +47,8 @@ std::vector<KeySpec> operation_keys() {
        "whether it comes in time is not assessed"},
       {"duration_h", "number", "h", "", "(0, 1000]",
        "how long the emergency supply lasts: from then on after the failure it is dark; lit for as "
-       "long as is asked for unless said"},
+       "long as is asked for unless said. Of a GLDF container that states its emergency flux by "
+       "duration it takes the flux of this one"},
       {"spectrum", "emission", "", "\"led 4000 K\"", "[0, 1e9]", "shape of its spectrum"},
   };
 }

@@ -14,7 +14,7 @@ inline std::vector<Message> sample_messages() {
   const Identity identity{1, {3}, Level::statistical, 5,      6,
                           7, 8,   "0.1.0 release",    "avx2", "/results"};
   Beat beat;
-  beat.epoch = 9;
+  beat.view_hash = 9;
   beat.pool_count = 3;
   beat.pools[0] = {Kind::control, 1, 100, 200};
   beat.pools[1] = {Kind::request, 2, ~uint64_t{0}, 0};
