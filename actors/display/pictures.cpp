@@ -421,11 +421,12 @@ NoisyPicture seen_through_smoke(NoisyPicture noisy) {
 
 }  // namespace
 
-FilteredView filter_traced(const TracedPicture& traced, int threads) {
+FilteredView filter_traced(const TracedPicture& traced, int threads,
+                           const RegressionFilter& filter) {
   const ShareWork share = [&](int64_t count, const std::function<void(int64_t)>& work) {
     parallel_for(count, threads, [&] { return work; });
   };
-  FilteredPicture filtered = filter_picture(seen_through_smoke(traced.noisy), {}, share);
+  FilteredPicture filtered = filter_picture(seen_through_smoke(traced.noisy), filter, share);
   FilteredView out;
   out.light.width = traced.light.width;
   out.light.height = traced.light.height;

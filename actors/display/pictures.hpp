@@ -75,7 +75,8 @@ struct FilteredView {
 inline constexpr int min_filtered_paths = 4;
 
 /// Requires: min_filtered_paths per pixel at least; threads >= 1. The same for any threads.
-FilteredView filter_traced(const TracedPicture& traced, int threads);
+FilteredView filter_traced(const TracedPicture& traced, int threads,
+                           const RegressionFilter& filter = {});
 
 /// Error of a picture as people see it: the root of the mean over pixels of the relative standard
 /// error of luminance, squared. A pixel darker than a hundredth of the mean counts as that bright.
