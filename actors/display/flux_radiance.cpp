@@ -128,8 +128,7 @@ class FluxRadiance final : public KnownRadiance {
     std::array<Estimate, voxel_values> read;
     const Estimate* of = read.data();
     if (voxel_errors_.empty())
-      for (uint32_t q = 0; q < voxel_values; ++q)
-        read[q] = readout_.lumens(scene_.blocks.voxels, voxel, q);
+      for (uint32_t q = 0; q < voxel_values; ++q) read[q] = lumens(scene_.blocks.voxels, voxel, q);
     else
       of = &voxel_errors_[voxel_values * voxel];
     const KnownError unknown{uint64_t{scene_.patch_count} + voxel, 0};
@@ -202,11 +201,26 @@ class FluxRadiance final : public KnownRadiance {
         for (size_t b = 0; b < bands_; ++b)
           read_voxel(bin, static_cast<int>(b), &voxels_[voxel_values * (voxel * bands_ + b)]);
         for (uint32_t q = 0; q < voxel_values; ++q)
-          voxel_errors_[voxel_values * voxel + q] = readout_.lumens(scene_.blocks.voxels, bin, q);
+          voxel_errors_[voxel_values * voxel + q] = lumens(scene_.blocks.voxels, bin, q);
       }
     };
     parallel_for(static_cast<int64_t>((gas_.size() + per_row - 1) / per_row), run_threads_,
                  [&] { return fill_row; });
+  }
+
+  /// Of all source groups. A group of one batch does not know its error: what it brings counts as
+  /// quite uncertain.
+  Estimate lumens(uint32_t block, uint32_t bin, uint32_t quantity) const {
+    Estimate sum;
+    double variance = 0;
+    for (int g = 0; g < static_cast<int>(scene_.groups.size()); ++g) {
+      const Estimate own = readout_.lumens(block, bin, quantity, g);
+      const double error = std::isnan(own.standard_error) ? own.value : own.standard_error;
+      sum.value += own.value;
+      variance += error * error;
+    }
+    sum.standard_error = std::sqrt(variance);
+    return sum;
   }
 
   void fill_triangle(const TriangleRecord& t) {
@@ -221,7 +235,7 @@ class FluxRadiance final : public KnownRadiance {
         const Estimate out = readout_.watts(scene_.blocks.patches, patch, static_cast<int>(b), 1);
         table_[patch * bands_ + b] = static_cast<float>(out.value * per_watt);
       }
-      const Estimate out = readout_.lumens(scene_.blocks.patches, patch, 1);
+      const Estimate out = lumens(scene_.blocks.patches, patch, 1);
       patch_errors_[patch] = out.value > 0 ? static_cast<float>(out.relative_error()) : 0.0f;
     }
   }
