@@ -27,28 +27,31 @@ std::string paths_text(int paths) {
 }  // namespace
 
 std::vector<Option> options_of(PictureChoices& choices, const char* paths_name) {
-  return {{paths_name,
-           &choices.paths,
-           "Number of paths per pixel at most",
-           {.otherwise = "32; with --picture-time or --picture-error 65536",
-            .range = Range{1, limits::max_paths_per_pixel}}},
-          {"--picture-time",
-           &choices.time,
-           "Time for all pictures together, after which no more paths are added, e.g. 60s",
-           {.form = Form::duration, .otherwise = "none"}},
-          {"--picture-error",
-           &choices.error,
-           "Error at which pictures end: the root mean square over pixels of the relative standard "
-           "error of luminance, of the worst picture as PNG files show it, e.g. 10%",
-           {.form = Form::share, .otherwise = "none"}},
-          {"--display-white",
-           &choices.display.white_cd_m2,
-           "Luminance of white on the monitor that NAME_human.png is made for [cd/m2]",
-           {.range = Range{1, 1e5}}},
-          {"--display-black",
-           &choices.display.black_cd_m2,
-           "Luminance of its black, with the light of the room that it reflects [cd/m2]",
-           {.range = Range{1e-4, 1e3}}}};
+  return {
+      {paths_name,
+       &choices.paths,
+       "Number of paths per pixel at most",
+       {.otherwise = "32; with --picture-time or --picture-error 65536",
+        .range = Range{1, limits::max_paths_per_pixel}}},
+      {"--picture-time",
+       &choices.time,
+       "Time for all pictures together, after which no more paths are added, e.g. 60s",
+       {.form = Form::duration, .otherwise = "none"}},
+      {"--picture-error",
+       &choices.error,
+       "Error at which pictures end: the root mean square over pixels, but for the worst "
+       "hundredth, "
+       "of the relative standard error of luminance; of the worst picture, as PNG files show it; "
+       "e.g. 10%",
+       {.form = Form::share, .otherwise = "none"}},
+      {"--display-white",
+       &choices.display.white_cd_m2,
+       "Luminance of white on the monitor that NAME_human.png is made for [cd/m2]",
+       {.range = Range{1, 1e5}}},
+      {"--display-black",
+       &choices.display.black_cd_m2,
+       "Luminance of its black, with the light of the room that it reflects [cd/m2]",
+       {.range = Range{1e-4, 1e3}}}};
 }
 
 Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture) {

@@ -1,6 +1,7 @@
 // luxodus render: pictures from a finished run, without tracing particles again.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -79,8 +80,10 @@ Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, cons
   const size_t count = film.cameras.size();
   std::optional<ProgressLine> line("film");
   const auto made = render_film(frames, run, film, picture, [&](double done) {
-    line->show_share(done / static_cast<double>(count),
-                     fmt::format(", frame {:.0f} of {}", std::floor(done) + 1, count));
+    line->show_share(
+        done / static_cast<double>(count),
+        fmt::format(", frame {:.0f} of {}",
+                    std::min(std::floor(done) + 1, static_cast<double>(count)), count));
   });
   line.reset();
   if (!made) return made.problem();

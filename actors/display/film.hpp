@@ -11,8 +11,8 @@
 namespace luxodus {
 
 namespace limits {
-/// An hour and more at 24 frames a second.
-inline constexpr int max_film_frames = 100'000;
+/// An hour and more at 12 frames a second.
+inline constexpr int max_film_frames = 50'000;
 }  // namespace limits
 
 struct FilmedWalk {

@@ -65,6 +65,8 @@ void mark_triangle(const VoxelGrid& grid, const TriangleRecord& t, VoxelMarks& m
 
 /// Of a voxel: fluence, and the net flux along x, y, z.
 constexpr size_t voxel_values = 4;
+/// Over which the slope of a phase function is taken.
+constexpr double cosine_step = 0.02;
 constexpr size_t max_voxel_table_bytes = size_t{256} << 20;
 
 class FluxRadiance final : public KnownRadiance {
@@ -119,30 +121,39 @@ class FluxRadiance final : public KnownRadiance {
   }
 
   /// By the errors of the fluence and of each component of the net flux, as if they were
-  /// independent.
+  /// independent: the squares of what each changes in `turned`.
   KnownError error_of_medium(const Vec3& place, const Vec3& direction,
                              const PhaseFunction& phase) const override {
     const uint32_t voxel = voxel_of(scene_.voxels, place);
-    std::array<float, voxel_values> values, errors;
-    for (uint32_t q = 0; q < voxel_values; ++q) {
-      const size_t at = voxel_values * voxel + q;
-      const bool filled = !voxel_errors_.empty();
-      const Estimate e =
-          filled ? voxel_errors_[at] : readout_.lumens(scene_.blocks.voxels, voxel, q);
-      values[q] = static_cast<float>(e.value);
-      errors[q] = static_cast<float>(e.standard_error);
-    }
-    const double light = turned(values.data(), direction, phase);
-    double squares = std::pow(static_cast<double>(errors[0]) / (4 * static_cast<double>(pi_f)), 2);
-    for (size_t q = 1; q < voxel_values; ++q) {
-      std::array<float, voxel_values> more = values, less = values;
-      more[q] += errors[q];
-      less[q] -= errors[q];
-      const double change =
-          turned(more.data(), direction, phase) - turned(less.data(), direction, phase);
-      squares += change * change / 4;
-    }
-    return {uint64_t{scene_.patch_count} + voxel, light > 0 ? std::sqrt(squares) / light : 0};
+    std::array<Estimate, voxel_values> read;
+    const Estimate* of = read.data();
+    if (voxel_errors_.empty())
+      for (uint32_t q = 0; q < voxel_values; ++q) read[q] = lumens(scene_.blocks.voxels, voxel, q);
+    else
+      of = &voxel_errors_[voxel_values * voxel];
+    const KnownError unknown{uint64_t{scene_.patch_count} + voxel, 0};
+    if (!(of[0].value > 0)) return unknown;
+    constexpr double everywhere = 1 / (4 * static_cast<double>(pi_f));
+    const glm::dvec3 net(of[1].value, of[2].value, of[3].value), to(direction);
+    const double beam = glm::length(net);
+    const glm::dvec3 along = beam > 0 ? net / beam : to;
+    const double cosine = -glm::dot(along, to);
+    const auto turn = [&](double c) {
+      return static_cast<double>(evaluate(phase, static_cast<Real>(c)));
+    };
+    const double turned_here = turn(cosine);
+    const double aside = cosine > 0 ? cosine - cosine_step : cosine + cosine_step;
+    const double slope = (turn(aside) - turned_here) / (aside - cosine);
+    const double even = std::max(0.0, of[0].value - beam) * everywhere;
+    // A longer net flux sends more one way and less everywhere; one turned aside meets the phase
+    // function elsewhere.
+    const glm::dvec3 by_net =
+        (turned_here - (even > 0 ? everywhere : 0)) * along - slope * (to + cosine * along);
+    double squares = even > 0 ? std::pow(everywhere * of[0].standard_error, 2) : 0;
+    for (int k = 0; k < 3; ++k)
+      squares += std::pow(by_net[k] * of[static_cast<size_t>(k) + 1].standard_error, 2);
+    const double light = even + beam * turned_here;
+    return {unknown.bin, light > 0 ? std::sqrt(squares) / light : 0};
   }
 
  private:
@@ -190,11 +201,26 @@ class FluxRadiance final : public KnownRadiance {
         for (size_t b = 0; b < bands_; ++b)
           read_voxel(bin, static_cast<int>(b), &voxels_[voxel_values * (voxel * bands_ + b)]);
         for (uint32_t q = 0; q < voxel_values; ++q)
-          voxel_errors_[voxel_values * voxel + q] = readout_.lumens(scene_.blocks.voxels, bin, q);
+          voxel_errors_[voxel_values * voxel + q] = lumens(scene_.blocks.voxels, bin, q);
       }
     };
     parallel_for(static_cast<int64_t>((gas_.size() + per_row - 1) / per_row), run_threads_,
                  [&] { return fill_row; });
+  }
+
+  /// Of all source groups. A group of one batch does not know its error: what it brings counts as
+  /// quite uncertain.
+  Estimate lumens(uint32_t block, uint32_t bin, uint32_t quantity) const {
+    Estimate sum;
+    double variance = 0;
+    for (int g = 0; g < static_cast<int>(scene_.groups.size()); ++g) {
+      const Estimate own = readout_.lumens(block, bin, quantity, g);
+      const double error = std::isnan(own.standard_error) ? own.value : own.standard_error;
+      sum.value += own.value;
+      variance += error * error;
+    }
+    sum.standard_error = std::sqrt(variance);
+    return sum;
   }
 
   void fill_triangle(const TriangleRecord& t) {
@@ -209,7 +235,7 @@ class FluxRadiance final : public KnownRadiance {
         const Estimate out = readout_.watts(scene_.blocks.patches, patch, static_cast<int>(b), 1);
         table_[patch * bands_ + b] = static_cast<float>(out.value * per_watt);
       }
-      const Estimate out = readout_.lumens(scene_.blocks.patches, patch, 1);
+      const Estimate out = lumens(scene_.blocks.patches, patch, 1);
       patch_errors_[patch] = out.value > 0 ? static_cast<float>(out.relative_error()) : 0.0f;
     }
   }

@@ -4,6 +4,7 @@
 // independent, which errs on the safe side.
 #include "actors/display/pictures.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
@@ -391,18 +392,24 @@ TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOpt
 }
 
 double relative_error(const XyzPicture& light, const std::vector<float>& standard_error_y) {
+  constexpr double darkest = 0.01, left_out = 0.01;
   const auto luminance = [&](size_t i) { return static_cast<double>(light.xyz[3 * i + 1]); };
-  const auto pixels = static_cast<double>(light.pixels());
-  double mean = 0, squares = 0;
-  for (size_t i = 0; i < light.pixels(); ++i) mean += luminance(i) / pixels;
-  constexpr double darkest = 0.01;
+  double mean = 0;
+  for (size_t i = 0; i < light.pixels(); ++i)
+    mean += luminance(i) / static_cast<double>(light.pixels());
+  std::vector<double> squares;
   for (size_t i = 0; i < light.pixels(); ++i) {
     const double against = std::max(luminance(i), darkest * mean);
     const auto error = static_cast<double>(standard_error_y[i]);
-    if (against > 0) squares += error * error / (against * against * pixels);
     if (std::isnan(error)) return error;
+    squares.push_back(against > 0 ? error * error / (against * against) : 0);
   }
-  return std::sqrt(squares);
+  std::sort(squares.begin(), squares.end());
+  squares.resize(squares.size() -
+                 static_cast<size_t>(left_out * static_cast<double>(squares.size())));
+  double sum = 0;
+  for (const double square : squares) sum += square;
+  return std::sqrt(sum / static_cast<double>(squares.size()));
 }
 
 namespace {
@@ -421,11 +428,12 @@ NoisyPicture seen_through_smoke(NoisyPicture noisy) {
 
 }  // namespace
 
-FilteredView filter_traced(const TracedPicture& traced, int threads) {
+FilteredView filter_traced(const TracedPicture& traced, int threads,
+                           const RegressionFilter& filter) {
   const ShareWork share = [&](int64_t count, const std::function<void(int64_t)>& work) {
     parallel_for(count, threads, [&] { return work; });
   };
-  FilteredPicture filtered = filter_picture(seen_through_smoke(traced.noisy), {}, share);
+  FilteredPicture filtered = filter_picture(seen_through_smoke(traced.noisy), filter, share);
   FilteredView out;
   out.light.width = traced.light.width;
   out.light.height = traced.light.height;

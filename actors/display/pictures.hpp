@@ -75,11 +75,13 @@ struct FilteredView {
 inline constexpr int min_filtered_paths = 4;
 
 /// Requires: min_filtered_paths per pixel at least; threads >= 1. The same for any threads.
-FilteredView filter_traced(const TracedPicture& traced, int threads);
+FilteredView filter_traced(const TracedPicture& traced, int threads,
+                           const RegressionFilter& filter = {});
 
 /// Error of a picture as people see it: the root of the mean over pixels of the relative standard
 /// error of luminance, squared. A pixel darker than a hundredth of the mean counts as that bright.
-/// NaN where errors are not known.
+/// The worst hundredth of the pixels is left out: beside lamps a filtered error is that of its
+/// brighter neighbours. NaN where errors are not known.
 double relative_error(const XyzPicture& light, const std::vector<float>& standard_error_y);
 
 /// A camera's picture as it grows, path by path. Pixels are the same bits however paths were added.

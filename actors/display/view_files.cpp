@@ -230,9 +230,9 @@ XyzPicture enlarged(const XyzPicture& half, int width, int height) {
 }  // namespace
 
 ShownView::ShownView(TracedPicture picture, int paths_per_pixel, const PictureOptions& options,
-                     int threads)
+                     int threads, const RegressionFilter& filter)
     : traced(std::move(picture)), paths(paths_per_pixel), display(options.display) {
-  if (paths >= min_filtered_paths) filtered = filter_traced(traced, threads);
+  if (paths >= min_filtered_paths) filtered = filter_traced(traced, threads, filter);
   raw = options.raw || !filtered;
 }
 

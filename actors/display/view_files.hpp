@@ -13,7 +13,8 @@ namespace luxodus {
 struct ShownView {
   /// Filters it, where it has the paths for that. `options`: whether PNG files show what was
   /// traced, and on what monitor.
-  ShownView(TracedPicture picture, int paths_per_pixel, const PictureOptions& options, int threads);
+  ShownView(TracedPicture picture, int paths_per_pixel, const PictureOptions& options, int threads,
+            const RegressionFilter& filter = {});
 
   /// As PNG files show it.
   const XyzPicture& shown() const { return raw ? traced.light : filtered->light; }

@@ -11,7 +11,7 @@ namespace luxodus {
 /// What known light errs by: whoever ends in the same bin errs alike.
 struct KnownError {
   uint64_t bin = 0;
-  double relative = 0;  // standard error of the luminance by the luminance; NaN: not known
+  double relative = 0;  // standard error of the luminance, by the luminance
 };
 
 /// Where a path has ended in known light.

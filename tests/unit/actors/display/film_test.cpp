@@ -115,7 +115,7 @@ TEST_CASE("a walk of too many frames is refused with its route", "[display]") {
   const auto refused = cameras_of(bent_route(), {0.01, 240, 1.6}, lens());
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.problem().what.find("\"out\"") != std::string::npos);
-  CHECK(refused.problem().what.find("100000 frames") != std::string::npos);
+  CHECK(refused.problem().what.find("50000 frames") != std::string::npos);
 }
 
 TEST_CASE("a frame is the picture of a camera that stands there, bit for bit", "[display]") {

@@ -146,3 +146,16 @@ TEST_CASE("what a flux errs by shows in pictures of the same paths as they say",
   CHECK(std::sqrt(seen / said) > 0.7);
   CHECK(std::sqrt(seen / said) < 1.4);
 }
+
+TEST_CASE("a picture that ends in the flux of one batch counts that as uncertain", "[display]") {
+  const auto one = pictures_of({"0.1", "0.85"}, 1, 32, 256, 7);
+  const auto many = pictures_of({"0.1", "0.85"}, 1, 1 << 14, 256, 7);
+  double of_one = 0, of_many = 0;
+  for (size_t i = 0; i < one[0].light.pixels(); ++i) {
+    REQUIRE(std::isfinite(one[0].standard_error_y[i]));
+    of_one += static_cast<double>(one[0].flux_error_y[i]);
+    of_many += static_cast<double>(many[0].flux_error_y[i]);
+  }
+  CHECK(of_many > 0);
+  CHECK(of_one > 4 * of_many);
+}

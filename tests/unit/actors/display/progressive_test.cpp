@@ -184,4 +184,11 @@ TEST_CASE("the error of a picture is the root mean square of relative errors", "
   // The last pixel counts as a hundredth of the mean.
   CHECK(relative_error(light, {0, 0, 0, 0.0175f}) == Approx(0.5));
   CHECK(std::isnan(relative_error(light, {0, 0, 0, NAN})));
+  // Of two hundred pixels the worst two are left out.
+  XyzPicture even{200, 1, std::vector<float>(600, 1.0f), {}};
+  std::vector<float> with_two(200, 0.1f);
+  with_two[7] = with_two[150] = 100;
+  CHECK(relative_error(even, with_two) == Approx(0.1));
+  with_two[9] = 1;
+  CHECK(relative_error(even, with_two) > 0.12);
 }
