@@ -236,7 +236,9 @@ glm::dvec3 free_place(const Building& building) {
     farthest = nearest;
     best = at;
   }
-  return best;
+  // A single body has no place within: above it.
+  constexpr double near_m = 0.2;
+  return farthest < near_m ? glm::dvec3(best.x, best.y, box.high.z + 1) : best;
 }
 
 std::string scene_head(const Building& building, bool any_light) {
@@ -254,10 +256,18 @@ std::string scene_head(const Building& building, bool any_light) {
         "position = " +
         point_text(lamp) + "\nflux_lm = 1000\n";
   }
-  return out +
-         "\n# Doors of the building stand as drawn, closed, until a scenario opens them:\n"
-         "# [[scenario]]\n# name = \"escape\"\n# operation = \"emergency\"\n# doors_open = []   # "
-         "names of parts, as `luxodus check` lists them\n";
+  out +=
+      "\n# Doors of the building stand as drawn, closed, until a scenario opens them:\n"
+      "# [[scenario]]\n# name = \"doors open\"\n# doors_open = [\n";
+  // Names of parts open with that of their import.
+  constexpr size_t most = 50;
+  size_t leaves = 0;
+  for (const BuildingStorey& storey : building.storeys)
+    for (const BuildingPart& part : storey.parts)
+      if (part.hinge && ++leaves <= most)
+        out += "#   " + toml_text(storey.name + "." + part.name) + ",\n";
+  if (leaves > most) out += fmt::format("#   and {} more in building.toml\n", leaves - most);
+  return out + "# ]\n";
 }
 
 std::string lines_of(const std::string& title, const std::vector<std::string>& lines) {

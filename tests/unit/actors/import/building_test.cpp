@@ -261,7 +261,12 @@ TEST_CASE("a second import updates the building and leaves a person's files as t
   for (const Object& object : scene.objects)
     CHECK(object.name.find(small.lamp_guid) == std::string::npos);
 
-  const std::string edited = text_of(out / "scene.toml") + "\n# mine\n";
+  // The doors that the new scene lists as a comment are those of the building.
+  const std::string leaf = "Ground \xc3\xa4.door Exit " + small.door_guid;
+  const std::string fresh = text_of(out / "scene.toml");
+  CHECK(fresh.find(leaf) != std::string::npos);
+  const std::string edited =
+      fresh + "\n[[scenario]]\nname = \"open\"\ndoors_open = [\"" + leaf + "\"]\n";
   std::ofstream(out / "scene.toml") << edited;
   std::string materials = text_of(out / "materials.toml");
   materials.replace(materials.find("reflectance = "), 18, "reflectance = 0.33");
