@@ -68,9 +68,6 @@ std::optional<fs::path> photometry_of(const std::map<std::string, fs::path>& fil
     names.push_back(fs::path(f->document).stem().string());
     names.push_back(f->type);
     names.push_back(f->name);
-    // Revit: "family:type:number".
-    const size_t colon = f->type.rfind(':');
-    if (colon != std::string::npos) names.push_back(f->type.substr(colon + 1));
   }
   for (const std::string& name : names)
     if (const auto it = files.find(letters_and_digits(name));

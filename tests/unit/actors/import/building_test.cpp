@@ -155,6 +155,21 @@ TEST_CASE("names and texts of others are those of a scene file", "[import]") {
   CHECK(toml_text("a\"b\\c\n\xff") == "\"a\\\"b\\\\c\\u000a?\"");
 }
 
+TEST_CASE("types of one name in two families stay two", "[import]") {
+  const auto type_of = [](const std::string& name) {
+    SmallIfc small;
+    small.lamp_name = name;
+    const auto model = ifc_model_of(small.text(), "small.ifc");
+    REQUIRE(model.ok());
+    const Building building = building_of(model.value(), IfcShapes{});
+    REQUIRE(building.fixtures.size() == 2);
+    return building.fixtures[0].type;
+  };
+  CHECK(type_of("Lamp 1") == "Lamp");
+  CHECK(type_of("Sconce:Lamp:575376") == "Sconce:Lamp");
+  CHECK(type_of("Pendant:Lamp:575377") == "Pendant:Lamp");
+}
+
 TEST_CASE("photometric files are found by the letters of their names", "[import]") {
   const TemporaryFolder folder;
   folder.write("LED-Panel_600.ldt", "");
