@@ -11,6 +11,7 @@
 #include "actors/import/own_tables.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
+#include "scenes/photometry/gldf.hpp"
 
 namespace luxodus {
 namespace {
@@ -76,6 +77,18 @@ std::optional<fs::path> photometry_of(const std::map<std::string, fs::path>& fil
   return std::nullopt;
 }
 
+/// Why a file says no luminaire by itself: it is damaged, or a container in which one is chosen.
+std::optional<Problem> fault_of_photometry(const fs::path& file) {
+  if (letters_and_digits(file.extension().string()) != "gldf") {
+    const auto read = read_photometric_file(file);
+    return read ? std::nullopt : std::optional(read.problem());
+  }
+  const auto product = read_gldf(file);
+  if (!product) return product.problem();
+  const auto luminaire = luminaire_of(product.value(), "", "", std::nullopt);
+  return luminaire ? std::nullopt : std::optional(luminaire.problem());
+}
+
 std::string says_text(const BuildingFixture& fixture) {
   std::string out;
   for (const std::string& words : fixture.says) out += (out.empty() ? "" : ", ") + words;
@@ -121,11 +134,15 @@ Result<void> add_types(const FixtureTypes& types, const std::map<std::string, fs
     const auto& [is_sign, type] = kind;
     if (tables.named.contains(type)) continue;
     const BuildingFixture& one = *fixtures.front();
-    const auto found = is_sign ? std::nullopt : photometry_of(files, fixtures);
+    auto found = is_sign ? std::nullopt : photometry_of(files, fixtures);
+    std::string why = one.document.empty() ? "" : ": the model names " + one.document;
+    if (const auto fault = found ? fault_of_photometry(*found) : std::nullopt) {
+      why = ": " + fault->text();
+      found.reset();
+    }
     if (!found)
-      written.asked.push_back(
-          fmt::format("{} \"{}\" ({}){}", is_sign ? "sign" : "luminaire", type, fixtures.size(),
-                      one.document.empty() ? "" : ": the model names " + one.document));
+      written.asked.push_back(fmt::format("{} \"{}\" ({}){}", is_sign ? "sign" : "luminaire", type,
+                                          fixtures.size(), why));
     if (!found && tables.mentions(type)) continue;
     std::string file;
     if (found) {

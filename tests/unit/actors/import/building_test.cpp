@@ -170,6 +170,22 @@ TEST_CASE("types of one name in two families stay two", "[import]") {
   CHECK(type_of("Pendant:Lamp:575377") == "Pendant:Lamp");
 }
 
+TEST_CASE("a type whose file cannot be used waits for a person, with the reason", "[import]") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "lights");
+  std::ofstream(folder / "lights/lamp.ies") << "TILT=NONE\nno numbers\n";
+  SmallIfc small;
+  const auto model = ifc_model_of(small.text(), "small.ifc");
+  REQUIRE(model.ok());
+  const Building building = building_of(model.value(), IfcShapes{});
+  const auto written =
+      write_building(building, (folder / "house").string(), (folder / "lights").string());
+  REQUIRE(written.ok());
+  CHECK(written->luminaires == 0);
+  REQUIRE(written->asked.size() == 2);
+  CHECK(written->asked[0].find("lamp.ies:") != std::string::npos);
+}
+
 TEST_CASE("photometric files are found by the letters of their names", "[import]") {
   const TemporaryFolder folder;
   folder.write("LED-Panel_600.ldt", "");
