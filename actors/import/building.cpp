@@ -27,7 +27,7 @@ std::string small(std::string_view text) {
 }
 
 bool is_fixture(const IfcProduct& p) {
-  return p.kind == "LIGHTFIXTURE" || p.type_class == "IFCLIGHTFIXTURETYPE";
+  return p.kind == "LIGHTFIXTURE" || p.kind == "SIGN" || p.type_class == "IFCLIGHTFIXTURETYPE";
 }
 
 bool is_furniture(const IfcProduct& p) {
@@ -359,7 +359,24 @@ std::vector<std::string> fixture_words(const IfcProduct& p) {
   return out;
 }
 
+/// What fixtures of one kind have in common. Some exporters name the type alone ("100W") and have
+/// its family in the name of the product ("Sconce:100W:575376"): both together tell types apart.
+std::string fixture_type(const IfcProduct& p) {
+  const std::string stated = p.type_name.empty() ? p.object_type : p.type_name;
+  const size_t colon = p.name.find(':');
+  const std::string family = colon == std::string::npos ? "" : p.name.substr(0, colon);
+  if (!stated.empty() && (family.empty() || stated.starts_with(family)))
+    return as_name(stated, "light");
+  if (!stated.empty()) return as_name(family + ":" + stated, "light");
+  // Without a type: its own name, without the number of the product.
+  const size_t last = p.name.rfind(':');
+  const bool numbered = last != std::string::npos && last + 1 < p.name.size() &&
+                        p.name.find_first_not_of("0123456789", last + 1) == std::string::npos;
+  return as_name(numbered ? p.name.substr(0, last) : p.name, "light");
+}
+
 bool is_sign(const IfcProduct& p) {
+  if (p.kind == "SIGN") return true;
   const std::string set = "Pset_LightFixtureTypeSecurityLighting.";
   const std::string kind = p.property(set + "SecurityLightingType");
   const std::string pictogram = p.property(set + "PictogramEscapeDirection");
@@ -371,10 +388,7 @@ void Assembly::take_fixture(const IfcProduct& p) {
   BuildingFixture fixture;
   fixture.name = as_name(p.name, "light");
   fixture.guid = p.guid;
-  fixture.type = as_name(!p.type_name.empty()     ? p.type_name
-                         : !p.object_type.empty() ? p.object_type
-                                                  : p.name,
-                         "light");
+  fixture.type = fixture_type(p);
   fixture.is_sign = is_sign(p);
   fixture.says = fixture_words(p);
   fixture.storey = storey_of(p).name;

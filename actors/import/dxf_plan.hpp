@@ -42,6 +42,8 @@ struct DxfPlan {
 Result<DxfPlan> read_dxf_plan(const std::filesystem::path& file);
 
 /// The same of its text, in this process. `file` names it in messages.
+/// Requires: a text that is known to be sound, since dxflib writes beyond its memory for some that
+/// are damaged.
 Result<DxfPlan> dxf_plan_of(const std::string& text, const std::string& file);
 
 }  // namespace luxodus

@@ -11,6 +11,7 @@
 #include "actors/import/own_tables.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
+#include "scenes/photometry/gldf.hpp"
 
 namespace luxodus {
 namespace {
@@ -68,15 +69,24 @@ std::optional<fs::path> photometry_of(const std::map<std::string, fs::path>& fil
     names.push_back(fs::path(f->document).stem().string());
     names.push_back(f->type);
     names.push_back(f->name);
-    // Revit: "family:type:number".
-    const size_t colon = f->type.rfind(':');
-    if (colon != std::string::npos) names.push_back(f->type.substr(colon + 1));
   }
   for (const std::string& name : names)
     if (const auto it = files.find(letters_and_digits(name));
         it != files.end() && !letters_and_digits(name).empty())
       return it->second;
   return std::nullopt;
+}
+
+/// Why a file says no luminaire by itself: it is damaged, or a container in which one is chosen.
+std::optional<Problem> fault_of_photometry(const fs::path& file) {
+  if (letters_and_digits(file.extension().string()) != "gldf") {
+    const auto read = read_photometric_file(file);
+    return read ? std::nullopt : std::optional(read.problem());
+  }
+  const auto product = read_gldf(file);
+  if (!product) return product.problem();
+  const auto luminaire = luminaire_of(product.value(), "", "", std::nullopt);
+  return luminaire ? std::nullopt : std::optional(luminaire.problem());
 }
 
 std::string says_text(const BuildingFixture& fixture) {
@@ -124,11 +134,15 @@ Result<void> add_types(const FixtureTypes& types, const std::map<std::string, fs
     const auto& [is_sign, type] = kind;
     if (tables.named.contains(type)) continue;
     const BuildingFixture& one = *fixtures.front();
-    const auto found = is_sign ? std::nullopt : photometry_of(files, fixtures);
+    auto found = is_sign ? std::nullopt : photometry_of(files, fixtures);
+    std::string why = one.document.empty() ? "" : ": the model names " + one.document;
+    if (const auto fault = found ? fault_of_photometry(*found) : std::nullopt) {
+      why = ": " + fault->text();
+      found.reset();
+    }
     if (!found)
-      written.asked.push_back(
-          fmt::format("{} \"{}\" ({}){}", is_sign ? "sign" : "luminaire", type, fixtures.size(),
-                      one.document.empty() ? "" : ": the model names " + one.document));
+      written.asked.push_back(fmt::format("{} \"{}\" ({}){}", is_sign ? "sign" : "luminaire", type,
+                                          fixtures.size(), why));
     if (!found && tables.mentions(type)) continue;
     std::string file;
     if (found) {
@@ -236,7 +250,9 @@ glm::dvec3 free_place(const Building& building) {
     farthest = nearest;
     best = at;
   }
-  return best;
+  // A single body has no place within: above it.
+  constexpr double near_m = 0.2;
+  return farthest < near_m ? glm::dvec3(best.x, best.y, box.high.z + 1) : best;
 }
 
 std::string scene_head(const Building& building, bool any_light) {
@@ -254,10 +270,18 @@ std::string scene_head(const Building& building, bool any_light) {
         "position = " +
         point_text(lamp) + "\nflux_lm = 1000\n";
   }
-  return out +
-         "\n# Doors of the building stand as drawn, closed, until a scenario opens them:\n"
-         "# [[scenario]]\n# name = \"escape\"\n# operation = \"emergency\"\n# doors_open = []   # "
-         "names of parts, as `luxodus check` lists them\n";
+  out +=
+      "\n# Doors of the building stand as drawn, closed, until a scenario opens them:\n"
+      "# [[scenario]]\n# name = \"doors open\"\n# doors_open = [\n";
+  // Names of parts open with that of their import.
+  constexpr size_t most = 50;
+  size_t leaves = 0;
+  for (const BuildingStorey& storey : building.storeys)
+    for (const BuildingPart& part : storey.parts)
+      if (part.hinge && ++leaves <= most)
+        out += "#   " + toml_text(storey.name + "." + part.name) + ",\n";
+  if (leaves > most) out += fmt::format("#   and {} more in building.toml\n", leaves - most);
+  return out + "# ]\n";
 }
 
 std::string lines_of(const std::string& title, const std::vector<std::string>& lines) {

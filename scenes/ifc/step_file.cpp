@@ -263,8 +263,8 @@ Result<StepFile> StepFile::of(std::string bytes, const std::string& file) {
     return problem_in(file, fmt::format("a model of {} bytes; the most are {}", bytes.size(),
                                         limits::step_bytes));
   StepFile out;
-  out.text_.assign(bytes.begin(), bytes.end());
-  const std::string_view text(out.text_.data(), out.text_.size());
+  out.text_ = std::make_unique<const std::string>(std::move(bytes));
+  const std::string_view text = *out.text_;
   const size_t begin = skip(text, text.starts_with("\xef\xbb\xbf") ? 3 : 0);
   if (!text.substr(begin).starts_with("ISO-10303-21"))
     return problem_in(file, text.starts_with("PK")
@@ -280,13 +280,13 @@ Result<StepFile> StepFile::of(std::string bytes, const std::string& file) {
 void StepFile::fault(const std::string& file, size_t at, std::string what) {
   ++fault_count_;
   if (faults_.size() >= limits::step_faults) return;
-  const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(at, text_.size()));
-  const auto lines = std::count(text_.begin(), end, '\n');
+  const std::string_view before = std::string_view(*text_).substr(0, at);
+  const auto lines = std::count(before.begin(), before.end(), '\n');
   faults_.push_back(problem_in(file, static_cast<int>(lines) + 1, std::move(what)));
 }
 
 void StepFile::index(const std::string& file) {
-  const std::string_view text(text_.data(), text_.size());
+  const std::string_view text = *text_;
   for (size_t at = skip(text, 0); at < text.size(); at = skip(text, at)) {
     const size_t end = end_of_statement(text, at);
     if (end == std::string_view::npos) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -63,7 +64,7 @@ class StepFile {
   void index(const std::string& file);
   void fault(const std::string& file, size_t at, std::string what);
 
-  std::vector<char> text_;  // on the heap: views into it outlive a move
+  std::unique_ptr<const std::string> text_;  // on the heap: views into it outlive a move
   std::vector<Instance> instances_;
   std::unordered_map<uint64_t, uint32_t> by_id_;
   std::string schema_;

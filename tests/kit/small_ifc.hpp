@@ -16,7 +16,7 @@ class SmallIfc {
   glm::dvec3 site{0};  // of the building [m]
   double floor_m = 1;  // of its storey
   bool with_ceiling = true;
-  std::string photometry = "lamp.ies";
+  std::string lamp_name = "Lamp 1";
   double wall_volume_m3 = 0;  // authored, of the north wall; 0: not said
 
   std::string text() {
@@ -165,7 +165,7 @@ class SmallIfc {
   void furniture_and_lights() {
     product("IFCFURNITURE", guid(), "Table", {1, 1, 0}, {1.6, 0.8, 0.74}, ",.TABLE.");
     const std::string lamp_id = named_guid(lamp_guid);
-    const std::string lamp = product("IFCLIGHTFIXTURE", lamp_id, "Lamp 1", {2.4, 1.9, 2.9},
+    const std::string lamp = product("IFCLIGHTFIXTURE", lamp_id, lamp_name, {2.4, 1.9, 2.9},
                                      {0.2, 0.2, 0.1}, ",.POINTSOURCE.");
     const std::string type = add("IFCLIGHTFIXTURETYPE(" + guid() +
                                  ",$,'Lamp',$,$,$,$,$,$,"

@@ -155,6 +155,37 @@ TEST_CASE("names and texts of others are those of a scene file", "[import]") {
   CHECK(toml_text("a\"b\\c\n\xff") == "\"a\\\"b\\\\c\\u000a?\"");
 }
 
+TEST_CASE("types of one name in two families stay two", "[import]") {
+  const auto type_of = [](const std::string& name) {
+    SmallIfc small;
+    small.lamp_name = name;
+    const auto model = ifc_model_of(small.text(), "small.ifc");
+    REQUIRE(model.ok());
+    const Building building = building_of(model.value(), IfcShapes{});
+    REQUIRE(building.fixtures.size() == 2);
+    return building.fixtures[0].type;
+  };
+  CHECK(type_of("Lamp 1") == "Lamp");
+  CHECK(type_of("Sconce:Lamp:575376") == "Sconce:Lamp");
+  CHECK(type_of("Pendant:Lamp:575377") == "Pendant:Lamp");
+}
+
+TEST_CASE("a type whose file cannot be used waits for a person, with the reason", "[import]") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "lights");
+  std::ofstream(folder / "lights/lamp.ies") << "TILT=NONE\nno numbers\n";
+  SmallIfc small;
+  const auto model = ifc_model_of(small.text(), "small.ifc");
+  REQUIRE(model.ok());
+  const Building building = building_of(model.value(), IfcShapes{});
+  const auto written =
+      write_building(building, (folder / "house").string(), (folder / "lights").string());
+  REQUIRE(written.ok());
+  CHECK(written->luminaires == 0);
+  REQUIRE(written->asked.size() == 2);
+  CHECK(written->asked[0].find("lamp.ies:") != std::string::npos);
+}
+
 TEST_CASE("photometric files are found by the letters of their names", "[import]") {
   const TemporaryFolder folder;
   folder.write("LED-Panel_600.ldt", "");
@@ -261,7 +292,12 @@ TEST_CASE("a second import updates the building and leaves a person's files as t
   for (const Object& object : scene.objects)
     CHECK(object.name.find(small.lamp_guid) == std::string::npos);
 
-  const std::string edited = text_of(out / "scene.toml") + "\n# mine\n";
+  // The doors that the new scene lists as a comment are those of the building.
+  const std::string leaf = "Ground \xc3\xa4.door Exit " + small.door_guid;
+  const std::string fresh = text_of(out / "scene.toml");
+  CHECK(fresh.find(leaf) != std::string::npos);
+  const std::string edited =
+      fresh + "\n[[scenario]]\nname = \"open\"\ndoors_open = [\"" + leaf + "\"]\n";
   std::ofstream(out / "scene.toml") << edited;
   std::string materials = text_of(out / "materials.toml");
   materials.replace(materials.find("reflectance = "), 18, "reflectance = 0.33");

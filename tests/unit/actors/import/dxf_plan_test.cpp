@@ -216,7 +216,7 @@ TEST_CASE("harmed drawings are read or refused with one sentence", "[import][dxf
   const char* seed_text = std::getenv("LUXODUS_SEED");
   const char* count_text = std::getenv("LUXODUS_MUTATIONS");
   const uint64_t seed = seed_text != nullptr ? std::strtoull(seed_text, nullptr, 0) : 1;
-  const int tries = count_text != nullptr ? std::atoi(count_text) : 2000;
+  const int tries = count_text != nullptr ? std::atoi(count_text) : 150;
   INFO("seed " << seed);
   Random random(seed, RandomStream::test);
   random.start(0);
@@ -226,11 +226,13 @@ TEST_CASE("harmed drawings are read or refused with one sentence", "[import][dxf
   };
   const Bytes one = bytes_of(drawing()),
               other = bytes_of(drawing(line("A", "1e308", "-1", "nan", "2"), "2"));
+  const TemporaryFolder folder;
   int read = 0;
   for (int i = 0; i < tries; ++i) {
     const Bytes harmed = mutated(one, other, random);
-    const auto plan = dxf_plan_of(
-        std::string(reinterpret_cast<const char*>(harmed.data()), harmed.size()), "harmed.dxf");
+    // In a process of its own: dxflib writes beyond its memory for some of them.
+    const auto plan = read_dxf_plan(folder.write(
+        "harmed.dxf", std::string(reinterpret_cast<const char*>(harmed.data()), harmed.size())));
     if (!plan) {
       REQUIRE_FALSE(plan.problem().what.empty());
       continue;
