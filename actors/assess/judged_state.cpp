@@ -63,6 +63,11 @@ std::string source_of(const Medium& medium, double factor) {
   return out;
 }
 
+/// Once the mains have failed, which a clock may not yet have reached.
+Operation operation_then(const Scenario& scenario) {
+  return scenario.operation == Operation::mains ? scenario.written_operation : scenario.operation;
+}
+
 bool same_factors(std::vector<Scenario::Factor> a, std::vector<Scenario::Factor> b) {
   const auto by_name = [](const Scenario::Factor& x, const Scenario::Factor& y) {
     return x.name < y.name;
@@ -89,7 +94,7 @@ std::string candidates(const SceneDescription& scene) {
   std::string out;
   for (const Scenario& s : scene.scenarios)
     out += fmt::format("{}\"{}\" ({} operation, {})", out.empty() ? "" : ", ", s.name,
-                       name_of(s.written_operation),
+                       name_of(operation_then(s)),
                        has_smoke(scene, s) ? "with smoke" : "without smoke");
   return out;
 }
@@ -326,7 +331,7 @@ Result<Scenario> judged_scenario(const SceneDescription& scene, const std::strin
   const char* const with = smoky ? " with smoke" : "";
   const Scenario* one = nullptr;
   for (const Scenario& s : scene.scenarios) {
-    if (s.written_operation != Operation::emergency || has_smoke(scene, s) != smoky) continue;
+    if (operation_then(s) != Operation::emergency || has_smoke(scene, s) != smoky) continue;
     if (one != nullptr)
       return unclear(scene, s.place,
                      fmt::format("\"{}\" and \"{}\" are both in emergency operation{}", one->name,
@@ -337,7 +342,7 @@ Result<Scenario> judged_scenario(const SceneDescription& scene, const std::strin
     return unclear(scene, scene.scenarios.front().place,
                    fmt::format("no scenario{} is in emergency operation", with));
   for (const Scenario& s : scene.scenarios)
-    if (s.written_operation == Operation::mains && has_smoke(scene, s) == smoky &&
+    if (operation_then(s) == Operation::mains && has_smoke(scene, s) == smoky &&
         !differ_in_operation_alone(s, *one))
       return unclear(scene, s.place,
                      fmt::format("\"{}\"{} is in mains operation and differs from \"{}\" in more "

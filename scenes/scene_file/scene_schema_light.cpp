@@ -329,7 +329,7 @@ TableSpec sign_type_keys() {
   TableSpec spec{"sign_type", "`[[sign_type]]`: what several signs have in common", {}};
   for (KeySpec key : sign_keys().keys) {
     if (key.name == "position" || key.name == "facing" || key.name == "type" ||
-        key.name == "ifc_guid")
+        key.name == "ifc_guid" || key.name == "leads_to")
       continue;
     if (key.name == "name")
       key.meaning = "name of the type";
