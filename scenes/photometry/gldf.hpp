@@ -94,9 +94,9 @@ struct GldfLuminaire {
 };
 
 /// `variant`, `emitter`: "" where there is only one. `duration_h`: takes the flux of that row of
-/// the variant's table, where it has one. The emergency flux otherwise is what the emitter rates for emergency; else
-/// its rated flux times the ballast's factor; else, of an emitter for emergency only, its rated
-/// flux; else not known, and never guessed.
+/// the variant's table, where it has one. The emergency flux otherwise is what the emitter rates
+/// for emergency; else its rated flux times the ballast's factor; else, of an emitter for emergency
+/// only, its rated flux; else not known, and never guessed.
 /// Errors: no such variant, emitter or duration, with those there are; a photometric file that is
 /// missing or cannot be read.
 Result<GldfLuminaire> luminaire_of(const GldfProduct& product, const std::string& variant,

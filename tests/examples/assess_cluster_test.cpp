@@ -113,6 +113,42 @@ TEST_CASE("an assessment goes on when a worker is killed, with the same verdicts
   CHECK(contents(folder / "out" / "sights.csv") == contents(folder / "here" / "sights.csv"));
 }
 
+TEST_CASE("a cluster follows routes over time as threads do", "[cluster][assess]") {
+  const TemporaryFolder folder;
+  const std::string scene = smoky_corridor(folder);
+  std::string text = contents(scene);
+  const size_t medium = text.find("[[medium]]"), next = text.find("[assessment]");
+  text.replace(medium, next - medium, R"([[sign.leads_to]]
+route = "way"
+arrow = "ahead"
+[[medium]]
+name = "smoke"
+kind = "layered"
+[[medium.layer]]
+z_low = [[0, 3], [100, 1]]
+z_high = 3
+albedo = 0.3
+extinction = 2
+[time]
+to = 60
+step = 30
+)");
+  std::ofstream(scene) << text;
+  const Outcome here =
+      run_luxodus(folder, "assess " + scene + " --rounds 2 --out " + (folder / "here").string());
+  INFO(here.err);
+  REQUIRE(here.code == 0);
+  Process up(LUX_PROGRAM,
+             {"cluster", "up", write_cluster(folder, assessed(scene, "rounds = 2\n"))});
+  const int code = up.wait();
+  INFO(up.text());
+  REQUIRE(code == 0);
+  const std::string guided = contents(folder / "out" / "guided.csv");
+  CHECK(guided == contents(folder / "here" / "guided.csv"));
+  CHECK(guided.find("not guided") != std::string::npos);  // in the end
+  CHECK(guided.find(",guided") != std::string::npos);     // at first
+}
+
 TEST_CASE("an assessment that no worker comes for ends, and says what to do",
           "[cluster][assess][failure]") {
   const TemporaryFolder folder;
