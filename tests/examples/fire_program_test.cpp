@@ -80,6 +80,6 @@ TEST_CASE("a time that no scene and no pack can have is refused", "[program][fds
   CHECK_THAT(packed.err, Contains("a pack is of one time"));
   folder.write("plain.toml", "title = \"no fire\"\n");
   CHECK_THAT(run_luxodus(folder, "check " + in_folder(folder, "plain.toml") + " --at 15s").err,
-             Contains("no medium of this scene changes in time"));
+             Contains("this scene changes in time"));
   CHECK(run_luxodus(folder, "check " + in_folder(folder, "plain.toml") + " --at soon").code == 2);
 }
