@@ -392,8 +392,8 @@ void Tracer::end(std::optional<Problem> fault) {
 
 /// From the controller, which waits for an answer and lets all go when it has those of all; or from
 /// a neighbour that was let go. A neighbour's word could be of an earlier run, which that neighbour
-/// has outlived: until the controller has lent this node something it is but a rumour, which is
-/// right if the controller never comes.
+/// has outlived: until the controller has lent this node something, or has itself told it of the
+/// end, it is but a rumour, which is right if the controller never comes.
 void Tracer::on(const Letter<RunEnded>& ended) {
   const bool first_hand = ended.from == coordinator();
   // Of one that was left for another: it need not wait for this node.
@@ -403,7 +403,7 @@ void Tracer::on(const Letter<RunEnded>& ended) {
   }
   heard_ = heard_ || first_hand;
   end_word_ = ended.body;
-  rumour_ = !first_hand && counters_.leases == 0;
+  rumour_ = !first_hand && !over_ && counters_.leases == 0;
   if (rumour_) return;
   const auto says = [&] { return problem("the controller says: " + end_word_.text); };
   stop_work(end_word_.text.empty() ? std::nullopt : std::optional(says()), false);
