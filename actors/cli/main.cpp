@@ -15,7 +15,6 @@
 #include "actors/cli/terminal.hpp"
 #include "actors/cli/version.hpp"
 #include "runtime/core/isolated_job.hpp"
-#include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
 
@@ -118,7 +117,7 @@ int main(int argc, char** argv) {
     const std::string version = std::string("luxodus ") + build.version + " (" + build.commit + ")";
     exit_code = run_command_line(luxodus_command(), version, argc, argv);
   } catch (const std::exception& e) {
-    luxodus::log_error("{}", e.what());
+    luxodus::cli::tell(luxodus::problem(e.what()));  // whatever is logged
     exit_code = ExitCode::failure;
   }
   return when_printed(exit_code);

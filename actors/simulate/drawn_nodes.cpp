@@ -71,6 +71,9 @@ uint64_t draw_life(uint64_t seed, NodeId node, uint32_t life) {
   return random.bits64() | 1;
 }
 
+/// Maps for guards of stacks that all nodes may have: they are of one process, of which the kernel
+/// allows 65 530, and what nodes hold takes most of them where there are a thousand.
+constexpr size_t all_maps = 8'192;
 /// Of RandomStream::faults: the swarm, the nodes' habits and torn ends have those before.
 constexpr uint64_t rare_ways_stream = uint64_t{1} << 32;
 
@@ -130,6 +133,8 @@ DrawnSetups::DrawnSetups(const PlannedNodes& nodes, const CompiledScene& scene,
     // Who waits so long sees the healing, and the world sees who has waited in vain.
     node.start = node.lost = options.patience / 2;
     node.stall = seconds(3600);
+    node.fibers.max_maps =
+        std::max<size_t>(2, std::min(node.fibers.max_maps, all_maps / setups_.size()));
     node.faults = faults;  // of its stores
   }
   if (!options.draw_nodes && !options.rare_ways) return;
