@@ -9,6 +9,7 @@
 
 #include "actors/import/import_files.hpp"
 #include "actors/import/own_tables.hpp"
+#include "actors/output/write_glb.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
 #include "scenes/photometry/gldf.hpp"
@@ -377,8 +378,9 @@ Result<std::string> write_storeys(const std::vector<BuildingStorey>& storeys,
   std::string tables;
   for (size_t i = 0; i < storeys.size(); ++i) {
     const std::string file = fmt::format("building/storey-{}.glb", i + 1);
-    const std::string glb = glb_of(storeys[i].parts, origin);
-    if (auto ok = write_file_atomically(folder / file, std::string_view(glb)); !ok)
+    const auto glb = glb_of(storeys[i].parts, origin);
+    if (!glb) return glb.problem();
+    if (auto ok = write_file_atomically(folder / file, std::string_view(glb.value())); !ok)
       return ok.problem();
     tables += storey_text(storeys[i], file, origin);
   }
@@ -449,6 +451,20 @@ Result<WrittenBuilding> write_building(const Building& building, const std::stri
   if (!kept) return kept.problem();
   written.kept_scene = kept.value();
   return written;
+}
+
+Result<std::string> glb_of(const std::vector<BuildingPart>& parts, const glm::dvec3& origin) {
+  GlbScene scene;
+  scene.generator = "Luxodus";
+  for (const BuildingPart& part : parts) {
+    GlbMesh& mesh = scene.meshes.emplace_back();
+    mesh.name = part.name;
+    mesh.material = part.material;
+    for (const glm::dvec3& p : part.mesh.positions) mesh.points.emplace_back(p - origin);
+    for (const glm::uvec3& t : part.mesh.triangles)
+      mesh.triangles.insert(mesh.triangles.end(), {t.x, t.y, t.z});
+  }
+  return glb_bytes_of(scene);
 }
 
 }  // namespace luxodus

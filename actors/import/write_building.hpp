@@ -35,8 +35,10 @@ Result<WrittenBuilding> write_building(const Building& building, const std::stri
 // ---- steps of it, apart for tests
 // ----------------------------------------------------------------
 
-/// The parts as a binary glTF 2.0 about `origin`, one node a part, one material a name.
-std::string glb_of(const std::vector<BuildingPart>& parts, const glm::dvec3& origin);
+/// The parts as a binary glTF 2.0 about `origin`, one node a part, one material a name; in single
+/// precision, since the scene moves the whole by numbers of double precision.
+/// Errors: as glb_bytes_of.
+Result<std::string> glb_of(const std::vector<BuildingPart>& parts, const glm::dvec3& origin);
 
 /// Photometric files by the letters and digits of their stems, in small ones.
 Result<std::map<std::string, std::filesystem::path>> photometry_by_name(const std::string& folder);

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
+#include <map>
+#include <optional>
 
 #include "runtime/core/atomic_file.hpp"
 
@@ -24,17 +26,25 @@ std::optional<std::string> fault_of(const GlbMesh& mesh) {
   const auto finite = [](const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   };
-  if (mesh.points.size() != mesh.colours.size()) return "points and colours differ in number";
+  if (!mesh.colours.empty() && mesh.points.size() != mesh.colours.size())
+    return "points and colours differ in number";
   if (mesh.triangles.empty() || mesh.triangles.size() % 3 != 0) return "it has no whole triangles";
   for (const uint32_t index : mesh.triangles)
     if (index >= mesh.points.size()) return "a triangle has a corner that there is not";
   for (size_t i = 0; i < mesh.points.size(); ++i)
-    if (!finite(mesh.points[i]) || !finite(mesh.colours[i])) return "a number is not finite";
+    if (!finite(mesh.points[i]) || (!mesh.colours.empty() && !finite(mesh.colours[i])))
+      return "a number is not finite";
   return std::nullopt;
 }
 
 Json numbers(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
+}
+
+/// From z up to y up. Exact.
+template <class Vector>
+Vector y_up(const Vector& v) {
+  return {v.x, v.z, -v.y};
 }
 
 /// Turns local -Z to `direction`, and local +Y as near to `up` as can be.
@@ -86,24 +96,41 @@ class GlbWriter {
       const int view = view_of(values.data(), values.size() * sizeof(glm::vec3), target_vertices);
       return accessor(view, component_float, values.size(), "VEC3");
     };
-    const int points = vertices(mesh.points);
+    std::vector<glm::vec3> turned;
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const glm::vec3& p : mesh.points) {
-      low = glm::min(low, p);
-      high = glm::max(high, p);
+      turned.push_back(y_up(p));
+      low = glm::min(low, turned.back());
+      high = glm::max(high, turned.back());
     }
+    const int points = vertices(turned);
     accessors_[static_cast<size_t>(points)]["min"] = numbers(low);
     accessors_[static_cast<size_t>(points)]["max"] = numbers(high);
-    const int shades = vertices(mesh.colours);
+    Json attributes = {{"POSITION", points}};
+    if (!mesh.colours.empty()) attributes["COLOR_0"] = vertices(mesh.colours);
     const int view =
         view_of(mesh.triangles.data(), mesh.triangles.size() * sizeof(uint32_t), target_indices);
     const int triangles = accessor(view, component_uint, mesh.triangles.size(), "SCALAR");
     Json primitives = Json::array();
-    primitives.push_back({{"attributes", {{"POSITION", points}, {"COLOR_0", shades}}},
+    primitives.push_back({{"attributes", std::move(attributes)},
                           {"indices", triangles},
-                          {"material", 0}});
+                          {"material", material_of(mesh)}});
     add_node({{"name", mesh.name}, {"mesh", static_cast<int64_t>(meshes_.size())}});
     meshes_.push_back({{"name", mesh.name}, {"primitives", std::move(primitives)}});
+  }
+
+  int64_t material_of(const GlbMesh& mesh) {
+    const auto [at, is_new] =
+        material_numbers_.try_emplace(mesh.material, static_cast<int64_t>(materials_.size()));
+    if (!is_new) return at->second;
+    Json one = {{"name", mesh.material}};
+    if (!mesh.colours.empty()) {
+      one["pbrMetallicRoughness"] = {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}};
+      one["extensions"] = {{"KHR_materials_unlit", Json::object()}};
+      unlit_ = true;
+    }
+    materials_.push_back(std::move(one));
+    return at->second;
   }
 
   void add(const GlbLight& light) {
@@ -114,8 +141,8 @@ class GlbWriter {
     if (light.outer_rad > 0)
       one["spot"] = {{"innerConeAngle", light.inner_rad}, {"outerConeAngle", light.outer_rad}};
     if (!light.extras.is_null()) one["extras"] = light.extras;
-    Json node = {{"name", light.name}, {"translation", numbers(light.position)}};
-    if (light.outer_rad > 0) node["rotation"] = rotation_to(light.direction, {0, 1, 0});
+    Json node = {{"name", light.name}, {"translation", numbers(y_up(light.position))}};
+    if (light.outer_rad > 0) node["rotation"] = rotation_to(y_up(light.direction), {0, 0, -1});
     node["extensions"] = {
         {"KHR_lights_punctual", {{"light", static_cast<int64_t>(lights_.size())}}}};
     add_node(std::move(node));
@@ -125,8 +152,8 @@ class GlbWriter {
   void add(const GlbCamera& camera) {
     constexpr double nearest_m = 0.05;
     add_node({{"name", camera.name},
-              {"translation", numbers(camera.eye)},
-              {"rotation", rotation_to(camera.target - camera.eye, camera.up)},
+              {"translation", numbers(y_up(camera.eye))},
+              {"rotation", rotation_to(y_up(camera.target - camera.eye), y_up(camera.up))},
               {"camera", static_cast<int64_t>(cameras_.size())}});
     cameras_.push_back({{"name", camera.name},
                         {"type", "perspective"},
@@ -142,30 +169,22 @@ class GlbWriter {
   }
 
   Json json_of(const GlbScene& scene) {
-    const double half = std::sqrt(0.5);
     Json nodes = Json::array();
-    // Turned by -90 degrees about x, z becomes y; then the origin is where it shall be.
     nodes.push_back({{"name", scene.title},
-                     {"rotation", {-half, 0.0, 0.0, half}},
-                     {"translation", {scene.origin.x, scene.origin.z, -scene.origin.y}},
+                     {"translation", numbers(y_up(scene.origin))},
                      {"children", std::move(children_)}});
     for (Json& node : nodes_) nodes.push_back(std::move(node));
     Json roots = Json::array();
     roots.push_back(0);
     Json scenes = Json::array();
     scenes.push_back({{"name", scene.title}, {"nodes", std::move(roots)}});
-    Json materials = Json::array();
-    materials.push_back(
-        {{"name", "light as traced"},
-         {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
-         {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
     Json buffers = Json::array();
     buffers.push_back({{"byteLength", static_cast<int64_t>(binary_.size())}});
     Json used = Json::array();
-    used.push_back("KHR_materials_unlit");
+    if (unlit_) used.push_back("KHR_materials_unlit");
     if (!lights_.empty()) used.push_back("KHR_lights_punctual");
-    Json out = {{"asset", {{"version", "2.0"}, {"generator", scene.generator}}},
-                {"extensionsUsed", std::move(used)}};
+    Json out = {{"asset", {{"version", "2.0"}, {"generator", scene.generator}}}};
+    if (!used.empty()) out["extensionsUsed"] = std::move(used);
     if (!scene.extras.is_null()) out["asset"]["extras"] = scene.extras;
     if (!lights_.empty())
       out["extensions"] = {{"KHR_lights_punctual", {{"lights", std::move(lights_)}}}};
@@ -174,7 +193,7 @@ class GlbWriter {
     out["nodes"] = std::move(nodes);
     if (!cameras_.empty()) out["cameras"] = std::move(cameras_);
     out["meshes"] = std::move(meshes_);
-    out["materials"] = std::move(materials);
+    out["materials"] = std::move(materials_);
     out["accessors"] = std::move(accessors_);
     out["bufferViews"] = std::move(views_);
     out["buffers"] = std::move(buffers);
@@ -208,8 +227,10 @@ class GlbWriter {
   }
 
   Json nodes_ = Json::array(), children_ = Json::array(), meshes_ = Json::array(),
-       lights_ = Json::array(), cameras_ = Json::array(), accessors_ = Json::array(),
-       views_ = Json::array();
+       materials_ = Json::array(), lights_ = Json::array(), cameras_ = Json::array(),
+       accessors_ = Json::array(), views_ = Json::array();
+  std::map<std::string, int64_t> material_numbers_;
+  bool unlit_ = false;
   std::string binary_;
 };
 

@@ -1,7 +1,7 @@
-// A building with its light for programs that read glTF 2.0: one GLB file. Meshes carry linear
-// colours in their vertices and are drawn as they are (KHR_materials_unlit); lights are those of
-// KHR_lights_punctual. Coordinates are the scene's, z up [m]; a node turns them as glTF has them,
-// y up. Writes only. Any thread.
+// A building, perhaps with its light, for programs that read glTF 2.0: one GLB file. Meshes that
+// carry linear colours in their vertices are drawn as they are (KHR_materials_unlit); lights are
+// those of KHR_lights_punctual. Coordinates are the scene's, z up [m], and are written as glTF has
+// them, y up, to the bit. Writes only. Any thread.
 #pragma once
 
 #include <array>
@@ -25,8 +25,9 @@ inline constexpr uint64_t glb_bytes = (uint64_t{1} << 32) - 1;
 struct GlbMesh {
   std::string name;
   std::vector<glm::vec3> points;    // relative to the scene's origin [m], finite
-  std::vector<glm::vec3> colours;   // of each point: linear RGB, 1 is white
+  std::vector<glm::vec3> colours;   // of each point: linear RGB, 1 is white; or none
   std::vector<uint32_t> triangles;  // three points each
+  std::string material = "light as traced";
 };
 
 struct GlbLight {
@@ -56,7 +57,7 @@ struct GlbScene {
   Json extras;
 };
 
-/// The file's bytes. Errors: points and colours of different number, an index out of range, a
+/// The file's bytes. Errors: points and colours of different numbers, an index out of range, a
 /// number that is not finite, no triangles, more bytes than limits::glb_bytes.
 Result<std::string> glb_bytes_of(const GlbScene& scene);
 /// Errors: as glb_bytes_of and write_file_atomically.

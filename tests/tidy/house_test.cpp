@@ -142,7 +142,8 @@ const std::map<std::string, std::vector<std::string>> arrows{
 
     {"actors/output", {"scenes"}},
     {"actors/run", {"actors/output", "scenes"}},
-    {"actors/import", {"runtime/toml", "scenes/geometry", "scenes/ifc", "scenes/photometry"}},
+    {"actors/import",
+     {"actors/output", "runtime/toml", "scenes/geometry", "scenes/ifc", "scenes/photometry"}},
     {"actors/inspect", {"actors/run", "scenes"}},
     {"actors/display", {"actors/inspect", "actors/output", "actors/run", "scenes"}},
     {"actors/assess", {"actors/inspect", "actors/output", "actors/run", "scenes"}},

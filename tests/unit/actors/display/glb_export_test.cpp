@@ -170,7 +170,7 @@ TEST_CASE("meshes that are none are refused in words", "[display][glb]") {
     CHECK(bytes.problem().what.find(words) != std::string::npos);
   };
   const std::vector<glm::vec3> three(3, glm::vec3(0));
-  refused({"m", three, {}, {0, 1, 2}}, "differ in number");
+  refused({"m", three, {three[0]}, {0, 1, 2}}, "differ in number");
   refused({"m", three, three, {}}, "no whole triangles");
   refused({"m", three, three, {0, 1, 3}}, "a corner that there is not");
   refused({"m", {glm::vec3(NAN), three[0], three[0]}, three, {0, 1, 2}}, "not finite");

@@ -135,7 +135,7 @@ TEST_CASE("a written binary glTF reads back with its names, materials and places
   b.name = "door B";
   b.material = "Wood";
   b.mesh = block({1005, 2001, 10}, {1006, 2001.05, 12});
-  const auto file = folder.write("x.glb", glb_of({a, b}, origin));
+  const auto file = folder.write("x.glb", glb_of({a, b}, origin).value());
   const auto parts = import_mesh(file.string(), 1, UpAxis::y);
   REQUIRE(parts.ok());
   REQUIRE(parts->size() == 2);
