@@ -6,13 +6,11 @@
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
 #include "actors/cli/finished_run.hpp"
-#include "actors/cli/load_scene.hpp"
 #include "actors/cli/version.hpp"
 #include "actors/display/glb_export.hpp"
 #include "actors/output/output_folder.hpp"
 #include "actors/run/flux_store.hpp"
 #include "runtime/core/output_text.hpp"
-#include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
 
@@ -29,17 +27,9 @@ struct ExportOptions {
 Result<std::unique_ptr<LocalRun>> traced_run(const fs::path& folder) {
   const auto finished = read_finished_run(folder);
   if (!finished) return finished.problem();
-  const auto description =
-      load_scene(finished->scene_file, ReadingWarnings::left_to_inspection, finished->at_s);
-  if (!description)
-    return problem_in(finished->scene_file, "the run's scene cannot be read any more");
-  const std::string name = description->scenarios.empty() ? "" : finished->scenario;
-  const auto scenario = find_scenario(*description, name);
-  if (!scenario) return scenario.problem();
-  const auto scene = compile_scene(description, scenario.value(),
-                                   {finished->cells, finished->error_of, finished->batch_shares});
-  if (!scene) return scene.problem();
-  auto run = std::make_unique<LocalRun>(scene.value(), finished->seed, 1);
+  const auto of_run = scene_of_run(finished.value());
+  if (!of_run) return of_run.problem();
+  auto run = std::make_unique<LocalRun>(of_run->scene, finished->seed, 1);
   if (auto ok = load_flux(folder / "flux.lux", *run); !ok) return ok.problem();
   return run;
 }

@@ -1,6 +1,8 @@
 #include "actors/cli/finished_run.hpp"
 
+#include "actors/cli/load_scene.hpp"
 #include "runtime/core/regular_file.hpp"
+#include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
 
@@ -67,6 +69,19 @@ Result<FinishedRun> read_finished_run(const fs::path& folder) {
     out.batch_shares.push_back(share);
   }
   return out;
+}
+
+Result<SceneOfRun> scene_of_run(const FinishedRun& run) {
+  const auto description =
+      load_scene(run.scene_file, ReadingWarnings::left_to_inspection, run.at_s);
+  if (!description) return problem_in(run.scene_file, "the run's scene cannot be read any more");
+  const std::string name = description->scenarios.empty() ? "" : run.scenario;
+  auto scenario = find_scenario(*description, name);
+  if (!scenario) return scenario.problem();
+  auto scene =
+      compile_scene(description, scenario.value(), {run.cells, run.error_of, run.batch_shares});
+  if (!scene) return scene.problem();
+  return SceneOfRun{std::move(scenario).value(), std::move(scene).value()};
 }
 
 Result<SceneState> scene_of_folder(const fs::path& folder) {

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "actors/output/json_out.hpp"
 #include "runtime/core/result.hpp"
+#include "scenes/transport/compiled_scene.hpp"
 
 namespace luxodus::cli {
 
@@ -29,6 +31,15 @@ struct FinishedRun {
 
 /// Errors: no result.json in the folder, or one that is not of a run; an assessment is called that.
 Result<FinishedRun> read_finished_run(const std::filesystem::path& folder);
+
+/// The scene that a run was of, as it was compiled for it.
+struct SceneOfRun {
+  Scenario scenario;
+  std::shared_ptr<const CompiledScene> scene;
+};
+
+/// Tells problems of the scene file. Errors: it cannot be read any more, or has no such scenario.
+Result<SceneOfRun> scene_of_run(const FinishedRun& run);
 
 /// A state of a building, by its scene file.
 struct SceneState {

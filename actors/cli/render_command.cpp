@@ -9,7 +9,6 @@
 #include "actors/cli/commands.hpp"
 #include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
-#include "actors/cli/load_scene.hpp"
 #include "actors/cli/picture_choices.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/signals.hpp"
@@ -19,7 +18,6 @@
 #include "actors/output/file_names.hpp"
 #include "actors/run/flux_store.hpp"
 #include "runtime/core/log.hpp"
-#include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
 
@@ -118,16 +116,10 @@ Result<ExitCode> render(const RenderOptions& options) {
   const fs::path folder = options.folder;
   const auto finished = read_finished_run(folder);
   if (!finished) return finished.problem();
-  const auto description =
-      load_scene(finished->scene_file, ReadingWarnings::left_to_inspection, finished->at_s);
-  if (!description)
-    return problem_in(finished->scene_file, "the run's scene cannot be read any more");
-  const std::string name = description->scenarios.empty() ? "" : finished->scenario;
-  auto scenario = find_scenario(*description, name);
-  if (!scenario) return scenario.problem();
-  auto scene = compile_scene(description, scenario.value(),
-                             {finished->cells, finished->error_of, finished->batch_shares});
-  if (!scene) return scene.problem();
+  const auto of_run = scene_of_run(finished.value());
+  if (!of_run) return of_run.problem();
+  const auto& [scenario, scene] = of_run.value();
+  const auto& description = scene->description;
   PictureOptions picture;
   if (auto ok = read_choices(options.limits, picture); !ok) return ok.problem();
   if (auto ok = check_views(*description, options.view, picture); !ok) return ok.problem();
@@ -141,12 +133,12 @@ Result<ExitCode> render(const RenderOptions& options) {
   const bool is_film = !options.route.empty();
   if (!is_film && description->cameras.empty())
     return problem_in(finished->scene_file, "the scene has no [[camera]] to render");
-  if (!passes_inspection(description, {scenario.value()}, options.threads))
+  if (!passes_inspection(description, {scenario}, options.threads))
     return problem_in(finished->scene_file, "the scene has errors, told above");
   const auto out =
       OutputFolder::claim(folder, is_film ? plan_of_film(options) : plan_of_views(*description));
   if (!out) return out.problem();
-  LocalRun run(scene.value(), finished->seed, options.threads);
+  LocalRun run(scene, finished->seed, options.threads);
   if (auto ok = load_flux(out->path() / "flux.lux", run); !ok) return ok.problem();
   install_interrupt_handler();
   picture.progressive = true;

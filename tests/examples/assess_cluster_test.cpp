@@ -1,5 +1,6 @@
 // Assessments that the processes of a cluster trace for.
 #include "tests/examples/cluster_kit.hpp"
+#include "tests/kit/room_texts.hpp"
 
 using namespace luxodus::program;
 
@@ -8,36 +9,16 @@ namespace {
 /// A corridor in smoke with a lamp and a sign.
 std::string smoky_corridor(const TemporaryFolder& folder) {
   const fs::path path = folder / "corridor.toml";
-  std::ofstream(path) << R"(title = "Corridor"
+  std::ofstream(path) << std::string(R"(title = "Corridor"
 [[object]]
 name = "corridor"
 shape = "room"
 low = [0, -2, 0]
 high = [12, 2, 3]
 material = "grey50"
-[[emitter]]
-name = "lamp"
-shape = "point"
-distribution = "isotropic"
-position = [6, 0, 2.5]
-flux_lm = 1000
-emergency = "non-maintained"
-emergency_flux = 500
-maintenance_factor = 0.8
-end_of_duration_factor = 0.75
-[[sign]]
-name = "exit"
-position = [11.95, 0, 2.2]
-facing = [-1, 0, 0]
-width = 0.4
-height = 0.2
-text = "EXIT"
-letter_height = 0.15
-mains_white = 500
-mains_green = 50
-emergency_white = 100
-emergency_green = 10
-lighting = "internal"
+)") + luxodus::test::middle_lamp +
+                             luxodus::test::exit_sign_at("[11.95, 0, 2.2]") +
+                             R"(lighting = "internal"
 [[medium]]
 name = "smoke"
 kind = "homogeneous"
