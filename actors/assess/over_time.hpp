@@ -5,11 +5,9 @@
 #pragma once
 
 #include "actors/assess/assessment.hpp"
+#include "scenes/world/timed_scenes.hpp"
 
 namespace luxodus {
-
-/// The scene as it is at a time [s]. Errors: as reading it.
-using SceneAtTime = std::function<Result<std::shared_ptr<const SceneDescription>>(double at_s)>;
 
 /// Judges the views of signs that lead along routes, at each of these times, all with the same
 /// random numbers. A view that is legible is traced again with the smoke's albedo at either end of

@@ -119,7 +119,7 @@ Result<std::shared_ptr<const TracedState>> RoundStates::make(const std::string& 
   if (state_ && text == text_) return state_;
   const auto round = parse_round(text);
   if (!round) return round.problem();
-  const auto described = scene_of_(round->at_s);
+  const auto described = scenes_.at(round->at_s);
   if (!described) return described.problem();
   const auto scenario = find_scenario(*described.value(), round->scenario);
   if (!scenario) return scenario.problem();

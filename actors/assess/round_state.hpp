@@ -2,7 +2,6 @@
 // who trace it elsewhere know the scene's file, and make what they trace from a text.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,7 +10,7 @@
 
 #include "actors/assess/aged_light.hpp"
 #include "actors/run/scene_state.hpp"
-#include "scenes/world/description.hpp"
+#include "scenes/world/timed_scenes.hpp"
 
 namespace luxodus {
 
@@ -73,20 +72,19 @@ Result<JudgedScene> judged_scene(const SceneDescription& scene, const Scenario& 
 Result<std::shared_ptr<const CompiledScene>> compile_round(const JudgedScene& judged,
                                                            const RoundState& round);
 
-/// The scene as it is at a time [s], or as it is written. Errors: as reading it.
-using SceneOfState =
-    std::function<Result<std::shared_ptr<const SceneDescription>>(std::optional<double> at_s)>;
-
 /// Rounds as nodes make them. The nodes of a process share the last that any of them was asked for.
 /// Any thread.
 class RoundStates final : public StateMaker {
  public:
-  explicit RoundStates(SceneOfState scene_of) : scene_of_(std::move(scene_of)) {}
-  /// Errors: as parse_round, find_scenario, judged_scene and compile_round; as reading the scene.
+  /// `read`: the scene at other times, where it has a clock; may be empty.
+  explicit RoundStates(std::shared_ptr<const SceneDescription> scene, SceneAtTime read = {})
+      : scenes_(std::move(scene), std::move(read)) {}
+  /// Errors: as parse_round, TimedScenes::at, find_scenario, judged_scene and
+  /// compile_round.
   Result<std::shared_ptr<const TracedState>> make(const std::string& text) override;
 
  private:
-  const SceneOfState scene_of_;
+  TimedScenes scenes_;
   std::mutex mutex_;
   std::string text_;
   std::shared_ptr<const TracedState> state_;

@@ -31,14 +31,12 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
   return std::make_shared<const SceneDescription>(std::move(*read.scene));
 }
 
-std::function<Result<std::shared_ptr<const SceneDescription>>(double at_s)> reader_of_times(
-    const std::string& file, const SceneDescription& scene) {
+SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene) {
   if (!scene.time || scene.packed) return {};
   return reader_at_times(file);
 }
 
-std::function<Result<std::shared_ptr<const SceneDescription>>(double at_s)> reader_at_times(
-    const std::string& file) {
+SceneAtTime reader_at_times(const std::string& file) {
   return [file](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
     ReadScene read = read_scene(file, at_s);
     if (!read.scene) return read.problems.list().front();

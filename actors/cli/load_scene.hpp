@@ -1,7 +1,6 @@
 // The scene that a command is about, with all its problems told.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "actors/cli/options.hpp"
 #include "runtime/core/result.hpp"
+#include "scenes/world/timed_scenes.hpp"
 
 namespace luxodus {
 struct Scenario;
@@ -27,11 +27,9 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
                                                    std::optional<double> at_s = std::nullopt);
 
 /// Reads a scene file at other times.
-std::function<Result<std::shared_ptr<const SceneDescription>>(double at_s)> reader_at_times(
-    const std::string& file);
+SceneAtTime reader_at_times(const std::string& file);
 /// The same where the scene has a clock; empty elsewhere, and of a pack.
-std::function<Result<std::shared_ptr<const SceneDescription>>(double at_s)> reader_of_times(
-    const std::string& file, const SceneDescription& scene);
+SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene);
 
 /// The option --at, whose text goes to `at`.
 Option at_option(std::string& at);

@@ -26,7 +26,6 @@
 #include "actors/supervise/cluster_process.hpp"
 #include "actors/supervise/node_executor.hpp"
 #include "actors/view/live_states.hpp"
-#include "actors/view/timed_scenes.hpp"
 #include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
@@ -102,7 +101,7 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
                                                 ClusterProcessRun& process) {
   const LocalRun& base = process.local_run();
   const auto& scene = base.scene().description;
-  const SceneReader scene_at = reader_of_times(cluster.run.scene.string(), *scene);
+  const SceneAtTime scene_at = reader_of_times(cluster.run.scene.string(), *scene);
   LiveStates states(scene, scene_at);
   NodeWork work = work_of_states(states);
   work.controller = [&](const RunSetup& run, const Machine& machine,
@@ -179,8 +178,7 @@ std::optional<AssessmentJob> assessment_of(const ClusterConfig& cluster, const L
 /// The nodes of a cluster whose file has a table [assess].
 Result<ExitCode> assess_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process) {
   const auto& scene = process.local_run().scene().description;
-  TimedScenes scenes(scene, reader_of_times(cluster.run.scene.string(), *scene));
-  RoundStates states([&scenes](std::optional<double> at_s) { return scenes.at(at_s); });
+  RoundStates states(scene, reader_of_times(cluster.run.scene.string(), *scene));
   ExitCode code = ExitCode::success;
   NodeWork work = work_of_states(states);
   work.controller = [&](const RunSetup& run, const Machine& machine,

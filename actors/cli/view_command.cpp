@@ -51,7 +51,7 @@ Result<ExitCode> view(const ViewOptions& options) {
   if (!found) return found.problem();
   if (!passes_inspection(scene, {found.value()}, options.live.threads)) return ExitCode::bad_input;
   install_interrupt_handler();
-  const SceneReader scene_at = reader_of_times(wanted->scene_file, *scene);
+  const SceneAtTime scene_at = reader_of_times(wanted->scene_file, *scene);
   LiveStates states(scene, scene_at);
   std::unique_ptr<ProcessExecutor> nodes;  // outlives whatever holds its executor
   HubOptions hub{options.live, {}, options.save_folder};

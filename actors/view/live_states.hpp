@@ -7,7 +7,7 @@
 #include <string>
 
 #include "actors/run/scene_state.hpp"
-#include "actors/view/timed_scenes.hpp"
+#include "scenes/world/timed_scenes.hpp"
 
 namespace luxodus {
 
@@ -15,7 +15,7 @@ namespace luxodus {
 class LiveStates final : public StateMaker {
  public:
   /// `read`: the scene at other times, where it has a clock; may be empty.
-  explicit LiveStates(std::shared_ptr<const SceneDescription> scene, SceneReader read = {})
+  explicit LiveStates(std::shared_ptr<const SceneDescription> scene, SceneAtTime read = {})
       : scenes_(std::move(scene), std::move(read)) {}
   /// Compiles it, unless it is the last. Errors: as parse_edits, TimedScenes::at and
   /// compile_live.

@@ -11,7 +11,7 @@
 
 #include "actors/view/frames.hpp"
 #include "actors/view/live_scene.hpp"
-#include "actors/view/timed_scenes.hpp"
+#include "scenes/world/timed_scenes.hpp"
 
 namespace luxodus {
 
@@ -70,7 +70,7 @@ struct LiveOptions {
   int64_t particles = 100'000'000;          // of a generation, at most
   double relative_error = 0.002;            // at which it ends
   std::shared_ptr<Executor> executor = {};  // null: `threads` of this process
-  SceneReader scene_at = {};                // at other times; empty: there is one state
+  SceneAtTime scene_at = {};                // at other times; empty: there is one state
 };
 
 namespace limits {

@@ -31,7 +31,8 @@ std::vector<TableSpec> run_tables() {
            {"keys", "table", "", "", "", "by which nodes know each other"},
            {"observe", "table", "", "", "", "what can be seen of a run"},
            {"view", "table", "", "", "", "a live view in place of a run that ends"},
-           {"assess", "table", "", "", "", "an assessment in place of a run"},
+           {"assess", "table", "", "", "",
+            "an assessment in place of a run; every node must hold the whole scene"},
            {"faults", "table", "", "", "", "what shall go wrong, on purpose: for rehearsals"},
        }},
       {"run",
@@ -271,9 +272,7 @@ std::vector<TableSpec> service_tables() {
             "unless said"},
        }},
       {"assess",
-       "`[assess]`: the controller's process assesses the scene, as `luxodus assess` does, and all "
-       "workers trace for it; every node must hold the whole scene. The report goes to `out` of "
-       "`[run]`, whose `scenario` is judged",
+       "`[assess]`: the controller's process assesses the scene into `out` of `[run]`",
        {
            {"rules", "texts", "", "", "", "rule sets; those of the scene unless said"},
            {"deviations", "texts", "", "", "",

@@ -24,8 +24,7 @@ std::string two_ageings() {
 
 /// Nodes of this process that trace rounds of a scene.
 struct RoundNodes {
-  explicit RoundNodes(const std::shared_ptr<const SceneDescription>& scene)
-      : states([scene](std::optional<double>) { return Result(scene); }) {
+  explicit RoundNodes(const std::shared_ptr<const SceneDescription>& scene) : states(scene) {
     auto compiled = compile_scene(scene, find_scenario(*scene, "failed").value(), {1});
     REQUIRE(compiled.ok());
     auto started = ProcessExecutor::start(compiled.value(), states, NodesOptions{});
@@ -72,7 +71,7 @@ TEST_CASE("a round of an assessment is read back from its text, to the bit", "[a
 
 TEST_CASE("what is no round of an assessment is refused in words", "[assess]") {
   const auto scene = described_text(with_smoke(0.3, 0.5));
-  RoundStates states([scene](std::optional<double>) { return Result(scene); });
+  RoundStates states(scene);
   const auto refused = [&](const std::string& text, const std::string& words) {
     const auto made = states.make(text);
     REQUIRE_FALSE(made.ok());

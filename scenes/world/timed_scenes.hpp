@@ -1,5 +1,5 @@
-// The scene of a live view at several times. The last few are kept: reading one again takes as long
-// as opening the scene did. Any thread.
+// A scene at several times. The last few are kept: reading one again takes as long as opening the
+// scene did. Any thread.
 #pragma once
 
 #include <deque>
@@ -19,12 +19,12 @@ inline constexpr size_t kept_scenes = 4;
 }  // namespace limits
 
 /// Reads the scene as it is at a time [s]. Errors: as reading it.
-using SceneReader = std::function<Result<std::shared_ptr<const SceneDescription>>(double at_s)>;
+using SceneAtTime = std::function<Result<std::shared_ptr<const SceneDescription>>(double at_s)>;
 
 class TimedScenes {
  public:
   /// `read` may be empty: then there is the first alone.
-  TimedScenes(std::shared_ptr<const SceneDescription> first, SceneReader read)
+  TimedScenes(std::shared_ptr<const SceneDescription> first, SceneAtTime read)
       : first_(std::move(first)), read_(std::move(read)) {}
 
   /// The first where no time is said. Errors: as the reader; a time, and none.
@@ -32,7 +32,7 @@ class TimedScenes {
 
  private:
   const std::shared_ptr<const SceneDescription> first_;
-  const SceneReader read_;
+  const SceneAtTime read_;
   std::mutex mutex_;
   std::deque<std::shared_ptr<const SceneDescription>> kept_;  // the last asked for first
 };

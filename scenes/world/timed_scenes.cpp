@@ -1,4 +1,4 @@
-#include "actors/view/timed_scenes.hpp"
+#include "scenes/world/timed_scenes.hpp"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ Result<std::shared_ptr<const SceneDescription>> TimedScenes::at(std::optional<do
     std::rotate(kept_.begin(), known, known + 1);
     return kept_.front();
   }
-  if (!read_) return problem_in(first_->file, "this view has one state of the scene");
+  if (!read_) return problem_in(first_->file, "the scene has one state, and a time is asked for");
   auto read = read_(*at_s);
   if (!read) return read.problem();
   kept_.push_front(std::move(read).value());
