@@ -72,7 +72,8 @@ Command export_command() {
            {"--white",
             &o->white_cd_m2,
             "Luminance that is shown as white [cd/m2]",
-            {.otherwise = "that which 98 % of the lit area stay below", .range = Range{0, 1e9}}}},
+            {.otherwise = "that which 98 % of the lit area stay below",
+             .range = Range{1e-9, 1e9}}}},
       .notes =
           "Surfaces carry the light that they send back as linear colours of their corners; "
           "luminaires are punctual lights, and cameras are those of the scene. Reads "

@@ -75,7 +75,11 @@ Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, cons
                                const RenderOptions& options, const PictureOptions& picture) {
   const std::string name = file_name_of(options.route);
   const fs::path frames = folder / "films" / name;
+  const fs::path file = folder / "films" / (name + ".mp4");
   const size_t count = film.cameras.size();
+  std::error_code failed;
+  fs::remove(file, failed);  // of an earlier film, which these frames are not of
+  if (failed) return problem_in(file, "cannot remove an earlier film: " + failed.message());
   std::optional<ProgressLine> line("film");
   const auto made = render_film(frames, run, film, picture, [&](double done) {
     line->show_share(
@@ -89,8 +93,11 @@ Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, cons
     log_warning("interrupted; {} of {} frames are there", made.value(), count);
     return ExitCode::interrupted;
   }
-  const fs::path file = folder / "films" / (name + ".mp4");
   const auto video = write_video(file, frames, count, options.fps);
+  if (picture.interrupted()) {
+    log_warning("interrupted; {} frames are in {}", count, frames.string());
+    return ExitCode::interrupted;
+  }
   if (!video) return video.problem();
   if (video.value())
     log_info("film: {} frames, and {}", count, file.string());

@@ -48,8 +48,10 @@ Result<void> make_frame_folder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error) return problem_in(folder, "cannot make this folder: " + error.message());
   std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (is_frame(entry.path())) old.push_back(entry.path());
+  for (auto at = fs::directory_iterator(folder, error); !error && at != fs::directory_iterator();
+       at.increment(error))
+    if (is_frame(at->path())) old.push_back(at->path());
+  if (error) return problem_in(folder, "cannot list this folder: " + error.message());
   for (const fs::path& file : old)
     if (!fs::remove(file, error) || error)
       return problem_in(file, "cannot remove this frame of an earlier film: " + error.message());

@@ -192,7 +192,9 @@ bool shines_one_way(const CompiledEmitter& emitter) {
          emitter.kind != EmitterKind::sphere;
 }
 
-/// A punctual light has no curve of intensities: a cone of the same flux stands for it.
+/// A punctual light has no curve of intensities: a cone of the same flux stands for it. In a cone
+/// of 90 degrees KHR_lights_punctual has intensity fall with the square of the cosine, which adds
+/// up to 2 pi / 3 of that at its axis.
 GlbLight light_of(const CompiledScene& scene, const CompiledEmitter& emitter) {
   GlbLight out;
   out.name = emitter.name;
@@ -202,7 +204,7 @@ GlbLight light_of(const CompiledScene& scene, const CompiledEmitter& emitter) {
   if (shines_one_way(emitter)) {
     out.direction = -glm::dvec3(emitter.axes[2]);
     out.outer_rad = std::numbers::pi / 2;
-    out.intensity_cd = emitter.luminous_flux_lm / std::numbers::pi;
+    out.intensity_cd = 3 * emitter.luminous_flux_lm / (2 * std::numbers::pi);
   } else {
     out.intensity_cd = emitter.luminous_flux_lm / (4 * std::numbers::pi);
   }

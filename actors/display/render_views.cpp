@@ -121,7 +121,7 @@ class GrowingViews {
   double error() const {
     double worst = 0;
     for (const GrowingView& view : views_)
-      if (!(view.error <= worst)) worst = view.error;
+      if (!std::isnan(worst) && !(view.error <= worst)) worst = view.error;
     return worst;
   }
   double seconds() const { return watch_.seconds(); }

@@ -112,7 +112,17 @@ TEST_CASE("luminaires of an exported run have their flux, place and direction", 
       CHECK(glm::length(place - glm::dvec3(12, 21.5, 2)) < 1e-4);
       CHECK(light.outer_rad == 0);
     } else {
-      CHECK(light.intensity_cd == Approx(100));
+      // By the falloff of KHR_lights_punctual, over the directions of its cone.
+      double lumens = 0;
+      constexpr int steps = 2000;
+      for (int i = 0; i < steps; ++i) {
+        const double angle = (i + 0.5) * light.outer_rad / steps;
+        const double share = (std::cos(angle) - std::cos(light.outer_rad)) /
+                             (std::cos(light.inner_rad) - std::cos(light.outer_rad));
+        lumens += light.intensity_cd * share * share * 2 * std::numbers::pi * std::sin(angle) *
+                  light.outer_rad / steps;
+      }
+      CHECK(lumens == Approx(314.15926).epsilon(1e-4));
       CHECK(glm::length(place - glm::dvec3(11, 21, 2.4)) < 1e-4);
       CHECK(glm::length(light.direction - glm::dvec3(0, 0, -1)) < 1e-6);
     }
