@@ -121,21 +121,27 @@ GuidedTime guided_time(const GuidedRoute& route) {
   return out;
 }
 
+/// A place stands for the way to the next one. All states count from the last that is not after a
+/// walker has reached it to the first that is not before he has left it.
 Walk walk(const GuidedRoute& route, double start_s, double speed_m_s) {
   Walk out;
   out.start_s = start_s;
+  const auto& times = route.times_s;
   for (size_t i = 0; i < route.along_m.size(); ++i) {
     out.at_m = route.along_m[i];
     out.at_s = start_s + out.at_m / speed_m_s;
-    // The states around this time: one where it is a state's own.
-    const auto after = std::lower_bound(route.times_s.begin(), route.times_s.end(), out.at_s);
-    if (after == route.times_s.end()) {
-      out.end = Walk::End::unknown;
+    const double next_m = i + 1 < route.along_m.size() ? route.along_m[i + 1] : route.length_m;
+    const auto reached = std::upper_bound(times.begin(), times.end(), out.at_s);
+    const auto left = std::lower_bound(times.begin(), times.end(), start_s + next_m / speed_m_s);
+    const auto first = static_cast<size_t>(std::max<ptrdiff_t>(reached - times.begin() - 1, 0));
+    const auto last = std::min(static_cast<size_t>(left - times.begin()), times.size() - 1);
+    for (size_t t = first; t <= last; ++t) {
+      if (route.holds(t, i)) continue;
+      out.end = Walk::End::lost;
       return out;
     }
-    const auto t = static_cast<size_t>(after - route.times_s.begin());
-    if (!route.holds(t, i) || (*after != out.at_s && t > 0 && !route.holds(t - 1, i))) {
-      out.end = Walk::End::lost;
+    if (left == times.end()) {
+      out.end = Walk::End::unknown;
       return out;
     }
   }

@@ -55,7 +55,8 @@ struct GuidedTime {
 };
 GuidedTime guided_time(const GuidedRoute& route);
 
-/// How far somebody comes who walks at a constant speed. Between two states the worse holds.
+/// How far somebody comes who walks at a constant speed. Between two states the worse holds, for
+/// all of the time that he takes to the next place.
 struct Walk {
   enum class End { arrives, lost, unknown };  // unknown: still on the way after the last state
   double start_s = 0;

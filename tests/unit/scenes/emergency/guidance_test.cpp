@@ -130,10 +130,14 @@ TEST_CASE("a route's time is the last state before the first gap", "[emergency][
 TEST_CASE("a walker is guided where both states around the time guide", "[emergency][guidance]") {
   // Places at 0, 5, 10 m; the route is 15 m long. The far end is lost from 20 s on.
   const GuidedRoute route = table({"ggg", "ggg", "ggn", "gnn"});
-  const Walk in_time = walk(route, 0, 1);  // at 10 m at 10 s, a state's own time
+  const Walk in_time = walk(route, 0, 1.5);  // at the end at 10 s, a state's own time
   CHECK(in_time.end == Walk::End::arrives);
   CHECK(in_time.at_m == 15);
-  CHECK(in_time.at_s == 15);
+  CHECK(in_time.at_s == 10);
+  const Walk caught = walk(route, 0, 1);  // between 10 and 15 m from 10 s to 15 s
+  CHECK(caught.end == Walk::End::lost);
+  CHECK(caught.at_m == 10);
+  CHECK(caught.at_s == 10);
   const Walk late = walk(route, 1, 1);  // at 10 m at 11 s, between a good and a bad state
   CHECK(late.end == Walk::End::lost);
   CHECK(late.at_m == 10);
@@ -141,9 +145,9 @@ TEST_CASE("a walker is guided where both states around the time guide", "[emerge
   const Walk later = walk(route, 20, 1);  // at 5 m at 25 s
   CHECK(later.end == Walk::End::lost);
   CHECK(later.at_m == 5);
-  const Walk slow = walk(table({"ggg", "ggg"}), 0, 0.5);  // at 10 m at 20 s
+  const Walk slow = walk(table({"ggg", "ggg"}), 0, 0.5);  // at 5 m at 10 s, the last state
   CHECK(slow.end == Walk::End::unknown);
-  CHECK(slow.at_m == 10);
+  CHECK(slow.at_m == 5);
 }
 
 TEST_CASE("who sets out later comes no farther where guidance only falls",
