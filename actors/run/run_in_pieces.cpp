@@ -21,8 +21,8 @@ PiecesOfRun::PiecesOfRun(LocalRun& run, int64_t end, std::function<bool()> stops
       missing_(run.missing().begin(), run.missing().end()) {}
 
 std::optional<BatchRange> PiecesOfRun::next(int64_t most) {
-  const std::lock_guard lock(mutex_);
   if (stops_()) return std::nullopt;
+  const std::lock_guard lock(mutex_);
   if (!missing_.empty()) {
     const int64_t first = *missing_.begin();
     missing_.erase(missing_.begin());
@@ -45,8 +45,12 @@ void PiecesOfRun::merged(int64_t batches) {
 }
 
 bool PiecesOfRun::stopped() const {
-  const std::lock_guard lock(mutex_);
-  report_(merged_);
+  int64_t merged = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    merged = merged_;
+  }
+  report_(merged);
   return stops_();
 }
 

@@ -15,7 +15,8 @@ namespace luxodus {
 /// The batches of a run up to where all wait for one another.
 class PiecesOfRun final : public Work {
  public:
-  /// `stops` and `report` are called by whoever traces, `report` with the batches merged so far.
+  /// `stops` and `report` are called by whoever traces, `report` with the batches merged so far;
+  /// both without a lock of this, since they may ask the executor, which has locks of its own.
   /// Requires: the run is resident.
   PiecesOfRun(LocalRun& run, int64_t end, std::function<bool()> stops,
               std::function<void(int64_t)> report);

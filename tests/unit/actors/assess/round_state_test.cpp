@@ -13,7 +13,6 @@ using namespace luxodus::test;
 
 namespace {
 
-const auto no_fault = [] { return std::optional<Problem>(); };
 const auto nobody_hears = [](const std::string&, double) {};
 
 /// Lamps that age in two ways, so that there are two source groups, and smoke that scatters.
@@ -91,7 +90,11 @@ TEST_CASE("nodes that know the scene alone give an assessment the looks of threa
           "[assess][nodes]") {
   const auto scene = described_text(with_smoke(0.3, 0.6));
   RoundNodes nodes(scene);
-  RunInPieces pieces(*nodes.nodes->executor(), no_fault);
+  // As a cluster asks: the executor has a lock of its own, which once was waited for in two orders.
+  NodeExecutor& executor = *nodes.nodes->executor();
+  RunInPieces pieces(executor, [&] {
+    return executor.counters().workers > 2 ? problem("there are two") : executor.fault();
+  });
   AssessOptions options;
   options.rules = {"en1838-2013"};
   options.rounds = 2;
