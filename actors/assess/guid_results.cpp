@@ -78,7 +78,7 @@ void put_information(CsvTable& table, const ModelThing& thing, const std::string
 
 void put_flux(CsvTable& table, const ModelThing& thing, const Json& luminaires) {
   for (const Json& luminaire : luminaires)
-    if (guid_of(luminaire) == thing.guid)
+    if (guid_of(luminaire) == thing.guid && luminaire["name"] == thing.name)
       put_information(table, thing, "emergency flux",
                       luminaire["emergency_flux"]["value"].get<double>(),
                       luminaire["emergency_flux"]["unit"].get<std::string>(), "");

@@ -8,6 +8,7 @@
 
 #include "actors/assess/reality_mode.hpp"
 #include "runtime/core/clock.hpp"
+#include "scenes/emergency/way.hpp"
 
 namespace luxodus {
 
@@ -25,13 +26,20 @@ struct Seen {
 };
 using SeenPlaces = std::map<Place, Seen>;
 
-SeenPlaces places_of(const Assessment& a) {
+/// Of all places on routes: where all signs turn their backs there is no row.
+SeenPlaces places_of(const SceneDescription& scene, const Assessment& a) {
   SeenPlaces out;
+  for (const EscapeRoute& route : scene.routes) {
+    const auto people = walkers(route, scene.assessment.spacing_m);
+    for (const Walker& walker : people)
+      for (const double height : scene.assessment.eye_heights_m)
+        out[{"route \"" + route.name + "\"", walker.along_m, height}].stands_for =
+            length_of(route) / static_cast<double>(people.size());
+  }
   for (const SightRow& row : a.sights) {
-    if (!row.from.starts_with("route ")) continue;
-    Seen& seen = out[{row.from, row.along_m, row.height_m}];
-    seen.stands_for = row.stands_for;
-    if (!(row.gaze_deg <= ahead_deg)) continue;
+    const auto at = out.find({row.from, row.along_m, row.height_m});
+    if (at == out.end() || !(row.gaze_deg <= ahead_deg)) continue;
+    Seen& seen = at->second;
     if (row.sight.verdict == SightVerdict::legible) seen.read = Read::a_sign;
     if (row.sight.verdict == SightVerdict::undecided)
       seen.read = std::max(seen.read, Read::undecided);
@@ -89,6 +97,7 @@ class Race {
         if (auto ok = judge(i, rounds); !ok && !interrupt_) return ok.problem();
       }
     stage_.interrupted = interrupt_;
+    for (size_t i = 0; i < stage_.layouts.size(); ++i) compare(i);
     std::erase_if(stage_.layouts, [](const JudgedLayout& one) { return one.rounds == 0; });
     return {};
   }
@@ -122,13 +131,12 @@ class Race {
           *one.layout.variant, scenario.value(), {}, asked, interrupt_,
           [](const std::string&, double) {}, found);
       if (!ok) return ok.problem();
-      seen.push_back(places_of(found));
+      seen.push_back(places_of(*one.layout.variant, found));
       smoke.push_back(verdict_of(name, seen.back()));
     }
     one.smoke = std::move(smoke);
     one.rounds = rounds;
     places_[i] = std::move(seen);
-    compare(i);
     return {};
   }
 
@@ -160,7 +168,7 @@ class Race {
   std::vector<std::vector<SeenPlaces>> places_;  // of each layout, by scenario
 };
 
-/// Which layouts with signs as they are, and which with brighter ones, none of the same kind beats.
+/// Which layouts with signs as they are none of the others beats.
 void mark_front(SmokeStage& stage) {
   for (JudgedLayout& one : stage.layouts)
     one.on_front =

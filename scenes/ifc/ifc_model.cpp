@@ -139,16 +139,18 @@ std::optional<Transform> placement_of(StepGraph& graph, StepNode node, double me
 // ---- materials, properties, quantities ---------------------------------------------------------
 
 /// Names of the materials of what IfcRelAssociatesMaterial relates to.
-std::vector<std::string> material_names(StepGraph& graph, const StepNode& node, int depth = 0) {
-  if (!node || depth > 6) return {};
+/// `seen`: sets that were gone through. A file may have them hold each other, and each many times.
+std::vector<std::string> material_names(StepGraph& graph, uint64_t of, std::set<uint64_t>& seen) {
+  const StepNode node = graph.node(of);
+  if (!node) return {};
+  if (node.is("IFCMATERIAL")) return {node.text(0)};
+  if (!seen.insert(of).second) return {};
   const auto through = [&](size_t place) {
     std::vector<std::string> all;
     for (const uint64_t id : node.references(place))
-      for (std::string& name : material_names(graph, graph.node(id), depth + 1))
-        all.push_back(std::move(name));
+      for (std::string& name : material_names(graph, id, seen)) all.push_back(std::move(name));
     return all;
   };
-  if (node.is("IFCMATERIAL")) return {node.text(0)};
   if (node.is("IFCMATERIALLAYERSETUSAGE") || node.is("IFCMATERIALPROFILESETUSAGE") ||
       node.is("IFCMATERIALLAYERSET") || node.is("IFCMATERIALLAYER") || node.is("IFCMATERIALLIST"))
     return through(0);
@@ -337,8 +339,9 @@ class ModelReader {
     const auto it = relations_.materials.find(of);
     if (it == relations_.materials.end()) return;
     p.materials.clear();
+    std::set<uint64_t> seen;
     for (const uint64_t id : it->second)
-      for (std::string& name : material_names(graph_, graph_.node(id)))
+      for (std::string& name : material_names(graph_, id, seen))
         if (!name.empty()) p.materials.push_back(std::move(name));
   }
 

@@ -80,6 +80,18 @@ TEST_CASE("products know their storey, type, materials and properties", "[ifc]")
   CHECK(north.volume_m3 == std::optional<double>(3.24));
 }
 
+TEST_CASE("material lists that hold themselves many times are gone through once", "[ifc]") {
+  SmallIfc small;
+  const std::string text = small.text(), material = "IFCMATERIAL('Brick',$,$)";
+  const size_t at = text.find(material), line = text.rfind('#', at);
+  REQUIRE(at != std::string::npos);
+  const std::string own = text.substr(line, text.find('=', line) - line);
+  std::string all = own;
+  for (int i = 0; i < 999; ++i) all += "," + own;
+  const IfcModel model = model_of(with(text, material, "IFCMATERIALLIST((" + all + "))"));
+  for (const IfcProduct& product : model.products) CHECK(product.materials.empty());
+}
+
 TEST_CASE("a volume counts in the model's unit of volume", "[ifc]") {
   SmallIfc small;
   small.wall_volume_m3 = 3.24;
