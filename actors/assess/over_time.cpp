@@ -215,7 +215,9 @@ void StateOfTime::add_to(OverTime& out) const {
     }
 }
 
-std::optional<Problem> cannot_guide(const SceneDescription& scene) {
+}  // namespace
+
+Result<void> check_guidance(const SceneDescription& scene) {
   if (scene.routes.empty())
     return problem_in(scene.file, "guidance over time is that of routes: add [[route]]");
   if (std::all_of(scene.signs.begin(), scene.signs.end(),
@@ -224,10 +226,8 @@ std::optional<Problem> cannot_guide(const SceneDescription& scene) {
                       "no sign says which route it leads to, so that none guides: add "
                       "[[sign.leads_to]] with route = \"" +
                           scene.routes.front().name + "\" and arrow = \"ahead\"");
-  return std::nullopt;
+  return {};
 }
-
-}  // namespace
 
 Result<OverTime> assess_over_time(const std::vector<double>& times_s, const SceneAtTime& scene_at,
                                   const AssessOptions& options, const std::atomic<bool>& interrupt,
@@ -236,7 +236,7 @@ Result<OverTime> assess_over_time(const std::vector<double>& times_s, const Scen
   for (size_t i = 0; i < times_s.size(); ++i) {
     auto scene = scene_at(times_s[i]);
     if (!scene) return scene.problem();
-    if (auto problem = cannot_guide(*scene.value())) return *problem;
+    if (auto ok = check_guidance(*scene.value()); !ok) return ok.problem();
     auto scenario = judged_scenario(*scene.value(), options.scenario);
     if (!scenario) return scenario.problem();
     StateOfTime state(scene.value(), std::move(scenario).value(), options);

@@ -9,12 +9,16 @@
 
 namespace luxodus {
 
+/// Whether anything can be followed over time, before anything is traced.
+/// Errors: a scene without routes or without signs that lead along one.
+Result<void> check_guidance(const SceneDescription& scene);
+
 /// Judges the views of signs that lead along routes, at each of these times, all with the same
 /// random numbers. A view that is legible is traced again with the smoke's albedo at either end of
 /// 0.1 to 0.5 (wider, where the scene states another) and its extinction raised by the largest
 /// error of its source; where the verdict does not hold it is undecided.
 /// `options.scenario`: by name; see judged_scenario. Requires: times that ascend.
-/// Errors: a scene without routes or without signs that lead along one; as `scene_at`, as
+/// Errors: as check_guidance; as `scene_at`, as
 /// assess_sights.
 Result<OverTime> assess_over_time(const std::vector<double>& times_s, const SceneAtTime& scene_at,
                                   const AssessOptions& options, const std::atomic<bool>& interrupt,

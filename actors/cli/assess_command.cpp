@@ -180,6 +180,9 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
   if (!out) return out.problem();
   if (!job.overwrite)
     if (auto ok = refuse_files_of_others(out->path(), plan.files); !ok) return ok.problem();
+  const bool over_time = job.options.reality && job.times.size() > 1;
+  if (over_time)
+    if (auto ok = check_guidance(*job.scene); !ok) return ok.problem();
   ProgressLine line("assess");
   auto assessed =
       assess(job.scene, job.options, interrupt_flag(), [&](const std::string& what, double share) {
@@ -193,7 +196,7 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
     log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
-  if (job.options.reality && job.times.size() > 1) {
+  if (over_time) {
     AssessOptions asked = job.options;
     asked.scenario = assessed->state.scenario;
     if (auto ok = add_over_time(reader_at_times(job.scene_file), job.times, asked, line,

@@ -67,6 +67,14 @@ const Json& named_layout(const Json& smoke, const std::string& name) {
   return layouts[0];
 }
 
+/// The largest share that any layout with signs as they are may have.
+double most_of_all(const Json& smoke) {
+  double out = 0;
+  for (const Json& one : smoke["layouts"])
+    if (!has_brighter_signs(one)) out = std::max(out, most_of(one));
+  return out;
+}
+
 /// The dearer layout with which most places are lost, of those with which more are lost than won.
 const Json* most_veiling(const Json& smoke) {
   const Json& first = smoke["layouts"][0];
@@ -172,7 +180,7 @@ std::vector<std::string> smoke_words(const Texts& t, const Json& smoke) {
                         first["luminaires"].get<int64_t>(), share_words(t, best["worst"])));
   for (const Json& one : smoke["layouts"]) {
     if (!has_brighter_signs(one)) continue;
-    const bool helps = least_of(one) > most_of(best);
+    const bool helps = least_of(one) > most_of_all(smoke);
     out.push_back(t.say(helps ? "design.smoke_signs_help" : "design.smoke_signs",
                         t.number(one["sign_factor"].get<double>(), 2),
                         share_words(t, one["worst"])));

@@ -181,13 +181,14 @@ constexpr ReportText design_rows[] = {
       "Avec l’implantation {0}, la meilleure d’après les seules règles, un panneau est lisible "
       "devant soi depuis {1} de la longueur des itinéraires, dans le pire des scénarios."}},
     {"design.smoke_same",
-     {"With no other layout is a sign surely read from more places: other luminaires, or more of "
-      "them, do not help people to read these signs in this smoke.",
-      "Mit keiner anderen Anordnung ist sicher von mehr Orten ein Zeichen lesbar: andere oder mehr "
-      "Leuchten helfen nicht, diese Zeichen in diesem Rauch zu lesen.",
+     {"With no other layout is a sign surely read from more places. That other luminaires help "
+      "people "
+      "to read these signs in this smoke is not shown.",
+      "Mit keiner anderen Anordnung ist sicher von mehr Orten ein Zeichen lesbar. Dass andere "
+      "Leuchten helfen, diese Zeichen in diesem Rauch zu lesen, ist nicht gezeigt.",
       "Avec aucune autre implantation un panneau n’est lisible avec certitude depuis plus de "
-      "places : d’autres luminaires, ou davantage, n’aident pas à lire ces panneaux dans cette "
-      "fumée."}},
+      "places. Que d’autres luminaires aident à lire ces panneaux dans cette fumée n’est pas "
+      "montré."}},
     {"design.smoke_better",
      {"Layout {0} has {1} new luminaires instead of {2}, and a sign is read from {3}: it is "
       "recommended.",
