@@ -127,9 +127,7 @@ Result<std::shared_ptr<const TracedState>> RoundStates::make(const std::string& 
   if (!judged) return judged.problem();
   auto scene = compile_round(judged.value(), round.value());
   if (!scene) return scene.problem();
-  auto state = std::make_shared<TracedState>(std::move(scene).value());
-  state->is_run = true;
-  state_ = std::move(state);
+  state_ = std::make_shared<ParticleState>(std::move(scene).value(), BatchNumbers::of_run);
   text_ = text;
   return state_;
 }

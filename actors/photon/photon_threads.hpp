@@ -15,6 +15,7 @@
 
 #include "actors/photon/tally_need.hpp"
 #include "actors/run/leased_work.hpp"
+#include "actors/run/particle_worker.hpp"
 #include "actors/run/planned_batches.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/observe/node_trace.hpp"
@@ -44,10 +45,6 @@ struct PhotonConfig {
 
   size_t batches_in_work() const { return std::min(open_batches, leases); }
 };
-
-/// Makes what traces for one photon-thread: make_batch_tracer, but in a simulation.
-using TracerMaker = std::function<std::unique_ptr<BatchTracer>(
-    const CompiledScene& scene, const GeometryAccess& access, uint64_t seed)>;
 
 class PhotonThreads final : public LeasedWork {
  public:

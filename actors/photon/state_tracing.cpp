@@ -1,11 +1,8 @@
 #include "actors/photon/state_tracing.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
-#include "actors/run/batch_range.hpp"
 #include "runtime/core/check.hpp"
-#include "scenes/transport/readout.hpp"
 
 namespace luxodus {
 
@@ -25,7 +22,7 @@ StateTracing::StateTracing(const CompiledScene& first, StateMaker& maker, int64_
       scheduler_(scheduler),
       port_(port),
       make_tracer_(std::move(make_tracer)) {
-  for (std::unique_ptr<Totals>& totals : totals_) totals = totals_of(first);
+  for (std::unique_ptr<Totals>& totals : totals_) totals = empty_totals(first);
 }
 
 void StateTracing::start() {
@@ -35,10 +32,23 @@ void StateTracing::start() {
 
 void StateTracing::add_metrics(Metrics& metrics) const {
   const Counters& c = counters_;
-  metrics.add_counter({"particles", "", "Particles traced.", ""}, c.particles);
-  metrics.add_counter({"eye_units", "", "Parts of signs, and probes, looked at.", ""}, c.eye_units);
+  const BatchWorker::Counters all = done();
+  metrics.add_counter({"particles", "", "Particles traced.", ""}, all.particles);
+  metrics.add_counter({"eye_units", "", "Parts of signs, and probes, looked at.", ""},
+                      all.eye_units);
+  metrics.add_counter({"picture_paths", "", "Paths of pictures traced.", ""}, all.paths);
   metrics.add_counter({"batches", "", "Batches merged here.", ""}, c.batches);
   metrics.add_counter({"states", "", "States of the scene entered.", ""}, c.states);
+}
+
+BatchWorker::Counters StateTracing::done() const {
+  BatchWorker::Counters all = done_before_;
+  if (!worker_) return all;
+  const BatchWorker::Counters& own = worker_->counters();
+  all.particles += own.particles;
+  all.eye_units += own.eye_units;
+  all.paths += own.paths;
+  return all;
 }
 
 // ---- states -------------------------------------------------------------------------------------
@@ -56,30 +66,27 @@ Result<void> StateTracing::learn(ObjectId state, std::span<const std::byte> byte
 
 void StateTracing::leave_state() {
   drop_all();
+  done_before_ = done();
+  worker_.reset();
   tracing_.reset();
 }
 
 void StateTracing::enter(ObjectId) {
   ++counters_.states;
+  done_before_ = done();
+  worker_.reset();
   tracing_ = learnt_;
-  const CompiledScene& scene = *tracing_->state->scene;
-  tracer_ = make_tracer_(scene, GeometryAccess::resident(tracing_->state->index), tracing_->seed);
-  planned_.reset();
-  if (tracing_->state->is_run) planned_.emplace(scene);
-  look_units_ = planned_ ? tracer_->look_units() : 0;
-  for (std::unique_ptr<Totals>& totals : totals_) totals = totals_of(scene);
+  const TracedState& state = *tracing_->state;
+  worker_ = state.worker(tracing_->seed, portion_, make_tracer_);
+  for (std::unique_ptr<Totals>& totals : totals_) totals = state.totals();
+  counted_ = tracing_->state;
   batch_takes_ = 0;
-}
-
-std::unique_ptr<Totals> StateTracing::totals_of(const CompiledScene& scene) {
-  return std::make_unique<Totals>(scene.layout, static_cast<int>(scene.groups.size()),
-                                  photopic_weights(scene));
 }
 
 /// New memory is empty already.
 bool StateTracing::forget_merged() {
   if (!tracing_) return false;
-  totals_[merging_] = totals_of(*tracing_->state->scene);
+  totals_[merging_] = tracing_->state->totals();
   return true;
 }
 
@@ -148,46 +155,23 @@ void StateTracing::trace_until_the_end() try {
 /// False: there is nothing to trace.
 bool StateTracing::trace_portion() {
   if (!open_ && !open_next()) return false;
-  const int64_t batch_particles = tracing_->state->scene->batch_particles;
-  if (traced_ < batch_particles) {
-    const int64_t count = std::min(portion_, batch_particles - traced_);
-    const uint64_t first = batch_.first_particle + static_cast<uint64_t>(traced_);
-    tracer_->trace(batch_.group, first, count, scores_);
-    counters_.particles += static_cast<uint64_t>(count);
-    traced_ += count;
-  } else {
-    tracer_->look(batch_.number, looked_++, scores_);
-    ++counters_.eye_units;
-  }
-  if (traced_ == batch_particles && looked_ == look_units_) close();
+  if (!worker_->go_on()) close();
   return true;
-}
-
-Batch StateTracing::batch_of_lease(int64_t number) {
-  const BatchRange batch = batch_of(number);
-  if (planned_) return planned_->at(batch.first);
-  const CompiledScene& scene = *tracing_->state->scene;
-  if (static_cast<size_t>(batch.group) >= scene.groups.size())
-    throw std::runtime_error("a batch was lent of a source group that is not there");
-  return {batch.first, batch.group, first_particle_of(scene, batch.stream, batch.first)};
 }
 
 bool StateTracing::open_next() {
   if (!tracing_ || leases_.empty()) return false;
   open_ = leases_.front();
   leases_.pop_front();
-  batch_ = batch_of_lease(open_->batch);
-  traced_ = 0;
-  looked_ = 0;
+  worker_->begin(batch_of(open_->batch));
   opened_ = scheduler_.clock().now();
-  scores_.reset(tracing_->state->scene->layout);
   ask_for_more();
   return true;
 }
 
 void StateTracing::close() {
   const uint64_t lease = open_->lease;
-  totals_[merging_]->merge(scores_, batch_.group);
+  worker_->merge_into(*totals_[merging_]);
   open_.reset();
   ++counters_.batches;
   batch_takes_ = std::max<Nanoseconds>(scheduler_.clock().now() - opened_, 1);

@@ -1,4 +1,4 @@
-// What a node traces of a scene that changes: batches of whatever state is entered, of which it
+// What a node does of a scene that changes: batches of whatever state is entered, of which it
 // holds the whole. One photon-thread, a portion a turn; no object is ever waited for. How many
 // leases are at hand follows from how long a batch takes. Entering a state takes memory.
 // Thread rule: the node's thread.
@@ -9,9 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "actors/photon/photon_threads.hpp"
 #include "actors/run/leased_work.hpp"
-#include "actors/run/planned_batches.hpp"
 #include "actors/run/scene_state.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/observe/metrics.hpp"
@@ -48,12 +46,12 @@ class StateTracing final : public LeasedWork {
   void end(const std::string& why) override;
 
   struct Counters {
-    uint64_t particles = 0;
-    uint64_t eye_units = 0;  // looked at
     uint64_t batches = 0;
     uint64_t states = 0;  // entered
   };
   const Counters& counters() const { return counters_; }
+  /// What the workers of all states have done.
+  BatchWorker::Counters done() const;
   void add_metrics(Metrics& metrics) const;
 
  private:
@@ -70,29 +68,23 @@ class StateTracing final : public LeasedWork {
   void trace_until_the_end();
   bool trace_portion();
   bool open_next();
-  Batch batch_of_lease(int64_t number);
   void close();
   void ask_for_more();
-  static std::unique_ptr<Totals> totals_of(const CompiledScene& scene);
 
   StateMaker& maker_;
   const int64_t portion_;
   Scheduler& scheduler_;
   LeasePort& port_;
   const TracerMaker make_tracer_;
-  std::optional<Known> learnt_;   // the last
-  std::optional<Known> tracing_;  // the one that is entered
-  std::unique_ptr<BatchTracer> tracer_;
-  std::optional<PlannedBatches> planned_;  // of a state that is a run
-  BatchScores scores_;
-  std::unique_ptr<Totals> totals_[2];  // one is merged into while the other is emptied
+  std::optional<Known> learnt_;                 // the last
+  std::optional<Known> tracing_;                // the one that is entered
+  std::shared_ptr<const TracedState> counted_;  // that the totals are of
+  std::unique_ptr<BatchWorker> worker_;         // of the one that is entered
+  BatchWorker::Counters done_before_;           // by those of others
+  std::unique_ptr<Totals> totals_[2];           // one is merged into while the other is emptied
   size_t merging_ = 0;
   std::deque<Waiting> leases_;   // not begun, the oldest first
   std::optional<Waiting> open_;  // in work
-  Batch batch_;                  // that is
-  int64_t traced_ = 0;           // particles of it
-  uint32_t looked_ = 0;          // units of its paths from the eye
-  uint32_t look_units_ = 0;      // of a batch
   Nanoseconds opened_ = 0;
   Nanoseconds batch_takes_ = 0;  // lately
   WaitList work_;                // the fiber, while there is nothing to do

@@ -10,14 +10,12 @@ namespace luxodus {
 void ThreadExecutor::trace(Work& work) {
   const auto one = [&] {
     flush_denormals();
-    const CompiledScene& scene = work.scene();
-    const auto tracer = make_batch_tracer(scene, work.access(), work.seed());
-    BatchScores scores;
+    const auto worker = work.worker();
     while (const auto batch = work.next(1)) {
-      scores.reset(scene.layout);
-      tracer->trace(batch->group, first_particle_of(scene, batch->stream, batch->first),
-                    scene.batch_particles, scores);
-      work.totals().merge(scores, batch->group);
+      worker->begin(*batch);
+      while (worker->go_on()) {
+      }
+      worker->merge_into(work.totals());
       work.merged(1);
     }
   };

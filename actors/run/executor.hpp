@@ -5,12 +5,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
-#include "actors/run/batch_range.hpp"
+#include "actors/run/batch_worker.hpp"
 #include "actors/run/scene_state.hpp"
-#include "scenes/tally/totals.hpp"
-#include "scenes/transport/trace.hpp"
 
 namespace luxodus {
 
@@ -18,9 +17,8 @@ namespace luxodus {
 class Work {
  public:
   virtual ~Work() = default;
-  virtual const CompiledScene& scene() const = 0;
-  virtual GeometryAccess access() const = 0;
-  virtual uint64_t seed() const = 0;
+  /// Does batches of it in this process.
+  virtual std::unique_ptr<BatchWorker> worker() const = 0;
   /// Up to `most` batches; none where there are no more, or somebody wants it to stop. Whoever
   /// takes some merges what they give into totals(), or gives them back.
   virtual std::optional<BatchRange> next(int64_t most) = 0;

@@ -20,6 +20,13 @@ PiecesOfRun::PiecesOfRun(LocalRun& run, int64_t end, std::function<bool()> stops
       given_(run.batches()),
       missing_(run.missing().begin(), run.missing().end()) {}
 
+std::unique_ptr<BatchWorker> PiecesOfRun::worker() const {
+  const CompiledScene& scene = run_.scene();
+  return std::make_unique<ParticleWorker>(scene, GeometryAccess::resident(run_.index()),
+                                          run_.seed(), BatchNumbers::of_run, scene.batch_particles,
+                                          run_.make_tracer());
+}
+
 std::optional<BatchRange> PiecesOfRun::next(int64_t most) {
   if (stops_()) return std::nullopt;
   const std::lock_guard lock(mutex_);

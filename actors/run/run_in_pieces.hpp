@@ -21,9 +21,7 @@ class PiecesOfRun final : public Work {
   PiecesOfRun(LocalRun& run, int64_t end, std::function<bool()> stops,
               std::function<void(int64_t)> report);
 
-  const CompiledScene& scene() const override { return run_.scene(); }
-  GeometryAccess access() const override { return GeometryAccess::resident(run_.index()); }
-  uint64_t seed() const override { return run_.seed(); }
+  std::unique_ptr<BatchWorker> worker() const override;
   Totals& totals() override { return run_.totals(); }
   std::optional<BatchRange> next(int64_t most) override;
   void give_back(const BatchRange& batches) override;

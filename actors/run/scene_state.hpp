@@ -6,9 +6,9 @@
 #include <span>
 #include <string>
 
+#include "actors/run/particle_worker.hpp"
 #include "runtime/core/ids.hpp"
 #include "runtime/core/result.hpp"
-#include "scenes/transport/trace.hpp"
 
 namespace luxodus {
 
@@ -26,16 +26,35 @@ struct StateObject {
   friend bool operator==(const StateObject&, const StateObject&) = default;
 };
 
-/// A state that can be traced, with all its geometry.
-struct TracedState {
-  explicit TracedState(std::shared_ptr<const CompiledScene> of)
-      : scene(std::move(of)), index(device, *scene) {}
-  std::shared_ptr<const CompiledScene> scene;
-  /// Its batches are those of a run, by their numbers (BatchPlan), with paths from the eye; else
-  /// BatchRange says what they are.
-  bool is_run = false;
-  EmbreeDevice device;
-  SceneIndex index;
+/// A state whose batches can be done. Any thread; its workers each of one.
+class TracedState {
+ public:
+  virtual ~TracedState() = default;
+  /// Empty totals, which its batches are merged into. Requires: the state outlives them.
+  virtual std::unique_ptr<Totals> totals() const = 0;
+  /// `portion`, `make_tracer`: of particles. Requires: the state outlives it.
+  virtual std::unique_ptr<BatchWorker> worker(uint64_t seed, int64_t portion,
+                                              const TracerMaker& make_tracer) const = 0;
+};
+
+/// A scene in whose state particles are traced, with all its geometry.
+class ParticleState final : public TracedState {
+ public:
+  ParticleState(std::shared_ptr<const CompiledScene> scene, BatchNumbers numbers)
+      : scene_(std::move(scene)), index_(device_, *scene_), numbers_(numbers) {}
+
+  std::unique_ptr<Totals> totals() const override { return empty_totals(*scene_); }
+  std::unique_ptr<BatchWorker> worker(uint64_t seed, int64_t portion,
+                                      const TracerMaker& make_tracer) const override {
+    return std::make_unique<ParticleWorker>(*scene_, GeometryAccess::resident(index_), seed,
+                                            numbers_, portion, make_tracer);
+  }
+
+ private:
+  std::shared_ptr<const CompiledScene> scene_;
+  EmbreeDevice device_;
+  SceneIndex index_;
+  const BatchNumbers numbers_;
 };
 
 /// Makes states of their text. The nodes of a process share one. Any thread.

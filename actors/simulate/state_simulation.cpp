@@ -29,11 +29,8 @@ const std::string no_state = "a state that nobody can make";
 /// All states are the same scene, which is traced with the state's own seed.
 class OneScene final : public StateMaker {
  public:
-  explicit OneScene(std::shared_ptr<const CompiledScene> scene) {
-    auto state = std::make_shared<TracedState>(std::move(scene));
-    state->is_run = true;
-    state_ = std::move(state);
-  }
+  explicit OneScene(std::shared_ptr<const CompiledScene> scene)
+      : state_(std::make_shared<ParticleState>(std::move(scene), BatchNumbers::of_run)) {}
   Result<std::shared_ptr<const TracedState>> make(const std::string& text) override {
     if (text == no_state) return problem("it is refused on purpose");
     return state_;

@@ -107,7 +107,7 @@ void Worker::show_to(Observation& seen) {
   if (display_) display_->add_metrics(metrics_->registry());
   if (photons_ || states_)
     metrics_->add_rate({"particles_per_second", "", "Particles traced in a second.", ""},
-                       photons_ ? photons_->counters().particles : states_->counters().particles);
+                       photons_ ? photons_->counters().particles : states_->done().particles);
   else
     metrics_->add_rate({"particles_per_second", "", "Particles counted in a second.", ""},
                        coordinator_->counters().particles);

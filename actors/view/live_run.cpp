@@ -196,9 +196,12 @@ class LiveRun::LevelWork final : public Work {
             const std::function<void()>& tick)
       : run_(run), goal_(std::move(goal)), stop_(stop), tick_(tick), start_(SteadyClock::now()) {}
 
-  const CompiledScene& scene() const override { return *run_.scene_; }
-  GeometryAccess access() const override { return GeometryAccess::resident(run_.geometry_->index); }
-  uint64_t seed() const override { return run_.seed_; }
+  std::unique_ptr<BatchWorker> worker() const override {
+    const CompiledScene& scene = *run_.scene_;
+    return std::make_unique<ParticleWorker>(scene, GeometryAccess::resident(run_.geometry_->index),
+                                            run_.seed_, BatchNumbers::of_groups,
+                                            scene.batch_particles);
+  }
   bool stopped() const override {
     const Stop stop = stop_();
     const double now = since(start_);

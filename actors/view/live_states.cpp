@@ -14,7 +14,7 @@ Result<std::shared_ptr<const TracedState>> LiveStates::make(const std::string& e
   if (!described) return described.problem();
   auto scene = compile_live(*described.value(), parsed.value());
   if (!scene) return scene.problem();
-  state_ = std::make_shared<TracedState>(std::move(scene).value());
+  state_ = std::make_shared<ParticleState>(std::move(scene).value(), BatchNumbers::of_groups);
   edits_ = edits;
   return state_;
 }
