@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <mutex>
 
 #include "actors/assess/round_state.hpp"
 #include "actors/cli/assess_command.hpp"
@@ -12,11 +13,12 @@
 #include "actors/cli/commands.hpp"
 #include "actors/cli/load_cluster.hpp"
 #include "actors/cli/load_scene.hpp"
+#include "actors/cli/picture_choices.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/run_display.hpp"
 #include "actors/cli/serve_view.hpp"
 #include "actors/cli/signals.hpp"
-#include "actors/display/pictures.hpp"
+#include "actors/display/picture_tiles.hpp"
 #include "actors/display/report.hpp"
 #include "actors/display/result_files.hpp"
 #include "actors/output/file_names.hpp"
@@ -126,13 +128,14 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
   return process.run(interrupt_flag(), work);
 }
 
-/// Why nobody will trace any more for whoever waits for workers.
+/// Why nobody will trace any more for whoever waits for workers. Any thread.
 class WorkerWatch {
  public:
   WorkerWatch(const ClusterConfig& cluster, const NodeExecutor& executor)
       : cluster_(cluster), executor_(executor), without_since_(clock_.now()) {}
 
   std::optional<Problem> fault() {
+    const std::lock_guard lock(mutex_);
     if (auto refused = executor_.fault()) return refused;
     if (executor_.counters().workers > 0) {
       any_ = true;
@@ -152,6 +155,7 @@ class WorkerWatch {
   const ClusterConfig& cluster_;
   const NodeExecutor& executor_;
   const SystemClock clock_;
+  std::mutex mutex_;  // guards all below
   std::optional<Nanoseconds> without_since_;
   bool any_ = false;
 };
@@ -204,6 +208,53 @@ Result<ExitCode> assess_on_nodes(const ClusterConfig& cluster, ClusterProcessRun
   return code;
 }
 
+PictureOptions pictures_of(const RenderChoice& render) {
+  PictureOptions picture;
+  picture.max_seconds = render.time_s.value_or(0);
+  picture.target_error = render.error.value_or(0);
+  if (render.paths)
+    picture.paths_per_pixel = static_cast<int>(*render.paths);
+  else if (render.time_s || render.error)
+    picture.paths_per_pixel = limits::max_paths_per_pixel;
+  picture.progressive = true;
+  picture.gather = !render.full_paths;
+  picture.raw = render.raw;
+  picture.interrupt = &interrupt_flag();
+  return picture;
+}
+
+/// The nodes of a cluster whose file has a table [render].
+Result<ExitCode> render_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process) {
+  const LocalRun& base = process.local_run();
+  const SceneDescription& scene = *base.scene().description;
+  PictureOptions picture = pictures_of(cluster.render);
+  if (auto ok = check_views(scene, cluster.render.view, picture); !ok) return ok.problem();
+  if (scene.cameras.empty()) return problem_in(scene.file, "the scene has no [[camera]] to render");
+  PictureStates states(base);
+  ExitCode code = ExitCode::success;
+  NodeWork work = work_of_states(states);
+  work.controller = [&](const RunSetup& run, const Machine& machine,
+                        const NodeSetup& node) -> Result<StopReason> {
+    const auto out = OutputFolder::claim(cluster.run.out, plan_of_views(scene));
+    if (!out) return out.problem();
+    LocalRun finished(base.shared_scene(), base.seed(), default_threads());
+    if (auto ok = load_flux(out->path() / "flux.lux", finished); !ok) return ok.problem();
+    auto started = NodeExecutor::start(run, machine, node);
+    if (!started) return started.problem();
+    WorkerWatch watch(cluster, *started.value());
+    picture.executor = started.value().get();
+    picture.gives_up = [&] { return watch.fault().has_value(); };
+    const auto rendered = render_aloud(out->path(), finished, cluster.render.view, picture);
+    if (!rendered) return rendered.problem();
+    if (auto fault = watch.fault()) return *fault;
+    code = rendered.value();
+    return StopReason::particles;
+  };
+  const auto ended = process.run(interrupt_flag(), work);
+  if (!ended) return ended.problem();
+  return code;
+}
+
 int run_nodes(const NodeOptions& options) {
   tell_the_time();
   const std::optional<ClusterConfig> read = load_cluster(options.config);
@@ -246,6 +297,12 @@ int run_nodes(const NodeOptions& options) {
     const auto assessed = assess_on_nodes(cluster, *process.value());
     if (assessed) return assessed.value();
     tell(assessed.problem());
+    return ExitCode::failure;
+  }
+  if (cluster.render.asked) {
+    const auto rendered = render_on_nodes(cluster, *process.value());
+    if (rendered) return rendered.value();
+    tell(rendered.problem());
     return ExitCode::failure;
   }
   std::optional<RunDisplay> display;

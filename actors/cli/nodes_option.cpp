@@ -18,4 +18,14 @@ std::unique_ptr<RunExecutor> nodes_that_trace(int nodes) {
   return std::make_unique<RunNodes>(options);
 }
 
+Result<std::unique_ptr<PictureNodes>> PictureNodes::start(const LocalRun& run, int nodes) {
+  std::unique_ptr<PictureNodes> out(new PictureNodes(run));
+  NodesOptions options;
+  options.nodes = nodes;
+  auto started = ProcessExecutor::start(run.shared_scene(), out->states_, options);
+  if (!started) return started.problem();
+  out->nodes_ = std::move(started).value();
+  return out;
+}
+
 }  // namespace luxodus::cli

@@ -5,7 +5,9 @@
 #include <memory>
 
 #include "actors/cli/options.hpp"
+#include "actors/display/picture_tiles.hpp"
 #include "actors/run/run_executor.hpp"
+#include "actors/supervise/process_executor.hpp"
 
 namespace luxodus::cli {
 
@@ -14,5 +16,19 @@ Option nodes_option(int& nodes);
 
 /// Null for 0 nodes: then threads trace.
 std::unique_ptr<RunExecutor> nodes_that_trace(int nodes);
+
+/// Nodes that trace pictures of a finished run.
+class PictureNodes {
+ public:
+  /// Requires: the run outlives them. Errors: as ProcessExecutor::start.
+  static Result<std::unique_ptr<PictureNodes>> start(const LocalRun& run, int nodes);
+  Executor& executor() { return *nodes_->executor(); }
+
+ private:
+  explicit PictureNodes(const LocalRun& run) : states_(run) {}
+
+  PictureStates states_;
+  std::unique_ptr<ProcessExecutor> nodes_;
+};
 
 }  // namespace luxodus::cli

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "actors/cli/quantities.hpp"
+#include "actors/display/result_files.hpp"
 #include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
@@ -91,6 +92,25 @@ void tell_rendered(const RenderedViews& rendered) {
   } else if (rendered.paths > 0) {
     log_info("pictures: {}{}", paths_text(rendered.paths), error_text(rendered.relative_error));
   }
+}
+
+OutputPlan plan_of_views(const SceneDescription& scene) {
+  OutputPlan plan{{}, {"views"}};
+  for (size_t i = 0; i < scene.cameras.size(); ++i)
+    for (std::string& file : files_of_view(scene, i)) plan.files.push_back(std::move(file));
+  return plan;
+}
+
+Result<ExitCode> render_aloud(const std::filesystem::path& folder, const LocalRun& run,
+                              const std::string& only_view, const PictureOptions& picture) {
+  std::optional<ProgressLine> line("pictures");
+  const auto rendered =
+      render_views(folder, run, only_view, picture,
+                   [&](const PictureProgress& progress) { show_pictures(*line, progress); });
+  line.reset();
+  if (!rendered) return rendered.problem();
+  tell_rendered(rendered.value());
+  return rendered->interrupted ? ExitCode::interrupted : ExitCode::success;
 }
 
 }  // namespace luxodus::cli

@@ -2,13 +2,16 @@
 // `luxodus render`; and what is said of pictures on the way. One thread.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "actors/cli/command.hpp"
 #include "actors/cli/options.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/display/pictures.hpp"
+#include "actors/output/output_folder.hpp"
 
 namespace luxodus::cli {
 
@@ -30,5 +33,10 @@ Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture
 void show_pictures(ProgressLine& line, const PictureProgress& progress);
 /// Logs what pictures are there, and that they were interrupted.
 void tell_rendered(const RenderedViews& rendered);
+/// What pictures write into the folder of their run.
+OutputPlan plan_of_views(const SceneDescription& scene);
+/// render_views, with progress on the terminal and what is there in the end.
+Result<ExitCode> render_aloud(const std::filesystem::path& folder, const LocalRun& run,
+                              const std::string& only_view, const PictureOptions& picture);
 
 }  // namespace luxodus::cli

@@ -9,6 +9,7 @@
 #include "actors/cli/commands.hpp"
 #include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
+#include "actors/cli/nodes_option.hpp"
 #include "actors/cli/picture_choices.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/signals.hpp"
@@ -29,6 +30,7 @@ struct RenderOptions {
   std::string folder;
   std::string view;
   int threads = default_threads();
+  int nodes = 0;
   PictureChoices limits;
   bool full_paths = false;
   bool raw = false;
@@ -107,13 +109,6 @@ Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, cons
   return ExitCode::success;
 }
 
-OutputPlan plan_of_views(const SceneDescription& scene) {
-  OutputPlan plan{{}, {"views"}};
-  for (size_t i = 0; i < scene.cameras.size(); ++i)
-    for (std::string& file : files_of_view(scene, i)) plan.files.push_back(std::move(file));
-  return plan;
-}
-
 OutputPlan plan_of_film(const RenderOptions& options) {
   const std::string name = file_name_of(options.route);
   return {{"films/" + name + ".mp4"}, {"films", "films/" + name}};
@@ -152,15 +147,15 @@ Result<ExitCode> render(const RenderOptions& options) {
   picture.gather = !options.full_paths;
   picture.raw = options.raw;
   picture.interrupt = &interrupt_flag();
+  std::unique_ptr<PictureNodes> nodes;
+  if (options.nodes > 0) {
+    auto started = PictureNodes::start(run, options.nodes);
+    if (!started) return started.problem();
+    nodes = std::move(started).value();
+    picture.executor = &nodes->executor();
+  }
   if (is_film) return render_frames(out->path(), run, film, options, picture);
-  std::optional<ProgressLine> line("pictures");
-  const auto rendered =
-      render_views(out->path(), run, options.view, picture,
-                   [&](const PictureProgress& progress) { show_pictures(*line, progress); });
-  line.reset();
-  if (!rendered) return rendered.problem();
-  tell_rendered(rendered.value());
-  return rendered->interrupted ? ExitCode::interrupted : ExitCode::success;
+  return render_aloud(out->path(), run, options.view, picture);
 }
 
 }  // namespace
@@ -180,7 +175,8 @@ std::vector<Option> render_options(RenderOptions& o) {
       {"--threads",
        &o.threads,
        "Number of threads",
-       {.otherwise = "all cores", .range = Range{1, 1024}}}};
+       {.otherwise = "all cores", .range = Range{1, 1024}}},
+      nodes_option(o.nodes)};
   all.insert(all.end(), more.begin(), more.end());
   const std::vector<Option> film{
       {"--route",
@@ -219,7 +215,9 @@ Command render_command() {
       .notes =
           "Reads DIR/result.json, DIR/flux.lux and the scene file; refuses if the scene has "
           "changed. A first picture of each view is there after seconds; it is replaced by better "
-          "ones. Equal paths give equal pictures, bit for bit, however they came together. Ctrl-C "
+          "ones. Equal paths give equal pictures, bit for bit, however they came together, and "
+          "whether "
+          "threads or nodes traced them. Ctrl-C "
           "keeps the pictures of the paths that all of their pixels have.\n\n"
           "With --route it renders a film instead: what somebody sees who walks a route of the "
           "scene, as DIR/films/ROUTE/000000.png and so on, and where there is ffmpeg as "

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cmath>
 
+#include "actors/display/picture_tiles.hpp"
 #include "actors/display/view_files.hpp"
 #include "scenes/emergency/way.hpp"
 
@@ -109,15 +110,18 @@ Result<size_t> render_film(const fs::path& folder, const LocalRun& run, const Fi
                            const PictureOptions& options,
                            const std::function<void(double frames)>& progress) {
   if (auto ok = make_frame_folder(folder); !ok) return ok.problem();
-  std::unique_ptr<KnownRadiance> flux;
-  if (options.gather && run.batches() > 0) flux = flux_radiance(run);
+  const PictureFlux flux = picture_flux(run, options);
   for (size_t k = 0; k < film.cameras.size(); ++k) {
     const Camera& camera = film.cameras[k];
-    ViewPasses view(run, camera, 0, flux.get());
+    ViewPasses view(run, camera, 0, flux.radiance.get());
     const auto tell = [&](double share) {
       if (progress) progress(static_cast<double>(k) + share);
     };
-    if (!view.add(options.paths_per_pixel, options, tell)) return k;
+    const bool whole = options.executor == nullptr
+                           ? view.add(options.paths_per_pixel, options, tell)
+                           : PictureExecutor(run, {{camera}}, options, flux)
+                                 .add(0, view, options.paths_per_pixel, tell);
+    if (!whole) return k;
     const ShownView shown(view.picture(), view.paths(), options, run.threads());
     auto written = write_shown_png(folder / name_of_frame(k), film.human, run, camera, shown);
     if (!written) return written.problem();

@@ -1,7 +1,3 @@
-// Tracing. A path carries all bands, and one of them, its hero, decides how it goes on. Places in a
-// pixel and heroes are drawn together by points of one scrambled Sobol' set, so that the paths of a
-// pixel are spread over its area and over the bands at once. Standard errors take them as
-// independent, which errs on the safe side.
 #include "actors/display/pictures.hpp"
 
 #include <algorithm>
@@ -19,118 +15,15 @@ namespace luxodus {
 
 namespace {
 
-/// A path's number: camera, pixel (28 bits), path.
-constexpr int camera_shift = 48;
-constexpr int pixel_shift = 17;
-
-/// A camera without a lens: every ray passes through one point.
-class Pinhole {
- public:
-  Pinhole(const Camera& camera, const glm::dvec3& local_origin)
-      : eye_(camera.eye - local_origin), width_(camera.width), height_(camera.height) {
-    forward_ = glm::normalize(camera.target - camera.eye);
-    glm::dvec3 right = glm::cross(forward_, camera.up);
-    if (glm::length(right) < 1e-9 * glm::length(camera.up)) {
-      // Looking along `up`: any direction across will do; y is up on a plan.
-      const glm::dvec3 other =
-          std::abs(forward_.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-      right = glm::cross(forward_, other);
-    }
-    right = glm::normalize(right);
-    const double half = std::tan(glm::radians(camera.vertical_fov_deg) / 2);
-    up_ = glm::cross(right, forward_) * half;
-    right_ = right * (half * camera.width / camera.height);
-  }
-
-  /// Through a place in pixels from the picture's upper left corner.
-  Ray ray(double x, double y) const {
-    const glm::dvec3 d = forward_ + right_ * (2 * x / width_ - 1) + up_ * (1 - 2 * y / height_);
-    return {glm::vec3(eye_), glm::vec3(glm::normalize(d))};
-  }
-
- private:
-  glm::dvec3 eye_, forward_, right_, up_;
-  double width_, height_;
-};
-
 /// Pixels that one fiber traces in one go.
 constexpr int columns_at_once = 32;
 
-/// Light by channels of a picture: X, Y, Z, scotopic.
-struct ChannelLight {
-  std::array<double, light_channels> values{};
-
-  void add(const Bands& bands, std::span<const double> radiance) {
-    for (size_t b = 0; b < radiance.size(); ++b) {
-      const Band& band = bands[static_cast<int>(b)];
-      values[0] += radiance[b] * band.x_per_w;
-      values[1] += radiance[b] * band.lm_per_w;
-      values[2] += radiance[b] * band.z_per_w;
-      values[3] += radiance[b] * band.scotopic_lm_per_w;
-    }
-  }
-};
-
-/// Draws of the signs of bins of known light: as many samples of its error.
-constexpr size_t sign_draws = 8;
-
-/// A random sign for each draw, one bit each: a mix of the bin's number (SplitMix64: G. L. Steele,
-/// D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
-uint64_t signs_of(uint64_t bin) {
-  uint64_t z = (bin + 1) * 0x9E3779B97F4A7C15u;
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
-}
-
-/// In which half of a pixel's paths a path is: by the parity of the bits of its number (the
-/// sequence of Thue and Morse). Each half of the first 2^k points of a Sobol' set is spread nearly
-/// as evenly as the first half would be, for all k at once.
-constexpr size_t half_of(int path) {
-  return static_cast<size_t>(std::popcount(static_cast<unsigned>(path)) % 2);
-}
 constexpr std::array<int, 2> halves_of(int paths) {
   const int pairs = paths / 2;
   std::array<int, 2> counts{pairs, pairs};
   if (paths % 2 != 0) ++counts[half_of(paths - 1)];
   return counts;
 }
-
-}  // namespace
-
-/// What the paths of one pixel have found.
-struct ViewPasses::PixelSums {
-  /// Of half of the paths each, without what emitters send straight.
-  std::array<std::array<double, light_channels>, 2> light{};
-  std::array<std::array<double, 3>, 2> squares{};
-  std::array<double, light_channels> emitted{};
-  double luminance_squares = 0;  // of all light
-  std::array<double, picture_features> features{};
-  // Luminance that paths have ended in, as it is known; squares of what that errs by; and the sums
-  // of that by draws of signs: who ends in the same bin errs alike.
-  double known = 0, known_squares = 0;
-  std::array<float, sign_draws> known_signed{};
-
-  void add_known(const KnownEnd& end) {
-    if (!(end.luminance > 0)) return;
-    const double error = end.luminance * end.error.relative;
-    known += end.luminance;
-    known_squares += error * error;
-    const uint64_t signs = signs_of(end.error.bin);
-    for (size_t k = 0; k < sign_draws; ++k)
-      known_signed[k] += static_cast<float>((signs >> k & 1) != 0 ? error : -error);
-  }
-  /// Of the sum of luminances, the variance that paths have in common. What it has of each path by
-  /// itself is in the spread of the paths.
-  double known_variance() const {
-    double squared = 0;
-    for (const float sum : known_signed)
-      squared += static_cast<double>(sum) * static_cast<double>(sum) / sign_draws;
-    return squared - known_squares;
-  }
-};
-
-namespace {
 
 /// Of a mean of so many, by their sum and that of their squares. NaN with one.
 double variance_of_mean(double sum, double squares, double count) {
@@ -141,82 +34,9 @@ double variance_of_mean(double sum, double squares, double count) {
 
 }  // namespace
 
-/// Traces the pixels of one picture; one per thread.
-class ViewPasses::PixelTracer {
- public:
-  PixelTracer(const ViewPasses& view, const GeometryAccess& access)
-      : scene_(view.run_.scene()),
-        tracer_(make_picture_tracer(scene_, access, view.run_.seed())),
-        pinhole_(view.camera_, scene_.local_origin),
-        first_path_(view.number_ << camera_shift),
-        flux_(view.flux_) {
-    white_.add(scene_.bands, std::vector<double>(static_cast<size_t>(scene_.bands.count()), 1.0));
-  }
-
-  /// Adds the paths [from, to) of a pixel.
-  void trace(int column, int row, uint64_t pixel, int from, int to, PixelSums& sums) {
-    const uint64_t first = first_path_ + (pixel << pixel_shift);
-    for (int i = from; i < to; ++i) {
-      start(first, i);
-      const auto x = static_cast<double>(tracer_->uniform());
-      const auto y = static_cast<double>(tracer_->uniform());
-      const int hero = tracer_->choose_band(static_cast<double>(tracer_->uniform()));
-      const Ray ray = pinhole_.ray(column + x, row + y);
-      ChannelLight turned;
-      turned.add(scene_.bands, tracer_->radiance(ray, hero, flux_));
-      sums.add_known(tracer_->end());
-      const size_t half = half_of(i);
-      for (size_t c = 0; c < light_channels; ++c) sums.light[half][c] += turned.values[c];
-      for (size_t c = 0; c < 3; ++c) sums.squares[half][c] += turned.values[c] * turned.values[c];
-      tracer_->meet_first(ray, first_);
-      ChannelLight straight;
-      straight.add(scene_.bands, first_.emitted);
-      for (size_t c = 0; c < light_channels; ++c) sums.emitted[c] += straight.values[c];
-      const double luminance = turned.values[1] + straight.values[1];
-      sums.luminance_squares += luminance * luminance;
-      add_features(sums.features);
-    }
-  }
-
- private:
-  /// The first paths have a set of points of their own: one with room for all takes longer to make
-  /// than they take to trace. Points do not depend on how many are wanted.
-  void start(uint64_t first, int path) {
-    constexpr int few = 64;
-    if (path < few) return tracer_->start(first, few, static_cast<uint32_t>(path));
-    tracer_->start(first + limits::max_paths_per_pixel, limits::max_paths_per_pixel,
-                   static_cast<uint32_t>(path - few));
-  }
-
-  /// The normal, the nearness, the transmittance and the albedo's X, Y, Z.
-  void add_features(std::array<double, picture_features>& into) const {
-    ChannelLight reflected;
-    reflected.add(scene_.bands, first_.reflectance);
-    const std::array<double, picture_features> own{static_cast<double>(first_.normal.x),
-                                                   static_cast<double>(first_.normal.y),
-                                                   static_cast<double>(first_.normal.z),
-                                                   first_.nearness,
-                                                   first_.transmittance,
-                                                   reflected.values[0] / white_.values[0],
-                                                   reflected.values[1] / white_.values[1],
-                                                   reflected.values[2] / white_.values[2]};
-    for (size_t k = 0; k < picture_features; ++k) into[k] += own[k];
-  }
-
-  const CompiledScene& scene_;
-  std::unique_ptr<PictureTracer> tracer_;
-  Pinhole pinhole_;
-  uint64_t first_path_;
-  const KnownRadiance* flux_;
-  ChannelLight white_;  // of a reflectance of 1 in all bands
-  FirstHit first_;      // of the last path
-};
-
 ViewPasses::ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number,
                        const KnownRadiance* flux)
     : run_(run), camera_(camera), number_(number), flux_(flux), sums_(pixels()) {}
-
-ViewPasses::~ViewPasses() = default;
 
 size_t ViewPasses::pixels() const {
   return static_cast<size_t>(camera_.width) * static_cast<size_t>(camera_.height);
@@ -234,7 +54,8 @@ bool ViewPasses::trace(const PictureOptions& options, const ShareDone& progress,
   // Parts of a row, so that there is work for many fibers.
   const int parts = (camera_.width + columns_at_once - 1) / columns_at_once;
   const auto make = [&](const GeometryAccess& access) {
-    auto tracer = std::make_shared<PixelTracer>(*this, access);
+    auto tracer =
+        std::make_shared<PixelTracer>(run_.scene(), access, run_.seed(), camera_, number_, flux_);
     return [&, tracer](int64_t unit) {
       const int row = static_cast<int>(unit / parts);
       const int first = static_cast<int>(unit % parts) * columns_at_once;
@@ -256,14 +77,6 @@ bool ViewPasses::trace(const PictureOptions& options, const ShareDone& progress,
   return false;
 }
 
-namespace {
-
-bool comes_first(int column, int row) {
-  return column % 2 == 0 && row % 2 == 0;
-}
-
-}  // namespace
-
 bool ViewPasses::add_first(int paths, const PictureOptions& options, const ShareDone& progress) {
   const bool whole = trace(options, progress, [&](int column, int row) {
     return std::pair(0, comes_first(column, row) ? paths : 0);
@@ -280,6 +93,26 @@ bool ViewPasses::add(int paths, const PictureOptions& options, const ShareDone& 
   paths_ += paths;
   first_paths_ = 0;
   return true;
+}
+
+void ViewPasses::take_sums(Totals& totals, int group) {
+  const auto end = static_cast<int64_t>(sums_.size() * PixelSums::bins);
+  totals.take_bins(group, 0, end, [&](int64_t index, const Total& total) {
+    const auto at = static_cast<size_t>(index);
+    sums_[at / PixelSums::bins].add_bin(at % PixelSums::bins, total);
+  });
+  totals.take_batches(group);
+}
+
+void ViewPasses::take_first(Totals& totals, int group, int paths) {
+  take_sums(totals, group);
+  first_paths_ = paths;
+}
+
+void ViewPasses::take(Totals& totals, int group, int paths) {
+  take_sums(totals, group);
+  paths_ += paths;
+  first_paths_ = 0;
 }
 
 namespace {
@@ -350,7 +183,7 @@ TracedPicture ViewPasses::picture_of(const std::vector<const PixelSums*>& all, i
   const auto paths = static_cast<double>(path_count);
   std::vector<double> known_squares(all.size()), known_variances(all.size());
   for (size_t i = 0; i < all.size(); ++i) {
-    known_squares[i] = all[i]->known * all[i]->known;
+    known_squares[i] = all[i]->known() * all[i]->known();
     known_variances[i] = all[i]->known_variance();
   }
   const auto columns = static_cast<size_t>(width);
@@ -360,26 +193,27 @@ TracedPicture ViewPasses::picture_of(const std::vector<const PixelSums*>& all, i
     const PixelSums& sums = *all[i];
     for (size_t c = 0; c < light_channels; ++c) {
       const size_t at = light_channels * i + c;
-      const double sum = sums.light[0][c] + sums.light[1][c] + sums.emitted[c];
+      const double straight = sums.straight(c);
+      const double sum = sums.turned(0, c) + sums.turned(1, c) + straight;
       (c < 3 ? out.light.xyz[3 * i + c] : out.light.scotopic[i]) = static_cast<float>(sum / paths);
-      out.emitted[at] = static_cast<float>(sums.emitted[c] / paths);
+      out.emitted[at] = static_cast<float>(straight / paths);
       for (const size_t h : {size_t{0}, size_t{1}}) {
         if (halves[h] == 0) continue;
         const double count = halves[h];
-        out.noisy.half[h].light[at] = static_cast<float>(sums.light[h][c] / count);
+        out.noisy.half[h].light[at] = static_cast<float>(sums.turned(h, c) / count);
         if (c < 3)
-          out.noisy.half[h].variance[3 * i + c] =
-              static_cast<float>(variance_of_mean(sums.light[h][c], sums.squares[h][c], count));
+          out.noisy.half[h].variance[3 * i + c] = static_cast<float>(
+              variance_of_mean(sums.turned(h, c), sums.turned_squares(h, c), count));
       }
     }
-    const double luminance = sums.light[0][1] + sums.light[1][1] + sums.emitted[1];
+    const double luminance = sums.turned(0, 1) + sums.turned(1, 1) + sums.straight(1);
     const double relative = squares[i] > 0 ? std::max(0.0, variances[i]) / squares[i] : 0;
     const double of_flux = path_count < 2 ? 0 : relative * known_squares[i] / (paths * (paths - 1));
     out.flux_error_y[i] = static_cast<float>(std::sqrt(of_flux));
     out.standard_error_y[i] = static_cast<float>(
-        std::sqrt(variance_of_mean(luminance, sums.luminance_squares, paths) + of_flux));
+        std::sqrt(variance_of_mean(luminance, sums.luminance_squares(), paths) + of_flux));
     for (size_t k = 0; k < picture_features; ++k)
-      out.noisy.features[picture_features * i + k] = static_cast<float>(sums.features[k] / paths);
+      out.noisy.features[picture_features * i + k] = static_cast<float>(sums.feature(k) / paths);
   }
   return out;
 }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "actors/display/flux_radiance.hpp"
+#include "actors/display/pixel_tracer.hpp"
 #include "actors/run/local_run.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "scenes/vision/picture.hpp"
@@ -24,9 +25,10 @@
 
 namespace luxodus {
 
+class Executor;
+
 namespace limits {
-inline constexpr int max_paths_per_pixel = 1 << 16;  // 17 bits of a path's number
-/// Memory of the sums of one picture [bytes], of 80 megapixels; and of those that grow together.
+/// Memory of the sums of one picture [bytes], of 36 megapixels; and of those that grow together.
 inline constexpr uint64_t max_view_bytes = uint64_t{20} << 30;
 inline constexpr uint64_t max_growing_bytes = uint64_t{1} << 30;
 }  // namespace limits
@@ -47,13 +49,15 @@ struct PictureOptions {
   /// When it is set, what is under way ends within a pixel, and pictures that are not whole are not
   /// written. Null: nobody interrupts.
   const std::atomic<bool>* interrupt = nullptr;
+  /// Whether what is under way shall end for another reason, likewise; none: there is none.
+  std::function<bool()> gives_up = {};
+  /// Who traces the pictures, tile by tile; null: the threads of the run.
+  Executor* executor = nullptr;
 
-  bool interrupted() const { return interrupt != nullptr && interrupt->load(); }
+  bool interrupted() const {
+    return (interrupt != nullptr && interrupt->load()) || (gives_up && gives_up());
+  }
 };
-
-/// Features of a pixel: the normal's x, y, z, the nearness [1/m], the transmittance, and X, Y, Z of
-/// the albedo, relative to white. Each is the mean over the pixel's paths.
-inline constexpr size_t picture_features = 8;
 
 /// A camera's picture, the standard error of its luminance, and what a filter needs of it.
 struct TracedPicture {
@@ -84,13 +88,17 @@ FilteredView filter_traced(const TracedPicture& traced, int threads,
 /// brighter neighbours. NaN where errors are not known.
 double relative_error(const XyzPicture& light, const std::vector<float>& standard_error_y);
 
+/// Pixels of the first picture, of half the size: one of four.
+constexpr bool comes_first(int column, int row) {
+  return column % 2 == 0 && row % 2 == 0;
+}
+
 /// A camera's picture as it grows, path by path. Pixels are the same bits however paths were added.
 class ViewPasses {
  public:
   /// `number`: of the random numbers, a camera's own; below 2^16. `flux`: where paths end, or null.
   /// Requires: run and flux outlive this.
   ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number, const KnownRadiance* flux);
-  ~ViewPasses();
   ViewPasses(const ViewPasses&) = delete;
   ViewPasses& operator=(const ViewPasses&) = delete;
 
@@ -105,15 +113,18 @@ class ViewPasses {
   /// Adds so many paths to each pixel. False where it was interrupted: then none was added.
   /// Requires: paths() + `paths` <= limits::max_paths_per_pixel.
   bool add(int paths, const PictureOptions& options, const ShareDone& progress = {});
+  /// The same of what others have traced, who begin where this stands: sums of pixels as bins of a
+  /// group of totals, which are taken out of them (PixelSums::bin).
+  void take_first(Totals& totals, int group, int paths);
+  void take(Totals& totals, int group, int paths);
   /// Of each pixel.
   int paths() const { return paths_; }
   /// What there is of it. Requires: paths() > 0.
   TracedPicture picture() const;
 
  private:
-  struct PixelSums;
-  class PixelTracer;
   size_t pixels() const;
+  void take_sums(Totals& totals, int group);
   template <class PathsOf>
   bool trace(const PictureOptions& options, const ShareDone& progress, const PathsOf& paths_of);
   TracedPicture picture_of(const std::vector<const PixelSums*>& sums, int width, int height,

@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "actors/display/result_files.hpp"
+#include "actors/display/picture_tiles.hpp"
 #include "actors/display/view_files.hpp"
 
 namespace luxodus {
@@ -19,7 +20,7 @@ namespace {
 
 /// Paths that a step adds at least, and that the first picture has in one pixel of four.
 constexpr int min_step = 4;
-static_assert(min_step >= min_filtered_paths);
+static_assert(min_step >= min_filtered_paths && min_step == PictureExecutor::paths_of_tile);
 /// Smaller pictures are there at once.
 constexpr int64_t min_first_pixels = 10'000;
 /// Of first pictures, whose pixels are twice as wide: a third of the time of the usual one.
@@ -68,12 +69,21 @@ Result<std::vector<size_t>> chosen_views(const SceneDescription& scene, const st
 }
 
 struct GrowingView {
-  GrowingView(const LocalRun& run, size_t number, const KnownRadiance* flux)
-      : camera(run.scene().description->cameras[number]), passes(run, camera, number, flux) {}
+  GrowingView(const LocalRun& run, size_t of, const KnownRadiance* flux)
+      : camera(run.scene().description->cameras[of]),
+        number(of),
+        passes(run, camera, of, flux) {}
 
   double pixels() const { return static_cast<double>(camera.width) * camera.height; }
 
+  /// Small ones are there at once.
+  bool shows_first(const PictureOptions& options) const {
+    return options.progressive && options.paths_per_pixel > min_step &&
+           int64_t{camera.width} * camera.height >= min_first_pixels;
+  }
+
   const Camera& camera;
+  size_t number;
   ViewPasses passes;
   std::filesystem::path stem;
   int written_paths = 0;
@@ -86,17 +96,22 @@ class GrowingViews {
   using Progress = std::function<void(const PictureProgress&)>;
 
   /// `seconds`: for all of them; 0: as long as it takes.
-  GrowingViews(const LocalRun& run, const PictureOptions& options, double seconds,
-               Progress progress)
-      : run_(run), options_(options), seconds_(seconds), progress_(std::move(progress)) {}
+  GrowingViews(const LocalRun& run, const PictureOptions& options, const PictureFlux& flux,
+               double seconds, Progress progress)
+      : run_(run),
+        options_(options),
+        flux_(flux),
+        seconds_(seconds),
+        progress_(std::move(progress)) {}
 
-  void add(size_t camera, const KnownRadiance* flux, const std::filesystem::path& stem) {
-    views_.emplace_back(run_, camera, flux).stem = stem;
+  void add(size_t camera, const std::filesystem::path& stem) {
+    views_.emplace_back(run_, camera, flux_.radiance.get()).stem = stem;
     pixels_ += views_.back().pixels();
   }
 
   /// Until all is done that was asked for, or somebody interrupts; then all is written.
   Result<void> grow() {
+    if (options_.executor != nullptr) elsewhere_.emplace(run_, tiled_views(), options_, flux_);
     if (auto ok = show_first(); !ok) return ok;
     for (int target = next_target(); target > 0 && !interrupted_; target = next_target()) {
       const double before_s = watch_.seconds();
@@ -128,20 +143,22 @@ class GrowingViews {
 
  private:
   Result<void> show_first() {
-    if (!options_.progressive || options_.paths_per_pixel <= min_step) return {};
     const double before_s = watch_.seconds();
     bool any = false;
-    for (GrowingView& view : views_) {
-      if (int64_t{view.camera.width} * view.camera.height < min_first_pixels) continue;
+    for (size_t i = 0; i < views_.size(); ++i) {
+      GrowingView& view = views_[i];
+      if (!view.shows_first(options_)) continue;
       any = true;
-      interrupted_ |= !view.passes.add_first(min_step, options_);
+      interrupted_ |= elsewhere_ ? !elsewhere_->add_first(i, view.passes)
+                                 : !view.passes.add_first(min_step, options_);
       if (interrupted_) return {};
       const ShownView half(view.passes.first_picture(), min_step, options_, run_.threads(),
                            first_filter);
       if (auto ok = write_first_view(view.stem, run_, view.camera, half); !ok) return ok;
     }
+    if (!any) return {};
     written_s_ = watch_.seconds();
-    if (any) writing_s_ = whole_by_first * (written_s_ - before_s);
+    writing_s_ = whole_by_first * (written_s_ - before_s);
     return {};
   }
 
@@ -160,11 +177,13 @@ class GrowingViews {
   /// Whoever is interrupted in a view leaves it as it was.
   void add_paths(int count) {
     double before = 0;
-    for (GrowingView& view : views_) {
+    for (size_t i = 0; i < views_.size(); ++i) {
+      GrowingView& view = views_[i];
       const auto tell = [&](double share) {
         show_progress(paths_ + count * (before + share * view.pixels()) / pixels_);
       };
-      interrupted_ |= !view.passes.add(count, options_, tell);
+      interrupted_ |= elsewhere_ ? !elsewhere_->add(i, view.passes, count, tell)
+                                 : !view.passes.add(count, options_, tell);
       if (interrupted_) return;
       before += view.pixels();
     }
@@ -226,11 +245,20 @@ class GrowingViews {
     return outcome;
   }
 
+  std::vector<TiledView> tiled_views() const {
+    std::vector<TiledView> views;
+    for (const GrowingView& view : views_)
+      views.push_back({view.camera, view.number, view.shows_first(options_)});
+    return views;
+  }
+
   const LocalRun& run_;
   const PictureOptions& options_;
+  const PictureFlux& flux_;
   const double seconds_;
   const Progress progress_;
   std::deque<GrowingView> views_;
+  std::optional<PictureExecutor> elsewhere_;  // where others trace
   double pixels_ = 0;
   int paths_ = 0;  // of all views
   bool interrupted_ = false;
@@ -301,8 +329,7 @@ Result<RenderedViews> render_views(const std::filesystem::path& folder, const Lo
   std::error_code error;
   std::filesystem::create_directories(folder / "views", error);
   if (error) return problem_in(folder / "views", "cannot make this folder: " + error.message());
-  std::unique_ptr<KnownRadiance> flux;
-  if (options.gather && run.batches() > 0) flux = flux_radiance(run);
+  const PictureFlux flux = picture_flux(run, options);
   const std::vector<std::string> names = result_names(scene).views;
   double seconds = options.max_seconds, done = 0;
   double left = pixels_of(scene, views.value());
@@ -314,8 +341,8 @@ Result<RenderedViews> render_views(const std::filesystem::path& folder, const Lo
       of_group.share = (done + of_group.share * pixels) / all;
       if (progress) progress(of_group);
     };
-    GrowingViews growing(run, options, seconds * pixels / left, tell);
-    for (const size_t view : group) growing.add(view, flux.get(), folder / "views" / names[view]);
+    GrowingViews growing(run, options, flux, seconds * pixels / left, tell);
+    for (const size_t view : group) growing.add(view, folder / "views" / names[view]);
     if (auto ok = growing.grow(); !ok) return ok.problem();
     rendered.paths = std::min(rendered.paths, growing.paths());
     if (!(growing.error() <= rendered.relative_error)) rendered.relative_error = growing.error();

@@ -27,21 +27,21 @@ void StateCoordinator::start() {
 // ---- states -------------------------------------------------------------------------------------
 
 void StateCoordinator::foresee(const StateObject& state) {
-  foreseen_ = state;
-  const RoundOpened next{round(), 0, state.id()};
+  foreseen_ = {state, state.id()};
+  const RoundOpened next{round(), 0, foreseen_->id};
   for (const auto& [worker, peer] : peers_)
     if (peer.here) send(worker, sender().next_id(), next);
 }
 
 void StateCoordinator::enter(const StateObject& state) {
-  if (state_ == state) return;
-  state_ = state;
+  if (state_ && state_->object == state) return;
+  state_ = {state, state.id()};
   ++counters_.round;
 }
 
 const StateObject* StateCoordinator::known(ObjectId id) const {
-  if (state_ && state_->id() == id) return &*state_;
-  if (foreseen_ && foreseen_->id() == id) return &*foreseen_;
+  if (state_ && state_->id == id) return &state_->object;
+  if (foreseen_ && foreseen_->id == id) return &foreseen_->object;
   return nullptr;
 }
 

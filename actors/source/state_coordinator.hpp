@@ -50,7 +50,7 @@ class StateCoordinator final : public Coordinator {
   void look_at_work(Nanoseconds now) override;
   void look_at_totals() override {}
   void all_are_here() override {}
-  ObjectId state() const override { return state_ ? state_->id() : ObjectId{}; }
+  ObjectId state() const override { return state_ ? state_->id : ObjectId{}; }
   void lent() override { fill_book(); }
   Totals& totals() override { return work_->totals(); }
   BinRange bins() const override { return {0, work_->totals().layout().totals()}; }
@@ -68,13 +68,18 @@ class StateCoordinator final : public Coordinator {
   void leave_when_told();
   void tell_who_is_here();
   void note_refusal();
+  /// A state, and its name: to make that its bytes are hashed, which may be megabytes.
+  struct Named {
+    StateObject object;
+    ObjectId id;
+  };
   const StateObject* known(ObjectId id) const;
 
   const std::function<void()> done_;
-  std::optional<StateObject> state_, foreseen_;
+  std::optional<Named> state_, foreseen_;
   Work* work_ = nullptr;
-  bool all_given_ = false;  // the work has no more
-  std::set<int64_t> out_;   // its batches that are here, and neither counted nor given back
+  bool all_given_ = false;      // the work has no more
+  std::set<int64_t> out_;       // its batches that are here, and neither counted nor given back
   std::set<NodeId> told_here_;  // workers that were there at the last look
   std::optional<Problem> fault_;
 };

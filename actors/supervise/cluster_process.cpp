@@ -443,7 +443,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(const std::atomic<bool>
   if (fetches_)
     return problem_in(
         cluster_.file,
-        "[view] and [assess] need nodes that hold the whole scene: raise object_bytes in "
+        "[view], [assess] and [render] need nodes that hold the whole scene: raise object_bytes in "
         "[budget]");
   auto prepared = prepare_nodes(nullptr);
   if (!prepared) return prepared.problem();

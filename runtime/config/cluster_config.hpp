@@ -159,6 +159,15 @@ struct AssessChoice {
   std::vector<double> smoke_scale;  // factors of a sweep
 };
 
+/// Whether nodes trace pictures of a finished run, which the controller's process writes.
+struct RenderChoice {
+  bool asked = false;
+  std::string view;                     // of all cameras where it is empty
+  std::optional<int64_t> paths;         // a pixel, at most
+  std::optional<double> time_s, error;  // at which they end
+  bool full_paths = false, raw = false;
+};
+
 struct ClusterConfig {
   std::filesystem::path file;
   RunChoice run;
@@ -177,6 +186,7 @@ struct ClusterConfig {
   ObserveChoice observe;
   ViewChoice view;
   AssessChoice assess;
+  RenderChoice render;
   FaultPlan faults;  // on purpose; none in most files
 
   const ClusterNode& node(NodeId id) const { return nodes[id.value]; }
@@ -185,7 +195,7 @@ struct ClusterConfig {
   size_t workers() const { return nodes.size() - 1; }
   /// Whether the nodes trace one run, which a display shows; else what the controller's process
   /// asks for, piece by piece.
-  bool is_run() const { return !view.live && !assess.asked; }
+  bool is_run() const { return !view.live && !assess.asked && !render.asked; }
 };
 
 /// The worker by which a controller of this name traces, where it does.

@@ -149,6 +149,29 @@ void read_assess(TableReader& top, ClusterReading& reading) {
         "'relative_error' and 'time_s' in [run], and say 'rounds' here");
 }
 
+/// Pictures are of a run that has ended.
+void read_render(TableReader& top, ClusterReading& reading) {
+  RenderChoice& render = reading.cluster.render;
+  render.asked = top.has("render");
+  TableReader keys = reader_of(top, "render");
+  render.view = keys.maybe_text("view").value_or("");
+  render.paths = keys.maybe_integer("paths");
+  render.time_s = keys.maybe_number("time_s");
+  render.error = keys.maybe_number("error");
+  render.full_paths = keys.flag("full_paths");
+  render.raw = keys.flag("raw");
+  if (!render.asked) return;
+  if (top.has("view") || top.has("assess") || top.has("display"))
+    keys.problem(
+        "the controller's process makes pictures and nothing else: leave out [view], [assess] "
+        "and [display], or [render]");
+  const RunChoice& run = reading.cluster.run;
+  if (run.particles || run.relative_error || run.time_s)
+    keys.problem(
+        "pictures are of a run that has ended: leave out 'particles', 'relative_error' and "
+        "'time_s' in [run], and say 'paths', 'time_s' or 'error' here");
+}
+
 void check_fan_out(ClusterReading& reading) {
   const ClusterConfig& cluster = reading.cluster;
   if (cluster.tally.shards.empty() || cluster.lease.fan_out == 0) return;
@@ -179,6 +202,7 @@ void read_tables(const toml::Table& document, ClusterReading& reading) {
   const uint16_t metrics_port = read_observe(top, reading);
   read_view(top, reading);
   read_assess(top, reading);
+  read_render(top, reading);
   read_faults(top, reading);
   if (reading.findings.any_problem()) return;
   form_processes(reading, metrics_port);

@@ -33,6 +33,8 @@ std::vector<TableSpec> run_tables() {
            {"view", "table", "", "", "", "a live view in place of a run that ends"},
            {"assess", "table", "", "", "",
             "an assessment in place of a run; every node must hold the whole scene"},
+           {"render", "table", "", "", "",
+            "pictures of a finished run; every node must hold the whole scene"},
            {"faults", "table", "", "", "", "what shall go wrong, on purpose: for rehearsals"},
        }},
       {"run",
@@ -281,6 +283,21 @@ std::vector<TableSpec> service_tables() {
             "of paths, each of four times as many, for what is undecided"},
            {"smoke_scale", "numbers", "", "[]", "[0, 1e6]",
             "signs are assessed again with all smoke times each of these"},
+       }},
+      {"render",
+       "`[render]`: the controller's process makes pictures of the finished run in `out` of "
+       "`[run]`, as `luxodus render` does, and all workers trace them",
+       {
+           {"view", "text", "", "", "", "name of one camera; all unless said"},
+           {"paths", "integer", "", "", "[1, 65536]",
+            "a pixel at most; 32 unless said, 65536 with `time_s` or `error`"},
+           {"time_s", "number", "s", "", "(0, 1e9]",
+            "of all pictures together, after which no more paths are added"},
+           {"error", "number", "", "", "(0, 1]",
+            "at which pictures end, as `--picture-error` of `luxodus render` has it"},
+           {"full_paths", "flag", "", "false", "",
+            "paths traced to their end instead of to the run's flux"},
+           {"raw", "flag", "", "false", "", "PNG files of the light as traced, with its noise"},
        }},
   };
 }

@@ -130,6 +130,30 @@ void Totals::merge(BatchScores& batch, int group, const std::function<void()>& r
   ++to.batches;
 }
 
+void Totals::add_bins(int group, int64_t first, std::span<const Total> bins) {
+  SparseArray<Total>& totals = groups_[static_cast<size_t>(group)].totals;
+  while (!bins.empty()) {
+    const int64_t stripe = first / stripe_bins;
+    const auto count =
+        std::min(bins.size(), static_cast<size_t>((stripe + 1) * stripe_bins - first));
+    {
+      const std::lock_guard lock(stripes_[static_cast<size_t>(stripe) % stripes_.size()]);
+      Total* const to = totals.touch(first, static_cast<int64_t>(count));
+      for (size_t i = 0; i < count; ++i) {
+        to[i].sum += bins[i].sum;
+        to[i].squares += bins[i].squares;
+      }
+    }
+    bins = bins.subspan(count);
+    first += static_cast<int64_t>(count);
+  }
+}
+
+void Totals::count_batch(int group) {
+  const std::lock_guard lock(ledger_mutex_);
+  ++groups_[static_cast<size_t>(group)].batches;
+}
+
 size_t Totals::bytes() const {
   size_t bytes = 0;
   for (const GroupState& g : groups_) bytes += g.totals.bytes();

@@ -1,13 +1,15 @@
 // The totals that batches are merged into, of one source group each. All integers, so they are the
 // same bits for any order of merging and any number of threads. A batch belongs to one source
 // group. They are sparse arrays: what no batch of a group has scored takes no memory and no time.
-// Thread rule: a BatchScores belongs to one thread; Totals::merge may be called from any thread.
+// Thread rule: a BatchScores belongs to one thread; Totals::merge, add_bins and count_batch may be
+// called from any thread.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -98,6 +100,11 @@ class Totals {
   /// Adds what was taken from totals of the same layout. Requires: as many groups, indices within
   /// the layout. Not beside other calls.
   void add(const TotalsGain& gain);
+
+  /// Adds bins that follow each other from `first` on, of a batch whose scores are no BatchScores;
+  /// then count_batch() says that this was one. Requires: all lie within the layout.
+  void add_bins(int group, int64_t first, std::span<const Total> bins);
+  void count_batch(int group);
 
   int groups() const { return static_cast<int>(groups_.size()); }
   int64_t batches(int group) const { return groups_[static_cast<size_t>(group)].batches; }

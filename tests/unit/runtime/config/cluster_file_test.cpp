@@ -54,6 +54,21 @@ TEST_CASE("shards of the totals are workers by their names", "[runtime][config]"
   CHECK(cluster.tally.shards == std::vector<NodeId>{{3}, {0}});
 }
 
+TEST_CASE("a cluster makes pictures of a finished run where its file asks for them",
+          "[runtime][config]") {
+  CHECK(good(small_cluster).is_run());
+  const ClusterConfig cluster =
+      good(small_cluster + "[render]\nview = \"north\"\npaths = 48\ntime_s = 60\nraw = true\n");
+  CHECK_FALSE(cluster.is_run());
+  CHECK(cluster.render.asked);
+  CHECK(cluster.render.view == "north");
+  CHECK(cluster.render.paths == 48);
+  CHECK(cluster.render.time_s == 60);
+  CHECK_FALSE(cluster.render.error);
+  CHECK(cluster.render.raw);
+  CHECK_FALSE(cluster.render.full_paths);
+}
+
 TEST_CASE("the run is shown by the controller, or by the node that the file names",
           "[runtime][config]") {
   const ClusterConfig usual = good(small_cluster);
@@ -127,6 +142,8 @@ TEST_CASE("what is wrong with a key is told once, with its line", "[runtime][con
       {small_cluster + "[tally]\nshard = [\"n\"]\n", 12, "did you mean 'shards'?"},
       {small_cluster + "[display]\nnode = \"m\"\n", 12, "there is no node \"m\""},
       {small_cluster + "[view]\n[display]\npictures = true\n", 12, "a live view writes no results"},
+      {small_cluster + "[view]\n[render]\n", 12, "makes pictures and nothing else"},
+      {small_cluster + "[render]\npaths = 0\n", 12, "paths"},
       {small_cluster + "[node.budget]\nfibers = 0\n", 12, "must lie in [1, 100000]"},
       {small_cluster + "host = \"g\"\n", 11, "there is no host \"g\""},
       {small_cluster + worker_part, 12, "there is a node \"n\" already, in line 10"},
