@@ -39,8 +39,9 @@ SharedBytes BuiltTile::wire_bytes() const {
   return shared(encode_tile(tile_));
 }
 
-PartBuilder::PartBuilder(const CompiledScene& scene, const SceneParts& parts)
-    : scene_(scene), parts_(parts) {}
+PartBuilder::PartBuilder(const CompiledScene& scene, const SceneParts& parts,
+                         std::shared_ptr<BuildDevice> device)
+    : scene_(scene), parts_(parts), device_(std::move(device)) {}
 
 void PartBuilder::build(uint32_t object, SharedBytes bytes, Client& client) {
   client.built(object, built(object, bytes.bytes));

@@ -62,8 +62,10 @@ class BuiltTile final : public BuiltObject {
 /// Builds on the node's own thread, between the turns of its fibers.
 class PartBuilder final : public ObjectBuilder {
  public:
-  /// Requires: both outlive this.
-  PartBuilder(const CompiledScene& scene, const SceneParts& parts);
+  /// `device`: one of several builders of a thread, or its own. Requires: scene and parts outlive
+  /// this.
+  PartBuilder(const CompiledScene& scene, const SceneParts& parts,
+              std::shared_ptr<BuildDevice> device = std::make_shared<BuildDevice>());
   void build(uint32_t object, SharedBytes bytes, Client& client) override;
 
   /// The part of these bytes. Errors: bytes that are not of this part.
@@ -73,7 +75,7 @@ class PartBuilder final : public ObjectBuilder {
  private:
   const CompiledScene& scene_;
   const SceneParts& parts_;
-  std::shared_ptr<BuildDevice> device_ = std::make_shared<BuildDevice>();
+  const std::shared_ptr<BuildDevice> device_;
 };
 
 /// What a cell takes once it is built [bytes], from its bytes on the wire, for a plan before

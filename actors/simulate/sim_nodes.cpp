@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "actors/objects/built_parts.hpp"
 #include "runtime/core/check.hpp"
 #include "runtime/sim/simulated_calls.hpp"
 
@@ -43,10 +44,18 @@ NodeSeams disk_seams(SimWorld& world, const NodeSetup& node) {
 
 // ---- workers -----------------------------------------------------------------------------------
 
-NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs, Buggify* buggify) {
+NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs,
+                        const BuilderMaker& builders, Buggify* buggify) {
   SimClock& clock = world.clock(self);
   return {clock, world.transport(self), charged_tracers(clock, costs),
-          charged_builders(clock, costs, make_part_builder), calls_in_virtual_time(buggify)};
+          charged_builders(clock, costs, builders), calls_in_virtual_time(buggify)};
+}
+
+BuilderMaker builders_on_one_device() {
+  return [device = std::make_shared<BuildDevice>()](const CompiledScene& scene,
+                                                    const SceneParts& parts) {
+    return std::make_unique<PartBuilder>(scene, parts, device);
+  };
 }
 
 SimWorker::SimWorker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams,

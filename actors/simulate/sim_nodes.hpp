@@ -27,7 +27,11 @@ std::string fault_of(const NodeShell& shell, const Fibers& fibers);
 
 /// A node's place in the world, where work is real and takes what it costs.
 NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs,
-                        Buggify* buggify = nullptr);
+                        const BuilderMaker& builders, Buggify* buggify = nullptr);
+
+/// Builders of all nodes of a world, on one device: a thousand devices of Embree take more memory
+/// maps than a process may have.
+BuilderMaker builders_on_one_device();
 
 class SimWorker final : public CheckedNode {
  public:

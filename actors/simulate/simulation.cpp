@@ -120,6 +120,7 @@ class Simulation {
   std::unique_ptr<SnapshotJournal> journal_;
   const RunSetup& setup_;
   const SimCosts costs_;
+  const BuilderMaker builders_ = builders_on_one_device();
   const FaultPlan faults_;
   DrawnSetups setups_;
   StopRule stop_;
@@ -165,7 +166,7 @@ std::unique_ptr<SimNode> Simulation::make(NodeId node, uint32_t life) {
                                            journal_.get());
   }
   return std::make_unique<SimWorker>(setup_, setup,
-                                     charged_seams(*world_, node, costs_, setup.buggify),
+                                     charged_seams(*world_, node, costs_, builders_, setup.buggify),
                                      world_->clock(node), costs_, report_.caches);
 }
 

@@ -188,6 +188,7 @@ class StateSimulation {
   const SimOptions options_;
   RunSetup setup_;
   const SimCosts costs_;
+  const BuilderMaker builders_ = builders_on_one_device();
   const FaultPlan faults_;
   DrawnSetups setups_;
   Viewer viewer_;
@@ -222,7 +223,7 @@ std::unique_ptr<SimNode> StateSimulation::make(NodeId node, uint32_t life) {
   if (node == setups_.controller())
     return std::make_unique<SimStateNode>(setup_, setup, *world_, viewer_);
   return std::make_unique<SimWorker>(setup_, setup,
-                                     charged_seams(*world_, node, costs_, setup.buggify),
+                                     charged_seams(*world_, node, costs_, builders_, setup.buggify),
                                      world_->clock(node), costs_, report_.caches);
 }
 

@@ -117,8 +117,7 @@ std::unique_ptr<SimNode> SimulatedRun::make(NodeId node, uint32_t life) {
 
 NodeSeams SimulatedRun::seams(NodeId node) {
   SimClock& clock = world_->clock(node);
-  NodeSeams seams = charged_seams(*world_, node, run_.costs);
-  seams.make_builder = charged_builders(clock, run_.costs, built_.builders());
+  NodeSeams seams = charged_seams(*world_, node, run_.costs, built_.builders());
   if (run_.recording != nullptr)
     seams.make_tracer = replaying_tracers(*run_.recording, clock, run_.costs);
   return seams;
