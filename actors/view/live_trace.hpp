@@ -132,14 +132,14 @@ class LiveTrace {
   uint64_t number_ = 0;  // of the edits that it looked at last
   SceneEdits traced_;
   LiveGeometry geometry_;
-  LiveFrame smoke_;
+  LiveSmoke smoke_;
   std::unique_ptr<LiveRun> run_;
   /// States of other times, the last shown first.
   struct Kept {
     SceneEdits edits;
     std::unique_ptr<LiveRun> run;
     LiveGeometry geometry;
-    LiveFrame smoke;
+    LiveSmoke smoke;
   };
   std::deque<Kept> kept_;
   bool refined_ = false;

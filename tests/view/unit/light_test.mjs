@@ -16,7 +16,7 @@ test('light is the sum over groups of factor times light', () => {
 });
 
 test('newer light of a group replaces its older light', () => {
-  const sum = smokeSum(2);
+  const sum = smokeSum(1);
   sum.set(3, halves(1, 1, 1, 2, 2, 2), 2);
   sum.set(3, halves(4, 4, 4, 8, 8, 8), 2);
   assert.deepEqual([...sum.sum], [8, 8, 8, 0, 16, 16, 16, 0]);
@@ -44,7 +44,7 @@ test('light that changes while the sum is settled is not lost', () => {
   sum.settle(1);
   sum.set(2, halves(8, 8, 8), 1);
   sum.settle();
-  assert.deepEqual([...sum.sum], [10.25, 10.25, 10.25, 0]);
+  assert.deepEqual([...sum.sum], [10.25, 10.25, 10.25, 0, 0, 0, 0, 0]);
 });
 
 test('dimming a group that has no light, or to what it is, changes nothing', () => {

@@ -88,10 +88,12 @@ vec3 world(vec2 at, float d) {
 
 // The law within a step of even smoke: what it sends is j (1 - exp(-s t)) / s, attenuated by all
 // before it. Steps begin at a place that differs from pixel to pixel and picture to picture, so
-// that pictures added up know no layers.
+// that pictures added up know no layers. Of the light that a voxel scatters, as much as its net flux
+// goes one way, and is turned by the law of Henyey and Greenstein; the rest comes from everywhere.
+// Pictures of the program end in voxels by the same two moments.
 export const smokeFragment = `${common}${depthTools}
 in vec2 at;
-uniform sampler3D extinction, scatter;
+uniform sampler3D glow, beam;
 uniform vec3 low, size;
 uniform float cut, shift;
 uniform int steps;
@@ -99,6 +101,20 @@ out vec4 colour;
 float start(vec2 p) {
   float noise = fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715))));
   return fract(noise + shift);
+}
+/** 4 pi times what a scattering by this cosine sends into a solid angle. */
+float turned(float g, float cosine) {
+  float d = max(1.0 + g * g - 2.0 * g * cosine, 1e-4);
+  return (1.0 - g * g) * inversesqrt(d) / d;
+}
+/** What a metre sends against the ray. */
+vec3 towardsEye(vec3 mean, vec4 along, vec3 ray) {
+  mean = max(mean, 0.0);
+  float oneWay = length(along.xyz);
+  float all = luminance(mean);
+  if (oneWay < 1e-9 || all < 1e-9) return mean;
+  float share = min(oneWay / all, 1.0);
+  return mean * (1.0 + share * (turned(along.a, -dot(along.xyz, ray) / oneWay) - 1.0));
 }
 void main() {
   vec3 from = world(at, 0.0);
@@ -120,9 +136,10 @@ void main() {
     float first = start(gl_FragCoord.xy);
     for (int i = 0; i < steps; ++i) {
       vec3 p = (from + (t0 + (float(i) + first) * dt) * direction - low) / size;
-      float s = texture(extinction, p).r;
+      vec4 here = texture(glow, p);
+      float s = here.a;
       float passes = exp(-s * dt);
-      vec3 j = max(texture(scatter, p).rgb, 0.0);
+      vec3 j = towardsEye(here.rgb, texture(beam, p), direction);
       sent += through * j * (s * dt > 1e-4 ? (1.0 - passes) / s : dt);
       through *= passes;
     }
@@ -247,6 +264,13 @@ void main() {
   shown = mix(shown, vec3(0.35 * dot(shown, vec3(0.3, 0.6, 0.1)) + 0.06), 0.75 * fade);
   colour = vec4(shown + grain(gl_FragCoord.xy) / 255.0, 1.0);
 }`;
+
+/** Bytes of a coarser raster on the screen. */
+export const screenFragment = `${common}
+in vec2 at;
+uniform sampler2D bytes;
+out vec4 colour;
+void main() { colour = texture(bytes, at); }`;
 
 export const markVertex = `
 precision highp float;
