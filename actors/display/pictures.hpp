@@ -84,6 +84,12 @@ FilteredView filter_traced(const TracedPicture& traced, int threads,
 /// brighter neighbours. NaN where errors are not known.
 double relative_error(const XyzPicture& light, const std::vector<float>& standard_error_y);
 
+/// Paths that a pass adds at least, and that a first picture has in one pixel of four.
+inline constexpr int min_pass = 4;
+static_assert(min_pass >= min_filtered_paths);
+/// How many paths a pixel has after the next pass: 4, 8, 16, 32, 48, 64, 96 and so on.
+int next_pass(int paths);
+
 /// A camera's picture as it grows, path by path. Pixels are the same bits however paths were added.
 class ViewPasses {
  public:

@@ -3,7 +3,6 @@
 // ends a picture it does so between steps: the picture is that of as many paths at once. Files are
 // replaced whole. What they cost bounds how often that is done.
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <deque>
@@ -17,13 +16,8 @@ namespace luxodus {
 
 namespace {
 
-/// Paths that a step adds at least, and that the first picture has in one pixel of four.
-constexpr int min_step = 4;
-static_assert(min_step >= min_filtered_paths);
 /// Smaller pictures are there at once.
 constexpr int64_t min_first_pixels = 10'000;
-/// Of first pictures, whose pixels are twice as wide: a third of the time of the usual one.
-constexpr RegressionFilter first_filter{.window_px = 5, .patch_px = 2};
 /// Before it is known what a writing takes, none is due [s].
 constexpr double unknown_writing_s = 5;
 /// Between two writings, so many times what one takes is spent on paths.
@@ -34,12 +28,6 @@ constexpr double whole_by_first = 4;
 /// Of the time, what is left for the last writing beside what the one before took: later pictures
 /// compress no better.
 constexpr double writing_slack = 1.2;
-
-/// Where the next step ends: 4, 8, 16, 32, 48, 64, 96 and so on.
-int next_step(int paths) {
-  if (paths < 32) return std::max(min_step, 2 * paths);
-  return paths + static_cast<int>(std::bit_floor(static_cast<unsigned>(paths))) / 2;
-}
 
 class Stopwatch {
  public:
@@ -128,15 +116,15 @@ class GrowingViews {
 
  private:
   Result<void> show_first() {
-    if (!options_.progressive || options_.paths_per_pixel <= min_step) return {};
+    if (!options_.progressive || options_.paths_per_pixel <= min_pass) return {};
     const double before_s = watch_.seconds();
     bool any = false;
     for (GrowingView& view : views_) {
       if (int64_t{view.camera.width} * view.camera.height < min_first_pixels) continue;
       any = true;
-      interrupted_ |= !view.passes.add_first(min_step, options_);
+      interrupted_ |= !view.passes.add_first(min_pass, options_);
       if (interrupted_) return {};
-      const ShownView half(view.passes.first_picture(), min_step, options_, run_.threads(),
+      const ShownView half(view.passes.first_picture(), min_pass, options_, run_.threads(),
                            first_filter);
       if (auto ok = write_first_view(view.stem, run_, view.camera, half); !ok) return ok;
     }
@@ -149,12 +137,12 @@ class GrowingViews {
   int next_target() const {
     const int most = options_.paths_per_pixel;
     if (paths_ >= most || (options_.target_error > 0 && error() <= options_.target_error)) return 0;
-    const int target = std::min(most, next_step(paths_));
+    const int target = std::min(most, next_pass(paths_));
     if (!(seconds_ > 0) || paths_ == 0) return target;
     const double left_s = seconds_ - watch_.seconds() - writing_slack * writing_s_;
     const double fit = std::min(left_s / seconds_per_path_, double{limits::max_paths_per_pixel});
-    const int steps = static_cast<int>(std::max(0.0, fit)) / min_step;
-    return steps == 0 ? 0 : std::min(target, paths_ + steps * min_step);
+    const int steps = static_cast<int>(std::max(0.0, fit)) / min_pass;
+    return steps == 0 ? 0 : std::min(target, paths_ + steps * min_pass);
   }
 
   /// Whoever is interrupted in a view leaves it as it was.

@@ -228,6 +228,34 @@ test('false colours have a legend, the eye and the plan their own pictures', asy
   await page.getByRole('button', { name: 'Walk' }).click();
 });
 
+test('a picture of the view is traced, grows, is shown and kept, and is stopped', async () => {
+  await page.getByRole('button', { name: 'Render this view' }).click();
+  await page.locator('#traced', { hasText: '32 paths a pixel' }).waitFor(patience);
+  const asked = server.heard.findLast((m) => m.type === 'render');
+  const view = await page.evaluate(() => window.luxodus.page.walk.view);
+  assert.deepEqual([asked.eye, asked.target, asked.fov], [view.eye, view.target, view.fov]);
+  assert.equal(asked.human, false);
+  assert.ok(asked.width * asked.height <= 1 << 19);
+  const drawn = await page.locator('#traced img').evaluate(async (image) => {
+    await image.decode();
+    return [image.naturalWidth, image.naturalHeight];
+  });
+  assert.deepEqual(drawn, [asked.width, asked.height]);
+  assert.match(await page.locator('#traced').innerText(), /± 8.8 % .* finished/);
+  await shot('traced');
+  const [file] = await Promise.all([page.waitForEvent('download'),
+    page.getByRole('link', { name: 'Download' }).click()]);
+  assert.equal(file.suggestedFilename(), 'mock 32 paths.png');
+  server.pictureMs = 1e6;
+  await page.getByRole('button', { name: 'Render this view' }).click();
+  await page.locator('#traced', { hasText: '400 000 particles' }).waitFor(patience);
+  await page.locator('#traced').getByRole('button', { name: 'Stop' }).click();
+  await page.locator('#traced', { hasText: 'stopped' }).waitFor(patience);
+  await page.getByRole('button', { name: 'Close the traced picture' }).click();
+  assert.ok(await page.locator('#traced').isHidden());
+  assert.equal(server.heard.filter((m) => m.type === 'stop_render').length, 1);
+});
+
 test('a scenario is one click, and an eye sees it darker than a camera', async () => {
   const old = await generation();
   await page.getByRole('button', { name: /smoke, emergency/ }).click();

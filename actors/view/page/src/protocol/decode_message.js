@@ -8,6 +8,7 @@ export const limits = {
   characters: 2048,
   metres: 1e6,
   texels: 1 << 20,
+  pngCharacters: 1 << 23,
 };
 
 function fail(path, what) {
@@ -69,6 +70,15 @@ function texelsOf(value, path, columns, rows) {
   }
   if (bytes.length !== columns * rows) fail(path, `${bytes.length} texels, not ${columns * rows}`);
   return Uint8Array.from(bytes, (c) => c.charCodeAt(0));
+}
+
+/** Base64 of a PNG file, as it begins: the eight bytes of its signature. */
+function pngOf(value, path) {
+  if (value === null || value === undefined) return null;
+  if (typeof value !== 'string' || value.length > limits.pngCharacters ||
+      !/^iVBORw0KGg[A-Za-z0-9+/]+={0,2}$/.test(value))
+    fail(path, 'no PNG file in base64');
+  return value;
 }
 
 function sign(value, path) {
@@ -204,6 +214,15 @@ const readers = {
       reason: textOr(row.reason, `${path}.reason`, ''),
     })),
     note: textOr(m.note, 'note', ''),
+  }),
+  picture: (m) => ({
+    id: whole(m.id, 'id', 0, 2 ** 53),
+    particles: number(m.particles, 'particles', 0, 1e18),
+    paths: whole(m.paths, 'paths', 0, 1 << 16),
+    relativeError: numberOrNull(m.relative_error, 'relative_error'),
+    seconds: number(m.seconds, 'seconds', 0, 1e9),
+    done: m.done === true,
+    png: pngOf(m.png, 'png'),
   }),
   added: (m) => ({
     kind: oneOf(m.kind, 'kind', ['sign', 'luminaire']),
