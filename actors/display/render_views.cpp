@@ -64,8 +64,9 @@ struct GrowingView {
   const Camera& camera;
   ViewPasses passes;
   std::filesystem::path stem;
-  int written_paths = 0;
-  double error = std::numeric_limits<double>::quiet_NaN();  // of what is written
+  std::optional<ShownView> shown;  // until it is written
+  int shown_paths = 0, written_paths = 0;
+  double error = std::numeric_limits<double>::quiet_NaN();  // of what was shown last
 };
 
 /// Views that grow together.
@@ -93,6 +94,8 @@ class GrowingViews {
       if (interrupted_) break;
       paths_ = target;
       seconds_per_path_ = (watch_.seconds() - before_s) / added;
+      // The filter says how good a picture is: that needs no files.
+      if (options_.target_error > 0) look();
       if (!should_write()) continue;
       if (auto ok = write(); !ok) return ok;
     }
@@ -164,12 +167,11 @@ class GrowingViews {
     if (seconds_ > 0) share = std::max(share, watch_.seconds() / seconds_);
     // It falls with the root of the paths.
     if (options_.target_error > 0 && error() > options_.target_error)
-      share = std::max(share, paths / written_ * std::pow(options_.target_error / error(), 2));
+      share = std::max(share, paths / looked_ * std::pow(options_.target_error / error(), 2));
     progress_({std::min(share, 1.0), paths_, error()});
   }
 
   bool should_write() const {
-    if (options_.target_error > 0) return true;
     if (!options_.progressive) return false;
     // What a writing takes is known after one: that is needed where a time must be kept.
     if (written_ == 0 && (seconds_ > 0 || !(writing_s_ > 0)))
@@ -177,40 +179,55 @@ class GrowingViews {
     return watch_.seconds() - written_s_ > paths_per_writing * writing_s_;
   }
 
-  /// Filters and writes the views that have grown since they were written, or were interrupted.
-  Result<void> write() {
+  /// Filters the views that have grown since they were last, or were interrupted.
+  void look() {
     const double before_s = watch_.seconds();
-    std::deque<std::pair<GrowingView*, ShownView>> shown;
+    bool any = false;
     for (GrowingView& view : views_) {
       const int paths = view.passes.paths();
-      if (paths == 0 || paths == view.written_paths) continue;
-      shown.emplace_back(
-          std::piecewise_construct, std::forward_as_tuple(&view),
-          std::forward_as_tuple(view.passes.picture(), paths, options_, run_.threads()));
-      view.error = shown.back().second.error();
-      view.written_paths = paths;
+      if (paths == 0 || paths == view.shown_paths) continue;
+      any = true;
+      view.shown.emplace(view.passes.picture(), paths, options_, run_.threads());
+      view.shown_paths = paths;
+      view.error = view.shown->error();
     }
-    if (auto ok = write_files(shown); !ok) return ok;
+    if (!any) return;
+    looked_ = paths_;
+    looking_s_ = watch_.seconds() - before_s;
+    if (progress_) show_progress(paths_);
+  }
+
+  /// Writes the views that have grown since they were written.
+  Result<void> write() {
+    look();
+    const double before_s = watch_.seconds();
+    if (auto ok = write_files(); !ok) return ok;
     written_ = paths_;
     written_s_ = watch_.seconds();
-    writing_s_ = written_s_ - before_s;
-    if (progress_ && !shown.empty()) show_progress(paths_);
+    writing_s_ = looking_s_ + written_s_ - before_s;
     return {};
   }
 
   /// By all threads: a file is packed by one.
-  Result<void> write_files(const std::deque<std::pair<GrowingView*, ShownView>>& shown) const {
+  Result<void> write_files() {
+    std::vector<GrowingView*> shown;
+    for (GrowingView& view : views_)
+      if (view.shown && view.shown_paths != view.written_paths) shown.push_back(&view);
     std::mutex mutex;
     Result<void> outcome;
     const auto write_one = [&](int64_t unit) {
-      const auto& [view, picture] = shown[static_cast<size_t>(unit) / view_file_count];
+      const GrowingView& view = *shown[static_cast<size_t>(unit) / view_file_count];
       const auto file = static_cast<ViewFile>(static_cast<size_t>(unit) % view_file_count);
-      auto written = write_view_file(view->stem, file, run_, view->camera, picture);
+      auto written = write_view_file(view.stem, file, run_, view.camera, *view.shown);
       const std::lock_guard lock(mutex);
       if (!written && outcome) outcome = written.problem();
     };
     parallel_for(static_cast<int64_t>(shown.size() * view_file_count), run_.threads(),
                  [&] { return write_one; });
+    for (GrowingView* const view : shown) {
+      view->written_paths = view->shown_paths;
+      view->shown.reset();
+    }
     return outcome;
   }
 
@@ -224,9 +241,11 @@ class GrowingViews {
   bool interrupted_ = false;
   Stopwatch watch_;
   double seconds_per_path_ = 0;
+  int looked_ = 0;        // paths of what was filtered last
+  double looking_s_ = 0;  // what that took
   int written_ = 0;       // paths of what is written
   double written_s_ = 0;  // when
-  double writing_s_ = 0;  // what that took
+  double writing_s_ = 0;  // what that took, with its filter
 };
 
 /// Views that fit into memory together, one group after another.

@@ -1,5 +1,6 @@
 #include "actors/view/frames.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -137,12 +138,18 @@ LiveFrame surface_light(const CompiledScene& scene, const Readout& readout,
   return out.take();
 }
 
-/// What flames of a group send out themselves, by the voxels that they are in: X, Y, Z.
+/// What flames of a group that are not shown apart send out themselves, by the voxels that they are
+/// in: X, Y, Z.
 std::unordered_map<uint32_t, Colour> flames_in_voxels(const CompiledScene& scene,
-                                                      const SceneIndex& index, int group) {
+                                                      const SceneIndex& index,
+                                                      const std::vector<LiveFlame>& apart,
+                                                      int group) {
   std::unordered_map<uint32_t, Colour> out;
   for (const CompiledEmitter& e : scene.emitters) {
     if (e.group != group || e.kind != EmitterKind::volume) continue;
+    if (std::any_of(apart.begin(), apart.end(),
+                    [&](const LiveFlame& flame) { return flame.medium == e.medium; }))
+      continue;
     Colour each{};  // of a point
     for (int b = 0; b < scene.bands.count(); ++b) {
       const double watts = e.power_w[static_cast<size_t>(b)] / limits::flame_points;
@@ -174,12 +181,12 @@ glm::dvec3 drift(const Readout& readout, const CompiledScene& scene, uint32_t vo
 /// What a metre of each voxel sends out, scattered and of flames, as the mean over directions; and
 /// what scatters of it, as a vector along the light that it is scattered from.
 LiveFrame smoke_light(const CompiledScene& scene, const SceneIndex& index, const Readout& readout,
-                      const std::vector<float>& scattering, uint32_t generation, int group) {
+                      const LiveSmoke& air, uint32_t generation, int group) {
   Writer out(FrameKind::smoke_light, generation, static_cast<uint32_t>(group));
   const auto edge = static_cast<double>(scene.voxels.edge);
   const double per_watt = 1 / (4 * pi * edge * edge * edge);
-  const auto flames = flames_in_voxels(scene, index, group);
-  GroupColours colours(readout, scene, {scene.blocks.voxels, 0, &scattering}, group);
+  const auto flames = flames_in_voxels(scene, index, *air.flames, group);
+  GroupColours colours(readout, scene, {scene.blocks.voxels, 0, air.scattering.get()}, group);
   for (uint32_t i = 0; i < scene.voxels.count(); ++i) colours.learn(i);
   for (uint32_t i = 0; i < scene.voxels.count(); ++i) {
     Colour light = colours.of(i, per_watt);
@@ -274,9 +281,8 @@ std::vector<LiveFrame> light_frames(const LiveRun& run, const std::vector<LivePa
       const auto at = static_cast<size_t>(row);
       const int group = groups[at % count];
       const Readout readout(scene, run.shown(group));
-      out[at] = at < count
-                    ? surface_light(scene, readout, patches, generation, group)
-                    : smoke_light(scene, run.index(), readout, *air.scattering, generation, group);
+      out[at] = at < count ? surface_light(scene, readout, patches, generation, group)
+                           : smoke_light(scene, run.index(), readout, air, generation, group);
     };
   });
   return out;
@@ -347,7 +353,8 @@ LiveSmoke smoke_of(const CompiledScene& scene, const SceneIndex& index, uint32_t
         for (const double sigma : medium.scattering)
           scattering.push_back(static_cast<float>(sigma));
       }
-  return {out.take(), std::make_shared<const std::vector<float>>(std::move(scattering))};
+  return {out.take(), std::make_shared<const std::vector<float>>(std::move(scattering)),
+          std::make_shared<const std::vector<LiveFlame>>(flames_of(scene, index))};
 }
 
 }  // namespace luxodus

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "actors/view/flames.hpp"
 #include "actors/view/live_run.hpp"
 
 namespace luxodus {
@@ -32,6 +33,8 @@ struct LiveSmoke {
   LiveFrame frame;
   /// Scattering coefficients by voxel and band [1/m].
   std::shared_ptr<const std::vector<float>> scattering;
+  /// Those that are shown apart: voxels do not glow with them.
+  std::shared_ptr<const std::vector<LiveFlame>> flames;
 };
 
 /// Extinction of the voxels, and how much they scatter onwards.

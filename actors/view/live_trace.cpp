@@ -179,7 +179,7 @@ void LiveTrace::begin(const SceneEdits& edits) {
   const auto lights =
       again ? std::vector<ShownLight>(run_->lights().size(), ShownLight::none) : run_->lights();
   audience_.begins({generation_, edits, run_->shared_scene(), geometry_.frame, smoke_.frame, lights,
-                    std::move(triangles_before)});
+                    std::move(triangles_before), smoke_.flames});
 }
 
 bool LiveTrace::begin_anew(const SceneEdits& edits,

@@ -50,6 +50,8 @@ struct LiveGeneration {
   /// Which triangle of the generation before each was, or none_index; null where all are the same
   /// ones, or none is.
   std::shared_ptr<const std::vector<uint32_t>> triangles_before = nullptr;
+  /// Flames that are shown apart from voxels; null where no medium is.
+  std::shared_ptr<const std::vector<LiveFlame>> flames = nullptr;
 };
 
 /// Who is told. Called on the tracing thread.

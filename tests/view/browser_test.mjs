@@ -137,6 +137,33 @@ test('smoke glows to who looks into its light, and less to who looks along it', 
   assert.ok(Math.abs(ratio / expected - 1) < 0.03, `${ratio}, not ${expected}: ${seen}`);
 });
 
+test('a flame has the shape of its cells, and nothing glows around it', async () => {
+  /** Luminances from the bin upwards, of the flame alone. */
+  const seen = await page.evaluate(async () => {
+    const { page: p } = window.luxodus;
+    const { surfaces, air } = p.live.shown;
+    const flame = p.live.scene.flames[0];
+    for (const sum of [surfaces, air]) sum.sum.fill(0);
+    p.picture.signs.object.visible = false;
+    p.walk.solid = false;
+    const [x, y, z] = flame.low.map((low, k) => low + flame.size[k] / 2);
+    p.walk.jump({ eye: [x - 2, y, z], gaze: [1, 0, 0] });
+    p.light.changed();
+    await window.luxodus.settled();
+    const tall = flame.size[2] / 2 / 2 / Math.tan((p.walk.view.fov * Math.PI) / 360);
+    const at = (up, right) => p.picture.luminanceAt(right * tall * 0.8, up * tall);
+    const found = [at(-0.7, 0), at(0.4, 0), at(1.3, 0), at(-0.7, 1), at(0.9, 0.4)];
+    for (const sum of [surfaces, air]) sum.stained(true);
+    p.live.settle();
+    p.picture.signs.object.visible = p.walk.solid = true;
+    p.light.changed();
+    return found;
+  });
+  const [low, high, above, beside, corner] = seen;
+  assert.ok(low > 100 && high > 20 && low > 2 * high, `${seen}`);
+  assert.ok(Math.max(above, beside, corner) < 0.02 * low, `${seen}`);
+});
+
 test('the mean luminance follows a dimmed luminaire linearly', async () => {
   await page.evaluate(() => {
     const { page: p } = window.luxodus;

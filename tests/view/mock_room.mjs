@@ -265,6 +265,22 @@ export function probe(state, { triangle, front }) {
     surface: surfaceNames[mesh.kinds[triangle]] };
 }
 
+/** A cone over the bin, brightest below. */
+function flameCells([nx, ny, nz]) {
+  const cells = new Uint8Array(nx * ny * nz);
+  for (let i = 0; i < cells.length; ++i) {
+    const [x, y] = [i % nx, Math.floor(i / nx) % ny].map((n, k) => (2 * n + 1) / [nx, ny][k] - 1);
+    const z = (Math.floor(i / (nx * ny)) + 0.5) / nz;
+    if (Math.hypot(x, y) < 1 - z) cells[i] = Math.round(255 * (1 - z));
+  }
+  return Buffer.from(cells).toString('base64');
+}
+
+export const flames = [
+  { group: 'fire in a bin', low: [9.35, 0.75, 0.4], size: [0.5, 0.5, 0.9], count: [10, 10, 18],
+    colour: [9000, 3300, 600], cells: flameCells([10, 10, 18]) },
+];
+
 export const observers = [
   { name: 'west, by the table', eye: [0.8, 2.2, 1.65], gaze: [5.7, 0.7, 0.35] },
   { name: 'east, at the door', eye: [7.2, 3.2, 1.65], gaze: [3.8, 1.0, 0.25] },

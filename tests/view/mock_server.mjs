@@ -102,7 +102,7 @@ export class MockServer {
       scenario: state.scenario, smoke: state.smoke, seconds: this.seconds, low: room.low,
       high: room.high, relaid: this.relaid, groups,
       signs: state.signs, luminaires: state.luminaires, observers: room.observers,
-      cameras: room.cameras, voxels: room.voxels, editor: viewer !== null && viewer === this.editor,
+      cameras: room.cameras, voxels: room.voxels, flames: room.flames, editor: viewer !== null && viewer === this.editor,
     };
   }
 

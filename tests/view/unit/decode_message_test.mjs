@@ -15,6 +15,7 @@ test('a scene is taken over field by field', () => {
   assert.equal(groups.length, 6);
   assert.equal(signs[0].texels.length, 128 * 64);
   assert.equal(voxels.total, 22 * 12 * 6);
+  assert.equal(read(scene()).flames[0].cells.length, 10 * 10 * 18);
   assert.equal(editor, false);
   assert.ok(!('surprise' in read({ ...scene(), surprise: 1 })));
 });
@@ -32,6 +33,10 @@ test('a scene with a wrong part is refused, and the part named', () => {
   assert.throws(harmed((s) => (s.groups[1].light = 'old')), named(/groups\[1\]\.light/));
   assert.throws(harmed((s) => (s.signs[1].rows = 63)), named(/signs\[1\]\.texels/));
   assert.throws(harmed((s) => (s.signs[0].facing = [0, 1])), named(/facing/));
+  assert.throws(harmed((s) => (s.flames[0].count = [10, 10, 17])), named(/flames\[0\]\.cells/));
+  assert.throws(harmed((s) => (s.flames[0].count = [65, 1, 1])), named(/flames\[0\]\.count/));
+  assert.throws(harmed((s) => (s.flames[0].size = [0, 1, 1])), named(/flames\[0\]\.size/));
+  assert.throws(harmed((s) => (s.flames = Array(9).fill(s.flames[0]))), named(/9 flames/));
   assert.throws(harmed((s) => (s.voxels.count = [4000, 4000, 4000])), named(/voxels/));
   assert.throws(harmed((s) => delete s.low), named(/low/));
   assert.throws(harmed((s) => (s.luminaires[0] = null)), ProtocolError);

@@ -85,28 +85,55 @@ void trace_some(LiveRun& run, int64_t level) {
 
 }  // namespace
 
-TEST_CASE("a flame's own light is in the voxels that it is in", "[view]") {
+TEST_CASE("a flame has its shape and its light, and voxels do not glow with it again", "[view]") {
   const LiveRoom room(flame);
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   const CompiledScene& scene = run.scene();
-  int group = -1;
   double lumens = 0;
   for (const CompiledEmitter& e : scene.emitters)
-    if (e.kind == EmitterKind::volume) {
-      group = e.group;
-      lumens = e.luminous_flux_lm;
-    }
-  REQUIRE(group >= 0);
+    if (e.kind == EmitterKind::volume) lumens = e.luminous_flux_lm;
   REQUIRE(lumens > 0);
+  const LiveSmoke smoke = smoke_of(scene, run.index(), 1);
+  REQUIRE(smoke.flames->size() == 1);
+  const LiveFlame& shown = smoke.flames->front();
+  CHECK(shown.group == group_of_flame("fire"));
+  // A cone of 1 m over a disc of 0.3 m: within its box, and wide below, narrow above.
+  CHECK(shown.low.z == Approx(0.5).margin(0.1));
+  CHECK(shown.size.z == Approx(1).margin(0.15));
+  CHECK(shown.size.x == Approx(0.6).margin(0.1));
+  REQUIRE(shown.cells.size() == static_cast<size_t>(shown.count.x) *
+                                    static_cast<size_t>(shown.count.y) *
+                                    static_cast<size_t>(shown.count.z));
+  const auto lit_at = [&](int z) {
+    int cells = 0;
+    for (int i = 0; i < shown.count.x * shown.count.y; ++i)
+      if (shown.cells[static_cast<size_t>(z * shown.count.x * shown.count.y + i)] != 0) ++cells;
+    return cells;
+  };
+  CHECK(lit_at(2) > 4 * lit_at(shown.count.z - 4));
+  double sum = 0;
+  for (const char byte : shown.cells) sum += static_cast<unsigned char>(byte);
+  const glm::dvec3 cell = shown.size / glm::dvec3(shown.count);
+  double luminance = 0;
+  for (size_t c = 0; c < 3; ++c) luminance += of_channel[c] * shown.colour[c];
+  CHECK(luminance * sum / 255 * cell.x * cell.y * cell.z * 4 * std::numbers::pi ==
+        Approx(lumens).epsilon(0.01));
   trace_some(run, 2);
   const auto geometry = geometry_of(scene, 1);
   REQUIRE(geometry.ok());
-  const LiveSmoke smoke = smoke_of(scene, run.index(), 1);
-  // Nothing scatters, so no other group has light in the air.
+  // Nothing scatters, so no group has light in the air.
+  int group = -1;
+  for (const CompiledEmitter& e : scene.emitters)
+    if (e.kind == EmitterKind::volume) group = e.group;
   const auto frames = light_frames(run, geometry->patches, smoke, 1, {group, left});
   REQUIRE(frames.size() == 4);
-  CHECK(lumens_in(frames[2], scene.voxels) == Approx(lumens).epsilon(0.01));
+  CHECK(lumens_in(frames[2], scene.voxels) == 0);
   CHECK(lumens_in(frames[3], scene.voxels) == 0);
+  // One that is not shown apart glows in the voxels that it is in.
+  LiveSmoke none = smoke;
+  none.flames = std::make_shared<const std::vector<LiveFlame>>();
+  const auto evenly = light_frames(run, geometry->patches, none, 1, {group});
+  CHECK(lumens_in(evenly[1], scene.voxels) == Approx(lumens).epsilon(0.01));
 }
 
 TEST_CASE("smoke has the extinction and the mean cosine of its media", "[view]") {

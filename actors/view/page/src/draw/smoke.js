@@ -2,6 +2,7 @@
 // away; along which way the light goes that it scatters, and how much it scatters onwards.
 import * as THREE from 'three';
 import { toHalf } from '../protocol/half.js';
+import { Flames } from './flames.js';
 import { screenVertex, smokeFragment } from './glsl.js';
 
 /** Steps of one picture; while the eye is still many pictures are added up. */
@@ -22,6 +23,7 @@ const none = () => volume([1, 1, 1], new Uint16Array(4));
 export class Smoke {
   constructor(shared) {
     this.present = false;
+    this.flames = new Flames();
     this.material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
       vertexShader: screenVertex,
@@ -30,6 +32,7 @@ export class Smoke {
       depthWrite: false,
       uniforms: {
         ...shared,
+        ...this.flames.uniforms,
         glow: { value: none() },
         beam: { value: none() },
         low: { value: new THREE.Vector3() },

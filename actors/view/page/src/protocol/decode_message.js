@@ -9,6 +9,8 @@ export const limits = {
   metres: 1e6,
   texels: 1 << 20,
   pngCharacters: 1 << 23,
+  flames: 8,
+  flameCells: 64,
 };
 
 function fail(path, what) {
@@ -113,6 +115,25 @@ function voxelsOf(value, path) {
   return { low, edge: number(value.edge, `${path}.edge`, 1e-3, 1e3), count, total };
 }
 
+/** Where a flame glows within its box: a byte for each cell, x fastest. */
+function flame(value, path) {
+  const f = record(value, path);
+  const count = triple(f.count, `${path}.count`, 1, limits.flameCells).map(Math.round);
+  return {
+    group: text(f.group, `${path}.group`),
+    low: place(f.low, `${path}.low`),
+    size: triple(f.size, `${path}.size`, 1e-6, 1e4),
+    count,
+    colour: colour(f.colour, `${path}.colour`),
+    cells: texelsOf(f.cells, `${path}.cells`, count[0] * count[1], count[2]),
+  };
+}
+
+function flames(value, path) {
+  const all = list(value, path, flame);
+  return all.length <= limits.flames ? all : fail(path, `${all.length} flames`);
+}
+
 const group = (g, path) => ({
   name: text(g.name, `${path}.name`),
   kind: oneOf(g.kind, `${path}.kind`, ['luminaire', 'sign', 'flame']),
@@ -179,6 +200,7 @@ const readers = {
     observers: list(m.observers ?? [], 'observers', observer),
     cameras: list(m.cameras ?? [], 'cameras', camera),
     voxels: voxelsOf(m.voxels, 'voxels'),
+    flames: flames(m.flames ?? [], 'flames'),
     editor: m.editor === true,
   }),
   progress: (m) => ({
