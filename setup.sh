@@ -40,7 +40,7 @@ packages=(
 if [ "$want" != --run ]; then
   packages+=(
     # tests and formatting
-    catch2 python3 python3-yaml clang-format iproute2 poppler-utils
+    catch2 python3 python3-yaml clang-format iproute2 poppler-utils ffmpeg
     # documents
     mkdocs mkdocs-material
   )

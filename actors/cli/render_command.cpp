@@ -12,11 +12,11 @@
 #include "actors/cli/nodes_option.hpp"
 #include "actors/cli/picture_choices.hpp"
 #include "actors/cli/progress_line.hpp"
+#include "actors/cli/quantities.hpp"
 #include "actors/cli/signals.hpp"
 #include "actors/display/film.hpp"
 #include "actors/display/pictures.hpp"
 #include "actors/display/result_files.hpp"
-#include "actors/output/file_names.hpp"
 #include "actors/run/flux_store.hpp"
 #include "runtime/core/log.hpp"
 
@@ -35,6 +35,7 @@ struct RenderOptions {
   bool full_paths = false;
   bool raw = false;
   std::string route;
+  std::vector<std::string> through;
   double speed = FilmedWalk().speed_m_s, fps = FilmedWalk().frames_per_s;
   double eye_height = FilmedWalk().eye_height_m;
   bool human = false;
@@ -60,22 +61,75 @@ Result<Camera> lens_of(const SceneDescription& scene, const std::string& view) {
   return Camera();
 }
 
-Result<std::vector<Camera>> cameras_of_film(const SceneDescription& scene,
-                                            const RenderOptions& options) {
-  if (!options.limits.time.empty() || !options.limits.error.empty())
-    return problem("--route excludes --picture-time and --picture-error: say how many --paths");
-  const auto route = route_named(scene, options.route);
-  if (!route) return route.problem();
-  auto lens = lens_of(scene, options.view);
-  if (!lens) return lens.problem();
-  lens->name = options.route;
-  return cameras_of(*route.value(), {options.speed, options.fps, options.eye_height}, lens.value());
+/// The keyframes of TIME=CAMERA. Errors: what is none, a camera that is not there.
+Result<std::vector<Keyframe>> keyframes_of(const SceneDescription& scene,
+                                           const std::vector<std::string>& through) {
+  std::vector<Keyframe> keys;
+  for (const std::string& text : through) {
+    const size_t mark = text.find('=');
+    const auto time = parse_time(text.substr(0, mark));
+    if (mark == std::string::npos || !time)
+      return problem("--through takes TIME=CAMERA, as in --through 4s=corridor, not \"" + text +
+                     "\"");
+    const std::string name = text.substr(mark + 1);
+    if (name.empty()) return problem("--through names no camera in \"" + text + "\"");
+    if (auto ok = check_views(scene, name, {}); !ok) return ok.problem();
+    for (const Camera& camera : scene.cameras)
+      if (camera.name == name) keys.push_back({time.value(), camera});
+  }
+  return keys;
 }
 
-/// Frames into DIR/films/ROUTE, and the film of them beside that.
-Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, const Film& film,
+/// A film, the name that people know it by, and that of its files.
+struct NamedFilm {
+  Film film;
+  std::string name;
+};
+
+/// Nothing where none is asked for.
+Result<std::optional<NamedFilm>> film_of(const SceneDescription& scene,
+                                         const RenderOptions& options) {
+  const bool walks = !options.route.empty(), flies = !options.through.empty();
+  if (!walks && !flies) {
+    if (options.human || options.fps != RenderOptions().fps)
+      return problem("--human and --fps are of films: say --route or --through, too");
+    return std::optional<NamedFilm>();
+  }
+  if (walks && flies) return problem("--route excludes --through: a film is of one of them");
+  if (!options.limits.time.empty() || !options.limits.error.empty())
+    return problem(
+        "--route and --through exclude --picture-time and --picture-error: say how many "
+        "--paths");
+  NamedFilm out;
+  out.film.human = options.human;
+  auto lens = lens_of(scene, options.view);
+  if (!lens) return lens.problem();
+  Result<std::vector<Camera>> cameras = std::vector<Camera>();
+  if (walks) {
+    const auto route = route_named(scene, options.route);
+    if (!route) return route.problem();
+    const auto number = static_cast<size_t>(route.value() - scene.routes.data());
+    out.name = film_names(scene)[number];
+    lens->name = options.route;
+    cameras =
+        cameras_of(*route.value(), {options.speed, options.fps, options.eye_height}, lens.value());
+  } else {
+    const auto keys = keyframes_of(scene, options.through);
+    if (!keys) return keys.problem();
+    if (options.view.empty()) lens.value() = keys->front().camera;
+    lens->name = keys->front().camera.name + " to " + keys->back().camera.name;
+    out.name = film_names(scene, lens->name).back();
+    cameras = cameras_through(keys.value(), options.fps, lens.value());
+  }
+  if (!cameras) return cameras.problem();
+  out.film.cameras = std::move(cameras).value();
+  return std::optional(std::move(out));
+}
+
+/// Frames into DIR/films/NAME, and the film of them beside that.
+Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, const NamedFilm& named,
                                const RenderOptions& options, const PictureOptions& picture) {
-  const std::string name = file_name_of(options.route);
+  const auto& [film, name] = named;
   const fs::path frames = folder / "films" / name;
   const fs::path file = folder / "films" / (name + ".mp4");
   const size_t count = film.cameras.size();
@@ -109,8 +163,7 @@ Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, cons
   return ExitCode::success;
 }
 
-OutputPlan plan_of_film(const RenderOptions& options) {
-  const std::string name = file_name_of(options.route);
+OutputPlan plan_of_film(const std::string& name) {
   return {{"films/" + name + ".mp4"}, {"films", "films/" + name}};
 }
 
@@ -125,20 +178,15 @@ Result<ExitCode> render(const RenderOptions& options) {
   PictureOptions picture;
   if (auto ok = read_choices(options.limits, picture); !ok) return ok.problem();
   if (auto ok = check_views(*description, options.view, picture); !ok) return ok.problem();
-  Film film;
-  film.human = options.human;
-  if (!options.route.empty()) {
-    auto cameras = cameras_of_film(*description, options);
-    if (!cameras) return cameras.problem();
-    film.cameras = std::move(cameras).value();
-  }
-  const bool is_film = !options.route.empty();
-  if (!is_film && description->cameras.empty())
+  const auto film = film_of(*description, options);
+  if (!film) return film.problem();
+  const std::optional<NamedFilm>& filmed = film.value();
+  if (!filmed && description->cameras.empty())
     return problem_in(finished->scene_file, "the scene has no [[camera]] to render");
   if (!passes_inspection(description, {scenario}, options.threads))
     return problem_in(finished->scene_file, "the scene has errors, told above");
-  const auto out =
-      OutputFolder::claim(folder, is_film ? plan_of_film(options) : plan_of_views(*description));
+  const auto out = OutputFolder::claim(
+      folder, filmed ? plan_of_film(filmed->name) : plan_of_views(*description));
   if (!out) return out.problem();
   LocalRun run(scene, finished->seed, options.threads);
   if (auto ok = load_flux(out->path() / "flux.lux", run); !ok) return ok.problem();
@@ -154,7 +202,7 @@ Result<ExitCode> render(const RenderOptions& options) {
     nodes = std::move(started).value();
     picture.executor = &nodes->executor();
   }
-  if (is_film) return render_frames(out->path(), run, film, options, picture);
+  if (filmed) return render_frames(out->path(), run, *filmed, options, picture);
   return render_aloud(out->path(), run, options.view, picture);
 }
 
@@ -183,14 +231,16 @@ std::vector<Option> render_options(RenderOptions& o) {
        &o.route,
        "Name of the route that a film walks, into DIR/films",
        {.form = Form::name, .otherwise = "no film", .group = "Film"}},
+      {"--through",
+       &o.through,
+       "Camera that a film passes, and when: TIME=CAMERA, as in 4s=corridor; said of each, two at "
+       "least, in their order",
+       {.form = Form::name, .otherwise = "no film", .group = "Film"}},
       {"--speed",
        &o.speed,
        "Walking speed [m/s]",
        {.range = Range{0.01, 100}, .group = "Film", .needs = "--route"}},
-      {"--fps",
-       &o.fps,
-       "Frames a second",
-       {.range = Range{0.1, 240}, .group = "Film", .needs = "--route"}},
+      {"--fps", &o.fps, "Frames a second", {.range = Range{0.1, 240}, .group = "Film"}},
       {"--eye-height",
        &o.eye_height,
        "Height of the eyes above the route [m]",
@@ -198,7 +248,7 @@ std::vector<Option> render_options(RenderOptions& o) {
       {"--human",
        &o.human,
        "Frames as an adapted eye sees them, instead of one exposure each",
-       {.group = "Film", .needs = "--route"}}};
+       {.group = "Film"}}};
   all.insert(all.end(), film.begin(), film.end());
   return all;
 }
@@ -221,7 +271,9 @@ Command render_command() {
           "keeps the pictures of the paths that all of their pixels have.\n\n"
           "With --route it renders a film instead: what somebody sees who walks a route of the "
           "scene, as DIR/films/ROUTE/000000.png and so on, and where there is ffmpeg as "
-          "DIR/films/ROUTE.mp4. Ctrl-C keeps whole frames.",
+          "DIR/films/ROUTE.mp4. With --through it goes through cameras of the scene instead:\n"
+          "  luxodus render out/office_floor --through 0s=corridor --through \"6s=open plan\"\n"
+          "Ctrl-C keeps whole frames.",
       .run = [o] { return exit_code_of(render(*o)); }};
 }
 

@@ -1,17 +1,15 @@
 #include "actors/display/film.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <array>
 #include <cmath>
 
 #include "actors/display/picture_tiles.hpp"
 #include "actors/display/view_files.hpp"
+#include "actors/output/file_names.hpp"
+#include "actors/output/run_program.hpp"
 #include "scenes/emergency/way.hpp"
 
 namespace luxodus {
@@ -24,6 +22,8 @@ namespace fs = std::filesystem;
 constexpr double look_ahead_m = 1.5;
 /// What is so near is the same place, as in a hairpin bend [m].
 constexpr double same_place_m = 1e-3;
+/// A mean of two gazes that is as short has no direction.
+constexpr double min_gaze = 1e-3;
 
 Camera camera_at(const EscapeRoute& route, double along_m, const FilmedWalk& walk,
                  const Camera& lens) {
@@ -59,28 +59,31 @@ Result<void> make_frame_folder(const fs::path& folder) {
   return {};
 }
 
-/// Runs a program found on the path, with nothing to read and nowhere to write. Its exit code; -1
-/// where it is not there. Errors: it cannot be begun, or ends by a signal.
-Result<int> run_quietly(const std::vector<std::string>& words) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  for (const int out : {STDOUT_FILENO, STDERR_FILENO})
-    ::posix_spawn_file_actions_addopen(&actions, out, "/dev/null", O_WRONLY, 0);
-  pid_t pid = 0;
-  const int failed =
-      ::posix_spawnp(&pid, arguments[0], &actions, nullptr, arguments.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  if (failed == ENOENT) return -1;
-  if (failed != 0) return system_problem({}, "cannot begin " + words[0], failed);
-  int status = 0;
-  while (::waitpid(pid, &status, 0) < 0)
-    if (errno != EINTR) return system_problem({}, "cannot wait for " + words[0], errno);
-  if (!WIFEXITED(status)) return problem(words[0] + " was ended by a signal");
-  return WEXITSTATUS(status);
+/// Between two frames' keys: a cubic Hermite spline whose tangents are those of the parabola
+/// through three keys, and at the ends the straight line's. `at` of the way from key `i` to the
+/// next.
+glm::dvec3 between(const std::vector<double>& times, const std::vector<glm::dvec3>& values,
+                   size_t i, double at) {
+  const auto slope = [&](size_t k) {
+    return (values[k + 1] - values[k]) / (times[k + 1] - times[k]);
+  };
+  const auto tangent = [&](size_t k) {
+    if (k == 0) return slope(0);
+    if (k + 1 == values.size()) return slope(k - 1);
+    const double before = times[k] - times[k - 1], after = times[k + 1] - times[k];
+    return (slope(k - 1) * after + slope(k) * before) / (before + after);
+  };
+  const double step = times[i + 1] - times[i];
+  const double t = at, t2 = t * t, t3 = t2 * t;
+  return (2 * t3 - 3 * t2 + 1) * values[i] + (t3 - 2 * t2 + t) * step * tangent(i) +
+         (3 * t2 - 2 * t3) * values[i + 1] + (t3 - t2) * step * tangent(i + 1);
+}
+
+Problem too_many_frames(const SourcePlace& place, const std::string& of, double seconds,
+                        double frames_per_s) {
+  return problem_in(place, fmt::format("{}: {:g} s at {:g} frames a second are more than {} "
+                                       "frames: go faster, or take fewer a second",
+                                       of, seconds, frames_per_s, limits::max_film_frames));
 }
 
 }  // namespace
@@ -100,6 +103,59 @@ Result<std::vector<Camera>> cameras_of(const EscapeRoute& route, const FilmedWal
   for (int k = 0; k <= static_cast<int>(steps); ++k)
     cameras.push_back(camera_at(route, k * step_m, walk, lens));
   return cameras;
+}
+
+Result<std::vector<Camera>> cameras_through(const std::vector<Keyframe>& keys, double frames_per_s,
+                                            const Camera& lens) {
+  std::vector<double> times;
+  std::vector<glm::dvec3> eyes, gazes, ups;
+  for (const Keyframe& key : keys) {
+    if (!times.empty() && !(key.time_s > times.back()))
+      return problem_in(key.camera.place,
+                        fmt::format("the camera \"{}\" comes at {:g} s, not after the one before "
+                                    "it at {:g} s: say keyframes in the order of their times",
+                                    key.camera.name, key.time_s, times.back()));
+    times.push_back(key.time_s);
+    eyes.push_back(key.camera.eye);
+    gazes.push_back(glm::normalize(key.camera.target - key.camera.eye));
+    ups.push_back(glm::normalize(key.camera.up));
+  }
+  if (keys.size() < 2) return problem("a film goes through two cameras at least");
+  const double seconds = times.back() - times.front();
+  // A frame at the end but for rounding is one.
+  const double frames = std::floor(seconds * frames_per_s * (1 + 1e-12));
+  if (!(frames < limits::max_film_frames))
+    return too_many_frames(keys[0].camera.place, "film from camera \"" + keys[0].camera.name + "\"",
+                           seconds, frames_per_s);
+  std::vector<Camera> cameras;
+  size_t i = 0;
+  for (int k = 0; k <= static_cast<int>(frames); ++k) {
+    const double time = std::min(times.front() + k / frames_per_s, times.back());
+    while (i + 2 < times.size() && time >= times[i + 1]) ++i;
+    const double at = (time - times[i]) / (times[i + 1] - times[i]);
+    Camera camera = lens;
+    camera.eye = between(times, eyes, i, at);
+    const glm::dvec3 gaze = between(times, gazes, i, at);
+    if (glm::length(gaze) < min_gaze)
+      return problem_in(keys[i + 1].camera.place,
+                        fmt::format("between the cameras \"{}\" and \"{}\" the gaze turns around: "
+                                    "put one between them that says which way",
+                                    keys[i].camera.name, keys[i + 1].camera.name));
+    camera.target = camera.eye + glm::normalize(gaze);
+    camera.up = between(times, ups, i, at);
+    camera.vertical_fov_deg =
+        keys[i].camera.vertical_fov_deg * (1 - at) + keys[i + 1].camera.vertical_fov_deg * at;
+    cameras.push_back(camera);
+  }
+  return cameras;
+}
+
+std::vector<std::string> film_names(const SceneDescription& scene, const std::string& more) {
+  constexpr std::array<const char*, 2> endings{"", ".mp4"};
+  std::vector<std::string> names;
+  for (const EscapeRoute& route : scene.routes) names.push_back(route.name);
+  if (!more.empty()) names.push_back(more);
+  return file_names_of(names, endings);
 }
 
 std::string name_of_frame(size_t frame) {
@@ -131,20 +187,26 @@ Result<size_t> render_film(const fs::path& folder, const LocalRun& run, const Fi
 
 Result<bool> write_video(const fs::path& file, const fs::path& folder, size_t frames,
                          double frames_per_s) {
-  // Under another name until it is whole.
-  fs::path unfinished = file.parent_path() / (".unfinished-" + file.filename().string());
-  const auto code =
-      run_quietly({"ffmpeg", "-nostdin", "-y", "-framerate", fmt::format("{:g}", frames_per_s),
-                   "-i", (folder / "%06d.png").string(), "-frames:v", std::to_string(frames), "-vf",
-                   // H.264 takes even edges.
-                   "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags",
-                   "+faststart", unfinished.string()});
+  // Under another name until it is whole. It runs where the frames are: in a folder's name a %
+  // would stand for a number.
+  const fs::path unfinished =
+      fs::absolute(file.parent_path()) / (".unfinished-" + file.filename().string());
+  const fs::path said = file.parent_path() / (".said-" + file.filename().string() + ".txt");
+  const auto code = run_program({"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y",
+                                 "-framerate", fmt::format("{:g}", frames_per_s), "-i", "%06d.png",
+                                 "-frames:v", std::to_string(frames), "-vf",
+                                 // H.264 takes even edges.
+                                 "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p",
+                                 "-movflags", "+faststart", unfinished.string()},
+                                said, folder);
   std::error_code error;
+  const std::string words = code && code.value() > 0 ? last_words(said) : "";
+  fs::remove(said, error);
   if (!code || code.value() != 0) {
     fs::remove(unfinished, error);
     if (!code) return code.problem();
     if (code.value() == -1) return false;
-    return problem_in(file, fmt::format("ffmpeg failed with code {}", code.value()));
+    return problem_in(file, fmt::format("ffmpeg failed with code {}{}", code.value(), words));
   }
   fs::rename(unfinished, file, error);
   if (error) return problem_in(file, "cannot be put into its place: " + error.message());

@@ -1,4 +1,5 @@
-// Films: what somebody sees who walks a route, frame by frame, from the flux of one run. A frame is
+// Films: what somebody sees who walks a route, or a flight through the scene's cameras, frame by
+// frame, from the flux of one run. A frame is
 // the filtered picture of a camera, with that camera's own exposure. One call at a time per run.
 #pragma once
 
@@ -28,6 +29,23 @@ struct FilmedWalk {
 Result<std::vector<Camera>> cameras_of(const EscapeRoute& route, const FilmedWalk& walk,
                                        const Camera& lens);
 
+/// Where a film is at a time: eye, gaze, up and angle of view of a camera.
+struct Keyframe {
+  double time_s = 0;
+  Camera camera;
+};
+
+/// A camera for each frame, from the first key to the last. Eyes and gazes go through the keys on a
+/// cubic spline, without a corner; angles of view go straight. `lens`: whose size they have.
+/// Errors: fewer than two keys, times that do not ascend, a gaze that turns around between two
+/// keys, more than limits::max_film_frames.
+Result<std::vector<Camera>> cameras_through(const std::vector<Keyframe>& keys, double frames_per_s,
+                                            const Camera& lens);
+
+/// File names of the films of all routes of a scene, in their order, and of one more film where
+/// `more` names it. No two are the same.
+std::vector<std::string> film_names(const SceneDescription& scene, const std::string& more = "");
+
 struct Film {
   std::vector<Camera> cameras;
   bool human = false;  // as an adapted eye sees it, instead of one exposure
@@ -46,7 +64,8 @@ Result<size_t> render_film(const std::filesystem::path& folder, const LocalRun& 
                            const std::function<void(double frames)>& progress);
 
 /// Has ffmpeg make a film (H.264, MP4) of the first `frames` of a folder. False where there is no
-/// ffmpeg on the path. Errors: it fails; the file cannot be put into its place.
+/// ffmpeg on the path. Errors: it fails, with its last words; the file cannot be put into its
+/// place.
 Result<bool> write_video(const std::filesystem::path& file, const std::filesystem::path& folder,
                          size_t frames, double frames_per_s);
 

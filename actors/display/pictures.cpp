@@ -34,6 +34,11 @@ double variance_of_mean(double sum, double squares, double count) {
 
 }  // namespace
 
+int next_pass(int paths) {
+  if (paths < 32) return std::max(min_pass, 2 * paths);
+  return paths + static_cast<int>(std::bit_floor(static_cast<unsigned>(paths))) / 2;
+}
+
 ViewPasses::ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number,
                        const KnownRadiance* flux)
     : run_(run), camera_(camera), number_(number), flux_(flux), sums_(pixels()) {}

@@ -93,6 +93,12 @@ constexpr bool comes_first(int column, int row) {
   return column % 2 == 0 && row % 2 == 0;
 }
 
+/// Paths that a pass adds at least, and that a first picture has in one pixel of four.
+inline constexpr int min_pass = 4;
+static_assert(min_pass >= min_filtered_paths);
+/// How many paths a pixel has after the next pass: 4, 8, 16, 32, 48, 64, 96 and so on.
+int next_pass(int paths);
+
 /// A camera's picture as it grows, path by path. Pixels are the same bits however paths were added.
 class ViewPasses {
  public:

@@ -3,28 +3,23 @@
 // ends a picture it does so between steps: the picture is that of as many paths at once. Files are
 // replaced whole. What they cost bounds how often that is done.
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <deque>
 #include <limits>
 #include <mutex>
 
-#include "actors/display/result_files.hpp"
 #include "actors/display/picture_tiles.hpp"
+#include "actors/display/result_files.hpp"
 #include "actors/display/view_files.hpp"
 
 namespace luxodus {
 
 namespace {
 
-/// Paths that a step adds at least, and that the first picture has in one pixel of four.
-constexpr int min_step = 4;
-static_assert(min_step >= min_filtered_paths && min_step == PictureExecutor::paths_of_tile);
+static_assert(min_pass == PictureExecutor::paths_of_tile);
 /// Smaller pictures are there at once.
 constexpr int64_t min_first_pixels = 10'000;
-/// Of first pictures, whose pixels are twice as wide: a third of the time of the usual one.
-constexpr RegressionFilter first_filter{.window_px = 5, .patch_px = 2};
 /// Before it is known what a writing takes, none is due [s].
 constexpr double unknown_writing_s = 5;
 /// Between two writings, so many times what one takes is spent on paths.
@@ -35,12 +30,6 @@ constexpr double whole_by_first = 4;
 /// Of the time, what is left for the last writing beside what the one before took: later pictures
 /// compress no better.
 constexpr double writing_slack = 1.2;
-
-/// Where the next step ends: 4, 8, 16, 32, 48, 64, 96 and so on.
-int next_step(int paths) {
-  if (paths < 32) return std::max(min_step, 2 * paths);
-  return paths + static_cast<int>(std::bit_floor(static_cast<unsigned>(paths))) / 2;
-}
 
 class Stopwatch {
  public:
@@ -70,15 +59,13 @@ Result<std::vector<size_t>> chosen_views(const SceneDescription& scene, const st
 
 struct GrowingView {
   GrowingView(const LocalRun& run, size_t of, const KnownRadiance* flux)
-      : camera(run.scene().description->cameras[of]),
-        number(of),
-        passes(run, camera, of, flux) {}
+      : camera(run.scene().description->cameras[of]), number(of), passes(run, camera, of, flux) {}
 
   double pixels() const { return static_cast<double>(camera.width) * camera.height; }
 
   /// Small ones are there at once.
   bool shows_first(const PictureOptions& options) const {
-    return options.progressive && options.paths_per_pixel > min_step &&
+    return options.progressive && options.paths_per_pixel > min_pass &&
            int64_t{camera.width} * camera.height >= min_first_pixels;
   }
 
@@ -86,8 +73,9 @@ struct GrowingView {
   size_t number;
   ViewPasses passes;
   std::filesystem::path stem;
-  int written_paths = 0;
-  double error = std::numeric_limits<double>::quiet_NaN();  // of what is written
+  std::optional<ShownView> shown;  // until it is written
+  int shown_paths = 0, written_paths = 0;
+  double error = std::numeric_limits<double>::quiet_NaN();  // of what was shown last
 };
 
 /// Views that grow together.
@@ -120,6 +108,8 @@ class GrowingViews {
       if (interrupted_) break;
       paths_ = target;
       seconds_per_path_ = (watch_.seconds() - before_s) / added;
+      // The filter says how good a picture is: that needs no files.
+      if (options_.target_error > 0) look();
       if (!should_write()) continue;
       if (auto ok = write(); !ok) return ok;
     }
@@ -150,9 +140,9 @@ class GrowingViews {
       if (!view.shows_first(options_)) continue;
       any = true;
       interrupted_ |= elsewhere_ ? !elsewhere_->add_first(i, view.passes)
-                                 : !view.passes.add_first(min_step, options_);
+                                 : !view.passes.add_first(min_pass, options_);
       if (interrupted_) return {};
-      const ShownView half(view.passes.first_picture(), min_step, options_, run_.threads(),
+      const ShownView half(view.passes.first_picture(), min_pass, options_, run_.threads(),
                            first_filter);
       if (auto ok = write_first_view(view.stem, run_, view.camera, half); !ok) return ok;
     }
@@ -166,12 +156,12 @@ class GrowingViews {
   int next_target() const {
     const int most = options_.paths_per_pixel;
     if (paths_ >= most || (options_.target_error > 0 && error() <= options_.target_error)) return 0;
-    const int target = std::min(most, next_step(paths_));
+    const int target = std::min(most, next_pass(paths_));
     if (!(seconds_ > 0) || paths_ == 0) return target;
     const double left_s = seconds_ - watch_.seconds() - writing_slack * writing_s_;
     const double fit = std::min(left_s / seconds_per_path_, double{limits::max_paths_per_pixel});
-    const int steps = static_cast<int>(std::max(0.0, fit)) / min_step;
-    return steps == 0 ? 0 : std::min(target, paths_ + steps * min_step);
+    const int steps = static_cast<int>(std::max(0.0, fit)) / min_pass;
+    return steps == 0 ? 0 : std::min(target, paths_ + steps * min_pass);
   }
 
   /// Whoever is interrupted in a view leaves it as it was.
@@ -195,12 +185,11 @@ class GrowingViews {
     if (seconds_ > 0) share = std::max(share, watch_.seconds() / seconds_);
     // It falls with the root of the paths.
     if (options_.target_error > 0 && error() > options_.target_error)
-      share = std::max(share, paths / written_ * std::pow(options_.target_error / error(), 2));
+      share = std::max(share, paths / looked_ * std::pow(options_.target_error / error(), 2));
     progress_({std::min(share, 1.0), paths_, error()});
   }
 
   bool should_write() const {
-    if (options_.target_error > 0) return true;
     if (!options_.progressive) return false;
     // What a writing takes is known after one: that is needed where a time must be kept.
     if (written_ == 0 && (seconds_ > 0 || !(writing_s_ > 0)))
@@ -208,40 +197,55 @@ class GrowingViews {
     return watch_.seconds() - written_s_ > paths_per_writing * writing_s_;
   }
 
-  /// Filters and writes the views that have grown since they were written, or were interrupted.
-  Result<void> write() {
+  /// Filters the views that have grown since they were last, or were interrupted.
+  void look() {
     const double before_s = watch_.seconds();
-    std::deque<std::pair<GrowingView*, ShownView>> shown;
+    bool any = false;
     for (GrowingView& view : views_) {
       const int paths = view.passes.paths();
-      if (paths == 0 || paths == view.written_paths) continue;
-      shown.emplace_back(
-          std::piecewise_construct, std::forward_as_tuple(&view),
-          std::forward_as_tuple(view.passes.picture(), paths, options_, run_.threads()));
-      view.error = shown.back().second.error();
-      view.written_paths = paths;
+      if (paths == 0 || paths == view.shown_paths) continue;
+      any = true;
+      view.shown.emplace(view.passes.picture(), paths, options_, run_.threads());
+      view.shown_paths = paths;
+      view.error = view.shown->error();
     }
-    if (auto ok = write_files(shown); !ok) return ok;
+    if (!any) return;
+    looked_ = paths_;
+    looking_s_ = watch_.seconds() - before_s;
+    if (progress_) show_progress(paths_);
+  }
+
+  /// Writes the views that have grown since they were written.
+  Result<void> write() {
+    look();
+    const double before_s = watch_.seconds();
+    if (auto ok = write_files(); !ok) return ok;
     written_ = paths_;
     written_s_ = watch_.seconds();
-    writing_s_ = written_s_ - before_s;
-    if (progress_ && !shown.empty()) show_progress(paths_);
+    writing_s_ = looking_s_ + written_s_ - before_s;
     return {};
   }
 
   /// By all threads: a file is packed by one.
-  Result<void> write_files(const std::deque<std::pair<GrowingView*, ShownView>>& shown) const {
+  Result<void> write_files() {
+    std::vector<GrowingView*> shown;
+    for (GrowingView& view : views_)
+      if (view.shown && view.shown_paths != view.written_paths) shown.push_back(&view);
     std::mutex mutex;
     Result<void> outcome;
     const auto write_one = [&](int64_t unit) {
-      const auto& [view, picture] = shown[static_cast<size_t>(unit) / view_file_count];
+      const GrowingView& view = *shown[static_cast<size_t>(unit) / view_file_count];
       const auto file = static_cast<ViewFile>(static_cast<size_t>(unit) % view_file_count);
-      auto written = write_view_file(view->stem, file, run_, view->camera, picture);
+      auto written = write_view_file(view.stem, file, run_, view.camera, *view.shown);
       const std::lock_guard lock(mutex);
       if (!written && outcome) outcome = written.problem();
     };
     parallel_for(static_cast<int64_t>(shown.size() * view_file_count), run_.threads(),
                  [&] { return write_one; });
+    for (GrowingView* const view : shown) {
+      view->written_paths = view->shown_paths;
+      view->shown.reset();
+    }
     return outcome;
   }
 
@@ -264,9 +268,11 @@ class GrowingViews {
   bool interrupted_ = false;
   Stopwatch watch_;
   double seconds_per_path_ = 0;
+  int looked_ = 0;        // paths of what was filtered last
+  double looking_s_ = 0;  // what that took
   int written_ = 0;       // paths of what is written
   double written_s_ = 0;  // when
-  double writing_s_ = 0;  // what that took
+  double writing_s_ = 0;  // what that took, with its filter
 };
 
 /// Views that fit into memory together, one group after another.

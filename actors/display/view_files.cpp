@@ -10,7 +10,6 @@
 
 #include "actors/display/result_files.hpp"
 #include "actors/output/false_colour_png.hpp"
-#include "scenes/images/write_image.hpp"
 #include "scenes/optics/chromaticity.hpp"
 #include "scenes/vision/tone.hpp"
 
@@ -241,11 +240,28 @@ double ShownView::error() const {
              : relative_error(filtered->light, filtered->standard_error_y);
 }
 
+namespace {
+
+PngImage image_of(bool human, const LocalRun& run, const Camera& camera, const XyzPicture& light,
+                  const DisplayModel& display) {
+  const XyzPicture balanced = white_balanced(run.scene(), light);
+  return human ? human_png(run, camera, balanced, display) : plain_png(run, camera, balanced);
+}
+
+}  // namespace
+
+PngImage shown_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& view) {
+  return image_of(human, run, camera, view.shown(), view.display);
+}
+
+PngImage first_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& half) {
+  return image_of(human, run, camera, enlarged(half.shown(), camera.width, camera.height),
+                  half.display);
+}
+
 Result<void> write_shown_png(const std::filesystem::path& file, bool human, const LocalRun& run,
                              const Camera& camera, const ShownView& view) {
-  const XyzPicture balanced = white_balanced(run.scene(), view.shown());
-  return write_png(file, human ? human_png(run, camera, balanced, view.display)
-                               : plain_png(run, camera, balanced));
+  return write_png(file, shown_image(human, run, camera, view));
 }
 
 Result<void> write_view_file(const std::filesystem::path& stem, ViewFile file, const LocalRun& run,
@@ -267,9 +283,7 @@ Result<void> write_view_file(const std::filesystem::path& stem, ViewFile file, c
 
 Result<void> write_first_view(const std::filesystem::path& stem, const LocalRun& run,
                               const Camera& camera, const ShownView& half) {
-  const XyzPicture whole = enlarged(half.shown(), camera.width, camera.height);
-  return write_png(std::filesystem::path(stem) += ".png",
-                   plain_png(run, camera, white_balanced(run.scene(), whole)));
+  return write_png(std::filesystem::path(stem) += ".png", first_image(false, run, camera, half));
 }
 
 }  // namespace luxodus

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "actors/display/pictures.hpp"
+#include "scenes/images/write_image.hpp"
 
 namespace luxodus {
 
@@ -36,7 +37,15 @@ inline constexpr size_t view_file_count = 4;
 Result<void> write_view_file(const std::filesystem::path& stem, ViewFile file, const LocalRun& run,
                              const Camera& camera, const ShownView& view);
 
-/// Writes what PNG files show, as a camera takes it or as an eye sees it. Errors: as write_png.
+/// What PNG files show, as a camera takes it or as an eye sees it.
+PngImage shown_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& view);
+/// The same of a picture of half the size, enlarged to the camera's.
+PngImage first_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& half);
+
+/// Of first pictures, whose pixels are twice as wide: a third of the time of the usual one.
+inline constexpr RegressionFilter first_filter{.window_px = 5, .patch_px = 2};
+
+/// Writes shown_image(). Errors: as write_png.
 Result<void> write_shown_png(const std::filesystem::path& file, bool human, const LocalRun& run,
                              const Camera& camera, const ShownView& view);
 

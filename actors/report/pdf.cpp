@@ -1,17 +1,13 @@
 #include "actors/report/pdf.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <optional>
 #include <vector>
 
-#include "runtime/core/regular_file.hpp"
+#include "actors/output/run_program.hpp"
 
 namespace luxodus {
 
@@ -19,43 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of what a browser says, so much is repeated where it fails [bytes].
-constexpr uint64_t said_bytes = 4000;
 /// Pages of a PDF that are looked at, and how deep its tree of pages may be.
 constexpr size_t pdf_pages = 10'000;
 constexpr int tree_depth = 20;
-
-enum class Ran { well, badly, not_there };
-
-/// Runs a program with its words kept in a file instead of on the terminal.
-Ran runs(const std::vector<std::string>& words, const fs::path& said) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, said.c_str(),
-                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  ::posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t pid = 0;
-  const int failed =
-      ::posix_spawnp(&pid, arguments[0], &actions, nullptr, arguments.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return Ran::not_there;
-  int status = 0;
-  while (::waitpid(pid, &status, 0) < 0)
-    if (errno != EINTR) return Ran::badly;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) return Ran::not_there;
-  return status == 0 ? Ran::well : Ran::badly;
-}
-
-std::string last_words(const fs::path& said) {
-  const auto bytes = read_whole_file(said, uint64_t{1} << 20);
-  if (!bytes || bytes->empty()) return "";
-  const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-  return ", which said: " + text.substr(text.size() - std::min<size_t>(text.size(), said_bytes));
-}
 
 /// The objects of a PDF that are not in streams, by number.
 using Objects = std::map<int, std::string_view>;
@@ -132,9 +94,9 @@ Result<void> print_pdf(const fs::path& page, const fs::path& pdf) {
     // It has no sandbox for root; the page is ours and fetches nothing.
     if (::geteuid() == 0) words.emplace_back("--no-sandbox");
     words.push_back(address);
-    const Ran ran = runs(words, said);
-    const bool printed = ran == Ran::well && fs::exists(pdf, ignored);
-    if (!printed && ran != Ran::not_there)
+    const auto ran = run_program(words, said);
+    const bool printed = ran && ran.value() == 0 && fs::exists(pdf, ignored);
+    if (!printed && !(ran && ran.value() == -1))
       failed = std::string(browser) + " did not print it" + last_words(said);
     fs::remove(said, ignored);
     if (printed) return {};

@@ -1,5 +1,6 @@
 #include "actors/view/frames.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -54,12 +55,18 @@ constexpr double colour_known_at = 0.1;
 
 using Colour = std::array<double, 3>;
 
+/// Where light is counted, and what a bin makes of it.
+struct LightBins {
+  uint32_t block = 0, quantity = 0;
+  const std::vector<float>* factors = nullptr;  // by bin and band; null: 1
+};
+
 /// One source group's light in the bins of a block as linear sRGB, whose weighted sum is the
 /// luminance.
 class GroupColours {
  public:
-  GroupColours(const Readout& readout, const CompiledScene& scene, uint32_t block, int group)
-      : readout_(readout), scene_(scene), block_(block), group_(group) {}
+  GroupColours(const Readout& readout, const CompiledScene& scene, const LightBins& bins, int group)
+      : readout_(readout), scene_(scene), bins_(bins), group_(group) {}
 
   /// Takes a bin into the group's mean colour.
   void learn(uint32_t bin) {
@@ -70,7 +77,7 @@ class GroupColours {
   Colour of(uint32_t bin, double per_watt) const {
     const Colour own = xyz_of(bin);
     if (own[1] <= 0 || mean_[1] <= 0) return {};
-    const double error = readout_.lumens(block_, bin, 1, group_).relative_error();
+    const double error = lumens(bin).relative_error();
     const double known =
         std::isfinite(error) ? 1 / (1 + error * error / (colour_known_at * colour_known_at)) : 0;
     Colour mixed;
@@ -80,10 +87,20 @@ class GroupColours {
   }
 
  private:
+  Estimate lumens(uint32_t bin) const {
+    return readout_.lumens(bins_.block, bin, bins_.quantity, group_);
+  }
   Colour xyz_of(uint32_t bin) const {
     Colour xyz{};
+    const auto bands = static_cast<size_t>(scene_.bands.count());
     for (int b = 0; b < scene_.bands.count(); ++b) {
-      const double watts = readout_.watts(block_, bin, b, 1, group_).value;
+      const double factor =
+          bins_.factors == nullptr
+              ? 1
+              : static_cast<double>((*bins_.factors)[bin * bands + static_cast<size_t>(b)]);
+      if (factor == 0) continue;
+      const double watts =
+          factor * readout_.watts(bins_.block, bin, b, bins_.quantity, group_).value;
       const Band& band = scene_.bands[b];
       xyz[0] += watts * band.x_per_w;
       xyz[1] += watts * band.lm_per_w;
@@ -94,10 +111,14 @@ class GroupColours {
 
   const Readout& readout_;
   const CompiledScene& scene_;
-  uint32_t block_;
+  const LightBins bins_;
   int group_;
   Colour mean_{};
 };
+
+double luminance_of(const Colour& rgb) {
+  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
 
 void put_colour(Writer& out, const Colour& rgb) {
   for (const double channel : rgb) out.half(channel);
@@ -107,7 +128,7 @@ void put_colour(Writer& out, const Colour& rgb) {
 LiveFrame surface_light(const CompiledScene& scene, const Readout& readout,
                         const std::vector<LivePatch>& patches, uint32_t generation, int group) {
   Writer out(FrameKind::light, generation, static_cast<uint32_t>(group));
-  GroupColours colours(readout, scene, scene.blocks.patches, group);
+  GroupColours colours(readout, scene, {scene.blocks.patches, 1}, group);
   for (const LivePatch& patch : patches)
     for (const uint32_t bin : {patch.front, patch.back}) colours.learn(bin);
   for (const LivePatch& patch : patches) {
@@ -117,12 +138,18 @@ LiveFrame surface_light(const CompiledScene& scene, const Readout& readout,
   return out.take();
 }
 
-/// What flames of a group send out themselves, by the voxels that they are in: X, Y, Z.
+/// What flames of a group that are not shown apart send out themselves, by the voxels that they are
+/// in: X, Y, Z.
 std::unordered_map<uint32_t, Colour> flames_in_voxels(const CompiledScene& scene,
-                                                      const SceneIndex& index, int group) {
+                                                      const SceneIndex& index,
+                                                      const std::vector<LiveFlame>& apart,
+                                                      int group) {
   std::unordered_map<uint32_t, Colour> out;
   for (const CompiledEmitter& e : scene.emitters) {
     if (e.group != group || e.kind != EmitterKind::volume) continue;
+    if (std::any_of(apart.begin(), apart.end(),
+                    [&](const LiveFlame& flame) { return flame.medium == e.medium; }))
+      continue;
     Colour each{};  // of a point
     for (int b = 0; b < scene.bands.count(); ++b) {
       const double watts = e.power_w[static_cast<size_t>(b)] / limits::flame_points;
@@ -140,24 +167,75 @@ std::unordered_map<uint32_t, Colour> flames_in_voxels(const CompiledScene& scene
   return out;
 }
 
-/// What a metre of each voxel sends towards an eye: scattered light, evenly, and flames' own.
+/// Net flux of a group's light in a voxel by its fluence: which way it goes, and how much of it.
+glm::dvec3 drift(const Readout& readout, const CompiledScene& scene, uint32_t voxel, int group) {
+  const auto lumens = [&](uint32_t quantity) {
+    return readout.lumens(scene.blocks.voxels, voxel, quantity, group).value;
+  };
+  const double fluence = lumens(0);
+  if (!(fluence > 0)) return glm::dvec3(0);
+  const glm::dvec3 out = glm::dvec3(lumens(1), lumens(2), lumens(3)) / fluence;
+  return out / std::max(1.0, glm::length(out));
+}
+
+/// What a metre of each voxel sends out, scattered and of flames, as the mean over directions; and
+/// what scatters of it, as a vector along the light that it is scattered from.
 LiveFrame smoke_light(const CompiledScene& scene, const SceneIndex& index, const Readout& readout,
-                      uint32_t generation, int group) {
+                      const LiveSmoke& air, uint32_t generation, int group) {
   Writer out(FrameKind::smoke_light, generation, static_cast<uint32_t>(group));
   const auto edge = static_cast<double>(scene.voxels.edge);
   const double per_watt = 1 / (4 * pi * edge * edge * edge);
-  const auto flames = flames_in_voxels(scene, index, group);
-  GroupColours colours(readout, scene, scene.blocks.voxel_power, group);
+  const auto flames = flames_in_voxels(scene, index, *air.flames, group);
+  GroupColours colours(readout, scene, {scene.blocks.voxels, 0, air.scattering.get()}, group);
   for (uint32_t i = 0; i < scene.voxels.count(); ++i) colours.learn(i);
   for (uint32_t i = 0; i < scene.voxels.count(); ++i) {
     Colour light = colours.of(i, per_watt);
+    const double scattered = luminance_of(light);
     if (const auto flame = flames.find(i); flame != flames.end()) {
       const Colour own = linear_srgb_from_xyz(flame->second);
       for (size_t k = 0; k < light.size(); ++k) light[k] += own[k] * per_watt;
     }
     put_colour(out, light);
+    const glm::dvec3 beam =
+        scattered > 0 ? scattered * drift(readout, scene, i, group) : glm::dvec3(0);
+    put_colour(out, {beam.x, beam.y, beam.z});
   }
   return out.take();
+}
+
+/// Extinction and mean cosine of scattering in the middle band, nearest to what an eye sees best,
+/// and scattering coefficients of all bands. Means over points of the voxel.
+struct VoxelMedium {
+  double extinction = 0;           // [1/m]
+  double cosine = 0;               // 0 where nothing scatters
+  std::vector<double> scattering;  // [1/m], by band
+};
+
+VoxelMedium medium_of(const CompiledScene& scene, const glm::vec3& low, ResidentData& data) {
+  constexpr int points_a_side = 2;
+  constexpr double share = 1.0 / (points_a_side * points_a_side * points_a_side);
+  const int middle = scene.bands.count() / 2;
+  VoxelMedium out;
+  out.scattering.resize(static_cast<size_t>(scene.bands.count()));
+  double cosines = 0;
+  for (int point = 0; point < points_a_side * points_a_side * points_a_side; ++point) {
+    const glm::vec3 at(point % points_a_side, point / points_a_side % points_a_side,
+                       point / points_a_side / points_a_side);
+    const glm::vec3 place = low + (at + 0.5f) * (scene.voxels.edge / points_a_side);
+    for (int b = 0; b < scene.bands.count(); ++b)
+      for_each_medium_at(scene.media, b, place, data,
+                         [&](int, int phase, double sigma_t, double albedo) {
+                           const double scatters = share * sigma_t * albedo;
+                           out.scattering[static_cast<size_t>(b)] += scatters;
+                           if (b != middle) return;
+                           out.extinction += share * sigma_t;
+                           const PhaseFunction& how = scene.phases[static_cast<size_t>(phase)];
+                           cosines += scatters * static_cast<double>(how.mean_cosine());
+                         });
+  }
+  const double scatters = out.scattering[static_cast<size_t>(middle)];
+  out.cosine = scatters > 0 ? cosines / scatters : 0;
+  return out;
 }
 
 }  // namespace
@@ -192,9 +270,10 @@ Result<LiveGeometry> geometry_of(const CompiledScene& scene, uint32_t generation
 }
 
 std::vector<LiveFrame> light_frames(const LiveRun& run, const std::vector<LivePatch>& patches,
-                                    uint32_t generation, const std::vector<int>& groups) {
+                                    const LiveSmoke& air, uint32_t generation,
+                                    const std::vector<int>& groups) {
   const CompiledScene& scene = run.scene();
-  const bool smoke = scene.voxels.edge > 0;
+  const bool smoke = air.scattering != nullptr;
   const size_t count = groups.size();
   std::vector<LiveFrame> out(smoke ? 2 * count : count);
   run.rows().run(static_cast<int64_t>(out.size()), [&](const GeometryAccess&) {
@@ -203,7 +282,7 @@ std::vector<LiveFrame> light_frames(const LiveRun& run, const std::vector<LivePa
       const int group = groups[at % count];
       const Readout readout(scene, run.shown(group));
       out[at] = at < count ? surface_light(scene, readout, patches, generation, group)
-                           : smoke_light(scene, run.index(), readout, generation, group);
+                           : smoke_light(scene, run.index(), readout, air, generation, group);
     };
   });
   return out;
@@ -257,19 +336,25 @@ LiveFrame relaid(const LiveFrame& light, const std::vector<uint32_t>& triangles_
   return std::make_shared<const std::string>(std::move(out));
 }
 
-LiveFrame smoke_frame(const CompiledScene& scene, const SceneIndex& index, uint32_t generation) {
+LiveSmoke smoke_of(const CompiledScene& scene, const SceneIndex& index, uint32_t generation) {
   const VoxelGrid& grid = scene.voxels;
-  if (!(grid.edge > 0)) return nullptr;
+  if (!(grid.edge > 0)) return {};
   Writer out(FrameKind::smoke, generation, grid.count());
   ResidentData data(scene, index);
-  const int band = scene.bands.count() / 2;  // nearest to what an eye sees best
+  std::vector<float> scattering;
+  scattering.reserve(size_t{grid.count()} * static_cast<size_t>(scene.bands.count()));
   for (int z = 0; z < grid.nz; ++z)
     for (int y = 0; y < grid.ny; ++y)
       for (int x = 0; x < grid.nx; ++x) {
-        const glm::vec3 centre = grid.low + (glm::vec3(x, y, z) + glm::vec3(0.5f)) * grid.edge;
-        out.half(extinction_at(scene.media, band, centre, data));
+        const VoxelMedium medium =
+            medium_of(scene, grid.low + glm::vec3(x, y, z) * grid.edge, data);
+        out.half(medium.extinction);
+        out.half(medium.cosine);
+        for (const double sigma : medium.scattering)
+          scattering.push_back(static_cast<float>(sigma));
       }
-  return out.take();
+  return {out.take(), std::make_shared<const std::vector<float>>(std::move(scattering)),
+          std::make_shared<const std::vector<LiveFlame>>(flames_of(scene, index))};
 }
 
 }  // namespace luxodus

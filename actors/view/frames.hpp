@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "actors/view/flames.hpp"
 #include "actors/view/live_run.hpp"
 
 namespace luxodus {
@@ -27,9 +28,23 @@ struct LiveGeometry {
 /// Every flux patch as a triangle. Errors: a packed scene that cannot be read.
 Result<LiveGeometry> geometry_of(const CompiledScene& scene, uint32_t generation);
 
+/// The air of a generation; nothing where no medium is.
+struct LiveSmoke {
+  LiveFrame frame;
+  /// Scattering coefficients by voxel and band [1/m].
+  std::shared_ptr<const std::vector<float>> scattering;
+  /// Those that are shown apart: voxels do not glow with them.
+  std::shared_ptr<const std::vector<LiveFlame>> flames;
+};
+
+/// Extinction of the voxels, and how much they scatter onwards.
+LiveSmoke smoke_of(const CompiledScene& scene, const SceneIndex& index, uint32_t generation);
+
 /// Light of some source groups on surfaces and, where there is smoke, in it; by the run's threads.
+/// Requires: `smoke` is that of the run's scene.
 std::vector<LiveFrame> light_frames(const LiveRun& run, const std::vector<LivePatch>& patches,
-                                    uint32_t generation, const std::vector<int>& groups);
+                                    const LiveSmoke& smoke, uint32_t generation,
+                                    const std::vector<int>& groups);
 
 /// What a frame says of itself.
 struct FrameHead {
@@ -48,8 +63,5 @@ std::shared_ptr<const std::vector<uint32_t>> triangles_from(const std::vector<Li
                                                             const BinMap& bins);
 /// Light on surfaces for other triangles: that of those that each was before, none on new ones.
 LiveFrame relaid(const LiveFrame& light, const std::vector<uint32_t>& triangles_before);
-
-/// Extinction of the voxels; none where no medium is.
-LiveFrame smoke_frame(const CompiledScene& scene, const SceneIndex& index, uint32_t generation);
 
 }  // namespace luxodus

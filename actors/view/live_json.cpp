@@ -117,6 +117,19 @@ Json luminaires_json(const SceneDescription& scene, const SceneEdits& edits) {
   return out;
 }
 
+Json flames_json(const LiveGeneration& generation) {
+  Json out = Json::array();
+  if (!generation.flames) return out;
+  for (const LiveFlame& flame : *generation.flames)
+    out.push_back({{"group", flame.group},
+                   {"low", place(flame.low)},
+                   {"size", place(flame.size)},
+                   {"count", {flame.count.x, flame.count.y, flame.count.z}},
+                   {"colour", {flame.colour[0], flame.colour[1], flame.colour[2]}},
+                   {"cells", base64(flame.cells)}});
+  return out;
+}
+
 Json voxels_json(const CompiledScene& scene) {
   const VoxelGrid& grid = scene.voxels;
   if (!(grid.edge > 0)) return {};
@@ -163,6 +176,7 @@ Json live_scene_json(const SceneDescription& scene, const LiveGeneration& genera
           {"observers", observers},
           {"cameras", cameras},
           {"voxels", voxels_json(compiled)},
+          {"flames", flames_json(generation)},
           {"editor", editor}};
 }
 

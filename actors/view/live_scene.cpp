@@ -99,6 +99,31 @@ Result<SceneDescription> live_description(const SceneDescription& scene, const S
   return out;
 }
 
+Result<SceneDescription> dimmed_description(const SceneDescription& scene, const SceneEdits& edits,
+                                            const std::map<std::string, double>& factors) {
+  auto out = live_description(scene, edits);
+  if (!out) return out;
+  const auto factor_of = [&](const std::string& group) {
+    const auto at = factors.find(group);
+    return at == factors.end() ? 1.0 : at->second;
+  };
+  for (Emitter& e : out->emitters) {
+    const double factor = factor_of(e.group);
+    e.mains_flux *= factor;
+    e.emergency_flux *= factor;
+  }
+  for (Sign& sign : out->signs) {
+    const double factor = factor_of(sign.group);
+    for (SignState* state : {&sign.mains, &sign.emergency}) {
+      state->white_cd_m2 *= factor;
+      state->green_cd_m2 *= factor;
+    }
+  }
+  for (Medium& medium : out->media)
+    if (medium.emission) medium.emission->power_w *= factor_of(medium.emission->group);
+  return out;
+}
+
 std::optional<double> seconds_said(const Scenario& scenario) {
   if (scenario.operation == Operation::mains || !scenario.says_seconds) return std::nullopt;
   return scenario.seconds_after_failure;
@@ -119,21 +144,49 @@ std::map<std::string, double> shares_after(const SceneDescription& scene, Operat
   return out;
 }
 
-Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription& scene,
-                                                          const SceneEdits& edits) {
-  auto description = live_description(scene, edits);
-  if (!description) return description.problem();
+namespace {
+
+/// The scenario that is asked for, in its smoke. What time does to its light are factors.
+Result<Scenario> live_scenario(const SceneDescription& scene, const SceneEdits& edits) {
   auto scenario = find_scenario(scene, edits.scenario);
-  if (!scenario) return scenario.problem();
+  if (!scenario) return scenario;
   Scenario& state = scenario.value();
   state.smoke_factor *= edits.smoke;
   for (Scenario::Factor& medium : state.media) medium.factor *= edits.smoke;
   state.seconds_after_failure = 0;
   state.says_seconds = false;
+  return scenario;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription& scene,
+                                                          const SceneEdits& edits) {
+  auto description = live_description(scene, edits);
+  if (!description) return description.problem();
+  const auto scenario = live_scenario(scene, edits);
+  if (!scenario) return scenario.problem();
   CompileOptions options;
   options.bands_of = &scene;
-  return compile_scene(std::make_shared<SceneDescription>(std::move(description).value()), state,
-                       options);
+  return compile_scene(std::make_shared<SceneDescription>(std::move(description).value()),
+                       scenario.value(), options);
+}
+
+Result<std::shared_ptr<const CompiledScene>> compile_dimmed(
+    const SceneDescription& scene, const SceneEdits& edits,
+    const std::map<std::string, double>& factors) {
+  auto description = dimmed_description(scene, edits, factors);
+  if (!description) return description.problem();
+  for (Emitter& e : description->emitters) e.group.clear();
+  for (Sign& sign : description->signs) sign.group.clear();
+  for (Medium& medium : description->media)
+    if (medium.emission) medium.emission->group.clear();
+  description->run.groups = GroupRule::one;
+  description->run.batch_particles = scene.run.batch_particles;
+  const auto scenario = live_scenario(scene, edits);
+  if (!scenario) return scenario.problem();
+  return compile_scene(std::make_shared<SceneDescription>(std::move(description).value()),
+                       scenario.value(), {});
 }
 
 std::string name_for_copy(const SceneDescription& scene, const SceneEdits& edits,

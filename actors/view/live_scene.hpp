@@ -38,6 +38,11 @@ std::string group_of_flame(const std::string& medium);
 /// surfaces and smoke. Errors: a facing that has no upright; a copy of what is not there.
 Result<SceneDescription> live_description(const SceneDescription& scene, const SceneEdits& edits);
 
+/// The same with luminaires, signs and flames dimmed by the factors of their groups.
+/// Errors: as live_description.
+Result<SceneDescription> dimmed_description(const SceneDescription& scene, const SceneEdits& edits,
+                                            const std::map<std::string, double>& factors);
+
 /// How long the mains have failed in a scenario; none where they have not, or it does not say.
 std::optional<double> seconds_said(const Scenario& scenario);
 /// Share of what is traced that groups give so long after the mains have failed:
@@ -52,6 +57,12 @@ std::map<std::string, double> shares_after(const SceneDescription& scene, Operat
 /// scenario.
 Result<std::shared_ptr<const CompiledScene>> compile_live(const SceneDescription& scene,
                                                           const SceneEdits& edits);
+
+/// As it stands with these factors, all of its light one source group: for pictures, which ask for
+/// no more. Errors: as compile_live.
+Result<std::shared_ptr<const CompiledScene>> compile_dimmed(
+    const SceneDescription& scene, const SceneEdits& edits,
+    const std::map<std::string, double>& factors);
 
 /// A name for a copy of a sign or luminaire, that nothing in the scene or in the edits has: "exit
 /// copy", then "exit copy 2"; also of copies, which are counted on.

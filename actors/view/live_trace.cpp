@@ -160,7 +160,8 @@ bool LiveTrace::take_kept(const SceneEdits& edits) {
     geometry_ = std::move(taken.geometry);
     geometry_.frame = readdressed(geometry_.frame, generation_ + 1, 0);
   }
-  smoke_ = taken.smoke ? readdressed(taken.smoke, generation_ + 1, 0) : nullptr;
+  smoke_ = std::move(taken.smoke);
+  if (smoke_.frame) smoke_.frame = readdressed(smoke_.frame, generation_ + 1, 0);
   return true;
 }
 
@@ -177,8 +178,8 @@ void LiveTrace::begin(const SceneEdits& edits) {
   // What is kept is of another state than what is shown: no viewer has it.
   const auto lights =
       again ? std::vector<ShownLight>(run_->lights().size(), ShownLight::none) : run_->lights();
-  audience_.begins({generation_, edits, run_->shared_scene(), geometry_.frame, smoke_, lights,
-                    std::move(triangles_before)});
+  audience_.begins({generation_, edits, run_->shared_scene(), geometry_.frame, smoke_.frame, lights,
+                    std::move(triangles_before), smoke_.flames});
 }
 
 bool LiveTrace::begin_anew(const SceneEdits& edits,
@@ -206,8 +207,7 @@ bool LiveTrace::begin_anew(const SceneEdits& edits,
   }
   if (run_) keep(edits);
   if (other) geometry_ = *std::move(other);
-  if (!same_air || !run->same_geometry())
-    smoke_ = smoke_frame(run->scene(), run->index(), generation);
+  if (!same_air || !run->same_geometry()) smoke_ = smoke_of(run->scene(), run->index(), generation);
   run_ = std::move(run);
   return true;
 }
@@ -235,7 +235,7 @@ bool LiveTrace::reach(int64_t level, LiveRun::Scope scope) {
     const std::vector<int> some(
         begin, begin + static_cast<std::ptrdiff_t>(std::min(most, groups.size() - first)));
     run_->tell(some);
-    audience_.lit(generation_, light_frames(*run_, geometry_.patches, generation_, some));
+    audience_.lit(generation_, light_frames(*run_, geometry_.patches, smoke_, generation_, some));
   }
   if (interrupt_) return false;
   if (groups.empty()) return true;

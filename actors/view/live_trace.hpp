@@ -50,6 +50,8 @@ struct LiveGeneration {
   /// Which triangle of the generation before each was, or none_index; null where all are the same
   /// ones, or none is.
   std::shared_ptr<const std::vector<uint32_t>> triangles_before = nullptr;
+  /// Flames that are shown apart from voxels; null where no medium is.
+  std::shared_ptr<const std::vector<LiveFlame>> flames = nullptr;
 };
 
 /// Who is told. Called on the tracing thread.
@@ -132,14 +134,14 @@ class LiveTrace {
   uint64_t number_ = 0;  // of the edits that it looked at last
   SceneEdits traced_;
   LiveGeometry geometry_;
-  LiveFrame smoke_;
+  LiveSmoke smoke_;
   std::unique_ptr<LiveRun> run_;
   /// States of other times, the last shown first.
   struct Kept {
     SceneEdits edits;
     std::unique_ptr<LiveRun> run;
     LiveGeometry geometry;
-    LiveFrame smoke;
+    LiveSmoke smoke;
   };
   std::deque<Kept> kept_;
   bool refined_ = false;

@@ -1,5 +1,6 @@
 #include "actors/view/page_message.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "actors/output/json_out.hpp"
@@ -58,6 +59,10 @@ class Members {
     if (kind != "sign" && kind != "luminaire") refuse(key, "\"sign\" or \"luminaire\"");
     return kind == "sign";
   }
+  /// Says what a member should be; the first that is wrong is remembered.
+  void refuse(const char* key, const char* should) {
+    if (problem_.empty()) problem_ = std::string("\"") + key + "\" must be " + should;
+  }
   bool has(const char* key) const { return object_.contains(key) && !object_[key].is_null(); }
   const std::string& problem() const { return problem_; }
 
@@ -65,9 +70,6 @@ class Members {
   const Json* find(const char* key) const {
     const auto at = object_.find(key);
     return at == object_.end() ? nullptr : &*at;
-  }
-  void refuse(const char* key, const char* should) {
-    if (problem_.empty()) problem_ = std::string("\"") + key + "\" must be " + should;
   }
 
   const Json& object_;
@@ -92,6 +94,24 @@ AddEdit read_add(Members& m) {
   return out;
 }
 
+RenderAsk read_render(Members& m) {
+  RenderAsk out;
+  out.id = m.whole("id", int64_t{1} << 53);
+  out.eye = m.vector("eye");
+  out.target = m.vector("target");
+  out.up = m.vector("up");
+  if (out.eye == out.target) m.refuse("target", "another place than the eye");
+  if (out.up == glm::dvec3(0)) m.refuse("up", "a direction");
+  out.vertical_fov_deg = m.number("fov", 1, 170);
+  out.width = static_cast<int>(m.whole("width", limits::view_picture_pixels));
+  out.height = static_cast<int>(m.whole("height", limits::view_picture_pixels));
+  if (std::min(out.width, out.height) < limits::min_view_picture_edge ||
+      int64_t{out.width} * out.height > limits::view_picture_pixels)
+    m.refuse("width", "16 at least, as \"height\", and both together 524288 pixels at most");
+  out.human = m.flag("human");
+  return out;
+}
+
 std::optional<PageMessage> read_message(const std::string& type, Members& m) {
   if (type == "factor")
     return FactorEdit{m.text("group"), m.number("factor", 0, limits::max_view_factor)};
@@ -111,6 +131,8 @@ std::optional<PageMessage> read_message(const std::string& type, Members& m) {
     return ProbeAsk{m.whole("id", int64_t{1} << 53),
                     static_cast<uint32_t>(m.whole("triangle", UINT32_MAX)), m.flag("front")};
   if (type == "judge") return JudgeAsk{m.text("sign")};
+  if (type == "render") return read_render(m);
+  if (type == "stop_render") return RenderStop{};
   return std::nullopt;
 }
 
@@ -137,7 +159,9 @@ Result<PageMessage> decode_page_message(std::string_view text) {
 
 bool is_edit(const PageMessage& message) {
   return !std::holds_alternative<EditWish>(message) && !std::holds_alternative<ProbeAsk>(message) &&
-         !std::holds_alternative<JudgeAsk>(message);
+         !std::holds_alternative<JudgeAsk>(message) &&
+         !std::holds_alternative<RenderAsk>(message) &&
+         !std::holds_alternative<RenderStop>(message);
 }
 
 }  // namespace luxodus

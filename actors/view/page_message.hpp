@@ -18,6 +18,9 @@ inline constexpr double max_view_factor = 10, max_view_smoke = 100, max_view_sec
 inline constexpr size_t view_name_chars = 200;
 /// Copies in one view: each is a source group of its own, with its totals and its light.
 inline constexpr size_t view_added = 256;
+/// Of a traced picture: 960 x 546. Its sums take 280 MB.
+inline constexpr int64_t view_picture_pixels = 1 << 19;
+inline constexpr int min_view_picture_edge = 16;
 }  // namespace limits
 
 struct FactorEdit {
@@ -66,8 +69,19 @@ struct ProbeAsk {
 struct JudgeAsk {
   std::string sign;
 };
-using PageMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, StateEdit, TimeEdit, MoveEdit,
-                                 AddEdit, RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk>;
+/// A traced picture of what the viewer looks at.
+struct RenderAsk {
+  int64_t id = 0;
+  glm::dvec3 eye{0}, target{1, 0, 0}, up{0, 0, 1};
+  double vertical_fov_deg = 60;
+  int width = 0, height = 0;
+  bool human = false;  // as an adapted eye sees it, instead of one exposure
+};
+/// The viewer's picture is wanted no longer.
+struct RenderStop {};
+using PageMessage =
+    std::variant<FactorEdit, ScenarioEdit, SmokeEdit, StateEdit, TimeEdit, MoveEdit, AddEdit,
+                 RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk, RenderAsk, RenderStop>;
 
 /// Errors: what is no message, one sentence.
 Result<PageMessage> decode_page_message(std::string_view text);

@@ -15,24 +15,8 @@ constexpr int rounds = 3;
 /// The building with all that viewers have changed, dimming too.
 Result<SceneDescription> as_it_stands(const SceneDescription& scene, const SceneEdits& edits,
                                       const std::map<std::string, double>& factors) {
-  auto out = live_description(scene, edits);
+  auto out = dimmed_description(scene, edits, factors);
   if (!out) return out;
-  const auto factor_of = [&](const std::string& group) {
-    const auto at = factors.find(group);
-    return at == factors.end() ? 1.0 : at->second;
-  };
-  for (Emitter& e : out->emitters) {
-    const double factor = factor_of(e.group);
-    e.mains_flux *= factor;
-    e.emergency_flux *= factor;
-  }
-  for (Sign& sign : out->signs) {
-    const double factor = factor_of(sign.group);
-    for (SignState* state : {&sign.mains, &sign.emergency}) {
-      state->white_cd_m2 *= factor;
-      state->green_cd_m2 *= factor;
-    }
-  }
   out->observers = scene.observers;
   out->run = scene.run;
   return out;

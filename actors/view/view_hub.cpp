@@ -80,11 +80,20 @@ ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions
     dimming_.seconds = seconds_said(scenario.value());
   if (scene_->time && options_.live.scene_at) edits_.at_s = scene_->at_s;
   trace_.reset(new LiveTrace(scene_, options_.live, edits_, *this));
+  pictures_ = std::make_unique<ViewPictures>(
+      options_.live, [this](std::optional<double> at_s) { return trace_->scene_at(at_s); },
+      [this](uint64_t number, const Json& message) {
+        post_([this, number, text = text_of(message)] {
+          if (Viewer* const viewer = viewer_of(number)) viewer->send_text(text);
+        });
+      },
+      options_.pictures);
 }
 
 ViewHub::~ViewHub() {
   ends_ = true;
   if (judge_.joinable()) judge_.join();
+  pictures_.reset();
   trace_.reset();
 }
 
@@ -203,6 +212,7 @@ void ViewHub::joins(Viewer& viewer) {
 }
 
 void ViewHub::leaves(Viewer& viewer) {
+  pictures_->cancel(viewers_[&viewer]);
   viewers_.erase(&viewer);
   if (editor_ == &viewer) editor_ = nullptr;
 }
@@ -417,6 +427,14 @@ void ViewHub::handle(Viewer& viewer, const JudgeAsk& ask) {
   else
     to_judge_.emplace_back(number, ask);
   judge_next();
+}
+
+void ViewHub::handle(Viewer& viewer, const RenderAsk& ask) {
+  pictures_->order({viewers_[&viewer], ask, edits_, dimming_.both()});
+}
+
+void ViewHub::handle(Viewer& viewer, const RenderStop&) {
+  pictures_->cancel(viewers_[&viewer]);
 }
 
 void ViewHub::judge_next() {

@@ -11,6 +11,7 @@
 #include "actors/output/json_out.hpp"
 #include "actors/view/live_json.hpp"
 #include "actors/view/page_message.hpp"
+#include "actors/view/view_pictures.hpp"
 
 namespace luxodus {
 
@@ -29,6 +30,7 @@ struct HubOptions {
   LiveOptions live;
   SceneEdits first;
   std::filesystem::path save_folder;  // where variants are written
+  ViewPictureLimits pictures = {};
 };
 
 class ViewHub final : private LiveAudience {
@@ -62,6 +64,8 @@ class ViewHub final : private LiveAudience {
   void handle(Viewer& viewer, const EditWish& edits);
   void handle(Viewer& viewer, const ProbeAsk& ask);
   void handle(Viewer& viewer, const JudgeAsk& ask);
+  void handle(Viewer& viewer, const RenderAsk& ask);
+  void handle(Viewer& viewer, const RenderStop& stop);
   /// Has the edits traced. Until that begins it may be refused, and is taken back then.
   void edits();
   void take_back();
@@ -106,7 +110,8 @@ class ViewHub final : private LiveAudience {
   std::thread judge_;
   bool judging_ = false;
   std::deque<std::pair<uint64_t, JudgeAsk>> to_judge_;  // by viewer: the last that each asked for
-  std::unique_ptr<LiveTrace> trace_;                    // the last: it tells at once
+  std::unique_ptr<LiveTrace> trace_;                    // the last but one: it tells at once
+  std::unique_ptr<ViewPictures> pictures_;              // asks trace_ for the scene
 };
 
 }  // namespace luxodus

@@ -31,6 +31,12 @@ eye = [0.3, 0.3, 1.6]
 target = [3, 2.4, 1.6]
 width = 16
 height = 10
+[[camera]]
+name = "other"
+eye = [4.7, 0.3, 1.2]
+target = [3, 2.4, 1.6]
+width = 16
+height = 10
 )";
 
 /// A room with a run in it.
@@ -74,17 +80,52 @@ TEST_CASE("ffmpeg makes a film of the frames, and a film that fails is an error"
     fs::permissions(tools / "ffmpeg", fs::perms::owner_all);
   };
   const std::string with_tools = "env PATH=" + tools.string() + ":/usr/bin:/bin ";
-  install("exit 3");
+  install("echo no room for it >&2; exit 3");
   const Outcome failed = place.render(walk, with_tools);
   CHECK(failed.code == 2);
-  CHECK_THAT(failed.err, Contains("ffmpeg failed with code 3"));
+  CHECK_THAT(failed.err, Contains("ffmpeg failed with code 3, which said: no room for it"));
   CHECK_FALSE(fs::exists(place.out / "films/to_the_door.mp4"));
   install("exit 0");
   CHECK(place.render(walk, with_tools).code == 0);
   const std::string told = slurp(place.out / "films/to_the_door.mp4");
   CHECK_THAT(told, Contains("-framerate 2 "));
   CHECK_THAT(told, Contains("-frames:v 7 "));
-  CHECK_THAT(told, Contains("films/to_the_door/%06d.png"));
+  CHECK_THAT(told, Contains("-i %06d.png "));
+  for (const auto& entry : fs::directory_iterator(place.out / "films"))
+    CHECK(entry.path().filename().string().front() != '.');
+}
+
+TEST_CASE("the real ffmpeg makes a film in a folder with a percent sign", "[program][film]") {
+  if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) {
+    WARN("there is no ffmpeg on the path: not tested");
+    return;
+  }
+  WalkedRoom place;
+  const fs::path odd = place.folder / "50%06d of it";
+  fs::rename(place.out, odd);
+  place.out = odd;
+  const Outcome made = place.luxodus("render \"" + odd.string() + "\" " + walk);
+  INFO(made.err);
+  CHECK(made.code == 0);
+  const fs::path film = odd / "films/to_the_door.mp4";
+  REQUIRE(fs::exists(film));
+  CHECK_THAT(slurp(film), Contains("ftyp"));
+  // 7 frames at 2 a second.
+  const std::string probe =
+      "test \"$(ffprobe -v error -count_frames -show_entries "
+      "stream=nb_read_frames,width,height -of csv=p=0 \"";
+  CHECK(std::system((probe + film.string() + "\")\" = 16,10,7").c_str()) == 0);
+}
+
+TEST_CASE("a film goes through cameras of the scene", "[program][film]") {
+  const WalkedRoom place;
+  const Outcome made = place.render("--through 0s=small --through 1.5s=other --fps 2 --paths 4",
+                                    "env PATH=/nowhere ");
+  INFO(made.err);
+  CHECK(made.code == 0);
+  const fs::path frames = place.out / "films/small_to_other";
+  CHECK(fs::exists(frames / "000003.png"));
+  CHECK_FALSE(fs::exists(frames / "000004.png"));
 }
 
 TEST_CASE("a film that cannot be made is refused with one clear error", "[program][film]") {
@@ -101,8 +142,13 @@ TEST_CASE("a film that cannot be made is refused with one clear error", "[progra
   refused("--route \"to the door\" --fps -1", "--fps");
   refused("--route \"to the door\" --speed 0.01 --fps 240 --paths 1", "frames");
   refused("--route \"to the door\" --view nowhere", "there is no camera \"nowhere\"");
-  refused("--route \"to the door\" --picture-time 5s", "excludes --picture-time");
+  refused("--route \"to the door\" --picture-time 5s", "exclude --picture-time");
   refused("--speed 2", "--route");
+  refused("--fps 2", "--through");
+  refused("--route \"to the door\" --through 0s=small", "excludes --through");
+  refused("--through 0s=small", "two cameras");
+  refused("--through small", "TIME=CAMERA");
+  refused("--through 0s=small --through 2s=nowhere", "there is no camera \"nowhere\"");
   fs::remove(place.out / "flux.lux");
   refused("--route \"to the door\" --paths 1 --fps 1", "flux.lux");
 }

@@ -157,6 +157,11 @@ const voxelCentre = (i) => {
   return [i % nx, Math.floor(i / nx) % ny, Math.floor(i / (nx * ny))].map((n) => (n + 0.5) * edge);
 };
 
+const weigh = (c) => 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+
+/** Of the smoke's scattering. */
+const meanCosine = 0.6;
+
 /** Extinction [1/m]: a layer below the ceiling, a plume above the flame. */
 function extinction([x, y, z], smoke) {
   const layer = 0.35 / (1 + Math.exp(-(z - 1.9) / 0.18));
@@ -219,13 +224,16 @@ export function lightFrame(generation, group, state) {
 }
 
 export function smokeFrame(generation, state) {
-  const halves = new Uint16Array(voxelCount);
-  for (let i = 0; i < voxelCount; ++i) halves[i] = toHalf(extinction(voxelCentre(i), state.smoke));
+  const halves = new Uint16Array(2 * voxelCount);
+  for (let i = 0; i < voxelCount; ++i) {
+    halves[2 * i] = toHalf(extinction(voxelCentre(i), state.smoke));
+    halves[2 * i + 1] = toHalf(meanCosine);
+  }
   return framed(3, generation, 0, halves);
 }
 
 export function smokeLightFrame(generation, group, state) {
-  const halves = new Uint16Array(3 * voxelCount);
+  const halves = new Uint16Array(6 * voxelCount);
   const { colour } = state.sources[group];
   const position = positionOf(state.sources[group], state);
   for (let i = 0; i < voxelCount; ++i) {
@@ -234,7 +242,11 @@ export function smokeLightFrame(generation, group, state) {
     const far2 = Math.max(0.1, dot(to, to));
     const seen = hidden(centre, position) ? 0.05 : 1;
     const j = (0.6 * extinction(centre, state.smoke) * seen) / (4 * Math.PI * far2);
-    colour.forEach((c, k) => (halves[3 * i + k] = toHalf(j * c)));
+    const scattered = 0.8 * j * weigh(colour);
+    for (let k = 0; k < 3; ++k) {
+      halves[6 * i + k] = toHalf(j * colour[k]);
+      halves[6 * i + 3 + k] = toHalf((-scattered * to[k]) / Math.sqrt(far2));
+    }
   }
   return framed(4, generation, group, halves);
 }
@@ -246,13 +258,28 @@ export function probe(state, { triangle, front }) {
   const e = [0, 0, 0];
   for (const source of state.sources)
     lit(source, state, centre, n).forEach((x, c) => (e[c] += state.factors[source.name] * x));
-  const weigh = (c) => 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
   const illuminance = weigh(e);
   const luminance = weigh(e.map((x, c) => (x * albedo[c]) / Math.PI));
   return { illuminance, illuminance_error: 0.02 * illuminance, luminance,
     luminance_error: 0.02 * luminance, direct: 0.9 * illuminance,
     surface: surfaceNames[mesh.kinds[triangle]] };
 }
+
+/** A cone over the bin, brightest below. */
+function flameCells([nx, ny, nz]) {
+  const cells = new Uint8Array(nx * ny * nz);
+  for (let i = 0; i < cells.length; ++i) {
+    const [x, y] = [i % nx, Math.floor(i / nx) % ny].map((n, k) => (2 * n + 1) / [nx, ny][k] - 1);
+    const z = (Math.floor(i / (nx * ny)) + 0.5) / nz;
+    if (Math.hypot(x, y) < 1 - z) cells[i] = Math.round(255 * (1 - z));
+  }
+  return Buffer.from(cells).toString('base64');
+}
+
+export const flames = [
+  { group: 'fire in a bin', low: [9.35, 0.75, 0.4], size: [0.5, 0.5, 0.9], count: [10, 10, 18],
+    colour: [9000, 3300, 600], cells: flameCells([10, 10, 18]) },
+];
 
 export const observers = [
   { name: 'west, by the table', eye: [0.8, 2.2, 1.65], gaze: [5.7, 0.7, 0.35] },

@@ -2,8 +2,37 @@
 // By hand: `node mock_server.mjs 8099`, then open http://127.0.0.1:8099/
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
+import { deflateSync } from 'node:zlib';
 import { fileURLToPath } from 'node:url';
 import * as room from './mock_room.mjs';
+
+/** A grey PNG file. Its checksums are right, so browsers show it. */
+export function greyPng(width, height) {
+  const crc = (bytes) => {
+    let c = 0xffffffff;
+    for (const byte of bytes) {
+      c ^= byte;
+      for (let k = 0; k < 8; ++k) c = c & 1 ? (c >>> 1) ^ 0xedb88320 : c >>> 1;
+    }
+    return (c ^ 0xffffffff) >>> 0;
+  };
+  const chunk = (type, data) => {
+    const body = Buffer.concat([Buffer.from(type), data]);
+    const out = Buffer.alloc(body.length + 8);
+    out.writeUInt32BE(data.length, 0);
+    body.copy(out, 4);
+    out.writeUInt32BE(crc(body), body.length + 4);
+    return out;
+  };
+  const head = Buffer.alloc(13);
+  head.writeUInt32BE(width, 0);
+  head.writeUInt32BE(height, 4);
+  head.set([8, 0, 0, 0, 0], 8);
+  const rows = Buffer.alloc((width + 1) * height, 128);
+  for (let y = 0; y < height; ++y) rows[y * (width + 1)] = 0;
+  return Buffer.concat([Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]), chunk('IHDR', head),
+    chunk('IDAT', deflateSync(rows)), chunk('IEND', Buffer.alloc(0))]);
+}
 
 const pageFile = fileURLToPath(
   new URL('../../actors/view/page/dist/index.html', import.meta.url));
@@ -16,8 +45,9 @@ const scenarios = [
 
 export class MockServer {
   /** `traceMs`: how long the first light of a new generation is awaited. */
-  constructor({ traceMs = 400 } = {}) {
+  constructor({ traceMs = 400, pictureMs = 300 } = {}) {
     this.traceMs = traceMs;
+    this.pictureMs = pictureMs;
     this.viewers = new Set();
     this.editor = null;
     this.state = room.startState();
@@ -48,6 +78,7 @@ export class MockServer {
   close() {
     clearInterval(this.pulse);
     clearTimeout(this.tracing);
+    clearInterval(this.rendering);
     for (const viewer of this.viewers) viewer.terminate();
     this.http.close();
   }
@@ -71,7 +102,7 @@ export class MockServer {
       scenario: state.scenario, smoke: state.smoke, seconds: this.seconds, low: room.low,
       high: room.high, relaid: this.relaid, groups,
       signs: state.signs, luminaires: state.luminaires, observers: room.observers,
-      cameras: room.cameras, voxels: room.voxels, editor: viewer !== null && viewer === this.editor,
+      cameras: room.cameras, voxels: room.voxels, flames: room.flames, editor: viewer !== null && viewer === this.editor,
     };
   }
 
@@ -212,6 +243,26 @@ export class MockServer {
   do_save(viewer, { name }) {
     if (/^[\w-]{1,64}$/.test(name)) this.tell(viewer, { type: 'saved', file: `${name}.toml` });
     else this.tell(viewer, { type: 'refused', why: `"${name}" is no name for a file` });
+  }
+
+  /** Grows by a pass whenever `pictureMs` have passed, until 32 paths. */
+  do_render(viewer, { id, width, height }) {
+    clearInterval(this.rendering);
+    let paths = 0;
+    const png = greyPng(width, height).toString('base64');
+    const tell = () => {
+      const done = paths === 32;
+      this.tell(viewer, { type: 'picture', id, particles: 400_000, paths, seconds: 1 + paths / 8,
+        relative_error: paths ? 0.5 / Math.sqrt(paths) : null, done, png: paths ? png : null });
+      if (done) clearInterval(this.rendering);
+      paths = Math.max(4, 2 * paths);
+    };
+    tell();
+    this.rendering = setInterval(tell, this.pictureMs);
+  }
+
+  do_stop_render() {
+    clearInterval(this.rendering);
   }
 
   do_edit(viewer, { wanted }) {

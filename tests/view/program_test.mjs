@@ -209,6 +209,19 @@ test('a sign is added, judged, saved as a variant, and goes again', async () => 
   assert.deepEqual(complaints, []);
 });
 
+test('a traced picture of the view grows, with its error', async () => {
+  await page.getByRole('button', { name: 'Render this view' }).click();
+  await page.locator('#traced', { hasText: /paths a pixel · ± [0-9.]+ %/ }).waitFor(patience);
+  const size = await page.locator('#traced img').evaluate(async (image) => {
+    await image.decode();
+    return image.naturalWidth * image.naturalHeight;
+  });
+  assert.ok(size > 4e5 && size <= 1 << 19, `${size} pixels`);
+  await shot('program_traced');
+  await page.getByRole('button', { name: 'Close the traced picture' }).click();
+  assert.deepEqual(complaints, []);
+});
+
 test('a second viewer may look, not edit', async () => {
   const second = await open();
   assert.ok(await second.locator('#smoke').isDisabled());

@@ -64,6 +64,21 @@ test('exposure adapts towards what is metered and then rests', () => {
   assert.equal(exposure.adapt(0.1), false);
 });
 
+test('as slowly as eyes: to more light within seconds, to less within minutes', () => {
+  const exposure = new Exposure();
+  exposure.slow = true;
+  const after = (from, to, time) => {
+    exposure.adapted = from;
+    exposure.meter(Float32Array.of(Math.log2(to), 1, 0, 0));
+    for (let t = 0; t < time; t += 0.1) exposure.adapt(0.1, true);
+    return exposure.level;
+  };
+  assert.ok(Math.abs(after(1, 100, 5) / 100 - 1) < 0.05);
+  assert.ok(after(100, 1, 5) > 80, 'in the dark little is seen at first');
+  // After one time constant 1 / e of the way in logarithms is left.
+  assert.ok(Math.abs(Math.log(after(100, 1, 120)) / Math.log(100) - 1 / Math.E) < 0.01);
+});
+
 test('who wants no motion gets the new exposure at once, and is shown it', () => {
   const exposure = new Exposure();
   for (const luminance of [1, 30]) {

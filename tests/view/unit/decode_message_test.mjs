@@ -1,9 +1,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { ProtocolError } from '../../../actors/view/page/src/protocol/decode_frame.js';
-import { decodeMessage } from '../../../actors/view/page/src/protocol/decode_message.js';
+import { decodeMessage, limits }
+  from '../../../actors/view/page/src/protocol/decode_message.js';
+import { sizeOf } from '../../../actors/view/page/src/panel/traced.js';
 import { liveAddress } from '../../../actors/view/page/src/protocol/connection.js';
-import { MockServer } from '../mock_server.mjs';
+import { greyPng, MockServer } from '../mock_server.mjs';
 
 const scene = () => new MockServer().scene(null);
 const read = (message) => decodeMessage(JSON.stringify(message));
@@ -13,6 +15,7 @@ test('a scene is taken over field by field', () => {
   assert.equal(groups.length, 6);
   assert.equal(signs[0].texels.length, 128 * 64);
   assert.equal(voxels.total, 22 * 12 * 6);
+  assert.equal(read(scene()).flames[0].cells.length, 10 * 10 * 18);
   assert.equal(editor, false);
   assert.ok(!('surprise' in read({ ...scene(), surprise: 1 })));
 });
@@ -30,6 +33,10 @@ test('a scene with a wrong part is refused, and the part named', () => {
   assert.throws(harmed((s) => (s.groups[1].light = 'old')), named(/groups\[1\]\.light/));
   assert.throws(harmed((s) => (s.signs[1].rows = 63)), named(/signs\[1\]\.texels/));
   assert.throws(harmed((s) => (s.signs[0].facing = [0, 1])), named(/facing/));
+  assert.throws(harmed((s) => (s.flames[0].count = [10, 10, 17])), named(/flames\[0\]\.cells/));
+  assert.throws(harmed((s) => (s.flames[0].count = [65, 1, 1])), named(/flames\[0\]\.count/));
+  assert.throws(harmed((s) => (s.flames[0].size = [0, 1, 1])), named(/flames\[0\]\.size/));
+  assert.throws(harmed((s) => (s.flames = Array(9).fill(s.flames[0]))), named(/9 flames/));
   assert.throws(harmed((s) => (s.voxels.count = [4000, 4000, 4000])), named(/voxels/));
   assert.throws(harmed((s) => delete s.low), named(/low/));
   assert.throws(harmed((s) => (s.luminaires[0] = null)), ProtocolError);
@@ -68,6 +75,28 @@ test('what was added is told apart, and the program says its name', () => {
   assert.deepEqual(read(added), added);
   assert.throws(() => read({ ...added, kind: 'wall' }), ProtocolError);
   assert.throws(() => read({ ...added, name: 7 }), ProtocolError);
+});
+
+test('a picture is a PNG file in base64, or none yet', () => {
+  const png = greyPng(8, 4).toString('base64');
+  const picture = { type: 'picture', id: 3, particles: 1e6, paths: 8, relative_error: null,
+    seconds: 2, done: false, png };
+  assert.deepEqual(read(picture), { type: 'picture', id: 3, particles: 1e6, paths: 8,
+    relativeError: null, seconds: 2, done: false, png });
+  assert.equal(read({ ...picture, png: null }).png, null);
+  for (const wrong of ['', 'javascript:alert(1)', `${png}"><script>`, btoa('GIF89a and so on'), 7])
+    assert.throws(() => read({ ...picture, png: wrong }), ProtocolError);
+  assert.throws(() => read({ ...picture, paths: 0.5 }), ProtocolError);
+  assert.throws(() => read({ ...picture, png: png + 'A'.repeat(limits.pngCharacters) }),
+    ProtocolError);
+});
+
+test('a picture is asked for as large as may be, in the shape of the screen', () => {
+  assert.deepEqual(sizeOf(640, 360), [640, 360]);
+  const [width, height] = sizeOf(2560, 1440);
+  assert.ok(width * height <= 1 << 19 && width * height > 0.99 * (1 << 19));
+  assert.ok(Math.abs(width / height - 16 / 9) < 0.005);
+  assert.deepEqual(sizeOf(4000, 4), [4000, 16]);
 });
 
 test('text that is no message is refused', () => {

@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { smokeSum, surfaceSum } from '../../../actors/view/page/src/light/sum.js';
 import { smooth, weld } from '../../../actors/view/page/src/light/weld.js';
+import { atlasOf } from '../../../actors/view/page/src/draw/flames.js';
 import { toHalf } from '../../../actors/view/page/src/protocol/half.js';
 
 const halves = (...values) => Uint16Array.from(values, toHalf);
@@ -16,7 +17,7 @@ test('light is the sum over groups of factor times light', () => {
 });
 
 test('newer light of a group replaces its older light', () => {
-  const sum = smokeSum(2);
+  const sum = smokeSum(1);
   sum.set(3, halves(1, 1, 1, 2, 2, 2), 2);
   sum.set(3, halves(4, 4, 4, 8, 8, 8), 2);
   assert.deepEqual([...sum.sum], [8, 8, 8, 0, 16, 16, 16, 0]);
@@ -44,7 +45,7 @@ test('light that changes while the sum is settled is not lost', () => {
   sum.settle(1);
   sum.set(2, halves(8, 8, 8), 1);
   sum.settle();
-  assert.deepEqual([...sum.sum], [10.25, 10.25, 10.25, 0]);
+  assert.deepEqual([...sum.sum], [10.25, 10.25, 10.25, 0, 0, 0, 0, 0]);
 });
 
 test('dimming a group that has no light, or to what it is, changes nothing', () => {
@@ -62,6 +63,19 @@ test('one of thirty-two groups of 120 000 triangles is dimmed; the time is print
   sum.dim(7, 0.25);
   console.log(`one group of 120 000 triangles: ${(performance.now() - start).toFixed(1)} ms`);
   assert.equal(sum.sum[0], 31.25);
+});
+
+test('flames lie in one texture, each with dark above and below', () => {
+  const flames = [{ count: [2, 1, 2], cells: Uint8Array.of(1, 2, 3, 4) },
+    { count: [1, 2, 1], cells: Uint8Array.of(5, 6) }];
+  const { size, bytes, parts } = atlasOf(flames);
+  assert.deepEqual(size, [2, 2, 7]);
+  const at = (x, y, z) => bytes[(z * 2 + y) * 2 + x];
+  assert.deepEqual([at(0, 0, 1), at(1, 0, 1), at(0, 0, 2), at(1, 0, 2)], [1, 2, 3, 4]);
+  assert.deepEqual([at(0, 0, 5), at(0, 1, 5)], [5, 6]);
+  assert.equal(bytes.reduce((sum, byte) => sum + byte), 21);
+  assert.deepEqual(parts[1], { offset: [0, 0, 5 / 7], scale: [0.5, 1, 1 / 7] });
+  assert.deepEqual(atlasOf([]).size, [1, 1, 1]);
 });
 
 const square = {

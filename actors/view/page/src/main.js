@@ -8,6 +8,7 @@ import { Edits } from './edit/edits.js';
 import { Selection } from './edit/selection.js';
 import { byId, el } from './panel/dom.js';
 import { Panels } from './panel/panels.js';
+import { sizeOf } from './panel/traced.js';
 import { toast } from './panel/toasts.js';
 import { Connection, liveAddress } from './protocol/connection.js';
 import { Live } from './state.js';
@@ -63,6 +64,7 @@ class Page {
         jump: (place) => walk.jump(place),
         cut: (height) => walk.setCut(height),
         help: () => byId('help').showModal(),
+        render: () => this.render(),
       },
     };
   }
@@ -99,6 +101,7 @@ class Page {
       probe: (answer) => panels.inspect.probe(answer),
       sign: (verdicts) => panels.inspect.judged(verdicts),
       added: (copy) => (selection.awaited = copy),
+      picture: (picture) => panels.traced.show(picture),
       saved: ({ file }) => toast(`Saved as ${file}`, 'good'),
       refused: ({ why }) => this.refused(why),
       editor: ({ editor }) => panels.edits(editor),
@@ -107,7 +110,10 @@ class Page {
 
   linked(state, words) {
     if (state === 'open') this.live.forget();
-    else this.panels.edits(false);
+    else {
+      this.panels.edits(false);
+      this.panels.traced.fail();
+    }
     this.panels.top.link(state, words);
   }
 
@@ -121,10 +127,20 @@ class Page {
 
   refused(why) {
     toast(`Refused: ${why}`);
+    if (why.startsWith('no picture')) this.panels.traced.fail();
     const { scene } = this.live;
     if (!scene) return;
     this.panels.state.scene(scene);
     this.selection.keep(scene);
+  }
+
+  /** A traced picture of what is looked at. A plan is no perspective. */
+  render() {
+    const { live, walk, picture, panels } = this;
+    if (!live.scene || walk.inPlan) return;
+    const { clientWidth, clientHeight } = picture.renderer.domElement;
+    panels.traced.ask(walk.view, sizeOf(clientWidth, clientHeight),
+      picture.exposure.rendition === 'eye', live.scene.name);
   }
 
   tick(now) {

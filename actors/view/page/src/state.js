@@ -108,7 +108,8 @@ export class Live {
     const target = this.next ?? this.shown;
     if (frame.kind === kinds.geometry) target.geometry = frame;
     if (frame.kind === kinds.smoke) {
-      demand(frame.halves.length === (target.scene.voxels?.total ?? 0), 'smoke of another size');
+      demand(frame.halves.length === 2 * (target.scene.voxels?.total ?? 0),
+        'smoke of another size');
       target.smoke = frame;
     }
     if (frame.group !== undefined) this.checkLight(frame, target);
@@ -118,7 +119,8 @@ export class Live {
 
   checkLight({ kind, group, halves }, { scene, geometry }) {
     const triangles = (geometry ?? this.shown?.geometry)?.triangles ?? 0;
-    const expected = kind === kinds.surfaceLight ? 6 * triangles : 3 * (scene.voxels?.total ?? 0);
+    const cells = kind === kinds.surfaceLight ? triangles : scene.voxels?.total ?? 0;
+    const expected = 6 * cells;
     demand(halves.length === expected, `light of ${halves.length} numbers, not ${expected}`);
     demand(group < scene.groups.length, `light of group ${group} of ${scene.groups.length}`);
   }

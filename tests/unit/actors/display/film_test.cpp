@@ -171,3 +171,75 @@ TEST_CASE("a film that is interrupted keeps whole frames, and none of an earlier
     CHECK_FALSE(std::filesystem::exists(folder / gone));
   CHECK(std::filesystem::exists(folder / "notes.txt"));
 }
+
+namespace {
+
+Keyframe key(double time_s, const std::string& name, const glm::dvec3& eye,
+             const glm::dvec3& target, double fov_deg = 50) {
+  Keyframe out{time_s, lens()};
+  out.camera.name = name;
+  out.camera.eye = eye;
+  out.camera.target = target;
+  out.camera.vertical_fov_deg = fov_deg;
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a film through cameras is each of them at its time, and goes without a corner",
+          "[display]") {
+  const std::vector<Keyframe> keys{key(2, "a", {0, 0, 1.6}, {10, 0, 1.6}, 40),
+                                   key(4, "b", {2, 0, 1.6}, {4, 2, 1.6}, 60),
+                                   key(8, "c", {2, 6, 1}, {2, 7, 1})};
+  const auto found = cameras_through(keys, 10, lens());
+  REQUIRE(found.ok());
+  const std::vector<Camera>& cameras = found.value();
+  REQUIRE(cameras.size() == 61);
+  for (const Keyframe& k : keys) {
+    const Camera& at = cameras[static_cast<size_t>(std::lround((k.time_s - 2) * 10))];
+    CHECK(glm::length(at.eye - k.camera.eye) < 1e-9);
+    const glm::dvec3 gaze = glm::normalize(k.camera.target - k.camera.eye);
+    CHECK(glm::length(glm::normalize(at.target - at.eye) - gaze) < 1e-9);
+    CHECK(at.vertical_fov_deg == Approx(k.camera.vertical_fov_deg));
+  }
+  CHECK(cameras[10].vertical_fov_deg == Approx(50));
+  CHECK(cameras[0].width == 12);
+  // Steps change by little from one to the next, at the camera in the middle, too.
+  for (size_t k = 2; k < cameras.size(); ++k) {
+    const glm::dvec3 step = cameras[k].eye - cameras[k - 1].eye;
+    const glm::dvec3 before = cameras[k - 1].eye - cameras[k - 2].eye;
+    CHECK(glm::length(step - before) < 0.015);
+  }
+  // Between two it goes straight and evenly.
+  const auto straight = cameras_through({keys[0], keys[1]}, 10, lens());
+  REQUIRE(straight.ok());
+  for (size_t k = 0; k < straight->size(); ++k)
+    CHECK(straight.value()[k].eye.x == Approx(0.1 * static_cast<double>(k)).margin(1e-9));
+}
+
+TEST_CASE("cameras that make no film are refused with what to do", "[display]") {
+  const auto refused = [](const std::vector<Keyframe>& keys, double fps = 10) {
+    const auto cameras = cameras_through(keys, fps, lens());
+    REQUIRE_FALSE(cameras.ok());
+    return cameras.problem().what;
+  };
+  const Keyframe a = key(0, "a", {0, 0, 1}, {1, 0, 1}), b = key(2, "b", {1, 0, 1}, {2, 0, 1});
+  CHECK(refused({a}).find("two cameras") != std::string::npos);
+  CHECK(refused({b, a}).find("\"a\" comes at 0 s") != std::string::npos);
+  CHECK(refused({a, key(0, "b", {1, 0, 1}, {2, 0, 1})}).find("order") != std::string::npos);
+  CHECK(refused({a, key(1e6, "b", {1, 0, 1}, {2, 0, 1})}).find("50000 frames") !=
+        std::string::npos);
+  CHECK(refused({a, key(2, "back", {1, 0, 1}, {0, 0, 1})}).find("turns around") !=
+        std::string::npos);
+}
+
+TEST_CASE("films of things whose names become one have files of their own", "[display]") {
+  SceneDescription scene;
+  for (const char* name : {"to the door", "to_the door", "To The Door"}) {
+    scene.routes.emplace_back();
+    scene.routes.back().name = name;
+  }
+  CHECK(film_names(scene) ==
+        std::vector<std::string>{"to_the_door", "to_the_door-2", "To_The_Door-3"});
+  CHECK(film_names(scene, "to the door").back() == "to_the_door-4");
+}

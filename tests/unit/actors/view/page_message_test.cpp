@@ -34,6 +34,19 @@ TEST_CASE("what a viewer may say is read", "[view]") {
   CHECK_FALSE(is_edit(probe.value()));
   CHECK(decode_page_message(R"({"type":"edit","wanted":true})").ok());
   CHECK(decode_page_message(R"({"type":"judge","sign":"exit"})").ok());
+  const auto render = decode_page_message(
+      R"({"type":"render","id":4,"eye":[1,2,3],"target":[2,2,3],"up":[0,0,1],"fov":55,)"
+      R"("width":960,"height":540,"human":true})");
+  REQUIRE(render.ok());
+  CHECK(std::get<RenderAsk>(render.value()).id == 4);
+  CHECK(std::get<RenderAsk>(render.value()).target == glm::dvec3(2, 2, 3));
+  CHECK(std::get<RenderAsk>(render.value()).vertical_fov_deg == 55);
+  CHECK(std::get<RenderAsk>(render.value()).width == 960);
+  CHECK(std::get<RenderAsk>(render.value()).human);
+  CHECK_FALSE(is_edit(render.value()));
+  const auto stop = decode_page_message(R"({"type":"stop_render"})");
+  REQUIRE(stop.ok());
+  CHECK_FALSE(is_edit(stop.value()));
   CHECK(decode_page_message(R"({"type":"smoke","factor":0})").ok());
   const auto state = decode_page_message(R"({"type":"state","at":60.5})");
   REQUIRE(state.ok());
@@ -98,6 +111,19 @@ TEST_CASE("all else is refused with a reason", "[view]") {
         std::string::npos);
   CHECK(refused(R"({"type":"probe","id":1,"triangle":4294967296,"front":true})").find("range") !=
         std::string::npos);
+  const auto picture = [](const std::string& target, const std::string& size) {
+    return R"({"type":"render","id":4,"eye":[1,2,3],"target":)" + target +
+           R"(,"up":[0,0,1],"fov":55,"human":false,)" + size + "}";
+  };
+  CHECK(decode_page_message(picture("[2,2,3]", R"("width":1024,"height":512)")).ok());
+  CHECK(refused(picture("[2,2,3]", R"("width":1024,"height":513)")).find("524288 pixels") !=
+        std::string::npos);
+  CHECK(refused(picture("[2,2,3]", R"("width":15,"height":64)")).find("16 at least") !=
+        std::string::npos);
+  CHECK(refused(picture("[2,2,3]", R"("width":4294967297,"height":64)")).find("range") !=
+        std::string::npos);
+  CHECK(refused(picture("[1,2,3]", R"("width":64,"height":64)")).find("another place") !=
+        std::string::npos);
   CHECK(refused(std::string(limits::page_message_bytes + 1, ' ')).find("64 KiB") !=
         std::string::npos);
   CHECK(refused(std::string(60'000, '[')).find("brackets") != std::string::npos);
@@ -107,7 +133,9 @@ TEST_CASE("rubbish is refused and never more than that", "[view]") {
   const std::string said[] = {
       R"({"type":"move","kind":"sign","name":"exit","position":[1,2,3],"facing":[0,1,0]})",
       R"({"type":"add","kind":"sign","of":"exit","position":[1,2,3],"facing":[0,1,0]})",
-      R"({"type":"remove","name":"exit copy"})"};
+      R"({"type":"remove","name":"exit copy"})",
+      R"({"type":"render","id":4,"eye":[1,2,3],"target":[2,2,3],"up":[0,0,1],"fov":55,)"
+      R"("width":960,"height":540,"human":true})"};
   Random random(1, RandomStream::test);
   for (uint64_t round = 0; round < 20'000; ++round) {
     random.start(round);

@@ -595,3 +595,44 @@ TEST_CASE("a scene without a clock has one state", "[view][time]") {
   CHECK((*viewer.last("refused"))["why"].get<std::string>().find("one state") != std::string::npos);
   hub.leaves(viewer);
 }
+
+TEST_CASE("a viewer who asks for a picture gets it as the building stands, and no other viewer",
+          "[view]") {
+  const test::TemporaryFolder folder;
+  Posts posts;
+  HubOptions options = small_runs(folder);
+  options.pictures = {1e9, 1e9, 1 << 14, 8};
+  ViewHub hub(scene_in(folder), options, posts.post());
+  Remembers asks, looks;
+  hub.joins(asks);
+  hub.joins(looks);
+  posts.until([&] { return asks.last("progress") != nullptr; });
+  const std::string ask =
+      R"({"type":"render","id":3,"eye":[1,2,1.6],"target":[5,2,1.6],"up":[0,0,1],"fov":60,)"
+      R"("width":24,"height":16,"human":false})";
+  const auto picture = [&] {
+    const Json* const told = asks.last("picture");
+    return told != nullptr && (*told)["done"] == true;
+  };
+  hub.says(asks, ask);
+  posts.until(picture);
+  const Json bright = *asks.last("picture");
+  CHECK(bright["id"] == 3);
+  CHECK(bright["paths"] == 8);
+  CHECK(bright["particles"] == 1 << 14);
+  // What is dimmed by hand is dimmed in the picture.
+  hub.says(asks, R"({"type":"factor","factor":0,"group":"left"})");
+  asks.texts.clear();
+  hub.says(asks, ask);
+  posts.until(picture);
+  CHECK((*asks.last("picture"))["png"] != bright["png"]);
+  // Where all is dark there is none.
+  hub.says(asks, R"({"type":"factor","factor":0,"group":"right"})");
+  asks.texts.clear();
+  hub.says(asks, ask);
+  posts.until([&] { return asks.last("refused") != nullptr; });
+  CHECK((*asks.last("refused"))["why"].get<std::string>().starts_with("no picture: "));
+  CHECK(looks.last("picture") == nullptr);
+  hub.leaves(looks);
+  hub.leaves(asks);
+}

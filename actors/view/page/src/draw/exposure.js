@@ -9,6 +9,11 @@ export const whitePoint = 6;
 /** A usual monitor, for the eye's rendition [cd/m2]. */
 const displayMost_cd_m2 = 250;
 const seconds = { camera: 0.35, eye: 1.2 };
+/**
+ * Of eyes, in the logarithm of luminance: nerves follow more light at once, and in the dark the
+ * pigment of cones grows again with a time constant of two minutes (Rushton and Henry 1968).
+ */
+const eyeSeconds = { brighter: 1, darker: 120 };
 
 /** Log-average luminance of meter cells: sum of log2 luminance, pixels, and two unused. */
 export function readMeter(cells) {
@@ -31,6 +36,8 @@ export class Exposure {
   constructor() {
     this.rendition = 'camera';
     this.automatic = true;
+    /** Whether it follows the light only as fast as eyes adapt. */
+    this.slow = false;
     this.fixed_cd_m2 = 10;
     this.adapted = null;
     this.target = null;
@@ -45,9 +52,14 @@ export class Exposure {
     if (this.target === null || !this.moves) return false;
     const first = this.adapted === null;
     const apart = first ? 0 : Math.log(this.target / this.adapted);
-    const share = atOnce ? 1 : 1 - Math.exp(-elapsed / seconds[this.rendition]);
+    const share = atOnce && !this.slow ? 1 : 1 - Math.exp(-elapsed / this.secondsFor(apart));
     this.adapted = first ? this.target : this.adapted * Math.exp(share * apart);
     return first || Math.abs(apart) > 0.005;
+  }
+
+  secondsFor(apart) {
+    if (!this.slow) return seconds[this.rendition];
+    return apart > 0 ? eyeSeconds.brighter : eyeSeconds.darker;
   }
 
   get moves() {

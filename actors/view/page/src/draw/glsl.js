@@ -88,17 +88,58 @@ vec3 world(vec2 at, float d) {
 
 // The law within a step of even smoke: what it sends is j (1 - exp(-s t)) / s, attenuated by all
 // before it. Steps begin at a place that differs from pixel to pixel and picture to picture, so
-// that pictures added up know no layers.
+// that pictures added up know no layers. Of the light that a voxel scatters, as much as its net flux
+// goes one way, and is turned by the law of Henyey and Greenstein; the rest comes from everywhere.
+// Pictures of the program end in voxels by the same two moments.
 export const smokeFragment = `${common}${depthTools}
 in vec2 at;
-uniform sampler3D extinction, scatter;
+uniform sampler3D glow, beam;
 uniform vec3 low, size;
 uniform float cut, shift;
 uniform int steps;
+const int flamesMost = 8;
+uniform sampler3D flameCells;
+uniform int flameCount;
+uniform vec3 flameLow[flamesMost], flameSize[flamesMost], flameColour[flamesMost],
+  flameOffset[flamesMost], flameScale[flamesMost];
 out vec4 colour;
 float start(vec2 p) {
   float noise = fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715))));
   return fract(noise + shift);
+}
+/** 4 pi times what a scattering by this cosine sends into a solid angle. */
+float turned(float g, float cosine) {
+  float d = max(1.0 + g * g - 2.0 * g * cosine, 1e-4);
+  return (1.0 - g * g) * inversesqrt(d) / d;
+}
+/** What a metre sends against the ray. */
+vec3 towardsEye(vec3 mean, vec4 along, vec3 ray) {
+  mean = max(mean, 0.0);
+  float oneWay = length(along.xyz);
+  float all = luminance(mean);
+  if (oneWay < 1e-9 || all < 1e-9) return mean;
+  float share = min(oneWay / all, 1.0);
+  return mean * (1.0 + share * (turned(along.a, -dot(along.xyz, ray) / oneWay) - 1.0));
+}
+/** Where a ray is within a box: from x to y, nothing where y is not above x. */
+vec2 within(vec3 from, vec3 inverse, vec3 corner, vec3 across, float reach) {
+  vec3 a = (corner - from) * inverse;
+  vec3 b = (across - from) * inverse;
+  vec3 nearer = min(a, b);
+  vec3 farther = max(a, b);
+  return vec2(max(0.0, max(nearer.x, max(nearer.y, nearer.z))),
+    min(reach, min(farther.x, min(farther.y, farther.z))));
+}
+/** What a stretch of a flame sends, without what it takes away of itself. */
+vec3 flameAlong(int i, vec3 from, vec3 ray, vec2 part, float first) {
+  const int points = 12;
+  float sum = 0.0;
+  for (int k = 0; k < points; ++k) {
+    float t = mix(part.x, part.y, (float(k) + first) / float(points));
+    vec3 p = (from + t * ray - flameLow[i]) / flameSize[i];
+    sum += texture(flameCells, flameOffset[i] + clamp(p, 0.0, 1.0) * flameScale[i]).r;
+  }
+  return flameColour[i] * (sum / float(points)) * (part.y - part.x);
 }
 void main() {
   vec3 from = world(at, 0.0);
@@ -107,23 +148,34 @@ void main() {
   vec3 direction = along / max(reach, 1e-6);
   vec3 top = vec3(low.xy + size.xy, min(low.z + size.z, cut));
   vec3 inverse = 1.0 / mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
-  vec3 a = (low - from) * inverse;
-  vec3 b = (top - from) * inverse;
-  vec3 nearer = min(a, b);
-  vec3 farther = max(a, b);
-  float t0 = max(0.0, max(nearer.x, max(nearer.y, nearer.z)));
-  float t1 = min(reach, min(farther.x, min(farther.y, farther.z)));
+  vec2 air = within(from, inverse, low, top, reach);
+  float t0 = air.x;
   vec3 sent = vec3(0.0);
   float through = 1.0;
-  float dt = (t1 - t0) / float(steps);
+  float dt = (air.y - air.x) / float(steps);
   if (dt > 0.0) {
     float first = start(gl_FragCoord.xy);
+    // Flames are smaller than steps: each is added up by itself, and comes in at its middle.
+    vec3 flames[flamesMost];
+    float middles[flamesMost];
+    for (int i = 0; i < flameCount; ++i) {
+      vec3 upper = flameLow[i] + flameSize[i];
+      vec2 part = within(from, inverse, flameLow[i], vec3(upper.xy, min(upper.z, cut)), reach);
+      bool met = part.y > part.x;
+      middles[i] = met ? clamp(0.5 * (part.x + part.y), air.x, air.y - 0.01 * dt) : -1.0;
+      flames[i] = met ? flameAlong(i, from, direction, part, first) : vec3(0.0);
+    }
     for (int i = 0; i < steps; ++i) {
       vec3 p = (from + (t0 + (float(i) + first) * dt) * direction - low) / size;
-      float s = texture(extinction, p).r;
+      vec4 here = texture(glow, p);
+      float s = here.a;
       float passes = exp(-s * dt);
-      vec3 j = max(texture(scatter, p).rgb, 0.0);
+      vec3 j = towardsEye(here.rgb, texture(beam, p), direction);
       sent += through * j * (s * dt > 1e-4 ? (1.0 - passes) / s : dt);
+      for (int f = 0; f < flameCount; ++f) {
+        float before = middles[f] - (t0 + float(i) * dt);
+        if (before >= 0.0 && before < dt) sent += through * exp(-s * before) * flames[f];
+      }
       through *= passes;
     }
   }
@@ -247,6 +299,13 @@ void main() {
   shown = mix(shown, vec3(0.35 * dot(shown, vec3(0.3, 0.6, 0.1)) + 0.06), 0.75 * fade);
   colour = vec4(shown + grain(gl_FragCoord.xy) / 255.0, 1.0);
 }`;
+
+/** Bytes of a coarser raster on the screen. */
+export const screenFragment = `${common}
+in vec2 at;
+uniform sampler2D bytes;
+out vec4 colour;
+void main() { colour = texture(bytes, at); }`;
 
 export const markVertex = `
 precision highp float;

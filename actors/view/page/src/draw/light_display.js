@@ -64,6 +64,7 @@ export class LightDisplay {
     picture.surfaces.shine(live.shown?.surfaces ?? null);
     picture.smoke.shine(live.shown?.air ?? null);
     picture.signs.shine((name) => weights.get(name) ?? 1);
+    picture.smoke.flames.shine((name) => weights.get(name) ?? 1);
     picture.again();
   }
 }

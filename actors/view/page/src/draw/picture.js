@@ -4,7 +4,8 @@ import * as THREE from 'three';
 import { scaleTexels } from '../light/colours.js';
 import { halfValues } from '../protocol/half.js';
 import { Exposure, renditions, whitePoint } from './exposure.js';
-import { composeFragment, meterFragment, screenVertex, toneFragment } from './glsl.js';
+import { composeFragment, meterFragment, screenFragment, screenVertex, toneFragment }
+  from './glsl.js';
 import { Marks } from './marks.js';
 import { Signs } from './signs.js';
 import { Smoke, steps } from './smoke.js';
@@ -17,7 +18,7 @@ const nothingCut = 1e9;
 const ratioMost = 2;
 /** The raster becomes coarser until a picture takes no longer than this. */
 const slowest_ms = { moving: 45, still: 300 };
-const coarsest = 0.4;
+const coarsest = { moving: 0.3, still: 0.4 };
 
 function target(options = {}) {
   return new THREE.WebGLRenderTarget(1, 1, {
@@ -71,6 +72,7 @@ export class Picture {
       surfaces: target({ depthBuffer: true, depthTexture: depth }),
       smoke: target(),
       sums: [target(), target()],
+      bytes: target({ type: THREE.UnsignedByteType }),
       meter: target({ type: THREE.FloatType, minFilter: THREE.NearestFilter }),
     };
     this.targets.meter.setSize(meterCells, meterCells);
@@ -112,6 +114,7 @@ export class Picture {
       fade: { value: 0 },
       seed: { value: 0 },
     });
+    this.screen = screenPass(screenFragment, { bytes: { value: this.targets.bytes.texture } });
     const triangle = new THREE.BufferGeometry();
     const corners = new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]);
     triangle.setAttribute('position', new THREE.BufferAttribute(corners, 3));
@@ -140,7 +143,8 @@ export class Picture {
       .map((n) => Math.max(1, Math.round(n * this.share)));
     this.width = width;
     this.height = height;
-    for (const t of [this.targets.surfaces, ...this.targets.sums]) t.setSize(width, height);
+    const { surfaces, sums, bytes } = this.targets;
+    for (const t of [surfaces, ...sums, bytes]) t.setSize(width, height);
     this.targets.smoke.setSize(Math.ceil(width / 2), Math.ceil(height / 2));
     this.again();
   }
@@ -215,7 +219,7 @@ export class Picture {
     slow.samples += 1;
     slow.ms += 0.3 * (ms - slow.ms);
     if (slow.ms < slowest_ms[pace]) return;
-    this.shares[pace] = Math.max(coarsest, 0.75 * this.shares[pace]);
+    this.shares[pace] = Math.max(coarsest[pace], 0.75 * this.shares[pace]);
     slow.ms = slow.samples = 0;
   }
 
@@ -233,7 +237,7 @@ export class Picture {
     this.renderer.clear();
     this.renderer.render(this.world, camera);
     if (this.smoke.present) {
-      this.smoke.material.uniforms.steps.value = moving ? steps.moving : steps.still;
+      this.smoke.material.uniforms.steps.value = this.smokeSteps(moving);
       this.smoke.material.uniforms.shift.value = (0.618034 * n) % 1;
       this.pass(this.smoke.material, targets.smoke);
     }
@@ -244,6 +248,12 @@ export class Picture {
     this.pass(this.compose, targets.sums[0]);
     targets.sums.reverse();
     if (n === 0 || n === pictures.least - 1) this.meter();
+  }
+
+  /** A machine that needs a coarse raster is spared steps, too. */
+  smokeSteps(moving) {
+    if (!moving) return steps.still;
+    return this.share > 0.5 ? steps.moving : steps.hurried;
   }
 
   /** Nothing is left to add up or to adapt to. */
@@ -293,7 +303,13 @@ export class Picture {
     uniforms.scale.value = this.exposure.scale;
     uniforms.fade.value = this.fade.now;
     uniforms.seed.value = (this.added * 17.3) % 97;
-    this.pass(this.tone, null);
+    // Exposed on its own raster: on a coarse one that takes a part of the time.
+    if (this.share < 1) {
+      this.pass(this.tone, this.targets.bytes);
+      this.pass(this.screen, null);
+    } else {
+      this.pass(this.tone, null);
+    }
     this.camera.clearViewOffset();
     this.renderer.getDrawingBufferSize(this.marks.points.material.uniforms.raster.value);
     this.marks.points.material.uniforms.size.value = 13 * this.renderer.getPixelRatio();

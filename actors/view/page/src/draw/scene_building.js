@@ -8,8 +8,9 @@ export class SceneBuilding {
     Object.assign(this, { picture, live, walk });
   }
 
-  scene({ signs }) {
+  scene({ signs, flames }) {
     this.picture.signs.build(signs);
+    this.picture.smoke.flames.build(flames);
     this.placeMarks();
   }
 

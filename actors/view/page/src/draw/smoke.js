@@ -1,14 +1,16 @@
-// Smoke as two 3D textures: how much it takes away, and what it sends towards the eye.
+// Smoke as two 3D textures: what it sends out on the mean over directions, and how much it takes
+// away; along which way the light goes that it scatters, and how much it scatters onwards.
 import * as THREE from 'three';
 import { toHalf } from '../protocol/half.js';
+import { Flames } from './flames.js';
 import { screenVertex, smokeFragment } from './glsl.js';
 
 /** Steps of one picture; while the eye is still many pictures are added up. */
-export const steps = { moving: 16, still: 32 };
+export const steps = { hurried: 8, moving: 16, still: 32 };
 
-function volume([nx, ny, nz], data, format) {
+function volume([nx, ny, nz], data) {
   const texture = new THREE.Data3DTexture(data, nx, ny, nz);
-  texture.format = format;
+  texture.format = THREE.RGBAFormat;
   texture.type = THREE.HalfFloatType;
   texture.minFilter = texture.magFilter = THREE.LinearFilter;
   texture.unpackAlignment = 1;
@@ -16,11 +18,12 @@ function volume([nx, ny, nz], data, format) {
   return texture;
 }
 
-const none = (format, channels) => volume([1, 1, 1], new Uint16Array(channels), format);
+const none = () => volume([1, 1, 1], new Uint16Array(4));
 
 export class Smoke {
   constructor(shared) {
     this.present = false;
+    this.flames = new Flames();
     this.material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
       vertexShader: screenVertex,
@@ -29,8 +32,9 @@ export class Smoke {
       depthWrite: false,
       uniforms: {
         ...shared,
-        extinction: { value: none(THREE.RedFormat, 1) },
-        scatter: { value: none(THREE.RGBAFormat, 4) },
+        ...this.flames.uniforms,
+        glow: { value: none() },
+        beam: { value: none() },
         low: { value: new THREE.Vector3() },
         size: { value: new THREE.Vector3(1, 1, 1) },
         shift: { value: 0 },
@@ -44,24 +48,37 @@ export class Smoke {
     this.material.uniforms[name].value = texture;
   }
 
-  /** Says whether the graphics card can hold so many voxels a side. */
-  build(voxels, extinction, most) {
-    this.present = Boolean(voxels && extinction && Math.max(...voxels.count) <= most);
-    if (!this.present) return !voxels || !extinction;
-    this.count = voxels.count;
-    this.replace('extinction', volume(voxels.count, extinction, THREE.RedFormat));
-    this.halves = new Uint16Array(4 * voxels.total);
-    this.replace('scatter', volume(voxels.count, this.halves, THREE.RGBAFormat));
+  /**
+   * `smoke` has extinction and mean cosine of each voxel, as halves. Says whether the graphics card
+   * can hold so many voxels a side.
+   */
+  build(voxels, smoke, most) {
+    this.present = Boolean(voxels && smoke && Math.max(...voxels.count) <= most);
+    if (!this.present) return !voxels || !smoke;
+    this.texels = { glow: new Uint16Array(2 * smoke.length), beam: new Uint16Array(2 * smoke.length) };
+    const { glow, beam } = this.texels;
+    for (let from = 0, to = 3; from < smoke.length; from += 2, to += 4) {
+      glow[to] = smoke[from];
+      beam[to] = smoke[from + 1];
+    }
+    this.replace('glow', volume(voxels.count, glow));
+    this.replace('beam', volume(voxels.count, beam));
     this.material.uniforms.low.value.fromArray(voxels.low);
     this.material.uniforms.size.value.fromArray(voxels.count.map((n) => n * voxels.edge));
     return true;
   }
 
-  /** `light` is a LightSum of four numbers a voxel, or null. */
+  /** `light` is a LightSum of two texels a voxel, or null. */
   shine(light) {
     if (!this.present) return;
-    if (!light || 4 * light.cells !== this.halves.length) this.halves.fill(0);
-    else for (let i = 0; i < this.halves.length; ++i) this.halves[i] = toHalf(light.sum[i]);
-    this.material.uniforms.scatter.value.needsUpdate = true;
+    const { glow, beam } = this.texels;
+    const sum = light && 4 * light.cells === glow.length ? light.sum : null;
+    for (let to = 0; to < glow.length; to += 4)
+      for (let k = 0; k < 3; ++k) {
+        glow[to + k] = sum ? toHalf(sum[2 * to + k]) : 0;
+        beam[to + k] = sum ? toHalf(sum[2 * to + 4 + k]) : 0;
+      }
+    this.material.uniforms.glow.value.needsUpdate = true;
+    this.material.uniforms.beam.value.needsUpdate = true;
   }
 }

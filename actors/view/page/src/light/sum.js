@@ -3,13 +3,13 @@
 // bright stays behind when it is dimmed to nothing, the sum is made afresh once hands are still.
 import { halfValues } from '../protocol/half.js';
 
-/** `colours` of r g b in each cell; the sum has a fourth number each, as textures have. */
+/** `triples` of numbers in each cell; the sum has a fourth number each, as textures have. */
 export class LightSum {
-  constructor(cells, colours) {
+  constructor(cells, triples) {
     this.cells = cells;
     /** The length that a group's light has to have. */
-    this.length = 3 * colours * cells;
-    this.sum = new Float32Array(4 * colours * cells);
+    this.length = 3 * triples * cells;
+    this.sum = new Float32Array(4 * triples * cells);
     this.groups = new Map();
     this.stained(false);
   }
@@ -77,5 +77,5 @@ export class LightSum {
 /** A triangle: front r g b and a fourth, back r g b and a fourth: two texels of a texture. */
 export const surfaceSum = (triangles) => new LightSum(triangles, 2);
 
-/** A voxel: r g b and a fourth. */
-export const smokeSum = (voxels) => new LightSum(voxels, 1);
+/** A voxel: r g b and a fourth; then x y z, along the light that it scatters, and a fourth. */
+export const smokeSum = (voxels) => new LightSum(voxels, 2);

@@ -6,6 +6,7 @@ import { Labels } from './labels.js';
 import { Rendition } from './rendition.js';
 import { StatePanel } from './state_panel.js';
 import { Top } from './top.js';
+import { Traced } from './traced.js';
 import { Views } from './views.js';
 
 export class Panels {
@@ -20,6 +21,7 @@ export class Panels {
     this.marks = this.rendition.check('marks', true, wants.marks);
     this.inspect = new Inspect(wants.selection);
     this.views = new Views(wants.views);
+    this.traced = new Traced(wants.say);
     this.labels = new Labels(byId('labels'));
     byId('panel').append(this.inspect.element, this.state.element, this.groups.element,
       this.rendition.element, this.state.saveElement);

@@ -21,6 +21,10 @@ export class Rendition {
     this.automatic = el('input', {
       type: 'checkbox', id: 'automatic', checked: true, on: { change: () => this.expose() },
     });
+    this.slow = el('input', {
+      type: 'checkbox', id: 'slow', checked: exposure.slow,
+      on: { change: () => (exposure.slow = this.slow.checked) },
+    });
     this.slider = el('input', {
       type: 'range', id: 'exposure', min: -3, max: 3.5, step: 0.02,
       on: { input: () => this.fix() },
@@ -28,7 +32,10 @@ export class Rendition {
     this.exposureLine = el('div', { className: 'exposure' },
       el('div', { className: 'line' },
         el('label', { htmlFor: 'exposure', textContent: 'Exposure' }), this.slider, this.value),
-      el('label', { className: 'check' }, this.automatic, ' automatic'));
+      el('div', { className: 'checks' },
+        el('label', { className: 'check' }, this.automatic, ' automatic'),
+        el('label', { className: 'check', title: 'Brighter within seconds, darker within minutes' },
+          this.slow, ' as slowly as eyes adapt')));
     this.extras = el('div', { className: 'checks' });
     this.element = section(
       'Picture', this.choice.element, this.note, this.exposureLine, this.extras);

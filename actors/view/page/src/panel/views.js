@@ -1,11 +1,11 @@
 // From where one looks: walking, orbit, plan; eye height; and places to jump to.
 import { eyeHeights } from '../walk/motion.js';
-import { byId, choice, el } from './dom.js';
+import { button, byId, choice, el } from './dom.js';
 
 const modes = [['walk', 'Walk'], ['orbit', 'Orbit'], ['plan', 'Plan']];
 
 export class Views {
-  constructor({ mode, height, jump, cut, help }) {
+  constructor({ mode, height, jump, cut, help, render }) {
     this.modes = choice('Way of looking', modes, mode);
     this.heights = el('select', {
       aria: { label: 'Eye height' },
@@ -26,7 +26,12 @@ export class Views {
       type: 'button', textContent: '?', title: 'Keys and gestures', on: { click: help },
       aria: { label: 'Help: keys and gestures' },
     });
-    byId('views').append(this.modes.element, this.heights, this.cut, this.places, this.help);
+    this.render = button('Render', render, {
+      title: 'Have the program trace a picture of this view',
+      aria: { label: 'Render this view' },
+    });
+    byId('views').append(this.modes.element, this.heights, this.cut, this.places, this.render,
+      this.help);
   }
 
   go(jump) {
@@ -54,6 +59,7 @@ export class Views {
     const walking = motion.mode === 'walk';
     this.heights.hidden = !walking;
     this.cut.hidden = walking;
+    this.render.disabled = motion.mode === 'plan';
     this.cut.value = motion.plan.cut;
     const known = Object.values(eyeHeights).find((h) => Math.abs(h - motion.height) < 0.005);
     this.heights.value = known ?? '';

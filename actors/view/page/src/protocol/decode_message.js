@@ -8,6 +8,9 @@ export const limits = {
   characters: 2048,
   metres: 1e6,
   texels: 1 << 20,
+  pngCharacters: 1 << 23,
+  flames: 8,
+  flameCells: 64,
 };
 
 function fail(path, what) {
@@ -71,6 +74,15 @@ function texelsOf(value, path, columns, rows) {
   return Uint8Array.from(bytes, (c) => c.charCodeAt(0));
 }
 
+/** Base64 of a PNG file, as it begins: the eight bytes of its signature. */
+function pngOf(value, path) {
+  if (value === null || value === undefined) return null;
+  if (typeof value !== 'string' || value.length > limits.pngCharacters ||
+      !/^iVBORw0KGg[A-Za-z0-9+/]+={0,2}$/.test(value))
+    fail(path, 'no PNG file in base64');
+  return value;
+}
+
 function sign(value, path) {
   const s = record(value, path);
   const columns = whole(s.columns, `${path}.columns`, 1, 4096);
@@ -101,6 +113,25 @@ function voxelsOf(value, path) {
   if (total > frameLimits.voxels) fail(path, `${total} voxels`);
   const low = place(value.low, `${path}.low`);
   return { low, edge: number(value.edge, `${path}.edge`, 1e-3, 1e3), count, total };
+}
+
+/** Where a flame glows within its box: a byte for each cell, x fastest. */
+function flame(value, path) {
+  const f = record(value, path);
+  const count = triple(f.count, `${path}.count`, 1, limits.flameCells).map(Math.round);
+  return {
+    group: text(f.group, `${path}.group`),
+    low: place(f.low, `${path}.low`),
+    size: triple(f.size, `${path}.size`, 1e-6, 1e4),
+    count,
+    colour: colour(f.colour, `${path}.colour`),
+    cells: texelsOf(f.cells, `${path}.cells`, count[0] * count[1], count[2]),
+  };
+}
+
+function flames(value, path) {
+  const all = list(value, path, flame);
+  return all.length <= limits.flames ? all : fail(path, `${all.length} flames`);
 }
 
 const group = (g, path) => ({
@@ -169,6 +200,7 @@ const readers = {
     observers: list(m.observers ?? [], 'observers', observer),
     cameras: list(m.cameras ?? [], 'cameras', camera),
     voxels: voxelsOf(m.voxels, 'voxels'),
+    flames: flames(m.flames ?? [], 'flames'),
     editor: m.editor === true,
   }),
   progress: (m) => ({
@@ -204,6 +236,15 @@ const readers = {
       reason: textOr(row.reason, `${path}.reason`, ''),
     })),
     note: textOr(m.note, 'note', ''),
+  }),
+  picture: (m) => ({
+    id: whole(m.id, 'id', 0, 2 ** 53),
+    particles: number(m.particles, 'particles', 0, 1e18),
+    paths: whole(m.paths, 'paths', 0, 1 << 16),
+    relativeError: numberOrNull(m.relative_error, 'relative_error'),
+    seconds: number(m.seconds, 'seconds', 0, 1e9),
+    done: m.done === true,
+    png: pngOf(m.png, 'png'),
   }),
   added: (m) => ({
     kind: oneOf(m.kind, 'kind', ['sign', 'luminaire']),

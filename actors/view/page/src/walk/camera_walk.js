@@ -126,6 +126,10 @@ export class CameraWalk {
     return rayThrough(viewOf(this.motion), this.aspect, x, y);
   }
 
+  get view() {
+    return viewOf(this.motion);
+  }
+
   get inPlan() {
     return this.motion.mode === 'plan';
   }

@@ -15,6 +15,7 @@ export function keyActions(page) {
     KeyP: () => walk.setMode('plan'),
     KeyV: () => panels.rendition.next(),
     KeyM: () => panels.marks.click(),
+    KeyR: () => page.render(),
     KeyL: () => page.hands.lock(),
     Escape: () => selection.clear(),
     Equal: nearer,
