@@ -6,9 +6,9 @@
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
 #include "actors/cli/load_scene.hpp"
-#include "actors/import/import_files.hpp"
-#include "runtime/core/atomic_file.hpp"
-#include "scenes/fields/fds_building.hpp"
+#include "actors/import/write_fire.hpp"
+#include "runtime/core/printable.hpp"
+#include "scenes/fds_input/input_building.hpp"
 
 namespace luxodus::cli {
 
@@ -17,84 +17,84 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ImportOptions {
-  std::string index;
+  std::string file;
   std::string out;
   std::string at = "60s";
+  bool snap = false;
+  std::vector<std::string> without;
 };
 
-std::string geometry_text(const ImportOptions& options, const FireBuilding& building) {
-  std::string out = fmt::format(
-      "# The building of {} as FDS computed it, snapped to its grid, at {}.\n"
-      "# Made by `luxodus import fds`, which writes this file anew: change scene.toml instead.\n"
-      "# Colours are those of Smokeview, which are for display: FDS knows no reflectances.\n",
-      fs::path(options.index).filename().string(), options.at);
-  for (const std::string& name : building.absent)
-    out += fmt::format("# Not there at this time: {}\n", name);
-  return out + "\n" + building.objects;
+/// What is imported, and where it comes from.
+struct FireImport {
+  FireBuilding building;
+  FireOrigin source;
+};
+
+FireOrigin source_of(const ImportOptions& options, const char* how) {
+  FireOrigin out;
+  const fs::path file(options.file);
+  out.title = file.stem().string() + " from FDS";
+  out.made_of = fmt::format("The building of {} {}", file.filename().string(), how);
+  out.at_text = options.at;
+  out.at_s = time_asked(options.at).value_or(0);
+  return out;
 }
 
-/// What a person goes on with: the smoke, a light, and what is left to do.
-std::string scene_text(const ImportOptions& options, const FireBuilding& building,
-                       const std::string& index) {
-  std::string sides, exits;
-  for (const std::string& side : building.open_sides)
-    sides += fmt::format("{}\"{}\"", sides.empty() ? "" : ", ", side);
-  for (const glm::dvec3& exit : building.exits)
-    exits += fmt::format("#   [{:.4g}, {:.4g}, {:.4g}]\n", exit.x, exit.y, exit.z);
-  if (!exits.empty())
-    exits = "\n# Openings that reach the floor, where exits and their signs may be:\n" + exits;
-  return fmt::format(
-      R"(title = "{} from FDS"
-include = ["geometry.toml"]
-open_sides = [{}]
+Result<FireImport> of_results(const ImportOptions& options) {
+  if (!options.without.empty())
+    return problem_in(options.file,
+                      "--without is for input files (.fds): results say by themselves "
+                      "what is there at a time");
+  FireImport out;
+  out.source = source_of(options, "as FDS computed it, snapped to its grid");
+  out.source.index = options.file;
+  auto building = read_fire_building(options.file, out.source.at_s);
+  if (!building) return building.problem();
+  out.building = std::move(building).value();
+  return out;
+}
 
-# FDS computes extinction only. How smoke scatters is for you to say.
-[[medium]]
-name = "fire"
-kind = "fds"
-file = {}
-at_s = {:g}
-albedo = 0.2      # soot of flaming fires: 0.15 to 0.3
-g = 0.6           # smoke: 0.5 to 0.8
-angstrom = 1      # extinction follows 1/wavelength
+/// The results of a case lie beside its input file, or nowhere.
+std::optional<std::string> index_beside(const std::string& file, const std::string& case_name) {
+  const fs::path index = fs::path(file).parent_path() / (case_name + ".smv");
+  std::error_code failed;
+  return fs::is_regular_file(index, failed) ? std::optional(index.string()) : std::nullopt;
+}
 
-# The light of the flames, where the case has HRRPUV:
-# [medium.flames]
-# radiant_fraction = 0.35
-# soot_temperature_k = 1400
-
-# A stand-in, so that there is light: put your luminaires here.
-[[emitter]]
-name = "stand-in"
-shape = "point"
-distribution = "isotropic"
-position = [{:.6g}, {:.6g}, {:.6g}]
-flux_lm = 1000
-{})",
-      fs::path(options.index).stem().string(), sides, index, time_asked(options.at).value_or(0),
-      building.lamp.x, building.lamp.y, building.lamp.z, exits);
+Result<FireImport> of_input(const ImportOptions& options) {
+  const auto input = read_fds_input(options.file);
+  if (!input) return input.problem();
+  FireImport out;
+  out.source =
+      source_of(options, options.snap ? "snapped to the cells of its meshes" : "as written");
+  out.source.index = index_beside(options.file, input->case_name);
+  FdsInputOptions wanted;
+  wanted.at_s = out.source.at_s;
+  wanted.without = {options.without.begin(), options.without.end()};
+  auto building = options.snap ? snapped_building(input.value(), wanted)
+                               : exact_building(input.value(), wanted);
+  if (!building) return building.problem();
+  out.building = std::move(building).value();
+  return out;
 }
 
 Result<ExitCode> import_fds(const ImportOptions& options) {
-  const auto building = read_fire_building(options.index, time_asked(options.at).value_or(0));
-  if (!building) return building.problem();
-  const auto index = quoted_from(options.out, options.index);
-  if (!index) return index.problem();
-  const auto folder = import_folder(options.out);
-  if (!folder) return folder.problem();
-  const std::string geometry = geometry_text(options, building.value());
-  if (auto ok = write_file_atomically(folder.value() / "geometry.toml", std::string_view(geometry));
-      !ok)
-    return ok.problem();
-  const auto kept = write_unless_there(folder.value() / "scene.toml",
-                                       scene_text(options, building.value(), index.value()));
+  const bool is_input = fs::path(options.file).extension() == ".fds";
+  const auto made = is_input ? of_input(options) : of_results(options);
+  if (!made) return made.problem();
+  const FireBuilding& building = made->building;
+  const auto kept = write_fire(building, made->source, options.out);
   if (!kept) return kept.problem();
   std::printf(
-      "boxes %zu, plates %zu, rectangles of walls, floors and ceilings %zu; obstructions that are "
-      "not there at %s: %zu\n%s%s\n",
-      building->solids, building->plates, building->faces, options.at.c_str(),
-      building->absent.size(), (fs::path(options.out) / "geometry.toml").c_str(),
-      kept.value() ? ", and scene.toml as it was" : " and scene.toml");
+      "boxes %zu, plates %zu, bodies %zu, rectangles of walls, floors and ceilings %zu; "
+      "obstructions that are not there at %s: %zu\n",
+      building.solids, building.plates, building.bodies.size(), building.faces, options.at.c_str(),
+      building.absent.size());
+  for (const std::string& note : building.notes) std::printf("note: %s\n", printable(note).c_str());
+  if (is_input && !made->source.index)
+    std::printf("note: there are no results of this case beside it, so the scene has no smoke\n");
+  std::printf("%s%s\n", (fs::path(options.out) / "geometry.toml").c_str(),
+              kept.value() ? ", and scene.toml as it was" : " and scene.toml");
   return ExitCode::success;
 }
 
@@ -106,15 +106,27 @@ Command import_command() {
       .name = "fds",
       .summary = "Make a scene of an FDS case: its building, and its smoke by reference",
       .options =
-          {{"index", &o->index, "Index of the case (.smv)", {.form = Form::file, .required = true}},
+          {{"case",
+            &o->file,
+            "Input file of the case (.fds), or index of its results (.smv)",
+            {.form = Form::file, .required = true}},
            {"-o,--out", &o->out, "Folder of the scene", {.form = Form::folder, .required = true}},
            {"--at", &o->at, "Time at which obstructions count, and of the smoke",
-            at_option(o->at).traits}},
+            at_option(o->at).traits},
+           {"--snap", &o->snap,
+            "Geometry of an input file on the cells of its meshes, as FDS computes it"},
+           {"--without",
+            &o->without,
+            "IDs of obstructions, holes and openings of an input file that are not there",
+            {.form = Form::name}}},
       .notes =
-          "Obstructions become boxes as FDS has snapped them to its grid, the closed faces of "
-          "meshes rectangles. geometry.toml is written anew by every import; scene.toml, which is "
-          "yours, only where there is none.\n"
+          "Of results (.smv), obstructions become boxes as FDS has snapped them to its grid. Of an "
+          "input file (.fds), they are as written, cut by holes, or with --snap as FDS would snap "
+          "them; the smoke is that of the results beside it. The closed faces of meshes become "
+          "rectangles. geometry.toml is written anew by every import; scene.toml and "
+          "materials.toml are yours.\n"
           "  luxodus import fds results/corridor.smv --out corridor\n"
+          "  luxodus import fds corridor.fds --snap --out corridor\n"
           "  luxodus check corridor/scene.toml",
       .run = [o] { return exit_code_of(import_fds(*o)); }};
   return {.name = "import",

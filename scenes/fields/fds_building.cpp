@@ -20,20 +20,9 @@ constexpr double seam_m = 1e-5;
 constexpr double threshold_m = 0.05;
 constexpr double below_ceiling_m = 0.1;
 
-/// A name that a scene takes: no quotes, slashes, control characters, outer blanks or leading dot.
-std::string scene_name(const std::string& name, const std::string& otherwise) {
-  std::string out;
-  for (const char c : name) {
-    const auto u = static_cast<unsigned char>(c);
-    out += u < 0x20 || u >= 0x7f || c == '"' || c == '/' || c == '\\' ? '_' : c;
-  }
-  while (!out.empty() && (out.front() == ' ' || out.front() == '.')) out.erase(0, 1);
-  while (!out.empty() && out.back() == ' ') out.pop_back();
-  return out.empty() ? otherwise : out;
-}
-
-std::string metres_text(const glm::dvec3& p) {
-  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", p.x, p.y, p.z);
+std::string place_text(const glm::dvec3& low, const glm::dvec3& high) {
+  return fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g}", low.x, low.y, low.z, high.x,
+                     high.y, high.z);
 }
 
 /// A rectangle of cells on a face of a mesh.
@@ -86,55 +75,28 @@ class BuildingWriter {
       for (int axis = 0; axis < 3; ++axis)
         for (const bool high : {false, true}) face(m, axis, high);
       openings(fire_.meshes[m]);
-      if (objects_ > luxodus::limits::fire_objects)
+      if (out_.tables.objects() > luxodus::limits::fire_objects)
         return problem_in(fire_.file, fmt::format("its building has more than {} objects",
                                                   luxodus::limits::fire_objects));
     }
     const Mesh& first = fire_.meshes.front();
     out_.lamp = 0.5 * (first.low() + first.high());
     out_.lamp.z = first.high().z - below_ceiling_m;
-    std::string materials;
-    for (const auto& [surface, name] : materials_) {
-      const glm::dvec3 rgb =
-          surface < fire_.surfaces.size() ? fire_.surfaces[surface].rgb : glm::dvec3(0.5);
-      materials += fmt::format(
-          "[[material]]\nname = \"{}\"\nkind = \"lambertian\"\nreflectance = {{ srgb = [{:.4g}, "
-          "{:.4g}, {:.4g}] }}\n\n",
-          name, rgb.x, rgb.y, rgb.z);
-    }
-    out_.objects = materials + objects_text_;
     return std::move(out_);
   }
 
  private:
-  const std::string& material(size_t surface) {
-    const auto [at, fresh] = materials_.try_emplace(surface);
-    if (fresh) {
-      const std::string number = std::to_string(surface);
-      std::string name = surface < fire_.surfaces.size()
-                             ? scene_name(fire_.surfaces[surface].name, "surface " + number)
-                             : "surface " + number;
-      while (!material_names_.insert(name).second) name += " " + number;
-      at->second = std::move(name);
-    }
-    return at->second;
+  FireLook look_of(size_t surface) const {
+    if (surface >= fire_.surfaces.size())
+      return {.surface = "surface " + std::to_string(surface), .rgb = std::nullopt};
+    const Surface& s = fire_.surfaces[surface];
+    return {s.name, s.rgb, std::nullopt, s.opacity};
   }
-
-  void object(const std::string& base, const std::string& shape, size_t surface) {
-    const size_t number = ++numbers_[base];
-    const std::string name = number == 1 ? base : fmt::format("{} {}", base, number);
-    if (!object_names_.insert(name).second) return object(base, shape, surface);
-    ++objects_;
-    objects_text_ += fmt::format("[[object]]\nname = \"{}\"\n{}material = \"{}\"\n\n", name, shape,
-                                 material(surface));
-  }
-
-  void quad(const std::string& base, const glm::dvec3& corner, const glm::dvec3& u,
-            const glm::dvec3& v, size_t surface) {
-    object(base,
-           fmt::format("shape = \"quad\"\ncorner = {}\nedge_u = {}\nedge_v = {}\n",
-                       metres_text(corner), metres_text(u), metres_text(v)),
-           surface);
+  FireLook look_of(const ObstructionLabel& label) const {
+    FireLook look = look_of(label.surface);
+    look.rgb = label.rgb;
+    look.opacity = label.opacity.value_or(look.opacity);
+    return look;
   }
 
   void obstructions(size_t m) {
@@ -160,23 +122,20 @@ class BuildingWriter {
       if (flat > 1) continue;
       if (flat == 0) {
         ++out_.solids;
-        object(name,
-               fmt::format("shape = \"box\"\nlow = {}\nhigh = {}\n", metres_text(low),
-                           metres_text(high)),
-               mesh.labels[i].surface);
+        out_.tables.box(name, low, high, look_of(mesh.labels[i]));
         continue;
       }
-      plate(mesh, name, low, high, across, mesh.labels[i].surface);
+      plate(mesh, mesh.labels[i], low, high, across);
     }
   }
 
   /// One without thickness; not on an outer face, where the face stands already, and once where
   /// two meshes name it.
-  void plate(const Mesh& mesh, const std::string& name, const glm::dvec3& low,
-             const glm::dvec3& high, int across, size_t surface) {
+  void plate(const Mesh& mesh, const ObstructionLabel& label, const glm::dvec3& low,
+             const glm::dvec3& high, int across) {
     const bool outer = std::abs(low[across] - out_.bounds.low[across]) < seam_m ||
                        std::abs(low[across] - out_.bounds.high[across]) < seam_m;
-    if (outer || !plates_.insert(metres_text(low) + metres_text(high)).second) return;
+    if (outer || !plates_.insert(place_text(low, high)).second) return;
     const bool below = std::abs(low[across] - mesh.low()[across]) < seam_m;
     if (below || std::abs(low[across] - mesh.high()[across]) < seam_m) {
       // On a seam, the wall itself is often an obstruction of the mesh behind.
@@ -185,11 +144,7 @@ class BuildingWriter {
       if (is_solid(behind)) return;
     }
     ++out_.plates;
-    const int u = (across + 1) % 3, v = (across + 2) % 3;
-    glm::dvec3 edge_u(0), edge_v(0);
-    edge_u[u] = high[u] - low[u];
-    edge_v[v] = high[v] - low[v];
-    quad(name, low, edge_u, edge_v, surface);
+    out_.tables.plate(scene_name(label.name, "obstruction"), low, high, across, look_of(label));
   }
 
   bool is_solid(const glm::dvec3& place) {
@@ -230,29 +185,22 @@ class BuildingWriter {
         outside[axis] += high ? seam_m : -seam_m;
         inside[axis] += high ? -seam_m : seam_m;
         const auto cell = static_cast<size_t>(cell_at(mesh, inside));
-        const bool behind =
-            std::any_of(touching.begin(), touching.end(),
-                        [&](const Mesh* other) { return cell_at(*other, outside) >= 0; });
+        const bool behind = std::any_of(touching.begin(), touching.end(), [&](const Mesh* other) {
+          return cell_at(*other, outside) >= 0;
+        });
         closed.push_back(!behind && !is_open(mesh, at) && gas(m)[cell] != 0 ? 1 : 0);
       }
     const std::vector<double>&nu = mesh.nodes[static_cast<size_t>(u)],
           &nv = mesh.nodes[static_cast<size_t>(v)];
     for (const Patch& p : patches_of(closed, mesh.cells[u], mesh.cells[v])) {
-      glm::dvec3 corner, edge_u(0), edge_v(0);
-      corner[axis] = plane;
-      corner[u] = nu[static_cast<size_t>(p.u0)];
-      corner[v] = nv[static_cast<size_t>(p.v0)];
-      edge_u[u] = nu[static_cast<size_t>(p.u1)] - corner[u];
-      edge_v[v] = nv[static_cast<size_t>(p.v1)] - corner[v];
+      glm::dvec3 low, far;
+      low[axis] = far[axis] = plane;
+      low[u] = nu[static_cast<size_t>(p.u0)];
+      low[v] = nv[static_cast<size_t>(p.v0)];
+      far[u] = nu[static_cast<size_t>(p.u1)];
+      far[v] = nv[static_cast<size_t>(p.v1)];
       ++out_.faces;
-      const char* const names[] = {"west wall",  "east wall", "south wall",
-                                   "north wall", "floor",     "ceiling"};
-      // The front looks into the mesh.
-      const std::string name = names[2 * axis + (high ? 1 : 0)];
-      if (high)
-        quad(name, corner, edge_v, edge_u, fire_.default_surface);
-      else
-        quad(name, corner, edge_u, edge_v, fire_.default_surface);
+      out_.tables.face(2 * axis + (high ? 1 : 0), low, far, look_of(fire_.default_surface));
     }
   }
 
@@ -287,11 +235,7 @@ class BuildingWriter {
   double at_s_;
   FireBuilding out_;
   GasMasks gas_;
-  size_t objects_ = 0;
-  std::string objects_text_;
-  std::map<size_t, std::string> materials_;  // by surface
-  std::set<std::string> material_names_{"open"}, object_names_, plates_;
-  std::map<std::string, size_t> numbers_;
+  std::set<std::string> plates_;
 };
 
 }  // namespace
@@ -300,7 +244,11 @@ class BuildingWriter {
 Result<FireBuilding> read_fire_building(const std::filesystem::path& index, double at_s) {
   auto fire = fds::read_case(index);
   if (!fire) return fire.problem();
-  return fds::BuildingWriter(std::move(fire.value()), at_s).write();
+  return fire_building_of(std::move(fire).value(), at_s);
+}
+
+Result<FireBuilding> fire_building_of(fds::Case fire, double at_s) {
+  return fds::BuildingWriter(std::move(fire), at_s).write();
 }
 
 }  // namespace luxodus

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "scenes/fields/fire_tables.hpp"
 #include "scenes/geometry/mesh.hpp"
 
 namespace luxodus {
@@ -18,14 +19,26 @@ namespace limits {
 inline constexpr size_t fire_objects = 100'000;
 }  // namespace limits
 
+namespace fds {
+struct Case;
+}
+
+/// A body of triangles.
+struct FireBody {
+  std::string name, material;  // as the scene has them
+  Mesh mesh;
+};
+
 struct FireBuilding {
-  std::string objects;                  // [[material]] and [[object]] tables
+  fds::FireTables tables;               // its objects and materials
+  std::vector<FireBody> bodies;         // with names and materials of `tables`
   size_t solids = 0;                    // boxes
   size_t plates = 0;                    // quads
   size_t faces = 0;                     // rectangles of closed faces of meshes
   std::vector<std::string> open_sides;  // words of the scene's key open_sides
   std::vector<glm::dvec3> exits;    // middles of openings that reach the floor of their mesh [m]
   std::vector<std::string> absent;  // obstructions that are not there at this time
+  std::vector<std::string> notes;   // what a person must know of it
   Bounds bounds;                    // of the meshes [m]
   glm::dvec3 lamp{0};               // a place in gas under the ceiling of the first mesh [m]
 };
@@ -34,5 +47,8 @@ struct FireBuilding {
 /// FDS knows no reflectances.
 /// Errors: as fds_case.hpp says; more than limits::fire_objects.
 Result<FireBuilding> read_fire_building(const std::filesystem::path& index, double at_s);
+
+/// The same of a case whose meshes and obstructions are known otherwise.
+Result<FireBuilding> fire_building_of(fds::Case fire, double at_s);
 
 }  // namespace luxodus

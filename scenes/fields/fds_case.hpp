@@ -33,10 +33,13 @@ struct NodeBox {
   glm::ivec3 high{0};
 };
 
-/// What an obstruction is called, and the surface of most of its sides (place in Case::surfaces).
+/// What an obstruction is called, the surface of most of its sides (place in Case::surfaces), and
+/// how it is displayed where that is not as its surface.
 struct ObstructionLabel {
   std::string name;
   size_t surface = 0;
+  std::optional<glm::dvec3> rgb;  // encoded sRGB, 0 to 1
+  std::optional<double> opacity;
 };
 
 /// Face of a mesh that is open to the ambient, as a box without thickness [m].
@@ -48,6 +51,7 @@ struct Opening {
 struct Surface {
   std::string name;
   glm::dvec3 rgb{0.5};  // what Smokeview shows, encoded sRGB, 0 to 1
+  double opacity = 1;
 };
 
 struct Mesh {
@@ -117,7 +121,7 @@ struct Case {
   std::string version;  // of FDS, as the index has it
   std::vector<Mesh> meshes;
   std::vector<Surface> surfaces;
-  size_t default_surface = 0;  // of faces of meshes
+  size_t default_surface = 0;   // of faces of meshes
   std::vector<Change> changes;  // by time
   std::vector<Slice> slices;
   std::vector<Smoke3d> smoke;

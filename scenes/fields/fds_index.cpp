@@ -166,6 +166,12 @@ class IndexReader {
     return failed() ? nullptr : &out_.meshes.back();
   }
 
+  /// A number of 0 to 1, where there is one.
+  static std::optional<double> share(const std::vector<std::string_view>& words, size_t place) {
+    const auto value = place < words.size() ? number_in<double>(words[place]) : std::nullopt;
+    return value && *value >= 0 && *value <= 1 ? value : std::nullopt;
+  }
+
   // ---- keywords
 
   void csv_file() {
@@ -180,11 +186,9 @@ class IndexReader {
     surface.name = excerpt(trimmed(next_line()));
     next_line();
     const auto words = words_of(next_line());
-    for (int i = 0; i < 3; ++i) {
-      const size_t place = 3 + static_cast<size_t>(i);
-      const auto value = place < words.size() ? number_in<double>(words[place]) : std::nullopt;
-      if (value && *value >= 0 && *value <= 1) surface.rgb[i] = *value;
-    }
+    for (int i = 0; i < 3; ++i)
+      surface.rgb[i] = share(words, 3 + static_cast<size_t>(i)).value_or(surface.rgb[i]);
+    surface.opacity = share(words, 6).value_or(1);
     if (!failed()) out_.surfaces.push_back(std::move(surface));
   }
 
@@ -259,7 +263,17 @@ class IndexReader {
         box.high[axis] = std::clamp(box.high[axis], 0, mesh->cells[axis]);
       }
       mesh->obstructions.push_back(box);
+      own_colour(words, mesh->labels[i]);
     }
+  }
+
+  /// "... colour type [r g b a]": -3 says that a colour of its own follows.
+  static void own_colour(const std::vector<std::string_view>& words, ObstructionLabel& label) {
+    if (words.size() < 11 || words[6] != "-3") return;
+    const auto red = share(words, 8), green = share(words, 9), blue = share(words, 10);
+    if (!red || !green || !blue) return;
+    label.rgb = glm::dvec3(*red, *green, *blue);
+    label.opacity = share(words, 11).value_or(1);
   }
 
   /// The last of them are the plain faces of the mesh. Surfaces count from 0.

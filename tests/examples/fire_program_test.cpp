@@ -67,6 +67,46 @@ TEST_CASE("an imported fire is checked, run at another time, and kept when it is
   CHECK(slurp(folder / "room/scene.toml") == mine);
 }
 
+TEST_CASE("an input file is imported with the smoke beside it, and a person's files are kept",
+          "[program][fds]") {
+  const TemporaryFolder folder;
+  write_small_case(folder);
+  const std::string input =
+      "&HEAD CHID='fire' /\n&MESH IJK=4,4,4, XB=0,2,0,2,0,2 /\n"
+      "&SURF ID='WOOD', COLOR='SIENNA' /\n"
+      "&OBST ID='shelf', XB=1.2,1.9,1.2,1.9,0,0.9, SURF_ID='WOOD', TRANSPARENCY=0.5 /\n"
+      "&HOLE XB=1.4,1.6,1,2,0,0.5 /\n&GEOM ID='ball', SPHERE_ORIGIN=0.5,0.5,0.5, "
+      "SPHERE_RADIUS=0.2 /\n&VENT XB=0,0,0.5,1.5,0,1.5, SURF_ID='OPEN' /\n";
+  folder.write("case.fds", input);
+  const auto import_it = [&](const std::string& more) {
+    return run_luxodus(folder, "import fds " + in_folder(folder, "case.fds") + " --out " +
+                                   in_folder(folder, "room") + " --at 30s " + more);
+  };
+  const Outcome imported = import_it("");
+  INFO(imported.err);
+  REQUIRE(imported.code == 0);
+  CHECK_THAT(imported.out, Contains("boxes 3, plates 0, bodies 1"));
+  CHECK_THAT(slurp(folder / "room/geometry.toml"), Contains("high = [1.4, 1.9, 0.9]"));
+  CHECK_THAT(slurp(folder / "room/materials.toml"),
+             Contains("\"WOOD\"") && Contains("opacity of 0.5"));
+  const Outcome checked = run_luxodus(folder, "check " + in_folder(folder, "room/scene.toml"));
+  INFO(checked.err);
+  CHECK(checked.code == 0);
+  CHECK_THAT(checked.err, Contains("the state at 30 s"));
+
+  folder.write("room/materials.toml", "[[material]]\nname = \"WOOD\"\nreflectance = 0.3\n");
+  REQUIRE(import_it("--snap").code == 0);
+  CHECK_THAT(slurp(folder / "room/geometry.toml"), Contains("low = [1, 1, 0]"));
+  const std::string materials = slurp(folder / "room/materials.toml");
+  CHECK_THAT(materials, Contains("reflectance = 0.3") && Contains("\"INERT\""));
+  CHECK(import_it("--without shelf").code == 0);
+  const Outcome unknown = import_it("--without shelv");
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.err, Contains("\"shelv\""));
+  folder.write("case.fds", input + "&TRNX CC=1, PC=1.2 /\n");
+  CHECK_THAT(import_it("").err, Contains("case.fds:8: &TRNX is not imported"));
+}
+
 TEST_CASE("a time that no scene and no pack can have is refused", "[program][fds]") {
   const TemporaryFolder folder;
   write_small_case(folder);
