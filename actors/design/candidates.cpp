@@ -126,16 +126,6 @@ bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double cleara
   });
 }
 
-bool kept_out(const SceneDescription& scene, const DesignSettings& design, const glm::dvec3& p) {
-  const auto floor = floor_below(scene, p);
-  return std::any_of(design.keep_outs.begin(), design.keep_outs.end(), [&](const KeepOut& zone) {
-    const auto its_floor = floor_below(scene, zone.position);
-    const bool here = floor && its_floor ? std::abs(*floor - *its_floor) < one_storey_m
-                                         : std::abs(zone.position.z - p.z) < 2 * one_storey_m;
-    return here && glm::length(glm::dvec2(zone.position - p)) < zone.radius_m;
-  });
-}
-
 class PlaceFinder {
  public:
   PlaceFinder(const SceneDescription& scene, const DesignSettings& design, const Building& bare,
@@ -230,21 +220,21 @@ class PlaceFinder {
 };
 
 /// What becomes of a luminaire that is there.
-ExistingLuminaires fate_of(const DesignSettings& design, const std::string& name) {
+Existing fate_of(const DesignSettings& design, const std::string& name) {
   const auto in = [&](const std::vector<std::string>& list) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
-  if (in(design.fixed)) return ExistingLuminaires::fixed;
-  if (in(design.removable)) return ExistingLuminaires::removable;
-  if (in(design.removed)) return ExistingLuminaires::removed;
+  if (in(design.fixed)) return Existing::fixed;
+  if (in(design.removable)) return Existing::removable;
+  if (in(design.removed)) return Existing::removed;
   return design.existing;
 }
 
 void add_existing(const SceneDescription& scene, const DesignSettings& design, Candidates& out) {
   for (const uint32_t number : emergency_luminaires(scene)) {
     const Emitter& e = scene.emitters[number];
-    const ExistingLuminaires fate = fate_of(design, e.name);
-    if (fate == ExistingLuminaires::removed) {
+    const Existing fate = fate_of(design, e.name);
+    if (fate == Existing::removed) {
       out.removed.push_back(e.name);
       continue;
     }
@@ -252,7 +242,7 @@ void add_existing(const SceneDescription& scene, const DesignSettings& design, C
     one.place = static_cast<uint32_t>(out.all.size());
     one.position = e.frame.origin;
     one.name = e.name;
-    one.fixed = fate == ExistingLuminaires::fixed;
+    one.fixed = fate == Existing::fixed;
     out.all.push_back(std::move(one));
   }
 }
@@ -320,6 +310,16 @@ std::string words_of(const LeftOut& left) {
 }
 
 }  // namespace
+
+bool kept_out(const SceneDescription& scene, const DesignSettings& design, const glm::dvec3& p) {
+  const auto floor = floor_below(scene, p);
+  return std::any_of(design.keep_outs.begin(), design.keep_outs.end(), [&](const KeepOut& zone) {
+    const auto its_floor = floor_below(scene, zone.position);
+    const bool here = floor && its_floor ? std::abs(*floor - *its_floor) < one_storey_m
+                                         : std::abs(zone.position.z - p.z) < 2 * one_storey_m;
+    return here && glm::length(glm::dvec2(zone.position - p)) < zone.radius_m;
+  });
+}
 
 Emitter emitter_of(const SceneDescription& scene, const DesignSettings& design,
                    const LuminaireCandidate& candidate) {

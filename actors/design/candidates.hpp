@@ -53,6 +53,9 @@ SceneDescription scene_of(const SceneDescription& scene, const DesignSettings& d
 Emitter emitter_of(const SceneDescription& scene, const DesignSettings& design,
                    const LuminaireCandidate& candidate);
 
+/// Whether a place lies in a keep-out zone of its storey.
+bool kept_out(const SceneDescription& scene, const DesignSettings& design, const glm::dvec3& place);
+
 /// `scene`: with its emergency luminaires; `doors`: a scenario that gives the doors. Candidates
 /// that a rule of `codes` forbids by themselves (glare, height) are left out.
 /// Errors: no candidate is left, or more than a limit; a scene that cannot be compiled.

@@ -177,6 +177,8 @@ class Designing {
     auto codes = judged_codes(*scene_, options_.rules, options_.deviations);
     if (!codes) return codes.problem();
     if (auto problem = first_error(scene_, scenario.value(), options_.threads)) return problem;
+    if (*scene_->design->place_signs && !scene_->routes.empty())
+      if (auto problem = place_signs(codes.value(), scenario.value())) return problem;
     progress_("finding places", no_objective, 0);
     const SceneDescription switched = as_switched(*scene_, scenario.value());
     auto candidates = find_candidates(switched, *scene_->design, codes.value(), scenario.value(),
@@ -196,6 +198,35 @@ class Designing {
     for (const auto& [what, points] : demands_->hidden())
       if (!what.first.empty()) out_.hidden.push_back({what.first, what.second, points});
     return std::nullopt;
+  }
+
+  /// From here on the scene has the signs.
+  std::optional<Problem> place_signs(const std::vector<CodeChoice>& codes,
+                                     const Scenario& scenario) {
+    SignPlanOptions asked;
+    asked.codes = codes;
+    asked.doors = scenario;
+    // Signs are few beside the luminaires: their program is solved in a small part of the time.
+    constexpr double share_of_time = 0.25;
+    asked.seconds = share_of_time * options_.seconds;
+    asked.seed = options_.seed;
+    asked.threads = options_.threads;
+    auto plan = plan_signs(
+        as_switched(*scene_, scenario), *scene_->design, asked, interrupt_,
+        [&](const std::string& what, double, double) { progress_(what, no_objective, 0); });
+    if (!plan) return plan.problem();
+    scene_ = with_signs(*scene_, plan.value());
+    out_.signs = std::move(plan).value();
+    return std::nullopt;
+  }
+
+  /// Whether signs that were placed decide a check, which then has to pass.
+  bool is_of_signs(const Check& check) const {
+    static const std::set<std::string> distances{"S4", "N8"};
+    if (!out_.signs || !distances.contains(check.rule.id)) return false;
+    return std::any_of(scene_->routes.begin(), scene_->routes.end(), [&](const EscapeRoute& route) {
+      return check.subject == "route \"" + route.name + "\"" && out_.signs->guides(route.name);
+    });
   }
 
   void solve() {
@@ -247,8 +278,9 @@ class Designing {
     for (const Check& check : assessment.checks) {
       if (check.verdict != CheckVerdict::fail) continue;
       const bool of_one = check.subject.starts_with("luminaire \"");
-      const bool decided = is_of_luminaires(check.rule.id) &&
-                           (!of_one || ours.contains(check.subject)) && !demands_->is_hidden(check);
+      const bool decided = is_of_signs(check) || (is_of_luminaires(check.rule.id) &&
+                                                  (!of_one || ours.contains(check.subject)) &&
+                                                  !demands_->is_hidden(check));
       if (decided)
         out.push_back(check);
       else if (others != nullptr)

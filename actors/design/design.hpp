@@ -14,6 +14,7 @@
 #include "actors/assess/assessment.hpp"
 #include "actors/design/candidates.hpp"
 #include "actors/design/placed_layout.hpp"
+#include "actors/design/sign_plan.hpp"
 #include "actors/design/smoke_stage.hpp"
 #include "actors/design/solve_layout.hpp"
 
@@ -42,6 +43,7 @@ struct DesignResult : PlacedLayout {
   LeftOut left_out;
   size_t points = 0;  // of calculation
   std::vector<HiddenByFurniture> hidden;
+  std::optional<SignPlan> signs;  // where signs were placed
   std::vector<ConstraintGroup> groups;
   std::vector<double> tightest;  // of each group: the least share of what it asks for that is there
   LayoutAnswer answer;

@@ -7,6 +7,7 @@
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/design/design_page.hpp"
+#include "actors/design/sign_files.hpp"
 #include "actors/design/smoke_section.hpp"
 #include "actors/report/hand_over.hpp"
 #include "actors/report/plan_svg.hpp"
@@ -18,19 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A text as TOML writes it between quotes: a JSON string is one.
-std::string quoted(const std::string& text) {
-  return Json(text).dump();
-}
-
-/// Coordinates to a tenth of a millimetre.
-std::string metres(double value) {
-  return shortest_number(std::round(value * 1e4) / 1e4);
-}
-
 std::string list_of(const std::vector<std::string>& words) {
   std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + quoted(word);
+  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + toml_text(word);
   return "[" + out + "]";
 }
 
@@ -280,8 +271,8 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
   std::string out =
       "# A variant by `luxodus design`: emergency luminaires where it has placed them.\n"
       "# Written anew by every design into this folder.\n";
-  out += "name = " + quoted(scene.name + "-designed") + "\n";
-  out += "include = [" + quoted(file.generic_string()) + "]\n";
+  out += "name = " + toml_text(scene.name + "-designed") + "\n";
+  out += "include = [" + toml_text(file.generic_string()) + "]\n";
   if (!result.rules.empty() || !result.deviations.empty()) {
     out += "\n[assessment]\n";
     if (!result.rules.empty()) out += "rules = " + list_of(result.rules) + "\n";
@@ -289,14 +280,15 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
   }
   if (result.added_scenario)
     out += "\n[[scenario]]\nname = \"emergency\"\noperation = \"emergency\"\n";
+  if (result.signs) out += sign_changes(scene, *result.signs);
   for (const std::string& name : layout.removed)
-    out += "\n[[change]]\nkind = \"luminaire\"\nof = " + quoted(name) + "\nremove = true\n";
+    out += "\n[[change]]\nkind = \"luminaire\"\nof = " + toml_text(name) + "\nremove = true\n";
   for (const PlacedLuminaire& one : layout.luminaires) {
     if (!one.is_new()) continue;
     const glm::dvec3& p = one.candidate.position;
-    out += "\n[[change]]\nkind = \"design_type\"\nof = " + quoted(type_of(scene, one)) +
-           "\ncopy = " + quoted(one.name) + "\nposition = [" + metres(p.x) + ", " + metres(p.y) +
-           ", " + metres(p.z) + "]\n";
+    out += "\n[[change]]\nkind = \"design_type\"\nof = " + toml_text(type_of(scene, one)) +
+           "\ncopy = " + toml_text(one.name) + "\nposition = [" + toml_metres(p.x) + ", " +
+           toml_metres(p.y) + ", " + toml_metres(p.z) + "]\n";
     if (one.candidate.rotation_deg != 0)
       out += "rotation_deg = " + shortest_number(one.candidate.rotation_deg) + "\n";
   }
@@ -376,6 +368,7 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
                    {"not_assessed", count_of(counts, CheckVerdict::not_assessed)},
                    {"not_verified", count_of(counts, CheckVerdict::not_verified)}};
   out["failing_otherwise"] = others_json(result);
+  if (result.signs) out["signs"] = signs_json(scene, *result.signs);
   if (result.smoke) out["smoke"] = smoke_json(*result.smoke);
   return out;
 }
@@ -388,6 +381,9 @@ Result<void> write_design(const fs::path& folder, const SceneDescription& scene,
   if (auto ok = write_plans(folder / "plans", assessed, language); !ok) return ok.problem();
   if (auto ok = write_csv(folder / "luminaires.csv", schedule_csv(result)); !ok)
     return ok.problem();
+  if (result.signs)
+    if (auto ok = write_csv(folder / "signs.csv", signs_csv(scene, *result.signs)); !ok)
+      return ok.problem();
   if (auto ok = write_json(folder / "design.json", json); !ok) return ok.problem();
   if (auto ok =
           write_file_atomically(folder / "design.html", design_page(json, assessed, language));

@@ -32,6 +32,18 @@ std::vector<TableSpec> design_schema() {
            {"fixed", "texts", "", "[]", "", "names of luminaires that stay, whatever `existing`"},
            {"removable", "texts", "", "[]", "", "names of those that may go, likewise"},
            {"removed", "texts", "", "[]", "", "names of those that go, likewise"},
+           {"place_signs", "flag", "", "", "",
+            "whether signs are placed, too; unless said they are where the scene has no sign or a "
+            "`[[design.sign]]` is stated"},
+           {"sign", "tables", "", "", "",
+            "signs that may be placed; none: the upright signs of the scene, each kind once, and "
+            "where it has none a generic one, lit from within, of 0.5 x 0.2 m"},
+           {"sign_height_m", "number", "m", "2.2", "[0.1, 50]",
+            "of the lower edge of signs above the floor; lower where a ceiling asks for it"},
+           {"sign_spacing_m", "number", "m", "5", "[0.5, 100]",
+            "between places along routes where signs may hang under ceilings"},
+           {"existing_signs", "choice", "", "\"fixed\"", "fixed, removable, removed",
+            "what becomes of the signs of the scene, where signs are placed"},
            {"failure", "choice", "", "\"two\"", "none, two, full",
             "what holds when any one luminaire has failed: nothing; two luminaires over each route "
             "and area, and no place below 0.1 lx; the minima of the rules"},
@@ -66,6 +78,19 @@ std::vector<TableSpec> design_schema() {
                   {{"body_material", "text", "", "", "",
                     "material of its body; without it returning light "
                     "passes"}}))},
+      {"design.sign", "`[[design.sign]]`: a sign that may be placed",
+       joined({{"name", "name", "", "required", "", "name of the type"},
+               {"like", "text", "", "", "",
+                "sign of the scene that it is like, instead of the keys of its face and its light"},
+               {"type", "text", "", "", "",
+                "name of a `[[sign_type]]`, whose keys it has but for those that it says itself"},
+               {"cost", "number", "", "1", "[0, 1e9]",
+                "of one, installed, with what it costs over its life"},
+               {"watts", "number", "W", "0", "[0, 1e6]", "that one takes"},
+               {"arrow", "choice", "", "", "left, right, ahead",
+                "arrow that its drawing shows, as its reader sees it; without it the sign is made "
+                "with any"}},
+              sign_body_keys())},
       {"design.keep_out",
        "`[[design.keep_out]]`: a vertical cylinder in which nothing is mounted",
        {

@@ -23,6 +23,17 @@ struct DesignType {
   bool stated = false;            // in the scene; else one that follows from it
 };
 
+/// A sign that may be placed, at the origin, facing +x. It leads nowhere yet.
+struct DesignSignType {
+  std::string name;
+  SourcePlace place;
+  Sign sign;
+  double cost = 1;                 // as of a luminaire
+  double watts = 0;                // [W]
+  std::optional<SignArrow> arrow;  // that its drawing shows; none: it is made with any
+  bool stated = false;
+};
+
 /// A vertical cylinder in which nothing is mounted, around a smoke detector for instance.
 struct KeepOut {
   std::string name;
@@ -31,8 +42,8 @@ struct KeepOut {
   double radius_m = 0.5;
 };
 
-/// What becomes of emergency luminaires that are there already.
-enum class ExistingLuminaires { fixed, removable, removed };
+/// What becomes of emergency luminaires and of signs that are there already.
+enum class Existing { fixed, removable, removed };
 inline constexpr std::array<std::string_view, 3> existing_words{"fixed", "removable", "removed"};
 
 enum class DesignObjective { number, cost, watts, weighted };
@@ -58,8 +69,15 @@ struct DesignSettings {
   std::vector<KeepOut> keep_outs;
 
   // Luminaires that are there
-  ExistingLuminaires existing = ExistingLuminaires::fixed;
+  Existing existing = Existing::fixed;
   std::vector<std::string> fixed, removable, removed;  // by name, whatever `existing` says
+
+  // Signs
+  std::optional<bool> place_signs;  // not said: where the scene has no sign, or types are stated
+  std::vector<DesignSignType> sign_types;  // as of luminaires
+  double sign_height_m = 2.2;              // of the lower edge above the floor
+  double sign_spacing_m = 5;               // between places under ceilings along routes
+  Existing existing_signs = Existing::fixed;
 
   // What must hold, and what is sought
   FailureDemand failure = FailureDemand::two;
