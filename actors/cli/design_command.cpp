@@ -77,6 +77,8 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
               result.prepared_seconds + answer.first_seconds, answer.seconds);
   if (result.signs)
     for (const std::string& line : sign_words(*result.signs)) std::printf("%s\n", line.c_str());
+  if (result.tolerance && !result.tolerance->demands.empty())
+    std::printf("%s\n", tolerance_words(*result.tolerance).c_str());
   std::printf("the layout, assessed: %s\n", words_of(counts_of(result.assessment.checks)).c_str());
   for (const Check& check : result.others)
     std::printf("  fails, and is not decided here: %s: %s\n", check.subject.c_str(),

@@ -152,12 +152,27 @@ class Designing {
     if (auto problem = prepare()) return *problem;
     for (out_.verifications = 1;; ++out_.verifications) {
       solve();
-      if (out_.answer.layout.empty()) return std::move(out_);
+      if (out_.answer.layout.empty()) {
+        if (!nearest_) return std::move(out_);
+        out_ = *std::move(nearest_);
+        break;
+      }
       if (auto problem = judge()) return *problem;
       const auto failing = failing_checks(out_, out_.assessment, &out_.others);
-      if (failing.empty()) break;
-      if (out_.verifications == max_verifications || !ask_for_more(failing))
-        return rejected(failing.front());
+      const bool last = out_.verifications == max_verifications || interrupt_;
+      if (!failing.empty()) {
+        if (!last && ask_for_more(failing)) continue;
+        if (!nearest_) return rejected(failing.front());
+        out_ = *std::move(nearest_);
+        break;
+      }
+      if (auto problem = find_tolerance()) return *problem;
+      keep_bound();
+      if (out_.tolerance->holds()) break;
+      if (!nearest_ || out_.tolerance->least() > nearest_->tolerance->least()) nearest_ = out_;
+      if (!last && ask_for_more_off_place()) continue;
+      out_ = *std::move(nearest_);
+      break;
     }
     out_.tightest = tightest_of(demands_->problem(), out_.answer.layout);
     if (!scenarios_in_smoke().empty() && !interrupt_)
@@ -174,20 +189,22 @@ class Designing {
       if (auto ok = check_smoke_stage(*scene_, smoke); !ok) return ok.problem();
     auto scenario = judged_scenario(*scene_, options_.scenario);
     if (!scenario) return scenario.problem();
+    scenario_ = std::move(scenario).value();
     auto codes = judged_codes(*scene_, options_.rules, options_.deviations);
     if (!codes) return codes.problem();
-    if (auto problem = first_error(scene_, scenario.value(), options_.threads)) return problem;
+    codes_ = std::move(codes).value();
+    if (auto problem = first_error(scene_, scenario_, options_.threads)) return problem;
     if (*scene_->design->place_signs && !scene_->routes.empty())
-      if (auto problem = place_signs(codes.value(), scenario.value())) return problem;
+      if (auto problem = place_signs()) return problem;
     progress_("finding places", no_objective, 0);
-    const SceneDescription switched = as_switched(*scene_, scenario.value());
-    auto candidates = find_candidates(switched, *scene_->design, codes.value(), scenario.value(),
-                                      options_.threads);
+    switched_ = as_switched(*scene_, scenario_);
+    auto candidates =
+        find_candidates(switched_, *scene_->design, codes_, scenario_, options_.threads);
     if (!candidates) return candidates.problem();
     candidates_ = std::move(candidates).value();
     progress_("computing their light", no_objective, 0);
-    auto demands = Demands::make(switched, *scene_->design, candidates_.all, codes.value(),
-                                 scenario.value(), options_.threads);
+    auto demands = Demands::make(switched_, *scene_->design, candidates_.all, codes_, scenario_,
+                                 options_.threads);
     if (!demands) return demands.problem();
     demands_ = std::move(demands).value();
     out_.places = candidates_.places;
@@ -201,18 +218,17 @@ class Designing {
   }
 
   /// From here on the scene has the signs.
-  std::optional<Problem> place_signs(const std::vector<CodeChoice>& codes,
-                                     const Scenario& scenario) {
+  std::optional<Problem> place_signs() {
     SignPlanOptions asked;
-    asked.codes = codes;
-    asked.doors = scenario;
+    asked.codes = codes_;
+    asked.doors = scenario_;
     // Signs are few beside the luminaires: their program is solved in a small part of the time.
     constexpr double share_of_time = 0.25;
     asked.seconds = share_of_time * options_.seconds;
     asked.seed = options_.seed;
     asked.threads = options_.threads;
     auto plan = plan_signs(
-        as_switched(*scene_, scenario), *scene_->design, asked, interrupt_,
+        as_switched(*scene_, scenario_), *scene_->design, asked, interrupt_,
         [&](const std::string& what, double, double) { progress_(what, no_objective, 0); });
     if (!plan) return plan.problem();
     scene_ = with_signs(*scene_, plan.value());
@@ -227,6 +243,46 @@ class Designing {
     return std::any_of(scene_->routes.begin(), scene_->routes.end(), [&](const EscapeRoute& route) {
       return check.subject == "route \"" + route.name + "\"" && out_.signs->guides(route.name);
     });
+  }
+
+  /// What is left of the minima with luminaires off their places.
+  std::optional<Problem> find_tolerance() {
+    out_.tolerance.emplace();
+    if (!(scene_->design->place_tolerance_m > 0)) return std::nullopt;
+    progress_("looking at luminaires off their places", out_.answer.objective, out_.answer.bound);
+    auto found = tolerance_of(switched_, *scene_->design, chosen_candidates(), codes_, scenario_,
+                              options_.threads);
+    if (!found) return found.problem();
+    out_.tolerance = std::move(found).value();
+    return std::nullopt;
+  }
+
+  /// Rows that were raised for one layout may exclude others that hold off their places with less:
+  /// the bound is that of the search before.
+  void keep_bound() {
+    LayoutAnswer& answer = out_.answer;
+    if (!first_bound_) first_bound_ = answer.bound;
+    if (answer.bound <= *first_bound_) return;
+    answer.bound = *first_bound_;
+    if (answer.end == LayoutEnd::optimal && answer.gap() > 0) answer.end = LayoutEnd::within_gap;
+  }
+
+  std::vector<LuminaireCandidate> chosen_candidates() const {
+    std::vector<LuminaireCandidate> out;
+    for (size_t i = 0; i < candidates_.all.size(); ++i)
+      if (out_.answer.layout[i] != 0) out.push_back(candidates_.all[i]);
+    return out;
+  }
+
+  /// False where nothing can be asked for, or no layout gives more: then what is there is told.
+  bool ask_for_more_off_place() {
+    bool any = false;
+    for (const ShareOffPlace& one : out_.tolerance->demands)
+      if (one.missing > 0)
+        any = demands_->ask_for_more(one.kind, one.rule, one.subject, one.place, one.missing,
+                                     out_.answer.layout) ||
+              any;
+    return any;
   }
 
   void solve() {
@@ -361,9 +417,15 @@ class Designing {
   SystemClock clock_;
   Nanoseconds began_;
   double solving_since_ = 0;
+  Scenario scenario_;
+  std::vector<CodeChoice> codes_;
+  SceneDescription switched_;  // as the circuits of the scenario leave it, with signs
   Candidates candidates_;
   std::unique_ptr<Demands> demands_;
   DesignResult out_;
+  /// The layout that passes the rules and holds best off its places, while none holds there.
+  std::optional<DesignResult> nearest_;
+  std::optional<double> first_bound_;
 };
 
 }  // namespace

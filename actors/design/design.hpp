@@ -13,6 +13,7 @@
 
 #include "actors/assess/assessment.hpp"
 #include "actors/design/candidates.hpp"
+#include "actors/design/place_tolerance.hpp"
 #include "actors/design/placed_layout.hpp"
 #include "actors/design/sign_plan.hpp"
 #include "actors/design/smoke_stage.hpp"
@@ -47,7 +48,8 @@ struct DesignResult : PlacedLayout {
   std::vector<ConstraintGroup> groups;
   std::vector<double> tightest;  // of each group: the least share of what it asks for that is there
   LayoutAnswer answer;
-  Conflict conflict;  // where no layout exists
+  std::optional<PlaceTolerance> tolerance;  // of the layout
+  Conflict conflict;                        // where no layout exists
   Assessment assessment;
   std::vector<Check> others;    // checks that fail and that no luminaire of the layout decides
   bool added_scenario = false;  // the scene has none: the variant has one in emergency operation

@@ -112,6 +112,19 @@ Json others_json(const DesignResult& result) {
   return out;
 }
 
+Json tolerance_json(const PlaceTolerance& tolerance) {
+  Json demands = Json::array();
+  for (const ShareOffPlace& one : tolerance.demands)
+    demands.push_back({{"kind", word_of(one.kind)},
+                       {"rule", one.rule},
+                       {"subject", one.subject},
+                       {"share", number_json(one.share)},
+                       {"place", vector_json(one.place)}});
+  return {{"distance_m", number_json(tolerance.distance_m)},
+          {"holds", tolerance.holds()},
+          {"demands", std::move(demands)}};
+}
+
 Result<void> write_plans(const fs::path& folder, const Json& a, Language language) {
   std::error_code failed;
   fs::create_directories(folder, failed);
@@ -188,6 +201,17 @@ std::string demand_words(const ConstraintGroup& group) {
   }
   return fmt::format("{}: {}{}", group.subject, what,
                      group.rule.empty() ? "" : " (" + group.rule + ")");
+}
+
+std::string tolerance_words(const PlaceTolerance& tolerance) {
+  if (tolerance.demands.empty()) return "";
+  const ShareOffPlace& least = tolerance.demands.front();
+  return fmt::format(
+      "mounted up to {} m off their places, all luminaires at once: the least is {} of the minimum "
+      "of the rules, {}{} at {}{}",
+      readable_number(tolerance.distance_m, 2), percent(least.share), least.subject,
+      least.rule.empty() ? "" : " (" + least.rule + ")", at_words(least.place),
+      tolerance.holds() ? "" : "; no layout was found whose minima hold");
 }
 
 std::string outcome_words(const SceneDescription& scene, const DesignResult& result) {
@@ -368,6 +392,7 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
                    {"not_assessed", count_of(counts, CheckVerdict::not_assessed)},
                    {"not_verified", count_of(counts, CheckVerdict::not_verified)}};
   out["failing_otherwise"] = others_json(result);
+  if (result.tolerance) out["off_place"] = tolerance_json(*result.tolerance);
   if (result.signs) out["signs"] = signs_json(scene, *result.signs);
   if (result.smoke) out["smoke"] = smoke_json(*result.smoke);
   return out;

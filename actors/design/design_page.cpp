@@ -206,6 +206,20 @@ std::string hidden(const Texts& t, const Json& d) {
   return out;
 }
 
+/// What is left with luminaires off their places.
+std::string off_place(const Texts& t, const Json& d) {
+  if (!d.contains("off_place") || d["off_place"]["demands"].empty()) return "";
+  const Json& off = d["off_place"];
+  const Json& least = off["demands"].front();
+  const Json& p = least["place"];
+  return paragraph(
+      t.say("design.off_place", t.number(off["distance_m"].get<double>(), 2),
+            t.number(100 * least["share"].get<double>(), 3),
+            subject_text(t, text_in(least, "subject")),
+            t.place(p[0].get<double>(), p[1].get<double>(), p[2].get<double>())) +
+      (off["holds"].get<bool>() ? std::string() : std::string(" ") + t("design.off_place_fails")));
+}
+
 std::string settings(const Texts& t, const Json& d) {
   const Json& c = d["candidates"];
   const Json& s = d["settings"];
@@ -236,7 +250,8 @@ std::string design_page(const Json& d, const Json& a, Language language) {
       (d.contains("smoke") ? smoke_section(t, d) : "") + heading(t, "heading.plans") +
       plans_of(t, a, schedule) + heading(t, "heading.schedules") + schedule_of(t, d) +
       (d.contains("signs") ? signs_of(t, d["signs"]) : "") + heading(t, "design.binding_heading") +
-      binding(t, d) + others(t, d) + heading(t, "design.settings_heading") + settings(t, d);
+      binding(t, d) + off_place(t, d) + others(t, d) + heading(t, "design.settings_heading") +
+      settings(t, d);
   return html_page({t.code(), title + " – " + t("design.page"), report_style}, body);
 }
 

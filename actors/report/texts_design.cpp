@@ -65,6 +65,19 @@ constexpr ReportText design_rows[] = {
     {"design.removed",
      {"Luminaires of the scene that go: {0}.", "Leuchten der Szene, die entfallen: {0}.",
       "Luminaires de la scène qui disparaissent : {0}."}},
+    {"design.off_place",
+     {"With all new luminaires mounted up to {0} m off their places, each in its worst direction, "
+      "the least is {1} % of a minimum of the rules, without the planning margin: {2}, at {3}.",
+      "Sind alle neuen Leuchten bis {0} m neben ihrem Ort montiert, jede in der schlechtesten "
+      "Richtung, so ist der kleinste Wert {1} % eines Mindestwerts der Regeln, ohne "
+      "Planungsfaktor: {2}, bei {3}.",
+      "Avec tous les luminaires neufs montés jusqu’à {0} m à côté de leur place, chacun dans la "
+      "pire direction, le plus faible est {1} % d’un minimum des règles, sans la marge de projet : "
+      "{2}, en {3}."}},
+    {"design.off_place_fails",
+     {"No layout of these candidates was found whose minima hold then.",
+      "Keine Anordnung dieser Kandidaten wurde gefunden, deren Mindestwerte dann gelten.",
+      "Aucune implantation de ces candidats n’a été trouvée dont les minimums tiennent alors."}},
     {"design.signs_heading", {"Signs", "Zeichen", "Panneaux"}},
     {"design.signs",
      {"{0} new signs. From everywhere on the routes, but for what is named below, a sign ahead is "

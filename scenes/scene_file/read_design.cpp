@@ -295,6 +295,7 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
         std::pair{"wall_clearance_m", &design.wall_clearance_m},
         std::pair{"sign_clearance_m", &design.sign_clearance_m},
         std::pair{"drop_m", &design.drop_m}, std::pair{"margin", &design.margin},
+        std::pair{"place_tolerance_m", &design.place_tolerance_m},
         std::pair{"sign_height_m", &design.sign_height_m},
         std::pair{"sign_spacing_m", &design.sign_spacing_m},
         std::pair{"weight_number", &design.weight_number},

@@ -49,6 +49,9 @@ std::vector<TableSpec> design_schema() {
             "and area, and no place below 0.1 lx; the minima of the rules"},
            {"margin", "number", "", "1.25", "[1, 10]",
             "planned minima of illuminance over those of the rules"},
+           {"place_tolerance_m", "number", "m", "0.25", "[0, 2]",
+            "how far off new luminaires may be mounted, all of them and each in its worst "
+            "direction, while the minima of the rules hold, without `margin`"},
            {"objective", "choice", "", "\"number\"", "number, cost, watts, weighted",
             "what is made as small as can be"},
            {"weight_number", "number", "", "1", "[0, 1e6]",

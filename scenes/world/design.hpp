@@ -81,7 +81,8 @@ struct DesignSettings {
 
   // What must hold, and what is sought
   FailureDemand failure = FailureDemand::two;
-  double margin = 1.25;  // of minima of illuminance over the limits of the rules
+  double margin = 1.25;             // of minima of illuminance over the limits of the rules
+  double place_tolerance_m = 0.25;  // minima hold with luminaires mounted so far off
   DesignObjective objective = DesignObjective::number;
   double weight_number = 1, weight_cost = 0, weight_watts = 0;
 
