@@ -77,6 +77,9 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
               result.prepared_seconds + answer.first_seconds, answer.seconds);
   if (result.signs)
     for (const std::string& line : sign_words(*result.signs)) std::printf("%s\n", line.c_str());
+  if (result.refined)
+    std::printf("moved %zu luminaires: the least is %.1f %% of a planned minimum, before %.1f %%\n",
+                result.refined->moved, 100 * result.refined->after, 100 * result.refined->before);
   if (result.tolerance && !result.tolerance->demands.empty())
     std::printf("%s\n", tolerance_words(*result.tolerance).c_str());
   std::printf("the layout, assessed: %s\n", words_of(counts_of(result.assessment.checks)).c_str());
@@ -204,6 +207,9 @@ Command design_command() {
             &o->gap,
             "Distance to the best possible layout at which the search ends, e.g. 3%",
             {.form = Form::share, .otherwise = "none: until it is the best"}},
+           {"--refine", &o->design.refine,
+            "Luminaires moved between the places of the grid, where minima are kept with more to "
+            "spare; up to as long again as --time"},
            {"--seed", &o->design.seed, "Seed of the random number generator"},
            {"--threads",
             &o->design.threads,

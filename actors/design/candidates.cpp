@@ -177,6 +177,21 @@ class PlaceFinder {
     return out;
   }
 
+  /// Over a place on the floor; none where it may not be.
+  std::optional<double> height_over(const glm::dvec3& floor) const {
+    std::optional<double> z;
+    bare_.each(1, [&](const GeometryAccess& access, size_t) { z = mounting_z(access, floor); });
+    if (!z) return std::nullopt;
+    const glm::dvec3 p(floor.x, floor.y, *z);
+    bool good = true;
+    furnished_.each(1, [&](const GeometryAccess& access, size_t) {
+      good = !furnished_.in_solid(access, p) && !near_wall(access, p);
+    });
+    if (!good || near_sign(scene_, p, design_.sign_clearance_m) || kept_out(scene_, design_, p))
+      return std::nullopt;
+    return z;
+  }
+
  private:
   /// Listed places are taken as they are, but for two in one place.
   double apart() const { return design_.places.empty() ? design_.spacing_m : 0.02; }
@@ -294,6 +309,14 @@ void leave_out_forbidden(const SceneDescription& scene, const DesignSettings& de
   out.all = std::move(good);
 }
 
+/// Luminaires that are there have bodies, which are no walls: the building is looked at bare.
+SceneDescription without_bodies(const SceneDescription& scene, const DesignSettings& design) {
+  SceneDescription out = scene;
+  for (Emitter& e : out.emitters) e.body_material.clear();
+  if (out.emitters.empty()) out.emitters.push_back(design.types.front().emitter);
+  return out;
+}
+
 std::string words_of(const LeftOut& left) {
   std::string out;
   const auto add = [&](size_t count, const char* why) {
@@ -348,13 +371,42 @@ SceneDescription scene_of(const SceneDescription& scene, const DesignSettings& d
   return out;
 }
 
+struct PlaceCheck::Parts {
+  SceneDescription scene;
+  const DesignSettings& design;
+  std::unique_ptr<Building> bare, furnished;
+};
+
+PlaceCheck::PlaceCheck(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+PlaceCheck::~PlaceCheck() = default;
+
+Result<std::unique_ptr<PlaceCheck>> PlaceCheck::make(const SceneDescription& scene,
+                                                     const DesignSettings& design,
+                                                     const Scenario& doors, int threads) {
+  auto parts = std::make_unique<Parts>(Parts{without_bodies(scene, design), design, {}, {}});
+  for (const bool with_furniture : {false, true}) {
+    auto made = Building::make(code_scene(parts->scene, with_furniture),
+                               code_scenario(parts->scene, doors), threads);
+    if (!made) return made.problem();
+    (with_furniture ? parts->furnished : parts->bare) = std::move(made).value();
+  }
+  return std::unique_ptr<PlaceCheck>(new PlaceCheck(std::move(parts)));
+}
+
+std::optional<glm::dvec3> PlaceCheck::place_over(const glm::dvec2& plan,
+                                                 const glm::dvec3& near) const {
+  const auto floor = floor_below(parts_->scene, {plan, near.z});
+  if (!floor) return std::nullopt;
+  const auto z = PlaceFinder(parts_->scene, parts_->design, *parts_->bare, *parts_->furnished)
+                     .height_over({plan, *floor});
+  if (!z || std::abs(*z - near.z) > one_storey_m) return std::nullopt;
+  return rounded({plan, *z});
+}
+
 Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSettings& design,
                                    const std::vector<CodeChoice>& codes, const Scenario& doors,
                                    int threads) {
-  // Luminaires that are there have bodies, which are no walls: the building is looked at bare.
-  SceneDescription dark = scene;
-  for (Emitter& e : dark.emitters) e.body_material.clear();
-  if (dark.emitters.empty()) dark.emitters.push_back(design.types.front().emitter);
+  const SceneDescription dark = without_bodies(scene, design);
   const auto bare = Building::make(code_scene(dark, false), code_scenario(dark, doors), threads);
   if (!bare) return bare.problem();
   const auto furnished =

@@ -63,4 +63,24 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
                                    const std::vector<CodeChoice>& codes, const Scenario& doors,
                                    int threads);
 
+/// Whether a luminaire may hang over a place, by the same rules as candidates: for places between
+/// those of the grid. One thread.
+class PlaceCheck {
+ public:
+  /// Errors: as compile_scene. Requires: the design outlives this.
+  static Result<std::unique_ptr<PlaceCheck>> make(const SceneDescription& scene,
+                                                  const DesignSettings& design,
+                                                  const Scenario& doors, int threads);
+  ~PlaceCheck();
+
+  /// On the storey of `near`, at the mounting height there; none where it may not be.
+  std::optional<glm::dvec3> place_over(const glm::dvec2& plan, const glm::dvec3& near) const;
+
+ private:
+  struct Parts;
+  explicit PlaceCheck(std::unique_ptr<Parts> parts);
+
+  std::unique_ptr<Parts> parts_;
+};
+
 }  // namespace luxodus

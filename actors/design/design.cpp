@@ -9,6 +9,7 @@
 
 #include "actors/design/alternatives.hpp"
 #include "actors/design/demands.hpp"
+#include "actors/design/refine_layout.hpp"
 #include "runtime/core/clock.hpp"
 
 namespace luxodus {
@@ -175,6 +176,8 @@ class Designing {
       break;
     }
     out_.tightest = tightest_of(demands_->problem(), out_.answer.layout);
+    if ((scene_->design->refine || options_.refine) && !interrupt_)
+      if (auto problem = refine()) return *problem;
     if (!scenarios_in_smoke().empty() && !interrupt_)
       if (auto problem = judge_alternatives()) return *problem;
     return std::move(out_);
@@ -254,6 +257,44 @@ class Designing {
                               options_.threads);
     if (!found) return found.problem();
     out_.tolerance = std::move(found).value();
+    return std::nullopt;
+  }
+
+  /// Moves what was placed; what then fails or holds less off its places stays where it was.
+  std::optional<Problem> refine() {
+    RefineOptions asked;
+    asked.codes = codes_;
+    asked.doors = scenario_;
+    asked.seconds = options_.seconds;
+    asked.threads = options_.threads;
+    auto refined = refine_layout(
+        switched_, *scene_->design, chosen_candidates(), demands_->hidden(), asked, interrupt_,
+        [&](double) { progress_("moving luminaires", out_.answer.objective, out_.answer.bound); });
+    if (!refined) return refined.problem();
+    if (refined->moved == 0) return std::nullopt;
+    Candidates moved = candidates_;
+    size_t next = 0;
+    for (size_t i = 0; i < moved.all.size(); ++i)
+      if (out_.answer.layout[i] != 0) moved.all[i].position = refined->luminaires[next++].position;
+    PlacedLayout layout = placed(*scene_, moved, out_.answer.layout);
+    auto assessed = assessed_by_codes(layout.variant);
+    if (!assessed) return assessed.problem();
+    if (!failing_checks(layout, assessed.value(), nullptr).empty()) return std::nullopt;
+    PlaceTolerance tolerance;
+    if (scene_->design->place_tolerance_m > 0) {
+      auto found = tolerance_of(switched_, *scene_->design, refined->luminaires, codes_, scenario_,
+                                options_.threads);
+      if (!found) return found.problem();
+      if (!found->holds() && found->least() < out_.tolerance->least()) return std::nullopt;
+      tolerance = std::move(found).value();
+    }
+    static_cast<PlacedLayout&>(out_) = std::move(layout);
+    out_.assessment = std::move(assessed).value();
+    out_.tolerance = std::move(tolerance);
+    const LayoutProblem& problem = refined->demands->problem();
+    if (problem.groups.size() == out_.groups.size())
+      out_.tightest = tightest_of(problem, Layout(problem.options.size(), 1));
+    out_.refined = Refined{refined->moved, refined->before, refined->after};
     return std::nullopt;
   }
 

@@ -27,6 +27,7 @@ struct DesignOptions {
   uint64_t seed = 1;
   int threads = 1;
   double seconds = 120;  // of the search
+  bool refine = false;   // as [design] refine
   double gap = 0;        // it ends within this share of the best possible
   /// Scenarios in whose smoke layouts are judged; empty: those of the scene's [design].
   std::vector<std::string> in_smoke;
@@ -36,6 +37,12 @@ struct DesignOptions {
 struct HiddenByFurniture {
   std::string rule, subject;
   size_t points = 0;  // that furniture hides from all candidates
+};
+
+/// What moving luminaires has brought.
+struct Refined {
+  size_t moved = 0;              // luminaires
+  double before = 0, after = 0;  // least share of what is planned for, over all minima
 };
 
 /// The layout is the best by the rules alone.
@@ -49,6 +56,7 @@ struct DesignResult : PlacedLayout {
   std::vector<double> tightest;  // of each group: the least share of what it asks for that is there
   LayoutAnswer answer;
   std::optional<PlaceTolerance> tolerance;  // of the layout
+  std::optional<Refined> refined;           // where luminaires were moved
   Conflict conflict;                        // where no layout exists
   Assessment assessment;
   std::vector<Check> others;    // checks that fail and that no luminaire of the layout decides

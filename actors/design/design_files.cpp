@@ -392,6 +392,10 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
                    {"not_assessed", count_of(counts, CheckVerdict::not_assessed)},
                    {"not_verified", count_of(counts, CheckVerdict::not_verified)}};
   out["failing_otherwise"] = others_json(result);
+  if (result.refined)
+    out["refined"] = {{"moved", result.refined->moved},
+                      {"least_before", number_json(result.refined->before)},
+                      {"least_after", number_json(result.refined->after)}};
   if (result.tolerance) out["off_place"] = tolerance_json(*result.tolerance);
   if (result.signs) out["signs"] = signs_json(scene, *result.signs);
   if (result.smoke) out["smoke"] = smoke_json(*result.smoke);

@@ -308,6 +308,7 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
   if (says("places")) design.places = keys.points("places");
   if (says("existing")) design.existing = word_of<Existing>(keys, "existing", existing_words);
   if (says("place_signs")) design.place_signs = keys.flag("place_signs");
+  if (says("refine")) design.refine = keys.flag("refine");
   if (says("existing_signs"))
     design.existing_signs = word_of<Existing>(keys, "existing_signs", existing_words);
   if (says("failure")) design.failure = word_of<FailureDemand>(keys, "failure", failure_words);

@@ -52,6 +52,10 @@ std::vector<TableSpec> design_schema() {
            {"place_tolerance_m", "number", "m", "0.25", "[0, 2]",
             "how far off new luminaires may be mounted, all of them and each in its worst "
             "direction, while the minima of the rules hold, without `margin`"},
+           {"refine", "flag", "", "false", "",
+            "moves what was placed by up to half of `spacing_m`, where minima are kept with more "
+            "to "
+            "spare then"},
            {"objective", "choice", "", "\"number\"", "number, cost, watts, weighted",
             "what is made as small as can be"},
            {"weight_number", "number", "", "1", "[0, 1e6]",

@@ -83,6 +83,7 @@ struct DesignSettings {
   FailureDemand failure = FailureDemand::two;
   double margin = 1.25;             // of minima of illuminance over the limits of the rules
   double place_tolerance_m = 0.25;  // minima hold with luminaires mounted so far off
+  bool refine = false;              // what was placed is moved between the places of the grid
   DesignObjective objective = DesignObjective::number;
   double weight_number = 1, weight_cost = 0, weight_watts = 0;
 
