@@ -10,6 +10,7 @@
 #include <set>
 
 #include "actors/assess/code_light.hpp"
+#include "actors/design/wall_places.hpp"
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/way.hpp"
 #include "scenes/geometry/transform.hpp"
@@ -117,13 +118,6 @@ std::vector<double> rotations_of(const DesignType& type, double heading_deg) {
   if (turns.empty()) turns = {0, 90};
   for (double& turn : turns) turn = std::remainder(heading_deg + turn, 360.0);
   return turns;
-}
-
-bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double clearance_m) {
-  return std::any_of(scene.signs.begin(), scene.signs.end(), [&](const Sign& sign) {
-    return glm::length(glm::dvec2(sign.frame.origin - p)) < clearance_m &&
-           std::abs(sign.frame.origin.z - p.z) < 2 * one_storey_m;
-  });
 }
 
 class PlaceFinder {
@@ -255,26 +249,54 @@ void add_existing(const SceneDescription& scene, const DesignSettings& design, C
     }
     LuminaireCandidate one;
     one.place = static_cast<uint32_t>(out.all.size());
-    one.position = e.frame.origin;
+    one.position = one.floor = e.frame.origin;
     one.name = e.name;
     one.fixed = fate == Existing::fixed;
     out.all.push_back(std::move(one));
   }
 }
 
-void add_new(const DesignSettings& design, const std::vector<Spot>& spots, Candidates& out) {
+void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
+             const std::vector<WallSpot>& walls, Candidates& out) {
   const auto first = static_cast<uint32_t>(out.all.size());
   for (uint32_t s = 0; s < spots.size(); ++s)
-    for (size_t t = 0; t < design.types.size(); ++t)
+    for (size_t t = 0; t < design.types.size(); ++t) {
+      if (design.types[t].mount == LuminaireMount::wall) continue;
       for (const double rotation_deg : rotations_of(design.types[t], spots[s].heading_deg)) {
         LuminaireCandidate one;
         one.type = t;
         one.place = first + s;
         one.position = rounded({spots[s].floor.x, spots[s].floor.y, *spots[s].z});
+        one.floor = spots[s].floor;
         one.rotation_deg = rotation_deg;
         out.all.push_back(std::move(one));
       }
-  out.places = spots.size();
+    }
+  const auto first_wall = static_cast<uint32_t>(first + spots.size());
+  for (uint32_t s = 0; s < walls.size(); ++s)
+    for (size_t t = 0; t < design.types.size(); ++t) {
+      if (design.types[t].mount == LuminaireMount::ceiling) continue;
+      auto turns = design.types[t].turns_deg;
+      if (turns.empty()) turns = {0};
+      for (const double turn : turns) {
+        LuminaireCandidate one;
+        one.type = t;
+        one.place = first_wall + s;
+        one.position = walls[s].position;
+        one.floor = walls[s].floor;
+        one.aim = aim_from_wall(walls[s].outward, design.types[t].aim_deg);
+        one.rotation_deg = turn;
+        out.all.push_back(std::move(one));
+      }
+    }
+  out.places = spots.size() + walls.size();
+}
+
+/// Whether any type hangs there.
+bool any_mounted(const DesignSettings& design, LuminaireMount mount) {
+  return std::any_of(design.types.begin(), design.types.end(), [&](const DesignType& type) {
+    return type.mount == mount || type.mount == LuminaireMount::both;
+  });
 }
 
 /// What glares or hangs too low may not be: no other luminaire changes that.
@@ -327,12 +349,20 @@ std::string words_of(const LeftOut& left) {
   add(left.near_walls, "nearer to a wall than 'wall_clearance_m'");
   add(left.near_signs, "nearer to a sign than 'sign_clearance_m'");
   add(left.keep_out, "in keep-out zones");
+  add(left.no_wall, "where no wall is flat");
   add(left.too_low, "less than 2 m above the floor (E14)");
   add(left.glaring, "that glare (E8)");
   return out;
 }
 
 }  // namespace
+
+bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double clearance_m) {
+  return std::any_of(scene.signs.begin(), scene.signs.end(), [&](const Sign& sign) {
+    return glm::length(glm::dvec2(sign.frame.origin - p)) < clearance_m &&
+           std::abs(sign.frame.origin.z - p.z) < 2 * one_storey_m;
+  });
+}
 
 bool kept_out(const SceneDescription& scene, const DesignSettings& design, const glm::dvec3& p) {
   const auto floor = floor_below(scene, p);
@@ -353,6 +383,7 @@ Emitter emitter_of(const SceneDescription& scene, const DesignSettings& design,
   }
   Emitter e = design.types[candidate.type].emitter;
   e.frame.origin = candidate.position;
+  if (candidate.aim) e.frame = frame_aiming(candidate.position, *candidate.aim, {0, 0, 1}).value();
   // As `rotation_deg` of a luminaire: about local z.
   e.frame.axes = e.frame.axes * rotation({0, 0, 1}, candidate.rotation_deg).value().linear;
   return e;
@@ -415,19 +446,23 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
   Candidates out;
   add_existing(scene, design, out);
   const size_t existing = out.all.size();
-  const std::vector<Spot> spots =
-      PlaceFinder(scene, design, *bare.value(), *furnished.value()).find(out.left_out);
-  if (spots.size() > limits::design_places)
+  std::vector<Spot> spots;
+  if (any_mounted(design, LuminaireMount::ceiling))
+    spots = PlaceFinder(scene, design, *bare.value(), *furnished.value()).find(out.left_out);
+  std::vector<WallSpot> walls;
+  if (any_mounted(design, LuminaireMount::wall))
+    walls = wall_spots(scene, design, *bare.value(), *furnished.value(), out.left_out);
+  if (const size_t places = spots.size() + walls.size(); places > limits::design_places)
     return problem_in(design.place, fmt::format("there are {} candidate places, and at most {} are "
                                                 "taken: make 'spacing_m' larger, or say 'over'",
-                                                spots.size(), limits::design_places));
-  add_new(design, spots, out);
+                                                places, limits::design_places));
+  add_new(design, spots, walls, out);
   if (out.all.size() > limits::design_candidates)
     return problem_in(
         design.place,
         fmt::format("there are {} candidates ({} places, types and turns), and at most "
                     "{} are taken: make 'spacing_m' larger",
-                    out.all.size(), spots.size(), limits::design_candidates));
+                    out.all.size(), out.places, limits::design_candidates));
   if (!out.all.empty()) leave_out_forbidden(scene, design, codes, *bare.value(), out);
   if (out.all.size() == existing &&
       std::all_of(out.all.begin(), out.all.end(),

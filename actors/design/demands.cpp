@@ -351,7 +351,7 @@ class Demands::Builder {
     std::vector<size_t> out;
     for (size_t i = 0; i < candidates_.size(); ++i)
       if (floors_[i] && std::abs(*floors_[i] - floor_z) < same_storey_m &&
-          in_plan_of(subject, glm::dvec2(candidates_[i].position)))
+          in_plan_of(subject, glm::dvec2(candidates_[i].floor)))
         out.push_back(i);
     return out;
   }

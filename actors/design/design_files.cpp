@@ -81,6 +81,9 @@ Json luminaires_json_of(const SceneDescription& scene, const DesignResult& resul
                    {"type", type_of(scene, one)},
                    {"is_new", one.is_new()},
                    {"position", vector_json(one.candidate.position)},
+                   {"mount", one.candidate.aim ? "wall"
+                             : one.is_new()    ? "ceiling"
+                                               : ""},
                    {"rotation_deg", number_json(one.candidate.rotation_deg)}});
   return out;
 }
@@ -313,6 +316,10 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
     out += "\n[[change]]\nkind = \"design_type\"\nof = " + toml_text(type_of(scene, one)) +
            "\ncopy = " + toml_text(one.name) + "\nposition = [" + toml_metres(p.x) + ", " +
            toml_metres(p.y) + ", " + toml_metres(p.z) + "]\n";
+    if (one.candidate.aim)
+      out += "facing = [" + shortest_number(one.candidate.aim->x) + ", " +
+             shortest_number(one.candidate.aim->y) + ", " + shortest_number(one.candidate.aim->z) +
+             "]\n";
     if (one.candidate.rotation_deg != 0)
       out += "rotation_deg = " + shortest_number(one.candidate.rotation_deg) + "\n";
   }
@@ -321,7 +328,7 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
 
 CsvTable schedule_csv(const DesignResult& result) {
   CsvTable table({"name", "state", "type", "file", "x [m]", "y [m]", "z [m]",
-                  "height above floor [m]", "turn [deg]", "emergency flux [lm]",
+                  "height above floor [m]", "mount", "turn [deg]", "emergency flux [lm]",
                   "maintenance factor [1]", "end of duration factor [1]", "cost", "power [W]"});
   const SceneDescription& scene = *result.variant;
   for (const PlacedLuminaire& one : result.luminaires) {
@@ -334,6 +341,7 @@ CsvTable schedule_csv(const DesignResult& result) {
       table.cell(p.z - *floor);
     else
       table.empty_cell();
+    table.cell(one.candidate.aim ? "wall" : one.is_new() ? "ceiling" : "");
     table.cell(one.candidate.rotation_deg).cell(at->emergency_flux / at->emergency_ageing);
     table.cell(at->maintenance_factor).cell(at->end_of_duration_factor);
     if (one.is_new()) {
@@ -378,7 +386,8 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
                          {"near_signs", left.near_signs},
                          {"keep_out", left.keep_out},
                          {"too_low", left.too_low},
-                         {"glaring", left.glaring}}}};
+                         {"glaring", left.glaring},
+                         {"no_wall", left.no_wall}}}};
   out["hidden_by_furniture"] = Json::array();
   for (const HiddenByFurniture& one : result.hidden)
     out["hidden_by_furniture"].push_back(

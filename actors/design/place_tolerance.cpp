@@ -18,6 +18,14 @@ constexpr int off_directions = 8;
 /// A share that is this near to 1 holds: rounding.
 constexpr double share_rounding = 1e-6;
 
+/// Level on a ceiling; along and up the wall on one.
+glm::dvec3 off_way(const LuminaireCandidate& one, double azimuth) {
+  const glm::dvec3 level(std::cos(azimuth), std::sin(azimuth), 0);
+  if (!one.aim || glm::length(glm::dvec2(*one.aim)) < 1e-3) return level;
+  const glm::dvec3 along = glm::normalize(glm::dvec3(-one.aim->y, one.aim->x, 0));
+  return along * level.x + glm::dvec3(0, 0, level.y);
+}
+
 /// A luminaire where it is planned and where it may be instead, one after another, in one place.
 std::vector<LuminaireCandidate> with_places_off(const Building& building,
                                                 const std::vector<LuminaireCandidate>& chosen,
@@ -31,7 +39,7 @@ std::vector<LuminaireCandidate> with_places_off(const Building& building,
       if (one.type == LuminaireCandidate::existing) continue;  // it is where it is
       for (int d = 0; d < off_directions; ++d) {
         const double azimuth = 2 * std::numbers::pi * d / off_directions;
-        const glm::dvec3 way(std::cos(azimuth), std::sin(azimuth), 0);
+        const glm::dvec3 way = off_way(chosen[i], azimuth);
         const auto stop =
             first_stop(building.scene(), access, building.local(chosen[i].position), Vec3(way),
                        static_cast<Real>(distance_m), [&](const Facing& f) {

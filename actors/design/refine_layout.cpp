@@ -30,7 +30,7 @@ constexpr double when_broken = -10;
 struct Judged {
   bool good = false;
   double smooth = when_broken;  // least
-  double least = 0;        // share of a minimum that is planned for
+  double least = 0;             // share of a minimum that is planned for
 };
 
 bool is_planned_minimum(DemandKind kind) {
@@ -137,11 +137,12 @@ class Refining {
     }
   }
 
-  /// New luminaires, first those that the tightest minima come from.
+  /// New luminaires under ceilings, first those that the tightest minima come from.
   std::vector<size_t> by_weight() const {
     std::vector<size_t> out;
     for (size_t i = 0; i < out_.luminaires.size(); ++i)
-      if (out_.luminaires[i].type != LuminaireCandidate::existing) out.push_back(i);
+      if (out_.luminaires[i].type != LuminaireCandidate::existing && !out_.luminaires[i].aim)
+        out.push_back(i);
     std::stable_sort(out.begin(), out.end(),
                      [&](size_t a, size_t b) { return weight_[a] > weight_[b]; });
     return out;

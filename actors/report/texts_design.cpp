@@ -299,6 +299,8 @@ constexpr ReportText design_rows[] = {
       "est devant à {0} degrés du chemin au plus. ● marque les implantations dont aucune autre "
       "n’est plus lisible pour autant. Toutes respectent les règles que les luminaires "
       "décident."}},
+    {"design.left_no_wall",
+     {"{0} where no wall is flat", "{0}, wo keine Wand eben ist", "{0} où aucun mur n’est plan"}},
     {"design.left_glaring", {"{0} glaring (E8)", "{0} blendend (E8)", "{0} éblouissants (E8)"}},
 };
 

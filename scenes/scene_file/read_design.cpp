@@ -100,6 +100,12 @@ void take_light_of(KeyReader& keys, const std::string& like, Emitter& e) {
   e = *at;
 }
 
+template <class Word, size_t N>
+Word word_of(KeyReader& keys, const char* key, const std::array<std::string_view, N>& words) {
+  const auto at = std::find(words.begin(), words.end(), keys.choice(key));
+  return static_cast<Word>(at == words.end() ? 0 : at - words.begin());
+}
+
 void read_design_type(const toml::Table& table, SceneReading& reading, DesignSettings& design) {
   KeyReader keys(table, {"design.type"}, reading);
   DesignType type;
@@ -117,6 +123,8 @@ void read_design_type(const toml::Table& table, SceneReading& reading, DesignSet
   type.cost = keys.number("cost");
   type.watts = keys.number("watts");
   type.turns_deg = keys.numbers("turns_deg");
+  type.mount = word_of<LuminaireMount>(keys, "mount", luminaire_mount_words);
+  type.aim_deg = keys.number("aim_deg");
   if (keys.clean() && !(type.emitter.emergency_flux > 0))
     keys.problem("the type '" + type.name +
                  "' gives no light in an emergency: set 'emergency', and 'emergency_flux' or "
@@ -235,12 +243,6 @@ void read_keep_out(const toml::Table& table, SceneReading& reading, DesignSettin
   design.keep_outs.push_back(std::move(one));
 }
 
-template <class Word, size_t N>
-Word word_of(KeyReader& keys, const char* key, const std::array<std::string_view, N>& words) {
-  const auto at = std::find(words.begin(), words.end(), keys.choice(key));
-  return static_cast<Word>(at == words.end() ? 0 : at - words.begin());
-}
-
 /// Names of luminaires, each in one list.
 void read_named(KeyReader& keys, DesignSettings& design) {
   std::set<std::string> seen;
@@ -296,6 +298,7 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
         std::pair{"sign_clearance_m", &design.sign_clearance_m},
         std::pair{"drop_m", &design.drop_m}, std::pair{"margin", &design.margin},
         std::pair{"place_tolerance_m", &design.place_tolerance_m},
+        std::pair{"wall_height_m", &design.wall_height_m},
         std::pair{"sign_height_m", &design.sign_height_m},
         std::pair{"sign_spacing_m", &design.sign_spacing_m},
         std::pair{"weight_number", &design.weight_number},

@@ -23,6 +23,8 @@ std::vector<TableSpec> design_schema() {
             "of the luminous opening below the ceiling that is met above the floor"},
            {"mounting_height_m", "number", "m", "", "[0.1, 100]",
             "of luminous openings above the floor, where they do not hang by `drop_m`"},
+           {"wall_height_m", "number", "m", "2.3", "[0.1, 50]",
+            "of luminaires on walls above the floor, for types that hang there"},
            {"places", "points", "m", "", "[-1e7, 1e7]",
             "candidate places, listed instead of the grid"},
            {"keep_out", "tables", "", "", "", "where nothing is mounted"},
@@ -70,21 +72,24 @@ std::vector<TableSpec> design_schema() {
             "other layouts that are judged in smoke, up to 30 % above the objective of the best"},
        }},
       {"design.type", "`[[design.type]]`: a luminaire that may be placed",
-       joined(
-           {{"name", "name", "", "required", "", "name of the type"},
-            {"like", "text", "", "", "",
-             "luminaire or emitter of the scene whose light it has, instead of `file` and all "
-             "that goes with it"},
-            {"cost", "number", "", "1", "[0, 1e9]",
-             "of one, installed, with what it costs over its life"},
-            {"watts", "number", "W", "0", "[0, 1e6]", "that one takes"},
-            {"turns_deg", "numbers", "deg", "", "[-360, 360]",
-             "turns about its aim that are tried, from the direction of the route below (over "
-             "areas from +x); without it 0 and 90 of those whose light has a direction, else 0"}},
-           joined(joined(photometric_file_keys(""), operation_keys()),
-                  {{"body_material", "text", "", "", "",
-                    "material of its body; without it returning light "
-                    "passes"}}))},
+       joined({{"name", "name", "", "required", "", "name of the type"},
+               {"like", "text", "", "", "",
+                "luminaire or emitter of the scene whose light it has, instead of `file` and all "
+                "that goes with it"},
+               {"cost", "number", "", "1", "[0, 1e9]",
+                "of one, installed, with what it costs over its life"},
+               {"watts", "number", "W", "0", "[0, 1e6]", "that one takes"},
+               {"turns_deg", "numbers", "deg", "", "[-360, 360]",
+                "turns about its aim that are tried, from the direction of the route below (over "
+                "areas from +x); without it 0 and 90 of those whose light has a direction, else 0"},
+               {"mount", "choice", "", "\"ceiling\"", "ceiling, wall, both",
+                "where it hangs: under ceilings, or on walls beside routes and around areas"},
+               {"aim_deg", "number", "deg", "90", "[0, 90]",
+                "where its -z looks on a wall: 0 straight down, 90 away from the wall"}},
+              joined(joined(photometric_file_keys(""), operation_keys()),
+                     {{"body_material", "text", "", "", "",
+                       "material of its body; without it returning light "
+                       "passes"}}))},
       {"design.sign", "`[[design.sign]]`: a sign that may be placed",
        joined({{"name", "name", "", "required", "", "name of the type"},
                {"like", "text", "", "", "",

@@ -12,6 +12,9 @@
 
 namespace luxodus {
 
+enum class LuminaireMount { ceiling, wall, both };
+inline constexpr std::array<std::string_view, 3> luminaire_mount_words{"ceiling", "wall", "both"};
+
 /// A luminaire that may be placed, at the origin, looking down, unturned. Its emitter has its name.
 struct DesignType {
   std::string name;
@@ -20,7 +23,9 @@ struct DesignType {
   double cost = 1;                // of one, installed, in any currency
   double watts = 0;               // that one takes from the mains [W]
   std::vector<double> turns_deg;  // about its aim, against the way below; empty: by its symmetry
-  bool stated = false;            // in the scene; else one that follows from it
+  LuminaireMount mount = LuminaireMount::ceiling;
+  double aim_deg = 90;  // of one on a wall: 0 looks straight down, 90 away from the wall
+  bool stated = false;  // in the scene; else one that follows from it
 };
 
 /// A sign that may be placed, at the origin, facing +x. It leads nowhere yet.
@@ -65,6 +70,7 @@ struct DesignSettings {
   double sign_clearance_m = 0.3;
   double drop_m = 0.03;                     // of a luminous opening below its ceiling
   std::optional<double> mounting_height_m;  // above the floor; else on the ceiling
+  double wall_height_m = 2.3;               // of luminaires on walls above the floor
   std::vector<glm::dvec3> places;           // listed, instead of the grid
   std::vector<KeepOut> keep_outs;
 
