@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "actors/assess/clear_signs.hpp"
 #include "actors/assess/code_light.hpp"
 #include "actors/assess/plan_cut.hpp"
 #include "actors/inspect/site.hpp"
@@ -12,18 +13,6 @@
 namespace luxodus {
 
 namespace {
-
-constexpr double standing_eye_m = 1.65;
-/// Of light that panes take away: less is none.
-constexpr double clear_glass = 1e-3;
-/// Panes that pass less hide a sign: clear ones pass 0.9, two of them 0.8.
-constexpr double dark_pane = 0.5;
-
-/// A sign that is lit from within and gives no light in an emergency shows nobody the way.
-bool is_dark(const Sign& sign) {
-  return sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 == 0 &&
-         sign.emergency.green_cd_m2 == 0;
-}
 
 void append(std::vector<Check>& out, const std::vector<Check>& more) {
   out.insert(out.end(), more.begin(), more.end());
@@ -52,10 +41,6 @@ class CodeMode {
       const AssessedArea& area, double border_m,
       const std::function<std::vector<Check>(const std::vector<LitPoint>&, const CodeChoice&)>&
           checks) const;
-  std::vector<std::vector<ClearSign>> clear_signs(const std::vector<Walker>& people) const;
-  /// Of the light from the middle of a face to an eye, what panes on the way let pass.
-  double passed_by_panes(const GeometryAccess& access, const SignView& view,
-                         const glm::dvec3& eye) const;
 
   const SceneDescription& scene_;
   const Building& building_;
@@ -67,28 +52,6 @@ double sum_of(const std::vector<double>& lux) {
   return std::accumulate(lux.begin(), lux.end(), 0.0);
 }
 
-std::vector<std::vector<ClearSign>> CodeMode::clear_signs(const std::vector<Walker>& people) const {
-  std::vector<std::vector<ClearSign>> out(people.size());
-  building_.each(people.size(), [&](const GeometryAccess& access, size_t i) {
-    const glm::dvec3 eye = people[i].foot + glm::dvec3(0, 0, standing_eye_m);
-    for (uint32_t s = 0; s < scene_.signs.size(); ++s) {
-      if (is_dark(scene_.signs[s])) continue;
-      const SignView view = view_of_sign(scene_.signs[s], eye);
-      if (view.behind || building_.seen_share(access, scene_.signs[s], view, eye) <= 0.5) continue;
-      const double passed = passed_by_panes(access, view, eye);
-      if (passed > 0 && passed < dark_pane) continue;
-      out[i].push_back({s, view, passed > 0 && passed < 1 - clear_glass});
-    }
-  });
-  return out;
-}
-
-double CodeMode::passed_by_panes(const GeometryAccess& access, const SignView& view,
-                                 const glm::dvec3& eye) const {
-  return clear_share(building_.scene(), access, building_.local(eye),
-                     building_.local(view.centre + view.normal * 1e-3));
-}
-
 std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
   const RoutePoints points = points_of(route);
   const glm::dvec3 up(0, 0, 1);
@@ -97,7 +60,7 @@ std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
   light.band = light_.lit(points.band, up, floor_plane_m);
   light.inner = light_.lit(points.inner, up, floor_plane_m);
   const auto people = walkers(route, scene_.assessment.spacing_m);
-  const auto clear = clear_signs(people);
+  const auto clear = clear_signs(scene_, building_, people);
   std::vector<Check> out;
   for (const CodeChoice& codes : codes_) {
     append(out, checks_of_route(scene_, route, light, codes));

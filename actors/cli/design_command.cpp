@@ -12,9 +12,11 @@
 #include "actors/cli/signals.hpp"
 #include "actors/cli/version.hpp"
 #include "actors/design/design_files.hpp"
+#include "actors/design/sign_files.hpp"
 #include "actors/design/smoke_section.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/output/output_folder.hpp"
+#include "actors/report/pdf.hpp"
 #include "runtime/core/log.hpp"
 #include "runtime/core/output_text.hpp"
 #include "runtime/core/regular_file.hpp"
@@ -32,11 +34,11 @@ struct DesignCommandOptions {
   std::string language = "en";
   DesignOptions design;
   std::string gap;
-  bool overwrite = false;
+  bool overwrite = false, pdf = false;
 };
 
-const std::vector<std::string> design_files{"design.html", "design.json", "layout.toml",
-                                            "luminaires.csv"};
+const std::vector<std::string> design_files{"design.html",    "design.json", "layout.toml",
+                                            "luminaires.csv", "signs.csv",   "design.pdf"};
 
 std::string names_of_sets() {
   std::string out;
@@ -73,6 +75,13 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
   std::printf("%zu places, %zu candidates, %zu points; first layout after %.1f s, search %.1f s\n",
               result.places, result.candidates, result.points,
               result.prepared_seconds + answer.first_seconds, answer.seconds);
+  if (result.signs)
+    for (const std::string& line : sign_words(*result.signs)) std::printf("%s\n", line.c_str());
+  if (result.refined)
+    std::printf("moved %zu luminaires: the least is %.1f %% of a planned minimum, before %.1f %%\n",
+                result.refined->moved, 100 * result.refined->after, 100 * result.refined->before);
+  if (result.tolerance && !result.tolerance->demands.empty())
+    std::printf("%s\n", tolerance_words(*result.tolerance).c_str());
   std::printf("the layout, assessed: %s\n", words_of(counts_of(result.assessment.checks)).c_str());
   for (const Check& check : result.others)
     std::printf("  fails, and is not decided here: %s: %s\n", check.subject.c_str(),
@@ -146,10 +155,14 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
           write_design(out->path(), *scene, result.value(), language_of(o.language), build.version);
       !ok)
     return ok.problem();
+  if (o.pdf)
+    if (auto ok = print_pdf(out->path() / "design.html", out->path() / "design.pdf"); !ok)
+      return ok.problem();
   print_design(*scene, result.value());
   if (result->smoke) print_smoke(result.value());
-  for (const char* file : {"design.html", "layout.toml"})
-    std::printf("written to %s\n", (out->named() / file).string().c_str());
+  for (const char* file : {"design.html", "design.pdf", "layout.toml"})
+    if (o.pdf || std::string_view(file) != "design.pdf")
+      std::printf("written to %s\n", (out->named() / file).string().c_str());
   if (result->answer.end == LayoutEnd::interrupted || interrupt_flag()) {
     log_warning("interrupted; the best layout so far was written");
     return ExitCode::interrupted;
@@ -194,12 +207,16 @@ Command design_command() {
             &o->gap,
             "Distance to the best possible layout at which the search ends, e.g. 3%",
             {.form = Form::share, .otherwise = "none: until it is the best"}},
+           {"--refine", &o->design.refine,
+            "Luminaires moved between the places of the grid, where minima are kept with more to "
+            "spare; up to as long again as --time"},
            {"--seed", &o->design.seed, "Seed of the random number generator"},
            {"--threads",
             &o->design.threads,
             "Number of threads",
             {.otherwise = "all cores", .range = Range{1, 1024}}},
            {"--language", &o->language, "Language of the page", {.choices = {"en", "de", "fr"}}},
+           {"--pdf", &o->pdf, "Page as design.pdf, too, by Chromium where one is installed"},
            {"--overwrite", &o->overwrite,
             "Replacement of files in the folder that no design has written"}},
       .notes =

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "actors/assess/code_light.hpp"
+#include "actors/design/wall_places.hpp"
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/way.hpp"
 #include "scenes/geometry/transform.hpp"
@@ -119,23 +120,6 @@ std::vector<double> rotations_of(const DesignType& type, double heading_deg) {
   return turns;
 }
 
-bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double clearance_m) {
-  return std::any_of(scene.signs.begin(), scene.signs.end(), [&](const Sign& sign) {
-    return glm::length(glm::dvec2(sign.frame.origin - p)) < clearance_m &&
-           std::abs(sign.frame.origin.z - p.z) < 2 * one_storey_m;
-  });
-}
-
-bool kept_out(const SceneDescription& scene, const DesignSettings& design, const glm::dvec3& p) {
-  const auto floor = floor_below(scene, p);
-  return std::any_of(design.keep_outs.begin(), design.keep_outs.end(), [&](const KeepOut& zone) {
-    const auto its_floor = floor_below(scene, zone.position);
-    const bool here = floor && its_floor ? std::abs(*floor - *its_floor) < one_storey_m
-                                         : std::abs(zone.position.z - p.z) < 2 * one_storey_m;
-    return here && glm::length(glm::dvec2(zone.position - p)) < zone.radius_m;
-  });
-}
-
 class PlaceFinder {
  public:
   PlaceFinder(const SceneDescription& scene, const DesignSettings& design, const Building& bare,
@@ -187,6 +171,21 @@ class PlaceFinder {
     return out;
   }
 
+  /// Over a place on the floor; none where it may not be.
+  std::optional<double> height_over(const glm::dvec3& floor) const {
+    std::optional<double> z;
+    bare_.each(1, [&](const GeometryAccess& access, size_t) { z = mounting_z(access, floor); });
+    if (!z) return std::nullopt;
+    const glm::dvec3 p(floor.x, floor.y, *z);
+    bool good = true;
+    furnished_.each(1, [&](const GeometryAccess& access, size_t) {
+      good = !furnished_.in_solid(access, p) && !near_wall(access, p);
+    });
+    if (!good || near_sign(scene_, p, design_.sign_clearance_m) || kept_out(scene_, design_, p))
+      return std::nullopt;
+    return z;
+  }
+
  private:
   /// Listed places are taken as they are, but for two in one place.
   double apart() const { return design_.places.empty() ? design_.spacing_m : 0.02; }
@@ -230,46 +229,74 @@ class PlaceFinder {
 };
 
 /// What becomes of a luminaire that is there.
-ExistingLuminaires fate_of(const DesignSettings& design, const std::string& name) {
+Existing fate_of(const DesignSettings& design, const std::string& name) {
   const auto in = [&](const std::vector<std::string>& list) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
-  if (in(design.fixed)) return ExistingLuminaires::fixed;
-  if (in(design.removable)) return ExistingLuminaires::removable;
-  if (in(design.removed)) return ExistingLuminaires::removed;
+  if (in(design.fixed)) return Existing::fixed;
+  if (in(design.removable)) return Existing::removable;
+  if (in(design.removed)) return Existing::removed;
   return design.existing;
 }
 
 void add_existing(const SceneDescription& scene, const DesignSettings& design, Candidates& out) {
   for (const uint32_t number : emergency_luminaires(scene)) {
     const Emitter& e = scene.emitters[number];
-    const ExistingLuminaires fate = fate_of(design, e.name);
-    if (fate == ExistingLuminaires::removed) {
+    const Existing fate = fate_of(design, e.name);
+    if (fate == Existing::removed) {
       out.removed.push_back(e.name);
       continue;
     }
     LuminaireCandidate one;
     one.place = static_cast<uint32_t>(out.all.size());
-    one.position = e.frame.origin;
+    one.position = one.floor = e.frame.origin;
     one.name = e.name;
-    one.fixed = fate == ExistingLuminaires::fixed;
+    one.fixed = fate == Existing::fixed;
     out.all.push_back(std::move(one));
   }
 }
 
-void add_new(const DesignSettings& design, const std::vector<Spot>& spots, Candidates& out) {
+void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
+             const std::vector<WallSpot>& walls, Candidates& out) {
   const auto first = static_cast<uint32_t>(out.all.size());
   for (uint32_t s = 0; s < spots.size(); ++s)
-    for (size_t t = 0; t < design.types.size(); ++t)
+    for (size_t t = 0; t < design.types.size(); ++t) {
+      if (design.types[t].mount == LuminaireMount::wall) continue;
       for (const double rotation_deg : rotations_of(design.types[t], spots[s].heading_deg)) {
         LuminaireCandidate one;
         one.type = t;
         one.place = first + s;
         one.position = rounded({spots[s].floor.x, spots[s].floor.y, *spots[s].z});
+        one.floor = spots[s].floor;
         one.rotation_deg = rotation_deg;
         out.all.push_back(std::move(one));
       }
-  out.places = spots.size();
+    }
+  const auto first_wall = static_cast<uint32_t>(first + spots.size());
+  for (uint32_t s = 0; s < walls.size(); ++s)
+    for (size_t t = 0; t < design.types.size(); ++t) {
+      if (design.types[t].mount == LuminaireMount::ceiling) continue;
+      auto turns = design.types[t].turns_deg;
+      if (turns.empty()) turns = {0};
+      for (const double turn : turns) {
+        LuminaireCandidate one;
+        one.type = t;
+        one.place = first_wall + s;
+        one.position = walls[s].position;
+        one.floor = walls[s].floor;
+        one.aim = aim_from_wall(walls[s].outward, design.types[t].aim_deg);
+        one.rotation_deg = turn;
+        out.all.push_back(std::move(one));
+      }
+    }
+  out.places = spots.size() + walls.size();
+}
+
+/// Whether any type hangs there.
+bool any_mounted(const DesignSettings& design, LuminaireMount mount) {
+  return std::any_of(design.types.begin(), design.types.end(), [&](const DesignType& type) {
+    return type.mount == mount || type.mount == LuminaireMount::both;
+  });
 }
 
 /// What glares or hangs too low may not be: no other luminaire changes that.
@@ -304,6 +331,14 @@ void leave_out_forbidden(const SceneDescription& scene, const DesignSettings& de
   out.all = std::move(good);
 }
 
+/// Luminaires that are there have bodies, which are no walls: the building is looked at bare.
+SceneDescription without_bodies(const SceneDescription& scene, const DesignSettings& design) {
+  SceneDescription out = scene;
+  for (Emitter& e : out.emitters) e.body_material.clear();
+  if (out.emitters.empty()) out.emitters.push_back(design.types.front().emitter);
+  return out;
+}
+
 std::string words_of(const LeftOut& left) {
   std::string out;
   const auto add = [&](size_t count, const char* why) {
@@ -314,12 +349,30 @@ std::string words_of(const LeftOut& left) {
   add(left.near_walls, "nearer to a wall than 'wall_clearance_m'");
   add(left.near_signs, "nearer to a sign than 'sign_clearance_m'");
   add(left.keep_out, "in keep-out zones");
+  add(left.no_wall, "where no wall is flat");
   add(left.too_low, "less than 2 m above the floor (E14)");
   add(left.glaring, "that glare (E8)");
   return out;
 }
 
 }  // namespace
+
+bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double clearance_m) {
+  return std::any_of(scene.signs.begin(), scene.signs.end(), [&](const Sign& sign) {
+    return glm::length(glm::dvec2(sign.frame.origin - p)) < clearance_m &&
+           std::abs(sign.frame.origin.z - p.z) < 2 * one_storey_m;
+  });
+}
+
+bool kept_out(const SceneDescription& scene, const DesignSettings& design, const glm::dvec3& p) {
+  const auto floor = floor_below(scene, p);
+  return std::any_of(design.keep_outs.begin(), design.keep_outs.end(), [&](const KeepOut& zone) {
+    const auto its_floor = floor_below(scene, zone.position);
+    const bool here = floor && its_floor ? std::abs(*floor - *its_floor) < one_storey_m
+                                         : std::abs(zone.position.z - p.z) < 2 * one_storey_m;
+    return here && glm::length(glm::dvec2(zone.position - p)) < zone.radius_m;
+  });
+}
 
 Emitter emitter_of(const SceneDescription& scene, const DesignSettings& design,
                    const LuminaireCandidate& candidate) {
@@ -330,6 +383,7 @@ Emitter emitter_of(const SceneDescription& scene, const DesignSettings& design,
   }
   Emitter e = design.types[candidate.type].emitter;
   e.frame.origin = candidate.position;
+  if (candidate.aim) e.frame = frame_aiming(candidate.position, *candidate.aim, {0, 0, 1}).value();
   // As `rotation_deg` of a luminaire: about local z.
   e.frame.axes = e.frame.axes * rotation({0, 0, 1}, candidate.rotation_deg).value().linear;
   return e;
@@ -348,13 +402,42 @@ SceneDescription scene_of(const SceneDescription& scene, const DesignSettings& d
   return out;
 }
 
+struct PlaceCheck::Parts {
+  SceneDescription scene;
+  const DesignSettings& design;
+  std::unique_ptr<Building> bare, furnished;
+};
+
+PlaceCheck::PlaceCheck(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+PlaceCheck::~PlaceCheck() = default;
+
+Result<std::unique_ptr<PlaceCheck>> PlaceCheck::make(const SceneDescription& scene,
+                                                     const DesignSettings& design,
+                                                     const Scenario& doors, int threads) {
+  auto parts = std::make_unique<Parts>(Parts{without_bodies(scene, design), design, {}, {}});
+  for (const bool with_furniture : {false, true}) {
+    auto made = Building::make(code_scene(parts->scene, with_furniture),
+                               code_scenario(parts->scene, doors), threads);
+    if (!made) return made.problem();
+    (with_furniture ? parts->furnished : parts->bare) = std::move(made).value();
+  }
+  return std::unique_ptr<PlaceCheck>(new PlaceCheck(std::move(parts)));
+}
+
+std::optional<glm::dvec3> PlaceCheck::place_over(const glm::dvec2& plan,
+                                                 const glm::dvec3& near) const {
+  const auto floor = floor_below(parts_->scene, {plan, near.z});
+  if (!floor) return std::nullopt;
+  const auto z = PlaceFinder(parts_->scene, parts_->design, *parts_->bare, *parts_->furnished)
+                     .height_over({plan, *floor});
+  if (!z || std::abs(*z - near.z) > one_storey_m) return std::nullopt;
+  return rounded({plan, *z});
+}
+
 Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSettings& design,
                                    const std::vector<CodeChoice>& codes, const Scenario& doors,
                                    int threads) {
-  // Luminaires that are there have bodies, which are no walls: the building is looked at bare.
-  SceneDescription dark = scene;
-  for (Emitter& e : dark.emitters) e.body_material.clear();
-  if (dark.emitters.empty()) dark.emitters.push_back(design.types.front().emitter);
+  const SceneDescription dark = without_bodies(scene, design);
   const auto bare = Building::make(code_scene(dark, false), code_scenario(dark, doors), threads);
   if (!bare) return bare.problem();
   const auto furnished =
@@ -363,19 +446,23 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
   Candidates out;
   add_existing(scene, design, out);
   const size_t existing = out.all.size();
-  const std::vector<Spot> spots =
-      PlaceFinder(scene, design, *bare.value(), *furnished.value()).find(out.left_out);
-  if (spots.size() > limits::design_places)
+  std::vector<Spot> spots;
+  if (any_mounted(design, LuminaireMount::ceiling))
+    spots = PlaceFinder(scene, design, *bare.value(), *furnished.value()).find(out.left_out);
+  std::vector<WallSpot> walls;
+  if (any_mounted(design, LuminaireMount::wall))
+    walls = wall_spots(scene, design, *bare.value(), *furnished.value(), out.left_out);
+  if (const size_t places = spots.size() + walls.size(); places > limits::design_places)
     return problem_in(design.place, fmt::format("there are {} candidate places, and at most {} are "
                                                 "taken: make 'spacing_m' larger, or say 'over'",
-                                                spots.size(), limits::design_places));
-  add_new(design, spots, out);
+                                                places, limits::design_places));
+  add_new(design, spots, walls, out);
   if (out.all.size() > limits::design_candidates)
     return problem_in(
         design.place,
         fmt::format("there are {} candidates ({} places, types and turns), and at most "
                     "{} are taken: make 'spacing_m' larger",
-                    out.all.size(), spots.size(), limits::design_candidates));
+                    out.all.size(), out.places, limits::design_candidates));
   if (!out.all.empty()) leave_out_forbidden(scene, design, codes, *bare.value(), out);
   if (out.all.size() == existing &&
       std::all_of(out.all.begin(), out.all.end(),

@@ -26,8 +26,10 @@ struct LuminaireCandidate {
   size_t type = existing;  // of DesignSettings::types
   uint32_t place = 0;      // candidates of one place exclude each other
   glm::dvec3 position{0};
-  double rotation_deg = 0;  // as a change of the variant writes it
-  std::string name;         // of an existing luminaire
+  glm::dvec3 floor{0};              // of the route or area that it was found from
+  std::optional<glm::dvec3> aim{};  // of one on a wall; else it looks as its type
+  double rotation_deg = 0;          // as a change of the variant writes it
+  std::string name;                 // of an existing luminaire
   bool fixed = false;
 };
 
@@ -35,6 +37,7 @@ struct LuminaireCandidate {
 struct LeftOut {
   size_t no_ceiling = 0, in_bodies = 0, near_walls = 0, near_signs = 0, keep_out = 0, taken = 0;
   size_t too_low = 0, glaring = 0;  // candidates
+  size_t no_wall = 0;               // places for luminaires on walls: nothing flat is there
 };
 
 struct Candidates {
@@ -53,11 +56,37 @@ SceneDescription scene_of(const SceneDescription& scene, const DesignSettings& d
 Emitter emitter_of(const SceneDescription& scene, const DesignSettings& design,
                    const LuminaireCandidate& candidate);
 
+/// Whether a sign hangs nearer to a place than a clearance, seen from above.
+bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double clearance_m);
+
+/// Whether a place lies in a keep-out zone of its storey.
+bool kept_out(const SceneDescription& scene, const DesignSettings& design, const glm::dvec3& place);
+
 /// `scene`: with its emergency luminaires; `doors`: a scenario that gives the doors. Candidates
 /// that a rule of `codes` forbids by themselves (glare, height) are left out.
 /// Errors: no candidate is left, or more than a limit; a scene that cannot be compiled.
 Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSettings& design,
                                    const std::vector<CodeChoice>& codes, const Scenario& doors,
                                    int threads);
+
+/// Whether a luminaire may hang over a place, by the same rules as candidates: for places between
+/// those of the grid. One thread.
+class PlaceCheck {
+ public:
+  /// Errors: as compile_scene. Requires: the design outlives this.
+  static Result<std::unique_ptr<PlaceCheck>> make(const SceneDescription& scene,
+                                                  const DesignSettings& design,
+                                                  const Scenario& doors, int threads);
+  ~PlaceCheck();
+
+  /// On the storey of `near`, at the mounting height there; none where it may not be.
+  std::optional<glm::dvec3> place_over(const glm::dvec2& plan, const glm::dvec3& near) const;
+
+ private:
+  struct Parts;
+  explicit PlaceCheck(std::unique_ptr<Parts> parts);
+
+  std::unique_ptr<Parts> parts_;
+};
 
 }  // namespace luxodus

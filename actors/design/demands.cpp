@@ -55,6 +55,25 @@ Terms times(const Terms& terms, const std::vector<double>& factors) {
   return out;
 }
 
+/// Adds a row to those that `is_it` names: at the nearest of them to a place, `missing` more than
+/// the layout gives there, or than is asked for. False where there is none.
+bool raise_nearest(LayoutProblem& problem, const std::function<bool(const CoverRow&)>& is_it,
+                   const glm::dvec3& place, double missing, const Layout& layout) {
+  const auto nearest = std::min_element(
+      problem.covers.begin(), problem.covers.end(), [&](const CoverRow& a, const CoverRow& b) {
+        if (is_it(a) != is_it(b)) return is_it(a);
+        return glm::length(a.place - place) < glm::length(b.place - place);
+      });
+  if (nearest == problem.covers.end() || !is_it(*nearest)) return false;
+  double counted = 0;
+  for (const Term& term : *nearest->terms)
+    if (layout[term.option] != 0) counted += static_cast<double>(term.value);
+  CoverRow more = *nearest;
+  more.least = std::max(nearest->least, counted) + missing * (1 + 1e-3);
+  problem.covers.push_back(std::move(more));
+  return true;
+}
+
 bool all_one(const std::vector<double>& factors) {
   return std::all_of(factors.begin(), factors.end(), [](double f) { return f >= 1; });
 }
@@ -332,7 +351,7 @@ class Demands::Builder {
     std::vector<size_t> out;
     for (size_t i = 0; i < candidates_.size(); ++i)
       if (floors_[i] && std::abs(*floors_[i] - floor_z) < same_storey_m &&
-          in_plan_of(subject, glm::dvec2(candidates_[i].position)))
+          in_plan_of(subject, glm::dvec2(candidates_[i].floor)))
         out.push_back(i);
     return out;
   }
@@ -578,21 +597,23 @@ bool Demands::ask_for_more(const Check& check, const Layout& layout) {
     return any;
   }
   if (!check.worst || !(*check.limit > 0)) return false;
-  // What the rows count there, beside what the assessment has found.
-  const auto first = std::find_if(problem_.covers.begin(), problem_.covers.end(), is_it);
-  if (first == problem_.covers.end()) return false;
-  const auto nearest = std::min_element(
-      problem_.covers.begin(), problem_.covers.end(), [&](const CoverRow& a, const CoverRow& b) {
-        if (is_it(a) != is_it(b)) return is_it(a);
-        return glm::length(a.place - *check.worst) < glm::length(b.place - *check.worst);
-      });
-  double counted = 0;
-  for (const Term& term : *nearest->terms)
-    if (layout[term.option] != 0) counted += static_cast<double>(term.value);
-  CoverRow more = *nearest;
-  more.least = std::max(nearest->least, counted) + (*check.limit - *check.value) * (1 + 1e-3);
-  problem_.covers.push_back(std::move(more));
-  return true;
+  return raise_nearest(problem_, is_it, *check.worst, *check.limit - *check.value, layout);
+}
+
+bool Demands::ask_for_more(DemandKind kind, const std::string& rule, const std::string& subject,
+                           const glm::dvec3& place, double missing, const Layout& layout) {
+  const auto is_it = [&](const auto& rows) {
+    const ConstraintGroup& group = problem_.groups[rows.group];
+    return group.kind == kind && group.rule == rule && group.subject == subject;
+  };
+  if (kind != DemandKind::failed) return raise_nearest(problem_, is_it, place, missing, layout);
+  bool any = false;
+  for (FailureRows& rows : problem_.failures)
+    if (is_it(rows)) {
+      rows.least += missing * (1 + 1e-3);
+      any = true;
+    }
+  return any;
 }
 
 }  // namespace luxodus

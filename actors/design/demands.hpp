@@ -45,6 +45,10 @@ class Demands {
   /// After an assessment has found that a check of a layout fails, though its rows hold: asks for
   /// more where it is worst, by as much as was missing. False where there is nothing to ask for.
   bool ask_for_more(const Check& check, const Layout& layout);
+  /// The same of a minimum that does not hold elsewhere: `missing` at `place`, in its unit. Of a
+  /// demand on failures everywhere.
+  bool ask_for_more(DemandKind kind, const std::string& rule, const std::string& subject,
+                    const glm::dvec3& place, double missing, const Layout& layout);
 
  private:
   struct Lit;     // a building, with furniture or without

@@ -9,6 +9,7 @@
 
 #include "actors/design/alternatives.hpp"
 #include "actors/design/demands.hpp"
+#include "actors/design/refine_layout.hpp"
 #include "runtime/core/clock.hpp"
 
 namespace luxodus {
@@ -152,14 +153,31 @@ class Designing {
     if (auto problem = prepare()) return *problem;
     for (out_.verifications = 1;; ++out_.verifications) {
       solve();
-      if (out_.answer.layout.empty()) return std::move(out_);
+      if (out_.answer.layout.empty()) {
+        if (!nearest_) return std::move(out_);
+        out_ = *std::move(nearest_);
+        break;
+      }
       if (auto problem = judge()) return *problem;
       const auto failing = failing_checks(out_, out_.assessment, &out_.others);
-      if (failing.empty()) break;
-      if (out_.verifications == max_verifications || !ask_for_more(failing))
-        return rejected(failing.front());
+      const bool last = out_.verifications == max_verifications || interrupt_;
+      if (!failing.empty()) {
+        if (!last && ask_for_more(failing)) continue;
+        if (!nearest_) return rejected(failing.front());
+        out_ = *std::move(nearest_);
+        break;
+      }
+      if (auto problem = find_tolerance()) return *problem;
+      keep_bound();
+      if (out_.tolerance->holds()) break;
+      if (!nearest_ || out_.tolerance->least() > nearest_->tolerance->least()) nearest_ = out_;
+      if (!last && ask_for_more_off_place()) continue;
+      out_ = *std::move(nearest_);
+      break;
     }
     out_.tightest = tightest_of(demands_->problem(), out_.answer.layout);
+    if ((scene_->design->refine || options_.refine) && !interrupt_)
+      if (auto problem = refine()) return *problem;
     if (!scenarios_in_smoke().empty() && !interrupt_)
       if (auto problem = judge_alternatives()) return *problem;
     return std::move(out_);
@@ -174,18 +192,22 @@ class Designing {
       if (auto ok = check_smoke_stage(*scene_, smoke); !ok) return ok.problem();
     auto scenario = judged_scenario(*scene_, options_.scenario);
     if (!scenario) return scenario.problem();
+    scenario_ = std::move(scenario).value();
     auto codes = judged_codes(*scene_, options_.rules, options_.deviations);
     if (!codes) return codes.problem();
-    if (auto problem = first_error(scene_, scenario.value(), options_.threads)) return problem;
+    codes_ = std::move(codes).value();
+    if (auto problem = first_error(scene_, scenario_, options_.threads)) return problem;
+    if (*scene_->design->place_signs && !scene_->routes.empty())
+      if (auto problem = place_signs()) return problem;
     progress_("finding places", no_objective, 0);
-    const SceneDescription switched = as_switched(*scene_, scenario.value());
-    auto candidates = find_candidates(switched, *scene_->design, codes.value(), scenario.value(),
-                                      options_.threads);
+    switched_ = as_switched(*scene_, scenario_);
+    auto candidates =
+        find_candidates(switched_, *scene_->design, codes_, scenario_, options_.threads);
     if (!candidates) return candidates.problem();
     candidates_ = std::move(candidates).value();
     progress_("computing their light", no_objective, 0);
-    auto demands = Demands::make(switched, *scene_->design, candidates_.all, codes.value(),
-                                 scenario.value(), options_.threads);
+    auto demands = Demands::make(switched_, *scene_->design, candidates_.all, codes_, scenario_,
+                                 options_.threads);
     if (!demands) return demands.problem();
     demands_ = std::move(demands).value();
     out_.places = candidates_.places;
@@ -196,6 +218,112 @@ class Designing {
     for (const auto& [what, points] : demands_->hidden())
       if (!what.first.empty()) out_.hidden.push_back({what.first, what.second, points});
     return std::nullopt;
+  }
+
+  /// From here on the scene has the signs.
+  std::optional<Problem> place_signs() {
+    SignPlanOptions asked;
+    asked.codes = codes_;
+    asked.doors = scenario_;
+    // Signs are few beside the luminaires: their program is solved in a small part of the time.
+    constexpr double share_of_time = 0.25;
+    asked.seconds = share_of_time * options_.seconds;
+    asked.seed = options_.seed;
+    asked.threads = options_.threads;
+    auto plan = plan_signs(
+        as_switched(*scene_, scenario_), *scene_->design, asked, interrupt_,
+        [&](const std::string& what, double, double) { progress_(what, no_objective, 0); });
+    if (!plan) return plan.problem();
+    scene_ = with_signs(*scene_, plan.value());
+    out_.signs = std::move(plan).value();
+    return std::nullopt;
+  }
+
+  /// Whether signs that were placed decide a check, which then has to pass.
+  bool is_of_signs(const Check& check) const {
+    static const std::set<std::string> distances{"S4", "N8"};
+    if (!out_.signs || !distances.contains(check.rule.id)) return false;
+    return std::any_of(scene_->routes.begin(), scene_->routes.end(), [&](const EscapeRoute& route) {
+      return check.subject == "route \"" + route.name + "\"" && out_.signs->guides(route.name);
+    });
+  }
+
+  /// What is left of the minima with luminaires off their places.
+  std::optional<Problem> find_tolerance() {
+    out_.tolerance.emplace();
+    if (!(scene_->design->place_tolerance_m > 0)) return std::nullopt;
+    progress_("looking at luminaires off their places", out_.answer.objective, out_.answer.bound);
+    auto found = tolerance_of(switched_, *scene_->design, chosen_candidates(), codes_, scenario_,
+                              options_.threads);
+    if (!found) return found.problem();
+    out_.tolerance = std::move(found).value();
+    return std::nullopt;
+  }
+
+  /// Moves what was placed; what then fails or holds less off its places stays where it was.
+  std::optional<Problem> refine() {
+    RefineOptions asked;
+    asked.codes = codes_;
+    asked.doors = scenario_;
+    asked.seconds = options_.seconds;
+    asked.threads = options_.threads;
+    auto refined = refine_layout(
+        switched_, *scene_->design, chosen_candidates(), demands_->hidden(), asked, interrupt_,
+        [&](double) { progress_("moving luminaires", out_.answer.objective, out_.answer.bound); });
+    if (!refined) return refined.problem();
+    if (refined->moved == 0) return std::nullopt;
+    Candidates moved = candidates_;
+    size_t next = 0;
+    for (size_t i = 0; i < moved.all.size(); ++i)
+      if (out_.answer.layout[i] != 0) moved.all[i].position = refined->luminaires[next++].position;
+    PlacedLayout layout = placed(*scene_, moved, out_.answer.layout);
+    auto assessed = assessed_by_codes(layout.variant);
+    if (!assessed) return assessed.problem();
+    if (!failing_checks(layout, assessed.value(), nullptr).empty()) return std::nullopt;
+    PlaceTolerance tolerance;
+    if (scene_->design->place_tolerance_m > 0) {
+      auto found = tolerance_of(switched_, *scene_->design, refined->luminaires, codes_, scenario_,
+                                options_.threads);
+      if (!found) return found.problem();
+      if (!found->holds() && found->least() < out_.tolerance->least()) return std::nullopt;
+      tolerance = std::move(found).value();
+    }
+    static_cast<PlacedLayout&>(out_) = std::move(layout);
+    out_.assessment = std::move(assessed).value();
+    out_.tolerance = std::move(tolerance);
+    const LayoutProblem& problem = refined->demands->problem();
+    if (problem.groups.size() == out_.groups.size())
+      out_.tightest = tightest_of(problem, Layout(problem.options.size(), 1));
+    out_.refined = Refined{refined->moved, refined->before, refined->after};
+    return std::nullopt;
+  }
+
+  /// Rows that were raised for one layout may exclude others that hold off their places with less:
+  /// the bound is that of the search before.
+  void keep_bound() {
+    LayoutAnswer& answer = out_.answer;
+    if (!first_bound_) first_bound_ = answer.bound;
+    if (answer.bound <= *first_bound_) return;
+    answer.bound = *first_bound_;
+    if (answer.end == LayoutEnd::optimal && answer.gap() > 0) answer.end = LayoutEnd::within_gap;
+  }
+
+  std::vector<LuminaireCandidate> chosen_candidates() const {
+    std::vector<LuminaireCandidate> out;
+    for (size_t i = 0; i < candidates_.all.size(); ++i)
+      if (out_.answer.layout[i] != 0) out.push_back(candidates_.all[i]);
+    return out;
+  }
+
+  /// False where nothing can be asked for, or no layout gives more: then what is there is told.
+  bool ask_for_more_off_place() {
+    bool any = false;
+    for (const ShareOffPlace& one : out_.tolerance->demands)
+      if (one.missing > 0)
+        any = demands_->ask_for_more(one.kind, one.rule, one.subject, one.place, one.missing,
+                                     out_.answer.layout) ||
+              any;
+    return any;
   }
 
   void solve() {
@@ -247,8 +375,9 @@ class Designing {
     for (const Check& check : assessment.checks) {
       if (check.verdict != CheckVerdict::fail) continue;
       const bool of_one = check.subject.starts_with("luminaire \"");
-      const bool decided = is_of_luminaires(check.rule.id) &&
-                           (!of_one || ours.contains(check.subject)) && !demands_->is_hidden(check);
+      const bool decided = is_of_signs(check) || (is_of_luminaires(check.rule.id) &&
+                                                  (!of_one || ours.contains(check.subject)) &&
+                                                  !demands_->is_hidden(check));
       if (decided)
         out.push_back(check);
       else if (others != nullptr)
@@ -329,9 +458,15 @@ class Designing {
   SystemClock clock_;
   Nanoseconds began_;
   double solving_since_ = 0;
+  Scenario scenario_;
+  std::vector<CodeChoice> codes_;
+  SceneDescription switched_;  // as the circuits of the scenario leave it, with signs
   Candidates candidates_;
   std::unique_ptr<Demands> demands_;
   DesignResult out_;
+  /// The layout that passes the rules and holds best off its places, while none holds there.
+  std::optional<DesignResult> nearest_;
+  std::optional<double> first_bound_;
 };
 
 }  // namespace

@@ -13,7 +13,9 @@
 
 #include "actors/assess/assessment.hpp"
 #include "actors/design/candidates.hpp"
+#include "actors/design/place_tolerance.hpp"
 #include "actors/design/placed_layout.hpp"
+#include "actors/design/sign_plan.hpp"
 #include "actors/design/smoke_stage.hpp"
 #include "actors/design/solve_layout.hpp"
 
@@ -25,6 +27,7 @@ struct DesignOptions {
   uint64_t seed = 1;
   int threads = 1;
   double seconds = 120;  // of the search
+  bool refine = false;   // as [design] refine
   double gap = 0;        // it ends within this share of the best possible
   /// Scenarios in whose smoke layouts are judged; empty: those of the scene's [design].
   std::vector<std::string> in_smoke;
@@ -36,16 +39,25 @@ struct HiddenByFurniture {
   size_t points = 0;  // that furniture hides from all candidates
 };
 
+/// What moving luminaires has brought.
+struct Refined {
+  size_t moved = 0;              // luminaires
+  double before = 0, after = 0;  // least share of what is planned for, over all minima
+};
+
 /// The layout is the best by the rules alone.
 struct DesignResult : PlacedLayout {
   size_t places = 0, candidates = 0;  // of new luminaires; of these and those that are there
   LeftOut left_out;
   size_t points = 0;  // of calculation
   std::vector<HiddenByFurniture> hidden;
+  std::optional<SignPlan> signs;  // where signs were placed
   std::vector<ConstraintGroup> groups;
   std::vector<double> tightest;  // of each group: the least share of what it asks for that is there
   LayoutAnswer answer;
-  Conflict conflict;  // where no layout exists
+  std::optional<PlaceTolerance> tolerance;  // of the layout
+  std::optional<Refined> refined;           // where luminaires were moved
+  Conflict conflict;                        // where no layout exists
   Assessment assessment;
   std::vector<Check> others;    // checks that fail and that no luminaire of the layout decides
   bool added_scenario = false;  // the scene has none: the variant has one in emergency operation

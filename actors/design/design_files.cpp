@@ -7,6 +7,7 @@
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/design/design_page.hpp"
+#include "actors/design/sign_files.hpp"
 #include "actors/design/smoke_section.hpp"
 #include "actors/report/hand_over.hpp"
 #include "actors/report/plan_svg.hpp"
@@ -18,19 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A text as TOML writes it between quotes: a JSON string is one.
-std::string quoted(const std::string& text) {
-  return Json(text).dump();
-}
-
-/// Coordinates to a tenth of a millimetre.
-std::string metres(double value) {
-  return shortest_number(std::round(value * 1e4) / 1e4);
-}
-
 std::string list_of(const std::vector<std::string>& words) {
   std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + quoted(word);
+  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + toml_text(word);
   return "[" + out + "]";
 }
 
@@ -90,6 +81,9 @@ Json luminaires_json_of(const SceneDescription& scene, const DesignResult& resul
                    {"type", type_of(scene, one)},
                    {"is_new", one.is_new()},
                    {"position", vector_json(one.candidate.position)},
+                   {"mount", one.candidate.aim ? "wall"
+                             : one.is_new()    ? "ceiling"
+                                               : ""},
                    {"rotation_deg", number_json(one.candidate.rotation_deg)}});
   return out;
 }
@@ -119,6 +113,19 @@ Json others_json(const DesignResult& result) {
                    {"title", check.rule.title},
                    {"reason", check.reason}});
   return out;
+}
+
+Json tolerance_json(const PlaceTolerance& tolerance) {
+  Json demands = Json::array();
+  for (const ShareOffPlace& one : tolerance.demands)
+    demands.push_back({{"kind", word_of(one.kind)},
+                       {"rule", one.rule},
+                       {"subject", one.subject},
+                       {"share", number_json(one.share)},
+                       {"place", vector_json(one.place)}});
+  return {{"distance_m", number_json(tolerance.distance_m)},
+          {"holds", tolerance.holds()},
+          {"demands", std::move(demands)}};
 }
 
 Result<void> write_plans(const fs::path& folder, const Json& a, Language language) {
@@ -197,6 +204,17 @@ std::string demand_words(const ConstraintGroup& group) {
   }
   return fmt::format("{}: {}{}", group.subject, what,
                      group.rule.empty() ? "" : " (" + group.rule + ")");
+}
+
+std::string tolerance_words(const PlaceTolerance& tolerance) {
+  if (tolerance.demands.empty()) return "";
+  const ShareOffPlace& least = tolerance.demands.front();
+  return fmt::format(
+      "mounted up to {} m off their places, all luminaires at once: the least is {} of the minimum "
+      "of the rules, {}{} at {}{}",
+      readable_number(tolerance.distance_m, 2), percent(least.share), least.subject,
+      least.rule.empty() ? "" : " (" + least.rule + ")", at_words(least.place),
+      tolerance.holds() ? "" : "; no layout was found whose minima hold");
 }
 
 std::string outcome_words(const SceneDescription& scene, const DesignResult& result) {
@@ -280,8 +298,8 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
   std::string out =
       "# A variant by `luxodus design`: emergency luminaires where it has placed them.\n"
       "# Written anew by every design into this folder.\n";
-  out += "name = " + quoted(scene.name + "-designed") + "\n";
-  out += "include = [" + quoted(file.generic_string()) + "]\n";
+  out += "name = " + toml_text(scene.name + "-designed") + "\n";
+  out += "include = [" + toml_text(file.generic_string()) + "]\n";
   if (!result.rules.empty() || !result.deviations.empty()) {
     out += "\n[assessment]\n";
     if (!result.rules.empty()) out += "rules = " + list_of(result.rules) + "\n";
@@ -289,14 +307,19 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
   }
   if (result.added_scenario)
     out += "\n[[scenario]]\nname = \"emergency\"\noperation = \"emergency\"\n";
+  if (result.signs) out += sign_changes(scene, *result.signs);
   for (const std::string& name : layout.removed)
-    out += "\n[[change]]\nkind = \"luminaire\"\nof = " + quoted(name) + "\nremove = true\n";
+    out += "\n[[change]]\nkind = \"luminaire\"\nof = " + toml_text(name) + "\nremove = true\n";
   for (const PlacedLuminaire& one : layout.luminaires) {
     if (!one.is_new()) continue;
     const glm::dvec3& p = one.candidate.position;
-    out += "\n[[change]]\nkind = \"design_type\"\nof = " + quoted(type_of(scene, one)) +
-           "\ncopy = " + quoted(one.name) + "\nposition = [" + metres(p.x) + ", " + metres(p.y) +
-           ", " + metres(p.z) + "]\n";
+    out += "\n[[change]]\nkind = \"design_type\"\nof = " + toml_text(type_of(scene, one)) +
+           "\ncopy = " + toml_text(one.name) + "\nposition = [" + toml_metres(p.x) + ", " +
+           toml_metres(p.y) + ", " + toml_metres(p.z) + "]\n";
+    if (one.candidate.aim)
+      out += "facing = [" + shortest_number(one.candidate.aim->x) + ", " +
+             shortest_number(one.candidate.aim->y) + ", " + shortest_number(one.candidate.aim->z) +
+             "]\n";
     if (one.candidate.rotation_deg != 0)
       out += "rotation_deg = " + shortest_number(one.candidate.rotation_deg) + "\n";
   }
@@ -305,7 +328,7 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
 
 CsvTable schedule_csv(const DesignResult& result) {
   CsvTable table({"name", "state", "type", "file", "x [m]", "y [m]", "z [m]",
-                  "height above floor [m]", "turn [deg]", "emergency flux [lm]",
+                  "height above floor [m]", "mount", "turn [deg]", "emergency flux [lm]",
                   "maintenance factor [1]", "end of duration factor [1]", "cost", "power [W]"});
   const SceneDescription& scene = *result.variant;
   for (const PlacedLuminaire& one : result.luminaires) {
@@ -318,6 +341,7 @@ CsvTable schedule_csv(const DesignResult& result) {
       table.cell(p.z - *floor);
     else
       table.empty_cell();
+    table.cell(one.candidate.aim ? "wall" : one.is_new() ? "ceiling" : "");
     table.cell(one.candidate.rotation_deg).cell(at->emergency_flux / at->emergency_ageing);
     table.cell(at->maintenance_factor).cell(at->end_of_duration_factor);
     if (one.is_new()) {
@@ -362,7 +386,8 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
                          {"near_signs", left.near_signs},
                          {"keep_out", left.keep_out},
                          {"too_low", left.too_low},
-                         {"glaring", left.glaring}}}};
+                         {"glaring", left.glaring},
+                         {"no_wall", left.no_wall}}}};
   out["hidden_by_furniture"] = Json::array();
   for (const HiddenByFurniture& one : result.hidden)
     out["hidden_by_furniture"].push_back(
@@ -376,6 +401,12 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
                    {"not_assessed", count_of(counts, CheckVerdict::not_assessed)},
                    {"not_verified", count_of(counts, CheckVerdict::not_verified)}};
   out["failing_otherwise"] = others_json(result);
+  if (result.refined)
+    out["refined"] = {{"moved", result.refined->moved},
+                      {"least_before", number_json(result.refined->before)},
+                      {"least_after", number_json(result.refined->after)}};
+  if (result.tolerance) out["off_place"] = tolerance_json(*result.tolerance);
+  if (result.signs) out["signs"] = signs_json(scene, *result.signs);
   if (result.smoke) out["smoke"] = smoke_json(*result.smoke);
   return out;
 }
@@ -388,6 +419,9 @@ Result<void> write_design(const fs::path& folder, const SceneDescription& scene,
   if (auto ok = write_plans(folder / "plans", assessed, language); !ok) return ok.problem();
   if (auto ok = write_csv(folder / "luminaires.csv", schedule_csv(result)); !ok)
     return ok.problem();
+  if (result.signs)
+    if (auto ok = write_csv(folder / "signs.csv", signs_csv(scene, *result.signs)); !ok)
+      return ok.problem();
   if (auto ok = write_json(folder / "design.json", json); !ok) return ok.problem();
   if (auto ok =
           write_file_atomically(folder / "design.html", design_page(json, assessed, language));

@@ -37,6 +37,9 @@ std::string outcome_words(const SceneDescription& scene, const DesignResult& res
 /// Why there is no layout, and what would make one possible: sentences. English.
 std::vector<std::string> conflict_words(const SceneDescription& scene, const DesignResult& result);
 
+/// What is left of the minima with luminaires mounted off their places: a sentence. English.
+std::string tolerance_words(const PlaceTolerance& tolerance);
+
 /// What a group asks for: "at least 1.25 lx everywhere (E5, route "corridor")". English.
 std::string demand_words(const ConstraintGroup& group);
 

@@ -102,6 +102,57 @@ std::string schedule_of(const Texts& t, const Json& d) {
          (gone.empty() ? "" : paragraph(t.say("design.removed", gone)));
 }
 
+std::string ways_of(const Texts& t, const Json& sign) {
+  std::string out;
+  for (const Json& way : sign["leads_to"])
+    out += (out.empty() ? "" : "; ") + text_in(way, "route") + ": " +
+           t.word("design.arrow", text_in(way, "arrow"));
+  return out;
+}
+
+std::string signs_of(const Texts& t, const Json& signs) {
+  std::string types, rows;
+  size_t fresh = 0;
+  for (const Json& type : signs["types"])
+    if (type["count"].get<int64_t>() > 0)
+      types += "<tr>" + cell(text_in(type, "name")) + number_cell(t, type["count"]) +
+               number_cell(t, type["cost"], "", 4) + number_cell(t, type["watts"], "W") + "</tr>\n";
+  for (const Json& one : signs["placed"]) {
+    const Json& p = one["position"];
+    const bool is_new = one["is_new"].get<bool>();
+    fresh += is_new;
+    rows += "<tr>" + cell(text_in(one, "name")) +
+            cell(is_new ? text_in(one, "type") : t("design.stays")) +
+            cell(is_new ? t.word("design.mount", text_in(one, "mount")) : "–") +
+            fixed_cell(t, p[0].get<double>(), 2) + fixed_cell(t, p[1].get<double>(), 2) +
+            fixed_cell(t, p[2].get<double>(), 2) + cell(ways_of(t, one)) + "</tr>\n";
+  }
+  const double value = signs["objective"]["value"].get<double>();
+  const bool optimal = signs["objective"]["bound"].get<double>() >= value;
+  std::string out = heading(t, "design.signs_heading") +
+                    paragraph(t.say("design.signs", fresh) +
+                              (optimal ? std::string(" ") + t("design.signs_optimal") : ""));
+  for (const Json& one : signs["unguided"]) {
+    const Json& p = one["first"];
+    out += paragraph(
+        t.say("design.signs_unguided", text_in(one, "route"), one["places"].get<int64_t>(),
+              one["of"].get<int64_t>(),
+              t.place(p[0].get<double>(), p[1].get<double>(), p[2].get<double>())) +
+        (one["behind_furniture"].get<bool>() ? std::string(" ") + t("design.signs_behind") : ""));
+  }
+  std::string gone;
+  for (const Json& name : signs["removed"])
+    gone += (gone.empty() ? "" : ", ") + name.get<std::string>();
+  return out +
+         table(t, {"column.type", "column.count", "design.cost", "design.watts"}, {49, 15, 18, 18},
+               types) +
+         table(t,
+               {"design.name", "column.type", "design.mount", "design.x", "design.y", "design.z",
+                "design.ways"},
+               {12, 20, 20, 9, 9, 9, 21}, rows) +
+         (gone.empty() ? "" : paragraph(t.say("design.signs_removed", gone)));
+}
+
 /// What a group asks for, in the language.
 std::string demand_text(const Texts& t, const Json& group) {
   const std::string key = "design.kind_" + text_in(group, "kind");
@@ -155,6 +206,20 @@ std::string hidden(const Texts& t, const Json& d) {
   return out;
 }
 
+/// What is left with luminaires off their places.
+std::string off_place(const Texts& t, const Json& d) {
+  if (!d.contains("off_place") || d["off_place"]["demands"].empty()) return "";
+  const Json& off = d["off_place"];
+  const Json& least = off["demands"].front();
+  const Json& p = least["place"];
+  return paragraph(
+      t.say("design.off_place", t.number(off["distance_m"].get<double>(), 2),
+            t.number(100 * least["share"].get<double>(), 3),
+            subject_text(t, text_in(least, "subject")),
+            t.place(p[0].get<double>(), p[1].get<double>(), p[2].get<double>())) +
+      (off["holds"].get<bool>() ? std::string() : std::string(" ") + t("design.off_place_fails")));
+}
+
 std::string settings(const Texts& t, const Json& d) {
   const Json& c = d["candidates"];
   const Json& s = d["settings"];
@@ -184,8 +249,9 @@ std::string design_page(const Json& d, const Json& a, Language language) {
       escaped(title) + "</h1></div></header>\n" + outcome(t, d) + notice(t, d.contains("smoke")) +
       (d.contains("smoke") ? smoke_section(t, d) : "") + heading(t, "heading.plans") +
       plans_of(t, a, schedule) + heading(t, "heading.schedules") + schedule_of(t, d) +
-      heading(t, "design.binding_heading") + binding(t, d) + others(t, d) +
-      heading(t, "design.settings_heading") + settings(t, d);
+      (d.contains("signs") ? signs_of(t, d["signs"]) : "") + heading(t, "design.binding_heading") +
+      binding(t, d) + off_place(t, d) + others(t, d) + heading(t, "design.settings_heading") +
+      settings(t, d);
   return html_page({t.code(), title + " – " + t("design.page"), report_style}, body);
 }
 

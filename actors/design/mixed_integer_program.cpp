@@ -3,12 +3,16 @@
 #include <CbcEventHandler.hpp>
 #include <CbcModel.hpp>
 #include <CbcSolver.hpp>
+#include <ClpEventHandler.hpp>
+#include <ClpSimplex.hpp>
 #include <CoinPackedMatrix.hpp>
 #include <OsiClpSolverInterface.hpp>
 #include <algorithm>
 #include <csignal>
 #include <limits>
 #include <string>
+
+#include "runtime/core/clock.hpp"
 
 namespace luxodus {
 
@@ -17,26 +21,72 @@ namespace {
 /// What CBC takes for no limit, and what it reports where it has no solution.
 constexpr double cbc_infinity = 1e30;
 
-/// Tells how far the search is, and ends it when somebody asks for that. CBC copies it.
+/// When a search has to end, and what was known while it had not.
+class Deadline {
+ public:
+  Deadline(const std::atomic<bool>& interrupt, double seconds)
+      : interrupt_(interrupt),
+        at_(clock_.now() + static_cast<Nanoseconds>(1e9 * std::clamp(seconds, 0.0, longest_s))) {}
+
+  /// Once passed it stays so: what CBC concludes from linear programs that were cut off is wrong.
+  bool passed() {
+    passed_ = passed_ || interrupt_ || clock_.now() > at_;
+    return passed_;
+  }
+  bool was_passed() const { return passed_; }
+
+  double bound = -cbc_infinity;
+
+ private:
+  static constexpr double longest_s = 1e8;
+
+  const std::atomic<bool>& interrupt_;
+  SystemClock clock_;
+  Nanoseconds at_;
+  bool passed_ = false;
+};
+
+/// Tells how far the search is, and ends it at its deadline. CBC copies it.
 class SearchWatch : public CbcEventHandler {
  public:
-  SearchWatch(const std::atomic<bool>& interrupt, const ProgramProgress& progress)
-      : interrupt_(&interrupt), progress_(&progress) {}
+  SearchWatch(Deadline& deadline, const ProgramProgress& progress)
+      : deadline_(&deadline), progress_(&progress) {}
 
   CbcAction event(CbcEvent) override {
+    const bool over = deadline_->passed();
     // Searches within the search have other objectives.
-    if (model_ != nullptr && model_->parentModel() == nullptr && *progress_) {
-      const double best = model_->getObjValue();
-      (*progress_)(best < cbc_infinity ? best : std::numeric_limits<double>::infinity(),
-                   model_->getBestPossibleObjValue());
+    if (!over && model_ != nullptr && model_->parentModel() == nullptr) {
+      const double best = model_->getObjValue(), bound = model_->getBestPossibleObjValue();
+      if (bound > -cbc_infinity && bound <= best) deadline_->bound = bound;
+      if (*progress_)
+        (*progress_)(best < cbc_infinity ? best : std::numeric_limits<double>::infinity(), bound);
     }
-    return *interrupt_ ? stop : noAction;
+    return over ? stop : noAction;
   }
   CbcEventHandler* clone() const override { return new SearchWatch(*this); }
 
  private:
-  const std::atomic<bool>* interrupt_;
+  Deadline* deadline_;
   const ProgramProgress* progress_;
+};
+
+/// Ends linear programs at the deadline: CBC looks at its own limit between them alone, and one of
+/// them may take many seconds. Clp copies it.
+class LinearWatch : public ClpEventHandler {
+ public:
+  explicit LinearWatch(Deadline& deadline) : deadline_(&deadline) {}
+
+  int event(Event what) override {
+    constexpr int go_on = -1, stopped = 3;
+    constexpr unsigned looked_at_each = 16;  // iterations
+    if (what != endOfIteration || ++iterations_ % looked_at_each != 0) return go_on;
+    return deadline_->passed() ? stopped : go_on;
+  }
+  ClpEventHandler* clone() const override { return new LinearWatch(*this); }
+
+ private:
+  Deadline* deadline_;
+  unsigned iterations_ = 0;
 };
 
 /// Gives SIGINT back to whoever had it.
@@ -51,16 +101,21 @@ class SignalKept {
   struct sigaction before_ {};
 };
 
+/// All rows at once: one after another, each would copy those before it.
 void load(const IntegerProgram& program, OsiClpSolverInterface& solver) {
-  const auto columns = static_cast<int>(program.cost.size());
-  CoinPackedMatrix matrix(false, 0, 0);
-  matrix.setDimensions(0, columns);
-  std::vector<double> low, high;
+  std::vector<int> column;
+  std::vector<double> value, low, high;
+  std::vector<CoinBigIndex> start{0};
   for (const LinearRow& row : program.rows) {
-    matrix.appendRow(static_cast<int>(row.column.size()), row.column.data(), row.value.data());
+    column.insert(column.end(), row.column.begin(), row.column.end());
+    value.insert(value.end(), row.value.begin(), row.value.end());
+    start.push_back(static_cast<CoinBigIndex>(column.size()));
     low.push_back(std::max(row.low, -cbc_infinity));
     high.push_back(std::min(row.high, cbc_infinity));
   }
+  const CoinPackedMatrix matrix(false, static_cast<int>(program.cost.size()),
+                                static_cast<int>(program.rows.size()), start.back(), value.data(),
+                                column.data(), start.data(), nullptr);
   solver.messageHandler()->setLogLevel(0);
   solver.loadProblem(matrix, program.low.data(), program.high.data(), program.cost.data(),
                      low.data(), high.data());
@@ -80,15 +135,18 @@ int IntegerProgram::add_variable(double cost_of_one, double low_bound, double hi
 ProgramAnswer solve_program(const IntegerProgram& program, const ProgramLimits& limits,
                             const std::atomic<bool>& interrupt, const ProgramProgress& progress) {
   const SignalKept kept;
+  Deadline deadline(interrupt, limits.seconds);
   OsiClpSolverInterface solver;
   load(program, solver);
+  LinearWatch linear(deadline);
+  solver.getModelPtr()->passInEventHandler(&linear);
   for (size_t i = 0; i < program.whole.size(); ++i)
     if (program.whole[i] != 0) solver.setInteger(static_cast<int>(i));
   CbcModel model(solver);
   CbcSolverUsefulData data;
   CbcMain0(model, data);
   model.setLogLevel(0);
-  SearchWatch watch(interrupt, progress);
+  SearchWatch watch(deadline, progress);
   model.passInEventHandler(&watch);
   std::vector<std::string> words{"luxodus",
                                  "-log",
@@ -119,21 +177,26 @@ ProgramAnswer solve_program(const IntegerProgram& program, const ProgramLimits& 
   answer.bound = model.getBestPossibleObjValue();
   constexpr int by_event = 5;
   answer.interrupted = model.secondaryStatus() == by_event && !interrupt;
-  const bool stopped = model.status() != 0;
+  const bool stopped = model.status() != 0 || deadline.was_passed();
   if (!stopped && !answer.values.empty()) {
     answer.end = ProgramEnd::solved;
     answer.bound = std::min(answer.bound, answer.objective);
-  } else if (!stopped || model.isProvenInfeasible()) {
+  } else if (!deadline.was_passed() && (!stopped || model.isProvenInfeasible())) {
     answer.end = ProgramEnd::infeasible;
   }
+  if (deadline.was_passed()) answer.bound = std::min(answer.bound, deadline.bound);
   // Without a node CBC has no bound: what can be said is that no cost is below zero.
   if (!(answer.bound > -cbc_infinity && answer.bound < cbc_infinity)) answer.bound = 0;
   return answer;
 }
 
-std::vector<double> row_prices(const IntegerProgram& program) {
+std::vector<double> row_prices(const IntegerProgram& program, double seconds,
+                               const std::atomic<bool>& interrupt) {
+  Deadline deadline(interrupt, seconds);
   OsiClpSolverInterface solver;
   load(program, solver);
+  LinearWatch linear(deadline);
+  solver.getModelPtr()->passInEventHandler(&linear);
   solver.initialSolve();
   if (!solver.isProvenOptimal()) return {};
   const double* prices = solver.getRowPrice();

@@ -62,7 +62,9 @@ ProgramAnswer solve_program(const IntegerProgram& program, const ProgramLimits& 
                             const std::atomic<bool>& interrupt, const ProgramProgress& progress);
 
 /// Of each row, by how much the smallest objective of the program without whole numbers grows when
-/// its bound grows by one (the dual values). Empty where that program has no solution.
-std::vector<double> row_prices(const IntegerProgram& program);
+/// its bound grows by one (the dual values). Empty where that program has no solution, or none in
+/// time.
+std::vector<double> row_prices(const IntegerProgram& program, double seconds,
+                               const std::atomic<bool>& interrupt);
 
 }  // namespace luxodus

@@ -26,6 +26,8 @@ constexpr size_t rows_per_round = 80;
 constexpr double loose_gap = 0.04;
 /// Of the time of the search, what may go into the bounds of regions.
 constexpr double time_for_regions = 0.4;
+/// And how much after it into what binds.
+constexpr double time_for_prices = 0.05;
 /// A variable is chosen above this.
 constexpr double chosen_above = 0.5;
 /// A row that the solver's rounding breaks, though it has it, is asked for by so much more.
@@ -480,7 +482,10 @@ class Solving {
     IntegerProgram program = growing.program();
     for (size_t i = 0; i < program.rows.size(); ++i)
       if (growing.groups()[i] == GrowingProgram::of_bound) program.rows[i].low = 0;
-    const auto prices = row_prices(program);
+    // What binds is worth knowing after the time is out, too, but not for long.
+    const double left =
+        std::max(settings_.seconds - seconds(), time_for_prices * settings_.seconds);
+    const auto prices = row_prices(program, left, interrupt_);
     for (size_t i = 0; i < prices.size(); ++i) {
       const LinearRow& row = program.rows[i];
       if (growing.groups()[i] >= 0 && std::isfinite(row.low))

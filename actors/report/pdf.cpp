@@ -103,7 +103,8 @@ Result<void> print_pdf(const fs::path& page, const fs::path& pdf) {
   }
   return problem_in(pdf, failed.empty()
                              ? "no Chromium is installed to print it: install one (Debian: "
-                               "chromium), or print report.html from a browser"
+                               "chromium), or print " +
+                                   page.filename().string() + " from a browser"
                              : failed);
 }
 

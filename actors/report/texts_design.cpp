@@ -65,6 +65,54 @@ constexpr ReportText design_rows[] = {
     {"design.removed",
      {"Luminaires of the scene that go: {0}.", "Leuchten der Szene, die entfallen: {0}.",
       "Luminaires de la scène qui disparaissent : {0}."}},
+    {"design.off_place",
+     {"With all new luminaires mounted up to {0} m off their places, each in its worst direction, "
+      "the least is {1} % of a minimum of the rules, without the planning margin: {2}, at {3}.",
+      "Sind alle neuen Leuchten bis {0} m neben ihrem Ort montiert, jede in der schlechtesten "
+      "Richtung, so ist der kleinste Wert {1} % eines Mindestwerts der Regeln, ohne "
+      "Planungsfaktor: {2}, bei {3}.",
+      "Avec tous les luminaires neufs montés jusqu’à {0} m à côté de leur place, chacun dans la "
+      "pire direction, le plus faible est {1} % d’un minimum des règles, sans la marge de projet : "
+      "{2}, en {3}."}},
+    {"design.off_place_fails",
+     {"No layout of these candidates was found whose minima hold then.",
+      "Keine Anordnung dieser Kandidaten wurde gefunden, deren Mindestwerte dann gelten.",
+      "Aucune implantation de ces candidats n’a été trouvée dont les minimums tiennent alors."}},
+    {"design.signs_heading", {"Signs", "Zeichen", "Panneaux"}},
+    {"design.signs",
+     {"{0} new signs. From everywhere on the routes, but for what is named below, a sign ahead is "
+      "seen within its viewing distance that belongs to the route and points along it.",
+      "{0} neue Zeichen. Von überall auf den Wegen, außer wo unten genannt, ist voraus innerhalb "
+      "der Erkennungsweite ein Zeichen zu sehen, das zum Weg gehört und an ihm entlang zeigt.",
+      "{0} panneaux neufs. De partout sur les itinéraires, sauf mention ci-dessous, on voit devant "
+      "soi, à sa distance de vision, un panneau qui appartient à l’itinéraire et pointe le long de "
+      "celui-ci."}},
+    {"design.signs_optimal",
+     {"No plan with these places has less.", "Kein Plan mit diesen Orten hat weniger.",
+      "Aucun plan avec ces places n’a moins."}},
+    {"design.signs_unguided",
+     {"Route “{0}”: no sign guides from {1} of {2} places, first at {3}.",
+      "Weg „{0}“: von {1} von {2} Orten führt kein Zeichen, zuerst bei {3}.",
+      "Itinéraire « {0} » : aucun panneau ne guide depuis {1} des {2} places, d’abord en {3}."}},
+    {"design.signs_behind",
+     {"Furniture hides all places for signs there.", "Möbel verdecken dort alle Orte für Zeichen.",
+      "Le mobilier y cache toutes les places pour des panneaux."}},
+    {"design.signs_removed",
+     {"Signs of the scene that go: {0}.", "Zeichen der Szene, die entfallen: {0}.",
+      "Panneaux de la scène qui disparaissent : {0}."}},
+    {"design.mount", {"Where", "Wo", "Où"}},
+    {"design.mount.above a door or at the end of a way",
+     {"above a door or at the end of a way", "über einer Tür oder am Ende eines Wegs",
+      "au-dessus d’une porte ou au bout d’un chemin"}},
+    {"design.mount.beside a door or a way",
+     {"beside a door or a way", "neben einer Tür oder einem Weg",
+      "à côté d’une porte ou d’un "
+      "chemin"}},
+    {"design.mount.under the ceiling", {"under the ceiling", "unter der Decke", "sous le plafond"}},
+    {"design.ways", {"Routes and arrows", "Wege und Pfeile", "Itinéraires et flèches"}},
+    {"design.arrow.left", {"left", "links", "gauche"}},
+    {"design.arrow.right", {"right", "rechts", "droite"}},
+    {"design.arrow.ahead", {"ahead", "geradeaus", "tout droit"}},
     {"design.binding_heading", {"What binds", "Was bindet", "Ce qui contraint"}},
     {"design.binding_note",
      {"The last column says how much of the smallest possible objective comes from a constraint, "
@@ -251,6 +299,8 @@ constexpr ReportText design_rows[] = {
       "est devant à {0} degrés du chemin au plus. ● marque les implantations dont aucune autre "
       "n’est plus lisible pour autant. Toutes respectent les règles que les luminaires "
       "décident."}},
+    {"design.left_no_wall",
+     {"{0} where no wall is flat", "{0}, wo keine Wand eben ist", "{0} où aucun mur n’est plan"}},
     {"design.left_glaring", {"{0} glaring (E8)", "{0} blendend (E8)", "{0} éblouissants (E8)"}},
 };
 

@@ -22,23 +22,6 @@ double angle_in_plan_deg(const glm::dvec3& a, const glm::dvec3& b) {
   return glm::degrees(std::acos(std::clamp(glm::dot(p, q) / lengths, -1.0, 1.0)));
 }
 
-/// How far along a route the point is that is nearest to a place [m].
-double nearest_along_m(const EscapeRoute& route, const glm::dvec3& place) {
-  double least = std::numeric_limits<double>::infinity(), out = 0, before = 0;
-  for (size_t i = 1; i < route.path.size(); ++i) {
-    const glm::dvec3 a = route.path[i - 1], leg = route.path[i] - a;
-    const double t = std::clamp(glm::dot(place - a, leg) / glm::dot(leg, leg), 0.0, 1.0);
-    const double distance = glm::length(place - a - leg * t), length = glm::length(leg);
-    // At a bend the leg that follows counts: that is where the arrow leads.
-    if (distance <= least + no_direction_m) {
-      least = std::min(distance, least);
-      out = before + t * length;
-    }
-    before += length;
-  }
-  return out;
-}
-
 /// Whether a direction is that of the route somewhere in the metres that follow a place.
 bool points_along(const EscapeRoute& route, double from_m, const glm::dvec3& direction) {
   double before = 0;
@@ -79,13 +62,29 @@ glm::dvec3 arrow_direction(const Sign& sign, SignArrow arrow, bool back_face) {
   return length > 0 ? out / length : glm::dvec3(0);
 }
 
+double passed_at_m(const EscapeRoute& route, const glm::dvec3& place) {
+  double least = std::numeric_limits<double>::infinity(), out = 0, before = 0;
+  for (size_t i = 1; i < route.path.size(); ++i) {
+    const glm::dvec3 a = route.path[i - 1], leg = route.path[i] - a;
+    const double t = std::clamp(glm::dot(place - a, leg) / glm::dot(leg, leg), 0.0, 1.0);
+    const double distance = glm::length(place - a - leg * t), length = glm::length(leg);
+    // At a bend the leg that follows counts: that is where the arrow leads.
+    if (distance <= least + no_direction_m) {
+      least = std::min(distance, least);
+      out = before + t * length;
+    }
+    before += length;
+  }
+  return out;
+}
+
 bool can_guide(const EscapeRoute& route, const Walker& walker, const Sign& sign,
                const SignView& view) {
   const auto leads = std::find_if(sign.leads_to.begin(), sign.leads_to.end(),
                                   [&](const LeadsTo& one) { return one.route == route.name; });
   if (leads == sign.leads_to.end() || view.behind) return false;
   if (angle_in_plan_deg(view.centre - walker.foot, walker.ahead) > guiding_angle_deg) return false;
-  const double passed_m = nearest_along_m(route, view.centre);
+  const double passed_m = passed_at_m(route, view.centre);
   if (passed_m < walker.along_m) return false;
   return points_along(route, passed_m, arrow_direction(sign, leads->arrow, view.back_face));
 }

@@ -26,6 +26,10 @@ std::vector<double> times_of(const TimeSettings& time);
 /// the floor or hangs under a ceiling has its top ahead.
 glm::dvec3 arrow_direction(const Sign& sign, SignArrow arrow, bool back_face);
 
+/// How far along a route somebody has come who passes a place: the point that is nearest to it. At
+/// a bend the leg that follows counts [m].
+double passed_at_m(const EscapeRoute& route, const glm::dvec3& place);
+
 /// Whether somebody at a place of a route can follow a sign, if it can be read: it leads to this
 /// route, lies ahead of the walker, is passed later, and its arrow points along the route there.
 /// `view`: of the sign from the walker's eye.

@@ -3,6 +3,7 @@
 
 #include "scenes/geometry/transform.hpp"
 #include "scenes/scene_file/read_placement.hpp"
+#include "scenes/scene_file/read_signs.hpp"
 #include "scenes/scene_file/scene_readers.hpp"
 #include "scenes/world/design.hpp"
 
@@ -99,16 +100,49 @@ Emitter* placed_type(KeyReader& keys) {
   return &scene.emitters.back();
 }
 
+/// A sign of the design, which hangs nowhere yet, with its routes. Null after a problem.
+Sign* placed_sign(KeyReader& keys) {
+  SceneDescription& scene = keys.reading().scene;
+  const std::string of = keys.text("of");
+  const auto& types = scene.design->sign_types;
+  const auto type = std::find_if(types.begin(), types.end(),
+                                 [&](const DesignSignType& one) { return one.name == of; });
+  if (type == types.end()) keys.problem("of", "there is no design_sign \"" + of + "\" to copy");
+  const auto copy = keys.maybe_text("copy");
+  if (!copy)
+    keys.problem("a 'design_sign' is no sign yet: give the name of one in 'copy'");
+  else
+    keys.reading().declare("sign", *copy, keys.place("copy"));
+  if (!keys.has("position") || !keys.has("facing"))
+    keys.problem("'position' and 'facing' say where the sign hangs: both are needed");
+  if (!keys.clean()) return nullptr;
+  Sign added = type->sign;
+  added.name = *copy;
+  added.place = keys.place();
+  const size_t named = keys.reading().routes_named.size();
+  read_leads_to(keys, added);
+  for (size_t i = named; i < keys.reading().routes_named.size(); ++i) {
+    const auto& route = keys.reading().routes_named[i];
+    keys.reading().require("route", route.name, route.place);
+  }
+  scene.signs.push_back(std::move(added));
+  return &scene.signs.back();
+}
+
 void turn(KeyReader& keys, Frame& frame) {
   frame.axes = frame.axes * turn_about_axes({0, 0, keys.number("rotation_deg")});
 }
 
-/// Whether the change takes its luminaire away, which then has nothing else to say.
-bool removes(KeyReader& keys) {
+/// Whether the change takes its luminaire or sign away, and has done so: it then has nothing else
+/// to say.
+template <class List>
+bool removed(List& list, KeyReader& keys, const std::string& kind) {
   if (!keys.flag("remove")) return false;
   for (const char* key : {"copy", "position", "facing", "rotation_deg", "factor"})
     if (keys.has(key))
-      keys.problem(key, "'" + std::string(key) + "' says something of a luminaire that goes");
+      keys.problem(key, "'" + std::string(key) + "' says something of a " + kind + " that goes");
+  if (const auto* const gone = named(list, keys, kind))
+    list.erase(list.begin() + (gone - list.data()));
   return true;
 }
 
@@ -143,18 +177,24 @@ void read_change(const toml::Table& table, SceneReading& reading) {
   const std::string kind = keys.choice("kind");
   const double factor = keys.number("factor");
   SceneDescription& scene = reading.scene;
-  if (kind != "luminaire" && keys.has("remove"))
-    keys.problem("remove", "'remove' is for luminaires alone");
+  if (kind != "luminaire" && kind != "sign" && keys.has("remove"))
+    keys.problem("remove", "'remove' is for luminaires and signs alone");
+  if (kind != "design_sign" && keys.has("leads_to"))
+    keys.problem("leads_to", "'leads_to' is for a 'design_sign' alone");
   if (kind != "luminaire" && kind != "design_type" && keys.has("rotation_deg"))
     keys.problem("rotation_deg", "'rotation_deg' is for luminaires alone");
+  if (kind == "sign" && removed(scene.signs, keys, kind)) return;
+  if (kind == "luminaire" && removed(scene.emitters, keys, kind)) return;
   if (kind == "sign") {
     Sign* const sign = chosen(scene.signs, keys, kind, "sign");
     if (sign == nullptr) return;
     move(keys, sign->frame, frame_facing);
     brighten(*sign, factor);
-  } else if (kind == "luminaire" && removes(keys)) {
-    if (const Emitter* const gone = named(scene.emitters, keys, kind))
-      scene.emitters.erase(scene.emitters.begin() + (gone - scene.emitters.data()));
+  } else if (kind == "design_sign") {
+    Sign* const sign = placed_sign(keys);
+    if (sign == nullptr) return;
+    move(keys, sign->frame, frame_facing);
+    brighten(*sign, factor);
   } else if (kind == "design_type") {
     Emitter* const emitter = placed_type(keys);
     if (emitter == nullptr) return;

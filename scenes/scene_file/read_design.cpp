@@ -6,6 +6,8 @@
 
 #include "scenes/geometry/transform.hpp"
 #include "scenes/scene_file/read_luminaires.hpp"
+#include "scenes/scene_file/read_signs.hpp"
+#include "scenes/scene_file/read_types.hpp"
 #include "scenes/scene_file/scene_readers.hpp"
 #include "scenes/world/design.hpp"
 
@@ -98,6 +100,12 @@ void take_light_of(KeyReader& keys, const std::string& like, Emitter& e) {
   e = *at;
 }
 
+template <class Word, size_t N>
+Word word_of(KeyReader& keys, const char* key, const std::array<std::string_view, N>& words) {
+  const auto at = std::find(words.begin(), words.end(), keys.choice(key));
+  return static_cast<Word>(at == words.end() ? 0 : at - words.begin());
+}
+
 void read_design_type(const toml::Table& table, SceneReading& reading, DesignSettings& design) {
   KeyReader keys(table, {"design.type"}, reading);
   DesignType type;
@@ -115,11 +123,114 @@ void read_design_type(const toml::Table& table, SceneReading& reading, DesignSet
   type.cost = keys.number("cost");
   type.watts = keys.number("watts");
   type.turns_deg = keys.numbers("turns_deg");
+  type.mount = word_of<LuminaireMount>(keys, "mount", luminaire_mount_words);
+  type.aim_deg = keys.number("aim_deg");
   if (keys.clean() && !(type.emitter.emergency_flux > 0))
     keys.problem("the type '" + type.name +
                  "' gives no light in an emergency: set 'emergency', and 'emergency_flux' or "
                  "'emergency_factor'");
   design.types.push_back(std::move(type));
+}
+
+/// At the origin, facing +x, leading nowhere.
+void put_to_origin(Sign& sign) {
+  sign.leads_to.clear();
+  sign.frame = frame_facing(glm::dvec3(0), {1, 0, 0}, {0, 0, 1}).value();
+}
+
+DesignSignType generic_sign(const SourcePlace& place) {
+  DesignSignType type;
+  type.name = "generic exit sign";
+  type.place = place;
+  type.sign.name = type.name;
+  type.sign.place = place;
+  make_generic_sign(type.sign);
+  put_to_origin(type.sign);
+  return type;
+}
+
+bool alike(const Sign& a, const Sign& b) {
+  const auto same = [](const SignState& p, const SignState& q) {
+    return p.white_cd_m2 == q.white_cd_m2 && p.green_cd_m2 == q.green_cd_m2;
+  };
+  return a.width_m == b.width_m && a.height_m == b.height_m && a.file == b.file &&
+         a.text == b.text && a.lighting == b.lighting && a.double_sided == b.double_sided &&
+         same(a.mains, b.mains) && same(a.emergency, b.emergency) && a.decay == b.decay &&
+         a.duration_s == b.duration_s && a.angular_exponent == b.angular_exponent;
+}
+
+/// The arrow of all its routes; none where it has none or several.
+std::optional<SignArrow> only_arrow(const Sign& sign) {
+  if (sign.leads_to.empty()) return std::nullopt;
+  const SignArrow first = sign.leads_to.front().arrow;
+  for (const LeadsTo& one : sign.leads_to)
+    if (one.arrow != first) return std::nullopt;
+  return first;
+}
+
+/// The upright signs of the scene, each kind once, by the names of their drawings.
+std::vector<DesignSignType> signs_of_scene(const SceneDescription& scene) {
+  constexpr double upright = 0.99;  // cosine
+  std::vector<DesignSignType> out;
+  std::set<std::string> taken;
+  for (const Sign& sign : scene.signs) {
+    if (sign.frame.axes[1].z < upright) continue;
+    const auto arrow = only_arrow(sign);
+    if (std::any_of(out.begin(), out.end(), [&](const DesignSignType& type) {
+          return type.arrow == arrow && alike(type.sign, sign);
+        }))
+      continue;
+    DesignSignType type;
+    const std::string file = std::filesystem::path(sign.file).stem().string();
+    type.name = file.empty() || taken.contains(file) ? sign.name : file;
+    taken.insert(type.name);
+    type.place = sign.place;
+    type.sign = sign;
+    type.sign.name = type.name;
+    type.arrow = arrow;
+    put_to_origin(type.sign);
+    out.push_back(std::move(type));
+  }
+  return out;
+}
+
+/// A sign of the scene. Keys of the sign beside it would say another.
+void take_sign_like(KeyReader& keys, const std::string& like, Sign& sign) {
+  for (const KeySpec& key : sign_body_keys())
+    if (keys.has(key.name))
+      return keys.problem(key.name, "'" + std::string(key.name) +
+                                        "' and 'like' exclude each other: '" + like + "' says it");
+  const auto& signs = keys.reading().scene.signs;
+  const auto at =
+      std::find_if(signs.begin(), signs.end(), [&](const Sign& one) { return one.name == like; });
+  if (at == signs.end())
+    return keys.problem("like", "there is no sign \"" + like + "\" to be like");
+  sign = *at;
+}
+
+void read_design_sign(const toml::Table& stated, SceneReading& reading, DesignSettings& design) {
+  const toml::Table table = with_type(stated, "sign_type", reading);
+  KeyReader keys(table, {"design.sign"}, reading);
+  DesignSignType type;
+  type.name = read_name(keys, "sign of a design");
+  type.place = keys.place();
+  type.stated = true;
+  type.sign.place = type.place;
+  if (keys.has("like")) {
+    take_sign_like(keys, keys.text("like"), type.sign);
+  } else {
+    for (const char* key : {"width", "height"})
+      if (!keys.has(key))
+        keys.problem("the key '" + std::string(key) +
+                     "' is missing: the size of the face, or 'like' a sign of the scene");
+    if (keys.clean()) read_sign_itself(keys, type.sign);
+  }
+  type.sign.name = type.name;
+  put_to_origin(type.sign);
+  type.cost = keys.number("cost");
+  type.watts = keys.number("watts");
+  if (keys.has("arrow")) type.arrow = arrow_named(keys.choice("arrow"));
+  design.sign_types.push_back(std::move(type));
 }
 
 void read_keep_out(const toml::Table& table, SceneReading& reading, DesignSettings& design) {
@@ -130,12 +241,6 @@ void read_keep_out(const toml::Table& table, SceneReading& reading, DesignSettin
   one.position = keys.point("position");
   one.radius_m = keys.number("radius");
   design.keep_outs.push_back(std::move(one));
-}
-
-template <class Word, size_t N>
-Word word_of(KeyReader& keys, const char* key, const std::array<std::string_view, N>& words) {
-  const auto at = std::find(words.begin(), words.end(), keys.choice(key));
-  return static_cast<Word>(at == words.end() ? 0 : at - words.begin());
 }
 
 /// Names of luminaires, each in one list.
@@ -183,6 +288,7 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
   const auto says = [&](const char* key) { return keys.has(key); };
   design.place = keys.place();
   for (const toml::Table* type : keys.tables("type")) read_design_type(*type, reading, design);
+  for (const toml::Table* sign : keys.tables("sign")) read_design_sign(*sign, reading, design);
   for (const toml::Table* zone : keys.tables("keep_out")) read_keep_out(*zone, reading, design);
   if (says("over")) design.over = keys.texts("over");
   check_over(keys, design);
@@ -191,6 +297,10 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
         std::pair{"wall_clearance_m", &design.wall_clearance_m},
         std::pair{"sign_clearance_m", &design.sign_clearance_m},
         std::pair{"drop_m", &design.drop_m}, std::pair{"margin", &design.margin},
+        std::pair{"place_tolerance_m", &design.place_tolerance_m},
+        std::pair{"wall_height_m", &design.wall_height_m},
+        std::pair{"sign_height_m", &design.sign_height_m},
+        std::pair{"sign_spacing_m", &design.sign_spacing_m},
         std::pair{"weight_number", &design.weight_number},
         std::pair{"weight_cost", &design.weight_cost},
         std::pair{"weight_watts", &design.weight_watts}})
@@ -199,8 +309,11 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
   if (says("mounting_height_m") && says("drop_m"))
     keys.problem("drop_m", "'drop_m' and 'mounting_height_m' exclude each other");
   if (says("places")) design.places = keys.points("places");
-  if (says("existing"))
-    design.existing = word_of<ExistingLuminaires>(keys, "existing", existing_words);
+  if (says("existing")) design.existing = word_of<Existing>(keys, "existing", existing_words);
+  if (says("place_signs")) design.place_signs = keys.flag("place_signs");
+  if (says("refine")) design.refine = keys.flag("refine");
+  if (says("existing_signs"))
+    design.existing_signs = word_of<Existing>(keys, "existing_signs", existing_words);
   if (says("failure")) design.failure = word_of<FailureDemand>(keys, "failure", failure_words);
   if (says("objective"))
     design.objective = word_of<DesignObjective>(keys, "objective", objective_words);
@@ -216,6 +329,9 @@ void complete_design(SceneReading& reading, DesignSettings design) {
   SceneDescription& scene = reading.scene;
   if (design.types.empty()) design.types = types_of_scene(scene);
   if (design.types.empty()) design.types.push_back(generic_type(design.place));
+  if (!design.place_signs) design.place_signs = scene.signs.empty() || !design.sign_types.empty();
+  if (design.sign_types.empty()) design.sign_types = signs_of_scene(scene);
+  if (design.sign_types.empty()) design.sign_types.push_back(generic_sign(design.place));
   scene.design = std::make_shared<const DesignSettings>(std::move(design));
 }
 

@@ -1,4 +1,6 @@
 // Safety signs.
+#include "scenes/scene_file/read_signs.hpp"
+
 #include <algorithm>
 #include <cctype>
 
@@ -165,12 +167,13 @@ void read_luminances(KeyReader& keys, Sign& sign) {
   }
 }
 
+}  // namespace
+
 SignArrow arrow_named(const std::string& word) {
   return word == "left" ? SignArrow::left : word == "right" ? SignArrow::right : SignArrow::ahead;
 }
 
-/// Routes are read after signs: whether these exist is seen then.
-void read_ways(KeyReader& keys, Sign& sign) {
+void read_leads_to(KeyReader& keys, Sign& sign) {
   for (const toml::Table* table : keys.tables("leads_to")) {
     KeyReader way(*table, {"sign.leads_to"}, keys.reading());
     const std::string route = way.text("route");
@@ -183,7 +186,46 @@ void read_ways(KeyReader& keys, Sign& sign) {
   }
 }
 
-}  // namespace
+void read_sign_itself(KeyReader& keys, Sign& sign) {
+  sign.width_m = keys.number("width");
+  sign.height_m = keys.number("height");
+  sign.thickness_m = keys.number("thickness");
+  sign.double_sided = keys.flag("double_sided");
+  sign.angular_exponent = keys.number("angular_exponent");
+  if (const auto circuit = keys.maybe_text("circuit")) {
+    sign.circuit = *circuit;
+    keys.reading().note("circuit", sign.circuit, keys.place("circuit"));
+  }
+  sign.group = keys.text("group");
+  sign.white_shape = emission_shape(keys, "white_spectrum");
+  sign.green_shape =
+      keys.has("green_spectrum") ? emission_shape(keys, "green_spectrum") : safety_green_shape();
+  sign.white_reflectance = property(keys, "white_reflectance");
+  sign.green_reflectance = property(keys, "green_reflectance");
+  read_luminances(keys, sign);
+  read_face(keys, sign);
+}
+
+void make_generic_sign(Sign& sign) {
+  // The letters of NFPA 101, a height that EN 1838 lets be read from 40 m, and luminances that both
+  // ask for where smoke may occur.
+  constexpr double width_m = 0.5, height_m = 0.2, letter_m = 0.1524, stroke_m = 0.01905;
+  constexpr double spacing_m = 0.009525;
+  constexpr int texels = 256;
+  sign.width_m = width_m;
+  sign.height_m = height_m;
+  sign.text = "EXIT";
+  sign.letters = SignLetters{letter_m, stroke_m};
+  sign.smallest_detail_m = stroke_m;
+  sign.mains = {500, 50};
+  sign.emergency = {200, 20};
+  sign.white_shape = emission_shape_from_linear_srgb(1, 1, 1);
+  sign.green_shape = safety_green_shape();
+  // The text fits: letters, stroke and face are those above.
+  sign.face = face_from_text(sign.text, width_m, height_m, letter_m, stroke_m, spacing_m,
+                             SignColour::white, texels)
+                  .value();
+}
 
 void read_sign(const toml::Table& stated, SceneReading& reading) {
   const toml::Table table = with_type(stated, "sign_type", reading);
@@ -192,16 +234,6 @@ void read_sign(const toml::Table& stated, SceneReading& reading) {
   sign.ifc_guid = keys.text("ifc_guid");
   sign.place = keys.place();
   sign.name = read_name(keys, "sign");
-  sign.width_m = keys.number("width");
-  sign.height_m = keys.number("height");
-  sign.thickness_m = keys.number("thickness");
-  sign.double_sided = keys.flag("double_sided");
-  sign.angular_exponent = keys.number("angular_exponent");
-  if (const auto circuit = keys.maybe_text("circuit")) {
-    sign.circuit = *circuit;
-    reading.note("circuit", sign.circuit, keys.place("circuit"));
-  }
-  sign.group = keys.text("group");
   const glm::dvec3 position = keys.point("position");
   const auto facing = keys.maybe_direction("facing");
   const glm::dvec3 up = keys.direction("up");
@@ -215,14 +247,8 @@ void read_sign(const toml::Table& stated, SceneReading& reading) {
       adopt_problem(keys, frame.problem());
     }
   }
-  sign.white_shape = emission_shape(keys, "white_spectrum");
-  sign.green_shape =
-      keys.has("green_spectrum") ? emission_shape(keys, "green_spectrum") : safety_green_shape();
-  sign.white_reflectance = property(keys, "white_reflectance");
-  sign.green_reflectance = property(keys, "green_reflectance");
-  read_luminances(keys, sign);
-  read_ways(keys, sign);
-  read_face(keys, sign);
+  read_sign_itself(keys, sign);
+  read_leads_to(keys, sign);
   reading.scene.signs.push_back(std::move(sign));
 }
 

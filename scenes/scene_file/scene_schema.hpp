@@ -29,6 +29,9 @@ KeySpec ifc_guid_key();
 /// What luminaires give in each operating state.
 std::vector<KeySpec> operation_keys();
 
+/// Those of a sign, without its name, its place and its routes; none is required.
+std::vector<KeySpec> sign_body_keys();
+
 // Pieces of the schema, one per source file.
 std::vector<TableSpec> geometry_schema();
 TableSpec run_keys();                      // part of geometry_schema

@@ -23,6 +23,8 @@ std::vector<TableSpec> design_schema() {
             "of the luminous opening below the ceiling that is met above the floor"},
            {"mounting_height_m", "number", "m", "", "[0.1, 100]",
             "of luminous openings above the floor, where they do not hang by `drop_m`"},
+           {"wall_height_m", "number", "m", "2.3", "[0.1, 50]",
+            "of luminaires on walls above the floor, for types that hang there"},
            {"places", "points", "m", "", "[-1e7, 1e7]",
             "candidate places, listed instead of the grid"},
            {"keep_out", "tables", "", "", "", "where nothing is mounted"},
@@ -32,11 +34,30 @@ std::vector<TableSpec> design_schema() {
            {"fixed", "texts", "", "[]", "", "names of luminaires that stay, whatever `existing`"},
            {"removable", "texts", "", "[]", "", "names of those that may go, likewise"},
            {"removed", "texts", "", "[]", "", "names of those that go, likewise"},
+           {"place_signs", "flag", "", "", "",
+            "whether signs are placed, too; unless said they are where the scene has no sign or a "
+            "`[[design.sign]]` is stated"},
+           {"sign", "tables", "", "", "",
+            "signs that may be placed; none: the upright signs of the scene, each kind once, and "
+            "where it has none a generic one, lit from within, of 0.5 x 0.2 m"},
+           {"sign_height_m", "number", "m", "2.2", "[0.1, 50]",
+            "of the lower edge of signs above the floor; lower where a ceiling asks for it"},
+           {"sign_spacing_m", "number", "m", "5", "[0.5, 100]",
+            "between places along routes where signs may hang under ceilings"},
+           {"existing_signs", "choice", "", "\"fixed\"", "fixed, removable, removed",
+            "what becomes of the signs of the scene, where signs are placed"},
            {"failure", "choice", "", "\"two\"", "none, two, full",
             "what holds when any one luminaire has failed: nothing; two luminaires over each route "
             "and area, and no place below 0.1 lx; the minima of the rules"},
            {"margin", "number", "", "1.25", "[1, 10]",
             "planned minima of illuminance over those of the rules"},
+           {"place_tolerance_m", "number", "m", "0.25", "[0, 2]",
+            "how far off new luminaires may be mounted, all of them and each in its worst "
+            "direction, while the minima of the rules hold, without `margin`"},
+           {"refine", "flag", "", "false", "",
+            "moves what was placed by up to half of `spacing_m`, where minima are kept with more "
+            "to "
+            "spare then"},
            {"objective", "choice", "", "\"number\"", "number, cost, watts, weighted",
             "what is made as small as can be"},
            {"weight_number", "number", "", "1", "[0, 1e6]",
@@ -51,21 +72,37 @@ std::vector<TableSpec> design_schema() {
             "other layouts that are judged in smoke, up to 30 % above the objective of the best"},
        }},
       {"design.type", "`[[design.type]]`: a luminaire that may be placed",
-       joined(
-           {{"name", "name", "", "required", "", "name of the type"},
-            {"like", "text", "", "", "",
-             "luminaire or emitter of the scene whose light it has, instead of `file` and all "
-             "that goes with it"},
-            {"cost", "number", "", "1", "[0, 1e9]",
-             "of one, installed, with what it costs over its life"},
-            {"watts", "number", "W", "0", "[0, 1e6]", "that one takes"},
-            {"turns_deg", "numbers", "deg", "", "[-360, 360]",
-             "turns about its aim that are tried, from the direction of the route below (over "
-             "areas from +x); without it 0 and 90 of those whose light has a direction, else 0"}},
-           joined(joined(photometric_file_keys(""), operation_keys()),
-                  {{"body_material", "text", "", "", "",
-                    "material of its body; without it returning light "
-                    "passes"}}))},
+       joined({{"name", "name", "", "required", "", "name of the type"},
+               {"like", "text", "", "", "",
+                "luminaire or emitter of the scene whose light it has, instead of `file` and all "
+                "that goes with it"},
+               {"cost", "number", "", "1", "[0, 1e9]",
+                "of one, installed, with what it costs over its life"},
+               {"watts", "number", "W", "0", "[0, 1e6]", "that one takes"},
+               {"turns_deg", "numbers", "deg", "", "[-360, 360]",
+                "turns about its aim that are tried, from the direction of the route below (over "
+                "areas from +x); without it 0 and 90 of those whose light has a direction, else 0"},
+               {"mount", "choice", "", "\"ceiling\"", "ceiling, wall, both",
+                "where it hangs: under ceilings, or on walls beside routes and around areas"},
+               {"aim_deg", "number", "deg", "90", "[0, 90]",
+                "where its -z looks on a wall: 0 straight down, 90 away from the wall"}},
+              joined(joined(photometric_file_keys(""), operation_keys()),
+                     {{"body_material", "text", "", "", "",
+                       "material of its body; without it returning light "
+                       "passes"}}))},
+      {"design.sign", "`[[design.sign]]`: a sign that may be placed",
+       joined({{"name", "name", "", "required", "", "name of the type"},
+               {"like", "text", "", "", "",
+                "sign of the scene that it is like, instead of the keys of its face and its light"},
+               {"type", "text", "", "", "",
+                "name of a `[[sign_type]]`, whose keys it has but for those that it says itself"},
+               {"cost", "number", "", "1", "[0, 1e9]",
+                "of one, installed, with what it costs over its life"},
+               {"watts", "number", "W", "0", "[0, 1e6]", "that one takes"},
+               {"arrow", "choice", "", "", "left, right, ahead",
+                "arrow that its drawing shows, as its reader sees it; without it the sign is made "
+                "with any"}},
+              sign_body_keys())},
       {"design.keep_out",
        "`[[design.keep_out]]`: a vertical cylinder in which nothing is mounted",
        {

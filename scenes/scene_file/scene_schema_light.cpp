@@ -324,23 +324,24 @@ std::vector<TableSpec> medium_keys() {
   };
 }
 
-/// Those of a sign, without its place; none is required of a type.
 TableSpec sign_type_keys() {
-  TableSpec spec{"sign_type", "`[[sign_type]]`: what several signs have in common", {}};
-  for (KeySpec key : sign_keys().keys) {
-    if (key.name == "position" || key.name == "facing" || key.name == "type" ||
-        key.name == "ifc_guid" || key.name == "leads_to")
-      continue;
-    if (key.name == "name")
-      key.meaning = "name of the type";
-    else if (key.fallback == "required")
-      key.fallback = "";
-    spec.keys.push_back(key);
-  }
-  return spec;
+  return {"sign_type", "`[[sign_type]]`: what several signs have in common",
+          joined({{"name", "name", "", "required", "", "name of the type"}}, sign_body_keys())};
 }
 
 }  // namespace
+
+std::vector<KeySpec> sign_body_keys() {
+  std::vector<KeySpec> out;
+  for (KeySpec key : sign_keys().keys) {
+    if (key.name == "name" || key.name == "position" || key.name == "facing" ||
+        key.name == "type" || key.name == "ifc_guid" || key.name == "leads_to")
+      continue;
+    if (key.fallback == "required") key.fallback = "";
+    out.push_back(key);
+  }
+  return out;
+}
 
 std::vector<TableSpec> light_schema() {
   std::vector<TableSpec> all = luminaire_keys();

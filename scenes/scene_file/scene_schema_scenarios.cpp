@@ -46,9 +46,10 @@ std::vector<TableSpec> scenario_schema() {
       {"change",
        "`[[change]]`: what a variant has otherwise than the files that it includes",
        {
-           {"kind", "choice", "", "required", "sign, luminaire, medium, design_type",
+           {"kind", "choice", "", "required", "sign, luminaire, medium, design_type, design_sign",
             "what is changed; emitters are luminaires, too, and a `design_type` is a "
-            "`[[design.type]]`, or what stands for one, to be copied"},
+            "`[[design.type]]`, a `design_sign` a `[[design.sign]]`, or what stands for one, to "
+            "be copied"},
            {"of", "text", "", "required", "", "its name"},
            {"copy", "name", "", "", "",
             "name of a copy that is added instead, the one in `of` staying as it is; of signs and "
@@ -58,7 +59,9 @@ std::vector<TableSpec> scenario_schema() {
             "where a sign's face looks, or a luminaire aims; with `position`"},
            {"rotation_deg", "number", "deg", "0", "[-360, 360]",
             "further turn of a luminaire about its aim, as `rotation_deg` of `[[luminaire]]`"},
-           {"remove", "flag", "", "false", "", "takes a luminaire out of the scene"},
+           {"leads_to", "tables", "", "", "",
+            "routes that a `design_sign` belongs to, as `[[sign.leads_to]]`"},
+           {"remove", "flag", "", "false", "", "takes a luminaire or a sign out of the scene"},
            {"factor", "number", "", "1", "[0, 1000]",
             "of its light in every operation; of a medium's extinction in every scenario"},
        }},

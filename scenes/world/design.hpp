@@ -12,6 +12,9 @@
 
 namespace luxodus {
 
+enum class LuminaireMount { ceiling, wall, both };
+inline constexpr std::array<std::string_view, 3> luminaire_mount_words{"ceiling", "wall", "both"};
+
 /// A luminaire that may be placed, at the origin, looking down, unturned. Its emitter has its name.
 struct DesignType {
   std::string name;
@@ -20,7 +23,20 @@ struct DesignType {
   double cost = 1;                // of one, installed, in any currency
   double watts = 0;               // that one takes from the mains [W]
   std::vector<double> turns_deg;  // about its aim, against the way below; empty: by its symmetry
-  bool stated = false;            // in the scene; else one that follows from it
+  LuminaireMount mount = LuminaireMount::ceiling;
+  double aim_deg = 90;  // of one on a wall: 0 looks straight down, 90 away from the wall
+  bool stated = false;  // in the scene; else one that follows from it
+};
+
+/// A sign that may be placed, at the origin, facing +x. It leads nowhere yet.
+struct DesignSignType {
+  std::string name;
+  SourcePlace place;
+  Sign sign;
+  double cost = 1;                 // as of a luminaire
+  double watts = 0;                // [W]
+  std::optional<SignArrow> arrow;  // that its drawing shows; none: it is made with any
+  bool stated = false;
 };
 
 /// A vertical cylinder in which nothing is mounted, around a smoke detector for instance.
@@ -31,8 +47,8 @@ struct KeepOut {
   double radius_m = 0.5;
 };
 
-/// What becomes of emergency luminaires that are there already.
-enum class ExistingLuminaires { fixed, removable, removed };
+/// What becomes of emergency luminaires and of signs that are there already.
+enum class Existing { fixed, removable, removed };
 inline constexpr std::array<std::string_view, 3> existing_words{"fixed", "removable", "removed"};
 
 enum class DesignObjective { number, cost, watts, weighted };
@@ -54,16 +70,26 @@ struct DesignSettings {
   double sign_clearance_m = 0.3;
   double drop_m = 0.03;                     // of a luminous opening below its ceiling
   std::optional<double> mounting_height_m;  // above the floor; else on the ceiling
+  double wall_height_m = 2.3;               // of luminaires on walls above the floor
   std::vector<glm::dvec3> places;           // listed, instead of the grid
   std::vector<KeepOut> keep_outs;
 
   // Luminaires that are there
-  ExistingLuminaires existing = ExistingLuminaires::fixed;
+  Existing existing = Existing::fixed;
   std::vector<std::string> fixed, removable, removed;  // by name, whatever `existing` says
+
+  // Signs
+  std::optional<bool> place_signs;  // not said: where the scene has no sign, or types are stated
+  std::vector<DesignSignType> sign_types;  // as of luminaires
+  double sign_height_m = 2.2;              // of the lower edge above the floor
+  double sign_spacing_m = 5;               // between places under ceilings along routes
+  Existing existing_signs = Existing::fixed;
 
   // What must hold, and what is sought
   FailureDemand failure = FailureDemand::two;
-  double margin = 1.25;  // of minima of illuminance over the limits of the rules
+  double margin = 1.25;             // of minima of illuminance over the limits of the rules
+  double place_tolerance_m = 0.25;  // minima hold with luminaires mounted so far off
+  bool refine = false;              // what was placed is moved between the places of the grid
   DesignObjective objective = DesignObjective::number;
   double weight_number = 1, weight_cost = 0, weight_watts = 0;
 

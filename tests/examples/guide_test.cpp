@@ -170,17 +170,16 @@ TEST_CASE("the guide's store room gets the layout that it tells, and every comma
   REQUIRE(run.code == 0);
   const std::string first = run.out.substr(0, run.out.find('\n'));
   CHECK(text.find(first) != std::string::npos);
-  for (const char* file : {"design.html", "design.json", "luminaires.csv", "layout.toml",
-                           "plans/installation.svg", "plans/isolux.svg", "plans/plan.dxf"})
+  for (const char* file :
+       {"design.html", "design.json", "luminaires.csv", "signs.csv", "layout.toml",
+        "plans/installation.svg", "plans/isolux.svg", "plans/plan.dxf"})
     CHECK(fs::exists(folder / "out" / file));
   const Outcome assessed = run_luxodus(
       folder, "assess " + layout + "/layout.toml --codes-alone --out " + layout + "/assessed");
   INFO(assessed.out << assessed.err);
   REQUIRE(assessed.code == 0);
-  // Only the sign that the room lacks.
   const auto a = nlohmann::json::parse(slurp(folder / "out/assessed/assessment.json"));
-  for (const auto& check : a["checks"])
-    if (check["verdict"] == "fail") CHECK(check["rule"] == "S4");
+  for (const auto& check : a["checks"]) CHECK(check["verdict"] != "fail");
 }
 
 TEST_CASE("a design that cannot be made writes nothing and says what cannot hold",

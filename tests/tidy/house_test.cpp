@@ -302,6 +302,7 @@ TEST_CASE("only the room of a library includes it", "[tidy]") {
       {"Cbc", "actors/design/mixed_integer_program.cpp"},
       {"Coin", "actors/design/mixed_integer_program.cpp"},
       {"Osi", "actors/design/mixed_integer_program.cpp"},
+      {"nlopt", "actors/design/refine_layout.cpp"},
       {"CLI/", "actors/cli/options.cpp"},
       {"capnp", "proto"},
       {"kj", "proto"},

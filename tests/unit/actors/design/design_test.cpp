@@ -171,6 +171,7 @@ width = 0.3
 existing = "removed"
 failure = "none"
 margin = 1
+place_tolerance_m = 0
 spacing_m = 0.5
 )",
                      length - 0.5);

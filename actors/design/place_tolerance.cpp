@@ -1,0 +1,154 @@
+#include "actors/design/place_tolerance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "scenes/transport/surroundings.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Directions in which a luminaire is off.
+constexpr int off_directions = 8;
+/// A share that is this near to 1 holds: rounding.
+constexpr double share_rounding = 1e-6;
+
+/// Level on a ceiling; along and up the wall on one.
+glm::dvec3 off_way(const LuminaireCandidate& one, double azimuth) {
+  const glm::dvec3 level(std::cos(azimuth), std::sin(azimuth), 0);
+  if (!one.aim || glm::length(glm::dvec2(*one.aim)) < 1e-3) return level;
+  const glm::dvec3 along = glm::normalize(glm::dvec3(-one.aim->y, one.aim->x, 0));
+  return along * level.x + glm::dvec3(0, 0, level.y);
+}
+
+/// A luminaire where it is planned and where it may be instead, one after another, in one place.
+std::vector<LuminaireCandidate> with_places_off(const Building& building,
+                                                const std::vector<LuminaireCandidate>& chosen,
+                                                double distance_m) {
+  std::vector<LuminaireCandidate> out;
+  building.each(1, [&](const GeometryAccess& access, size_t) {
+    for (uint32_t i = 0; i < chosen.size(); ++i) {
+      LuminaireCandidate one = chosen[i];
+      one.place = i;
+      out.push_back(one);
+      if (one.type == LuminaireCandidate::existing) continue;  // it is where it is
+      for (int d = 0; d < off_directions; ++d) {
+        const double azimuth = 2 * std::numbers::pi * d / off_directions;
+        const glm::dvec3 way = off_way(chosen[i], azimuth);
+        const auto stop =
+            first_stop(building.scene(), access, building.local(chosen[i].position), Vec3(way),
+                       static_cast<Real>(distance_m), [&](const Facing& f) {
+                         return f.surface >= building.scene().description->objects.size() ||
+                                lets_light_through(f.kind);
+                       });
+        one.position = chosen[i].position + way * distance_m;
+        if (!stop && !building.in_solid(access, one.position)) out.push_back(one);
+      }
+    }
+  });
+  return out;
+}
+
+bool is_minimum(DemandKind kind) {
+  constexpr std::array minima{DemandKind::minimum, DemandKind::mean,     DemandKind::early,
+                              DemandKind::failed,  DemandKind::vertical, DemandKind::face};
+  return std::find(minima.begin(), minima.end(), kind) != minima.end();
+}
+
+/// Of each place, the least that it may give, and what all give together.
+class LeastLight {
+ public:
+  explicit LeastLight(const LayoutProblem& problem) : problem_(problem) {
+    for (const LayoutOption& option : problem.options) ++variants_[option.place];
+  }
+
+  struct Sum {
+    double all = 0, largest = 0;
+  };
+  Sum of(const std::vector<Term>& terms) const {
+    Sum sum;
+    for (size_t i = 0; i < terms.size();) {
+      const uint32_t place = problem_.options[terms[i].option].place;
+      double least = std::numeric_limits<double>::infinity();
+      size_t given = 0;
+      for (; i < terms.size() && problem_.options[terms[i].option].place == place; ++i, ++given)
+        least = std::min(least, static_cast<double>(terms[i].value));
+      // From a place that is not named nothing arrives.
+      if (given < variants_.at(place)) continue;
+      sum.all += least;
+      sum.largest = std::max(sum.largest, least);
+    }
+    return sum;
+  }
+
+ private:
+  const LayoutProblem& problem_;
+  std::map<uint32_t, size_t> variants_;
+};
+
+/// The tightest of each demand.
+class Tightest {
+ public:
+  void offer(const ConstraintGroup& group, double share, double least, const glm::dvec3& place) {
+    ShareOffPlace one{group.kind, group.rule, group.subject,
+                      share,      place,      share < 1 - share_rounding ? (1 - share) * least : 0};
+    const auto at = std::find_if(all_.begin(), all_.end(), [&](const ShareOffPlace& other) {
+      return other.kind == one.kind && other.rule == one.rule && other.subject == one.subject;
+    });
+    if (at == all_.end())
+      all_.push_back(std::move(one));
+    else if (share < at->share)
+      *at = std::move(one);
+  }
+  std::vector<ShareOffPlace> take() {
+    std::stable_sort(all_.begin(), all_.end(), [](const ShareOffPlace& a, const ShareOffPlace& b) {
+      return a.share < b.share;
+    });
+    return std::move(all_);
+  }
+
+ private:
+  std::vector<ShareOffPlace> all_;
+};
+
+}  // namespace
+
+Result<PlaceTolerance> tolerance_of(const SceneDescription& scene, const DesignSettings& design,
+                                    const std::vector<LuminaireCandidate>& chosen,
+                                    const std::vector<CodeChoice>& codes, const Scenario& doors,
+                                    int threads) {
+  PlaceTolerance out;
+  out.distance_m = design.place_tolerance_m;
+  const SceneDescription lit = scene_of(scene, design, chosen);
+  const auto building = Building::make(code_scene(lit, true), code_scenario(lit, doors), threads);
+  if (!building) return building.problem();
+  // The limits of the rules themselves: the margin is there for this, among other things.
+  DesignSettings bare_limits = design;
+  bare_limits.margin = 1;
+  const auto demands = Demands::make(
+      scene, bare_limits, with_places_off(*building.value(), chosen, design.place_tolerance_m),
+      codes, doors, threads);
+  if (!demands) return demands.problem();
+  const LayoutProblem& problem = demands.value()->problem();
+  const LeastLight least(problem);
+  Tightest tightest;
+  for (const CoverRow& row : problem.covers)
+    if (is_minimum(problem.groups[row.group].kind))
+      tightest.offer(problem.groups[row.group], least.of(*row.terms).all / row.least, row.least,
+                     row.place);
+  for (const FailureRows& rows : problem.failures)
+    for (const uint32_t p : rows.points) {
+      const auto sum = least.of(*problem.points[p].light);
+      tightest.offer(problem.groups[rows.group], (sum.all - sum.largest) / rows.least, rows.least,
+                     problem.points[p].place);
+    }
+  out.demands = tightest.take();
+  return out;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,135 @@
+// Layouts whose luminaires are mounted a little off: the minima of the rules hold by an assessment
+// of the displaced scene itself.
+#include "actors/design/place_tolerance.hpp"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+#include <set>
+
+#include "actors/design/design.hpp"
+#include "runtime/core/random.hpp"
+#include "tests/kit/described.hpp"
+#include "tests/kit/temporary_folder.hpp"
+#include "tests/unit/actors/design/silent.hpp"
+
+namespace luxodus {
+namespace {
+
+using test::TemporaryFolder;
+
+std::string corridor_scene(double length, double margin, double tolerance_m) {
+  return fmt::format(R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [{0}, 2.4, 2.8]
+material = "white50"
+[assessment]
+rules = ["en1838-2013"]
+[[scenario]]
+name = "failed"
+operation = "emergency"
+[[route]]
+name = "way"
+path = [[1, 1.2, 0], [{1}, 1.2, 0]]
+width = 1.4
+[design]
+spacing_m = 0.7
+place_signs = false
+failure = "none"
+margin = {2}
+place_tolerance_m = {3}
+)",
+                     length, length - 1, margin, tolerance_m);
+}
+
+DesignResult corridor(const TemporaryFolder& folder, double length, double margin,
+                      double tolerance_m) {
+  DesignOptions options;
+  options.threads = 2;
+  auto result = design(
+      test::described(folder.write("scene.toml", corridor_scene(length, margin, tolerance_m))),
+      options, test::nobody, test::silent);
+  INFO((result ? "" : result.problem().text()));
+  REQUIRE(result);
+  return std::move(result).value();
+}
+
+/// Of the minima of the rules, which fail when each luminaire is so far off, in its own direction.
+std::set<std::string> failing_off_place(const DesignResult& result, double off_m, Random& random) {
+  auto moved = std::make_shared<SceneDescription>(*result.variant);
+  for (Emitter& e : moved->emitters) {
+    const double azimuth = 2 * std::numbers::pi * random.uniform_double();
+    e.frame.origin += off_m * glm::dvec3(std::cos(azimuth), std::sin(azimuth), 0);
+  }
+  AssessOptions options;
+  options.threads = 2;
+  options.reality = false;
+  const auto assessed = assess(moved, options, test::nobody, [](const std::string&, double) {});
+  REQUIRE(assessed);
+  const std::set<std::string> minima{"E1", "E2", "E5", "E6", "E7", "N1m", "N2m"};
+  std::set<std::string> out;
+  for (const Check& check : assessed->checks)
+    if (check.verdict == CheckVerdict::fail && minima.contains(check.rule.id))
+      out.insert(check.rule.id);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("minima hold with every luminaire off its place in any direction",
+          "[design][tolerance]") {
+  Random random(22, RandomStream::test, 3);
+  random.start(0);
+  for (const double length : {9.0, 14.5, 21.0}) {
+    INFO("length " << length);
+    const TemporaryFolder folder;
+    const DesignResult result = corridor(folder, length, 1, 0.25);
+    REQUIRE(result.tolerance);
+    REQUIRE(result.tolerance->holds());
+    CHECK(result.tolerance->least() >= 1 - 1e-6);
+    for (int i = 0; i < 5; ++i) CHECK(failing_off_place(result, 0.25, random).empty());
+  }
+}
+
+TEST_CASE("a tolerance of place takes no fewer luminaires than none", "[design][tolerance]") {
+  size_t more = 0;
+  for (const double length : {8.0, 11.0, 14.0, 17.0, 20.0}) {
+    const TemporaryFolder folder;
+    const DesignResult exact = corridor(folder, length, 1, 0);
+    const DesignResult robust = corridor(folder, length, 1, 0.25);
+    CHECK(exact.tolerance->demands.empty());
+    CHECK(robust.answer.objective >= exact.answer.objective);
+    // No layout has less than a layout that need not hold off its places.
+    CHECK(robust.answer.bound <= exact.answer.objective + 1e-9);
+    more += robust.answer.objective > exact.answer.objective;
+  }
+  CHECK(more < 5);
+}
+
+TEST_CASE("off its place a luminaire gives no less than what is told", "[design][tolerance]") {
+  const TemporaryFolder folder;
+  const DesignResult result = corridor(folder, 14, 1.25, 0.25);
+  REQUIRE(result.tolerance);
+  const double least = result.tolerance->least();
+  Random random(5, RandomStream::test, 4);
+  random.start(0);
+  AssessOptions options;
+  options.threads = 2;
+  options.reality = false;
+  for (int i = 0; i < 5; ++i) {
+    auto moved = std::make_shared<SceneDescription>(*result.variant);
+    for (Emitter& e : moved->emitters) {
+      const double azimuth = std::numbers::pi / 4 * std::floor(8 * random.uniform_double());
+      e.frame.origin += 0.25 * glm::dvec3(std::cos(azimuth), std::sin(azimuth), 0);
+    }
+    const auto assessed = assess(moved, options, test::nobody, [](const std::string&, double) {});
+    REQUIRE(assessed);
+    for (const Check& check : assessed->checks)
+      if ((check.rule.id == "E1" || check.rule.id == "E2") && check.value)
+        CHECK(*check.value >= least * *check.limit * (1 - 1e-4));
+  }
+}
+
+}  // namespace luxodus
