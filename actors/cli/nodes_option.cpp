@@ -11,11 +11,4 @@ Option nodes_option(int& nodes) {
           {.otherwise = "none: threads", .range = Range{1, limits::nodes_in_process}}};
 }
 
-std::unique_ptr<RunExecutor> nodes_that_trace(int nodes) {
-  if (nodes == 0) return nullptr;
-  NodesOptions options;
-  options.nodes = nodes;
-  return std::make_unique<RunNodes>(options);
-}
-
 }  // namespace luxodus::cli

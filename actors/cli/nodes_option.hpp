@@ -2,17 +2,11 @@
 // thread.
 #pragma once
 
-#include <memory>
-
 #include "actors/cli/options.hpp"
-#include "actors/run/run_executor.hpp"
 
 namespace luxodus::cli {
 
 /// Requires: `nodes` outlives it.
 Option nodes_option(int& nodes);
-
-/// Null for 0 nodes: then threads trace.
-std::unique_ptr<RunExecutor> nodes_that_trace(int nodes);
 
 }  // namespace luxodus::cli
