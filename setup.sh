@@ -36,6 +36,8 @@ packages=(
   libboost-context-dev libzmq3-dev cppzmq-dev libcapnp-dev capnproto
   # the live view's server
   libboost-dev
+  # the Python module
+  pybind11-dev python3-dev python3-numpy
 )
 if [ "$want" != --run ]; then
   packages+=(

@@ -258,4 +258,20 @@ Result<OverTime> assess_over_time(const std::vector<double>& times_s, const Scen
   return out;
 }
 
+Result<Assessment> assess_states(const StatesToAssess& states, const AssessOptions& options,
+                                 const std::atomic<bool>& interrupt, const AssessProgress& progress,
+                                 const AssessProgress& over_time) {
+  const bool several = options.reality && states.times_s.size() > 1;
+  if (several)
+    if (auto ok = check_guidance(*states.last); !ok) return ok.problem();
+  auto out = assess(states.last, options, interrupt, progress);
+  if (!out || !several) return out;
+  AssessOptions asked = options;
+  asked.scenario = out->state.scenario;
+  auto followed = assess_over_time(states.times_s, states.reader, asked, interrupt, over_time);
+  if (!followed) return followed.problem();
+  out->over_time = std::move(followed).value();
+  return out;
+}
+
 }  // namespace luxodus

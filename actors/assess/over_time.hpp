@@ -24,4 +24,17 @@ Result<OverTime> assess_over_time(const std::vector<double>& times_s, const Scen
                                   const AssessOptions& options, const std::atomic<bool>& interrupt,
                                   const AssessProgress& progress);
 
+/// What is assessed: a scene, or its states at several times.
+struct StatesToAssess {
+  std::shared_ptr<const SceneDescription> last;  // or the only one
+  std::vector<double> times_s;                   // that ascend; one or none: there is one state
+  SceneAtTime reader;                            // of more than one
+};
+
+/// Assesses the last state, and where there are more and views are judged, routes over all of them.
+/// `over_time`: progress of the latter. Errors: as assess and assess_over_time.
+Result<Assessment> assess_states(const StatesToAssess& states, const AssessOptions& options,
+                                 const std::atomic<bool>& interrupt, const AssessProgress& progress,
+                                 const AssessProgress& over_time);
+
 }  // namespace luxodus

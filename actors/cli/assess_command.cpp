@@ -24,6 +24,7 @@
 #include "actors/cli/version.hpp"
 #include "actors/output/file_names.hpp"
 #include "actors/output/output_folder.hpp"
+#include "actors/supervise/in_process.hpp"
 #include "runtime/core/log.hpp"
 
 namespace luxodus::cli {
@@ -108,20 +109,6 @@ class Estimate {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
-/// Errors: as assess_over_time.
-Result<void> add_over_time(const SceneAtTime& reader, const std::vector<double>& times,
-                           const AssessOptions& options, ProgressLine& line, Assessment& out) {
-  const Estimate estimate;
-  auto over_time = assess_over_time(
-      times, reader, options, interrupt_flag(), [&](const std::string& what, double share) {
-        line.put(fmt::format("{}: {:.0f} %{}", what, 100 * share, estimate.left(share)), share >= 1,
-                 share);
-      });
-  if (!over_time) return over_time.problem();
-  out.over_time = std::move(over_time).value();
-  return {};
-}
-
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   const auto states = assessed_states(options.scene, times_asked(options.at));
   if (!states) return ExitCode::bad_input;
@@ -180,32 +167,22 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
   if (!out) return out.problem();
   if (!job.overwrite)
     if (auto ok = refuse_files_of_others(out->path(), plan.files); !ok) return ok.problem();
-  const bool over_time = job.options.reality && job.times.size() > 1;
-  if (over_time)
-    if (auto ok = check_guidance(*job.scene); !ok) return ok.problem();
   ProgressLine line("assess");
-  auto assessed =
-      assess(job.scene, job.options, interrupt_flag(), [&](const std::string& what, double share) {
+  std::optional<Estimate> estimate;  // of all times
+  auto assessed = assess_states(
+      {job.scene, job.times, reader_at_times(job.scene_file)}, job.options, interrupt_flag(),
+      [&](const std::string& what, double share) {
         line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
+      },
+      [&](const std::string& what, double share) {
+        if (!estimate) estimate.emplace();
+        line.put(fmt::format("{}: {:.0f} %{}", what, 100 * share, estimate->left(share)),
+                 share >= 1, share);
       });
   if (!assessed) {
-    if (!interrupt_flag()) {
-      tell(assessed.problem());
-      return ExitCode::bad_input;
-    }
+    if (!interrupt_flag()) return assessed.problem();
     log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
-  }
-  if (over_time) {
-    AssessOptions asked = job.options;
-    asked.scenario = assessed->state.scenario;
-    if (auto ok = add_over_time(reader_at_times(job.scene_file), job.times, asked, line,
-                                assessed.value());
-        !ok) {
-      if (!interrupt_flag()) return ok.problem();
-      log_warning("interrupted; nothing was written");
-      return ExitCode::interrupted;
-    }
   }
   tell_findings(assessed->findings);
   for (const Problem& warning : assessed->warnings)

@@ -1,8 +1,6 @@
 #include "actors/cli/command.hpp"
 
-#include <algorithm>
 #include <cstdio>
-#include <thread>
 
 namespace luxodus::cli {
 
@@ -22,10 +20,6 @@ int exit_code_of(const Result<ExitCode>& result) {
 
 int exit_code_of(const Result<void>& result) {
   return exit_code_of(result ? Result(ExitCode::success) : Result<ExitCode>(result.problem()));
-}
-
-int default_threads() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 }  // namespace luxodus::cli

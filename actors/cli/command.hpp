@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "actors/run/default_threads.hpp"
 #include "runtime/core/result.hpp"
 
 namespace luxodus::cli {
@@ -17,8 +18,5 @@ void warn(const Problem& warning);
 /// The exit code of what a command did; that of bad input after its problem was told.
 int exit_code_of(const Result<ExitCode>& result);
 int exit_code_of(const Result<void>& result);
-
-/// Threads to use when the caller names none.
-int default_threads();
 
 }  // namespace luxodus::cli

@@ -4,44 +4,23 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/quantities.hpp"
-#include "scenes/pack/scene_pack.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
 
 namespace luxodus::cli {
 
 std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
                                                    ReadingWarnings warnings,
                                                    std::optional<double> at_s) {
-  if (is_pack(file)) {
-    if (at_s) {
-      tell(problem_in(file, "a pack is of one time: pack the scene again with --at"));
-      return nullptr;
-    }
-    auto packed = read_pack(file);
-    if (packed) return packed.value();
-    tell(packed.problem());
-    return nullptr;
-  }
-  ReadScene read = read_scene(file, at_s);
-  for (const Problem& p : read.problems.list()) tell(p);
-  if (!read.scene) return nullptr;
-  if (warnings == ReadingWarnings::told)
-    for (const Problem& w : read.scene->warnings) warn(w);
-  return std::make_shared<const SceneDescription>(std::move(*read.scene));
+  OpenedScene opened = open_scene(file, at_s);
+  for (const Problem& p : opened.problems.list()) tell(p);
+  // A pack's were told when it was made.
+  if (opened.scene && !opened.scene->packed && warnings == ReadingWarnings::told)
+    for (const Problem& w : opened.scene->warnings) warn(w);
+  return std::move(opened.scene);
 }
 
 SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene) {
   if (!scene.time || scene.packed) return {};
   return reader_at_times(file);
-}
-
-SceneAtTime reader_at_times(const std::string& file) {
-  return [file](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
-    ReadScene read = read_scene(file, at_s);
-    if (!read.scene) return read.problems.list().front();
-    return std::make_shared<const SceneDescription>(std::move(*read.scene));
-  };
 }
 
 namespace {
@@ -82,14 +61,6 @@ Option at_option(std::string& at) {
 std::optional<double> time_asked(const std::string& at) {
   if (at.empty()) return std::nullopt;
   return parse_time(at).value();
-}
-
-Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene,
-                                               const std::string& name) {
-  if (name == "all" && !scene.scenarios.empty()) return scene.scenarios;
-  auto one = find_scenario(scene, name == "all" ? "" : name);
-  if (!one) return one.problem();
-  return std::vector<Scenario>{one.value()};
 }
 
 }  // namespace luxodus::cli

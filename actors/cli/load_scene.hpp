@@ -7,13 +7,9 @@
 #include <vector>
 
 #include "actors/cli/options.hpp"
+#include "actors/run/open_scene.hpp"
 #include "runtime/core/result.hpp"
 #include "scenes/world/timed_scenes.hpp"
-
-namespace luxodus {
-struct Scenario;
-struct SceneDescription;
-}  // namespace luxodus
 
 namespace luxodus::cli {
 
@@ -26,9 +22,7 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
                                                    ReadingWarnings warnings = ReadingWarnings::told,
                                                    std::optional<double> at_s = std::nullopt);
 
-/// Reads a scene file at other times.
-SceneAtTime reader_at_times(const std::string& file);
-/// The same where the scene has a clock; empty elsewhere, and of a pack.
+/// Reads a scene file at other times, where the scene has a clock; empty elsewhere, and of a pack.
 SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene);
 
 /// The option --at, whose text goes to `at`.
@@ -39,9 +33,5 @@ Option times_option(std::vector<std::string>& at);
 std::vector<double> times_asked(const std::vector<std::string>& at);
 /// The time it says; none where it is empty. Requires: it was read as that option.
 std::optional<double> time_asked(const std::string& at);
-
-/// The scenarios that a name stands for: one, all of them for "all", the first for "".
-Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene,
-                                               const std::string& name);
 
 }  // namespace luxodus::cli

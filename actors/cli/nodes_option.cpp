@@ -11,13 +11,6 @@ Option nodes_option(int& nodes) {
           {.otherwise = "none: threads", .range = Range{1, limits::nodes_in_process}}};
 }
 
-std::unique_ptr<RunExecutor> nodes_that_trace(int nodes) {
-  if (nodes == 0) return nullptr;
-  NodesOptions options;
-  options.nodes = nodes;
-  return std::make_unique<RunNodes>(options);
-}
-
 Result<std::unique_ptr<PictureNodes>> PictureNodes::start(const LocalRun& run, int nodes) {
   std::unique_ptr<PictureNodes> out(new PictureNodes(run));
   NodesOptions options;

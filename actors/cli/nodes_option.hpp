@@ -6,16 +6,12 @@
 
 #include "actors/cli/options.hpp"
 #include "actors/display/picture_tiles.hpp"
-#include "actors/run/run_executor.hpp"
 #include "actors/supervise/process_executor.hpp"
 
 namespace luxodus::cli {
 
 /// Requires: `nodes` outlives it.
 Option nodes_option(int& nodes);
-
-/// Null for 0 nodes: then threads trace.
-std::unique_ptr<RunExecutor> nodes_that_trace(int nodes);
 
 /// Nodes that trace pictures of a finished run.
 class PictureNodes {

@@ -1,5 +1,5 @@
 # What an installed Luxodus consists of, and the Debian package of it:
-#   cmake --build build/release --target luxodus package_files
+#   cmake --build build/release --target luxodus luxodus_python package_files
 #   cmake --install build/release --prefix /opt/luxodus       or
 #   cd build/release && cpack -G DEB
 # package_files are made by the program: man pages (where help2man is installed), scripts of shells;
@@ -23,6 +23,10 @@ add_custom_target(package_files
 add_dependencies(package_files luxodus)
 
 install(TARGETS luxodus RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(LUX_HAS_PYTHON)
+  # Where Debian's Python looks for modules of packages, below the prefix /usr.
+  install(TARGETS luxodus_python LIBRARY DESTINATION lib/python3/dist-packages)
+endif()
 # Where the program looks for scenes: actors/cli/library.cpp.
 set(shared ${CMAKE_INSTALL_DATADIR}/luxodus)
 install(DIRECTORY scenes/library DESTINATION ${shared}/scenes
@@ -64,5 +68,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)  # letters of signs
+if(LUX_HAS_PYTHON)
+  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-numpy")  # the module luxodus
+endif()
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "chromium, nodejs (>= 18)")  # print report.pdf; import ifc
 include(CPack)

@@ -154,21 +154,6 @@ struct Traced {
   Json result;  // null where the folder keeps a longer run
 };
 
-/// Of the run that is to go on, or found by a first round. Empty: dealt as usual.
-Result<std::vector<double>> batch_shares(const std::shared_ptr<const CompiledScene>& scene,
-                                         uint64_t seed, const fs::path& folder, bool goes_on,
-                                         const RunOptions& options) {
-  if (goes_on && fs::exists(folder / "result.json")) {
-    auto before = read_finished_run(folder);
-    if (!before) return before.problem();
-    return before->batch_shares;
-  }
-  if (!options.adaptive) return std::vector<double>();
-  ProgressLine line(scene->scenario.name + ", first round");
-  return find_adaptive_shares(scene, seed, options.threads, interrupt_flag(),
-                              [&](const Progress& p) { line.show(p); });
-}
-
 /// One scenario, and the folder that is held for it.
 struct PreparedScenario {
   Scenario scenario;
@@ -199,22 +184,27 @@ Result<PreparedScenario> prepare_scenario(
   return prepared;
 }
 
-/// With the shares of its batches where these are allocated adaptively.
+/// With the shares of its batches where these are allocated adaptively: those of the run that is to
+/// go on, or found by a first round.
 Result<std::shared_ptr<const CompiledScene>> scene_to_trace(
     const std::shared_ptr<const SceneDescription>& description, const PreparedScenario& prepared,
     uint64_t seed, const RunOptions& options) {
+  CompileOptions compile{options.cells, options.error_of};
   auto scene = prepared.scene ? Result(prepared.scene)
-                              : compile_scene(description, prepared.scenario,
-                                              {options.cells, options.error_of});
+                              : compile_scene(description, prepared.scenario, compile);
   if (!scene) return scene;
-  const bool goes_on = prepared.folder && prepared.folder->goes_on;
-  const auto shares =
-      batch_shares(scene.value(), seed, prepared.folder ? prepared.folder->path() : fs::path(),
-                   goes_on, options);
-  if (!shares) return shares.problem();
-  if (shares->empty()) return scene;
-  return compile_scene(description, prepared.scenario,
-                       {options.cells, options.error_of, shares.value()});
+  const fs::path folder = prepared.folder ? prepared.folder->path() : fs::path();
+  if (prepared.folder && prepared.folder->goes_on && fs::exists(folder / "result.json")) {
+    const auto before = read_finished_run(folder);
+    if (!before) return before.problem();
+    if (before->batch_shares.empty()) return scene;
+    compile.batch_shares = before->batch_shares;
+    return compile_scene(description, prepared.scenario, compile);
+  }
+  if (!options.adaptive) return scene;
+  ProgressLine line(scene.value()->scenario.name + ", first round");
+  return dealt_adaptively(scene.value(), compile, seed, options.threads, interrupt_flag(),
+                          [&](const Progress& p) { line.show(p); });
 }
 
 Result<Traced> print_plan(const LocalRun& run, const Scenario& scenario,

@@ -10,8 +10,6 @@ namespace luxodus::cli {
 
 namespace {
 
-constexpr int64_t default_particles = 4'000'000;
-
 void append(std::vector<Option>& to, const char* group, std::vector<Option> more) {
   for (Option& option : more) {
     option.traits.group = group;
@@ -214,7 +212,7 @@ Result<StopRule> stop_rule(const RunOptions& o) {
     if (!t) return t.problem();
     rule.seconds = t.value();
   }
-  if (!rule.particles && !rule.relative_error && !rule.seconds) rule.particles = default_particles;
+  if (!rule.particles && !rule.relative_error && !rule.seconds) rule.particles = usual_particles;
   return rule;
 }
 

@@ -11,6 +11,7 @@
 #include "actors/cli/quantities.hpp"
 #include "actors/cli/signals.hpp"
 #include "actors/output/output_folder.hpp"
+#include "actors/supervise/in_process.hpp"
 #include "actors/validate/report.hpp"
 #include "runtime/core/log.hpp"
 

@@ -146,22 +146,36 @@ VtkVolume volume_of(const CompiledScene& scene, const Readout& readout) {
 
 }  // namespace
 
-Result<void> write_flux_maps(const std::filesystem::path& folder, const LocalRun& run) {
+Result<VtkSurface> surface_flux(const LocalRun& run) {
   const CompiledScene& scene = run.scene();
+  if (scene.triangles > limits::triangles_drawn)
+    return problem(std::to_string(scene.triangles) + " triangles are more than a viewer takes (" +
+                   std::to_string(limits::triangles_drawn) + ")");
   const Readout readout(scene, run.totals());
   SurfaceCollector collector(scene, readout, scene.patch_count / 2 > limits::patches_drawn);
+  const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
+    for (const TriangleRecord& t : cell.triangles) collector.add(t);
+  });
+  if (!read) return read.problem();
+  return collector.take();
+}
+
+VtkVolume volume_flux(const LocalRun& run) {
+  return volume_of(run.scene(), Readout(run.scene(), run.totals()));
+}
+
+Result<void> write_flux_maps(const std::filesystem::path& folder, const LocalRun& run) {
+  const CompiledScene& scene = run.scene();
   if (scene.triangles > limits::triangles_drawn) {
     log_info("patches.vtp is left out: {} triangles are more than a viewer takes ({})",
              scene.triangles, limits::triangles_drawn);
   } else {
-    const auto read = for_each_cell(scene, [&](const GeometryCell& cell) {
-      for (const TriangleRecord& t : cell.triangles) collector.add(t);
-    });
-    if (!read) return read.problem();
-    if (auto ok = write_vtp(folder / "patches.vtp", collector.take()); !ok) return ok.problem();
+    const auto surface = surface_flux(run);
+    if (!surface) return surface.problem();
+    if (auto ok = write_vtp(folder / "patches.vtp", surface.value()); !ok) return ok.problem();
   }
   if (!(scene.voxels.edge > 0)) return {};
-  return write_vti(folder / "volume.vti", volume_of(scene, readout));
+  return write_vti(folder / "volume.vti", volume_flux(run));
 }
 
 }  // namespace luxodus

@@ -11,6 +11,7 @@
 
 #include "actors/display/plane_light.hpp"
 #include "actors/output/json_out.hpp"
+#include "actors/output/write_vtk.hpp"
 #include "actors/run/local_run.hpp"
 
 namespace luxodus {
@@ -58,6 +59,12 @@ Json planes_json(const LocalRun& run, const Readout& readout, const PlaneMaps& m
 /// and write_png.
 Result<void> write_plane_maps(const std::filesystem::path& folder, const LocalRun& run,
                               const PlaneMaps& maps);
+
+/// Flux on surfaces, a cell for each patch, or above limits::patches_drawn for each triangle.
+/// Errors: a packed scene that cannot be read; more than limits::triangles_drawn.
+Result<VtkSurface> surface_flux(const LocalRun& run);
+/// Flux in the air. Requires: the scene has voxels.
+VtkVolume volume_flux(const LocalRun& run);
 
 /// Writes patches.vtp and, where the run has voxels, volume.vti. Errors: as write_vtp.
 Result<void> write_flux_maps(const std::filesystem::path& folder, const LocalRun& run);

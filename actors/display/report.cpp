@@ -385,7 +385,9 @@ Json head_json(const CompiledScene& scene, const RunRecord& record) {
   return head;
 }
 
-Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& maps) {
+}  // namespace
+
+Json result_json(const LocalRun& run, const RunRecord& record, const PlaneMaps& maps) {
   const CompiledScene& scene = run.scene();
   const Readout readout(scene, run.totals());
   const double error = readout.worst_relative_error();
@@ -436,10 +438,8 @@ Json result_of(const LocalRun& run, const RunRecord& record, const PlaneMaps& ma
   return out;
 }
 
-}  // namespace
-
 Json result_json(const LocalRun& run, const RunRecord& record) {
-  return result_of(run, record, make_plane_maps(run));
+  return result_json(run, record, make_plane_maps(run));
 }
 
 Json begun_json(const LocalRun& run, const RunRecord& record, double seconds) {
@@ -475,7 +475,7 @@ Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& r
   const PlaneMaps maps = make_plane_maps(run, progress);
   if (auto ok = write_plane_maps(folder / "planes", run, maps); !ok) return ok.problem();
   if (auto ok = write_flux_maps(folder, run); !ok) return ok.problem();
-  Json result = result_of(run, record, maps);
+  Json result = result_json(run, record, maps);
   if (auto ok = write_json(folder / "result.json", result); !ok) return ok.problem();
   return result;
 }

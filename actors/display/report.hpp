@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "actors/display/maps.hpp"
 #include "actors/output/json_out.hpp"
 #include "actors/run/local_run.hpp"
 
@@ -19,8 +20,9 @@ struct RunRecord {
   std::optional<double> at_s = {};  // of --at, where it was given
 };
 
-/// result.json as a value.
+/// result.json as a value. `maps`: make_plane_maps of the run.
 Json result_json(const LocalRun& run, const RunRecord& record);
+Json result_json(const LocalRun& run, const RunRecord& record, const PlaneMaps& maps);
 
 /// What result.json says while a run goes on or its results are being written: what `luxodus
 /// render` and `run --resume` need, which files are its own, and that it has not ended.

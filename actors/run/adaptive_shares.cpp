@@ -144,4 +144,14 @@ Result<std::vector<double>> find_adaptive_shares(
   return adaptive_shares(*small, run.totals(), BatchPlan(*scene).shares());
 }
 
+Result<std::shared_ptr<const CompiledScene>> dealt_adaptively(
+    const std::shared_ptr<const CompiledScene>& scene, CompileOptions options, uint64_t seed,
+    int threads, const std::atomic<bool>& interrupt,
+    const std::function<void(const Progress&)>& report) {
+  auto shares = find_adaptive_shares(scene, seed, threads, interrupt, report);
+  if (!shares) return shares.problem();
+  options.batch_shares = std::move(shares).value();
+  return compile_scene(scene->description, scene->scenario, options);
+}
+
 }  // namespace luxodus

@@ -9,6 +9,7 @@
 
 #include "actors/run/local_run.hpp"
 #include "runtime/core/result.hpp"
+#include "scenes/transport/compile.hpp"
 
 namespace luxodus {
 
@@ -26,5 +27,12 @@ std::vector<double> adaptive_shares(const CompiledScene& scene, const Totals& to
 Result<std::vector<double>> find_adaptive_shares(
     const std::shared_ptr<const CompiledScene>& scene, uint64_t seed, int threads,
     const std::atomic<bool>& interrupt, const std::function<void(const Progress&)>& report);
+
+/// The scene with these shares. `options`: those that it was compiled with.
+/// Errors: as find_adaptive_shares and compile_scene.
+Result<std::shared_ptr<const CompiledScene>> dealt_adaptively(
+    const std::shared_ptr<const CompiledScene>& scene, CompileOptions options, uint64_t seed,
+    int threads, const std::atomic<bool>& interrupt,
+    const std::function<void(const Progress&)>& report);
 
 }  // namespace luxodus

@@ -7,6 +7,7 @@
 
 #include "actors/objects/profile_file.hpp"
 #include "actors/output/file_names.hpp"
+#include "actors/run/open_scene.hpp"
 #include "actors/supervise/node_plan.hpp"
 #include "actors/supervise/out_of_core_for.hpp"
 #include "actors/supervise/residency_setup.hpp"
@@ -16,8 +17,6 @@
 #include "runtime/core/output_path.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "runtime/fiber/sanitizers.hpp"
-#include "scenes/pack/scene_pack.hpp"
-#include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/packed_scene.hpp"
 #include "topology/graph_file.hpp"
@@ -157,10 +156,9 @@ Result<void> ClusterProcessRun::load_keys(const std::vector<NodeId>& nodes) {
 namespace {
 
 Result<std::shared_ptr<const SceneDescription>> described(const std::filesystem::path& scene) {
-  if (is_pack(scene)) return read_pack(scene);
-  auto read = read_scene(scene.string());
-  if (!read.scene) return read.problems.list().front();
-  return std::make_shared<const SceneDescription>(std::move(*read.scene));
+  OpenedScene opened = open_scene(scene);
+  if (!opened.scene) return opened.problems.list().front();
+  return std::move(opened.scene);
 }
 
 }  // namespace

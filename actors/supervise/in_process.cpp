@@ -52,4 +52,11 @@ Result<StopReason> RunNodes::run(LocalRun& run, const StopRule& stop,
   return run_on_nodes(run, options_, stop, interrupt, report);
 }
 
+std::unique_ptr<RunExecutor> nodes_that_trace(int nodes) {
+  if (nodes == 0) return nullptr;
+  NodesOptions options;
+  options.nodes = nodes;
+  return std::make_unique<RunNodes>(options);
+}
+
 }  // namespace luxodus

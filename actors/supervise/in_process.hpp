@@ -30,4 +30,7 @@ class RunNodes final : public RunExecutor {
   const NodesOptions options_;
 };
 
+/// So many, with usual options. Null for 0 nodes: then the threads of a run trace it.
+std::unique_ptr<RunExecutor> nodes_that_trace(int nodes);
+
 }  // namespace luxodus

@@ -20,7 +20,7 @@ namespace limits {
 inline constexpr int nodes_in_process = 64;
 }  // namespace limits
 
-/// Particles of a run that ends by error or by time, for the size of its profile.
+/// Of a run where none are said; of one that ends by error or time, for the size of its profile.
 inline constexpr int64_t usual_particles = 4'000'000;
 
 struct NodesOptions {

@@ -92,6 +92,13 @@ FileDescriptor memory_file() {
   return FileDescriptor(file.valid() ? ::fcntl(file.number(), F_DUPFD_CLOEXEC, 3) : -1);
 }
 
+/// The words that begin the other process: the running program, also where its file was replaced or
+/// removed since, unless begin_isolated_jobs_by() said others.
+std::vector<std::string>& begun_by() {
+  static std::vector<std::string> words{"/proc/self/exe"};
+  return words;
+}
+
 /// What posix_spawn has to do and to reset, freed at the end.
 class Orders {
  public:
@@ -118,11 +125,12 @@ class Orders {
 
   /// 0 or an errno.
   int spawn(pid_t& process, const char* name) const {
-    // The running program, also where its file was replaced or removed since.
-    constexpr char self[] = "/proc/self/exe";
-    std::string words[] = {self, verb, name};
-    char* const argv[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
-    return ::posix_spawn(&process, self, &actions_, &attributes_, argv, environ);
+    std::vector<std::string> words = begun_by();
+    words.insert(words.end(), {verb, name});
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    return ::posix_spawn(&process, words[0].c_str(), &actions_, &attributes_, argv.data(), environ);
   }
 
  private:
@@ -180,6 +188,10 @@ Result<PlainReader> IsolatedJob::run(const std::function<void(PlainWriter& quest
   if (!reader.get(first) || first != mark)
     return problem("this program reads such files in a process of its own, and cannot begin one");
   return reader;
+}
+
+void begin_isolated_jobs_by(std::vector<std::string> words) {
+  begun_by() = std::move(words);
 }
 
 void allow_more(const IsolatedLimits& more) {

@@ -16,6 +16,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "runtime/core/plain_stream.hpp"
 #include "runtime/core/result.hpp"
@@ -56,6 +57,11 @@ class IsolatedJob {
 /// In a job that has found how much there is to do: so much more than it was given. Elsewhere it
 /// does nothing.
 void allow_more(const IsolatedLimits& more);
+
+/// Has the processes of jobs begun by this program with these words before its own, which is to
+/// call serve_isolated_job: a library does, which is not the running program. Once, before any job.
+/// Requires: a program at least.
+void begin_isolated_jobs_by(std::vector<std::string> words);
 
 /// To be called first in main(): where this process was begun for a job, does it and gives the exit
 /// code; otherwise nothing.

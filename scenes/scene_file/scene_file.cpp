@@ -65,6 +65,14 @@ class Loader {
     documents.push_back(std::move(document));
   }
 
+  /// Parses changes of all that was loaded.
+  void change(std::string_view text) {
+    if (auto document = parse_as(text, named_changes, toml::Quoting::allowed))
+      documents.push_back(std::move(document));
+    else
+      reading_.incomplete = true;
+  }
+
   std::vector<std::unique_ptr<SceneText>> documents;  // a file stands after those it includes
 
  private:
@@ -89,15 +97,20 @@ class Loader {
   }
 
   std::unique_ptr<SceneText> parse(const std::string& text, const fs::path& path) {
-    reading_.hash_bytes(toml::with_oldest_names(text, scene_schema()));
     // The words of an included file are not told: it may be any file of the machine.
     const bool own = open_.empty() && done_.empty() && documents.empty();
-    auto document = toml::parse(text, path.string(), scene_limits::file_bytes,
-                                own ? toml::Quoting::allowed : toml::Quoting::withheld);
+    return parse_as(text, path.string(), own ? toml::Quoting::allowed : toml::Quoting::withheld);
+  }
+
+  std::unique_ptr<SceneText> parse_as(std::string_view text, const std::string& name,
+                                      toml::Quoting quoting) {
+    reading_.hash_bytes(toml::with_oldest_names(text, scene_schema()));
+    auto document = toml::parse(text, name, scene_limits::file_bytes, quoting);
     if (document) return std::make_unique<SceneText>(std::move(document).value(), reading_);
     const Problem& problem = document.problem();
-    reading_.problem(problem.where,
-                     own ? problem.what : problem.what + ": an included file must be a scene file");
+    reading_.problem(problem.where, quoting == toml::Quoting::allowed
+                                        ? problem.what
+                                        : problem.what + ": an included file must be a scene file");
     return nullptr;
   }
 
@@ -188,11 +201,13 @@ void check_whole(SceneReading& reading) {
 
 }  // namespace
 
-ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at_s) {
+ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at_s,
+                     std::string_view changes) {
   SceneReading reading;
   reading.at_s = at_s;
   Loader loader(reading);
   loader.load(path, {path.string(), 1});
+  if (!changes.empty()) loader.change(changes);
   const Documents& documents = loader.documents;
   read_head(documents, path, reading);
   read_all(documents, "material", read_material, reading);

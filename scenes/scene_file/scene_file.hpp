@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include "runtime/core/result.hpp"
 #include "scenes/world/description.hpp"
@@ -17,11 +18,16 @@ struct ReadScene {
   Problems problems;
 };
 
+/// What problems call changes that are in no file.
+inline constexpr const char* named_changes = "changes";
+
 /// Reads the file, the files it includes, and the meshes, pictures and photometric data that they
 /// name. Warnings that do not hinder are in the scene. The content hash covers every byte of every
-/// file.
+/// file, and of the changes.
 /// `at_s`: time of its fire simulations instead of the one that they state; a problem where there
 /// is none.
-ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at_s = std::nullopt);
+/// `changes`: read as if they stood in a file that includes this one; "" for none.
+ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at_s = std::nullopt,
+                     std::string_view changes = {});
 
 }  // namespace luxodus

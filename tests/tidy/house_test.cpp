@@ -171,6 +171,9 @@ const std::map<std::string, std::vector<std::string>> arrows{
     {"actors/view",
      {"actors/assess", "actors/display", "actors/inspect", "actors/output", "actors/run",
       "runtime/http", "scenes"}},
+    {"actors/python",
+     {"actors/assess", "actors/display", "actors/inspect", "actors/output", "actors/run",
+      "actors/supervise", "scenes"}},
     {"actors/cli", {"actors", "runtime", "scenes", "topology"}},
     {"tests", {"actors", "runtime", "proto", "topology", "scenes"}},
 };
@@ -308,6 +311,7 @@ TEST_CASE("only the room of a library includes it", "[tidy]") {
       {"kj", "proto"},
       {"toml++", "runtime/toml"},
       {"nlohmann", "actors/output/json.cpp"},
+      {"pybind11", "actors/python"},
   };
   const auto is_excepted = [](const Source& source, const std::string& library) {
     const bool drawing = source.path == "actors/output/drawing.hpp" || source.in("tests");

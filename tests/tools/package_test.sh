@@ -14,7 +14,14 @@ for tool in help2man dpkg-shlibdeps dpkg-deb; do
   command -v "$tool" >/dev/null || fail "$tool is missing: ./setup.sh --package"
 done
 
-./.ci/build release luxodus package_files
+targets=(luxodus package_files)
+cmake --preset release >/dev/null
+if ninja -C build/release -t query luxodus_python >/dev/null 2>&1; then
+  targets+=(luxodus_python)
+else
+  echo "package_test.sh: without the Python module: pybind11 is missing (./setup.sh)"
+fi
+./.ci/build release "${targets[@]}"
 (cd build/release && rm -f luxodus_*.deb && cpack -G DEB >package.log 2>&1) ||
   fail "cpack failed: build/release/package.log"
 package=$(ls "$PWD"/build/release/luxodus_*.deb)
@@ -65,6 +72,18 @@ done
 # An example of a cluster finds its scene, too.
 env -i HOME="$place" PATH=/usr/bin:/bin "$program" deploy "$usr/share/luxodus/examples/one_host.toml" \
   --for ssh --out deployed >/dev/null || fail "the example of a cluster cannot be read"
+
+if [[ " ${targets[*]} " == *" luxodus_python "* ]]; then
+  echo "what Python imports"
+  env -i HOME="$place" PATH=/usr/bin:/bin PYTHONPATH="$usr/lib/python3/dist-packages" \
+    /usr/bin/python3 - "$usr/share/luxodus/scenes/library/office_floor.toml" <<'PYTHON' ||
+import sys
+import luxodus
+run = luxodus.load(sys.argv[1]).run(particles=1e5)
+assert run.planes["corridor floor"].illuminance_lx.mean() > 0
+PYTHON
+    fail "the Python module of the package traces nothing"
+fi
 
 echo "what completes"
 bash -c '

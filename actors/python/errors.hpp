@@ -1,0 +1,42 @@
+// Problems as the Python exception luxodus.Error: its text is what the program prints, its
+// attributes say where. Thrown on any thread, raised where the interpreter's lock is held.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+
+namespace luxodus::python {
+
+/// What was refused, on its way to Python.
+class Refused final : public std::exception {
+ public:
+  explicit Refused(Problem problem) : Refused(std::vector<Problem>{std::move(problem)}) {}
+  /// Requires: there is one at least.
+  explicit Refused(std::vector<Problem> problems);
+  const std::vector<Problem>& problems() const { return problems_; }
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  std::vector<Problem> problems_;
+  std::string text_;  // a line each
+};
+
+/// The value, or its problem as an exception.
+template <class T>
+T taken(Result<T> result) {
+  if (!result) throw Refused(result.problem());
+  return std::move(result).value();
+}
+inline void succeed(const Result<void>& result) {
+  if (!result) throw Refused(result.problem());
+}
+
+/// Adds Error to the module, and has Refused raised as that.
+void add_error(pybind11::module_& module);
+
+}  // namespace luxodus::python

@@ -1,0 +1,34 @@
+// The scene that somebody asks for: a scene file or a pack, its scenarios, its states at other
+// times. Reads files; any thread.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+#include "scenes/world/timed_scenes.hpp"
+
+namespace luxodus {
+
+struct OpenedScene {
+  std::shared_ptr<const SceneDescription> scene;  // null where there are problems
+  Problems problems;
+};
+
+/// `at_s`: time of its fire simulations instead of the one that it states. `changes`: as TOML; see
+/// read_scene. A pack has one time and is not changed.
+OpenedScene open_scene(const std::filesystem::path& file, std::optional<double> at_s = std::nullopt,
+                       const std::string& changes = {});
+
+/// Reads a scene file with these changes at other times. Errors: the first of its problems.
+SceneAtTime reader_at_times(const std::filesystem::path& file, const std::string& changes = {});
+
+/// The scenarios that a name stands for: one, all of them for "all", the first for "".
+/// Errors: as find_scenario.
+Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene,
+                                               const std::string& name);
+
+}  // namespace luxodus
