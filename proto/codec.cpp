@@ -268,16 +268,15 @@ uint8_t read_class(uint8_t hop_class) {
 }
 
 std::vector<uint64_t> read_numbers(capnp::List<uint64_t>::Reader list, size_t most,
-                                   const char* what) {
+                                   const char* what, SpareLists& spare) {
   if (list.size() > most) throw malformed(what);
-  std::vector<uint64_t> out;
-  out.reserve(list.size());
+  std::vector<uint64_t> out = spare.take(list.size());
   for (const uint64_t number : list) out.push_back(number);
   return out;
 }
 
-std::vector<uint64_t> read_leases(capnp::List<uint64_t>::Reader list) {
-  return read_numbers(list, limits::leases, "too many leases");
+std::vector<uint64_t> read_leases(capnp::List<uint64_t>::Reader list, SpareLists& spare) {
+  return read_numbers(list, limits::leases, "too many leases", spare);
 }
 
 Identity read_identity(wire::Identity::Reader in) {
@@ -315,9 +314,9 @@ LinkChanges read_changes(capnp::List<wire::LinkChange>::Reader in) {
   return out;
 }
 
-Flush read_flush(wire::Flush::Reader in) {
-  return {in.getRound(), in.getPayloadHash(), read_leases(in.getLeases()),
-          read_numbers(in.getSliceHashes(), limits::tally_shards, "too many shards")};
+Flush read_flush(wire::Flush::Reader in, SpareLists& spare) {
+  return {in.getRound(), in.getPayloadHash(), read_leases(in.getLeases(), spare),
+          read_numbers(in.getSliceHashes(), limits::tally_shards, "too many shards", spare)};
 }
 
 FlushDecided read_decision(wire::FlushDecided::Reader in) {
@@ -344,7 +343,7 @@ FetchObject read_fetch(wire::FetchObject::Reader in) {
   return {{in.getObject()}, in.getBudgetUs(), in.getAttempt()};
 }
 
-Message read(wire::Message::Reader in) {
+Message read(wire::Message::Reader in, SpareLists& spare) {
   switch (in.which()) {
     case wire::Message::HELLO:
       return Hello{read_identity(in.getHello())};
@@ -369,14 +368,14 @@ Message read(wire::Message::Reader in) {
     case wire::Message::LEASE_GRANTED:
       return read_lease(in.getLeaseGranted());
     case wire::Message::LEASES_FENCED:
-      return LeasesFenced{read_leases(in.getLeasesFenced())};
+      return LeasesFenced{read_leases(in.getLeasesFenced(), spare)};
     case wire::Message::FLUSH:
-      return read_flush(in.getFlush());
+      return read_flush(in.getFlush(), spare);
     case wire::Message::FLUSH_TAKEN:
       return FlushTaken{};
     case wire::Message::FLUSH_REFUSED: {
       const auto refused = in.getFlushRefused();
-      return FlushRefused{read_leases(refused.getFenced()), read_text(refused.getText())};
+      return FlushRefused{read_leases(refused.getFenced(), spare), read_text(refused.getText())};
     }
     case wire::Message::ROUND_OPENED: {
       const auto opened = in.getRoundOpened();
@@ -493,9 +492,10 @@ Result<size_t> encode_segment(const Value& value, std::span<uint64_t> scratch,
   return total;
 }
 
-template <class Schema>
-auto decode_segment(const std::byte* begin, size_t bytes)
-    -> Result<decltype(read(std::declval<typename Schema::Reader>()))> {
+/// `more`: what reading takes beside the bytes.
+template <class Schema, class... More>
+auto decode_segment(const std::byte* begin, size_t bytes, More&... more)
+    -> Result<decltype(read(std::declval<typename Schema::Reader>(), more...))> {
   try {
     const size_t words = bytes / word;
     capnp::ReaderOptions options;
@@ -503,7 +503,7 @@ auto decode_segment(const std::byte* begin, size_t bytes)
     options.nestingLimit = max_nesting;
     capnp::FlatArrayMessageReader reader(
         kj::arrayPtr(reinterpret_cast<const capnp::word*>(begin), words), options);
-    return read(reader.getRoot<Schema>());
+    return read(reader.getRoot<Schema>(), more...);
   } catch (const kj::Exception& e) {
     return malformed(e.getDescription().cStr());
   } catch (const Problem& problem) {
@@ -512,6 +512,23 @@ auto decode_segment(const std::byte* begin, size_t bytes)
 }
 
 }  // namespace
+
+std::vector<uint64_t> SpareLists::take(size_t numbers) {
+  std::vector<uint64_t> list;
+  if (!lists_.empty() && numbers > 0) {
+    list = std::move(lists_.back());
+    lists_.pop_back();
+  }
+  list.reserve(numbers);
+  return list;
+}
+
+void SpareLists::give_back(std::vector<uint64_t>&& list) {
+  constexpr size_t max_kept = 256;  // 2 MB of the longest; more flushes seldom wait at once
+  if (list.capacity() == 0 || lists_.size() == max_kept) return;
+  list.clear();
+  lists_.push_back(std::move(list));
+}
 
 Kind kind_of(const Message& message) {
   return std::visit(Overloaded{
@@ -600,7 +617,7 @@ Result<OpenedFrame> Codec::open_frame(std::span<const std::byte> frame) {
 Result<OpenedMessage> Codec::open_message(std::span<const std::byte> bytes) {
   const auto segment = first_segment(bytes, limits::message_bytes);
   if (!segment) return segment.problem();
-  auto message = decode_segment<wire::Message>(segment->begin, segment->bytes);
+  auto message = decode_segment<wire::Message>(segment->begin, segment->bytes, spare_);
   if (!message) return message.problem();
   return OpenedMessage{std::move(message).value(), bytes.subspan(segment->bytes)};
 }

@@ -1,13 +1,16 @@
 // The only place that reads or writes Cap'n Proto. Bytes from outside are decoded once, into plain
 // values, with limits set from their own length; what is malformed is a Problem, never an
 // exception, and never more work than its length allows. Misaligned bytes are copied first (the
-// network hands out frames at any address). It allocates for text and lists only.
+// network hands out frames at any address). It allocates for text and lists only; for leases not,
+// where those of earlier messages were given back.
 // Thread rule: a Codec holds scratch memory and belongs to one node.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "proto/messages.hpp"
 #include "runtime/core/hash.hpp"
@@ -25,6 +28,17 @@ struct OpenedFrame {
 struct OpenedMessage {
   Message message;
   std::span<const std::byte> payload;
+};
+
+/// Lists of leases that were read and are done with: the next are read into their memory.
+class SpareLists {
+ public:
+  /// Empty, with room for so many numbers.
+  std::vector<uint64_t> take(size_t numbers);
+  void give_back(std::vector<uint64_t>&& list);
+
+ private:
+  std::vector<std::vector<uint64_t>> lists_;
 };
 
 class Codec {
@@ -47,6 +61,8 @@ class Codec {
 
   /// Errors: anything but one message within the limits, followed by any payload.
   Result<OpenedMessage> open_message(std::span<const std::byte> bytes);
+  /// Leases of a message that was opened here, or of any other.
+  void take_back(std::vector<uint64_t>&& leases) { spare_.give_back(std::move(leases)); }
 
  private:
   /// One segment of words at the front of `bytes`, at an address that words may have.
@@ -59,6 +75,7 @@ class Codec {
   std::unique_ptr<uint64_t[]> aligned_;   // copies of what came misaligned
   std::unique_ptr<uint64_t[]> building_;  // all zero between calls
   Hasher check_;
+  SpareLists spare_;
 };
 
 }  // namespace luxodus

@@ -43,6 +43,7 @@ void Coordinator::on(CountFlush&& count) {
   if (scheduler().fibers().cancelled()) return;  // its worker asks whoever comes after this node
   answer_flush(count.letter, why);
   std::erase(uncounted_, count.letter.id);
+  sender().take_back(std::move(count.letter.body.leases));
   look_soon();
 }
 

@@ -74,6 +74,8 @@ class Sender {
                            SharedBytes payload = {}) = 0;
   /// Pieces of an answer of this kind that are on their way are not wanted any more.
   virtual void forget([[maybe_unused]] const MessageId& id, [[maybe_unused]] Kind kind) {}
+  /// The leases of a message that is done with: those of the next lie in their memory.
+  virtual void take_back([[maybe_unused]] std::vector<uint64_t>&& leases) {}
 };
 
 class ActorSystem final : public Sender {
@@ -89,6 +91,7 @@ class ActorSystem final : public Sender {
   SendOutcome send(Address from, Address to, const MessageId& id, const Message& message,
                    SharedBytes payload = {}) override;
   void forget(const MessageId& id, Kind kind) override { network_.forget(id, kind); }
+  void take_back(std::vector<uint64_t>&& leases) override { network_.take_back(std::move(leases)); }
 
   // ---- what the network brings --------------------------------------------------------------
 

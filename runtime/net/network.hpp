@@ -110,6 +110,9 @@ class Network {
   /// The room for this message is the handler's again.
   void forget(const MessageId& id, Kind kind) { assembler_.close(id, kind); }
 
+  /// As Codec::take_back.
+  void take_back(std::vector<uint64_t>&& leases) { codec_.take_back(std::move(leases)); }
+
   /// Tells the neighbours that this node leaves.
   void say_bye();
 
