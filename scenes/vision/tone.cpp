@@ -339,8 +339,17 @@ SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone) {
     std::array<double, 3> rgb{};
     if (p.luminance > 0) rgb = shown_colour(p.xyz, exposure.factor * p.luminance);
     // The leading channel meets the shoulder, not the luminance: a green that is as bright as white
-    // would have to be white, and a sign's legend would be lost on it.
-    put_scaled(out, rgb, shoulder(leading(rgb), exposure.white));
+    // would have to be white, and a sign's legend would be lost on it. Beyond the white that a
+    // picture takes by itself channels more and more burn out each by itself, as on film: the core
+    // of a flame turns yellow, and stands out from a wall that it lights.
+    const double lead = leading(rgb), to = shoulder(lead, exposure.white);
+    const double beyond =
+        tone.white_cd_m2 || !(lead > exposure.white) ? 0 : 1 - exposure.white / lead;
+    for (double& v : rgb) {
+      const double scaled = lead > 0 ? v / lead * to : 0;
+      v = scaled + beyond * (shoulder(v, exposure.white) - scaled);
+    }
+    put_scaled(out, rgb, leading(rgb));
   }
   return out;
 }
