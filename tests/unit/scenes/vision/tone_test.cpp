@@ -149,6 +149,15 @@ TEST_CASE("a flame far beyond a picture's white turns yellow, and the wall behin
   CHECK(green(core) > green(wall) + 0.2);
   CHECK(green(core) > green(edge) + 0.05);
   CHECK(core.b < core.g);
+  // A sign keeps its green, however far beyond white it is.
+  XyzPicture signs = row(std::vector<double>(990, 1));
+  const std::array<double, 3> sign_green{0.05, 1, 0.4};
+  const XyzPicture sign = row(std::vector<double>(10, 1000), sign_green);
+  signs.xyz.insert(signs.xyz.end(), sign.xyz.begin(), sign.xyz.end());
+  signs.width = 1000;
+  const Rgb8 shown = at(tone_plain(signs, {}), 995);
+  CHECK(test::linear_of_srgb_byte(shown.b) ==
+        Approx(0.4 * test::linear_of_srgb_byte(shown.g)).margin(0.01));
 }
 
 TEST_CASE("the white legend of an overexposed sign is readable on its green", "[vision][tone]") {
