@@ -331,6 +331,19 @@ double shoulder(double exposed, double white) {
   return shoulder_knee + (1 - shoulder_knee) * slope * t / (1 + (slope - 1) * t);
 }
 
+namespace {
+
+/// How much a colour is one of fire, from red to amber: 1 where its channels are a quarter of the
+/// leading one apart, red first and blue last; 0 where they are in another order. Beyond the white
+/// that a picture takes by itself such colours burn out channel by channel, as on film: the core of
+/// a flame turns yellow, and stands out from a wall that it lights. A sign's green would turn cyan.
+double warmth(const std::array<double, 3>& rgb) {
+  const double apart = std::min(rgb[0] - rgb[1], rgb[1] - rgb[2]);
+  return std::clamp(4 * apart / leading(rgb), 0.0, 1.0);
+}
+
+}  // namespace
+
 SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone) {
   const Exposure exposure = exposure_of(picture, tone);
   SrgbPicture out = empty_like(picture);
@@ -340,7 +353,14 @@ SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone) {
     if (p.luminance > 0) rgb = shown_colour(p.xyz, exposure.factor * p.luminance);
     // The leading channel meets the shoulder, not the luminance: a green that is as bright as white
     // would have to be white, and a sign's legend would be lost on it.
-    put_scaled(out, rgb, shoulder(leading(rgb), exposure.white));
+    const double lead = leading(rgb), to = shoulder(lead, exposure.white);
+    const bool far = !tone.white_cd_m2 && lead > exposure.white;
+    const double burnt = far ? (1 - exposure.white / lead) * warmth(rgb) : 0;
+    for (double& v : rgb) {
+      const double scaled = lead > 0 ? v / lead * to : 0;
+      v = scaled + burnt * (shoulder(v, exposure.white) - scaled);
+    }
+    put_scaled(out, rgb, leading(rgb));
   }
   return out;
 }

@@ -131,6 +131,35 @@ TEST_CASE("the colour of a light is the same at every exposure, also far beyond 
   }
 }
 
+TEST_CASE("a flame far beyond a picture's white turns yellow, and the wall behind it stays orange",
+          "[vision][tone]") {
+  // A room of 30 cd/m2, a wall of 300, a flame of 2000 to 4300.
+  const std::array<double, 3> orange{1, 0.27, 0.01};
+  XyzPicture p = row(std::vector<double>(950, 30), orange);
+  for (const double level : {300.0, 2000.0, 4300.0}) {
+    const XyzPicture more = row(std::vector<double>(level > 1000 ? 20 : 10, level), orange);
+    p.xyz.insert(p.xyz.end(), more.xyz.begin(), more.xyz.end());
+  }
+  p.width = 1000;
+  const SrgbPicture out = tone_plain(p, {});
+  const Rgb8 room = at(out, 0), wall = at(out, 955), edge = at(out, 965), core = at(out, 990);
+  const auto green = [](const Rgb8& c) { return test::linear_of_srgb_byte(c.g); };
+  CHECK(green(wall) / test::linear_of_srgb_byte(wall.r) ==
+        Approx(green(room) / test::linear_of_srgb_byte(room.r)).margin(0.02));
+  CHECK(green(core) > green(wall) + 0.2);
+  CHECK(green(core) > green(edge) + 0.05);
+  CHECK(core.b < core.g);
+  // A sign keeps its green, however far beyond white it is.
+  XyzPicture signs = row(std::vector<double>(990, 1));
+  const std::array<double, 3> sign_green{0.05, 1, 0.4};
+  const XyzPicture sign = row(std::vector<double>(10, 1000), sign_green);
+  signs.xyz.insert(signs.xyz.end(), sign.xyz.begin(), sign.xyz.end());
+  signs.width = 1000;
+  const Rgb8 shown = at(tone_plain(signs, {}), 995);
+  CHECK(test::linear_of_srgb_byte(shown.b) ==
+        Approx(0.4 * test::linear_of_srgb_byte(shown.g)).margin(0.01));
+}
+
 TEST_CASE("the white legend of an overexposed sign is readable on its green", "[vision][tone]") {
   // A dark corridor of 0.1 cd/m2; the sign has 75 and 15.
   XyzPicture p = row(std::vector<double>(900, 0.1));

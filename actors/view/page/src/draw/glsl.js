@@ -141,6 +141,14 @@ vec3 flameAlong(int i, vec3 from, vec3 ray, vec2 part, float first) {
   }
   return flameColour[i] * (sum / float(points)) * (part.y - part.x);
 }
+/** Optical depth of smoke between two places of a ray. */
+float depthTo(vec3 from, vec3 ray, float t0, float t1, float first) {
+  const int points = 8;
+  float sum = 0.0;
+  for (int k = 0; k < points; ++k)
+    sum += texture(glow, (from + mix(t0, t1, (float(k) + first) / float(points)) * ray - low) / size).a;
+  return sum * (t1 - t0) / float(points);
+}
 void main() {
   vec3 from = world(at, 0.0);
   vec3 along = world(at, texture(depth, at).r) - from;
@@ -155,16 +163,6 @@ void main() {
   float dt = (air.y - air.x) / float(steps);
   if (dt > 0.0) {
     float first = start(gl_FragCoord.xy);
-    // Flames are smaller than steps: each is added up by itself, and comes in at its middle.
-    vec3 flames[flamesMost];
-    float middles[flamesMost];
-    for (int i = 0; i < flameCount; ++i) {
-      vec3 upper = flameLow[i] + flameSize[i];
-      vec2 part = within(from, inverse, flameLow[i], vec3(upper.xy, min(upper.z, cut)), reach);
-      bool met = part.y > part.x;
-      middles[i] = met ? clamp(0.5 * (part.x + part.y), air.x, air.y - 0.01 * dt) : -1.0;
-      flames[i] = met ? flameAlong(i, from, direction, part, first) : vec3(0.0);
-    }
     for (int i = 0; i < steps; ++i) {
       vec3 p = (from + (t0 + (float(i) + first) * dt) * direction - low) / size;
       vec4 here = texture(glow, p);
@@ -172,11 +170,16 @@ void main() {
       float passes = exp(-s * dt);
       vec3 j = towardsEye(here.rgb, texture(beam, p), direction);
       sent += through * j * (s * dt > 1e-4 ? (1.0 - passes) / s : dt);
-      for (int f = 0; f < flameCount; ++f) {
-        float before = middles[f] - (t0 + float(i) * dt);
-        if (before >= 0.0 && before < dt) sent += through * exp(-s * before) * flames[f];
-      }
       through *= passes;
+    }
+    // Flames are smaller than steps: each is added up by itself, and attenuated up to its middle.
+    for (int i = 0; i < flameCount; ++i) {
+      vec3 upper = flameLow[i] + flameSize[i];
+      vec2 part = within(from, inverse, flameLow[i], vec3(upper.xy, min(upper.z, cut)), reach);
+      if (part.y <= part.x) continue;
+      float middle = clamp(0.5 * (part.x + part.y), air.x, air.y);
+      sent += exp(-depthTo(from, direction, air.x, middle, first)) *
+        flameAlong(i, from, direction, part, first);
     }
   }
   colour = vec4(min(sent, ${brightest}), through);

@@ -8,7 +8,7 @@ import { composeFragment, meterFragment, screenFragment, screenVertex, toneFragm
   from './glsl.js';
 import { Marks } from './marks.js';
 import { Signs } from './signs.js';
-import { Smoke, steps } from './smoke.js';
+import { Smoke, smokePaces } from './smoke.js';
 import { Surfaces } from './surfaces.js';
 
 /** So many pictures are added up before the page rests; on a slow machine fewer. */
@@ -145,7 +145,6 @@ export class Picture {
     this.height = height;
     const { surfaces, sums, bytes } = this.targets;
     for (const t of [surfaces, ...sums, bytes]) t.setSize(width, height);
-    this.targets.smoke.setSize(Math.ceil(width / 2), Math.ceil(height / 2));
     this.again();
   }
 
@@ -237,7 +236,9 @@ export class Picture {
     this.renderer.clear();
     this.renderer.render(this.world, camera);
     if (this.smoke.present) {
-      this.smoke.material.uniforms.steps.value = this.smokeSteps(moving);
+      const { steps, coarser } = this.smokePace(moving);
+      targets.smoke.setSize(Math.ceil(width / coarser), Math.ceil(height / coarser));
+      this.smoke.material.uniforms.steps.value = steps;
       this.smoke.material.uniforms.shift.value = (0.618034 * n) % 1;
       this.pass(this.smoke.material, targets.smoke);
     }
@@ -250,10 +251,10 @@ export class Picture {
     if (n === 0 || n === pictures.least - 1) this.meter();
   }
 
-  /** A machine that needs a coarse raster is spared steps, too. */
-  smokeSteps(moving) {
-    if (!moving) return steps.still;
-    return this.share > 0.5 ? steps.moving : steps.hurried;
+  /** A machine that needs a coarse raster is spared steps and pixels of smoke, too. */
+  smokePace(moving) {
+    if (!moving) return smokePaces.still;
+    return this.share > 0.5 ? smokePaces.moving : smokePaces.hurried;
   }
 
   /** Nothing is left to add up or to adapt to. */

@@ -5,8 +5,15 @@ import { toHalf } from '../protocol/half.js';
 import { Flames } from './flames.js';
 import { screenVertex, smokeFragment } from './glsl.js';
 
-/** Steps of one picture; while the eye is still many pictures are added up. */
-export const steps = { hurried: 8, moving: 16, still: 32 };
+/**
+ * Steps of one picture, and so many times coarser than the picture its smoke is; while the eye is
+ * still many pictures are added up.
+ */
+export const smokePaces = {
+  hurried: { steps: 8, coarser: 3 },
+  moving: { steps: 16, coarser: 2 },
+  still: { steps: 32, coarser: 2 },
+};
 
 function volume([nx, ny, nz], data) {
   const texture = new THREE.Data3DTexture(data, nx, ny, nz);
@@ -38,7 +45,7 @@ export class Smoke {
         low: { value: new THREE.Vector3() },
         size: { value: new THREE.Vector3(1, 1, 1) },
         shift: { value: 0 },
-        steps: { value: steps.moving },
+        steps: { value: smokePaces.moving.steps },
       },
     });
   }
