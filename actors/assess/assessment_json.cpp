@@ -153,6 +153,18 @@ CsvTable csv_of(const Json& rows, const std::vector<std::string>& columns) {
   return table;
 }
 
+/// A table that not every assessment has. One of an earlier assessment would be taken for this
+/// one's.
+Result<void> write_or_remove(const fs::path& file, const std::optional<CsvTable>& table) {
+  if (table) return write_csv(file, *table);
+  std::error_code failed;
+  fs::remove(file, failed);
+  if (failed)
+    return problem_in(file,
+                      "cannot remove what an earlier assessment has left: " + failed.message());
+  return {};
+}
+
 }  // namespace
 
 Json assessment_json(const SceneDescription& scene, const Assessment& assessment,
@@ -246,11 +258,12 @@ Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
                                                     "jin.legible",
                                                     "viewing_distance.within"});
   if (auto ok = write_csv(folder / "sights.csv", sights); !ok) return ok.problem();
-  if (const auto by_guid = results_by_guid(assessment))
-    if (auto ok = write_csv(folder / "by_guid.csv", *by_guid); !ok) return ok.problem();
-  if (const auto over = assessment.find("over_time"); over != assessment.end())
-    return write_csv(folder / "guided.csv", guidance_csv(*over));
-  return {};
+  if (auto ok = write_or_remove(folder / "by_guid.csv", results_by_guid(assessment)); !ok)
+    return ok.problem();
+  const auto over = assessment.find("over_time");
+  return write_or_remove(folder / "guided.csv", over == assessment.end()
+                                                    ? std::nullopt
+                                                    : std::optional(guidance_csv(*over)));
 }
 
 Result<void> refuse_files_of_others(const fs::path& folder, const std::vector<std::string>& files) {

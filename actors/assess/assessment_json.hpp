@@ -20,6 +20,7 @@ inline constexpr const char* assessment_format = "luxodus assessment 1";
 Json assessment_json(const SceneDescription& scene, const Assessment& assessment,
                      const std::string& version);
 
+/// Tables that this one does not have are removed, as they are an earlier one's.
 /// Errors: as write_file_atomically; a folder that cannot be made.
 Result<void> write_assessment(const std::filesystem::path& folder, const Json& assessment);
 

@@ -1,22 +1,29 @@
 #include "actors/assess/round_state.hpp"
 
+#include <algorithm>
+#include <map>
+
 #include "actors/assess/assessment.hpp"
 #include "actors/inspect/building.hpp"
 #include "actors/output/json_out.hpp"
 #include "scenes/transport/compile.hpp"
+#include "scenes/transport/compile_light.hpp"
 
 namespace luxodus {
 
 namespace {
 
-/// By the name of a simulation's smoke: how much denser it may be.
+/// By the name of a simulation's smoke: how much denser it may be. Its grids have one name.
 void thicken_by_errors(const SceneDescription& scene, Scenario& scenario) {
+  std::map<std::string, double> denser;
   for (const Medium& medium : scene.media) {
     if (!medium.simulation || medium.simulation->depth_error == 0) continue;
-    const double factor = extinction_factor(scenario, medium.name);
-    std::erase_if(scenario.media, [&](const auto& one) { return one.name == medium.name; });
-    scenario.media.push_back({medium.name, factor * (1 + medium.simulation->depth_error)});
+    double& most = denser[medium.name];
+    most =
+        std::max(most, factor_of_medium(scenario, medium) * (1 + medium.simulation->depth_error));
   }
+  std::erase_if(scenario.media, [&](const auto& one) { return denser.contains(one.name); });
+  for (const auto& [name, factor] : denser) scenario.media.push_back({name, factor});
 }
 
 /// Of all smoke; what flames are made of stays.

@@ -180,7 +180,10 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
                  share >= 1, share);
       });
   if (!assessed) {
-    if (!interrupt_flag()) return assessed.problem();
+    if (!interrupt_flag()) {
+      tell(assessed.problem());
+      return ExitCode::bad_input;
+    }
     log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
   }

@@ -5,6 +5,7 @@
 #include "actors/cli/commands.hpp"
 #include "actors/import/dxf_plan.hpp"
 #include "actors/import/write_plan.hpp"
+#include "runtime/core/printable.hpp"
 #include "scenes/geometry/transform.hpp"
 
 namespace luxodus::cli {
@@ -34,7 +35,8 @@ Result<ExitCode> import_dxf(const ImportDxfOptions& options) {
   std::printf("lines %zu, blocks %zu; walls %zu, luminaires %zu, signs %zu\n",
               plan->segments.size(), plan->inserts.size(), written->walls, written->luminaires,
               written->signs);
-  for (const std::string& what : written->asked) std::printf("asked for: %s\n", what.c_str());
+  for (const std::string& what : written->asked)
+    std::printf("asked for: %s\n", printable(what).c_str());
   std::printf("%s%s\n", (std::filesystem::path(options.out) / "building.toml").c_str(),
               written->kept_scene ? ", and scene.toml as it was" : " and scene.toml");
   return ExitCode::success;

@@ -7,6 +7,7 @@
 #include "actors/cli/commands.hpp"
 #include "actors/import/import_files.hpp"
 #include "runtime/core/atomic_file.hpp"
+#include "runtime/core/printable.hpp"
 #include "scenes/photometry/gldf.hpp"
 
 namespace luxodus::cli {
@@ -39,16 +40,18 @@ std::string duration_words(const GldfVariant& variant) {
 }
 
 void list_contents(const GldfProduct& product) {
-  std::string out = fmt::format("product       {}\nnumber        {}\nmanufacturer  {}\n",
-                                product.name, product.number, product.manufacturer);
+  std::string out =
+      fmt::format("product       {}\nnumber        {}\nmanufacturer  {}\n", printable(product.name),
+                  printable(product.number), printable(product.manufacturer));
   for (const GldfVariant& variant : product.variants) {
-    out += fmt::format("variant \"{}\"{}{}\n", variant.id, variant.name.empty() ? "" : ": ",
-                       variant.name);
+    out += fmt::format("variant \"{}\"{}{}\n", printable(variant.id),
+                       variant.name.empty() ? "" : ": ", printable(variant.name));
     for (const size_t at : variant.lights) {
       const GldfLight& light = product.lights[at];
-      out += fmt::format("  emitter \"{}\": {}, rated {}, in an emergency {}{}\n", light.emitter,
-                         light.photometry, lumens(light.rated_lm), emergency_words(light),
-                         light.fault.empty() ? "" : "; " + light.fault);
+      out += fmt::format("  emitter \"{}\": {}, rated {}, in an emergency {}{}\n",
+                         printable(light.emitter), printable(light.photometry),
+                         lumens(light.rated_lm), emergency_words(light),
+                         light.fault.empty() ? "" : "; " + printable(light.fault));
     }
     if (!variant.durations.empty())
       out += "  emergency flux by duration: " + duration_words(variant) + "\n";

@@ -10,6 +10,7 @@
 #include "actors/import/building.hpp"
 #include "actors/import/ifc_shapes.hpp"
 #include "actors/import/write_building.hpp"
+#include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "scenes/ifc/ifc_model.hpp"
 
@@ -37,7 +38,8 @@ void print_list(const char* title, const std::vector<std::string>& lines) {
   constexpr size_t most = 12;
   if (lines.empty()) return;
   std::printf("%s: %zu\n", title, lines.size());
-  for (size_t i = 0; i < std::min(lines.size(), most); ++i) std::printf("  %s\n", lines[i].c_str());
+  for (size_t i = 0; i < std::min(lines.size(), most); ++i)
+    std::printf("  %s\n", printable(lines[i]).c_str());
   if (lines.size() > most) std::printf("  ... all in import.txt\n");
 }
 

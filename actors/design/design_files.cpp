@@ -147,6 +147,24 @@ Result<void> write_plans(const fs::path& folder, const Json& a, Language languag
   return {};
 }
 
+/// Removes layouts of an earlier design, which are none of this one's. What else lies there stays.
+Result<void> remove_alternatives(const fs::path& folder) {
+  const fs::path others = folder / "alternatives";
+  std::error_code failed;
+  if (!fs::is_directory(fs::symlink_status(others, failed))) return {};
+  std::vector<fs::path> layouts;
+  for (fs::directory_iterator at(others, failed), end; !failed && at != end; at.increment(failed)) {
+    const std::string name = at->path().filename().string();
+    if (name.starts_with("layout_") && name.ends_with(".toml")) layouts.push_back(at->path());
+  }
+  for (const fs::path& layout : layouts)
+    if (!failed) fs::remove(layout, failed);
+  if (failed)
+    return problem_in(others, "cannot remove layouts of an earlier design: " + failed.message());
+  fs::remove(others, failed);  // where nothing else is in it
+  return {};
+}
+
 /// Layouts beside the best one, as variants.
 Result<void> write_alternatives(const fs::path& folder, const SceneDescription& scene,
                                 const DesignResult& result) {
@@ -427,6 +445,7 @@ Result<void> write_design(const fs::path& folder, const SceneDescription& scene,
           write_file_atomically(folder / "design.html", design_page(json, assessed, language));
       !ok)
     return ok.problem();
+  if (auto ok = remove_alternatives(folder); !ok) return ok.problem();
   if (result.smoke)
     if (auto ok = write_alternatives(folder, scene, result); !ok) return ok.problem();
   return write_file_atomically(folder / "layout.toml", variant_text(scene, result, result, folder));

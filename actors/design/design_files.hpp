@@ -26,7 +26,8 @@ CsvTable schedule_csv(const DesignResult& result);
 Json design_json(const SceneDescription& scene, const DesignResult& result,
                  const std::string& version);
 
-/// Writes all of them. Errors: as write_file_atomically; a folder that cannot be made.
+/// Writes all of them; alternatives of an earlier design are removed. Errors: as
+/// write_file_atomically; a folder that cannot be made.
 Result<void> write_design(const std::filesystem::path& folder, const SceneDescription& scene,
                           const DesignResult& result, Language language,
                           const std::string& version);

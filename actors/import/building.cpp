@@ -77,6 +77,9 @@ class Assembly {
     out_.file = model_.file;
     out_.schema = model_.schema;
     for (const Problem& fault : model_.faults) out_.unread.push_back(fault.text());
+    if (model_.more_faults > 0)
+      out_.unread.push_back(
+          fmt::format("{} more faults of the model, which are not listed", model_.more_faults));
     for (const std::string& note : shapes_.notes) out_.unread.push_back(note);
     make_storeys();
     for (size_t i = 0; i < shapes_.parts.size(); ++i) {

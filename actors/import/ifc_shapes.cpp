@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "actors/import/answer_folder.hpp"
 #include "runtime/core/file_descriptor.hpp"
 #include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
@@ -31,27 +32,6 @@ constexpr size_t max_notes = 200;
 constexpr int no_package = 3, no_shapes = 4;
 /// posix_spawnp: the shell's code of a program that is not there.
 constexpr int not_found = 127;
-
-/// A folder for the answer, removed with all that is in it.
-class AnswerFolder {
- public:
-  AnswerFolder() {
-    std::error_code failed;
-    const fs::path base = fs::temp_directory_path(failed);
-    std::string name = ((failed ? fs::path("/tmp") : base) / "luxodus-ifc-XXXXXX").string();
-    if (::mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~AnswerFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  AnswerFolder(const AnswerFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// Exit code of a process; nothing where it did not end in time and was killed.
 Result<std::optional<int>> run_process(const std::vector<std::string>& words, const fs::path& out,
@@ -94,32 +74,41 @@ Result<std::optional<int>> run_process(const std::vector<std::string>& words, co
 }
 
 struct Said {
-  glm::dvec3 offset{0};  // glTF axes
+  std::optional<glm::dvec3> offset;  // glTF axes; none where it was not told
   std::vector<std::string> notes;
 };
+
+/// The three numbers of a line, with nothing after them.
+std::optional<glm::dvec3> numbers_of(std::string_view line) {
+  glm::dvec3 out(0);
+  for (glm::length_t i = 0; i < 3; ++i) {
+    while (line.starts_with(' ')) line.remove_prefix(1);
+    const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), out[i]);
+    if (error != std::errc()) return std::nullopt;
+    line.remove_prefix(static_cast<size_t>(stop - line.data()));
+  }
+  return line.empty() && is_finite(out) ? std::optional(out) : std::nullopt;
+}
 
 Said said_by(const fs::path& file) {
   Said said;
   const auto text = read_regular_file(file, max_said_bytes);
   if (!text) return said;
   std::string_view rest = text.value();
+  size_t left_out = 0;
   while (!rest.empty()) {
     const size_t end = std::min(rest.find('\n'), rest.size());
-    std::string_view line = rest.substr(0, end);
+    const std::string_view line = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (line.starts_with("note ") && said.notes.size() < max_notes)
       said.notes.push_back(excerpt(line.substr(5), 200));
-    if (!line.starts_with("offset ")) continue;
-    line.remove_prefix(7);
-    glm::dvec3 offset(0);
-    for (glm::length_t i = 0; i < 3; ++i) {
-      while (line.starts_with(' ')) line.remove_prefix(1);
-      const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), offset[i]);
-      if (error != std::errc()) return said;
-      line.remove_prefix(static_cast<size_t>(stop - line.data()));
-    }
-    if (is_finite(offset)) said.offset = offset;
+    else if (line.starts_with("note "))
+      ++left_out;
+    else if (line.starts_with("offset "))
+      said.offset = numbers_of(line.substr(7));
   }
+  if (left_out > 0)
+    said.notes.push_back(fmt::format("{} more of the shapes, which are not listed", left_out));
   return said;
 }
 
@@ -182,9 +171,14 @@ Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, doub
     return problem_in(file, "the model has no shapes: export it with geometry");
   if (code.value() != 0)
     return problem_in(file, "its shapes cannot be computed: " + complaint(err));
+  if (!said.offset)
+    return problem_in(file, "its shapes come without their place (the line \"offset X Y Z\" of " +
+                                script.filename().string() +
+                                "), and the building would stand elsewhere: import it again, and "
+                                "install the program anew if that does not help");
   auto parts = import_mesh(glb.string(), 1, UpAxis::y);
   if (!parts) return problem_in(file, "its shapes cannot be read: " + parts.problem().what);
-  const glm::dvec3 offset = to_z_up(UpAxis::y).vector(said.offset);
+  const glm::dvec3 offset = to_z_up(UpAxis::y).vector(*said.offset);
   for (ImportedPart& part : parts.value())
     for (glm::dvec3& p : part.mesh.positions) p += offset;
   return IfcShapes{std::move(parts).value(), said.notes};

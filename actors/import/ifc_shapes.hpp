@@ -24,7 +24,8 @@ double opacity_of(const ImportedPart& part);
 
 /// `script`: ifc_shapes.mjs, with node_modules beside it. `seconds`: until the process is ended.
 /// `told`, where given, hears twice a second for how long it has been at work [s].
-/// Errors: no Node.js, no package, more time, a model without shapes, an answer that is none.
+/// Errors: no Node.js, no package, more time, a model without shapes, an answer that is none or
+/// does not say where the shapes are.
 Result<IfcShapes> ifc_shapes(const std::filesystem::path& model,
                              const std::filesystem::path& script, double seconds,
                              const std::function<void(double)>& told = {});

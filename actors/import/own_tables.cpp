@@ -16,8 +16,14 @@ constexpr size_t max_table_bytes = size_t{16} << 20;
 
 }  // namespace
 
-bool OwnTables::mentions(const std::string& name) const {
-  return named.contains(name) || text.find("name = " + toml_text(name) + "\n") != std::string::npos;
+bool OwnTables::mentions(const std::string& kind, const std::string& name) const {
+  if (has(kind, name)) return true;
+  const std::string words = "name = " + toml_text(name) + "\n", head = "[[" + kind + "]]";
+  for (size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
+    if (const size_t table = text.rfind("[[", at);
+        table != std::string::npos && text.compare(table, head.size(), head) == 0)
+      return true;
+  return false;
 }
 
 Result<OwnTables> own_tables(const fs::path& file, std::initializer_list<const char*> kinds) {
@@ -35,7 +41,7 @@ Result<OwnTables> own_tables(const fs::path& file, std::initializer_list<const c
     if (list == nullptr || list->as_list() == nullptr) continue;
     for (const toml::Value& table : *list->as_list()) {
       const toml::Value* name = table.as_table() ? table.as_table()->find("name") : nullptr;
-      if (name != nullptr && name->as_text()) out.named.insert(*name->as_text());
+      if (name != nullptr && name->as_text()) out.named.insert({kind, *name->as_text()});
     }
   }
   return out;

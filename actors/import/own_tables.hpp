@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "runtime/core/result.hpp"
 
@@ -13,12 +14,16 @@ namespace luxodus {
 
 struct OwnTables {
   std::filesystem::path file;
-  std::string text;             // as it was; "" where there is no file
-  std::set<std::string> named;  // by the tables in it
+  std::string text;  // as it was; "" where there is no file
+  /// Kinds and names of the tables in it: {"sign_type", "exit"}.
+  std::set<std::pair<std::string, std::string>> named;
   std::string added;
 
-  /// Named by a table, or by one that is commented out.
-  bool mentions(const std::string& name) const;
+  bool has(const std::string& kind, const std::string& name) const {
+    return named.contains({kind, name});
+  }
+  /// Named by a table of that kind, or by one that is commented out.
+  bool mentions(const std::string& kind, const std::string& name) const;
 };
 
 /// `kinds` of tables whose names count. Errors: a file that cannot be read or is no TOML.

@@ -38,7 +38,7 @@ std::string axis_text(const glm::dvec3& v) {
 
 void add_materials(const Building& building, OwnTables& tables) {
   for (const auto& [name, material] : building.materials) {
-    if (tables.named.contains(name)) continue;
+    if (tables.has("material", name)) continue;
     tables.added += fmt::format("\n[[material]]\nname = {}\n", toml_text(name));
     tables.added += material.clear ? std::string("kind = \"glass\"\n")
                                    : fmt::format("reflectance = {:.2f}\n", material.grey);
@@ -123,6 +123,11 @@ std::string sign_type_text(const BuildingFixture& fixture, size_t count) {
 
 using FixtureTypes = std::map<std::pair<bool, std::string>, std::vector<const BuildingFixture*>>;
 
+/// Of which kind the table of a type is: a sign and a luminaire may have types of the same name.
+const char* table_of(bool is_sign) {
+  return is_sign ? "sign_type" : "luminaire_type";
+}
+
 FixtureTypes types_of(const Building& building) {
   FixtureTypes types;
   for (const BuildingFixture& f : building.fixtures) types[{f.is_sign, f.type}].push_back(&f);
@@ -133,7 +138,8 @@ Result<void> add_types(const FixtureTypes& types, const std::map<std::string, fs
                        const fs::path& folder, OwnTables& tables, WrittenBuilding& written) {
   for (const auto& [kind, fixtures] : types) {
     const auto& [is_sign, type] = kind;
-    if (tables.named.contains(type)) continue;
+    const std::string table = table_of(is_sign);
+    if (tables.has(table, type)) continue;
     const BuildingFixture& one = *fixtures.front();
     auto found = is_sign ? std::nullopt : photometry_of(files, fixtures);
     std::string why = one.document.empty() ? "" : ": the model names " + one.document;
@@ -144,13 +150,13 @@ Result<void> add_types(const FixtureTypes& types, const std::map<std::string, fs
     if (!found)
       written.asked.push_back(fmt::format("{} \"{}\" ({}){}", is_sign ? "sign" : "luminaire", type,
                                           fixtures.size(), why));
-    if (!found && tables.mentions(type)) continue;
+    if (!found && tables.mentions(table, type)) continue;
     std::string file;
     if (found) {
       const auto name = quoted_from(folder, *found);
       if (!name) return name.problem();
       file = name.value();
-      tables.named.insert(type);
+      tables.named.insert({table, type});
     }
     tables.added += is_sign ? sign_type_text(one, fixtures.size())
                             : luminaire_type_text(one, fixtures.size(), file);
@@ -287,7 +293,7 @@ std::string scene_head(const Building& building, bool any_light) {
 
 std::string lines_of(const std::string& title, const std::vector<std::string>& lines) {
   std::string out = "\n" + title + "\n";
-  for (const std::string& line : lines) out += "  " + line + "\n";
+  for (const std::string& line : lines) out += "  " + printable(line) + "\n";
   return lines.empty() ? out + "  nothing\n" : out;
 }
 
@@ -298,7 +304,8 @@ std::string report_text(const Building& building, const WrittenBuilding& written
         "#{} {} {}: {:.6g} m3 as authored, {:.6g} m3 as a shape ({:+.1f} %)", d.id, d.name, d.guid,
         d.authored_m3, d.mesh_m3, 100 * (d.mesh_m3 / d.authored_m3 - 1)));
   return fmt::format("What `luxodus import ifc` made of {}, schema {}\n",
-                     fs::path(building.file).filename().string(), building.schema) +
+                     printable(fs::path(building.file).filename().string()),
+                     printable(building.schema)) +
          lines_of("Not read", building.unread) +
          lines_of(fmt::format("Volumes that differ by more than {:g} %, of {} that are authored",
                               100 * limits::volume_difference, building.volumes_compared),
@@ -356,11 +363,10 @@ Result<std::map<std::string, fs::path>> photometry_by_name(const std::string& fo
 namespace {
 
 /// Shapes of storeys with what their fixtures leave behind: bodies of those that are not placed.
-std::vector<BuildingStorey> with_bodies(const Building& building,
-                                        const std::set<std::string>& placed) {
+std::vector<BuildingStorey> with_bodies(const Building& building, const OwnTables& fixtures) {
   std::vector<BuildingStorey> storeys = building.storeys;
   for (const BuildingFixture& fixture : building.fixtures) {
-    if (placed.contains(fixture.type)) continue;
+    if (fixtures.has(table_of(fixture.is_sign), fixture.type)) continue;
     for (BuildingStorey& storey : storeys)
       if (storey.name == fixture.storey)
         storey.parts.insert(storey.parts.end(), fixture.body.begin(), fixture.body.end());
@@ -415,7 +421,7 @@ Result<WrittenBuilding> write_building(const Building& building, const std::stri
           add_types(types_of(building), files.value(), folder.value(), fixtures.value(), written);
       !ok)
     return ok.problem();
-  const auto storeys = with_bodies(building, fixtures->named);
+  const auto storeys = with_bodies(building, fixtures.value());
   const auto tables = write_storeys(storeys, origin_of(building), folder.value());
   if (!tables) return tables.problem();
   std::string text = fmt::format(
@@ -431,7 +437,7 @@ Result<WrittenBuilding> write_building(const Building& building, const std::stri
   for (const BuildingRoom& room : building.rooms) text += room_text(room);
   for (const BuildingExit& exit : building.exits) text += exit_text(exit);
   for (const BuildingFixture& fixture : building.fixtures) {
-    if (!fixtures->named.contains(fixture.type)) continue;
+    if (!fixtures->has(table_of(fixture.is_sign), fixture.type)) continue;
     text += fixture_text(fixture);
     ++(fixture.is_sign ? written.signs : written.luminaires);
   }

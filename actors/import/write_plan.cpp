@@ -87,14 +87,14 @@ std::map<std::string, size_t> counted(const Things& things, const Name& name) {
 void add_rules(const DxfPlan& plan, OwnTables& layers, const OwnTables& blocks) {
   for (const auto& [name, count] :
        counted(plan.segments, [](const DxfSegment& s) { return s.layer; }))
-    if (!layers.named.contains(name))
+    if (!layers.has("layer", name))
       layers.added += fmt::format(
           "\n[[layer]]           # {} lines\nname = {}\nas = \"nothing\"      # wall, sheet\n"
           "height_m = 3\nthickness_m = 0.1\nmaterial = \"wall\"\n",
           count, toml_text(name));
   for (const auto& [name, count] :
        counted(plan.inserts, [](const DxfInsert& i) { return i.block; }))
-    if (!blocks.named.contains(name))
+    if (!blocks.has("block", name))
       layers.added += fmt::format(
           "\n[[block]]           # {} times\nname = {}\nas = \"nothing\"      # luminaire, sign\n"
           "type = {}\nheight_m = 2.5\n",
@@ -190,8 +190,9 @@ class PlanText {
       const BlockRule& rule = rules_.blocks.at(i.block);
       extent.extend(glm::dvec3(i.at * unit_, 0));
       if (rule.as == "nothing") continue;
-      if (!fixtures_.named.contains(rule.type)) {
-        missing_.insert(rule.type);
+      const std::string table = rule.as + "_type";
+      if (!fixtures_.has(table, rule.type)) {
+        missing_.insert("[[" + table + "]] \"" + rule.type + "\"");
         continue;
       }
       ++(rule.as == "sign" ? written.signs : written.luminaires);
@@ -201,7 +202,7 @@ class PlanText {
     text += level_text("floor", around, rules_.floor_m, true);
     if (rules_.ceiling_m) text += level_text("ceiling", around, *rules_.ceiling_m, false);
     for (const std::string& type : missing_)
-      written.asked.push_back("fixtures.toml has no type \"" + type + "\"");
+      written.asked.push_back("fixtures.toml has no " + type);
     if (written.walls == 0) written.asked.push_back("plan.toml makes no layer a wall or a sheet");
     return text;
   }

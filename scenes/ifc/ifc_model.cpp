@@ -199,6 +199,7 @@ class ModelReader {
     model_.file = file;
     model_.schema = step.schema();
     model_.faults = step.faults();
+    model_.more_faults = step.fault_count() - step.faults().size();
   }
 
   Result<IfcModel> read() {
@@ -232,8 +233,10 @@ class ModelReader {
 
  private:
   void fault(uint64_t id, const std::string& what) {
-    if (model_.faults.size() < 10'000)
+    if (model_.faults.size() < limits::ifc_faults)
       model_.faults.push_back(problem_in(model_.file, fmt::format("#{} {}", id, what)));
+    else
+      ++model_.more_faults;
   }
 
   /// Whatever has a place (or says that it has none) and a shape at the places of IfcProduct.

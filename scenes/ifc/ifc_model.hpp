@@ -19,6 +19,8 @@ namespace luxodus {
 namespace limits {
 /// Placements relative to each other, spatial parts within each other.
 inline constexpr int ifc_chain = 64;
+/// Faults of instances that are kept; those of the text are bounded by step_faults.
+inline constexpr size_t ifc_faults = 10'000;
 }  // namespace limits
 
 /// What a photometric light source of a product says (IfcLightSourceGoniometric).
@@ -62,6 +64,7 @@ struct IfcModel {
   std::vector<IfcStorey> storeys;    // upwards
   std::vector<IfcProduct> products;  // in the order of the file
   std::vector<Problem> faults;       // what could not be read, with lines or numbers
+  size_t more_faults = 0;            // that are not among them: there are too many
 };
 
 /// Reads a model from its bytes.

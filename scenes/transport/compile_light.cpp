@@ -116,8 +116,9 @@ double extinction_factor(const Scenario& scenario, const std::string& medium) {
 double factor_of_medium(const Scenario& scenario, const Medium& medium) {
   const double named = factor_of(scenario.media, medium.name, -1);
   if (named >= 0) return named;
-  // A flame is no smoke: the general factor leaves it alone.
-  return medium.emission ? 1.0 : scenario.smoke_factor;
+  // A flame is no smoke: the general factor leaves it alone. A data set of a fire holds both.
+  const bool flame = medium.emission && medium.kind != MediumKind::data_set;
+  return flame ? 1.0 : scenario.smoke_factor;
 }
 
 double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& scenario) {

@@ -31,7 +31,7 @@ double factor_of(const std::vector<Scenario::Factor>& factors, const std::string
 double extinction_factor(const Scenario& scenario, const std::string& medium);
 
 /// How much of a medium a scenario leaves: as above, but the factor of all smoke leaves flames
-/// alone.
+/// alone, and no data sets that glow, which are smoke, too.
 double factor_of_medium(const Scenario& scenario, const Medium& medium);
 
 /// Luminance [cd/m2] along the normal of a colour of a sign in this scenario.

@@ -17,7 +17,7 @@ const std::string small_lamp =
     "300 200 0\n";
 
 /// A container of the lamp, rated at 1000 lm, and at 200 lm in an emergency.
-std::string small_container() {
+std::string small_container(const std::string& name = "Small lamp") {
   const std::string xml =
       R"(<Root><Header><FormatVersion major="1" minor="0"/></Header><GeneralDefinitions><Files>)"
       R"(<File id="f" contentType="ldc/ies" type="localFileName">lamp.ies</File></Files>)"
@@ -26,7 +26,9 @@ std::string small_container() {
       R"(photometryId="p"/><RatedLuminousFlux>1000</RatedLuminousFlux>)"
       R"(<EmergencyRatedLuminousFlux>200</EmergencyRatedLuminousFlux></FixedLightEmitter>)"
       R"(</Emitter></Emitters></GeneralDefinitions><ProductDefinitions><ProductMetaData><Name>)"
-      R"(<Locale language="en">Small lamp</Locale></Name></ProductMetaData><Variants>)"
+      R"(<Locale language="en">)" +
+      name +
+      R"(</Locale></Name></ProductMetaData><Variants>)"
       R"(<Variant id="v"><Geometry><EmitterReference emitterId="e"/></Geometry></Variant>)"
       R"(</Variants></ProductDefinitions></Root>)";
   return luxodus::test::zip_of({{"product.xml", xml}, {"ldc/lamp.ies", small_lamp}});
@@ -60,6 +62,11 @@ TEST_CASE("a container is listed, and its tables make a scene", "[program][impor
   const Outcome checked = run_luxodus(folder, "check " + within(folder, "lamps/luminaires.toml"));
   INFO(checked.err);
   CHECK_THAT(checked.out, Contains("1 emitters, 1000 lm"));
+  folder.write("loud.gldf", small_container("Small \x1b[31mlamp\x07"));
+  const Outcome quiet = run_luxodus(folder, "import gldf " + within(folder, "loud.gldf"));
+  REQUIRE(quiet.code == 0);
+  CHECK_THAT(quiet.out, Contains("Small \\x1B[31mlamp\\x07"));
+  CHECK(quiet.out.find('\x1b') == std::string::npos);
   folder.write("bad.gldf", "no container");
   const Outcome refused = run_luxodus(folder, "import gldf " + within(folder, "bad.gldf"));
   CHECK(refused.code == 2);

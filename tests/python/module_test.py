@@ -1,5 +1,5 @@
-"""What the Python module promises: the numbers are those of the program, errors say where, and a run
-ends when it is told to."""
+"""What the Python module promises: the numbers are those of the program, errors say where, and a
+run ends when it is told to."""
 import gc
 import json
 import math
@@ -154,11 +154,25 @@ class Scenes(Module):
     def test_a_name_cannot_break_out_of_its_change(self):
         path = self.scene_file()
         with self.assertRaises(luxodus.Error) as caught:
-            luxodus.load(path, changes=[{"kind": "medium", "of": 'x"}\n[run]\nseed = 9', "factor": 2}])
+            luxodus.load(path, changes=[{"kind": "medium", "of": 'x"}\n[run]\nseed = 9',
+                                         "factor": 2}])
         self.assertIn("there is no medium", str(caught.exception))
         with self.assertRaises(luxodus.Error) as caught:
             luxodus.load(path, changes=[{"kind": "luminaire", "of": "lamp", 'a"b': 1}])
         self.assertEqual(caught.exception.line, 1)
+
+    def test_a_pack_gives_the_light_of_its_scene_and_is_not_changed(self):
+        path = self.scene_file()
+        pack = self.folder / "room.luxpack"
+        subprocess.run([PROGRAM, "pack", str(path), "--out", str(pack)], check=True,
+                       capture_output=True)
+        packed = luxodus.load(pack).run(particles=20e3).planes["desks"]
+        written = luxodus.load(path).run(particles=20e3).planes["desks"]
+        np.testing.assert_array_equal(packed.illuminance_lx, written.illuminance_lx)
+        for asked in ({"changes": [{"kind": "medium", "of": "haze", "factor": 2}]}, {"at_s": 3}):
+            with self.assertRaises(luxodus.Error) as caught:
+                luxodus.load(pack, **asked)
+            self.assertEqual(caught.exception.file, str(pack))
 
     def test_drawings_of_signs_are_read_in_a_process_of_their_own(self):
         scene = luxodus.load(ROOT / "scenes/library/office_floor.toml")

@@ -201,6 +201,21 @@ TEST_CASE("an assessment is read back, and a comparison says what has changed", 
   CHECK_FALSE(read_assessment(folder / "").ok());
 }
 
+TEST_CASE("tables that an assessment does not have are not those of an earlier one", "[assess]") {
+  const test::TemporaryFolder folder;
+  const Json made = assessment_json(*described_text(room), assessed(room, codes_alone()), "1");
+  const auto exists = [&](const char* file) { return std::filesystem::exists(folder / file); };
+  REQUIRE(write_assessment(folder.path(), made).ok());
+  folder.write("by_guid.csv", "of an earlier assessment\n");
+  folder.write("guided.csv", "of an earlier assessment\n");
+  folder.write("mine.csv", "a person's\n");
+  REQUIRE(write_assessment(folder.path(), made).ok());
+  CHECK(exists("checks.csv"));
+  CHECK_FALSE(exists("by_guid.csv"));
+  CHECK_FALSE(exists("guided.csv"));
+  CHECK(exists("mine.csv"));
+}
+
 TEST_CASE("the report counts, and never says that a building complies", "[assess]") {
   const auto scene = described_text(room);
   AssessOptions options;

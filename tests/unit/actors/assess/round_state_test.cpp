@@ -5,6 +5,7 @@
 #include "actors/run/run_in_pieces.hpp"
 #include "actors/supervise/process_executor.hpp"
 #include "scenes/transport/compile.hpp"
+#include "scenes/transport/compile_light.hpp"
 #include "tests/kit/replaced.hpp"
 #include "tests/unit/actors/assess/assessed_room.hpp"
 
@@ -176,5 +177,38 @@ TEST_CASE("a run in pieces goes on from what an interrupt has left of it", "[run
     for (size_t i = 0; i < a.size(); ++i)
       differences += a[i].sum != b[i].sum || a[i].squares != b[i].squares;
     CHECK(differences == 0);
+  }
+}
+
+TEST_CASE("smoke that may be denser is never thinner, whatever glows in it", "[assess]") {
+  const auto base = described_text(with_smoke(0.3, 0.6));
+  SceneDescription scene = *base;
+  Medium fire;
+  fire.name = "fire";
+  fire.kind = MediumKind::data_set;
+  fire.emission = MediumEmission{};
+  fire.simulation.emplace();
+  fire.simulation->depth_error = 0.1;
+  Medium second = fire;  // another grid of the same simulation
+  second.simulation->depth_error = 0.05;
+  scene.media.push_back(fire);
+  scene.media.push_back(second);
+  Scenario scenario = find_scenario(*base, "failed").value();
+  for (const double of_all : {0.0, 0.5, 1.0, 3.0}) {
+    for (const double factor : {1.0, 2.0}) {
+      scenario.smoke_factor = of_all;
+      const auto said = judged_scene(scene, scenario, {factor, {}, false});
+      const auto denser = judged_scene(scene, scenario, {factor, {}, true});
+      REQUIRE(said.ok());
+      REQUIRE(denser.ok());
+      CAPTURE(of_all, factor);
+      for (const Medium& medium : scene.media) {
+        const double before = factor_of_medium(said->scenario, medium);
+        const double after = factor_of_medium(denser->scenario, medium);
+        const bool simulated = medium.simulation.has_value();
+        CHECK(before == Approx(of_all * factor));
+        CHECK(after == Approx(simulated ? 1.1 * before : before));  // the largest error, once
+      }
+    }
   }
 }

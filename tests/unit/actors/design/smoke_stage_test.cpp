@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
 
 #include "actors/design/design_files.hpp"
 #include "actors/design/smoke_section.hpp"
@@ -161,6 +162,16 @@ TEST_CASE("a corridor in smoke: alternatives pass the rules, brighter signs are 
   CHECK(json.find("\"recommended\"") != std::string::npos);
   REQUIRE(write_design(folder.path() / "out", *scene, result.value(), Language::en, version));
   CHECK(fs::exists(folder.path() / "out/alternatives/layout_B.toml"));
+  // A later design that judges nothing in smoke leaves no layouts of this one.
+  DesignResult without = result.value();
+  without.smoke.reset();
+  const fs::path others = folder.path() / "again/alternatives";
+  REQUIRE(write_design(folder.path() / "again", *scene, result.value(), Language::en, version));
+  REQUIRE(fs::exists(others / "layout_B.toml"));
+  std::ofstream(others / "mine.toml") << "a person's";
+  REQUIRE(write_design(folder.path() / "again", *scene, without, Language::en, version));
+  CHECK_FALSE(fs::exists(others / "layout_B.toml"));
+  CHECK(fs::exists(others / "mine.toml"));
   for (const JudgedLayout& one : stage.layouts) {
     if (file_of(one).empty()) continue;
     AssessOptions asked;

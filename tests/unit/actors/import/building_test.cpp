@@ -3,6 +3,7 @@
 // Node.js and the npm package, and say so where they are not there.
 #include "actors/import/building.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>
@@ -184,6 +185,63 @@ TEST_CASE("a type whose file cannot be used waits for a person, with the reason"
   CHECK(written->luminaires == 0);
   REQUIRE(written->asked.size() == 2);
   CHECK(written->asked[0].find("lamp.ies:") != std::string::npos);
+}
+
+TEST_CASE("a sign and a luminaire may have types of one name", "[import]") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "lights");
+  std::ofstream(folder / "lights/lamp.ies") << lamp;
+  SmallIfc small;
+  const auto model = ifc_model_of(small.text(), "small.ifc");
+  REQUIRE(model.ok());
+  Building building = building_of(model.value(), IfcShapes{});
+  REQUIRE(building.fixtures.size() == 2);
+  REQUIRE(building.fixtures[1].is_sign);
+  building.fixtures[1].type = building.fixtures[0].type;
+  const std::string out = (folder / "house").string();
+  const auto written = write_building(building, out, (folder / "lights").string());
+  REQUIRE(written.ok());
+  CHECK(written->luminaires == 1);
+  CHECK(written->signs == 0);  // its type is asked for
+  CHECK(written->asked.size() == 1);
+  const std::string fixtures = text_of(folder / "house/fixtures.toml");
+  CHECK(fixtures.find("\n[[luminaire_type]]\nname = \"Lamp\"\n") != std::string::npos);
+  CHECK(fixtures.find("\n# [[sign_type]]\n# name = \"Lamp\"\n") != std::string::npos);
+  // A second import finds both, and adds neither.
+  const auto again = write_building(building, out, (folder / "lights").string());
+  REQUIRE(again.ok());
+  CHECK(text_of(folder / "house/fixtures.toml") == fixtures);
+}
+
+TEST_CASE("what a model says reaches no terminal as an order", "[import]") {
+  const TemporaryFolder folder;
+  SmallIfc small;
+  const auto model = ifc_model_of(small.text(), "small.ifc");
+  REQUIRE(model.ok());
+  Building building = building_of(model.value(), IfcShapes{});
+  building.unread.push_back("#7 has the GlobalId \x1b[2Jabc");
+  building.differences.push_back({"\x1b]0;", "wall\x07", 7, 1, 2});
+  building.schema = "IFC4\x1b[31m";
+  REQUIRE(write_building(building, (folder / "house").string(), "").ok());
+  const std::string report = text_of(folder / "house/import.txt");
+  CHECK(report.find('\x1b') == std::string::npos);
+  CHECK(report.find('\x07') == std::string::npos);
+  CHECK(report.find("#7 has the GlobalId \\x1B[2Jabc") != std::string::npos);
+}
+
+TEST_CASE("faults that are not listed are counted", "[import]") {
+  SmallIfc small;
+  std::string text = small.text();
+  std::string broken;
+  for (int i = 0; i < 130; ++i) broken += "#x" + std::to_string(i) + "=IFCX(1);\n";
+  text.insert(text.find("DATA;\n") + 6, broken);
+  const auto model = ifc_model_of(text, "small.ifc");
+  REQUIRE(model.ok());
+  CHECK(model->more_faults == 130 - model->faults.size());
+  CHECK(model->faults.size() == limits::step_faults);
+  const Building building = building_of(model.value(), IfcShapes{});
+  CHECK(std::count(building.unread.begin(), building.unread.end(),
+                   "30 more faults of the model, which are not listed") == 1);
 }
 
 TEST_CASE("photometric files are found by the letters of their names", "[import]") {
