@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actors/assess/assessment_inputs.hpp"
 #include "actors/inspect/inspect.hpp"
 #include "actors/view/sign_verdicts.hpp"
 #include "runtime/core/atomic_file.hpp"
@@ -80,6 +81,11 @@ ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions
     dimming_.seconds = seconds_said(scenario.value());
   if (scene_->time && options_.live.scene_at) edits_.at_s = scene_->at_s;
   trace_.reset(new LiveTrace(scene_, options_.live, edits_, *this));
+}
+
+const std::string& ViewHub::backdrops() {
+  if (!backdrops_) backdrops_ = backdrops_json(*scene_).dump();
+  return *backdrops_;
 }
 
 ViewHub::~ViewHub() {

@@ -9,7 +9,7 @@ import { Selection } from './edit/selection.js';
 import { byId, el } from './panel/dom.js';
 import { Panels } from './panel/panels.js';
 import { toast } from './panel/toasts.js';
-import { Connection, liveAddress } from './protocol/connection.js';
+import { Connection, backdropsOf, liveAddress } from './protocol/connection.js';
 import { Live } from './state.js';
 import { CameraWalk } from './walk/camera_walk.js';
 import { Hands } from './walk/hands.js';
@@ -37,6 +37,9 @@ class Page {
       state: (state, words) => this.linked(state, words),
       fault: (words) => toast(words),
     });
+    backdropsOf(location.href)
+      .then((drawings) => this.building.backdrops(drawings))
+      .catch((fault) => toast(`The drawings under the plan are not shown: ${fault.message}`));
     new ResizeObserver(() => this.walk.resize(canvas)).observe(canvas);
     this.last = performance.now();
     requestAnimationFrame((now) => this.tick(now));
