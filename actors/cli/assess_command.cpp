@@ -119,6 +119,8 @@ Result<void> add_over_time(const SceneAtTime& reader, const std::vector<double>&
       });
   if (!over_time) return over_time.problem();
   out.over_time = std::move(over_time).value();
+  for (const std::string& warning : out.over_time->warnings)
+    out.warnings.push_back(problem(warning));
   return {};
 }
 
