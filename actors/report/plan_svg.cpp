@@ -81,19 +81,21 @@ std::string backdrops(const Json& a, size_t level, const Sheet& sheet) {
   const auto all = a["plan"].find("backdrops");
   if (all == a["plan"].end() || all->is_null()) return "";
   const double floor = number_of(a["plan"]["levels"][level]["floor"]);
-  std::string drawn;
+  std::string pictures, lines;  // which pictures do not hide
   for (const Json& one : *all) {
     if (floor < number_of(one["floors"][0]) || floor > number_of(one["floors"][1])) continue;
-    const auto lines = one.find("lines");
-    drawn += lines != one.end() && !lines->is_null() ? lines_path(*lines, sheet, backdrop_style)
-                                                     : backdrop_picture(one, sheet);
+    const auto drawing = one.find("lines");
+    if (drawing != one.end() && !drawing->is_null())
+      lines += lines_path(*drawing, sheet, backdrop_style);
+    else
+      pictures += backdrop_picture(one, sheet);
   }
-  if (drawn.empty()) return "";
+  if (pictures.empty() && lines.empty()) return "";
   return fmt::format(
              "<svg class=\"backdrop\" width=\"{0:.2f}\" height=\"{1:.2f}\" viewBox=\"0 0 {0:.2f} "
              "{1:.2f}\" overflow=\"hidden\" opacity=\"0.35\">\n",
              sheet.width(), sheet.height()) +
-         drawn + "</svg>\n";
+         pictures + lines + "</svg>\n";
 }
 
 std::string building(const Json& level, const Sheet& sheet) {

@@ -148,6 +148,9 @@ TEST_CASE("a drawing of others lies faintly under plans of its floors, and nothi
   CHECK(drawn.width_mm == bare.width_mm);
   CHECK(drawn.svg.find("class=\"backdrop\"") < drawn.svg.find("class=\"walls\""));
   CHECK(has(pictured.svg, "data:image/png;base64,"));
+  // Lines are not hidden by pictures, in whatever order they are written.
+  const std::string both = plan_of({lines, picture}).svg;
+  CHECK(both.find("<image") < both.find("stroke=\"#555\""));
   CHECK_FALSE(has(pictured.svg, "script"));
   for (const Plan* plan : {&drawn, &pictured}) {
     RsvgHandle* handle = rsvg_handle_new_from_data(
