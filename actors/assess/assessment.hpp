@@ -113,6 +113,10 @@ struct RouteOverTime {
   double eye_height_m = 0;
   GuidedRoute guided;
   GuidedRoute by_jin;  // what Jin's law would say of the same signs
+  /// What FDS's VISIBILITY would: a sign is seen that is no farther than it at the place. Without
+  /// states where the case has no slices of it.
+  GuidedRoute by_fds;
+  std::vector<std::vector<std::optional<double>>> visibility_m;  // of FDS, by state and place
   /// By state and place: the sign that guides, or would if it were read; "" where there is none.
   std::vector<std::vector<std::string>> signs;
   std::vector<Walk> walks;  // who sets out at each state, where a speed is said
@@ -124,6 +128,7 @@ struct OverTime {
   std::optional<double> walking_speed_m_s;
   double low_albedo = 0, high_albedo = 0;  // for which verdicts hold; both 0: there was no smoke
   double depth_error = 0;                  // of sources of smoke, largest
+  std::vector<std::string> warnings;       // what could not be shown beside them
   int64_t paths = 0;                       // from eyes
 };
 

@@ -141,6 +141,11 @@ constexpr RequiredKey keys[] = {
     {"over_time?.routes[].time_by_jin.until?.value", Kind::number},
     {"over_time?.routes[].time_by_jin.lost_by?.value", Kind::number},
     {"over_time?.routes[].time_by_jin.lost_at?.value", Kind::number},
+    {"over_time?.routes[].fds?[]", Kind::text},
+    {"over_time?.routes[].fds_visibility?[]", Kind::list},
+    {"over_time?.routes[].time_by_fds?.until?.value", Kind::number},
+    {"over_time?.routes[].time_by_fds?.lost_by?.value", Kind::number},
+    {"over_time?.routes[].time_by_fds?.lost_at?.value", Kind::number},
     {"over_time?.routes[].walks[].start.value", Kind::number},
     {"over_time?.routes[].walks[].end", Kind::text},
     {"over_time?.routes[].walks[].at.value", Kind::number},
@@ -217,6 +222,12 @@ constexpr RequiredKey keys[] = {
     {"plan.levels[].map.columns", Kind::number},
     {"plan.levels[].map.rows", Kind::number},
     {"plan.levels[].map.lux", Kind::list},
+    {"plan.backdrops?[].floors", Kind::place2},
+    {"plan.backdrops?[].lines?[]", Kind::place4},
+    {"plan.backdrops?[].png?", Kind::text},
+    {"plan.backdrops?[].corner?", Kind::place2},
+    {"plan.backdrops?[].across?", Kind::place2},
+    {"plan.backdrops?[].up?", Kind::place2},
 };
 
 const char* type_word(Kind kind) {
@@ -299,7 +310,7 @@ Fault missing(const Json& value, std::string_view path, Kind kind, const std::st
 Fault too_large(const Json& value, const std::string& where, int depth) {
   if (depth > limits::assessment_depth) return where + " is nested too deep";
   if (value.is_string() && value.text().size() > limits::assessment_text &&
-      where != "project.logo_png")
+      where != "project.logo_png" && where != "plan.backdrops.png")
     return where + fmt::format(" has more than {} characters", limits::assessment_text);
   if (value.is_number() && !(std::abs(value.get<double>()) <= limits::assessment_number))
     return where + " is larger than any number of an assessment";
@@ -341,6 +352,28 @@ Fault bad_plan(const Json& a) {
   return std::nullopt;
 }
 
+/// What FDS says of a route is there as a whole, or not at all.
+template <class IsWhole>
+Fault bad_fds(const Json& route, const IsWhole& is_whole) {
+  const auto said = [&](const char* key) {
+    const auto at = route.find(key);
+    return at != route.end() && !at->is_null();
+  };
+  if (said("fds") != said("time_by_fds") || said("fds") != said("fds_visibility"))
+    return "over_time.routes: what FDS says is not whole";
+  if (!said("fds")) return std::nullopt;
+  for (const char* key : {"until", "lost_by", "lost_at"})
+    if (route["time_by_fds"].find(key) == route["time_by_fds"].end())
+      return std::string("over_time.routes: a time_by_fds has no \"") + key + "\"";
+  if (!is_whole("fds") || !is_whole("fds_visibility"))
+    return "over_time.routes: a table has not as many values as states and places";
+  for (const Json& row : route["fds_visibility"])
+    for (const Json& metres : row)
+      if (!metres.is_number() && !metres.is_null())
+        return "over_time.routes: a visibility is no number";
+  return std::nullopt;
+}
+
 /// Tables of states and places that are not as large as these: maps read them by both.
 Fault bad_over_time(const Json& a) {
   const auto over = a.find("over_time");
@@ -362,6 +395,7 @@ Fault bad_over_time(const Json& a) {
     };
     if (places == 0 || !is_whole("guided") || !is_whole("jin") || !is_whole("signs"))
       return "over_time.routes: a table has not as many values as states and places";
+    if (Fault fault = bad_fds(route, is_whole)) return fault;
     for (const Json& row : route["signs"])
       for (const Json& name : row)
         if (!name.is_string()) return "over_time.routes: a sign is no name";
@@ -406,18 +440,38 @@ Fault bad_checks(const Json& a) {
   return std::nullopt;
 }
 
+/// Base64, which a page may hold.
+bool is_picture_text(const std::string& text) {
+  return text.size() <= limits::assessment_picture &&
+         std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                  c == '+' || c == '/' || c == '=';
+         });
+}
+
+/// A backdrop is lines, or a picture with its place.
+Fault bad_backdrops(const Json& a) {
+  const auto all = a["plan"].find("backdrops");
+  if (all == a["plan"].end() || all->is_null()) return std::nullopt;
+  for (const Json& one : *all) {
+    const auto has = [&](const char* key) {
+      return one.find(key) != one.end() && !one[key].is_null();
+    };
+    if (has("png") == has("lines")) return "plan.backdrops: one is neither lines nor a picture";
+    if (!has("png")) continue;
+    if (!has("corner") || !has("across") || !has("up"))
+      return "plan.backdrops: a picture has no place";
+    if (!is_picture_text(one["png"].text())) return "plan.backdrops: a picture is none";
+  }
+  return std::nullopt;
+}
+
 Fault bad_counts(const Json& a) {
   for (const auto& [word, count] : a["sight_counts"].items())
     if (!count.is_number()) return "sight_counts." + word + " is not a number";
   const auto logo = a["project"].find("logo_png");
   if (logo == a["project"].end()) return std::nullopt;
-  const auto& text = logo->text();
-  const bool base64 = std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '+' ||
-           c == '/' || c == '=';
-  });
-  if (!base64 || text.size() > limits::assessment_logo) return "project.logo_png is no picture";
-  return std::nullopt;
+  return is_picture_text(logo->text()) ? Fault() : Fault("project.logo_png is no picture");
 }
 
 }  // namespace
@@ -427,6 +481,7 @@ std::optional<std::string> fault_of_assessment(const Json& a) {
   for (const RequiredKey& key : keys)
     if (Fault fault = missing(a, key.path, key.kind, "")) return fault;
   if (Fault fault = bad_plan(a)) return fault;
+  if (Fault fault = bad_backdrops(a)) return fault;
   if (Fault fault = bad_over_time(a)) return fault;
   if (Fault fault = bad_checks(a)) return fault;
   return bad_counts(a);

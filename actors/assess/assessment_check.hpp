@@ -11,9 +11,9 @@
 namespace luxodus {
 
 namespace limits {
-/// Characters of a text in an assessment; of its logo (4 MiB of pixels, encoded again, as text).
+/// Characters of a text in an assessment; of a picture (4 MiB of pixels, encoded again, as text).
 inline constexpr size_t assessment_text = 20'000;
-inline constexpr size_t assessment_logo = size_t{24} << 20;
+inline constexpr size_t assessment_picture = size_t{24} << 20;
 /// Of any number in it: seeds are the largest, whole numbers below 2^64.
 inline constexpr double assessment_number = 1.9e19;
 /// Coordinates, as scenes take them [m].

@@ -6,9 +6,11 @@
 #include <cmath>
 
 #include "actors/assess/judged_state.hpp"
+#include "actors/assess/plan_cut.hpp"
 #include "runtime/core/base64.hpp"
 #include "scenes/emergency/rules.hpp"
 #include "scenes/images/logo.hpp"
+#include "scenes/images/page_picture.hpp"
 
 namespace luxodus {
 
@@ -251,6 +253,28 @@ Json plan_json(const Assessment& assessment) {
           {"route_grid", exact_json(route_grid_m, "m")},
           {"area_grid", exact_json(area_grid_m, "m")},
           {"height", exact_json(floor_plane_m, "m")}};
+}
+
+Json backdrops_json(const SceneDescription& scene) {
+  Json out = Json::array();
+  const auto pair = [](const glm::dvec2& p) { return Json{p.x, p.y}; };
+  for (const Backdrop& backdrop : scene.backdrops) {
+    Json one = {{"floors", {backdrop.low_m, backdrop.high_m}}};
+    if (backdrop.picture) {
+      const auto picture = read_backdrop_picture(backdrop.file);
+      if (!picture) continue;
+      one["corner"] = pair(backdrop.corner);
+      one["across"] = pair(backdrop.across);
+      one["up"] = pair(backdrop.up);
+      one["png"] = base64(picture->png);
+    } else {
+      Json& lines = one["lines"] = Json::array();
+      for (const auto& [a, b] : longest_lines(backdrop.lines))
+        lines.push_back({a.x, a.y, b.x, b.y});
+    }
+    out.push_back(std::move(one));
+  }
+  return out;
 }
 
 }  // namespace luxodus

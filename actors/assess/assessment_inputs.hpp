@@ -22,5 +22,8 @@ Json media_json(const SceneDescription& scene);
 Json scenario_json(const SceneDescription& scene, const std::string& name);
 /// Of each level its floor, its walls and its map of light; the codes' points of calculation.
 Json plan_json(const Assessment& assessment);
+/// Drawings under plans: their longest lines, or the base64 of their pixels as a PNG, if the file
+/// can still be read.
+Json backdrops_json(const SceneDescription& scene);
 
 }  // namespace luxodus

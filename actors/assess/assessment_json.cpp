@@ -217,6 +217,7 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
   Json& cameras = out["cameras"] = Json::array();
   for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
   out["plan"] = plan_json(assessment);
+  if (!scene.backdrops.empty()) out["plan"]["backdrops"] = backdrops_json(scene);
   return out;
 }
 

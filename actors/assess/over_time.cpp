@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "actors/assess/reality_mode.hpp"
+#include "scenes/fields/fds_visibility.hpp"
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/compile_light.hpp"
 
@@ -65,6 +66,40 @@ class GuidingViews {
   const SceneDescription& scene_;
   std::vector<std::vector<Walker>> people_;
   std::map<std::pair<std::string, double>, std::pair<const EscapeRoute*, Walker>> places_;
+};
+
+/// FDS's own slices of VISIBILITY at a state, in the scene.
+class SlicesOfFires {
+ public:
+  /// What cannot be read is told in `warnings`, and verdicts stand without it.
+  SlicesOfFires(const SceneDescription& scene, std::vector<std::string>& warnings) {
+    for (const Medium& medium : scene.media) {
+      if (!medium.simulation || medium.simulation->index.empty()) continue;
+      auto slices = read_visibility(medium.simulation->index, medium.simulation->time_s);
+      if (!slices)
+        tell("FDS's VISIBILITY is not shown: " + slices.problem().text(), warnings);
+      else if (slices.value())
+        all_.emplace_back(medium.simulation->frame, std::move(*slices.value()));
+    }
+  }
+
+  std::optional<double> at(const glm::dvec3& place) const {
+    std::optional<double> least;
+    for (const auto& [frame, visibility] : all_) {
+      const glm::dvec3 local = glm::transpose(frame.axes) * (place - frame.origin);
+      const auto here = visibility.at(local);
+      if (here && (!least || *here < *least)) least = here;
+    }
+    return least;
+  }
+
+ private:
+  static void tell(std::string words, std::vector<std::string>& warnings) {
+    if (std::find(warnings.begin(), warnings.end(), words) == warnings.end())
+      warnings.push_back(std::move(words));
+  }
+
+  std::vector<std::pair<Frame, FireVisibility>> all_;
 };
 
 /// One state of the scene, traced for its views.
@@ -168,9 +203,11 @@ TimedState StateOfTime::facts() const {
 struct BestSign {
   Guidance guidance = Guidance::not_guided;
   bool jin = false;
+  Guidance fds = Guidance::not_guided;
   std::string name;
 
-  void take(const SightRow& row, bool doubted) {
+  /// `visibility_m`: of FDS at the place, where it is known.
+  void take(const SightRow& row, bool doubted, const std::optional<double>& visibility_m) {
     const SightVerdict verdict = row.sight.verdict;
     const Guidance here = verdict == SightVerdict::legible && !doubted ? Guidance::guided
                           : verdict == SightVerdict::undecided || verdict == SightVerdict::legible
@@ -180,13 +217,19 @@ struct BestSign {
     if (!hidden && (name.empty() || here < guidance)) name = row.sign;
     guidance = std::min(guidance, here);
     jin = jin || (!hidden && row.sight.jin_legible);
+    if (!hidden)
+      fds = std::min(fds, !visibility_m                          ? Guidance::undecided
+                          : row.view.distance_m <= *visibility_m ? Guidance::guided
+                                                                 : Guidance::not_guided);
   }
 };
 
 void StateOfTime::add_to(OverTime& out) const {
   std::map<std::tuple<std::string, double, double>, BestSign> best;  // route, eyes, place
+  const SlicesOfFires slices(*scene_, out.warnings);
   for (const SightRow& row : nominal_.sights)
-    best[{row.from, row.height_m, row.along_m}].take(row, doubted_.contains(key_of(row)));
+    best[{row.from, row.height_m, row.along_m}].take(row, doubted_.contains(key_of(row)),
+                                                     slices.at(row.eye));
   const double now_s = scene_->at_s.value_or(0);
   size_t at = 0;
   for (size_t r = 0; r < scene_->routes.size(); ++r)
@@ -197,22 +240,37 @@ void StateOfTime::add_to(OverTime& out) const {
         made.eye_height_m = height;
         made.guided.length_m = length_of(scene_->routes[r]);
         for (const Walker& walker : views_.people(r)) made.guided.along_m.push_back(walker.along_m);
-        made.by_jin = made.guided;
+        made.by_jin = made.by_fds = made.guided;
       }
       RouteOverTime& route = out.routes[at++];
-      std::vector<Guidance> guided, jin;
+      std::vector<Guidance> guided, jin, fds;
       std::vector<std::string> signs;
-      for (const double along : route.guided.along_m) {
-        const BestSign one = best[{from_route(scene_->routes[r]), height, along}];
+      std::vector<std::optional<double>> visibility;
+      for (const Walker& walker : views_.people(r)) {
+        const BestSign one = best[{from_route(scene_->routes[r]), height, walker.along_m}];
+        fds.push_back(one.fds);
+        visibility.push_back(slices.at(walker.foot + glm::dvec3(0, 0, height)));
         guided.push_back(one.guidance);
         jin.push_back(one.jin ? Guidance::guided : Guidance::not_guided);
         signs.push_back(one.name);
       }
-      for (GuidedRoute* table : {&route.guided, &route.by_jin}) table->times_s.push_back(now_s);
+      for (GuidedRoute* table : {&route.guided, &route.by_jin, &route.by_fds})
+        table->times_s.push_back(now_s);
+      route.by_fds.at.push_back(std::move(fds));
+      route.visibility_m.push_back(std::move(visibility));
       route.guided.at.push_back(std::move(guided));
       route.by_jin.at.push_back(std::move(jin));
       route.signs.push_back(std::move(signs));
     }
+}
+
+/// A case without slices of VISIBILITY, or none that reaches the route, says nothing of it.
+void leave_out_unknown(RouteOverTime& route) {
+  for (const auto& state : route.visibility_m)
+    for (const auto& visibility : state)
+      if (visibility) return;
+  route.by_fds = {};
+  route.visibility_m.clear();
 }
 
 }  // namespace
@@ -250,6 +308,7 @@ Result<OverTime> assess_over_time(const std::vector<double>& times_s, const Scen
     out.paths += state.paths();
     if (scene.value()->time) out.walking_speed_m_s = scene.value()->time->walking_speed_m_s;
   }
+  for (RouteOverTime& route : out.routes) leave_out_unknown(route);
   if (out.walking_speed_m_s)
     for (RouteOverTime& route : out.routes)
       for (const double start : times_s)
@@ -271,6 +330,8 @@ Result<Assessment> assess_states(const StatesToAssess& states, const AssessOptio
   auto followed = assess_over_time(states.times_s, states.reader, asked, interrupt, over_time);
   if (!followed) return followed.problem();
   out->over_time = std::move(followed).value();
+  for (const std::string& warning : out->over_time->warnings)
+    out->warnings.push_back(problem(warning));
   return out;
 }
 

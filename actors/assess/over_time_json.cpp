@@ -38,6 +38,21 @@ Json optional_seconds(const std::optional<double>& seconds) {
   return seconds ? exact_json(*seconds, "s") : Json();
 }
 
+Json visibility_json(const RouteOverTime& route) {
+  Json out = Json::array();
+  for (const auto& state : route.visibility_m) {
+    Json row = Json::array();
+    for (const auto& metres : state) row.push_back(metres ? Json(*metres) : Json());
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+bool has_fds(const Json& route) {
+  const auto at = route.find("fds");
+  return at != route.end() && !at->is_null();
+}
+
 Json time_json(const GuidedRoute& route) {
   const GuidedTime time = guided_time(route);
   Json out = {{"until", optional_seconds(time.until_s)},
@@ -83,6 +98,11 @@ Json route_json(const RouteOverTime& route) {
   }
   out["time"] = time_json(route.guided);
   out["time_by_jin"] = time_json(route.by_jin);
+  if (!route.by_fds.at.empty()) {
+    out["fds"] = letters_json(route.by_fds);
+    out["time_by_fds"] = time_json(route.by_fds);
+    out["fds_visibility"] = visibility_json(route);
+  }
   out["walks"] = walks_json(route.walks);
   return out;
 }
@@ -110,6 +130,16 @@ std::string walk_words(const Json& walk, double speed) {
          fmt::format(" at {:.3g} m, at {:.3g} s", number(walk["at"]), number(walk["at_time"]));
 }
 
+/// FDS's visibility at a place of a state, and what it says there.
+void fds_cells(const Json& route, size_t state, size_t place, CsvTable& table) {
+  const Json& metres = route["fds_visibility"][state][place];
+  if (metres.is_number())
+    table.cell(metres.get<double>());
+  else
+    table.empty_cell();
+  table.cell(word_of(route["fds"][state].text()[place]));
+}
+
 }  // namespace
 
 Json over_time_json(const OverTime& over_time) {
@@ -130,18 +160,24 @@ Json over_time_json(const OverTime& over_time) {
 }
 
 CsvTable guidance_csv(const Json& over_time) {
-  CsvTable table({"route", "eye_height_m", "at_s", "along_m", "guidance", "sign", "jin"});
+  CsvTable table({"route", "eye_height_m", "at_s", "along_m", "guidance", "sign", "jin",
+                  "fds_visibility_m", "fds"});
   for (const Json& route : over_time["routes"])
     for (size_t t = 0; t < over_time["states"].size(); ++t)
-      for (size_t i = 0; i < route["places"].size(); ++i)
+      for (size_t i = 0; i < route["places"].size(); ++i) {
         table.cell(text_in(route, "route"))
             .cell(route["eye_height"]["value"].get<double>())
             .cell(over_time["states"][t]["at"]["value"].get<double>())
             .cell(route["places"][i].get<double>())
             .cell(word_of(route["guided"][t].text()[i]))
             .cell(route["signs"][t][i].text())
-            .cell(word_of(route["jin"][t].text()[i]))
-            .end_row();
+            .cell(word_of(route["jin"][t].text()[i]));
+        if (has_fds(route))
+          fds_cells(route, t, i, table);
+        else
+          table.empty_cell().empty_cell();
+        table.end_row();
+      }
   return table;
 }
 
@@ -153,6 +189,8 @@ std::string guidance_text(const Json& over_time) {
     out += fmt::format("  route \"{}\", eyes at {:g} m: guided {}; by Jin's law {}\n",
                        text_in(route, "route"), route["eye_height"]["value"].get<double>(),
                        time_words(route["time"]), time_words(route["time_by_jin"]));
+    if (has_fds(route))
+      out += fmt::format("    by FDS's VISIBILITY {}\n", time_words(route["time_by_fds"]));
     for (const Json& walk : route["walks"])
       out += "    " + walk_words(walk, speed["value"].get<double>()) + "\n";
   }

@@ -31,14 +31,6 @@ void cut(const glm::dvec3 (&corners)[3], double z, std::vector<Line>& out) {
   if (count == 2) out.emplace_back(ends[0], ends[1]);
 }
 
-void keep_longest(std::vector<Line>& lines) {
-  if (lines.size() <= limits::plan_lines) return;
-  std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) {
-    return glm::length(a.second - a.first) > glm::length(b.second - b.first);
-  });
-  lines.resize(limits::plan_lines);
-}
-
 bool stands_open(const Object& object, const Scenario& doors) {
   if (!object.door) return false;
   const auto named = [&](const std::vector<std::string>& names) {
@@ -60,8 +52,8 @@ void cut_level(const SceneDescription& scene, const Scenario& doors, PlanLevel& 
       cut(corners, level.floor_m + breast_m, is_furnishing ? level.furniture : level.walls);
     }
   }
-  keep_longest(level.walls);
-  keep_longest(level.furniture);
+  level.walls = longest_lines(std::move(level.walls));
+  level.furniture = longest_lines(std::move(level.furniture));
 }
 
 struct Box2 {
@@ -86,6 +78,15 @@ Box2 places_on(const SceneDescription& scene, const std::vector<PlanLevel>& leve
 }
 
 }  // namespace
+
+std::vector<Line> longest_lines(std::vector<Line> lines) {
+  if (lines.size() <= limits::plan_lines) return lines;
+  std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) {
+    return glm::length(a.second - a.first) > glm::length(b.second - b.first);
+  });
+  lines.resize(limits::plan_lines);
+  return lines;
+}
 
 std::vector<PlanLevel> plan_levels(const SceneDescription& scene, const Scenario& doors) {
   std::vector<double> floors;

@@ -26,6 +26,10 @@ std::vector<PlanLevel> plan_levels(const SceneDescription& scene, const Scenario
 /// more than half a metre, else the lowest. Requires: a level.
 size_t level_of(const std::vector<PlanLevel>& levels, double z);
 
+/// At most limits::plan_lines of them.
+std::vector<std::pair<glm::dvec2, glm::dvec2>> longest_lines(
+    std::vector<std::pair<glm::dvec2, glm::dvec2>> lines);
+
 /// The grid of a level's map of light, without its values: around its routes and areas, within its
 /// walls, 0.25 m apart or, where that is more than a limit, twice as far until it is not.
 LightMap map_of(const SceneDescription& scene, const std::vector<PlanLevel>& levels, size_t level);

@@ -1,6 +1,7 @@
 // luxodus import: what other programs know of a building, as a scene that a person goes on with.
 #include <fmt/format.h>
 
+#include <cctype>
 #include <filesystem>
 
 #include "actors/cli/command.hpp"
@@ -41,10 +42,10 @@ FireOrigin source_of(const ImportOptions& options, const char* how) {
 }
 
 Result<FireImport> of_results(const ImportOptions& options) {
-  if (!options.without.empty())
+  if (!options.without.empty() || options.snap)
     return problem_in(options.file,
-                      "--without is for input files (.fds): results say by themselves "
-                      "what is there at a time");
+                      "--without and --snap are for input files (.fds): results say by themselves "
+                      "what is there at a time, and are snapped");
   FireImport out;
   out.source = source_of(options, "as FDS computed it, snapped to its grid");
   out.source.index = options.file;
@@ -54,11 +55,21 @@ Result<FireImport> of_results(const ImportOptions& options) {
   return out;
 }
 
-/// The results of a case lie beside its input file, or nowhere.
+/// The results of a case lie beside its input file, or nowhere. Those of an input of several files
+/// (&CATF) have a name of their own.
 std::optional<std::string> index_beside(const std::string& file, const std::string& case_name) {
-  const fs::path index = fs::path(file).parent_path() / (case_name + ".smv");
-  std::error_code failed;
-  return fs::is_regular_file(index, failed) ? std::optional(index.string()) : std::nullopt;
+  for (const char* ending : {".smv", "_cat.smv"}) {
+    const fs::path index = fs::path(file).parent_path() / (case_name + ending);
+    std::error_code failed;
+    if (fs::is_regular_file(index, failed)) return index.string();
+  }
+  return std::nullopt;
+}
+
+bool is_input_file(const std::string& file) {
+  std::string ending = fs::path(file).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".fds";
 }
 
 Result<FireImport> of_input(const ImportOptions& options) {
@@ -79,7 +90,7 @@ Result<FireImport> of_input(const ImportOptions& options) {
 }
 
 Result<ExitCode> import_fds(const ImportOptions& options) {
-  const bool is_input = fs::path(options.file).extension() == ".fds";
+  const bool is_input = is_input_file(options.file);
   const auto made = is_input ? of_input(options) : of_results(options);
   if (!made) return made.problem();
   const FireBuilding& building = made->building;

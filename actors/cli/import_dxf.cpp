@@ -3,9 +3,9 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
-#include "actors/import/dxf_plan.hpp"
 #include "actors/import/write_plan.hpp"
 #include "runtime/core/printable.hpp"
+#include "scenes/dxf/dxf_plan.hpp"
 #include "scenes/geometry/transform.hpp"
 
 namespace luxodus::cli {

@@ -266,8 +266,23 @@ const toml::Schema& plan_schema() {
   return schema;
 }
 
-Result<WrittenPlan> write_plan(const DxfPlan& plan, double metres_per_unit,
+namespace {
+
+/// Layers and blocks with names that a scene takes.
+DxfPlan named(DxfPlan plan) {
+  for (DxfSegment& s : plan.segments) s.layer = as_name(s.layer, "0");
+  for (DxfInsert& i : plan.inserts) {
+    i.block = as_name(i.block, "block");
+    i.layer = as_name(i.layer, "0");
+  }
+  return plan;
+}
+
+}  // namespace
+
+Result<WrittenPlan> write_plan(const DxfPlan& drawn, double metres_per_unit,
                                const std::string& drawing, const std::string& out) {
+  const DxfPlan plan = named(drawn);
   const auto folder = import_folder(out);
   if (!folder) return folder.problem();
   const fs::path file = folder.value() / "plan.toml";

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "actors/import/dxf_plan.hpp"
+#include "scenes/dxf/dxf_plan.hpp"
 #include "runtime/core/result.hpp"
 #include "runtime/toml/schema.hpp"
 
@@ -25,7 +25,7 @@ const toml::Schema& plan_schema();
 
 /// Errors: a plan.toml with mistakes, each with its line; files that cannot be written; a plan
 /// larger than a building.
-Result<WrittenPlan> write_plan(const DxfPlan& plan, double metres_per_unit,
+Result<WrittenPlan> write_plan(const DxfPlan& drawn, double metres_per_unit,
                                const std::string& drawing, const std::string& out);
 
 }  // namespace luxodus

@@ -24,18 +24,32 @@ std::string lost_text(const Texts& t, const Json& time) {
   return time["lost_at"].is_object() ? t.number(number_in(time["lost_at"])) + "\u00a0m" : "–";
 }
 
+bool has_fds(const Json& route) {
+  const auto at = route.find("time_by_fds");
+  return at != route.end() && !at->is_null();
+}
+
 std::string routes_table(const Texts& t, const Json& over) {
+  const Json& routes = over["routes"];
+  const bool fds = std::any_of(routes.begin(), routes.end(), has_fds);
   std::string rows;
   for (const Json& route : over["routes"])
-    rows += "<tr>" + cell(text_in(route, "route")) +
-            html_cell(escaped(t.fixed(number_in(route["eye_height"]))) + "\u00a0m", "n") +
-            cell(time_text(t, route["time"])) +
-            html_cell(escaped(lost_text(t, route["time"])), "n") +
-            cell(time_text(t, route["time_by_jin"])) + "</tr>\n";
-  return table(
-      t,
-      {"column.route", "column.eye_height", "column.guided", "column.lost_at", "column.guided_jin"},
-      {22, 12, 28, 12, 26}, rows);
+    rows +=
+        "<tr>" + cell(text_in(route, "route")) +
+        html_cell(escaped(t.fixed(number_in(route["eye_height"]))) + "\u00a0m", "n") +
+        cell(time_text(t, route["time"])) + html_cell(escaped(lost_text(t, route["time"])), "n") +
+        cell(time_text(t, route["time_by_jin"])) +
+        (fds ? cell(has_fds(route) ? time_text(t, route["time_by_fds"]) : "–") : "") + "</tr>\n";
+  if (!fds)
+    return table(t,
+                 {"column.route", "column.eye_height", "column.guided", "column.lost_at",
+                  "column.guided_jin"},
+                 {22, 12, 28, 12, 26}, rows);
+  return paragraph(t("guided.fds_note"), "note") +
+         table(t,
+               {"column.route", "column.eye_height", "column.guided", "column.lost_at",
+                "column.guided_jin", "column.guided_fds"},
+               {18, 10, 22, 10, 20, 20}, rows);
 }
 
 std::string walk_text(const Texts& t, const Json& walk) {

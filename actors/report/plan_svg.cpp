@@ -21,6 +21,7 @@ namespace {
 constexpr const char* emergency_colour = "#0b6e3c";
 constexpr const char* wall_style = "stroke=\"#222\" stroke-width=\"0.35\" stroke-linecap=\"round\"";
 constexpr const char* furniture_style = "stroke=\"#b9b9b9\" stroke-width=\"0.15\"";
+constexpr const char* backdrop_style = "stroke=\"#555\" stroke-width=\"0.15\"";
 constexpr const char* route_style =
     "fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.5\" stroke-dasharray=\"2.4 1.2\"";
 constexpr const char* area_style =
@@ -62,6 +63,39 @@ std::string lines_path(const Json& lines, const Sheet& sheet, const char* style)
                         sheet.y(number_of(line[1])), sheet.x(number_of(line[2])),
                         sheet.y(number_of(line[3])));
   return path.empty() ? "" : "<path d=\"" + path + "\" fill=\"none\" " + style + "/>\n";
+}
+
+/// A picture, whose pixels run from 0 to 1 along its edges, the upper row first.
+std::string backdrop_picture(const Json& one, const Sheet& sheet) {
+  const auto number = [&](const char* key, size_t k) { return number_of(one[key][k]); };
+  return fmt::format(
+      "<image width=\"1\" height=\"1\" preserveAspectRatio=\"none\" transform=\"matrix({:.5f} "
+      "{:.5f} {:.5f} {:.5f} {:.3f} {:.3f})\" href=\"data:image/png;base64,{}\"/>\n",
+      sheet.mm(number("across", 0)), -sheet.mm(number("across", 1)), -sheet.mm(number("up", 0)),
+      sheet.mm(number("up", 1)), sheet.x(number("corner", 0) + number("up", 0)),
+      sheet.y(number("corner", 1) + number("up", 1)), one["png"].text());
+}
+
+/// Drawings of others under a level, faint, and no farther than the drawing's edge.
+std::string backdrops(const Json& a, size_t level, const Sheet& sheet) {
+  const auto all = a["plan"].find("backdrops");
+  if (all == a["plan"].end() || all->is_null()) return "";
+  const double floor = number_of(a["plan"]["levels"][level]["floor"]);
+  std::string pictures, lines;  // which pictures do not hide
+  for (const Json& one : *all) {
+    if (floor < number_of(one["floors"][0]) || floor > number_of(one["floors"][1])) continue;
+    const auto drawing = one.find("lines");
+    if (drawing != one.end() && !drawing->is_null())
+      lines += lines_path(*drawing, sheet, backdrop_style);
+    else
+      pictures += backdrop_picture(one, sheet);
+  }
+  if (pictures.empty() && lines.empty()) return "";
+  return fmt::format(
+             "<svg class=\"backdrop\" width=\"{0:.2f}\" height=\"{1:.2f}\" viewBox=\"0 0 {0:.2f} "
+             "{1:.2f}\" overflow=\"hidden\" opacity=\"0.35\">\n",
+             sheet.width(), sheet.height()) +
+         pictures + lines + "</svg>\n";
 }
 
 std::string building(const Json& level, const Sheet& sheet) {
@@ -550,11 +584,11 @@ Plan Plans::installation(size_t number) const {
   reserve_signs(a_, schedule_, number, sheet, space);
   // Before the names of routes, which can stand elsewhere.
   const std::string symbols = luminaires(a_, schedule_, texts_, number, sheet, &space);
-  return finished(sheet, legend,
-                  building(level, sheet) + places(a_, schedule_, number, sheet) +
-                      emphasis(a_, schedule_, number, sheet) + symbols +
-                      signs(a_, schedule_, number, sheet) +
-                      place_names(a_, schedule_, number, sheet, space) + foot(a_, sheet, texts_));
+  return finished(
+      sheet, legend,
+      backdrops(a_, number, sheet) + building(level, sheet) + places(a_, schedule_, number, sheet) +
+          emphasis(a_, schedule_, number, sheet) + symbols + signs(a_, schedule_, number, sheet) +
+          place_names(a_, schedule_, number, sheet, space) + foot(a_, sheet, texts_));
 }
 
 Plan Plans::isolux(size_t number, bool values) const {
@@ -565,7 +599,8 @@ Plan Plans::isolux(size_t number, bool values) const {
   LabelSpace space;
   for (const IsoluxLine& one : isolux_lines(level)) lines += isolux_line(one, sheet, texts_, space);
   return finished(sheet, legend,
-                  building(level, sheet) + places(a_, schedule_, number, sheet) +
+                  backdrops(a_, number, sheet) + building(level, sheet) +
+                      places(a_, schedule_, number, sheet) +
                       luminaires(a_, schedule_, texts_, number, sheet, nullptr) +
                       (values ? grid_values(level, sheet, texts_) : "") + lines + "</g>\n" +
                       foot(a_, sheet, texts_));
@@ -594,8 +629,9 @@ Plan Plans::sights(size_t number, double eye_height_m, const std::string& sign) 
     marks += verdict_shape(ranks[std::min(rank, ranks.size() - 1)], sheet.x(place.first),
                            sheet.y(place.second), 1.3);
   return finished(sheet, legend,
-                  building(level, sheet) + marks + "</g>\n" +
-                      signs(a_, schedule_, number, sheet, sign) + foot(a_, sheet, texts_));
+                  (sign.empty() ? backdrops(a_, number, sheet) : "") + building(level, sheet) +
+                      marks + "</g>\n" + signs(a_, schedule_, number, sheet, sign) +
+                      foot(a_, sheet, texts_));
 }
 
 }  // namespace luxodus

@@ -162,6 +162,18 @@ constexpr ReportText sections_rows[] = {
     {"column.route", {"Route", "Weg", "Chemin"}},
     {"column.guided", {"Guided", "Geführt", "Guidé"}},
     {"column.guided_jin", {"By Jin's law", "Nach Jin", "Selon Jin"}},
+    {"column.guided_fds", {"By FDS", "Nach FDS", "Selon FDS"}},
+    {"guided.fds_note",
+     {"By FDS: a sign counts as read from places that are no farther from it than the VISIBILITY "
+      "of "
+      "FDS there, which knows neither sign nor light. Without its value a place is undecided.",
+      "Nach FDS: Ein Zeichen gilt als gelesen, wenn es nicht weiter entfernt ist als die "
+      "VISIBILITY "
+      "von FDS an diesem Ort, die weder Zeichen noch Licht kennt. Ohne ihren Wert ist ein Ort "
+      "unentschieden.",
+      "Selon FDS : un signal compte comme lu s’il n’est pas plus loin que la VISIBILITY de FDS en "
+      "ce "
+      "lieu, qui ne connaît ni signal ni lumière. Sans sa valeur, un lieu est indécis."}},
     {"column.lost_at", {"Lost at", "Verloren bei", "Perdu à"}},
     {"column.start", {"Sets out", "Geht los", "Part à"}},
     {"column.walk", {"How far", "Wie weit", "Jusqu’où"}},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actors/assess/assessment_inputs.hpp"
 #include "actors/inspect/inspect.hpp"
 #include "actors/view/sign_verdicts.hpp"
 #include "runtime/core/atomic_file.hpp"
@@ -88,6 +89,11 @@ ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions
         });
       },
       options_.pictures);
+}
+
+const std::string& ViewHub::backdrops() {
+  if (!backdrops_) backdrops_ = backdrops_json(*scene_).dump();
+  return *backdrops_;
 }
 
 ViewHub::~ViewHub() {

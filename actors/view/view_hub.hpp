@@ -44,6 +44,9 @@ class ViewHub final : private LiveAudience {
   void leaves(Viewer& viewer);
   void says(Viewer& viewer, std::string_view text);
   size_t viewers() const { return viewers_.size(); }
+  /// Drawings that lie under plans, as JSON text: the page asks for them once, for no edit changes
+  /// them.
+  const std::string& backdrops();
 
  private:
   void begins(const LiveGeneration& generation) override;
@@ -110,6 +113,7 @@ class ViewHub final : private LiveAudience {
   std::thread judge_;
   bool judging_ = false;
   std::deque<std::pair<uint64_t, JudgeAsk>> to_judge_;  // by viewer: the last that each asked for
+  std::optional<std::string> backdrops_;                // once they have been asked for
   std::unique_ptr<LiveTrace> trace_;                    // the last but one: it tells at once
   std::unique_ptr<ViewPictures> pictures_;              // asks trace_ for the scene
 };

@@ -37,7 +37,9 @@ class SocketViewer final : public Viewer, public SocketListener {
 Result<std::unique_ptr<ViewServer>> ViewServer::listen(const HttpAddress& at) {
   std::unique_ptr<ViewServer> view(new ViewServer);
   HttpSite site;
-  site.page = [](std::string_view path) -> std::optional<HttpPage> {
+  site.page = [self = view.get()](std::string_view path) -> std::optional<HttpPage> {
+    if (path == "/backdrops.json" && self->hub_ != nullptr)
+      return HttpPage{self->hub_->backdrops(), "application/json"};
     if (path != "/") return std::nullopt;
     return HttpPage{std::string(view_page()), "text/html; charset=utf-8", page_policy};
   };

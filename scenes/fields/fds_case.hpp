@@ -85,10 +85,10 @@ struct Change {
   int line = 0;
 };
 
-enum class Quantity { extinction, soot_density, optical_density, heat_release, other };
+enum class Quantity { extinction, soot_density, optical_density, heat_release, visibility, other };
 
-/// A 3-D slice. Values of nodes, or of cells: value (i, j, k) is then that of the cell below the
-/// node (i, j, k) on every axis.
+/// A slice, flat ones among visibility alone. Values of nodes, or of cells: value (i, j, k) is then
+/// that of the cell below the node (i, j, k) on every axis.
 struct Slice {
   size_t mesh = 0;
   bool of_cells = false;
@@ -121,11 +121,14 @@ struct Case {
   std::string version;  // of FDS, as the index has it
   std::vector<Mesh> meshes;
   std::vector<Surface> surfaces;
-  size_t default_surface = 0;   // of faces of meshes
-  std::vector<Change> changes;  // by time
-  std::vector<Slice> slices;
+  size_t default_surface = 0;     // of faces of meshes
+  std::vector<Change> changes;    // by time
+  std::vector<Slice> slices;      // solid ones
+  std::vector<Slice> visibility;  // solid and flat ones
   std::vector<Smoke3d> smoke;
   std::vector<Plot3d> plots;
+  /// What the case has and is not read, in words; "" where nothing.
+  std::string unread;
   std::optional<std::filesystem::path> heat_release_file;  // CASE_hrr.csv
   /// Mass extinction coefficient that FDS computed extinctions with [m2/kg].
   std::optional<double> mass_extinction_m2_per_kg;

@@ -46,6 +46,7 @@ Quantity quantity_of(std::string_view label) {
   if (label == "SOOT DENSITY") return Quantity::soot_density;
   if (ends_with(label, "OPTICAL DENSITY")) return Quantity::optical_density;
   if (label == "HRRPUV") return Quantity::heat_release;
+  if (ends_with(label, "VISIBILITY")) return Quantity::visibility;
   return Quantity::other;
 }
 
@@ -81,6 +82,7 @@ class IndexReader {
     if (word == "OBST") return obstructions();
     if (word == "VENT") return vents();
     if (word == "SLCF" || word == "SLCC") return slice(line, word == "SLCC");
+    if (word == "SLCT") return unread("terrain slices (SLCT)");
     if (word == "SMOKF3D" || word == "SMOKG3D" || word == "SMOKE3D") return smoke(line);
     if (word == "PL3D") return plot(line);
     if (word == "HIDE_OBST" || word == "SHOW_OBST") return change(line, word == "SHOW_OBST");
@@ -311,17 +313,26 @@ class IndexReader {
     if (from == std::string_view::npos) return;  // of terrain or unstructured geometry
     const std::string_view range = line.substr(from + 1);
     const auto words = words_of(range.substr(0, range.find('!')));
-    bool solid = true;
+    int flat = 0;
     for (int axis = 0; axis < 3 && !failed(); ++axis) {
       const auto place = 2 * static_cast<size_t>(axis);
       slice.nodes.low[axis] = number<int>(words, place, "a node of a slice");
       slice.nodes.high[axis] = number<int>(words, place + 1, "a node of a slice");
-      solid = solid && slice.nodes.low[axis] < slice.nodes.high[axis];
+      flat += slice.nodes.low[axis] < slice.nodes.high[axis] ? 0 : 1;
     }
-    if (failed() || !solid) return;
-    slice.file = file_name();
+    if (failed() || flat > 1) return;
+    // The files of others are none of ours: flat slices of what is not read may lie anywhere.
+    const size_t file_line = at_;
+    next_line();
     slice.quantity = quantity_of(trimmed(next_line()));
-    if (!failed() && slice.quantity != Quantity::other) out_.slices.push_back(std::move(slice));
+    const bool wanted =
+        slice.quantity == Quantity::visibility || (flat == 0 && slice.quantity != Quantity::other);
+    if (failed() || !wanted) return;
+    const size_t label_line = std::exchange(at_, file_line);
+    slice.file = file_name();
+    at_ = label_line;
+    auto& list = slice.quantity == Quantity::visibility ? out_.visibility : out_.slices;
+    if (!failed()) list.push_back(std::move(slice));
   }
 
   void smoke(std::string_view line) {
@@ -332,6 +343,7 @@ class IndexReader {
     const double mass_extinction =
         words.size() > 2 ? number<double>(words, 2, "mass extinction") : 0;
     smoke.file = file_name();
+    if (smoke.file.extension() == ".s16") return unread("Smoke3D of 16 bits (.s16)");
     smoke.quantity = quantity_of(trimmed(next_line()));
     if (failed() || smoke.quantity == Quantity::other) return;
     if (smoke.quantity == Quantity::soot_density && mass_extinction > 0) {
@@ -389,6 +401,12 @@ class IndexReader {
     out_.changes.push_back(change);
   }
 
+  /// Their formats are in no document that we have.
+  void unread(const std::string& what) {
+    if (out_.unread.find(what) == std::string::npos)
+      out_.unread += (out_.unread.empty() ? "" : " and ") + what;
+  }
+
   // ---- the end
 
   void finish() {
@@ -416,6 +434,7 @@ class IndexReader {
       }
     };
     beyond(out_.slices);
+    beyond(out_.visibility);
     beyond(out_.smoke);
     beyond(out_.plots);
     beyond(out_.changes);

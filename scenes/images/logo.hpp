@@ -1,6 +1,4 @@
-// The logo of a project, as a report embeds it: the pixels of a PNG file, encoded again. Nothing of
-// the file itself reaches a page but its pixels, so that a hostile file brings nothing along:
-// drawings (SVG) may hold scripts and names of other files, and are refused. Any thread.
+// The logo of a project, as a report embeds it: see page_picture.hpp. Any thread.
 #pragma once
 
 #include <filesystem>

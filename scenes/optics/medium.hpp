@@ -95,6 +95,7 @@ struct FireSimulation {
   Frame frame;                 // of the simulation's coordinates
   std::vector<Bounds> meshes;  // in those coordinates [m]; nothing is known outside of them
   double depth_error = 0;      // largest relative error of optical depths from this source
+  std::string index = {};      // the file as it was found; "" in a pack
 };
 
 struct Medium {

@@ -196,7 +196,8 @@ void read_fire_medium(KeyReader& keys, Medium m) {
                             false,
                             m.frame,
                             fire->meshes,
-                            largest_depth_error(fire->source)};
+                            largest_depth_error(fire->source),
+                            path->string()};
   for (const FireGrid& grid : fire->grids) simulation.glows |= flames && grid.heat_kw > 0;
   for (size_t i = 0; i < fire->grids.size(); ++i) {
     FireGrid& grid = fire->grids[i];

@@ -228,6 +228,7 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
       {"counting_plane", read_counting_plane},
       {"observer", read_observer},
       {"camera", read_camera},
+      {"backdrop", read_backdrop},
       {"route", read_route},
       {"open_area", read_open_area},
       {"task_area", read_task_area},

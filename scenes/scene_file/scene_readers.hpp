@@ -27,6 +27,7 @@ void read_observer(const toml::Table& table, SceneReading& reading);
 void read_camera(const toml::Table& table, SceneReading& reading);
 void read_assessment(const toml::Table& table, SceneReading& reading);
 void read_project(const toml::Table& table, SceneReading& reading);
+void read_backdrop(const toml::Table& table, SceneReading& reading);
 void read_route(const toml::Table& table, SceneReading& reading);
 void read_open_area(const toml::Table& table, SceneReading& reading);
 void read_task_area(const toml::Table& table, SceneReading& reading);

@@ -331,6 +331,21 @@ struct ProjectSettings {
   SourcePlace place;
 };
 
+/// A drawing that lies under plans of some floors: what others have drawn of the building. It is no
+/// geometry, and light knows nothing of it.
+struct Backdrop {
+  SourcePlace place;
+  std::string file;      // as it was found
+  bool picture = false;  // PNG; else lines of a DXF
+  glm::dvec2 corner{0};  // of a picture: its lower left one [m]
+  glm::dvec2 across{0};  // and its lower and left edges from there [m]
+  glm::dvec2 up{0};
+  std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;  // of a drawing [m]
+  double low_m = -1e7, high_m = 1e7;                     // heights of its floors
+
+  bool lies_under(double floor_m) const { return floor_m >= low_m && floor_m <= high_m; }
+};
+
 /// A side of the scene's bounding box.
 enum class Side { west, east, south, north, bottom, top };  // -x, +x, -y, +y, -z, +z
 inline constexpr std::array<std::string_view, 6> side_words{"west",  "east",   "south",
@@ -411,6 +426,7 @@ struct SceneDescription {
   std::vector<EmphasisPoint> emphasis;
   AssessmentSettings assessment;
   ProjectSettings project;
+  std::vector<Backdrop> backdrops;  // none in a pack
   std::optional<TimeSettings> time;
   std::optional<double> at_s;                    // of the state that this is, where a time was said
   std::shared_ptr<const DesignSettings> design;  // null in a pack, and in scenes made by programs

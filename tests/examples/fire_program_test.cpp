@@ -100,6 +100,11 @@ TEST_CASE("an input file is imported with the smoke beside it, and a person's fi
   const std::string materials = slurp(folder / "room/materials.toml");
   CHECK_THAT(materials, Contains("reflectance = 0.3") && Contains("\"INERT\""));
   CHECK(import_it("--without shelf").code == 0);
+  const Outcome snapped_twice =
+      run_luxodus(folder, "import fds " + in_folder(folder, "fire.smv") + " --snap --out " +
+                              in_folder(folder, "results"));
+  CHECK(snapped_twice.code == 2);
+  CHECK_THAT(snapped_twice.err, Contains("are for input files"));
   const Outcome unknown = import_it("--without shelv");
   CHECK(unknown.code == 2);
   CHECK_THAT(unknown.err, Contains("\"shelv\""));

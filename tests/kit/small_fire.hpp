@@ -87,6 +87,18 @@ inline std::string slice_file(const SmallMesh& mesh, const std::string& label,
   return out;
 }
 
+/// A slice of nodes low to high, x0 x1 y0 y1 z0 z1, flat where two are the same.
+inline std::string part_slice_file(const std::array<int32_t, 6>& nodes, const std::string& label,
+                                   const std::vector<SmallFrame>& frames) {
+  std::string out = fortran_record(padded(label, 30)) + fortran_record(padded("short", 30)) +
+                    fortran_record(padded("unit", 30)) +
+                    fortran_record(bytes_of_values<int32_t>({nodes.begin(), nodes.end()}));
+  for (const SmallFrame& frame : frames)
+    out += fortran_record(bytes_of_values<float>({frame.time_s})) +
+           fortran_record(bytes_of_values(frame.values));
+  return out;
+}
+
 /// Run lengths as FDS writes them: from four equal bytes on.
 inline std::string run_lengths(const std::vector<uint8_t>& bytes) {
   std::string out;
@@ -182,6 +194,13 @@ inline std::string slice_entry(size_t mesh, bool of_cells, const SmallMesh& of,
   return std::string(of_cells ? "SLCC " : "SLCF ") + std::to_string(mesh) + " # STRUCTURED & 0 " +
          std::to_string(of.cells(0)) + " 0 " + std::to_string(of.cells(1)) + " 0 " +
          std::to_string(of.cells(2)) + " ! 1 0 0\n " + file + "\n " + label + "\n short\n unit\n";
+}
+inline std::string part_slice_entry(size_t mesh, bool of_cells, const std::array<int32_t, 6>& nodes,
+                                    const std::string& file, const std::string& label) {
+  std::string out =
+      std::string(of_cells ? "SLCC " : "SLCF ") + std::to_string(mesh) + " # STRUCTURED &";
+  for (const int32_t node : nodes) out += " " + std::to_string(node);
+  return out + " ! 1 0 0\n " + file + "\n " + label + "\n short\n unit\n";
 }
 inline std::string smoke_entry(size_t mesh, const std::string& file, const std::string& label,
                                const std::string& mass_extinction = "8700.000") {

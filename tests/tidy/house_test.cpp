@@ -129,13 +129,14 @@ const std::map<std::string, std::vector<std::string>> arrows{
     {"scenes/vision", {"scenes/optics"}},
     {"scenes/photometry", {"scenes/optics"}},
     {"scenes/fields", {"scenes/geometry", "scenes/optics"}},
+    {"scenes/dxf", {}},
     {"scenes/fds_input", {"scenes/fields", "scenes/geometry"}},
     {"scenes/ifc", {"scenes/geometry"}},
     {"scenes/images", {"scenes/optics", "scenes/world"}},
     {"scenes/emergency", {"scenes/world"}},
     {"scenes/scene_file",
-     {"runtime/toml", "scenes/emergency", "scenes/fields", "scenes/geometry", "scenes/images",
-      "scenes/optics", "scenes/photometry", "scenes/world"}},
+     {"runtime/toml", "scenes/dxf", "scenes/emergency", "scenes/fields", "scenes/geometry",
+      "scenes/images", "scenes/optics", "scenes/photometry", "scenes/world"}},
     {"scenes/transport",
      {"scenes/emergency", "scenes/geometry", "scenes/intersect", "scenes/optics", "scenes/tally",
       "scenes/world"}},
@@ -144,8 +145,8 @@ const std::map<std::string, std::vector<std::string>> arrows{
     {"actors/output", {"scenes"}},
     {"actors/run", {"actors/output", "scenes"}},
     {"actors/import",
-     {"actors/output", "runtime/toml", "scenes/fds_input", "scenes/fields", "scenes/geometry",
-      "scenes/ifc", "scenes/photometry"}},
+     {"actors/output", "runtime/toml", "scenes/dxf", "scenes/fds_input", "scenes/fields",
+      "scenes/geometry", "scenes/ifc", "scenes/photometry"}},
     {"actors/inspect", {"actors/run", "scenes"}},
     {"actors/display", {"actors/inspect", "actors/output", "actors/run", "scenes"}},
     {"actors/assess", {"actors/inspect", "actors/output", "actors/run", "scenes"}},
@@ -322,7 +323,7 @@ TEST_CASE("only the room of a library includes it", "[tidy]") {
     // Tests read with it what we write; imported scenes are judged below `actors`.
     const bool json = library == "nlohmann" &&
                       (source.in("tests") || source.path == "scenes/geometry/mesh_text.cpp");
-    const bool plan = library == "dxflib" && source.path == "actors/import/dxf_plan.cpp";
+    const bool plan = library == "dxflib" && source.in("scenes/dxf");
     return other_end || tool || json || plan ||
            (drawing && (library == "cairo" || library == "librsvg"));
   };

@@ -64,7 +64,13 @@ export class MockServer {
     const { WebSocketServer } = await import('ws');
     const page = readFileSync(pageFile);
     this.http = createServer(({ url }, answer) => {
-      const here = new URL(url, 'http://mock').pathname === '/';
+      const { pathname } = new URL(url, 'http://mock');
+      if (pathname === '/backdrops.json') {
+        answer.writeHead(200, { 'content-type': 'application/json' });
+        answer.end(JSON.stringify(this.backdrops ?? []));
+        return;
+      }
+      const here = pathname === '/';
       answer.writeHead(here ? 200 : 404, { 'content-type': here ? 'text/html' : 'text/plain' });
       answer.end(here ? page : 'not here');
     });

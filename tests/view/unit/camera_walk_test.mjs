@@ -14,7 +14,10 @@ function walking() {
   const told = { moved: 0, stood: 0, looks: 0, walls: null };
   const picture = {
     width: 1600, height: 1000,
-    marks: { setWalls: (walls) => (told.walls = walls) },
+    marks: {
+      setWalls: (walls) => (told.walls = walls),
+      backdrops: { cutAt: (height) => (told.cut = height) },
+    },
     look: () => (told.looks += 1),
   };
   const walk = new CameraWalk(picture, { moved: () => ++told.moved, stood: () => ++told.stood });

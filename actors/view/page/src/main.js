@@ -10,7 +10,7 @@ import { byId, el } from './panel/dom.js';
 import { Panels } from './panel/panels.js';
 import { sizeOf } from './panel/traced.js';
 import { toast } from './panel/toasts.js';
-import { Connection, liveAddress } from './protocol/connection.js';
+import { Connection, backdropsOf, liveAddress } from './protocol/connection.js';
 import { Live } from './state.js';
 import { CameraWalk } from './walk/camera_walk.js';
 import { Hands } from './walk/hands.js';
@@ -38,6 +38,9 @@ class Page {
       state: (state, words) => this.linked(state, words),
       fault: (words) => toast(words),
     });
+    backdropsOf(location.href)
+      .then((drawings) => this.building.backdrops(drawings))
+      .catch((fault) => toast(`The drawings under the plan are not shown: ${fault.message}`));
     new ResizeObserver(() => this.walk.resize(canvas)).observe(canvas);
     this.last = performance.now();
     requestAnimationFrame((now) => this.tick(now));

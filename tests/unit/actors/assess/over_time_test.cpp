@@ -7,6 +7,7 @@
 #include "actors/assess/assessment_check.hpp"
 #include "actors/assess/assessment_json.hpp"
 #include "actors/assess/over_time_json.hpp"
+#include "tests/kit/small_fire.hpp"
 #include "tests/unit/actors/assess/assessed_room.hpp"
 
 namespace luxodus {
@@ -150,6 +151,70 @@ TEST_CASE("people who set out in time are guided to the end", "[assess][time]") 
   CHECK(walks.at(3).at_m == 0);
 }
 
+TEST_CASE("FDS's own visibility stands beside the verdicts, where there are slices of it",
+          "[assess][time][fds]") {
+  using namespace test;
+  const TemporaryFolder folder;
+  const SmallMesh mesh = even_mesh({0, -2, 0}, {1, 1, 0.5}, {12, 4, 6});
+  const std::array<int32_t, 6> level{0, 12, 0, 4, 3, 3};  // at 1.5 m
+  const auto even = [](float metres) { return std::vector<float>(13 * 5, metres); };
+  const auto thin = cell_values(mesh, [](int, int, int) { return 0.01F; });
+  folder.write(
+      "k.sf", slice_file(mesh, "SOOT EXTINCTION COEFFICIENT", {{0, thin}, {30, thin}, {60, thin}}));
+  folder.write("v.sf", part_slice_file(level, "SOOT VISIBILITY",
+                                       {{0, even(30)}, {30, even(6)}, {60, even(2)}}));
+  const std::string index =
+      index_of_meshes({mesh}) + slice_entry(1, true, mesh, "k.sf", "SOOT EXTINCTION COEFFICIENT");
+  const std::string text =
+      timed_room("",
+                 "[[medium]]\nname = \"fire\"\nkind = \"fds\"\nfile = \"fire.smv\"\n"
+                 "albedo = 0.2\ng = 0.6\nangstrom = 1\n"
+                 "[time]\nto = 60\nstep = 30\n");
+  const auto traced = [&](const std::string& whole_index) {
+    folder.write("fire.smv", whole_index);
+    folder.write("scene.toml", text);
+    const SceneAtTime scenes = [&](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
+      ReadScene read = read_scene(folder / "scene.toml", at_s);
+      if (!read.scene) return read.problems.list().front();
+      return std::make_shared<const SceneDescription>(std::move(*read.scene));
+    };
+    static const std::atomic<bool> nobody{false};
+    auto result =
+        assess_over_time({0, 30, 60}, scenes, {}, nobody, [](const std::string&, double) {});
+    INFO((result.ok() ? "" : result.problem().text()));
+    REQUIRE(result.ok());
+    return std::move(result).value();
+  };
+  const OverTime all = traced(index + part_slice_entry(1, false, level, "v.sf", "SOOT VISIBILITY"));
+  const RouteOverTime& route = all.routes.front();
+  // The sign hangs at 11.95 m; places are 1, 4.33 and 7.67 m along the room.
+  REQUIRE(route.by_fds.at.size() == 3);
+  CHECK(route.by_fds.at[0] == std::vector<Guidance>(3, Guidance::guided));
+  CHECK(route.by_fds.at[1] ==
+        std::vector<Guidance>{Guidance::not_guided, Guidance::not_guided, Guidance::guided});
+  CHECK(route.by_fds.at[2] == std::vector<Guidance>(3, Guidance::not_guided));
+  CHECK(route.visibility_m[1][0].value_or(0) == Approx(6));
+  // Smoke this thin hides no sign, whatever the slice says.
+  CHECK(route.guided.holds(2));
+  const Json json = over_time_json(all);
+  CHECK(json["routes"][0]["fds"][1].text() == "nng");
+  CHECK(json["routes"][0]["time_by_fds"]["until"]["value"] == 0);
+  CHECK(guidance_csv(json).text().find("guided,exit,guided,6,not guided\n") != std::string::npos);
+  CHECK(guidance_text(json).find("by FDS's VISIBILITY up to 0 s, lost by 30 s") !=
+        std::string::npos);
+
+  const OverTime without = traced(index);
+  CHECK(without.routes.front().by_fds.at.empty());
+  CHECK_FALSE(over_time_json(without)["routes"][0].contains("fds"));
+  // A slice that cannot be read changes no verdict, and is told once.
+  folder.write("v.sf", "short");
+  const OverTime damaged =
+      traced(index + part_slice_entry(1, false, level, "v.sf", "SOOT VISIBILITY"));
+  CHECK(damaged.routes.front().guided.at == without.routes.front().guided.at);
+  REQUIRE(damaged.warnings.size() == 1);
+  CHECK(damaged.warnings.front().find("VISIBILITY is not shown") != std::string::npos);
+}
+
 TEST_CASE("an arrow that points elsewhere guides nobody, and no sign at all is an error",
           "[assess][time]") {
   const std::string left =
@@ -181,7 +246,7 @@ TEST_CASE("guidance over time goes through its JSON, whose faults are named", "[
   CHECK(route["time"]["lost_by"].is_null());
   CHECK(route["walks"].size() == 4);
   const std::string csv = guidance_csv(json["over_time"]).text();
-  CHECK(csv.find("way,1.65,0,0,guided,exit,guided\n") != std::string::npos);
+  CHECK(csv.find("way,1.65,0,0,guided,exit,guided,,\n") != std::string::npos);
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 1 + 4 * 3);
   CHECK(guidance_text(json["over_time"]).find("up to the last state, 60 s") != std::string::npos);
   Json cut = json;

@@ -108,6 +108,65 @@ std::string in_one_line(const std::string& page) {
 
 }  // namespace
 
+TEST_CASE("a drawing of others lies faintly under plans of its floors, and nothing else of it",
+          "[report][backdrop]") {
+  AssessOptions options;
+  options.rounds = 1;
+  const TemporaryFolder folder;
+  PngImage image;
+  image.width = 20;
+  image.height = 10;
+  image.rgb.assign(600, 100);
+  image.text = {{"Comment", "<script>alert(1)</script>"}};
+  const auto png = encode_png(image, {});
+  REQUIRE(png.ok());
+  folder.write("plan.png", std::string(reinterpret_cast<const char*>(png->data()), png->size()));
+  SceneDescription scene = *described_text(room);
+  Backdrop lines, picture, above;
+  lines.lines = {{{0, -2}, {12, 2}}, {{-50, 0}, {50, 0}}};
+  picture.picture = true;
+  picture.file = folder / "plan.png";
+  picture.corner = {0, -2};
+  picture.across = {12, 0};
+  picture.up = {0, 4};
+  above = lines;
+  above.low_m = 3;
+  const auto plan_of = [&](std::vector<Backdrop> backdrops) {
+    scene.backdrops = std::move(backdrops);
+    const Json a = assessment_json(scene, assessed(room, options), "1.2.3");
+    const auto fault = fault_of_assessment(a);
+    INFO(fault.value_or(""));
+    REQUIRE_FALSE(fault);
+    const Schedule schedule(a);
+    const Texts texts(Language::en);
+    return Plans(a, schedule, texts, {}).installation(0);
+  };
+  const Plan bare = plan_of({}), drawn = plan_of({lines}), pictured = plan_of({picture});
+  CHECK_FALSE(has(bare.svg, "backdrop"));
+  CHECK(plan_of({above}).svg == bare.svg);
+  // It does not make the plan larger, and lies before the walls.
+  CHECK(drawn.width_mm == bare.width_mm);
+  CHECK(drawn.svg.find("class=\"backdrop\"") < drawn.svg.find("class=\"walls\""));
+  CHECK(has(pictured.svg, "data:image/png;base64,"));
+  // Lines are not hidden by pictures, in whatever order they are written.
+  const std::string both = plan_of({lines, picture}).svg;
+  CHECK(both.find("<image") < both.find("stroke=\"#555\""));
+  CHECK_FALSE(has(pictured.svg, "script"));
+  for (const Plan* plan : {&drawn, &pictured}) {
+    RsvgHandle* handle = rsvg_handle_new_from_data(
+        reinterpret_cast<const guint8*>(plan->svg.data()), plan->svg.size(), nullptr);
+    CHECK(handle != nullptr);
+    if (handle != nullptr) g_object_unref(handle);
+  }
+  // A picture that is none, or has no place, is told.
+  scene.backdrops = {picture};
+  Json a = assessment_json(scene, assessed(room, options), "1.2.3");
+  a["plan"]["backdrops"][0]["png"] = "\"><script>";
+  CHECK(fault_of_assessment(a));
+  a["plan"]["backdrops"][0].erase("png");
+  CHECK(fault_of_assessment(a));
+}
+
 TEST_CASE("every text of a report is there in every language, with the same gaps", "[report]") {
   size_t count = 0;
   for (const auto rows :

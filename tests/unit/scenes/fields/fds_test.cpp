@@ -471,6 +471,19 @@ TEST_CASE("Smoke3D that does not unpack to its mesh is refused", "[format][fds]"
   CHECK(good_fire(read_fire(folder / "case.smv", options)).frames == 1);
 }
 
+TEST_CASE("what is not read of a case is named where there is nothing else", "[format][fds]") {
+  const TemporaryFolder folder;
+  const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
+  folder.write("fire.smv",
+               index_of_meshes({mesh}) +
+                   "SLCT 1 # TERRAIN 2.0 & 0 2 0 2 1 1 ! 1\n t.sf\n SOOT DENSITY\n s\n u\n" +
+                   smoke_entry(1, "s.s16", "SOOT DENSITY"));
+  const auto read = read_fire(folder / "fire.smv", {});
+  REQUIRE_FALSE(read.ok());
+  CHECK_THAT(read.problem().text(),
+             Catch::Contains("(SLCT) and Smoke3D of 16 bits (.s16) are not read"));
+}
+
 TEST_CASE("a slice of a part of a mesh is no source", "[format][fds]") {
   SmallCase small;
   small.folder.write(

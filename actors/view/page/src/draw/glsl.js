@@ -349,6 +349,25 @@ void main() {
   if (colour.a < 0.01) discard;
 }`;
 
+export const pictureVertex = `
+precision highp float;
+in vec3 position;
+in vec2 uv;
+out vec2 at;
+uniform mat4 modelViewMatrix, projectionMatrix;
+void main() {
+  at = uv;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+
+export const pictureFragment = `
+precision highp float;
+in vec2 at;
+uniform sampler2D picture;
+uniform float faint;
+out vec4 colour;
+void main() { colour = vec4(texture(picture, at).rgb, faint); }`;
+
 export const lineVertex = `
 precision highp float;
 in vec3 position;

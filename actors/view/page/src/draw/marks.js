@@ -2,6 +2,7 @@
 // walks; the plan's cut walls; the outline of what is being moved. They are no light: nothing
 // here is measured or exposed.
 import * as THREE from 'three';
+import { Backdrops } from './backdrops.js';
 import { lineFragment, lineVertex, markFragment, markVertex } from './glsl.js';
 
 const shapes = { luminaire: 0, flame: 1, sign: 2, walker: 3 };
@@ -54,7 +55,8 @@ export class Marks {
     this.points.frustumCulled = false;
     this.walls = lines([0.75, 0.8, 0.88, 0.9]);
     this.outline = lines([1, 0.85, 0.35, 1]);
-    this.scene.add(this.points, this.walls, this.outline);
+    this.backdrops = new Backdrops();
+    this.scene.add(this.backdrops.group, this.points, this.walls, this.outline);
     this.wanted = true;
   }
 

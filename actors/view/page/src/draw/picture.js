@@ -173,6 +173,7 @@ export class Picture {
     this.camera = camera;
     this.shared.cut.value = cut ?? nothingCut;
     this.marks.walls.visible = Boolean(view.span);
+    this.marks.backdrops.group.visible = Boolean(view.span);
     this.again();
   }
 

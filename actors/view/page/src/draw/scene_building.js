@@ -37,6 +37,11 @@ export class SceneBuilding {
     this.picture.untoned = true;
   }
 
+  /** Drawings that lie under plans. */
+  backdrops(drawings) {
+    this.picture.marks.backdrops.build(drawings, () => (this.picture.untoned = true));
+  }
+
   outline(corners) {
     this.picture.marks.setOutline(corners);
     this.picture.untoned = true;

@@ -1,4 +1,5 @@
 // The WebSocket to the program, opened again when it is lost.
+import { decodeBackdrops } from './decode_backdrops.js';
 import { decodeFrame, ProtocolError } from './decode_frame.js';
 import { decodeMessage } from './decode_message.js';
 import { Outbox } from './outbox.js';
@@ -8,14 +9,27 @@ const longestPauseMs = 8000;
 /** A program that speaks nonsense this often is another program, or another version. */
 const faultsMost = 20;
 
-/** `/live` on the page's own host; of the page's address only the token is passed on. */
-export function liveAddress(page) {
-  const url = new URL('live', page);
-  url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
+/** On the page's own host; of the page's address only the token is passed on. */
+function beside(page, name) {
+  const url = new URL(name, page);
   const token = new URL(page).searchParams.get('token');
   url.search = token === null ? '' : `?${new URLSearchParams({ token })}`;
   url.hash = '';
+  return url;
+}
+
+/** `/live`, where the socket is. */
+export function liveAddress(page) {
+  const url = beside(page, 'live');
+  url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
   return url.href;
+}
+
+/** The drawings that lie under plans. They do not change while the program serves. */
+export async function backdropsOf(page, ask = fetch) {
+  const answer = await ask(beside(page, 'backdrops.json').href);
+  if (!answer.ok) throw new Error(`the program answers ${answer.status}`);
+  return decodeBackdrops(await answer.json());
 }
 
 export class Connection {

@@ -107,6 +107,7 @@ export class CameraWalk {
   setCut(height) {
     this.motion.plan.cut = height;
     if (this.building) this.picture.marks.setWalls(this.building.section(height));
+    this.picture.marks.backdrops.cutAt(height);
     this.change();
   }
 

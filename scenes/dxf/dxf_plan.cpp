@@ -1,4 +1,4 @@
-#include "actors/import/dxf_plan.hpp"
+#include "scenes/dxf/dxf_plan.hpp"
 
 #include <dxflib/dl_creationadapter.h>
 #include <dxflib/dl_dxf.h>
@@ -9,7 +9,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "actors/import/import_files.hpp"
 #include "runtime/core/isolated_job.hpp"
 #include "runtime/core/regular_file.hpp"
 
@@ -95,8 +94,7 @@ class PlanCollector : public DL_CreationAdapter {
       too_many = true;
       return;
     }
-    plan.inserts.push_back({as_name(insert.name, "block"), layer(attributes.getLayer()), at,
-                            std::fmod(insert.angle, 360)});
+    plan.inserts.push_back({insert.name, attributes.getLayer(), at, std::fmod(insert.angle, 360)});
   }
 
   /// The last polyline, whose end some files do not say.
@@ -112,8 +110,6 @@ class PlanCollector : public DL_CreationAdapter {
   }
 
  private:
-  static std::string layer(const std::string& name) { return as_name(name, "0"); }
-
   void add(const glm::dvec2& from, const glm::dvec2& to) { add(from, to, attributes.getLayer()); }
   void add(const glm::dvec2& from, const glm::dvec2& to, const std::string& on) {
     if (in_block_ || !finite(from) || !finite(to) || from == to) return;
@@ -121,7 +117,7 @@ class PlanCollector : public DL_CreationAdapter {
       too_many = true;
       return;
     }
-    plan.segments.push_back({layer(on), from, to});
+    plan.segments.push_back({on, from, to});
   }
 
   /// A side whose bulge is the tangent of a quarter of its arc's angle.

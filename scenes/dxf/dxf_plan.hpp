@@ -37,7 +37,7 @@ struct DxfPlan {
   std::vector<DxfInsert> inserts;
 };
 
-/// Names are as a scene's: what is no UTF-8 or no character of a name stands as '-'.
+/// Names are as the drawing has them, of any bytes.
 /// Errors: it cannot be read, holds nothing of these, or more than the limits.
 Result<DxfPlan> read_dxf_plan(const std::filesystem::path& file);
 

@@ -1,0 +1,90 @@
+// The scene that a person's table makes of a DXF plan.
+#include "actors/import/write_plan.hpp"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "scenes/dxf/dxf_plan.hpp"
+#include "scenes/scene_file/scene_file.hpp"
+#include "tests/kit/small_dxf.hpp"
+#include "tests/kit/temporary_folder.hpp"
+
+using namespace luxodus;
+using namespace luxodus::test;
+
+namespace {
+
+DxfPlan plan_of(const std::string& text) {
+  auto plan = dxf_plan_of(text, "test.dxf");
+  if (!plan) FAIL(plan.problem().text());
+  return std::move(plan).value();
+}
+
+}  // namespace
+
+TEST_CASE("a person's table says what layers and blocks become", "[import][dxf]") {
+  const TemporaryFolder folder;
+  const auto out = folder / "office";
+  const DxfPlan plan = plan_of(dxf_drawing());
+  const auto first = write_plan(plan, plan.metres_per_unit, "office.dxf", out.string());
+  REQUIRE(first.ok());
+  CHECK(first->walls == 0);
+  CHECK_FALSE(first->asked.empty());
+  std::ofstream(out / "plan.toml") << "ceiling_m = 3\n"
+                                      "[[layer]]\nname = \"WALLS\"\nas = \"wall\"\n"
+                                      "thickness_m = 0.2\nheight_m = 3\n"
+                                      "[[block]]\nname = \"LAMP\"\nas = \"luminaire\"\n"
+                                      "height_m = 2.9\n"
+                                      "[[block]]\nname = \"EXIT\"\nas = \"sign\"\ntype = \"exit\"\n"
+                                      "height_m = 2.3\n";
+  folder.write("office/lamp.ies",
+               "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 10\n0 45 90\n"
+               "0\n300 200 0\n");
+  std::ofstream(out / "fixtures.toml")
+      << "[[luminaire_type]]\nname = \"LAMP\"\nfile = \"lamp.ies\"\n"
+         "[[sign_type]]\nname = \"exit\"\nwidth = 0.3\nheight = 0.15\nplain = \"green\"\n"
+         "smallest_detail = 0.02\nmains_white = 500\nmains_green = 100\nemergency_white = 50\n"
+         "emergency_green = 10\n";
+  const auto second = write_plan(plan, plan.metres_per_unit, "office.dxf", out.string());
+  REQUIRE(second.ok());
+  CHECK(second->walls == 4);
+  CHECK(second->luminaires == 1);
+  CHECK(second->signs == 1);
+  CHECK(second->kept_scene);
+  const ReadScene scene = read_scene(out / "scene.toml");
+  for (const Problem& p : scene.problems.list()) UNSCOPED_INFO(p.text());
+  REQUIRE(scene.scene.has_value());
+  CHECK(scene.scene->objects.size() == 6);  // four walls, floor, ceiling
+  Bounds walls;
+  for (const Object& object : scene.scene->objects)
+    if (object.name.starts_with("WALLS"))
+      for (const glm::dvec3& p : object.mesh.positions) walls.extend(p);
+  // The drawn line is a wall's middle.
+  CHECK((walls.low.x == Approx(-0.1) && walls.high.y == Approx(4.1)));
+  REQUIRE(scene.scene->signs.size() == 1);
+  CHECK(scene.scene->signs[0].frame.axes[2].x == Approx(-1));
+  CHECK(scene.scene->signs[0].frame.origin.z == Approx(2.3));
+}
+
+TEST_CASE("the reference explains every key of a plan's table as the reader has it",
+          "[import][dxf]") {
+  std::ifstream in(std::string(LUX_SOURCE_DIR) + "/docs/reference/plan-file.md");
+  const std::string page((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::string tables = toml::schema_markdown(plan_schema());
+  while (tables.ends_with('\n')) tables.pop_back();
+  CHECK(page.find(tables) != std::string::npos);
+}
+
+TEST_CASE("a table's mistakes are told with their line, and metres taken for kilometres too",
+          "[import][dxf]") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "office");
+  folder.write("office/plan.toml", "[[layer]]\nname = \"WALLS\"\nas = \"wal\"\n");
+  const DxfPlan plan = plan_of(dxf_drawing());
+  const auto bad = write_plan(plan, 1e-3, "office.dxf", (folder / "office").string());
+  REQUIRE_FALSE(bad.ok());
+  CHECK(bad.problem().where.line == 3);
+  const auto large = write_plan(plan, 1000, "office.dxf", (folder / "other").string());
+  REQUIRE_FALSE(large.ok());
+  CHECK(large.problem().what.find("is its unit right?") != std::string::npos);
+}
