@@ -53,6 +53,19 @@ class Members {
     }
     return out;
   }
+  std::vector<std::string> texts(const char* key, size_t most) {
+    const Json* const value = find(key);
+    if (value == nullptr || !value->is_array() || value->size() > most)
+      return refuse(key, "a list of texts that is not too long"), std::vector<std::string>();
+    std::vector<std::string> out;
+    for (const Json& one : *value) {
+      auto text = one.is_string() ? one.get<std::string>() : std::string();
+      if (text.empty() || text.size() > limits::view_name_chars)
+        return refuse(key, "a list of texts of 1 to 200 bytes"), std::vector<std::string>();
+      out.push_back(std::move(text));
+    }
+    return out;
+  }
   bool is_sign(const char* key) {
     const std::string kind = text(key);
     if (kind != "sign" && kind != "luminaire") refuse(key, "\"sign\" or \"luminaire\"");
@@ -111,6 +124,7 @@ std::optional<PageMessage> read_message(const std::string& type, Members& m) {
     return ProbeAsk{m.whole("id", int64_t{1} << 53),
                     static_cast<uint32_t>(m.whole("triangle", UINT32_MAX)), m.flag("front")};
   if (type == "judge") return JudgeAsk{m.text("sign")};
+  if (type == "suggest") return SuggestAsk{m.texts("free", limits::view_added)};
   return std::nullopt;
 }
 
@@ -137,7 +151,7 @@ Result<PageMessage> decode_page_message(std::string_view text) {
 
 bool is_edit(const PageMessage& message) {
   return !std::holds_alternative<EditWish>(message) && !std::holds_alternative<ProbeAsk>(message) &&
-         !std::holds_alternative<JudgeAsk>(message);
+         !std::holds_alternative<JudgeAsk>(message) && !std::holds_alternative<SuggestAsk>(message);
 }
 
 }  // namespace luxodus

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "runtime/core/result.hpp"
 
@@ -66,8 +67,13 @@ struct ProbeAsk {
 struct JudgeAsk {
   std::string sign;
 };
-using PageMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, StateEdit, TimeEdit, MoveEdit,
-                                 AddEdit, RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk>;
+/// Where further luminaires would go, instead of those that are named.
+struct SuggestAsk {
+  std::vector<std::string> free;
+};
+using PageMessage =
+    std::variant<FactorEdit, ScenarioEdit, SmokeEdit, StateEdit, TimeEdit, MoveEdit, AddEdit,
+                 RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk, SuggestAsk>;
 
 /// Errors: what is no message, one sentence.
 Result<PageMessage> decode_page_message(std::string_view text);

@@ -167,7 +167,8 @@ const std::map<std::string, std::vector<std::string>> arrows{
      {"actors/objects", "actors/output", "actors/run", "actors/simulate", "actors/supervise",
       "actors/tally", "runtime", "scenes", "topology"}},
     {"actors/view",
-     {"actors/assess", "actors/inspect", "actors/output", "actors/run", "runtime/http", "scenes"}},
+     {"actors/assess", "actors/design", "actors/inspect", "actors/output", "actors/run",
+      "runtime/http", "scenes"}},
     {"actors/cli", {"actors", "runtime", "scenes", "topology"}},
     {"tests", {"actors", "runtime", "proto", "topology", "scenes"}},
 };

@@ -34,6 +34,10 @@ TEST_CASE("what a viewer may say is read", "[view]") {
   CHECK_FALSE(is_edit(probe.value()));
   CHECK(decode_page_message(R"({"type":"edit","wanted":true})").ok());
   CHECK(decode_page_message(R"({"type":"judge","sign":"exit"})").ok());
+  const auto ask = decode_page_message(R"({"type":"suggest","free":["lamp copy"]})");
+  REQUIRE(ask.ok());
+  CHECK(std::get<SuggestAsk>(ask.value()).free == std::vector<std::string>{"lamp copy"});
+  CHECK_FALSE(is_edit(ask.value()));
   CHECK(decode_page_message(R"({"type":"smoke","factor":0})").ok());
   const auto state = decode_page_message(R"({"type":"state","at":60.5})");
   REQUIRE(state.ok());
@@ -94,6 +98,12 @@ TEST_CASE("all else is refused with a reason", "[view]") {
   CHECK(refused(R"({"type":"remove","name":7})").find("a text") != std::string::npos);
   CHECK(refused(R"({"type":"remove","name":")" + std::string(201, 'x') + "\"}").find("1 to 200") !=
         std::string::npos);
+  CHECK(refused(R"({"type":"suggest"})").find("list of texts") != std::string::npos);
+  CHECK(refused(R"({"type":"suggest","free":"a"})").find("list of texts") != std::string::npos);
+  CHECK(refused(R"({"type":"suggest","free":["a",7]})").find("1 to 200") != std::string::npos);
+  std::string many = R"({"type":"suggest","free":["a")";
+  for (size_t i = 0; i < limits::view_added; ++i) many += R"(,"a")";
+  CHECK(refused(many + "]}").find("not too long") != std::string::npos);
   CHECK(refused(R"({"type":"probe","id":-1,"triangle":0,"front":true})").find("range") !=
         std::string::npos);
   CHECK(refused(R"({"type":"probe","id":1,"triangle":4294967296,"front":true})").find("range") !=
@@ -107,7 +117,8 @@ TEST_CASE("rubbish is refused and never more than that", "[view]") {
   const std::string said[] = {
       R"({"type":"move","kind":"sign","name":"exit","position":[1,2,3],"facing":[0,1,0]})",
       R"({"type":"add","kind":"sign","of":"exit","position":[1,2,3],"facing":[0,1,0]})",
-      R"({"type":"remove","name":"exit copy"})"};
+      R"({"type":"remove","name":"exit copy"})",
+      R"({"type":"suggest","free":["lamp copy","lamp copy 2"]})"};
   Random random(1, RandomStream::test);
   for (uint64_t round = 0; round < 20'000; ++round) {
     random.start(round);
