@@ -54,6 +54,19 @@ class Members {
     }
     return out;
   }
+  std::vector<std::string> texts(const char* key, size_t most) {
+    const Json* const value = find(key);
+    if (value == nullptr || !value->is_array() || value->size() > most)
+      return refuse(key, "a list of texts that is not too long"), std::vector<std::string>();
+    std::vector<std::string> out;
+    for (const Json& one : *value) {
+      auto text = one.is_string() ? one.get<std::string>() : std::string();
+      if (text.empty() || text.size() > limits::view_name_chars)
+        return refuse(key, "a list of texts of 1 to 200 bytes"), std::vector<std::string>();
+      out.push_back(std::move(text));
+    }
+    return out;
+  }
   bool is_sign(const char* key) {
     const std::string kind = text(key);
     if (kind != "sign" && kind != "luminaire") refuse(key, "\"sign\" or \"luminaire\"");
@@ -133,6 +146,7 @@ std::optional<PageMessage> read_message(const std::string& type, Members& m) {
   if (type == "judge") return JudgeAsk{m.text("sign")};
   if (type == "render") return read_render(m);
   if (type == "stop_render") return RenderStop{};
+  if (type == "suggest") return SuggestAsk{m.texts("free", limits::view_added)};
   return std::nullopt;
 }
 
@@ -161,7 +175,8 @@ bool is_edit(const PageMessage& message) {
   return !std::holds_alternative<EditWish>(message) && !std::holds_alternative<ProbeAsk>(message) &&
          !std::holds_alternative<JudgeAsk>(message) &&
          !std::holds_alternative<RenderAsk>(message) &&
-         !std::holds_alternative<RenderStop>(message);
+         !std::holds_alternative<RenderStop>(message) &&
+         !std::holds_alternative<SuggestAsk>(message);
 }
 
 }  // namespace luxodus

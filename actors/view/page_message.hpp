@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "runtime/core/result.hpp"
 
@@ -79,9 +80,13 @@ struct RenderAsk {
 };
 /// The viewer's picture is wanted no longer.
 struct RenderStop {};
-using PageMessage =
-    std::variant<FactorEdit, ScenarioEdit, SmokeEdit, StateEdit, TimeEdit, MoveEdit, AddEdit,
-                 RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk, RenderAsk, RenderStop>;
+/// Where further luminaires would go, instead of those that are named.
+struct SuggestAsk {
+  std::vector<std::string> free;
+};
+using PageMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, StateEdit, TimeEdit, MoveEdit,
+                                 AddEdit, RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk,
+                                 RenderAsk, RenderStop, SuggestAsk>;
 
 /// Errors: what is no message, one sentence.
 Result<PageMessage> decode_page_message(std::string_view text);

@@ -6,6 +6,7 @@
 #include "actors/assess/assessment_inputs.hpp"
 #include "actors/inspect/inspect.hpp"
 #include "actors/view/sign_verdicts.hpp"
+#include "actors/view/suggestions.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/output_path.hpp"
 #include "runtime/core/output_text.hpp"
@@ -98,7 +99,7 @@ const std::string& ViewHub::backdrops() {
 
 ViewHub::~ViewHub() {
   ends_ = true;
-  if (judge_.joinable()) judge_.join();
+  if (answering_.joinable()) answering_.join();
   pictures_.reset();
   trace_.reset();
 }
@@ -425,14 +426,7 @@ void ViewHub::handle(Viewer& viewer, const ProbeAsk& ask) {
 }
 
 void ViewHub::handle(Viewer& viewer, const JudgeAsk& ask) {
-  const uint64_t number = viewers_[&viewer];
-  const auto waits = std::find_if(to_judge_.begin(), to_judge_.end(),
-                                  [&](const auto& one) { return one.first == number; });
-  if (waits != to_judge_.end())
-    waits->second = ask;
-  else
-    to_judge_.emplace_back(number, ask);
-  judge_next();
+  put(viewer, ask);
 }
 
 void ViewHub::handle(Viewer& viewer, const RenderAsk& ask) {
@@ -443,26 +437,48 @@ void ViewHub::handle(Viewer& viewer, const RenderStop&) {
   pictures_->cancel(viewers_[&viewer]);
 }
 
-void ViewHub::judge_next() {
-  if (judging_ || to_judge_.empty()) return;
-  const auto [number, ask] = to_judge_.front();
-  to_judge_.pop_front();
-  if (viewer_of(number) == nullptr) return judge_next();
-  judging_ = true;
-  if (judge_.joinable()) judge_.join();
+void ViewHub::handle(Viewer& viewer, const SuggestAsk& ask) {
+  put(viewer, ask);
+}
+
+void ViewHub::put(Viewer& viewer, Question question) {
+  const uint64_t number = viewers_[&viewer];
+  const auto waits = std::find_if(questions_.begin(), questions_.end(),
+                                  [&](const auto& one) { return one.first == number; });
+  if (waits != questions_.end())
+    waits->second = std::move(question);
+  else
+    questions_.emplace_back(number, std::move(question));
+  answer_next();
+}
+
+void ViewHub::answer_next() {
+  if (is_answering_ || questions_.empty()) return;
+  const auto [number, question] = questions_.front();
+  questions_.pop_front();
+  if (viewer_of(number) == nullptr) return answer_next();
+  is_answering_ = true;
+  if (answering_.joinable()) answering_.join();
   // Beside the tracing: it shares the processors with it for some seconds.
-  judge_ = std::thread(
-      [this, asker = number, sign = ask.sign, edits = edits_, factors = dimming_.both()] {
-        const auto scene = trace_->scene_at(edits.at_s);
-        const Json verdicts =
-            scene ? sign_verdicts(*scene.value(), edits, factors, sign, options_.live, ends_)
-                  : Json{{"type", "refused"}, {"why", scene.problem().text()}};
-        post_([this, asker, verdicts] {
-          judging_ = false;
-          if (Viewer* const asked = viewer_of(asker)) asked->send_text(text_of(verdicts));
-          judge_next();
+  answering_ = std::thread(
+      [this, asker = number, asked = question, edits = edits_, factors = dimming_.both()] {
+        const Json answer = answer_to(asked, edits, factors);
+        post_([this, asker, answer] {
+          is_answering_ = false;
+          if (Viewer* const viewer = viewer_of(asker)) viewer->send_text(text_of(answer));
+          answer_next();
         });
       });
+}
+
+Json ViewHub::answer_to(const Question& question, const SceneEdits& edits,
+                        const std::map<std::string, double>& factors) const {
+  const auto scene = trace_->scene_at(edits.at_s);
+  if (!scene) return {{"type", "refused"}, {"why", scene.problem().text()}};
+  if (const auto* const ask = std::get_if<SuggestAsk>(&question))
+    return suggestion(*scene.value(), edits, ask->free, options_.live, ends_);
+  return sign_verdicts(*scene.value(), edits, factors, std::get<JudgeAsk>(question).sign,
+                       options_.live, ends_);
 }
 
 }  // namespace luxodus

@@ -69,6 +69,7 @@ class ViewHub final : private LiveAudience {
   void handle(Viewer& viewer, const JudgeAsk& ask);
   void handle(Viewer& viewer, const RenderAsk& ask);
   void handle(Viewer& viewer, const RenderStop& stop);
+  void handle(Viewer& viewer, const SuggestAsk& ask);
   /// Has the edits traced. Until that begins it may be refused, and is taken back then.
   void edits();
   void take_back();
@@ -82,8 +83,13 @@ class ViewHub final : private LiveAudience {
   /// Whether something can stand there; the viewer is told why not.
   bool can_stand(Viewer& viewer, bool is_sign, const glm::dvec3& position,
                  const std::optional<glm::dvec3>& facing);
-  /// Begins with the next sign that somebody wants judged, where none is being judged.
-  void judge_next();
+  /// A question whose answer takes seconds: a sign to judge, or luminaires to suggest.
+  using Question = std::variant<JudgeAsk, SuggestAsk>;
+  void put(Viewer& viewer, Question question);
+  /// Begins with the next question that somebody waits for, where none is being answered.
+  void answer_next();
+  Json answer_to(const Question& question, const SceneEdits& edits,
+                 const std::map<std::string, double>& factors) const;
   void make_editor(Viewer* viewer);
   /// The scene at the time of the generation; as it was opened, before the first.
   const SceneDescription& scene_now() const {
@@ -110,12 +116,12 @@ class ViewHub final : private LiveAudience {
   std::map<std::pair<uint32_t, uint32_t>, LiveFrame> light_;
   std::optional<LiveProgress> progress_;
   std::atomic<bool> ends_{false};
-  std::thread judge_;
-  bool judging_ = false;
-  std::deque<std::pair<uint64_t, JudgeAsk>> to_judge_;  // by viewer: the last that each asked for
-  std::optional<std::string> backdrops_;                // once they have been asked for
-  std::unique_ptr<LiveTrace> trace_;                    // the last but one: it tells at once
-  std::unique_ptr<ViewPictures> pictures_;              // asks trace_ for the scene
+  std::thread answering_;
+  bool is_answering_ = false;
+  std::deque<std::pair<uint64_t, Question>> questions_;  // by viewer: the last that each asked
+  std::optional<std::string> backdrops_;                 // once they have been asked for
+  std::unique_ptr<LiveTrace> trace_;                     // the last but one: it tells at once
+  std::unique_ptr<ViewPictures> pictures_;               // asks trace_ for the scene
 };
 
 }  // namespace luxodus

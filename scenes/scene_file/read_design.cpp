@@ -72,6 +72,7 @@ std::vector<DesignType> types_of_scene(const SceneDescription& scene) {
     taken.insert(type.name);
     type.place = e.place;
     type.emitter = e;
+    type.like = e.name;
     type.emitter.name = type.name;
     put_to_origin(type.emitter);
     out.push_back(std::move(type));
@@ -115,7 +116,7 @@ void read_design_type(const toml::Table& table, SceneReading& reading, DesignSet
   type.emitter.place = type.place;
   const std::string from = keys.exactly_one({"like", "file"}, true);
   if (from == "like")
-    take_light_of(keys, keys.text("like"), type.emitter);
+    take_light_of(keys, type.like = keys.text("like"), type.emitter);
   else if (from == "file")
     read_photometric_light(keys, type.emitter);
   type.emitter.name = type.name;

@@ -23,6 +23,7 @@ struct DesignType {
   double cost = 1;                // of one, installed, in any currency
   double watts = 0;               // that one takes from the mains [W]
   std::vector<double> turns_deg;  // about its aim, against the way below; empty: by its symmetry
+  std::string like;               // the luminaire of the scene whose light it has; "": none
   LuminaireMount mount = LuminaireMount::ceiling;
   double aim_deg = 90;  // of one on a wall: 0 looks straight down, 90 away from the wall
   bool stated = false;  // in the scene; else one that follows from it

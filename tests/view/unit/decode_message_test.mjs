@@ -114,3 +114,22 @@ test('of the address of the page only the token goes on', () => {
   assert.equal(liveAddress('http://a:8080/?token=x%26y&z=1#q'), 'ws://a:8080/live?token=x%26y');
   assert.equal(liveAddress('https://a/'), 'wss://a/live');
 });
+
+test('a suggestion is taken over field by field, and refused with a wrong part', () => {
+  const suggestion = () => ({
+    type: 'suggested',
+    luminaires: [{ of: 'lamp', position: [1, 2, 3], facing: [0, 0, -1] }],
+    instead_of: ['lamp copy'],
+    least: 0.4,
+    missing: 0.1,
+    helpful: [{ position: [1, 2, 3], share: 0.5 }],
+    words: '1 more would do, and no fewer',
+  });
+  const { luminaires, insteadOf, helpful } = read(suggestion());
+  assert.deepEqual(luminaires[0], { of: 'lamp', position: [1, 2, 3], facing: [0, 0, -1] });
+  assert.deepEqual(insteadOf, ['lamp copy']);
+  assert.equal(helpful[0].share, 0.5);
+  assert.throws(() => read({ ...suggestion(), missing: 2 }), /missing/);
+  assert.throws(() => read({ ...suggestion(), helpful: [{ position: [1], share: 0 }] }), /position/);
+  assert.throws(() => read({ ...suggestion(), luminaires: [{ of: 7 }] }), /luminaires\[0\]\.of/);
+});

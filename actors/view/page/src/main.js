@@ -55,6 +55,7 @@ class Page {
       solid: (on) => (walk.solid = on),
       smooth: (on) => light.smooth(on),
       marks: (on) => building.showMarks(on),
+      suggest: (answer) => building.showSuggestion(answer),
       selection: {
         nudge: (way, metres) => this.selection.mover.nudge(way, metres),
         copy: () => this.selection.mover.copy(),
@@ -103,6 +104,7 @@ class Page {
       time: ({ seconds }) => (panels.state.time(seconds), light.dimmed()),
       probe: (answer) => panels.inspect.probe(answer),
       sign: (verdicts) => panels.inspect.judged(verdicts),
+      suggested: (answer) => panels.suggest.suggested(answer),
       added: (copy) => (selection.awaited = copy),
       picture: (picture) => panels.traced.show(picture),
       saved: ({ file }) => toast(`Saved as ${file}`, 'good'),
@@ -131,6 +133,7 @@ class Page {
   refused(why) {
     toast(`Refused: ${why}`);
     if (why.startsWith('no picture')) this.panels.traced.fail();
+    this.panels.suggest.refused();
     const { scene } = this.live;
     if (!scene) return;
     this.panels.state.scene(scene);

@@ -47,6 +47,10 @@ TEST_CASE("what a viewer may say is read", "[view]") {
   const auto stop = decode_page_message(R"({"type":"stop_render"})");
   REQUIRE(stop.ok());
   CHECK_FALSE(is_edit(stop.value()));
+  const auto ask = decode_page_message(R"({"type":"suggest","free":["lamp copy"]})");
+  REQUIRE(ask.ok());
+  CHECK(std::get<SuggestAsk>(ask.value()).free == std::vector<std::string>{"lamp copy"});
+  CHECK_FALSE(is_edit(ask.value()));
   CHECK(decode_page_message(R"({"type":"smoke","factor":0})").ok());
   const auto state = decode_page_message(R"({"type":"state","at":60.5})");
   REQUIRE(state.ok());
@@ -107,6 +111,12 @@ TEST_CASE("all else is refused with a reason", "[view]") {
   CHECK(refused(R"({"type":"remove","name":7})").find("a text") != std::string::npos);
   CHECK(refused(R"({"type":"remove","name":")" + std::string(201, 'x') + "\"}").find("1 to 200") !=
         std::string::npos);
+  CHECK(refused(R"({"type":"suggest"})").find("list of texts") != std::string::npos);
+  CHECK(refused(R"({"type":"suggest","free":"a"})").find("list of texts") != std::string::npos);
+  CHECK(refused(R"({"type":"suggest","free":["a",7]})").find("1 to 200") != std::string::npos);
+  std::string many = R"({"type":"suggest","free":["a")";
+  for (size_t i = 0; i < limits::view_added; ++i) many += R"(,"a")";
+  CHECK(refused(many + "]}").find("not too long") != std::string::npos);
   CHECK(refused(R"({"type":"probe","id":-1,"triangle":0,"front":true})").find("range") !=
         std::string::npos);
   CHECK(refused(R"({"type":"probe","id":1,"triangle":4294967296,"front":true})").find("range") !=
@@ -135,7 +145,8 @@ TEST_CASE("rubbish is refused and never more than that", "[view]") {
       R"({"type":"add","kind":"sign","of":"exit","position":[1,2,3],"facing":[0,1,0]})",
       R"({"type":"remove","name":"exit copy"})",
       R"({"type":"render","id":4,"eye":[1,2,3],"target":[2,2,3],"up":[0,0,1],"fov":55,)"
-      R"("width":960,"height":540,"human":true})"};
+      R"("width":960,"height":540,"human":true})",
+      R"({"type":"suggest","free":["lamp copy","lamp copy 2"]})"};
   Random random(1, RandomStream::test);
   for (uint64_t round = 0; round < 20'000; ++round) {
     random.start(round);

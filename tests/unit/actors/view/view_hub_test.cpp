@@ -341,6 +341,10 @@ TEST_CASE("an added sign lays triangles anew, and light of before comes with the
   // Verdicts come with the state that they are of.
   CHECK((*live.viewer.last("sign"))["note"].get<std::string>().find("MAINS OPERATION") == 0);
   CHECK(live.viewer.last("refused") == nullptr);
+  // A suggestion waits in the same line; this room has no route that luminaires could light.
+  live.says(R"({"type":"suggest","free":[]})");
+  live.posts.until([&] { return live.viewer.last("refused") != nullptr; });
+  CHECK(live.why().find("nothing to light") != std::string::npos);
   live.says(R"({"type":"remove","name":"exit copy"})");
   live.until_done();
   CHECK(live.scene()["relaid"] == true);

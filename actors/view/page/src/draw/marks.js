@@ -12,7 +12,11 @@ const inks = {
   sign: [0.3, 0.95, 0.55],
   observer: [0.6, 0.75, 1],
   walker: [0.45, 0.7, 1],
+  suggested: [0.4, 1, 0.95],
 };
+
+/** Of places where a luminaire would help: from blue for little to red for most. */
+const heat = (share) => [0.25 + 0.75 * share, 0.35 + 0.3 * share * (1 - share), 1 - 0.9 * share];
 
 function lines(ink) {
   const material = new THREE.RawShaderMaterial({
@@ -58,6 +62,7 @@ export class Marks {
     this.backdrops = new Backdrops();
     this.scene.add(this.backdrops.group, this.points, this.walls, this.outline);
     this.wanted = true;
+    this.suggestion = null;
   }
 
   /** Marks of a scene: fixed places, and with `plan` also what one sees from above only. */
@@ -65,6 +70,10 @@ export class Marks {
     const marks = [];
     const put = (kind, position, ink = kind) => marks.push({ kind, position, ink });
     const on = this.wanted;
+    const most = Math.max(0, ...(this.suggestion?.helpful ?? []).map((h) => h.share));
+    for (const h of this.suggestion?.helpful ?? [])
+      marks.push({ kind: 'flame', position: h.position, tint: heat(h.share / (most || 1)) });
+    for (const l of this.suggestion?.luminaires ?? []) put('sign', l.position, 'suggested');
     if (on) for (const l of scene.luminaires) put('luminaire', l.position);
     if (on) for (const g of scene.groups) if (g.kind === 'flame') put('flame', g.position);
     if (on && plan) for (const s of scene.signs) put('sign', s.position);
@@ -74,7 +83,7 @@ export class Marks {
     const attribute = (name, values, size) =>
       geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(values), size));
     attribute('position', marks.flatMap((m) => m.position), 3);
-    attribute('tint', marks.flatMap((m) => inks[m.ink]), 3);
+    attribute('tint', marks.flatMap((m) => m.tint ?? inks[m.ink]), 3);
     attribute('kind', marks.map((m) => shapes[m.kind]), 1);
     this.points.geometry.dispose();
     this.points.geometry = geometry;

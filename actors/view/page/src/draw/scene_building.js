@@ -31,6 +31,12 @@ export class SceneBuilding {
     this.placeMarks();
   }
 
+  /** Marks of suggested luminaires, and of places by how much one would help there. */
+  showSuggestion(answer) {
+    this.picture.marks.suggestion = answer;
+    this.placeMarks();
+  }
+
   placeMarks() {
     if (!this.live.scene) return;
     this.picture.marks.place(this.live.scene, this.walk.inPlan, this.walk.motion.eye);

@@ -5,6 +5,7 @@ import { Inspect } from './inspect.js';
 import { Labels } from './labels.js';
 import { Rendition } from './rendition.js';
 import { StatePanel } from './state_panel.js';
+import { Suggest } from './suggest.js';
 import { Top } from './top.js';
 import { Traced } from './traced.js';
 import { Views } from './views.js';
@@ -15,6 +16,7 @@ export class Panels {
     this.top = new Top({ edit: (wanted) => wants.say({ type: 'edit', wanted }) });
     this.state = new StatePanel({ say: wants.say });
     this.groups = new Groups({ dim: wants.dim });
+    this.suggest = new Suggest({ say: wants.say, show: wants.suggest });
     this.rendition = new Rendition(picture.exposure, () => (picture.untoned = true));
     this.rendition.check('collide with walls', true, wants.solid);
     this.rendition.check('smooth light', true, wants.smooth);
@@ -24,12 +26,12 @@ export class Panels {
     this.traced = new Traced(wants.say);
     this.labels = new Labels(byId('labels'));
     byId('panel').append(this.inspect.element, this.state.element, this.groups.element,
-      this.rendition.element, this.state.saveElement);
+      this.suggest.element, this.rendition.element, this.state.saveElement);
     this.edits(false);
   }
 
   scene(scene) {
-    for (const part of [this.top, this.state, this.groups, this.views, this.labels])
+    for (const part of [this.top, this.state, this.groups, this.suggest, this.views, this.labels])
       part.scene(scene);
     this.edits(scene.editor);
   }
@@ -37,6 +39,7 @@ export class Panels {
   /** Whether this viewer may change the building. */
   edits(editor) {
     this.editor = editor;
-    for (const part of [this.top, this.state, this.groups, this.inspect]) part.edits(editor);
+    for (const part of [this.top, this.state, this.groups, this.suggest, this.inspect])
+      part.edits(editor);
   }
 }

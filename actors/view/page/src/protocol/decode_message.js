@@ -156,6 +156,17 @@ const observer = (o, path) => ({
   gaze: place(o.gaze, `${path}.gaze`),
 });
 
+const suggested = (l, path) => ({
+  of: text(l.of, `${path}.of`),
+  position: place(l.position, `${path}.position`),
+  facing: place(l.facing, `${path}.facing`),
+});
+
+const helpful = (h, path) => ({
+  position: place(h.position, `${path}.position`),
+  share: number(h.share, `${path}.share`, 0, 1),
+});
+
 const camera = (c, path) => ({
   name: text(c.name, `${path}.name`),
   eye: place(c.eye, `${path}.eye`),
@@ -245,6 +256,14 @@ const readers = {
     seconds: number(m.seconds, 'seconds', 0, 1e9),
     done: m.done === true,
     png: pngOf(m.png, 'png'),
+  }),
+  suggested: (m) => ({
+    luminaires: list(m.luminaires, 'luminaires', suggested),
+    insteadOf: list(m.instead_of ?? [], 'instead_of', text),
+    helpful: list(m.helpful ?? [], 'helpful', helpful),
+    least: number(m.least, 'least', -1e6, 1e6),
+    missing: number(m.missing, 'missing', 0, 1),
+    words: text(m.words, 'words'),
   }),
   added: (m) => ({
     kind: oneOf(m.kind, 'kind', ['sign', 'luminaire']),
