@@ -11,6 +11,7 @@
 #include "actors/cli/assess_command.hpp"
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
+#include "actors/cli/findings.hpp"
 #include "actors/cli/load_cluster.hpp"
 #include "actors/cli/load_scene.hpp"
 #include "actors/cli/picture_choices.hpp"
@@ -135,9 +136,15 @@ class WorkerWatch {
       : cluster_(cluster), executor_(executor), without_since_(clock_.now()) {}
 
   std::optional<Problem> fault() {
-    const std::lock_guard lock(mutex_);
+    // The executor asks with its own lock held: it is asked before this one is taken.
     if (auto refused = executor_.fault()) return refused;
-    if (executor_.counters().workers > 0) {
+    const NodeExecutor::Counters counters = executor_.counters();
+    if (counters.stuck >= stuck_for_good)
+      return problem_in(cluster_.file,
+                        "no worker can trace what is asked for; their logs say why: raise what "
+                        "they lack, and start anew");
+    const std::lock_guard lock(mutex_);
+    if (counters.workers > 0) {
       any_ = true;
       without_since_.reset();
       return std::nullopt;
@@ -152,6 +159,8 @@ class WorkerWatch {
   }
 
  private:
+  static constexpr uint64_t stuck_for_good = 20;  // looks, a quarter of a second apart
+
   const ClusterConfig& cluster_;
   const NodeExecutor& executor_;
   const SystemClock clock_;
@@ -235,6 +244,10 @@ Result<ExitCode> render_on_nodes(const ClusterConfig& cluster, ClusterProcessRun
   NodeWork work = work_of_states(states);
   work.controller = [&](const RunSetup& run, const Machine& machine,
                         const NodeSetup& node) -> Result<StopReason> {
+    const auto scenario = find_scenario(scene, cluster.run.scenario);
+    if (!scenario) return scenario.problem();
+    if (!passes_inspection(base.scene().description, {scenario.value()}, default_threads()))
+      return problem_in(scene.file, "the scene has errors, told above");
     const auto out = OutputFolder::claim(cluster.run.out, plan_of_views(scene));
     if (!out) return out.problem();
     LocalRun finished(base.shared_scene(), base.seed(), default_threads());

@@ -70,7 +70,7 @@ std::vector<std::pair<uint32_t, double>> helpful_places(const LayoutProblem& pro
     for (const auto& entry : index.covers(i))
       helps += std::min(static_cast<double>(entry.value), std::max(0.0, 1 - sums.cover(entry.row)));
     double& of_place = best[problem.options[i].place];
-    of_place = std::max(of_place, helps / missing);
+    of_place = std::max(of_place, std::min(1.0, helps / missing));
   }
   return {best.begin(), best.end()};
 }

@@ -142,7 +142,13 @@ Result<std::vector<Camera>> cameras_through(const std::vector<Keyframe>& keys, d
                                     "put one between them that says which way",
                                     keys[i].camera.name, keys[i + 1].camera.name));
     camera.target = camera.eye + glm::normalize(gaze);
-    camera.up = between(times, ups, i, at);
+    const glm::dvec3 up = between(times, ups, i, at);
+    if (glm::length(up) < min_gaze)
+      return problem_in(keys[i + 1].camera.place,
+                        fmt::format("between the cameras \"{}\" and \"{}\" up turns around: put "
+                                    "one between them that says which way",
+                                    keys[i].camera.name, keys[i + 1].camera.name));
+    camera.up = glm::normalize(up);
     camera.vertical_fov_deg =
         keys[i].camera.vertical_fov_deg * (1 - at) + keys[i + 1].camera.vertical_fov_deg * at;
     cameras.push_back(camera);
@@ -162,21 +168,37 @@ std::string name_of_frame(size_t frame) {
   return fmt::format("{:06}.png", frame);
 }
 
+namespace {
+
+/// Frames of one state, with which the flux travels.
+constexpr size_t frames_of_a_state = 16;
+
+std::vector<TiledView> frames_from(const std::vector<Camera>& cameras, size_t first) {
+  std::vector<TiledView> views;
+  for (size_t k = first; k < std::min(first + frames_of_a_state, cameras.size()); ++k)
+    views.push_back({cameras[k]});
+  return views;
+}
+
+}  // namespace
+
 Result<size_t> render_film(const fs::path& folder, const LocalRun& run, const Film& film,
                            const PictureOptions& options,
                            const std::function<void(double frames)>& progress) {
   if (auto ok = make_frame_folder(folder); !ok) return ok.problem();
   const PictureFlux flux = picture_flux(run, options);
+  std::optional<PictureExecutor> elsewhere;  // where others trace
   for (size_t k = 0; k < film.cameras.size(); ++k) {
     const Camera& camera = film.cameras[k];
     ViewPasses view(run, camera, 0, flux.radiance.get());
     const auto tell = [&](double share) {
       if (progress) progress(static_cast<double>(k) + share);
     };
-    const bool whole = options.executor == nullptr
-                           ? view.add(options.paths_per_pixel, options, tell)
-                           : PictureExecutor(run, {{camera}}, options, flux)
-                                 .add(0, view, options.paths_per_pixel, tell);
+    if (options.executor != nullptr && k % frames_of_a_state == 0)
+      elsewhere.emplace(run, frames_from(film.cameras, k), options, flux);
+    const bool whole =
+        elsewhere ? elsewhere->add(k % frames_of_a_state, view, options.paths_per_pixel, tell)
+                  : view.add(options.paths_per_pixel, options, tell);
     if (!whole) return k;
     const ShownView shown(view.picture(), view.paths(), options, run.threads());
     auto written = write_shown_png(folder / name_of_frame(k), film.human, run, camera, shown);

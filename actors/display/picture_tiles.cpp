@@ -149,8 +149,8 @@ class TilePass final : public Work {
     return state_.worker(state_.run().seed(), 1, {});
   }
   std::optional<BatchRange> next(int64_t most) override {
-    const std::lock_guard lock(mutex_);
     if (options_.interrupted()) return std::nullopt;
+    const std::lock_guard lock(mutex_);
     if (!again_.empty()) return take_again(most);
     if (step_ == end_step_) return std::nullopt;
     const BatchRange out{view_, step_, tile_, std::min(most, tiles_ - tile_)};
@@ -232,7 +232,8 @@ TiledView view_of(const Json& object) {
 /// Of what has come from elsewhere.
 bool is_picture(const TiledView& view) {
   const Camera& camera = view.camera;
-  return camera.width > 0 && camera.height > 0 &&
+  return camera.width > 0 && camera.height > 0 && camera.width <= limits::max_picture_edge &&
+         camera.height <= limits::max_picture_edge &&
          ViewPasses::bytes_of(camera) <= limits::max_view_bytes && camera.vertical_fov_deg > 0 &&
          camera.vertical_fov_deg < 180 && camera.eye != camera.target &&
          camera.up != glm::dvec3(0) && view.number >> 16 == 0;
@@ -254,8 +255,8 @@ Result<TiledPictures> parse_tiles(const std::string& text) try {
   out.paths_per_pixel = header.at("paths_per_pixel").get<int>();
   if (out.paths_per_pixel < 1 || out.paths_per_pixel > limits::max_paths_per_pixel)
     return problem("these are no pictures: of so many paths a pixel there are none");
-  if (header.at("views").size() > limits::max_tiled_views)
-    return problem("these are more pictures than can be traced at once");
+  if (header.at("views").empty() || header.at("views").size() > limits::max_tiled_views)
+    return problem("these are no pictures, or more than can be traced at once");
   for (const Json& one : header.at("views")) {
     out.views.push_back(view_of(one));
     if (!is_picture(out.views.back())) return problem("a camera is none, or too large");

@@ -55,7 +55,7 @@ uint64_t ViewPasses::bytes_of(const Camera& camera) {
 template <class PathsOf>
 bool ViewPasses::trace(const PictureOptions& options, const ShareDone& progress,
                        const PathsOf& paths_of) {
-  const std::vector<PixelSums> before = options.interrupt != nullptr ? sums_ : decltype(sums_)();
+  const std::vector<PixelSums> before = options.may_end_early() ? sums_ : decltype(sums_)();
   // Parts of a row, so that there is work for many fibers.
   const int parts = (camera_.width + columns_at_once - 1) / columns_at_once;
   const auto make = [&](const GeometryAccess& access) {

@@ -54,6 +54,7 @@ struct PictureOptions {
   /// Who traces the pictures, tile by tile; null: the threads of the run.
   Executor* executor = nullptr;
 
+  bool may_end_early() const { return interrupt != nullptr || gives_up; }
   bool interrupted() const {
     return (interrupt != nullptr && interrupt->load()) || (gives_up && gives_up());
   }

@@ -18,7 +18,7 @@ Pinhole::Pinhole(const Camera& camera, const glm::dvec3& local_origin)
     : eye_(camera.eye - local_origin), width_(camera.width), height_(camera.height) {
   forward_ = glm::normalize(camera.target - camera.eye);
   glm::dvec3 right = glm::cross(forward_, camera.up);
-  if (glm::length(right) < 1e-9 * glm::length(camera.up)) {
+  if (glm::length(right) <= 1e-9 * glm::length(camera.up)) {
     // Looking along `up`: any direction across will do; y is up on a plan.
     const glm::dvec3 other = std::abs(forward_.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     right = glm::cross(forward_, other);

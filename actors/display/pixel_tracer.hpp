@@ -15,6 +15,7 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int max_paths_per_pixel = 1 << 16;  // 17 bits of a path's number
+inline constexpr int max_picture_edge = 1 << 14;     // of a scene's cameras, too
 }
 
 /// A camera without a lens: every ray passes through one point.

@@ -132,7 +132,7 @@ Result<bool> write_fire(const FireBuilding& building, const FireOrigin& source,
   auto materials = own_tables(folder.value() / "materials.toml", {"material"});
   if (!materials) return materials.problem();
   for (const FireMaterial& one : building.tables.materials())
-    if (!materials->named.contains(one.name)) materials->added += "\n" + material_table(one);
+    if (!materials->has("material", one.name)) materials->added += "\n" + material_table(one);
   if (auto ok = save(materials.value(), fire_materials_head); !ok) return ok.problem();
   if (!building.bodies.empty())
     if (auto ok = write_bodies(building.bodies, folder.value()); !ok) return ok.problem();

@@ -1,7 +1,7 @@
 // Does batches of a scene's state, one at a time, in portions, wherever that is: on a thread that
 // takes them from the work itself, or on a node that they were leased to. What a batch is, is said
 // by those who derive from it: particles (particle_worker.hpp), tiles of pictures
-// (actors/display/picture_state.hpp). Thread rule: one thread or fiber.
+// (actors/display/picture_tiles.hpp). Thread rule: one thread or fiber.
 #pragma once
 
 #include <cstdint>

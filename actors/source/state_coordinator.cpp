@@ -100,6 +100,7 @@ void StateCoordinator::stop() {
 }
 
 void StateCoordinator::counted(const Letter<Flush>&, std::span<const int64_t> batches) {
+  stuck_ = 0;
   for (const int64_t batch : batches) out_.erase(batch);
   if (work_ != nullptr) work_->merged(static_cast<int64_t>(batches.size()));
   end_when_done();
@@ -118,6 +119,7 @@ void StateCoordinator::take_back_lost() {
     if (peer.here && !peer.left) here.push_back(worker);
   if (here.empty() || book_.lose_what_all_gave_back(here) == 0) return;
   const std::set<int64_t> lost = book_.take_lost();
+  ++stuck_;
   log_error("state=stuck batches={} text=\"none of the nodes can enter this state of the scene\"",
             lost.size());
   give_back(lost);

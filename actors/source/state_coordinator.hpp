@@ -43,6 +43,8 @@ class StateCoordinator final : public Coordinator {
 
   /// Workers that are here.
   size_t workers_here() const;
+  /// Looks in a row at which none of them could enter the state.
+  uint64_t stuck() const { return stuck_; }
   /// Why none will ever come: they work for another.
   const std::optional<Problem>& fault() const { return fault_; }
 
@@ -78,8 +80,9 @@ class StateCoordinator final : public Coordinator {
   const std::function<void()> done_;
   std::optional<Named> state_, foreseen_;
   Work* work_ = nullptr;
-  bool all_given_ = false;      // the work has no more
-  std::set<int64_t> out_;       // its batches that are here, and neither counted nor given back
+  bool all_given_ = false;  // the work has no more
+  std::set<int64_t> out_;   // its batches that are here, and neither counted nor given back
+  uint64_t stuck_ = 0;
   std::set<NodeId> told_here_;  // workers that were there at the last look
   std::optional<Problem> fault_;
 };

@@ -40,6 +40,7 @@ class NodeExecutor final : public Executor {
     uint64_t fenced = 0;
     uint64_t refused = 0;  // flushes
     size_t workers = 0;    // that are there
+    uint64_t stuck = 0;    // looks in a row at which no worker could enter the state
   };
   Counters counters() const;
 

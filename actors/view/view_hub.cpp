@@ -462,7 +462,12 @@ void ViewHub::answer_next() {
   // Beside the tracing: it shares the processors with it for some seconds.
   answering_ = std::thread(
       [this, asker = number, asked = question, edits = edits_, factors = dimming_.both()] {
-        const Json answer = answer_to(asked, edits, factors);
+        Json answer;
+        try {
+          answer = answer_to(asked, edits, factors);
+        } catch (const std::exception& e) {
+          answer = {{"type", "refused"}, {"why", e.what()}};
+        }
         post_([this, asker, answer] {
           is_answering_ = false;
           if (Viewer* const viewer = viewer_of(asker)) viewer->send_text(text_of(answer));

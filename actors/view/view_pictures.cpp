@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <string_view>
 
@@ -164,6 +165,13 @@ Result<const ViewPictures::Traced*> ViewPictures::flux_for(const Order& order, G
   return traced_.get();
 }
 
+/// Without a picture to show. Errors: it was not interrupted, but took too long.
+Result<void> ViewPictures::unfinished() const {
+  if (interrupt_) return {};
+  return problem("it would take longer than " + std::to_string(std::lround(limits_.seconds)) +
+                 " s: ask for fewer pixels");
+}
+
 Result<void> ViewPictures::render(const Order& order) {
   Growing growing(order, tell_);
   const auto traced = flux_for(order, growing);
@@ -174,8 +182,9 @@ Result<void> ViewPictures::render(const Order& order) {
   const Camera camera = camera_of(order.ask);
   PictureOptions options;
   options.interrupt = &interrupt_;
+  options.gives_up = [&] { return growing.seconds() > limits_.seconds; };
   ViewPasses passes(run, camera, 0, traced.value()->flux.get());
-  if (!passes.add_first(min_pass, options)) return {};
+  if (!passes.add_first(min_pass, options)) return unfinished();
   const ShownView half(passes.first_picture(), min_pass, options, run.threads(), first_filter);
   if (auto ok = growing.tell_picture(first_image(human, run, camera, half), run.particles(), 0,
                                      Growing::unknown, false);
@@ -184,13 +193,14 @@ Result<void> ViewPictures::render(const Order& order) {
   for (bool done = false; !done;) {
     const double before_s = growing.seconds();
     const int before = passes.paths();
-    if (!passes.add(next_pass(before) - before, options)) return {};
+    const bool whole = passes.add(next_pass(before) - before, options);
+    if (!whole && (interrupt_ || passes.paths() == 0)) return unfinished();
     const ShownView shown(passes.picture(), passes.paths(), options, run.threads());
     const double pass_s = growing.seconds() - before_s;
     const double next = next_pass(passes.paths()) - passes.paths();
-    done =
-        passes.paths() >= limits_.paths || pass_slack * pass_s * next / (passes.paths() - before) >
-                                               limits_.seconds - growing.seconds();
+    done = !whole || passes.paths() >= limits_.paths ||
+           pass_slack * pass_s * next / (passes.paths() - before) >
+               limits_.seconds - growing.seconds();
     if (interrupt_) return {};
     if (auto ok = growing.tell_picture(shown_image(human, run, camera, shown), run.particles(),
                                        passes.paths(), shown.error(), done);

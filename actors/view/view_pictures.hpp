@@ -55,6 +55,7 @@ class ViewPictures {
   class Growing;
   void work();
   Result<void> render(const Order& order);
+  Result<void> unfinished() const;
   /// The flux of the building as it is ordered, kept or traced. Null: it was interrupted.
   Result<const Traced*> flux_for(const Order& order, Growing& growing);
 
