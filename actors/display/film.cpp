@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "actors/display/picture_tiles.hpp"
 #include "actors/display/view_files.hpp"

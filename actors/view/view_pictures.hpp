@@ -20,7 +20,7 @@ namespace luxodus {
 
 /// What a picture may take.
 struct ViewPictureLimits {
-  double seconds = 60;       // with the flux that it ends in
+  double seconds = 300;      // with the flux that it ends in
   double flux_seconds = 15;  // of these, for the flux
   int64_t flux_particles = 4'000'000;
   int paths = 256;  // of each pixel, where there is time for them

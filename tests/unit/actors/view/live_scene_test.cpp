@@ -238,3 +238,39 @@ TEST_CASE("after a failure luminaires come on and phosphor fades, by shares of w
   CHECK(lumens(scene.scenarios[0], true) == Approx(50));
   CHECK(lumens(scene.scenarios[0], false) == Approx(100));
 }
+
+TEST_CASE(
+    "a building that is dimmed for a picture has one source group, and flames are dimmed, too",
+    "[view]") {
+  const test::TemporaryFolder folder;
+  const auto scene = test::described(folder.write("scene.toml", room + R"(
+[[medium]]
+name = "fire"
+kind = "bounded"
+body = "cone"
+position = [3, 2, 0.5]
+radius = 0.3
+height = 1
+extinction = 1
+albedo = 0
+emission = { power_w = 1000, temperature_k = 1800 }
+)"));
+  SceneEdits edits;
+  edits.scenario = "day";
+  const auto lumens = [&](const std::map<std::string, double>& factors) {
+    const auto compiled = compile_dimmed(*scene, edits, factors);
+    REQUIRE(compiled.ok());
+    CHECK(compiled.value()->groups.size() == 1);
+    double lamps = 0, flames = 0;
+    for (const CompiledEmitter& e : compiled.value()->emitters) {
+      if (e.kind == EmitterKind::volume) flames += e.luminous_flux_lm;
+      if (e.kind != EmitterKind::volume && e.sign == none_index) lamps += e.luminous_flux_lm;
+    }
+    return std::pair(lamps, flames);
+  };
+  const auto all = lumens({});
+  const auto dimmed = lumens({{group_of_luminaire("lamp"), 0.5}, {group_of_flame("fire"), 0.25}});
+  CHECK(all.first == Approx(1000).epsilon(1e-3));
+  CHECK(dimmed.first == Approx(500).epsilon(1e-3));
+  CHECK(dimmed.second == Approx(0.25 * all.second));
+}
