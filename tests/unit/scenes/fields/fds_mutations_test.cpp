@@ -7,6 +7,7 @@
 
 #include "scenes/fields/fds.hpp"
 #include "scenes/fields/fds_building.hpp"
+#include "scenes/fields/fds_visibility.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/kit/small_fire.hpp"
 
@@ -48,7 +49,12 @@ std::map<std::string, std::string> whole_case() {
     out["h" + of_mesh + ".s3d"] = smoke3d_file(mesh, smoke);
     const auto one = node_values(mesh, at);
     out["p_" + of_mesh + "_5p00.q"] = plot3d_file(mesh, {one, one, one, one, one});
-    index += slice_entry(m, true, mesh, "c" + of_mesh + ".sf", "SOOT DENSITY") +
+    const std::array<int32_t, 6> level{0, mesh.cells(0), 0, mesh.cells(1), 1, 1};
+    const std::vector<float> metres(static_cast<size_t>((mesh.cells(0) + 1) * (mesh.cells(1) + 1)),
+                                    7);
+    out["v" + of_mesh + ".sf"] = part_slice_file(level, "VISIBILITY", {{0, metres}, {5, metres}});
+    index += part_slice_entry(m, m == 2, level, "v" + of_mesh + ".sf", "VISIBILITY") +
+             slice_entry(m, true, mesh, "c" + of_mesh + ".sf", "SOOT DENSITY") +
              slice_entry(m, false, mesh, "n" + of_mesh + ".sf", "SOOT EXTINCTION COEFFICIENT") +
              smoke_entry(m, "s" + of_mesh + ".s3d", "SOOT DENSITY") +
              smoke_entry(m, "h" + of_mesh + ".s3d", "HRRPUV", "0.000") + "PL3D 5.0 " + of_mesh +
@@ -131,6 +137,12 @@ TEST_CASE("harmed results of FDS are read or refused with one sentence", "[forma
     options.flames = random.bits() % 2 == 0;
     const auto building = read_fire_building(folder / "case.smv", options.at_s);
     if (!building.ok()) REQUIRE_FALSE(building.problem().what.empty());
+    const auto visibility = read_visibility(folder / "case.smv", options.at_s);
+    if (!visibility.ok())
+      REQUIRE_FALSE(visibility.problem().what.empty());
+    else if (visibility.value())
+      if (const auto metres = visibility.value()->at({0.7, 0.3, 0.6}))
+        REQUIRE((*metres >= 0 && *metres <= 1e9));
     const auto fire = read_fire(folder / "case.smv", options);
     if (fire.ok()) {
       ++read;
