@@ -97,7 +97,7 @@ std::string fire_scene(const FireBuilding& building, const FireOrigin& source,
   for (const std::string& side : building.open_sides)
     sides += fmt::format("{}\"{}\"", sides.empty() ? "" : ", ", side);
   for (const glm::dvec3& exit : building.exits)
-    exits += fmt::format("#   [{:.4g}, {:.4g}, {:.4g}]\n", exit.x, exit.y, exit.z);
+    exits += fmt::format("#   [{:.10g}, {:.10g}, {:.10g}]\n", exit.x, exit.y, exit.z);
   if (!exits.empty())
     exits = "\n# Openings that reach the floor, where exits and their signs may be:\n" + exits;
   return fmt::format(
@@ -110,7 +110,7 @@ open_sides = [{}]
 name = "stand-in"
 shape = "point"
 distribution = "isotropic"
-position = [{:.6g}, {:.6g}, {:.6g}]
+position = [{:.10g}, {:.10g}, {:.10g}]
 flux_lm = 1000
 {})",
       toml_text(source.title), sides, index.empty() ? no_smoke_text : smoke_text(source, index),

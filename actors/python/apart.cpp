@@ -3,7 +3,6 @@
 #include <chrono>
 #include <exception>
 #include <new>
-#include <optional>
 #include <thread>
 
 #include "actors/python/errors.hpp"
@@ -62,7 +61,7 @@ void work_apart(const py::object& progress, const std::function<void(Waiting&)>&
     }
     waiting.end();
   });
-  std::optional<py::error_already_set> raised;
+  std::exception_ptr raised;  // here, where objects of Python may be
   for (bool ended = false; !ended;) {
     Waiting::Said said;
     {
@@ -74,13 +73,13 @@ void work_apart(const py::object& progress, const std::function<void(Waiting&)>&
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (said && !progress.is_none() && progress(said()).is(py::bool_(false)))
         waiting.interrupt_ = true;
-    } catch (py::error_already_set& error) {
-      raised.emplace(error);
+    } catch (...) {
+      raised = std::current_exception();
       waiting.interrupt_ = true;
     }
   }
   worker.join();  // it has said its last
-  if (raised) throw py::error_already_set(*raised);
+  if (raised) std::rethrow_exception(raised);
   if (thrown) rethrow(thrown);
 }
 

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/assess/over_time.hpp"
@@ -31,6 +32,13 @@ struct MadeAssessment {
 std::vector<double> times_wanted(const OpenScene& scene, std::vector<double> asked) {
   const auto& own = scene.description()->time;
   if (asked.empty() && own && !scene.at_s()) return times_of(*own);
+  constexpr size_t max_times = 10'000;
+  if (asked.size() > max_times)
+    throw Refused(
+        problem(fmt::format("times_s has {} times: at most {}", asked.size(), max_times)));
+  for (const double time : asked)
+    if (!(std::abs(time) < 1e8))
+      throw Refused(problem(fmt::format("times_s has {}: write seconds below 1e8", time)));
   std::sort(asked.begin(), asked.end());
   asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
   return asked;

@@ -152,13 +152,25 @@ TracedRun::TracedRun(std::unique_ptr<LocalRun> run, std::unique_ptr<RunExecutor>
 void TracedRun::trace(const StopRule& stop, const py::object& progress) {
   const Claim claim(*this);
   computed_ = false;
-  work_apart(progress, [&](Waiting& waiting) {
-    RunThreads threads;
-    RunExecutor& executor = executor_ ? *executor_ : threads;
-    const auto report = [&](const Progress& p) { waiting.say(said_of(p)); };
-    record_.stopped_by = name_of(taken(executor.run(*run_, stop, waiting.interrupt(), report)));
-  });
-  record_.stop = stop;
+  std::string stopped_by = record_.stopped_by;
+  // Other threads of Python may ask for what follows while the work goes on: it changes here alone.
+  const auto note = [&] {
+    record_.stopped_by = stopped_by;
+    record_.stop = stop;
+    particles_ = run_->particles();
+  };
+  try {
+    work_apart(progress, [&](Waiting& waiting) {
+      RunThreads threads;
+      RunExecutor& executor = executor_ ? *executor_ : threads;
+      const auto report = [&](const Progress& p) { waiting.say(said_of(p)); };
+      stopped_by = name_of(taken(executor.run(*run_, stop, waiting.interrupt(), report)));
+    });
+  } catch (...) {
+    note();
+    throw;
+  }
+  note();
 }
 
 void TracedRun::compute() {
@@ -277,7 +289,7 @@ void add_run(py::module_& module) {
       .def_property_readonly("energy_balance", &TracedRun::energy_balance,
                              "The ledger of result.json with its sums as whole numbers.")
       .def_property_readonly(
-          "particles", [](const TracedRun& r) { return r.run().particles(); },
+          "particles", [](const TracedRun& r) { return r.particles(); },
           "Number of particles traced.")
       .def_property_readonly(
           "stopped_by", [](const TracedRun& r) { return r.stopped_by(); },
@@ -307,7 +319,7 @@ void add_run(py::module_& module) {
       .def("__repr__", [](const TracedRun& r) {
         return fmt::format("<luxodus.Run of {}, scenario {}: {} particles>",
                            r.run().scene().description->name, r.run().scene().scenario.name,
-                           r.run().particles());
+                           r.particles());
       });
 }
 

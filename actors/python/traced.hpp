@@ -34,6 +34,8 @@ class TracedRun {
 
   const LocalRun& run() const { return *run_; }
   const std::string& stopped_by() const { return record_.stopped_by; }
+  /// As of the last call that traced.
+  int64_t particles() const { return particles_; }
 
  private:
   class Claim;
@@ -44,6 +46,7 @@ class TracedRun {
   RunRecord record_;
   std::atomic<bool> taken_{false};  // by a thread of Python, which has released the lock
   bool computed_ = false;
+  int64_t particles_ = 0;
   pybind11::dict result_, planes_;
 };
 

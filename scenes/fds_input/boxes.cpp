@@ -28,10 +28,13 @@ std::vector<Box> without(const Box& box, const Box& hole) {
 }
 
 std::optional<std::vector<Box>> without_all(const Box& box, const std::vector<Box>& holes,
-                                            size_t most) {
+                                            size_t most, Comparisons& comparisons) {
   std::vector<Box> left{box};
+  comparisons.made += holes.size();
   for (const Box& hole : holes) {
     if (!cuts(hole, box)) continue;
+    comparisons.made += left.size();
+    if (comparisons.too_many()) return std::nullopt;
     std::vector<Box> next;
     for (const Box& one : left) {
       for (const Box& piece : without(one, hole)) next.push_back(piece);

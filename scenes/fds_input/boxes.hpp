@@ -1,6 +1,7 @@
 // Boxes along the axes, which may be flat, and boxes less others. Metres. Any thread.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <vector>
@@ -19,8 +20,15 @@ bool cuts(const Box& hole, const Box& box);
 /// along x, then y, then z. The box itself where the hole does not cut it.
 std::vector<Box> without(const Box& box, const Box& hole);
 
-/// What is left of a box; nothing where that is more than `most`.
+/// Comparisons of boxes, and after how many somebody gives up.
+struct Comparisons {
+  uint64_t made = 0;
+  uint64_t most = UINT64_MAX;
+  bool too_many() const { return made > most; }
+};
+
+/// What is left of a box; nothing where that is more than `most`, or after too many comparisons.
 std::optional<std::vector<Box>> without_all(const Box& box, const std::vector<Box>& holes,
-                                            size_t most);
+                                            size_t most, Comparisons& comparisons);
 
 }  // namespace luxodus::fds_input

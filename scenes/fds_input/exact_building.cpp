@@ -42,8 +42,8 @@ class ExactBuilding {
 
   Result<FireBuilding> make() {
     const uint64_t meshes = input_.meshes.size();
-    pairs_ = meshes * (input_.obstructions.size() + 6 * input_.openings.size() + 6 * meshes);
-    if (pairs_ > limits::fds_input_pairs) return too_much_to_compare(input_);
+    pairs_.made = meshes * (input_.obstructions.size() + 6 * input_.openings.size() + 6 * meshes);
+    if (pairs_.too_many()) return too_much_to_compare(input_);
     if (auto ok = obstructions(); !ok) return ok.problem();
     for (const FdsInputMesh& mesh : input_.meshes) {
       out_.bounds.extend(mesh.box.low);
@@ -74,11 +74,10 @@ class ExactBuilding {
         ++outside_;
         continue;
       }
-      pairs_ += o.permit_hole ? holes.size() : 0;
-      if (pairs_ > limits::fds_input_pairs) return too_much_to_compare(input_);
-      const auto left = o.permit_hole ? fds_input::without_all(o.box, holes, limits::fire_objects)
-                                      : std::vector<Box>{o.box};
-      if (!left) return too_many_objects(input_);
+      const auto left = o.permit_hole
+                            ? fds_input::without_all(o.box, holes, limits::fire_objects, pairs_)
+                            : std::vector<Box>{o.box};
+      if (!left) return pairs_.too_many() ? too_much_to_compare(input_) : too_many_objects(input_);
       for (const Box& box : *left) obstruction(o, box);
       if (out_.tables.objects() > limits::fire_objects) return too_many_objects(input_);
     }
@@ -121,12 +120,14 @@ class ExactBuilding {
       if (!is_there(o.name, o.course, options_)) continue;
       if (o.mesh_face ? *o.mesh_face != number : !in_face(o.box, mesh, face, axis)) continue;
       const Box gap = o.mesh_face ? face : o.box;
-      if (!is_exposed(gap, face, axis, gaps)) continue;
+      const bool exposed = is_exposed(gap, face, axis, gaps);
+      if (pairs_.too_many()) return too_much_to_compare(input_);
+      if (!exposed) continue;
       note_opening(gap, mesh, number);
       gaps.push_back(thickened(gap, face, axis));
     }
-    const auto left = fds_input::without_all(face, gaps, limits::fire_objects);
-    if (!left) return too_many_objects(input_);
+    const auto left = fds_input::without_all(face, gaps, limits::fire_objects, pairs_);
+    if (!left) return pairs_.too_many() ? too_much_to_compare(input_) : too_many_objects(input_);
     const fds::FireLook look = input_look(input_, input_.default_surface, std::nullopt,
                                           input_.surfaces[input_.default_surface].opacity);
     for (const Box& box : *left) {
@@ -167,14 +168,14 @@ class ExactBuilding {
   }
 
   /// Whether something of an opening is not behind other meshes.
-  static bool is_exposed(const Box& gap, const Box& face, int axis, const std::vector<Box>& gaps) {
+  bool is_exposed(const Box& gap, const Box& face, int axis, const std::vector<Box>& gaps) {
     Box within = face;
     for (int other = 0; other < 3; ++other) {
       if (other == axis) continue;
       within.low[other] = std::max(face.low[other], gap.low[other]);
       within.high[other] = std::min(face.high[other], gap.high[other]);
     }
-    const auto left = fds_input::without_all(within, gaps, limits::fire_objects);
+    const auto left = fds_input::without_all(within, gaps, limits::fire_objects, pairs_);
     return !left || !left->empty();
   }
 
@@ -192,7 +193,7 @@ class ExactBuilding {
   const FdsInputOptions& options_;
   FireBuilding out_;
   size_t outside_ = 0;
-  uint64_t pairs_ = 0;
+  fds_input::Comparisons pairs_{0, limits::fds_input_pairs};
 };
 
 }  // namespace

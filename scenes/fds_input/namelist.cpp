@@ -131,9 +131,12 @@ class NamelistReader {
     while (i < text_.size() && (text_[i] == ' ' || text_[i] == '\t')) ++i;
     int first = 1;
     if (i < text_.size() && text_[i] == '(') {
-      const size_t end = text_.find_first_of(")\n", i);
-      if (end == std::string_view::npos || text_[end] != ')') return false;
-      std::string_view inside = text_.substr(i + 1, end - i - 1);
+      constexpr size_t longest_range = 64;  // looked at no further: a line may be the whole file
+      const std::string_view ahead = text_.substr(i + 1, longest_range);
+      const size_t length = ahead.find_first_of(")\n");
+      if (length == std::string_view::npos || ahead[length] != ')') return false;
+      const size_t end = i + 1 + length;
+      std::string_view inside = ahead.substr(0, length);
       while (!inside.empty() && inside.front() == ' ') inside.remove_prefix(1);
       std::from_chars(inside.data(), inside.data() + inside.size(), first);
       i = end + 1;

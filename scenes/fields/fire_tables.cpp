@@ -24,7 +24,7 @@ namespace fds {
 namespace {
 
 std::string metres_text(const glm::dvec3& p) {
-  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", p.x, p.y, p.z);
+  return fmt::format("[{:.10g}, {:.10g}, {:.10g}]", p.x, p.y, p.z);
 }
 
 std::string hexadecimal(const glm::dvec3& rgb) {

@@ -27,6 +27,7 @@ constexpr double generic_maintenance = 0.8, generic_end = 0.7;
 void put_to_origin(Emitter& e) {
   // Down is a direction that a frame exists for.
   e.frame = frame_aiming(glm::dvec3(0), {0, 0, -1}).value();
+  e.ifc_guid.clear();  // of the one that it is like
 }
 
 DesignType generic_type(const SourcePlace& place) {
@@ -137,6 +138,7 @@ void read_design_type(const toml::Table& table, SceneReading& reading, DesignSet
 void put_to_origin(Sign& sign) {
   sign.leads_to.clear();
   sign.frame = frame_facing(glm::dvec3(0), {1, 0, 0}, {0, 0, 1}).value();
+  sign.ifc_guid.clear();
 }
 
 DesignSignType generic_sign(const SourcePlace& place) {
