@@ -35,7 +35,11 @@ test('a plan shows what lies under the storey that it is cut in', () => {
   assert.deepEqual(under(all, 1.2), [all[0]]);
   assert.deepEqual(under(all, 3.2), [all[1], all[2]]);
   assert.deepEqual(under(all, -3), []);
+  assert.deepEqual(under(all, 9), []);
   assert.deepEqual(under([], 1), []);
+  const everywhere = decodeBackdrops([{ ...lines(), floors: [-1e7, 1e7] }])[0];
+  assert.deepEqual(under([...all, everywhere], 1.2), [all[0], everywhere]);
+  assert.deepEqual(under([...all, everywhere], 9), [everywhere]);
 });
 
 test('they are asked for beside the page, with its token alone', async () => {

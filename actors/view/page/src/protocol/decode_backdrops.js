@@ -50,9 +50,19 @@ export function decodeBackdrops(value) {
   });
 }
 
-/** Those of the highest storey that begins below the height at which a plan is cut. */
+/** A plan is cut at most so far above its floor [m]. */
+const cutAboveFloor = 2.2;
+/** Floors of a drawing that names none begin lower. */
+const anyFloor = -1e6;
+
+/**
+ * Those of the highest storey whose floor may be under the height at which a plan is cut, and those
+ * of all storeys.
+ */
 export function under(backdrops, cut) {
-  const below = backdrops.filter(({ floors }) => floors[0] <= cut);
-  const highest = Math.max(...below.map(({ floors }) => floors[0]));
-  return below.filter(({ floors }) => floors[0] === highest);
+  const here = backdrops.filter(({ floors: [low, high] }) => {
+    return low <= cut && high >= cut - cutAboveFloor;
+  });
+  const highest = Math.max(...here.map(({ floors }) => floors[0]));
+  return here.filter(({ floors: [low] }) => low === highest || low < anyFloor);
 }
