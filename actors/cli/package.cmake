@@ -25,7 +25,7 @@ add_dependencies(package_files luxodus)
 install(TARGETS luxodus RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 if(LUX_HAS_PYTHON)
   # Where Debian's Python looks for modules of packages, below the prefix /usr.
-  install(TARGETS luxodus_python LIBRARY DESTINATION lib/python3/dist-packages)
+  install(TARGETS luxodus_python LIBRARY DESTINATION lib/python3/dist-packages OPTIONAL)
 endif()
 # Where the program looks for scenes: actors/cli/library.cpp.
 set(shared ${CMAKE_INSTALL_DATADIR}/luxodus)

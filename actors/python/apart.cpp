@@ -4,6 +4,7 @@
 #include <exception>
 #include <new>
 #include <thread>
+#include <utility>
 
 #include "actors/python/errors.hpp"
 

@@ -1,5 +1,7 @@
 #include "actors/python/changes.hpp"
 
+#include <cstdio>
+
 #include "actors/python/errors.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 

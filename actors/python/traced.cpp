@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <cmath>
+#include <algorithm>
+#include <optional>
 
 #include "actors/display/maps.hpp"
 #include "actors/display/view_files.hpp"

@@ -234,6 +234,17 @@ class Runs(Module):
         nodes = scene.run(particles=50e3, nodes=2).planes["desks"].illuminance_lx
         np.testing.assert_array_equal(threads, nodes)
 
+    def test_particles_go_where_they_are_needed(self):
+        lamp = ROOM[ROOM.index("[[emitter]]"):ROOM.index("[[plane]]")]
+        second = lamp.replace('"lamp"', '"second"').replace("[3, 2, 2.5]", "[5.9, 3.9, 2.9]")
+        text = ROOM.replace("seed = 3", 'seed = 3\ngroups = "emitter"').replace(lamp, lamp + second)
+        run = luxodus.load(self.scene_file(text)).run(particles=50e3, adaptive=True,
+                                                      error_of=["plane desks"])
+        shares = [group["batch_share"] for group in run.source_groups]
+        self.assertEqual(len(shares), 2)
+        self.assertAlmostEqual(sum(shares), 1)
+        self.assertEqual(run.error_of, ["plane desks"])
+
     def test_a_run_goes_on_to_the_bits_of_a_longer_one(self):
         scene = luxodus.load(self.scene_file())
         run = scene.run(particles=20e3)

@@ -4,7 +4,7 @@ with plain python3 and the module of build/release (or of PYTHONPATH). Without a
 notebook of the guide. What a cell imports that is not installed, its cells are left out, aloud.
 
 It then checks that the page of the guide and the notebook hold the same code. Exit code 1 where a
-cell fails or they differ; 77 where the module was not built."""
+cell fails or they differ; 77 where the module was not built, or Python has no NumPy."""
 import json
 import os
 import pathlib
@@ -39,8 +39,10 @@ def main():
     sys.path[:0] = [p for p in os.environ.get("PYTHONPATH", "").split(":") if p]
     try:
         import luxodus
-    except ModuleNotFoundError:
-        print("run_notebook.py: the module luxodus was not built", file=sys.stderr)
+        import numpy  # noqa: F401  results are its arrays
+    except ModuleNotFoundError as error:
+        print(f"run_notebook.py: {error.name} is not there: build it, or ./setup.sh",
+              file=sys.stderr)
         return 77
     codes, cells = cells_of(notebook)
     if any(c.get("outputs") or c.get("execution_count") for c in cells):
