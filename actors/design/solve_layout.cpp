@@ -1,6 +1,7 @@
 #include "actors/design/solve_layout.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include "actors/design/greedy.hpp"
 #include "actors/design/mixed_integer_program.hpp"
+#include "actors/design/split_problem.hpp"
 #include "runtime/core/clock.hpp"
 
 namespace luxodus {
@@ -592,8 +594,64 @@ double LayoutAnswer::gap() const {
   return objective > 0 ? std::max(0.0, (objective - bound) / objective) : 0;
 }
 
+namespace {
+
+/// The end of all parts: as the worst of them. Parts that have no layout leave none.
+LayoutEnd worse(LayoutEnd a, LayoutEnd b) {
+  constexpr std::array order{LayoutEnd::optimal,     LayoutEnd::within_gap, LayoutEnd::out_of_time,
+                             LayoutEnd::interrupted, LayoutEnd::unknown,    LayoutEnd::infeasible};
+  const auto place = [&](LayoutEnd end) { return std::find(order.begin(), order.end(), end); };
+  return place(a) < place(b) ? b : a;
+}
+
+/// Parts that have nothing to do with each other, one after another: their answers add up.
+LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<ProblemPart>& parts,
+                         const SolveSettings& settings, const std::atomic<bool>& interrupt,
+                         const SolveProgress& progress) {
+  const SystemClock clock;
+  const Nanoseconds began = clock.now();
+  const auto seconds = [&] { return 1e-9 * static_cast<double>(clock.now() - began); };
+  LayoutAnswer out;
+  out.end = LayoutEnd::optimal;
+  out.greedy = true;
+  out.layout.assign(problem.options.size(), 0);
+  out.share_of_group.assign(problem.groups.size(), 0);
+  bool all = true;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    SolveSettings its = settings;
+    its.seconds =
+        std::max(0.0, settings.seconds - seconds()) / static_cast<double>(parts.size() - i);
+    const LayoutAnswer answer =
+        Solving(parts[i].problem, its, interrupt, [&](const std::string&, double, double) {
+          progress("part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()),
+                   infinite, 0);
+        }).run();
+    out.end = worse(out.end, answer.end);
+    all = all && !answer.layout.empty();
+    for (size_t k = 0; k < answer.layout.size(); ++k)
+      out.layout[parts[i].options[k]] = answer.layout[k];
+    out.objective += answer.objective;
+    out.bound += answer.bound;
+    out.greedy = out.greedy && answer.greedy;
+    out.greedy_objective += answer.greedy_objective;
+    out.first_seconds = seconds();
+    out.rows += answer.rows;
+    out.rounds = std::max(out.rounds, answer.rounds);
+    for (size_t g = 0; g < answer.share_of_group.size(); ++g)
+      out.share_of_group[g] += answer.share_of_group[g];
+    if (out.end == LayoutEnd::infeasible) break;  // nothing is left to find
+  }
+  if (!all) out.layout.clear();
+  out.seconds = seconds();
+  return out;
+}
+
+}  // namespace
+
 LayoutAnswer solve_layout(const LayoutProblem& problem, const SolveSettings& settings,
                           const std::atomic<bool>& interrupt, const SolveProgress& progress) {
+  const auto parts = parts_of(problem);
+  if (parts.size() > 1) return solve_parts(problem, parts, settings, interrupt, progress);
   return Solving(problem, settings, interrupt, progress).run();
 }
 

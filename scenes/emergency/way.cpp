@@ -161,7 +161,9 @@ bool in_plan_of(const AssessedArea& area, const glm::dvec2& place) {
 std::optional<double> floor_below(const SceneDescription& scene, const glm::dvec3& place) {
   std::pair<double, double> best{std::numeric_limits<double>::infinity(), 0};
   const auto offer = [&](const std::pair<double, double>& floor) {
-    if (floor.second <= place.z && floor.first < best.first) best = floor;
+    if (floor.second > place.z || floor.first > best.first) return;
+    // Of equal storeys the one just below.
+    if (floor.first < best.first || floor.second > best.second) best = floor;
   };
   for (const EscapeRoute& route : scene.routes) offer(nearest_of(route, glm::dvec2(place)));
   for (const AssessedArea& area : scene.open_areas) {

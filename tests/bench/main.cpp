@@ -43,6 +43,7 @@ constexpr Table tables[] = {
     {"features", [](const Options& o) { luxodus::bench::print_features(o.repeats); }},
     {"allocation", [](const Options& o) { luxodus::bench::print_allocation(o.share); }},
     {"edits", [](const Options&) { luxodus::bench::print_edits(); }},
+    {"layouts", [](const Options& o) { luxodus::bench::print_layouts(o.share); }},
     {"smoke", [](const Options&) { luxodus::bench::print_smoke(); }},
 };
 

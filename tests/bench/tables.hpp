@@ -49,6 +49,9 @@ void print_rooms(double share);
 void print_features(int repeats);
 /// What batches dealt to source groups by need gain; with a share of the particles.
 void print_allocation(double share);
+/// Layouts of luminaires by greedy choice, by the integer program and by a genetic algorithm; with
+/// a share of a minute for each of the last two.
+void print_layouts(double share);
 /// What the same random numbers gain where two variants of a scene are compared.
 void print_edits();
 

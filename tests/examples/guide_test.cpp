@@ -160,7 +160,7 @@ TEST_CASE("the guide's store room gets the layout that it tells, and every comma
           "[program][guide]") {
   const std::string text = slurp(source / "docs/guide/placement.md");
   const std::vector<std::string> blocks = toml_blocks(text);
-  REQUIRE(blocks.size() == 2);
+  REQUIRE(blocks.size() == 3);
   const TemporaryFolder folder;
   std::ofstream(folder / "store.toml") << blocks[0];
   const std::string layout = (folder / "out").string();
@@ -180,6 +180,31 @@ TEST_CASE("the guide's store room gets the layout that it tells, and every comma
   REQUIRE(assessed.code == 0);
   const auto a = nlohmann::json::parse(slurp(folder / "out/assessed/assessment.json"));
   for (const auto& check : a["checks"]) CHECK(check["verdict"] != "fail");
+}
+
+TEST_CASE("the guide's imported room gets the luminaires and the sign that it tells",
+          "[program][guide]") {
+  const fs::path model = fs::path(LUX_SHARED_DATA) / "ifc/room_ifc4.ifc";
+  if (!fs::exists(model)) {
+    WARN("skipped: there is no " << model);
+    return;
+  }
+  const TemporaryFolder folder;
+  const std::string house = (folder / "house").string();
+  const Outcome import = run_luxodus(folder, "import ifc " + model.string() + " --out " + house);
+  if (import.code != 0) {
+    WARN("skipped: no model can be imported here: " << import.err);
+    return;
+  }
+  const std::string text = slurp(source / "docs/guide/placement.md");
+  std::ofstream(folder / "house/scene.toml", std::ios::app) << toml_blocks(text).at(2);
+  const Outcome run =
+      run_luxodus(folder, "design " + house + "/scene.toml --out " + (folder / "out").string());
+  INFO(run.out << run.err);
+  REQUIRE(run.code == 0);
+  CHECK(text.find(run.out.substr(0, run.out.find('\n'))) != std::string::npos);
+  CHECK(run.out.find("1 new sign, the smallest objective possible") != std::string::npos);
+  CHECK(slurp(folder / "out/signs.csv").find("way out: right") != std::string::npos);
 }
 
 TEST_CASE("a design that cannot be made writes nothing and says what cannot hold",

@@ -55,6 +55,19 @@ TEST_CASE("the core of an area keeps its border", "[emergency][way]") {
   CHECK(within(area, 0.5, 0.5).empty());
 }
 
+TEST_CASE("of storeys that are alike the floor just below counts", "[emergency][way]") {
+  SceneDescription scene;
+  for (const double z : {3.0, 0.0, 6.0}) {
+    EscapeRoute storey;
+    storey.path = {{0, 0, z}, {10, 0, z}};
+    storey.width_m = 2;
+    scene.routes.push_back(storey);
+  }
+  CHECK(floor_below(scene, {5, 0.2, 2.5}) == 0.0);
+  CHECK(floor_below(scene, {5, 0.2, 5.5}) == 3.0);
+  CHECK(floor_below(scene, {5, 0.2, 8.5}) == 6.0);
+}
+
 TEST_CASE("people walk from the start and look ahead", "[emergency][way]") {
   const auto people = walkers(bent(), 2);
   REQUIRE(people.size() == 4);

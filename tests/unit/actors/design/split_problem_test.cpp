@@ -1,0 +1,115 @@
+// Problems taken apart: what belongs together stays so, and nothing is lost by it.
+#include "actors/design/split_problem.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "actors/design/solve_layout.hpp"
+#include "runtime/core/random.hpp"
+#include "tests/unit/actors/design/silent.hpp"
+
+namespace luxodus {
+namespace {
+
+Terms sum_of(std::vector<Term> list) {
+  return std::make_shared<const std::vector<Term>>(std::move(list));
+}
+
+/// Storeys of a line of places and points each, with failures and a ratio; every storey is alike
+/// unless `varied`.
+LayoutProblem storeys(uint32_t count, bool varied) {
+  constexpr uint32_t places = 9, points = 14;
+  Random random(3, RandomStream::test, 9);
+  random.start(0);
+  LayoutProblem out;
+  out.groups = {{DemandKind::minimum, "E1", "way", 1, no_region},
+                {DemandKind::failed, "", "way", 1, no_region},
+                {DemandKind::spread, "E4", "way", 1, no_region}};
+  for (uint32_t storey = 0; storey < count; ++storey) {
+    const double shift = varied ? 0.4 * random.uniform_double() : 0;
+    for (uint32_t i = 0; i < places; ++i)
+      out.options.push_back(
+          {storey * places + i, 1, false, no_region, {static_cast<double>(i) + shift, 0}});
+    FailureRows failures{1, 0.15, {}};
+    SpreadRows spread{2, 12, {}, {}};
+    for (uint32_t p = 0; p < points; ++p) {
+      const double x = 0.65 * p;
+      std::vector<Term> light;
+      for (uint32_t i = 0; i < places; ++i) {
+        const double away = x - out.options[storey * places + i].position.x;
+        const double square = away * away + 4;
+        light.push_back({storey * places + i, static_cast<float>(24 / (square * square))});
+      }
+      out.points.push_back({sum_of(light), {x, 0, 3.0 * storey}});
+      const auto number = static_cast<uint32_t>(out.points.size() - 1);
+      out.covers.push_back({0, out.points.back().light, 1, {x, 0, 3.0 * storey}});
+      failures.points.push_back(number);
+      spread.low.push_back(number);
+      spread.high.push_back(number);
+    }
+    out.failures.push_back(failures);
+    out.spreads.push_back(spread);
+  }
+  return out;
+}
+
+LayoutAnswer answer_to(const LayoutProblem& problem) {
+  SolveSettings settings;
+  settings.greedy_rounds = 20;
+  return solve_layout(problem, settings, test::nobody, test::silent);
+}
+
+}  // namespace
+
+TEST_CASE("storeys are parts, and each row is in one of them", "[design][parts]") {
+  const LayoutProblem problem = storeys(5, true);
+  const auto parts = parts_of(problem);
+  REQUIRE(parts.size() == 5);
+  size_t covers = 0, failures = 0, spreads = 0;
+  std::vector<int> seen(problem.options.size(), 0);
+  for (const ProblemPart& part : parts) {
+    CHECK(part.problem.options.size() == 9);
+    CHECK(part.problem.places() == 9);
+    covers += part.problem.covers.size();
+    for (const FailureRows& rows : part.problem.failures) failures += rows.points.size();
+    spreads += part.problem.spreads.size();
+    for (const uint32_t option : part.options) ++seen[option];
+  }
+  CHECK(covers == problem.covers.size());
+  CHECK(failures == problem.points.size());
+  CHECK(spreads == 5);
+  CHECK(std::all_of(seen.begin(), seen.end(), [](int times) { return times == 1; }));
+}
+
+TEST_CASE("one row across two storeys makes them one part", "[design][parts]") {
+  LayoutProblem problem = storeys(3, false);
+  problem.covers.push_back({0, sum_of({{0, 1}, {9, 1}}), 1, {}});
+  CHECK(parts_of(problem).size() == 2);
+  problem.covers.push_back({0, sum_of({}), 1, {}});
+  CHECK(parts_of(problem).size() == 1);
+}
+
+TEST_CASE("a tower takes as many luminaires as its storeys do, and its layout holds",
+          "[design][parts]") {
+  const LayoutAnswer one = answer_to(storeys(1, false));
+  REQUIRE(one.end == LayoutEnd::optimal);
+  const LayoutProblem tower = storeys(40, false);
+  const LayoutAnswer all = answer_to(tower);
+  REQUIRE(all.end == LayoutEnd::optimal);
+  CHECK(all.objective == Approx(40 * one.objective));
+  CHECK(all.bound == Approx(all.objective));
+  const LayoutIndex index(tower);
+  LayoutSums sums(index);
+  sums.set(all.layout);
+  CHECK(sums.holds());
+  CHECK(objective_of(tower, all.layout) == Approx(all.objective));
+}
+
+TEST_CASE("a tower with one storey that cannot be lit has no layout", "[design][parts]") {
+  LayoutProblem tower = storeys(4, false);
+  tower.covers.push_back({0, sum_of({{0, 1}}), 2, {}});
+  const LayoutAnswer answer = answer_to(tower);
+  CHECK(answer.end == LayoutEnd::infeasible);
+  CHECK(answer.layout.empty());
+}
+
+}  // namespace luxodus
