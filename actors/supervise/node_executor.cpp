@@ -149,7 +149,8 @@ void NodeExecutor::do_what_is_wished() {
 
 void NodeExecutor::note(const StateCoordinator& coordinator) {
   const Coordinator::Counters& c = coordinator.counters();
-  counters_ = {c.leases, c.fenced, c.flushes_refused, coordinator.workers_here(), coordinator.stuck()};
+  counters_ = {c.leases, c.fenced, c.flushes_refused, coordinator.workers_here(),
+               coordinator.stuck()};
   if (!fault_) fault_ = coordinator.fault();
 }
 
