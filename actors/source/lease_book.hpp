@@ -114,11 +114,14 @@ class LeaseBook {
   /// more, and a round may end without them. Gives those that are lost since the last call.
   int64_t lose_what_all_gave_back(const std::vector<NodeId>& nodes);
   int64_t lost() const { return static_cast<int64_t>(lost_.size()); }
-  /// The lost batches, which the book then holds no more.
+  /// The lost batches, which the book then holds no more: if one is added again, as of another state
+  /// of the scene, any node may try it.
   std::set<int64_t> take_lost() {
-    std::set<int64_t> lost(lost_.begin(), lost_.end());
-    lost_.clear();
-    return lost;
+    for (const int64_t batch : lost_) {
+      given_back_.erase(batch);
+      late_.erase(batch);
+    }
+    return std::exchange(lost_, {});
   }
 
   /// Batches 0..lent_end() - 1 that are not committed.

@@ -86,6 +86,9 @@ TEST_CASE("batches that nobody can trace are taken out of a book that returns th
   CHECK(book.take_lost() == std::set<int64_t>{3});
   CHECK(book.lost() == 0);
   CHECK(book.waiting() == 0);
+  CHECK_FALSE(book.has_given_back());
+  book.add(3);  // of another state
+  CHECK(book.lend(ann, 1, 0, 100).count == 1);
 }
 
 TEST_CASE("a book that goes on lends the batches that are missing first, and tells them",
