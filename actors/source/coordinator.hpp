@@ -13,6 +13,7 @@
 
 #include "actors/source/lease_book.hpp"
 #include "actors/tally/flush_codec.hpp"
+#include "runtime/core/hash.hpp"
 #include "runtime/messaging/node_actor.hpp"
 #include "runtime/observe/metrics.hpp"
 #include "scenes/transport/compiled_scene.hpp"
@@ -243,6 +244,7 @@ class Coordinator
   /// a second, in which beats must go on.
   std::vector<MessageId> uncounted_;
   FlushReader reader_;
+  Hasher payload_hash_;      // of the flush that is being counted
   WaitList held_back_;       // the fiber, while nothing may be counted
   bool counting_ = false;    // a flush
   bool adding_ = false;      // a flush is being kept, or the totals hold a part of it

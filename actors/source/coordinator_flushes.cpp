@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "actors/source/coordinator.hpp"
-#include "runtime/core/hash.hpp"
 #include "runtime/core/log.hpp"
 
 namespace luxodus {
@@ -89,13 +88,14 @@ std::string Coordinator::count_flush(const Letter<Flush>& letter) {
   const char* const fenced = "a lease was fenced";
   if (!book_.stand(worker, leases)) return fenced;
   if (std::string why = objection(letter); !why.empty()) return why;
-  Hasher hash;
+  payload_hash_.reset();
   for (std::span<const std::byte> left = letter.payload.bytes(); !left.empty(); take_turns()) {
     const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
-    hash.add(piece.data(), piece.size());
+    payload_hash_.add(piece.data(), piece.size());
     left = left.subspan(piece.size());
   }
-  if (hash.value() != letter.body.payload_hash) return "the payload is not what its hash says";
+  if (payload_hash_.value() != letter.body.payload_hash)
+    return "the payload is not what its hash says";
   // Others had turns: without leases that stand there may be nothing left to count into.
   if (!book_.stand(worker, leases)) return fenced;
   const auto rest = [this] { return take_turns(); };
