@@ -256,12 +256,17 @@ void add_existing(const SceneDescription& scene, const DesignSettings& design, C
   }
 }
 
+/// A circuit that is out in the judged state leaves its types without light.
+bool gives_light(const DesignType& type) {
+  return type.emitter.emergency_flux > 0;
+}
+
 void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
              const std::vector<WallSpot>& walls, Candidates& out) {
   const auto first = static_cast<uint32_t>(out.all.size());
   for (uint32_t s = 0; s < spots.size(); ++s)
     for (size_t t = 0; t < design.types.size(); ++t) {
-      if (design.types[t].mount == LuminaireMount::wall) continue;
+      if (design.types[t].mount == LuminaireMount::wall || !gives_light(design.types[t])) continue;
       for (const double rotation_deg : rotations_of(design.types[t], spots[s].heading_deg)) {
         LuminaireCandidate one;
         one.type = t;
@@ -275,7 +280,8 @@ void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
   const auto first_wall = static_cast<uint32_t>(first + spots.size());
   for (uint32_t s = 0; s < walls.size(); ++s)
     for (size_t t = 0; t < design.types.size(); ++t) {
-      if (design.types[t].mount == LuminaireMount::ceiling) continue;
+      if (design.types[t].mount == LuminaireMount::ceiling || !gives_light(design.types[t]))
+        continue;
       auto turns = design.types[t].turns_deg;
       if (turns.empty()) turns = {0};
       for (const double turn : turns) {
@@ -284,6 +290,7 @@ void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
         one.place = first_wall + s;
         one.position = walls[s].position;
         one.floor = walls[s].floor;
+        one.outward = walls[s].outward;
         one.aim = aim_from_wall(walls[s].outward, design.types[t].aim_deg);
         one.rotation_deg = turn;
         out.all.push_back(std::move(one));
@@ -335,7 +342,7 @@ void leave_out_forbidden(const SceneDescription& scene, const DesignSettings& de
 SceneDescription without_bodies(const SceneDescription& scene, const DesignSettings& design) {
   SceneDescription out = scene;
   for (Emitter& e : out.emitters) e.body_material.clear();
-  if (out.emitters.empty()) out.emitters.push_back(design.types.front().emitter);
+  if (out.emitters.empty()) out.emitters.push_back(some_light(design));
   return out;
 }
 
@@ -356,6 +363,18 @@ std::string words_of(const LeftOut& left) {
 }
 
 }  // namespace
+
+const Emitter& some_light(const DesignSettings& design) {
+  const auto lit = std::find_if(design.types.begin(), design.types.end(), gives_light);
+  return (lit == design.types.end() ? design.types.front() : *lit).emitter;
+}
+
+std::optional<Problem> no_light(const DesignSettings& design) {
+  if (std::any_of(design.types.begin(), design.types.end(), gives_light)) return std::nullopt;
+  return problem_in(design.place,
+                    "no type of luminaire gives light in the judged scenario, whose 'circuits' "
+                    "switch them all off: take another scenario, or types on other circuits");
+}
 
 bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double clearance_m) {
   return std::any_of(scene.signs.begin(), scene.signs.end(), [&](const Sign& sign) {
@@ -424,14 +443,14 @@ Result<std::unique_ptr<PlaceCheck>> PlaceCheck::make(const SceneDescription& sce
   return std::unique_ptr<PlaceCheck>(new PlaceCheck(std::move(parts)));
 }
 
-std::optional<glm::dvec3> PlaceCheck::place_over(const glm::dvec2& plan,
-                                                 const glm::dvec3& near) const {
+std::optional<PlaceCheck::Place> PlaceCheck::place_over(const glm::dvec2& plan,
+                                                        const glm::dvec3& near) const {
   const auto floor = floor_below(parts_->scene, {plan, near.z});
   if (!floor) return std::nullopt;
   const auto z = PlaceFinder(parts_->scene, parts_->design, *parts_->bare, *parts_->furnished)
                      .height_over({plan, *floor});
   if (!z || std::abs(*z - near.z) > one_storey_m) return std::nullopt;
-  return rounded({plan, *z});
+  return Place{rounded({plan, *z}), {plan, *floor}};
 }
 
 Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSettings& design,
@@ -467,6 +486,7 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
   if (out.all.size() == existing &&
       std::all_of(out.all.begin(), out.all.end(),
                   [](const LuminaireCandidate& c) { return c.fixed; })) {
+    if (auto problem = no_light(design)) return *problem;
     const std::string why = words_of(out.left_out);
     return problem_in(design.place, "there is no place for a luminaire" +
                                         (why.empty() ? std::string(": no route or area is there to "

@@ -1,7 +1,6 @@
 #include "actors/design/place_tolerance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,8 +20,8 @@ constexpr double share_rounding = 1e-6;
 /// Level on a ceiling; along and up the wall on one.
 glm::dvec3 off_way(const LuminaireCandidate& one, double azimuth) {
   const glm::dvec3 level(std::cos(azimuth), std::sin(azimuth), 0);
-  if (!one.aim || glm::length(glm::dvec2(*one.aim)) < 1e-3) return level;
-  const glm::dvec3 along = glm::normalize(glm::dvec3(-one.aim->y, one.aim->x, 0));
+  if (!one.outward) return level;
+  const glm::dvec3 along(-one.outward->y, one.outward->x, 0);
   return along * level.x + glm::dvec3(0, 0, level.y);
 }
 
@@ -52,12 +51,6 @@ std::vector<LuminaireCandidate> with_places_off(const Building& building,
     }
   });
   return out;
-}
-
-bool is_minimum(DemandKind kind) {
-  constexpr std::array minima{DemandKind::minimum, DemandKind::mean,     DemandKind::early,
-                              DemandKind::failed,  DemandKind::vertical, DemandKind::face};
-  return std::find(minima.begin(), minima.end(), kind) != minima.end();
 }
 
 /// Of each place, the least that it may give, and what all give together.
@@ -138,7 +131,8 @@ Result<PlaceTolerance> tolerance_of(const SceneDescription& scene, const DesignS
   const LeastLight least(problem);
   Tightest tightest;
   for (const CoverRow& row : problem.covers)
-    if (is_minimum(problem.groups[row.group].kind))
+    if (const DemandKind kind = problem.groups[row.group].kind;
+        is_minimum(kind) || kind == DemandKind::failed)
       tightest.offer(problem.groups[row.group], least.of(*row.terms).all / row.least, row.least,
                      row.place);
   for (const FailureRows& rows : problem.failures)
