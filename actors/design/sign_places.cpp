@@ -136,22 +136,16 @@ class SignSpotFinder {
     fit_below_ceiling(access, wall, before);
     const glm::dvec3 across = glm::cross(upwards, level);
     const glm::dvec3 eye(before.x, before.y, wall.z);
-    // Distances to the wall behind the corners: columns are left, middle and right.
+    // Distances to the wall behind the edges: columns are left, middle and right.
     std::array<double, 3> depth{};
-    double low = 1e9, high = 0;
     for (int column = 0; column < 3; ++column) {
-      double mean = 0;
-      for (const double row : {-0.5, 0.5}) {
-        const auto met = stop_at(
-            access,
-            eye + across * ((column - 1) * sign_.width_m / 2) + upwards * (row * sign_.height_m),
-            level, 2 * before_wall_m + sign_.width_m);
-        if (!met) return void(++left_out_.no_room);
-        mean += *met / 2;
-        low = std::min(low, *met - mean), high = std::max(high, *met);
-        if (row > 0 && std::abs(*met - mean) > flat_m) return void(++left_out_.no_room);
-      }
-      depth[static_cast<size_t>(column)] = mean;
+      const glm::dvec3 aside = eye + across * ((column - 1) * sign_.width_m / 2);
+      const glm::dvec3 half = upwards * (sign_.height_m / 2);
+      const double reach = 2 * before_wall_m + sign_.width_m;
+      const auto below = stop_at(access, aside - half, level, reach);
+      const auto above = stop_at(access, aside + half, level, reach);
+      if (!below || !above || std::abs(*above - *below) > flat_m) return void(++left_out_.no_room);
+      depth[static_cast<size_t>(column)] = (*below + *above) / 2;
     }
     const double slope = (depth[2] - depth[0]) / sign_.width_m;
     if (std::abs(depth[0] + depth[2] - 2 * depth[1]) > flat_m || std::abs(slope) > most_aslant)
@@ -186,20 +180,27 @@ class SignSpotFinder {
       if (other.of_routes.back() != route_) other.of_routes.push_back(route_);
       return;
     }
+    if (is_within_bodies(bare_, access, spot)) return void(++left_out_.no_room);
+    spots_.push_back(spot);
+  }
+
+  /// Whether a body holds a corner of the sign, or the middle of one of its long edges.
+  bool is_within_bodies(const Building& building, const GeometryAccess& access,
+                        const SignSpot& spot) const {
     const Sign sign = sign_at(sign_, spot);
     for (const double u : {-0.5, 0.0, 0.5})
       for (const double v : {-0.5, 0.5})
-        if (bare_.in_solid(access, spot.position + sign.frame.axes[0] * (u * sign.width_m) +
-                                       sign.frame.axes[1] * (v * sign.height_m)))
-          return void(++left_out_.no_room);
-    spots_.push_back(spot);
+        if (building.in_solid(access, spot.position + sign.frame.axes[0] * (u * sign.width_m) +
+                                          sign.frame.axes[1] * (v * sign.height_m)))
+          return true;
+    return building.in_solid(access, spot.position);
   }
 
   /// Without places in furniture and keep-out zones, and where signs hang that stay.
   void keep_free() {
     std::vector<char> good(spots_.size(), 1);
     furnished_.each(spots_.size(), [&](const GeometryAccess& access, size_t i) {
-      good[i] = furnished_.in_solid(access, spots_[i].position) ? 0 : 1;
+      good[i] = is_within_bodies(furnished_, access, spots_[i]) ? 0 : 1;
     });
     std::vector<SignSpot> out;
     for (size_t i = 0; i < spots_.size(); ++i) {
