@@ -11,17 +11,17 @@
 
 #include "actors/assess/code_light.hpp"
 #include "actors/design/wall_places.hpp"
+#include "actors/design/wall_probe.hpp"
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/way.hpp"
 #include "scenes/geometry/transform.hpp"
-#include "scenes/transport/surroundings.hpp"
 
 namespace luxodus {
 
 namespace {
 
 /// A ceiling is looked for from here above the floor, up to so far [m].
-constexpr Real above_floor_m = 0.05_r, highest_m = 200;
+constexpr double above_floor_m = 0.05, highest_m = 200;
 /// Two places nearer than this share of the spacing are one.
 constexpr double one_place = 0.5;
 /// Routes that are wider have several rows of places [m].
@@ -190,16 +190,10 @@ class PlaceFinder {
   /// Listed places are taken as they are, but for two in one place.
   double apart() const { return design_.places.empty() ? design_.spacing_m : 0.02; }
 
-  static bool passes(const Building& building, const Facing& f) {
-    return f.surface >= building.scene().description->objects.size() || lets_light_through(f.kind);
-  }
-
   std::optional<double> mounting_z(const GeometryAccess& access, const glm::dvec3& floor) const {
     const auto stop =
-        first_stop(bare_.scene(), access, bare_.local(floor) + Vec3(0, 0, above_floor_m),
-                   Vec3(0, 0, 1), highest_m, [&](const Facing& f) { return passes(bare_, f); });
-    const double ceiling =
-        stop ? floor.z + static_cast<double>(above_floor_m + stop->distance_m) : 0;
+        wall_distance(bare_, access, floor + glm::dvec3(0, 0, above_floor_m), {0, 0, 1}, highest_m);
+    const double ceiling = stop ? floor.z + above_floor_m + *stop : 0;
     if (!design_.mounting_height_m) {
       if (!stop) return std::nullopt;
       return ceiling - design_.drop_m;
@@ -213,11 +207,8 @@ class PlaceFinder {
     if (!(design_.wall_clearance_m > 0)) return false;
     for (int i = 0; i < wall_directions; ++i) {
       const double azimuth = 2 * std::numbers::pi * (i + 0.5) / wall_directions;
-      const auto stop = first_stop(furnished_.scene(), access, furnished_.local(p),
-                                   Vec3(std::cos(azimuth), std::sin(azimuth), 0),
-                                   static_cast<Real>(design_.wall_clearance_m),
-                                   [&](const Facing& f) { return passes(furnished_, f); });
-      if (stop) return true;
+      const glm::dvec3 aside(std::cos(azimuth), std::sin(azimuth), 0);
+      if (wall_distance(furnished_, access, p, aside, design_.wall_clearance_m)) return true;
     }
     return false;
   }

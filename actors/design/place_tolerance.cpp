@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "scenes/transport/surroundings.hpp"
+#include "actors/design/wall_probe.hpp"
 
 namespace luxodus {
 
@@ -39,14 +39,9 @@ std::vector<LuminaireCandidate> with_places_off(const Building& building,
       for (int d = 0; d < off_directions; ++d) {
         const double azimuth = 2 * std::numbers::pi * d / off_directions;
         const glm::dvec3 way = off_way(chosen[i], azimuth);
-        const auto stop =
-            first_stop(building.scene(), access, building.local(chosen[i].position), Vec3(way),
-                       static_cast<Real>(distance_m), [&](const Facing& f) {
-                         return f.surface >= building.scene().description->objects.size() ||
-                                lets_light_through(f.kind);
-                       });
         one.position = chosen[i].position + way * distance_m;
-        if (!stop && !building.in_solid(access, one.position)) out.push_back(one);
+        const auto between = wall_distance(building, access, chosen[i].position, way, distance_m);
+        if (!between && !building.in_solid(access, one.position)) out.push_back(one);
       }
     }
   });

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "actors/design/candidates.hpp"
+#include "actors/design/wall_probe.hpp"
 #include "scenes/emergency/way.hpp"
 #include "scenes/geometry/transform.hpp"
-#include "scenes/transport/surroundings.hpp"
 
 namespace luxodus {
 
@@ -37,11 +37,6 @@ constexpr double one_sign_place_m = 0.3;
 constexpr double level_leg_m = 0.05;
 
 const glm::dvec3 upwards(0, 0, 1);
-
-/// `parts`: of a unit. Without negative zeros, which nobody wants to read.
-glm::dvec3 rounded_to(const glm::dvec3& v, double parts) {
-  return glm::round(v * parts) / parts + 0.0;
-}
 
 class SignSpotFinder {
  public:
@@ -108,13 +103,7 @@ class SignSpotFinder {
 
   std::optional<double> stop_at(const GeometryAccess& access, const glm::dvec3& from,
                                 const glm::dvec3& direction, double length_m) const {
-    const auto stop = first_stop(bare_.scene(), access, bare_.local(from), Vec3(direction),
-                                 static_cast<Real>(length_m), [&](const Facing& f) {
-                                   return f.surface >= bare_.scene().description->objects.size() ||
-                                          lets_light_through(f.kind);
-                                 });
-    if (!stop) return std::nullopt;
-    return static_cast<double>(stop->distance_m);
+    return wall_distance(bare_, access, from, direction, length_m);
   }
 
   /// Lower where the ceiling asks for it. False where there is none to hang under.
@@ -169,9 +158,7 @@ class SignSpotFinder {
   /// A place that is told to the millimetre and holds the sign.
   void offer(const GeometryAccess& access, const glm::dvec3& middle, const glm::dvec3& facing,
              SignMount mount) {
-    constexpr double told_parts = 1e3, direction_parts = 1e6;  // of a metre, of one
-    SignSpot spot{
-        rounded_to(middle, told_parts), rounded_to(facing, direction_parts), mount, {route_}};
+    SignSpot spot{told_place(middle), told_direction(facing), mount, {route_}};
     constexpr double alike = 0.9;  // cosine
     for (SignSpot& other : spots_) {
       if (glm::length(other.position - spot.position) >= one_sign_place_m ||

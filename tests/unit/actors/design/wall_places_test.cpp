@@ -121,15 +121,18 @@ TEST_CASE("what hangs on a wall and looks straight down is off its place along t
     const auto scene = test::described(folder.path() / "scene.toml");
     const auto codes = judged_codes(*scene, {}, {});
     REQUIRE(codes);
+    // So far that level ways, out of the wall, would change what is left by several per cent.
+    DesignSettings far_off = *scene->design;
+    far_off.place_tolerance_m = 0.6;
     const auto found =
-        tolerance_of(*scene, *scene->design, chosen, codes.value(), scene->scenarios.front(), 2);
+        tolerance_of(*scene, far_off, chosen, codes.value(), scene->scenarios.front(), 2);
     REQUIRE(found);
     return std::pair{chosen.size(), found->least()};
   };
   // One degree changes the light by little, and must not change the ways of being off.
   const auto down = least_of("0"), nearly = least_of("1");
   REQUIRE(down.first == nearly.first);
-  CHECK(down.second == Approx(nearly.second).epsilon(0.05));
+  CHECK(down.second == Approx(nearly.second).epsilon(0.03));
 }
 
 TEST_CASE("types of ceilings and of walls are chosen from together", "[design][walls]") {
