@@ -153,18 +153,6 @@ CsvTable csv_of(const Json& rows, const std::vector<std::string>& columns) {
   return table;
 }
 
-/// A table that not every assessment has. One of an earlier assessment would be taken for this
-/// one's.
-Result<void> write_or_remove(const fs::path& file, const std::optional<CsvTable>& table) {
-  if (table) return write_csv(file, *table);
-  std::error_code failed;
-  fs::remove(file, failed);
-  if (failed)
-    return problem_in(file,
-                      "cannot remove what an earlier assessment has left: " + failed.message());
-  return {};
-}
-
 }  // namespace
 
 Json assessment_json(const SceneDescription& scene, const Assessment& assessment,

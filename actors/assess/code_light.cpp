@@ -5,6 +5,7 @@
 #include "actors/inspect/site.hpp"
 #include "scenes/transport/compile_light.hpp"
 #include "scenes/transport/surroundings.hpp"
+#include "scenes/world/design.hpp"
 
 namespace luxodus {
 
@@ -32,14 +33,21 @@ DirectOptions clear_air() {
 SceneDescription as_switched(const SceneDescription& scene, const Scenario& state) {
   SceneDescription out = scene;
   if (state.operation == Operation::mains) return out;
-  for (Emitter& e : out.emitters)
-    e.emergency_flux *= std::min(1.0, factor_of(state.circuits, e.circuit, 1));
-  for (Sign& sign : out.signs) {
-    if (sign.lighting != SignLighting::internal) continue;
-    const double factor = std::min(1.0, factor_of(state.circuits, sign.circuit, 1));
-    sign.emergency.white_cd_m2 *= factor;
-    sign.emergency.green_cd_m2 *= factor;
-  }
+  const auto factor = [&](const std::string& circuit) {
+    return std::min(1.0, factor_of(state.circuits, circuit, 1));
+  };
+  const auto switch_sign = [&](Sign& sign) {
+    if (sign.lighting != SignLighting::internal) return;
+    sign.emergency.white_cd_m2 *= factor(sign.circuit);
+    sign.emergency.green_cd_m2 *= factor(sign.circuit);
+  };
+  for (Emitter& e : out.emitters) e.emergency_flux *= factor(e.circuit);
+  for (Sign& sign : out.signs) switch_sign(sign);
+  if (!scene.design) return out;
+  DesignSettings design = *scene.design;
+  for (DesignType& type : design.types) type.emitter.emergency_flux *= factor(type.emitter.circuit);
+  for (DesignSignType& type : design.sign_types) switch_sign(type.sign);
+  out.design = std::make_shared<const DesignSettings>(std::move(design));
   return out;
 }
 

@@ -11,17 +11,17 @@
 
 #include "actors/assess/code_light.hpp"
 #include "actors/design/wall_places.hpp"
+#include "actors/design/wall_probe.hpp"
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/way.hpp"
 #include "scenes/geometry/transform.hpp"
-#include "scenes/transport/surroundings.hpp"
 
 namespace luxodus {
 
 namespace {
 
 /// A ceiling is looked for from here above the floor, up to so far [m].
-constexpr Real above_floor_m = 0.05_r, highest_m = 200;
+constexpr double above_floor_m = 0.05, highest_m = 200;
 /// Two places nearer than this share of the spacing are one.
 constexpr double one_place = 0.5;
 /// Routes that are wider have several rows of places [m].
@@ -190,16 +190,10 @@ class PlaceFinder {
   /// Listed places are taken as they are, but for two in one place.
   double apart() const { return design_.places.empty() ? design_.spacing_m : 0.02; }
 
-  static bool passes(const Building& building, const Facing& f) {
-    return f.surface >= building.scene().description->objects.size() || lets_light_through(f.kind);
-  }
-
   std::optional<double> mounting_z(const GeometryAccess& access, const glm::dvec3& floor) const {
     const auto stop =
-        first_stop(bare_.scene(), access, bare_.local(floor) + Vec3(0, 0, above_floor_m),
-                   Vec3(0, 0, 1), highest_m, [&](const Facing& f) { return passes(bare_, f); });
-    const double ceiling =
-        stop ? floor.z + static_cast<double>(above_floor_m + stop->distance_m) : 0;
+        wall_distance(bare_, access, floor + glm::dvec3(0, 0, above_floor_m), {0, 0, 1}, highest_m);
+    const double ceiling = stop ? floor.z + above_floor_m + *stop : 0;
     if (!design_.mounting_height_m) {
       if (!stop) return std::nullopt;
       return ceiling - design_.drop_m;
@@ -213,11 +207,8 @@ class PlaceFinder {
     if (!(design_.wall_clearance_m > 0)) return false;
     for (int i = 0; i < wall_directions; ++i) {
       const double azimuth = 2 * std::numbers::pi * (i + 0.5) / wall_directions;
-      const auto stop = first_stop(furnished_.scene(), access, furnished_.local(p),
-                                   Vec3(std::cos(azimuth), std::sin(azimuth), 0),
-                                   static_cast<Real>(design_.wall_clearance_m),
-                                   [&](const Facing& f) { return passes(furnished_, f); });
-      if (stop) return true;
+      const glm::dvec3 aside(std::cos(azimuth), std::sin(azimuth), 0);
+      if (wall_distance(furnished_, access, p, aside, design_.wall_clearance_m)) return true;
     }
     return false;
   }
@@ -256,12 +247,17 @@ void add_existing(const SceneDescription& scene, const DesignSettings& design, C
   }
 }
 
+/// A circuit that is out in the judged state leaves its types without light.
+bool gives_light(const DesignType& type) {
+  return type.emitter.emergency_flux > 0;
+}
+
 void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
              const std::vector<WallSpot>& walls, Candidates& out) {
   const auto first = static_cast<uint32_t>(out.all.size());
   for (uint32_t s = 0; s < spots.size(); ++s)
     for (size_t t = 0; t < design.types.size(); ++t) {
-      if (design.types[t].mount == LuminaireMount::wall) continue;
+      if (design.types[t].mount == LuminaireMount::wall || !gives_light(design.types[t])) continue;
       for (const double rotation_deg : rotations_of(design.types[t], spots[s].heading_deg)) {
         LuminaireCandidate one;
         one.type = t;
@@ -275,7 +271,8 @@ void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
   const auto first_wall = static_cast<uint32_t>(first + spots.size());
   for (uint32_t s = 0; s < walls.size(); ++s)
     for (size_t t = 0; t < design.types.size(); ++t) {
-      if (design.types[t].mount == LuminaireMount::ceiling) continue;
+      if (design.types[t].mount == LuminaireMount::ceiling || !gives_light(design.types[t]))
+        continue;
       auto turns = design.types[t].turns_deg;
       if (turns.empty()) turns = {0};
       for (const double turn : turns) {
@@ -284,6 +281,7 @@ void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
         one.place = first_wall + s;
         one.position = walls[s].position;
         one.floor = walls[s].floor;
+        one.outward = walls[s].outward;
         one.aim = aim_from_wall(walls[s].outward, design.types[t].aim_deg);
         one.rotation_deg = turn;
         out.all.push_back(std::move(one));
@@ -335,7 +333,7 @@ void leave_out_forbidden(const SceneDescription& scene, const DesignSettings& de
 SceneDescription without_bodies(const SceneDescription& scene, const DesignSettings& design) {
   SceneDescription out = scene;
   for (Emitter& e : out.emitters) e.body_material.clear();
-  if (out.emitters.empty()) out.emitters.push_back(design.types.front().emitter);
+  if (out.emitters.empty()) out.emitters.push_back(some_light(design));
   return out;
 }
 
@@ -356,6 +354,18 @@ std::string words_of(const LeftOut& left) {
 }
 
 }  // namespace
+
+const Emitter& some_light(const DesignSettings& design) {
+  const auto lit = std::find_if(design.types.begin(), design.types.end(), gives_light);
+  return (lit == design.types.end() ? design.types.front() : *lit).emitter;
+}
+
+std::optional<Problem> no_light(const DesignSettings& design) {
+  if (std::any_of(design.types.begin(), design.types.end(), gives_light)) return std::nullopt;
+  return problem_in(design.place,
+                    "no type of luminaire gives light in the judged scenario, whose 'circuits' "
+                    "switch them all off: take another scenario, or types on other circuits");
+}
 
 bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double clearance_m) {
   return std::any_of(scene.signs.begin(), scene.signs.end(), [&](const Sign& sign) {
@@ -424,14 +434,14 @@ Result<std::unique_ptr<PlaceCheck>> PlaceCheck::make(const SceneDescription& sce
   return std::unique_ptr<PlaceCheck>(new PlaceCheck(std::move(parts)));
 }
 
-std::optional<glm::dvec3> PlaceCheck::place_over(const glm::dvec2& plan,
-                                                 const glm::dvec3& near) const {
+std::optional<PlaceCheck::Place> PlaceCheck::place_over(const glm::dvec2& plan,
+                                                        const glm::dvec3& near) const {
   const auto floor = floor_below(parts_->scene, {plan, near.z});
   if (!floor) return std::nullopt;
   const auto z = PlaceFinder(parts_->scene, parts_->design, *parts_->bare, *parts_->furnished)
                      .height_over({plan, *floor});
   if (!z || std::abs(*z - near.z) > one_storey_m) return std::nullopt;
-  return rounded({plan, *z});
+  return Place{rounded({plan, *z}), {plan, *floor}};
 }
 
 Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSettings& design,
@@ -467,6 +477,7 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
   if (out.all.size() == existing &&
       std::all_of(out.all.begin(), out.all.end(),
                   [](const LuminaireCandidate& c) { return c.fixed; })) {
+    if (auto problem = no_light(design)) return *problem;
     const std::string why = words_of(out.left_out);
     return problem_in(design.place, "there is no place for a luminaire" +
                                         (why.empty() ? std::string(": no route or area is there to "

@@ -26,10 +26,11 @@ struct LuminaireCandidate {
   size_t type = existing;  // of DesignSettings::types
   uint32_t place = 0;      // candidates of one place exclude each other
   glm::dvec3 position{0};
-  glm::dvec3 floor{0};              // of the route or area that it was found from
-  std::optional<glm::dvec3> aim{};  // of one on a wall; else it looks as its type
-  double rotation_deg = 0;          // as a change of the variant writes it
-  std::string name;                 // of an existing luminaire
+  glm::dvec3 floor{0};                  // of the route or area that it was found from
+  std::optional<glm::dvec3> outward{};  // from the wall that it is on, level, of unit length
+  std::optional<glm::dvec3> aim{};      // of one on a wall; else it looks as its type
+  double rotation_deg = 0;              // as a change of the variant writes it
+  std::string name;                     // of an existing luminaire
   bool fixed = false;
 };
 
@@ -56,6 +57,12 @@ SceneDescription scene_of(const SceneDescription& scene, const DesignSettings& d
 Emitter emitter_of(const SceneDescription& scene, const DesignSettings& design,
                    const LuminaireCandidate& candidate);
 
+/// Light to compile the geometry of a scene with that has none of its own.
+const Emitter& some_light(const DesignSettings& design);
+
+/// Where no type gives light as the judged state leaves its circuit.
+std::optional<Problem> no_light(const DesignSettings& design);
+
 /// Whether a sign hangs nearer to a place than a clearance, seen from above.
 bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double clearance_m);
 
@@ -79,8 +86,11 @@ class PlaceCheck {
                                                   const Scenario& doors, int threads);
   ~PlaceCheck();
 
+  struct Place {
+    glm::dvec3 position, floor;
+  };
   /// On the storey of `near`, at the mounting height there; none where it may not be.
-  std::optional<glm::dvec3> place_over(const glm::dvec2& plan, const glm::dvec3& near) const;
+  std::optional<Place> place_over(const glm::dvec2& plan, const glm::dvec3& near) const;
 
  private:
   struct Parts;

@@ -158,6 +158,7 @@ class Designing {
         out_ = *std::move(nearest_);
         break;
       }
+      keep_bound();
       if (auto problem = judge()) return *problem;
       const auto failing = failing_checks(out_, out_.assessment, &out_.others);
       const bool last = out_.verifications == max_verifications || interrupt_;
@@ -168,7 +169,6 @@ class Designing {
         break;
       }
       if (auto problem = find_tolerance()) return *problem;
-      keep_bound();
       if (out_.tolerance->holds()) break;
       if (!nearest_ || out_.tolerance->least() > nearest_->tolerance->least()) nearest_ = out_;
       if (!last && ask_for_more_off_place()) continue;
@@ -197,16 +197,18 @@ class Designing {
     if (!codes) return codes.problem();
     codes_ = std::move(codes).value();
     if (auto problem = first_error(scene_, scenario_, options_.threads)) return problem;
+    switched_ = as_switched(*scene_, scenario_);
+    if (emergency_luminaires(switched_).empty())
+      if (auto problem = no_light(*switched_.design)) return *problem;
     if (*scene_->design->place_signs && !scene_->routes.empty())
       if (auto problem = place_signs()) return problem;
     progress_("finding places", no_objective, 0);
-    switched_ = as_switched(*scene_, scenario_);
     auto candidates =
-        find_candidates(switched_, *scene_->design, codes_, scenario_, options_.threads);
+        find_candidates(switched_, *switched_.design, codes_, scenario_, options_.threads);
     if (!candidates) return candidates.problem();
     candidates_ = std::move(candidates).value();
     progress_("computing their light", no_objective, 0);
-    auto demands = Demands::make(switched_, *scene_->design, candidates_.all, codes_, scenario_,
+    auto demands = Demands::make(switched_, *switched_.design, candidates_.all, codes_, scenario_,
                                  options_.threads);
     if (!demands) return demands.problem();
     demands_ = std::move(demands).value();
@@ -231,10 +233,11 @@ class Designing {
     asked.seed = options_.seed;
     asked.threads = options_.threads;
     auto plan = plan_signs(
-        as_switched(*scene_, scenario_), *scene_->design, asked, interrupt_,
+        switched_, *switched_.design, asked, interrupt_,
         [&](const std::string& what, double, double) { progress_(what, no_objective, 0); });
     if (!plan) return plan.problem();
     scene_ = with_signs(*scene_, plan.value());
+    switched_ = as_switched(*scene_, scenario_);
     out_.signs = std::move(plan).value();
     return std::nullopt;
   }
@@ -253,7 +256,7 @@ class Designing {
     out_.tolerance.emplace();
     if (!(scene_->design->place_tolerance_m > 0)) return std::nullopt;
     progress_("looking at luminaires off their places", out_.answer.objective, out_.answer.bound);
-    auto found = tolerance_of(switched_, *scene_->design, chosen_candidates(), codes_, scenario_,
+    auto found = tolerance_of(switched_, *switched_.design, chosen_candidates(), codes_, scenario_,
                               options_.threads);
     if (!found) return found.problem();
     out_.tolerance = std::move(found).value();
@@ -268,22 +271,25 @@ class Designing {
     asked.seconds = options_.seconds;
     asked.threads = options_.threads;
     auto refined = refine_layout(
-        switched_, *scene_->design, chosen_candidates(), demands_->hidden(), asked, interrupt_,
+        switched_, *switched_.design, chosen_candidates(), demands_->hidden(), asked, interrupt_,
         [&](double) { progress_("moving luminaires", out_.answer.objective, out_.answer.bound); });
     if (!refined) return refined.problem();
     if (refined->moved == 0) return std::nullopt;
     Candidates moved = candidates_;
     size_t next = 0;
     for (size_t i = 0; i < moved.all.size(); ++i)
-      if (out_.answer.layout[i] != 0) moved.all[i].position = refined->luminaires[next++].position;
+      if (out_.answer.layout[i] != 0) {
+        moved.all[i].position = refined->luminaires[next].position;
+        moved.all[i].floor = refined->luminaires[next++].floor;
+      }
     PlacedLayout layout = placed(*scene_, moved, out_.answer.layout);
     auto assessed = assessed_by_codes(layout.variant);
     if (!assessed) return assessed.problem();
     if (!failing_checks(layout, assessed.value(), nullptr).empty()) return std::nullopt;
     PlaceTolerance tolerance;
     if (scene_->design->place_tolerance_m > 0) {
-      auto found = tolerance_of(switched_, *scene_->design, refined->luminaires, codes_, scenario_,
-                                options_.threads);
+      auto found = tolerance_of(switched_, *switched_.design, refined->luminaires, codes_,
+                                scenario_, options_.threads);
       if (!found) return found.problem();
       if (!found->holds() && found->least() < out_.tolerance->least()) return std::nullopt;
       tolerance = std::move(found).value();
@@ -298,8 +304,8 @@ class Designing {
     return std::nullopt;
   }
 
-  /// Rows that were raised for one layout may exclude others that hold off their places with less:
-  /// the bound is that of the search before.
+  /// Rows that were raised for one layout may exclude others that pass, or hold off their places,
+  /// with less: the bound is that of the first search.
   void keep_bound() {
     LayoutAnswer& answer = out_.answer;
     if (!first_bound_) first_bound_ = answer.bound;

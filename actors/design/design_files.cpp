@@ -165,6 +165,16 @@ Result<void> remove_alternatives(const fs::path& folder) {
   return {};
 }
 
+/// One of an earlier design is none of this one's; whoever asks for one prints it afterwards.
+Result<void> remove_page_as_pdf(const fs::path& folder) {
+  std::error_code failed;
+  fs::remove(folder / "design.pdf", failed);
+  if (failed)
+    return problem_in(folder / "design.pdf",
+                      "cannot remove the page of an earlier design: " + failed.message());
+  return {};
+}
+
 /// Layouts beside the best one, as variants.
 Result<void> write_alternatives(const fs::path& folder, const SceneDescription& scene,
                                 const DesignResult& result) {
@@ -423,7 +433,8 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
     out["refined"] = {{"moved", result.refined->moved},
                       {"least_before", number_json(result.refined->before)},
                       {"least_after", number_json(result.refined->after)}};
-  if (result.tolerance) out["off_place"] = tolerance_json(*result.tolerance);
+  if (result.tolerance && result.tolerance->distance_m > 0)
+    out["off_place"] = tolerance_json(*result.tolerance);
   if (result.signs) out["signs"] = signs_json(scene, *result.signs);
   if (result.smoke) out["smoke"] = smoke_json(*result.smoke);
   return out;
@@ -437,9 +448,10 @@ Result<void> write_design(const fs::path& folder, const SceneDescription& scene,
   if (auto ok = write_plans(folder / "plans", assessed, language); !ok) return ok.problem();
   if (auto ok = write_csv(folder / "luminaires.csv", schedule_csv(result)); !ok)
     return ok.problem();
-  if (result.signs)
-    if (auto ok = write_csv(folder / "signs.csv", signs_csv(scene, *result.signs)); !ok)
-      return ok.problem();
+  std::optional<CsvTable> signs;
+  if (result.signs) signs = signs_csv(scene, *result.signs);
+  if (auto ok = write_or_remove(folder / "signs.csv", signs); !ok) return ok.problem();
+  if (auto ok = remove_page_as_pdf(folder); !ok) return ok.problem();
   if (auto ok = write_json(folder / "design.json", json); !ok) return ok.problem();
   if (auto ok =
           write_file_atomically(folder / "design.html", design_page(json, assessed, language));

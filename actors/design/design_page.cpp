@@ -138,7 +138,8 @@ std::string signs_of(const Texts& t, const Json& signs) {
         t.say("design.signs_unguided", text_in(one, "route"), one["places"].get<int64_t>(),
               one["of"].get<int64_t>(),
               t.place(p[0].get<double>(), p[1].get<double>(), p[2].get<double>())) +
-        (one["behind_furniture"].get<bool>() ? std::string(" ") + t("design.signs_behind") : ""));
+        (one["behind_furniture"].get<bool>() ? std::string(" ") + t("design.signs_behind") : "") +
+        (one["behind_signs"].get<bool>() ? std::string(" ") + t("design.signs_behind_signs") : ""));
   }
   std::string gone;
   for (const Json& name : signs["removed"])

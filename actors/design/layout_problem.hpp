@@ -46,6 +46,13 @@ enum class DemandKind {
   face,      // illuminance on the face of a sign [lx]
 };
 
+/// Illuminance that is not to be below a limit while all luminaires work: what is kept with more to
+/// spare, and what has to hold off the places.
+constexpr bool is_minimum(DemandKind kind) {
+  return kind == DemandKind::minimum || kind == DemandKind::mean || kind == DemandKind::early ||
+         kind == DemandKind::vertical || kind == DemandKind::face;
+}
+
 /// Constraints that stand and fall together: one rule for one subject.
 struct ConstraintGroup {
   DemandKind kind = DemandKind::minimum;

@@ -1,13 +1,12 @@
 #include "actors/design/place_tolerance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
 
-#include "scenes/transport/surroundings.hpp"
+#include "actors/design/wall_probe.hpp"
 
 namespace luxodus {
 
@@ -21,8 +20,8 @@ constexpr double share_rounding = 1e-6;
 /// Level on a ceiling; along and up the wall on one.
 glm::dvec3 off_way(const LuminaireCandidate& one, double azimuth) {
   const glm::dvec3 level(std::cos(azimuth), std::sin(azimuth), 0);
-  if (!one.aim || glm::length(glm::dvec2(*one.aim)) < 1e-3) return level;
-  const glm::dvec3 along = glm::normalize(glm::dvec3(-one.aim->y, one.aim->x, 0));
+  if (!one.outward) return level;
+  const glm::dvec3 along(-one.outward->y, one.outward->x, 0);
   return along * level.x + glm::dvec3(0, 0, level.y);
 }
 
@@ -40,24 +39,13 @@ std::vector<LuminaireCandidate> with_places_off(const Building& building,
       for (int d = 0; d < off_directions; ++d) {
         const double azimuth = 2 * std::numbers::pi * d / off_directions;
         const glm::dvec3 way = off_way(chosen[i], azimuth);
-        const auto stop =
-            first_stop(building.scene(), access, building.local(chosen[i].position), Vec3(way),
-                       static_cast<Real>(distance_m), [&](const Facing& f) {
-                         return f.surface >= building.scene().description->objects.size() ||
-                                lets_light_through(f.kind);
-                       });
         one.position = chosen[i].position + way * distance_m;
-        if (!stop && !building.in_solid(access, one.position)) out.push_back(one);
+        const auto between = wall_distance(building, access, chosen[i].position, way, distance_m);
+        if (!between && !building.in_solid(access, one.position)) out.push_back(one);
       }
     }
   });
   return out;
-}
-
-bool is_minimum(DemandKind kind) {
-  constexpr std::array minima{DemandKind::minimum, DemandKind::mean,     DemandKind::early,
-                              DemandKind::failed,  DemandKind::vertical, DemandKind::face};
-  return std::find(minima.begin(), minima.end(), kind) != minima.end();
 }
 
 /// Of each place, the least that it may give, and what all give together.
@@ -138,7 +126,8 @@ Result<PlaceTolerance> tolerance_of(const SceneDescription& scene, const DesignS
   const LeastLight least(problem);
   Tightest tightest;
   for (const CoverRow& row : problem.covers)
-    if (is_minimum(problem.groups[row.group].kind))
+    if (const DemandKind kind = problem.groups[row.group].kind;
+        is_minimum(kind) || kind == DemandKind::failed)
       tightest.offer(problem.groups[row.group], least.of(*row.terms).all / row.least, row.least,
                      row.place);
   for (const FailureRows& rows : problem.failures)

@@ -33,12 +33,6 @@ struct Judged {
   double least = 0;             // share of a minimum that is planned for
 };
 
-bool is_planned_minimum(DemandKind kind) {
-  constexpr std::array minima{DemandKind::minimum, DemandKind::mean, DemandKind::early,
-                              DemandKind::vertical, DemandKind::face};
-  return std::find(minima.begin(), minima.end(), kind) != minima.end();
-}
-
 class Refining {
  public:
   Refining(const SceneDescription& scene, const DesignSettings& design,
@@ -113,11 +107,11 @@ class Refining {
     out.good = true;
     out.least = std::numeric_limits<double>::infinity();
     for (size_t row = 0; row < problem.covers.size(); ++row)
-      if (is_planned_minimum(problem.groups[problem.covers[row].group].kind))
+      if (is_minimum(problem.groups[problem.covers[row].group].kind))
         out.least = std::min(out.least, sums.cover(row));
     double sum = 0;
     for (size_t row = 0; row < problem.covers.size(); ++row)
-      if (is_planned_minimum(problem.groups[problem.covers[row].group].kind))
+      if (is_minimum(problem.groups[problem.covers[row].group].kind))
         sum += std::exp(-sharpness * (sums.cover(row) - out.least));
     if (!(sum > 0)) return {};  // no minimum is asked for
     out.smooth = out.least - std::log(sum) / sharpness;
@@ -130,7 +124,7 @@ class Refining {
     weight_.assign(problem.options.size(), 0);
     for (size_t row = 0; row < problem.covers.size(); ++row) {
       const CoverRow& cover = problem.covers[row];
-      if (!is_planned_minimum(problem.groups[cover.group].kind)) continue;
+      if (!is_minimum(problem.groups[cover.group].kind)) continue;
       const double tight = std::exp(-sharpness * (sums.cover(row) - least));
       for (const Term& term : *cover.terms)
         weight_[term.option] += tight * static_cast<double>(term.value) / cover.least;
@@ -172,7 +166,8 @@ class Refining {
     if (!found_ || found_->judged.smooth < best_.smooth + least_gain) return;
     best_ = found_->judged;
     out_.after = best_.least;
-    out_.luminaires[i].position = found_->position;
+    out_.luminaires[i].position = found_->place.position;
+    out_.luminaires[i].floor = found_->place.floor;
     ++out_.moved;
   }
 
@@ -190,7 +185,8 @@ class Refining {
     constexpr double may_not_be = 3 * when_broken;
     if (!place) return may_not_be;
     std::vector<LuminaireCandidate> luminaires = out_.luminaires;
-    luminaires[trying_].position = *place;
+    luminaires[trying_].position = place->position;
+    luminaires[trying_].floor = place->floor;
     const Judged judged = judge(luminaires);
     if (judged.good && (!found_ || judged.smooth > found_->judged.smooth))
       found_ = Found{*place, judged};
@@ -198,7 +194,7 @@ class Refining {
   }
 
   struct Found {
-    glm::dvec3 position;
+    PlaceCheck::Place place;
     Judged judged;
   };
 

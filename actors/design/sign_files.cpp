@@ -127,6 +127,7 @@ Json signs_json(const SceneDescription& scene, const SignPlan& plan) {
                         {"places", one.places},
                         {"of", one.of},
                         {"behind_furniture", one.behind_furniture},
+                        {"behind_signs", one.behind_signs},
                         {"first", vector_json(one.first)}});
   const SignsLeftOut& left = plan.left_out;
   return {
@@ -164,8 +165,9 @@ std::vector<std::string> sign_words(const SignPlan& plan) {
         "{:.2f}): {}",
         one.places, one.of, one.route, one.behind_furniture ? " with furniture" : "", one.first.x,
         one.first.y, one.first.z,
-        one.behind_furniture
-            ? "furniture hides all places for signs; without it they are guided"
+        one.behind_furniture ? "furniture hides all places for signs; without it they are guided"
+        : one.behind_signs
+            ? "signs hide each other in all plans that were tried"
             : "no place for a sign is seen from there; does the route end before a wall or door?"));
   return out;
 }

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "actors/design/candidates.hpp"
+#include "actors/design/wall_probe.hpp"
 #include "scenes/emergency/way.hpp"
 #include "scenes/geometry/transform.hpp"
-#include "scenes/transport/surroundings.hpp"
 
 namespace luxodus {
 
@@ -37,11 +37,6 @@ constexpr double one_sign_place_m = 0.3;
 constexpr double level_leg_m = 0.05;
 
 const glm::dvec3 upwards(0, 0, 1);
-
-/// `parts`: of a unit. Without negative zeros, which nobody wants to read.
-glm::dvec3 rounded_to(const glm::dvec3& v, double parts) {
-  return glm::round(v * parts) / parts + 0.0;
-}
 
 class SignSpotFinder {
  public:
@@ -108,13 +103,7 @@ class SignSpotFinder {
 
   std::optional<double> stop_at(const GeometryAccess& access, const glm::dvec3& from,
                                 const glm::dvec3& direction, double length_m) const {
-    const auto stop = first_stop(bare_.scene(), access, bare_.local(from), Vec3(direction),
-                                 static_cast<Real>(length_m), [&](const Facing& f) {
-                                   return f.surface >= bare_.scene().description->objects.size() ||
-                                          lets_light_through(f.kind);
-                                 });
-    if (!stop) return std::nullopt;
-    return static_cast<double>(stop->distance_m);
+    return wall_distance(bare_, access, from, direction, length_m);
   }
 
   /// Lower where the ceiling asks for it. False where there is none to hang under.
@@ -136,22 +125,16 @@ class SignSpotFinder {
     fit_below_ceiling(access, wall, before);
     const glm::dvec3 across = glm::cross(upwards, level);
     const glm::dvec3 eye(before.x, before.y, wall.z);
-    // Distances to the wall behind the corners: columns are left, middle and right.
+    // Distances to the wall behind the edges: columns are left, middle and right.
     std::array<double, 3> depth{};
-    double low = 1e9, high = 0;
     for (int column = 0; column < 3; ++column) {
-      double mean = 0;
-      for (const double row : {-0.5, 0.5}) {
-        const auto met = stop_at(
-            access,
-            eye + across * ((column - 1) * sign_.width_m / 2) + upwards * (row * sign_.height_m),
-            level, 2 * before_wall_m + sign_.width_m);
-        if (!met) return void(++left_out_.no_room);
-        mean += *met / 2;
-        low = std::min(low, *met - mean), high = std::max(high, *met);
-        if (row > 0 && std::abs(*met - mean) > flat_m) return void(++left_out_.no_room);
-      }
-      depth[static_cast<size_t>(column)] = mean;
+      const glm::dvec3 aside = eye + across * ((column - 1) * sign_.width_m / 2);
+      const glm::dvec3 half = upwards * (sign_.height_m / 2);
+      const double reach = 2 * before_wall_m + sign_.width_m;
+      const auto below = stop_at(access, aside - half, level, reach);
+      const auto above = stop_at(access, aside + half, level, reach);
+      if (!below || !above || std::abs(*above - *below) > flat_m) return void(++left_out_.no_room);
+      depth[static_cast<size_t>(column)] = (*below + *above) / 2;
     }
     const double slope = (depth[2] - depth[0]) / sign_.width_m;
     if (std::abs(depth[0] + depth[2] - 2 * depth[1]) > flat_m || std::abs(slope) > most_aslant)
@@ -175,9 +158,7 @@ class SignSpotFinder {
   /// A place that is told to the millimetre and holds the sign.
   void offer(const GeometryAccess& access, const glm::dvec3& middle, const glm::dvec3& facing,
              SignMount mount) {
-    constexpr double told_parts = 1e3, direction_parts = 1e6;  // of a metre, of one
-    SignSpot spot{
-        rounded_to(middle, told_parts), rounded_to(facing, direction_parts), mount, {route_}};
+    SignSpot spot{told_place(middle), told_direction(facing), mount, {route_}};
     constexpr double alike = 0.9;  // cosine
     for (SignSpot& other : spots_) {
       if (glm::length(other.position - spot.position) >= one_sign_place_m ||
@@ -186,20 +167,27 @@ class SignSpotFinder {
       if (other.of_routes.back() != route_) other.of_routes.push_back(route_);
       return;
     }
+    if (is_within_bodies(bare_, access, spot)) return void(++left_out_.no_room);
+    spots_.push_back(spot);
+  }
+
+  /// Whether a body holds a corner of the sign, or the middle of one of its long edges.
+  bool is_within_bodies(const Building& building, const GeometryAccess& access,
+                        const SignSpot& spot) const {
     const Sign sign = sign_at(sign_, spot);
     for (const double u : {-0.5, 0.0, 0.5})
       for (const double v : {-0.5, 0.5})
-        if (bare_.in_solid(access, spot.position + sign.frame.axes[0] * (u * sign.width_m) +
-                                       sign.frame.axes[1] * (v * sign.height_m)))
-          return void(++left_out_.no_room);
-    spots_.push_back(spot);
+        if (building.in_solid(access, spot.position + sign.frame.axes[0] * (u * sign.width_m) +
+                                          sign.frame.axes[1] * (v * sign.height_m)))
+          return true;
+    return building.in_solid(access, spot.position);
   }
 
   /// Without places in furniture and keep-out zones, and where signs hang that stay.
   void keep_free() {
     std::vector<char> good(spots_.size(), 1);
     furnished_.each(spots_.size(), [&](const GeometryAccess& access, size_t i) {
-      good[i] = furnished_.in_solid(access, spots_[i].position) ? 0 : 1;
+      good[i] = is_within_bodies(furnished_, access, spots_[i]) ? 0 : 1;
     });
     std::vector<SignSpot> out;
     for (size_t i = 0; i < spots_.size(); ++i) {

@@ -2,7 +2,8 @@
 // which is nearest to the way behind the place where it is passed; routes with the same arrow share
 // the sign. Who is guided by what is a matrix of ones, and the plan is the lightest set of columns
 // that covers all rows. Signs of the plan may hide each other: the plan is looked at again with all
-// of them in the building, and a row that is lost asks for one sign more.
+// of them in the building, and a row that is lost asks for one sign more. What no plan holds is
+// told.
 #include "actors/design/sign_plan.hpp"
 
 #include <algorithm>
@@ -97,7 +98,7 @@ class SignPlanning {
   Result<SignPlan> run() {
     take_out_removed();
     // A scene that has no light yet is compiled with that of a type.
-    if (scene_.emitters.empty()) scene_.emitters.push_back(design_.types.front().emitter);
+    if (scene_.emitters.empty()) scene_.emitters.push_back(some_light(design_));
     has_furniture_ = std::any_of(scene_.objects.begin(), scene_.objects.end(), is_furniture);
     if (auto problem = build(false, bare_)) return *problem;
     if (has_furniture_)
@@ -108,19 +109,40 @@ class SignPlanning {
     look();
     make_options();
     make_rows();
-    for (int plans = 1;; ++plans) {
-      const Layout layout = solve();
-      take(layout);
-      if (plans == most_plans || interrupt_) break;
-      const auto lost = lost_rows();
-      if (!lost) return lost.problem();
-      if (lost->empty()) break;
-      for (const size_t row : lost.value()) ask_for_another(row);
-    }
+    if (auto problem = plan()) return *problem;
     return std::move(out_);
   }
 
  private:
+  /// Until the signs of a plan do not hide each other; places that no plan guides from are told.
+  std::optional<Problem> plan() {
+    std::vector<size_t> lost;
+    int plans = 1;
+    for (;; ++plans) {
+      const LayoutAnswer answer = solve(problem_);
+      if (is_none(answer)) {
+        if (plans == 1) return no_plan(answer.end);
+        for (const size_t place : lost) give_up(place);  // the plan before stands
+        break;
+      }
+      if (plans == 1) bound_ = answer.bound;
+      take(answer);
+      auto found = lost_places();
+      if (!found) return found.problem();
+      lost = std::move(found).value();
+      if (lost.empty()) break;
+      const bool last = plans == most_plans || interrupt_;
+      std::erase_if(lost, [&](size_t place) {
+        if (!last && ask_for_another(place)) return false;
+        give_up(place);
+        return true;
+      });
+      if (last) break;
+    }
+    tell_bound(plans > 1);
+    return std::nullopt;
+  }
+
   const Building& furnished() const { return furnished_ ? *furnished_ : *bare_; }
 
   void take_out_removed() {
@@ -315,11 +337,16 @@ class SignPlanning {
 
   /// The columns, and a row for each place that any of them guides.
   void make_rows() {
+    // Signs that are there do not exclude each other, wherever they hang: back to back for
+    // instance.
+    const auto there = static_cast<uint32_t>(scene_.signs.size());
     std::vector<glm::dvec3> places;
     for (const SignOption& option : sign_options_) {
       const Hung& one = hung_[option.hung];
       LayoutOption column;
-      column.place = place_number(places, one.spot.position);
+      column.place = one.type == PlacedSign::existing
+                         ? static_cast<uint32_t>(option.hung)
+                         : there + place_number(places, one.spot.position);
       column.fixed = one.type == PlacedSign::existing && design_.existing_signs == Existing::fixed;
       column.weight = column.fixed ? 0
                                    : weight_of(one) *
@@ -339,7 +366,7 @@ class SignPlanning {
     for (size_t p = 0; p < asked_.size(); ++p) {
       asked_[p].bare = furnished[p].empty() && !bare[p].empty();
       const bool none = furnished[p].empty() && bare[p].empty();
-      if (none || asked_[p].bare) tell_unguided(asked_[p]);
+      if (none || asked_[p].bare) tell_unguided(asked_[p], false);
       if (none) continue;
       rows_of_.push_back(p);
       problem_.covers.push_back(
@@ -347,8 +374,6 @@ class SignPlanning {
            std::make_shared<std::vector<Term>>(asked_[p].bare ? bare[p] : furnished[p]), 1,
            asked_[p].walker.foot});
     }
-    for (UnguidedPlaces& one : out_.unguided)
-      for (const Asked& place : asked_) one.of += scene_.routes[place.route].name == one.route;
   }
 
   static uint32_t place_number(std::vector<glm::dvec3>& places, const glm::dvec3& at) {
@@ -358,30 +383,56 @@ class SignPlanning {
     return static_cast<uint32_t>(places.size() - 1);
   }
 
-  void tell_unguided(const Asked& place) {
+  void tell_unguided(const Asked& place, bool behind_signs) {
     const std::string& name = scene_.routes[place.route].name;
     auto at = std::find_if(out_.unguided.begin(), out_.unguided.end(), [&](const auto& one) {
-      return one.route == name && one.behind_furniture == place.bare;
+      return one.route == name && one.behind_furniture == place.bare &&
+             one.behind_signs == behind_signs;
     });
-    if (at == out_.unguided.end())
-      at = out_.unguided.insert(at, {name, 0, 0, place.bare, place.walker.foot});
+    if (at == out_.unguided.end()) {
+      const auto of =
+          static_cast<size_t>(std::count_if(asked_.begin(), asked_.end(), [&](const Asked& other) {
+            return other.route == place.route;
+          }));
+      at = out_.unguided.insert(at, {name, 0, of, place.bare, behind_signs, place.walker.foot});
+    }
     ++at->places;
   }
 
-  Layout solve() {
-    if (problem_.options.empty()) return {};
+  LayoutAnswer solve(const LayoutProblem& problem) {
+    if (problem.options.empty()) {
+      LayoutAnswer nothing;
+      nothing.end = LayoutEnd::optimal;
+      return nothing;
+    }
     SolveSettings settings;
     settings.seconds = options_.seconds;
     settings.seed = options_.seed;
-    const LayoutAnswer answer = solve_layout(
-        problem_, settings, interrupt_,
+    return solve_layout(
+        problem, settings, interrupt_,
         [&](const std::string& what, double, double) { progress_("signs: " + what, 0, 0); });
-    out_.end = answer.end;
-    bound_ = answer.bound;
-    return answer.layout;
   }
 
-  void take(const Layout& layout) {
+  /// A plan of no signs out of none is one.
+  bool is_none(const LayoutAnswer& answer) const {
+    return answer.layout.empty() && !problem_.options.empty();
+  }
+
+  Problem no_plan(LayoutEnd end) const {
+    return problem_in(
+        design_.place,
+        end == LayoutEnd::infeasible
+            ? "no plan of signs guides along all routes: some are seen at one place alone and ask "
+              "for different arrows there; a smaller 'sign_spacing_m' or smaller signs make more "
+              "places, or hang signs yourself and say place_signs = false"
+            : fmt::format("the search for signs ended before it found any plan, after {:.3g} s at "
+                          "most: give it more time, or make 'sign_spacing_m' larger",
+                          options_.seconds));
+  }
+
+  void take(const LayoutAnswer& answer) {
+    const Layout& layout = answer.layout;
+    out_.end = answer.end;
     out_.signs.clear();
     out_.objective = 0;
     std::vector<PlacedSign> fresh;
@@ -410,16 +461,29 @@ class SignPlanning {
       fresh[i].name = prefix + std::to_string(i + 1);
       out_.signs.push_back(std::move(fresh[i]));
     }
+  }
+
+  /// Rows that were raised for one plan may exclude others: the bound is that of the rows before,
+  /// but for those that were given up.
+  void tell_bound(bool raised) {
+    if (gave_up_) {
+      LayoutProblem plain = problem_;
+      for (CoverRow& cover : plain.covers) cover.least = 1;
+      bound_ = interrupt_ ? 0 : solve(plain).bound;
+    }
     // Without what mounts add to the weights.
     const double bound = bound_ / (1 + 2 * share_of_mount);
     constexpr double rounding_of_number = 1e-6;
     out_.bound = std::min(out_.objective, design_.objective == DesignObjective::number
                                               ? std::ceil(bound - rounding_of_number)
                                               : bound);
+    if ((raised || gave_up_) && out_.end == LayoutEnd::optimal &&
+        out_.bound < out_.objective * (1 - sum_tolerance))
+      out_.end = LayoutEnd::within_gap;
   }
 
-  /// Rows that the plan does not hold any more where its signs hide each other.
-  Result<std::vector<size_t>> lost_rows() {
+  /// Places that the plan does not guide from any more where its signs hide each other.
+  Result<std::vector<size_t>> lost_places() {
     const auto planned = with_signs(scene_, out_);
     std::vector<size_t> out;
     for (const bool bare : {false, true}) {
@@ -440,16 +504,34 @@ class SignPlanning {
               const Sign& sign = planned->signs[seen.sign];
               return near_enough(sign, seen.view) && can_guide(route, people[i], sign, seen.view);
             });
-        if (!guided) out.push_back(rows[i]);
+        if (!guided) out.push_back(rows_of_[rows[i]]);
       }
     }
     return out;
   }
 
-  /// One sign more than there is, or all that there are.
-  void ask_for_another(size_t row) {
-    CoverRow& cover = problem_.covers[row];
-    cover.least = std::min(cover.least + 1, static_cast<double>(cover.terms->size()));
+  size_t row_of(size_t place) const {
+    return static_cast<size_t>(std::find(rows_of_.begin(), rows_of_.end(), place) -
+                               rows_of_.begin());
+  }
+
+  /// One sign more. False where all places that guide from there have theirs already.
+  bool ask_for_another(size_t place) {
+    CoverRow& cover = problem_.covers[row_of(place)];
+    std::set<uint32_t> hung_at;
+    for (const Term& term : *cover.terms) hung_at.insert(problem_.options[term.option].place);
+    if (cover.least + 1 > static_cast<double>(hung_at.size())) return false;
+    cover.least += 1;
+    return true;
+  }
+
+  /// From here on nothing is asked for there.
+  void give_up(size_t place) {
+    gave_up_ = true;
+    if (!asked_[place].bare) tell_unguided(asked_[place], true);  // else it is told already
+    const auto row = static_cast<std::ptrdiff_t>(row_of(place));
+    problem_.covers.erase(problem_.covers.begin() + row);
+    rows_of_.erase(rows_of_.begin() + row);
   }
 
   SceneDescription scene_;
@@ -464,7 +546,8 @@ class SignPlanning {
   std::vector<SignOption> sign_options_;
   LayoutProblem problem_;
   std::vector<size_t> rows_of_;  // the place that each cover row asks for
-  double bound_ = 0;
+  double bound_ = 0;             // of all plans, before any row was raised
+  bool gave_up_ = false;         // a place
   SignPlan out_;
 };
 

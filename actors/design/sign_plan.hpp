@@ -31,11 +31,13 @@ struct PlacedSign {
   bool is_new() const { return type != existing; }
 };
 
-/// Places of a route from which no sign can guide: none of the candidates is seen there.
+/// Places of a route from which no sign guides: none of the candidates is seen there, or in every
+/// plan that was tried signs hide each other.
 struct UnguidedPlaces {
   std::string route;
   size_t places = 0, of = 0;
   bool behind_furniture = false;  // without furniture one would be seen from all of them
+  bool behind_signs = false;      // one would be seen from all of them without the other new signs
   glm::dvec3 first{0};            // the first of them, on the floor
 };
 
@@ -61,7 +63,7 @@ struct SignPlanOptions {
 };
 
 /// `scene`: as the circuits of the judged state leave it; it has routes.
-/// Errors: as compile_scene; no sign is left of those that could be, or more than a limit.
+/// Errors: as compile_scene; more signs than a limit; no plan exists, or none was found in time.
 Result<SignPlan> plan_signs(const SceneDescription& scene, const DesignSettings& design,
                             const SignPlanOptions& options, const std::atomic<bool>& interrupt,
                             const SolveProgress& progress);

@@ -82,13 +82,13 @@ Result<Suggestion> suggest(const std::shared_ptr<const SceneDescription>& scene,
   if (scene->routes.empty() && scene->open_areas.empty() && scene->task_areas.empty())
     return problem_in(scene->file,
                       "there is nothing to light: add [[route]], [[open_area]] or [[task_area]]");
-  const auto design = settings_of(*scene);
-  if (!design) return design.problem();
   const auto scenario = judged_scenario(*scene, "");
   if (!scenario) return scenario.problem();
   const auto codes = judged_codes(*scene, {}, {});
   if (!codes) return codes.problem();
   const SceneDescription switched = as_switched(*scene, scenario.value());
+  const auto design = settings_of(switched);
+  if (!design) return design.problem();
   auto candidates =
       find_candidates(switched, design.value(), codes.value(), scenario.value(), options.threads);
   if (!candidates) return candidates.problem();

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "actors/design/wall_probe.hpp"
 #include "scenes/emergency/way.hpp"
-#include "scenes/transport/surroundings.hpp"
 
 namespace luxodus {
 
@@ -85,13 +85,7 @@ class WallSpotFinder {
 
   std::optional<double> wall_at(const GeometryAccess& access, const glm::dvec3& from,
                                 const glm::dvec3& direction, double length_m) const {
-    const auto stop = first_stop(bare_.scene(), access, bare_.local(from), Vec3(direction),
-                                 static_cast<Real>(length_m), [&](const Facing& f) {
-                                   return f.surface >= bare_.scene().description->objects.size() ||
-                                          lets_light_through(f.kind);
-                                 });
-    if (!stop) return std::nullopt;
-    return static_cast<double>(stop->distance_m);
+    return wall_distance(bare_, access, from, direction, length_m);
   }
 
   /// `counted`: the place of the route or area.
@@ -118,9 +112,9 @@ class WallSpotFinder {
   }
 
   void offer(WallSpot spot) {
-    constexpr double told_parts = 1e3, parts_of_direction = 1e6, alike = 0.7;
-    spot.position = glm::round(spot.position * told_parts) / told_parts + 0.0;
-    spot.outward = glm::round(spot.outward * parts_of_direction) / parts_of_direction + 0.0;
+    constexpr double alike = 0.7;  // cosine
+    spot.position = told_place(spot.position);
+    spot.outward = told_direction(spot.outward);
     for (const WallSpot& other : spots_)
       if (glm::length(other.position - spot.position) < one_wall_spot * design_.spacing_m &&
           glm::dot(other.outward, spot.outward) > alike)
@@ -165,9 +159,7 @@ std::vector<WallSpot> wall_spots(const SceneDescription& scene, const DesignSett
 
 glm::dvec3 aim_from_wall(const glm::dvec3& outward, double aim_deg) {
   const double angle = aim_deg * std::numbers::pi / 180;
-  constexpr double parts = 1e6;  // as a variant writes it
-  const glm::dvec3 aim = outward * std::sin(angle) - to_sky * std::cos(angle);
-  return glm::round(aim * parts) / parts + 0.0;
+  return told_direction(outward * std::sin(angle) - to_sky * std::cos(angle));
 }
 
 }  // namespace luxodus

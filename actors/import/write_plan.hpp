@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "scenes/dxf/dxf_plan.hpp"
 #include "runtime/core/result.hpp"
 #include "runtime/toml/schema.hpp"
+#include "scenes/dxf/dxf_plan.hpp"
 
 namespace luxodus {
 

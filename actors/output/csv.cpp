@@ -68,4 +68,14 @@ Result<void> write_csv(const std::filesystem::path& path, const CsvTable& table)
   return write_file_atomically(path, std::string_view(table.text()));
 }
 
+Result<void> write_or_remove(const std::filesystem::path& path,
+                             const std::optional<CsvTable>& table) {
+  if (table) return write_csv(path, *table);
+  std::error_code failed;
+  std::filesystem::remove(path, failed);
+  if (failed)
+    return problem_in(path, "cannot remove what an earlier run has left: " + failed.message());
+  return {};
+}
+
 }  // namespace luxodus

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,5 +49,10 @@ class CsvTable {
 
 /// Errors: as write_file_atomically.
 Result<void> write_csv(const std::filesystem::path& path, const CsvTable& table);
+
+/// A table that not every run has: one of an earlier run would be taken for this one's, and goes.
+/// Errors: as write_file_atomically; a file that cannot be removed.
+Result<void> write_or_remove(const std::filesystem::path& path,
+                             const std::optional<CsvTable>& table);
 
 }  // namespace luxodus

@@ -97,6 +97,10 @@ constexpr ReportText design_rows[] = {
     {"design.signs_behind",
      {"Furniture hides all places for signs there.", "Möbel verdecken dort alle Orte für Zeichen.",
       "Le mobilier y cache toutes les places pour des panneaux."}},
+    {"design.signs_behind_signs",
+     {"Signs hide each other there in all plans that were tried.",
+      "Zeichen verdecken dort einander in allen Plänen, die versucht wurden.",
+      "Des panneaux s’y cachent les uns les autres dans tous les plans essayés."}},
     {"design.signs_removed",
      {"Signs of the scene that go: {0}.", "Zeichen der Szene, die entfallen: {0}.",
       "Panneaux de la scène qui disparaissent : {0}."}},
@@ -291,14 +295,16 @@ constexpr ReportText design_rows[] = {
     {"design.smoke_note",
      {"Of the length of all routes, at all eye heights of the scene. A sign is ahead within {0} "
       "degrees of the way. ● marks layouts than which no other is read from more for no more. All "
-      "pass the rules that luminaires decide.",
+      "pass the rules that luminaires decide, at their planned places; off these alone A was "
+      "looked at.",
       "Von der Länge aller Wege, in allen Augenhöhen der Szene. Ein Zeichen ist voraus innerhalb "
       "von {0} Grad vom Weg. ● bezeichnet Anordnungen, zu denen keine mit gleichem Aufwand "
-      "lesbarer ist. Alle erfüllen die Regeln, über die Leuchten entscheiden.",
+      "lesbarer ist. Alle erfüllen die Regeln, über die Leuchten entscheiden, an ihren geplanten "
+      "Orten; daneben wurde nur A betrachtet.",
       "De la longueur de tous les itinéraires, à toutes les hauteurs d’œil de la scène. Un panneau "
       "est devant à {0} degrés du chemin au plus. ● marque les implantations dont aucune autre "
       "n’est plus lisible pour autant. Toutes respectent les règles que les luminaires "
-      "décident."}},
+      "décident, aux places prévues ; à côté de celles-ci, seule A a été examinée."}},
     {"design.left_no_wall",
      {"{0} where no wall is flat", "{0}, wo keine Wand eben ist", "{0} où aucun mur n’est plan"}},
     {"design.left_glaring", {"{0} glaring (E8)", "{0} blendend (E8)", "{0} éblouissants (E8)"}},

@@ -139,9 +139,9 @@ std::unique_ptr<Demands> demands_of(const std::string& text) {
   const SceneDescription switched = as_switched(scene, scenario.value());
   constexpr int threads = 2;
   const auto candidates =
-      find_candidates(switched, *scene.design, codes.value(), scenario.value(), threads);
+      find_candidates(switched, *switched.design, codes.value(), scenario.value(), threads);
   if (!candidates) return nullptr;
-  auto made = Demands::make(switched, *scene.design, candidates->all, codes.value(),
+  auto made = Demands::make(switched, *switched.design, candidates->all, codes.value(),
                             scenario.value(), threads);
   return made ? std::move(made).value() : nullptr;
 }

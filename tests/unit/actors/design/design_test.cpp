@@ -368,4 +368,52 @@ TEST_CASE("layouts of 200 random rooms pass the assessment of the file they are 
   check_random_rooms(1000, 200);
 }
 
+TEST_CASE("a type counts with what its circuit leaves of it in the judged scenario",
+          "[design][circuits]") {
+  const auto at = [](const char* factor) {
+    std::string text = spot_corridor(13);
+    text.insert(text.find("[[emitter]]"), fmt::format("circuits = {{ B = {} }}\n", factor));
+    text.insert(text.find("flux_lm"), "circuit = \"B\"\n");
+    return text;
+  };
+  const TemporaryFolder folder;
+  const auto count = [&](const char* factor) {
+    return designed(folder.write("scene.toml", at(factor))).luminaires.size();
+  };
+  const size_t all = count("1");
+  CHECK(all == 3);
+  // At the rim of the cone there is less than 1 lx then: the cones have to overlap.
+  CHECK(count("0.06") > all);
+  const std::string problem = problem_of(at("0"));
+  INFO(problem);
+  CHECK(problem.find("no type of luminaire gives light") != std::string::npos);
+}
+
+TEST_CASE("a design leaves no file of an earlier one that it does not have", "[design][files]") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("scene.toml", spot_corridor(6));
+  const auto scene = test::described(file);
+  DesignResult result = designed(file);
+  REQUIRE(result.signs);
+  REQUIRE(write_design(folder.path(), *scene, result, Language::en, "1"));
+  CHECK(fs::exists(folder.path() / "signs.csv"));
+  folder.write("design.pdf", "of the design before");
+  result.signs.reset();
+  REQUIRE(write_design(folder.path(), *scene, result, Language::en, "1"));
+  CHECK_FALSE(fs::exists(folder.path() / "signs.csv"));
+  CHECK_FALSE(fs::exists(folder.path() / "design.pdf"));
+}
+
+TEST_CASE("what is left off the places is told where luminaires may be off them",
+          "[design][files]") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("scene.toml", spot_corridor(6));
+  DesignResult result = designed(file);
+  const auto scene = test::described(file);
+  REQUIRE(result.tolerance);
+  CHECK_FALSE(design_json(*scene, result, "1").contains("off_place"));
+  result.tolerance->distance_m = 0.25;
+  CHECK(design_json(*scene, result, "1").contains("off_place"));
+}
+
 }  // namespace luxodus

@@ -271,6 +271,126 @@ TEST_CASE("a sign of the scene that guides saves a new one, and one that may go 
   CHECK(unguided_places(*scene).empty());
 }
 
+TEST_CASE("two signs of the scene that hang back to back both stay", "[design][signs]") {
+  const auto sign = [](const char* name, const char* position, const char* facing) {
+    return fmt::format(
+        "[[sign]]\nname = \"{}\"\nplain = \"green\"\nsmallest_detail = 0.02\nwidth = "
+        "0.3\nheight = 0.15\nmains_white = 500\nmains_green = 60\nemergency_white = "
+        "200\nemergency_green = 30\nposition = [{}]\nfacing = [{}]\n",
+        name, position, facing);
+  };
+  const TemporaryFolder folder;
+  const fs::path file =
+      folder.write("scene.toml", hall(20, 2, 3) + route("way", "[1, 1, 0], [19, 1, 0]") +
+                                     sign("west face", "9.9, 1, 2.4", "-1, 0, 0") +
+                                     sign("east face", "10, 1, 2.4", "1, 0, 0") +
+                                     "[design]\nplace_signs = true\nexisting_signs = \"fixed\"\n");
+  const DesignResult result = designed_with_signs(file);
+  REQUIRE(result.signs);
+  CHECK(result.signs->end == LayoutEnd::optimal);
+  CHECK(result.signs->removed.empty());
+  REQUIRE(result.signs->signs.size() >= 3);
+  CHECK(result.signs->signs[0].name == "west face");
+  CHECK(result.signs->signs[1].name == "east face");
+  check_guided(folder, file, result);
+}
+
+/// A corridor of 1 m up to a cross way, where one route turns left and the other right, and signs
+/// as wide as the corridor: people at its start see those at its end alone.
+std::string parting_routes(const std::string& more) {
+  return hall(20, 8, 3) + partition("a", "0, 0, 0", "9.5, 6, 3") +
+         partition("b", "10.5, 0, 0", "20, 6, 3") +
+         route("left", "[10, 1, 0], [10, 7, 0], [1, 7, 0]") +
+         route("right", "[10, 1, 0], [10, 7, 0], [19, 7, 0]") + R"(
+[design]
+failure = "none"
+[[design.sign]]
+name = "wide"
+plain = "green"
+smallest_detail = 0.02
+width = 0.998
+height = 0.3
+mains_white = 500
+mains_green = 60
+emergency_white = 200
+emergency_green = 30
+)" + more;
+}
+
+TEST_CASE("a sign that another one hides in every plan is told, and the plan stays",
+          "[design][signs]") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("scene.toml", parting_routes(""));
+  // One sign on the wall and one under the ceiling before it: two places, and none for a third.
+  const DesignResult result = designed_with_signs(file);
+  REQUIRE(result.signs);
+  REQUIRE(result.signs->unguided.size() == 1);
+  const UnguidedPlaces& hidden = result.signs->unguided.front();
+  CHECK(hidden.behind_signs);
+  CHECK(hidden.places >= 1);
+  CHECK(hidden.places < hidden.of);
+  CHECK(hidden.first.y < 6);
+  CHECK(result.signs->signs.size() == 4);
+  CHECK(result.signs->bound == Approx(result.signs->objective));
+  // All other places are guided, by the file.
+  CHECK(unguided_places(*read_back(folder, file, result)).size() == hidden.places);
+}
+
+TEST_CASE("where no plan of signs exists that is said, and what would help", "[design][signs]") {
+  // With no place under the ceiling one sign has to point to both sides.
+  const TemporaryFolder folder;
+  const fs::path file = folder.write(
+      "scene.toml", parting_routes("[[design.keep_out]]\nname = \"detector\"\nposition = [10, 7, "
+                                   "3]\nradius = 0.4\n"));
+  DesignOptions options;
+  options.threads = 2;
+  const auto result = design(test::described(file), options, test::nobody, test::silent);
+  REQUIRE_FALSE(result);
+  CHECK(result.problem().text().find("no plan of signs guides along all routes") !=
+        std::string::npos);
+}
+
+TEST_CASE("a sign type on a circuit that is out hangs nowhere", "[design][signs]") {
+  const auto signs_with = [](const char* circuits) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.write(
+        "scene.toml", hall(20, 2, 3) + circuits + route("way", "[1, 1, 0], [19, 1, 0]") + R"(
+[[sign]]
+name = "old"
+circuit = "B"
+plain = "green"
+smallest_detail = 0.02
+width = 0.3
+height = 0.15
+mains_white = 500
+mains_green = 60
+emergency_white = 200
+emergency_green = 30
+position = [19.97, 1, 2.4]
+facing = [-1, 0, 0]
+[design]
+place_signs = true
+existing_signs = "removed"
+[[design.sign]]
+name = "group B"
+circuit = "B"
+plain = "green"
+smallest_detail = 0.02
+width = 0.3
+height = 0.15
+mains_white = 500
+mains_green = 60
+emergency_white = 200
+emergency_green = 30
+)");
+    return *designed_with_signs(file).signs;
+  };
+  CHECK(signs_with("circuits = { B = 1 }\n").signs.size() == 1);
+  const SignPlan out = signs_with("circuits = { B = 0 }\n");
+  CHECK(out.signs.empty());
+  CHECK(out.left_out.forbidden > 0);
+}
+
 TEST_CASE("a sign that is lit from outside gets its luminaire", "[design][signs]") {
   const TemporaryFolder folder;
   const fs::path file =

@@ -103,6 +103,38 @@ TEST_CASE("the file of a layout places luminaires on walls as the design has the
   }
 }
 
+TEST_CASE("what hangs on a wall and looks straight down is off its place along the wall and up it",
+          "[design][walls][tolerance]") {
+  const auto least_of = [](const char* aim_deg) {
+    const TemporaryFolder folder;
+    std::string types = on_walls;
+    types.replace(types.find("60"), 2, aim_deg);
+    const DesignResult result =
+        on_the_walls(folder.write("scene.toml", wall_scene("failure = \"none\"\n") + types));
+    REQUIRE_FALSE(result.luminaires.empty());
+    std::vector<LuminaireCandidate> chosen;
+    for (const PlacedLuminaire& one : result.luminaires) {
+      REQUIRE(one.candidate.outward);
+      CHECK(std::abs(one.candidate.outward->y) == Approx(1));
+      chosen.push_back(one.candidate);
+    }
+    const auto scene = test::described(folder.path() / "scene.toml");
+    const auto codes = judged_codes(*scene, {}, {});
+    REQUIRE(codes);
+    // So far that level ways, out of the wall, would change what is left by several per cent.
+    DesignSettings far_off = *scene->design;
+    far_off.place_tolerance_m = 0.6;
+    const auto found =
+        tolerance_of(*scene, far_off, chosen, codes.value(), scene->scenarios.front(), 2);
+    REQUIRE(found);
+    return std::pair{chosen.size(), found->least()};
+  };
+  // One degree changes the light by little, and must not change the ways of being off.
+  const auto down = least_of("0"), nearly = least_of("1");
+  REQUIRE(down.first == nearly.first);
+  CHECK(down.second == Approx(nearly.second).epsilon(0.03));
+}
+
 TEST_CASE("types of ceilings and of walls are chosen from together", "[design][walls]") {
   const TemporaryFolder folder;
   const std::string both = wall_scene("objective = \"cost\"\n") + on_walls + R"(cost = 3
