@@ -114,8 +114,8 @@ class LeaseBook {
   /// more, and a round may end without them. Gives those that are lost since the last call.
   int64_t lose_what_all_gave_back(const std::vector<NodeId>& nodes);
   int64_t lost() const { return static_cast<int64_t>(lost_.size()); }
-  /// The lost batches, which the book then holds no more: if one is added again, as of another state
-  /// of the scene, any node may try it.
+  /// The lost batches, which the book then holds no more: if one is added again, as of another
+  /// state of the scene, any node may try it.
   std::set<int64_t> take_lost() {
     for (const int64_t batch : lost_) {
       given_back_.erase(batch);
