@@ -519,7 +519,8 @@ std::vector<uint64_t> SpareLists::take(size_t numbers) {
     list = std::move(lists_.back());
     lists_.pop_back();
   }
-  list.reserve(numbers);
+  constexpr size_t few = 16;  // a longer list is of a flush: the next one may be as long as any
+  list.reserve(numbers > few ? limits::leases : numbers);
   return list;
 }
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "runtime/core/clock.hpp"
+#include "proto/messages.hpp"
 #include "runtime/core/ids.hpp"
 
 namespace luxodus {
@@ -54,7 +55,10 @@ class LeaseBook {
         look_ahead_(look_ahead),
         next_(next),
         end_(next),
-        committed_(next - static_cast<int64_t>(missing.size())) {}
+        committed_(next - static_cast<int64_t>(missing.size())) {
+    batches_.reserve(limits::leases);
+    named_.reserve(limits::leases);
+  }
 
   LeaseBook(LeaseBook&&) = default;
   LeaseBook& operator=(LeaseBook&&) = delete;

@@ -129,7 +129,7 @@ TEST_CASE("a coordinator takes no memory for the flushes that it counts", "[node
   REQUIRE(report.flushes > 4);
   INFO(looked.allocations() << " for " << report.flushes << " flushes, " << report.leases
                             << " leases");
-  // Rooms for payloads and lists of leases grow to the longest of each worker.
+  // Rooms for payloads grow to the longest of each worker.
   CHECK(looked.allocations() <= 16);
   CHECK(report.flushes > 32);
 }
