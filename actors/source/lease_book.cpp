@@ -3,7 +3,21 @@
 #include <algorithm>
 #include <set>
 
+#include "runtime/messaging/node_actor.hpp"
+
 namespace luxodus {
+
+LeaseBook::LeaseBook(int64_t next, const std::vector<int64_t>& missing, uint64_t first_lease,
+                     int64_t look_ahead)
+    : again_(missing.begin(), missing.end(), memory_.get()),
+      last_id_(first_lease - 1),
+      look_ahead_(look_ahead),
+      next_(next),
+      end_(next),
+      committed_(next - static_cast<int64_t>(missing.size())) {
+  batches_.reserve(limits::leases);
+  named_.reserve(limits::leases);
+}
 
 bool LeaseBook::open(int64_t batch) const {
   return batch >= next_ && batch < end_ && batch < next_ + look_ahead_ && ahead_.count(batch) == 0;

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "runtime/core/clock.hpp"
-#include "proto/messages.hpp"
 #include "runtime/core/ids.hpp"
 
 namespace luxodus {
@@ -49,16 +48,7 @@ class LeaseBook {
   /// numbers before its turn, for all that was skipped must be done when a run is stopped.
   /// Requires: look_ahead >= 1.
   explicit LeaseBook(int64_t next, const std::vector<int64_t>& missing = {},
-                     uint64_t first_lease = 1, int64_t look_ahead = 1)
-      : again_(missing.begin(), missing.end(), memory_.get()),
-        last_id_(first_lease - 1),
-        look_ahead_(look_ahead),
-        next_(next),
-        end_(next),
-        committed_(next - static_cast<int64_t>(missing.size())) {
-    batches_.reserve(limits::leases);
-    named_.reserve(limits::leases);
-  }
+                     uint64_t first_lease = 1, int64_t look_ahead = 1);
 
   LeaseBook(LeaseBook&&) = default;
   LeaseBook& operator=(LeaseBook&&) = delete;
