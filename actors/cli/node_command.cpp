@@ -139,19 +139,23 @@ class WorkerWatch {
     // The executor asks with its own lock held: it is asked before this one is taken.
     if (auto refused = executor_.fault()) return refused;
     const NodeExecutor::Counters counters = executor_.counters();
-    if (counters.stuck >= stuck_for_good)
+    const std::lock_guard lock(mutex_);
+    const Nanoseconds now = clock_.now();
+    const Timeouts& patience = cluster_.timeouts;
+    if (counters.stuck == 0)
+      stuck_since_.reset();
+    else if (!stuck_since_)
+      stuck_since_ = now;
+    else if (now - *stuck_since_ > patience.start)  // so long a worker that can may take to come
       return problem_in(cluster_.file,
                         "no worker can trace what is asked for; their logs say why: raise what "
                         "they lack, and start anew");
-    const std::lock_guard lock(mutex_);
     if (counters.workers > 0) {
       any_ = true;
       without_since_.reset();
       return std::nullopt;
     }
-    const Nanoseconds now = clock_.now();
     if (!without_since_) without_since_ = now;  // nobody may have asked for a while
-    const Timeouts& patience = cluster_.timeouts;
     if (now - *without_since_ <= (any_ ? patience.lost : patience.start)) return std::nullopt;
     return problem_in(cluster_.file,
                       any_ ? "all workers were lost: see to them and start anew"
@@ -159,13 +163,11 @@ class WorkerWatch {
   }
 
  private:
-  static constexpr uint64_t stuck_for_good = 20;  // looks, a quarter of a second apart
-
   const ClusterConfig& cluster_;
   const NodeExecutor& executor_;
   const SystemClock clock_;
   std::mutex mutex_;  // guards all below
-  std::optional<Nanoseconds> without_since_;
+  std::optional<Nanoseconds> without_since_, stuck_since_;
   bool any_ = false;
 };
 

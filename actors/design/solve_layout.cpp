@@ -641,7 +641,10 @@ LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<Problem
       out.share_of_group[g] += answer.share_of_group[g];
     if (out.end == LayoutEnd::infeasible) break;  // nothing is left to find
   }
-  if (!all) out.layout.clear();
+  if (!all) {
+    out.layout.clear();
+    out.objective = out.greedy_objective = 0;
+  }
   out.seconds = seconds();
   return out;
 }

@@ -36,6 +36,7 @@ void StateCoordinator::foresee(const StateObject& state) {
 void StateCoordinator::enter(const StateObject& state) {
   if (state_ && state_->object == state) return;
   state_ = {state, state.id()};
+  stuck_ = 0;
   ++counters_.round;
 }
 

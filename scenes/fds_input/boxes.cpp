@@ -31,6 +31,7 @@ std::optional<std::vector<Box>> without_all(const Box& box, const std::vector<Bo
                                             size_t most, Comparisons& comparisons) {
   std::vector<Box> left{box};
   comparisons.made += holes.size();
+  if (comparisons.too_many()) return std::nullopt;
   for (const Box& hole : holes) {
     if (!cuts(hole, box)) continue;
     comparisons.made += left.size();
