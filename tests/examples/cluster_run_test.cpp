@@ -10,8 +10,10 @@ namespace {
 /// A controller and three workers, each a process; `more` is added to the file.
 fs::path cluster_file(const TemporaryFolder& folder, const std::string& more) {
   const fs::path file = folder / "cluster.toml";
-  std::ofstream(file) << "[run]\nname = \"test\"\nscene = \"" << smoke_tank()
-                      << "\"\nparticles = 100_000\nout = \"" << (folder / "out").string()
+  // A name of its own: sockets of tests that run side by side are known by it.
+  std::ofstream(file) << "[run]\nname = \"" << folder.path().filename().string().substr(8)
+                      << "\"\nscene = \"" << smoke_tank() << "\"\nparticles = 100_000\nout = \""
+                      << (folder / "out").string()
                       << "\"\n[[host]]\nname = \"here\"\n[[node]]\nname = \"n\"\ncount = 3\n"
                          "[[node]]\nname = \"controller\"\nrole = \"controller\"\n"
                       << more;

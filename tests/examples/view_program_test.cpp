@@ -102,12 +102,13 @@ TEST_CASE("a cluster traces for a live view, and retraces what is moved", "[clus
     page.hear("\"done\":true");
     CHECK(page.lit(2).size() == 1);
   }
+  // One may have traced all before the other has come.
+  CHECK(up.says("n0 is there"));
+  CHECK(up.says("n1 is there"));
   up.kill(SIGINT);
   const int code = up.wait();
   INFO(up.text());
   CHECK(code == 0);
-  CHECK(up.said("n0 is there"));
-  CHECK(up.said("n1 is there"));
 }
 
 TEST_CASE("a live view of a folder is of the scene and state that were run", "[program][view]") {
