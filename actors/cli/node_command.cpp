@@ -223,10 +223,7 @@ PictureOptions pictures_of(const RenderChoice& render) {
   PictureOptions picture;
   picture.max_seconds = render.time_s.value_or(0);
   picture.target_error = render.error.value_or(0);
-  if (render.paths)
-    picture.paths_per_pixel = static_cast<int>(*render.paths);
-  else if (render.time_s || render.error)
-    picture.paths_per_pixel = limits::max_paths_per_pixel;
+  limit_paths(render.paths, picture);
   picture.progressive = true;
   picture.gather = !render.full_paths;
   picture.raw = render.raw;

@@ -70,11 +70,15 @@ Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture
   if (!(choices.display.white_cd_m2 > choices.display.black_cd_m2))
     return problem(fmt::format("--display-white {:g} must be above --display-black {:g}",
                                choices.display.white_cd_m2, choices.display.black_cd_m2));
-  if (choices.paths)
-    picture.paths_per_pixel = static_cast<int>(*choices.paths);
+  limit_paths(choices.paths, picture);
+  return {};
+}
+
+void limit_paths(const std::optional<uint64_t>& paths, PictureOptions& picture) {
+  if (paths)
+    picture.paths_per_pixel = static_cast<int>(*paths);
   else if (picture.max_seconds > 0 || picture.target_error > 0)
     picture.paths_per_pixel = limits::max_paths_per_pixel;
-  return {};
 }
 
 void show_pictures(ProgressLine& line, const PictureProgress& progress) {

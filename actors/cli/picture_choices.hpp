@@ -24,7 +24,9 @@ struct PictureChoices {
 /// `paths_name`: of the option that counts paths. Requires: `choices` outlives them.
 std::vector<Option> options_of(PictureChoices& choices, const char* paths_name);
 
-/// Into `picture`. Without a number of paths, a time or an error alone ends pictures.
+/// Without a number of paths, a time or an error that `picture` has alone ends it.
+void limit_paths(const std::optional<uint64_t>& paths, PictureOptions& picture);
+/// Into `picture`, with limit_paths.
 /// Errors: a time or a share that is none, or not above 0; a monitor whose white is not above its
 /// black.
 Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture);

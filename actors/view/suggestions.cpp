@@ -47,7 +47,7 @@ Json suggestion(const SceneDescription& scene, const SceneEdits& edits,
                 const std::vector<std::string>& free, const LiveOptions& options,
                 const std::atomic<bool>& interrupt) {
   const auto refused = [](const std::string& why) -> Json {
-    return {{"type", "refused"}, {"why", why}};
+    return {{"type", "refused"}, {"why", why}, {"suggestion", true}};
   };
   for (const std::string& name : free)
     if (std::none_of(edits.added.begin(), edits.added.end(), [&](const SceneEdits::Copy& copy) {

@@ -134,7 +134,8 @@ void ViewPictures::work() {
       interrupt_ = false;
     }
     const auto refuse = [&](const std::string& why) {
-      tell_(order.viewer, {{"type", "refused"}, {"why", "no picture: " + why}});
+      tell_(order.viewer,
+            {{"type", "refused"}, {"why", "no picture: " + why}, {"picture", order.ask.id}});
     };
     try {
       const auto rendered = render(order);

@@ -133,3 +133,11 @@ test('a suggestion is taken over field by field, and refused with a wrong part',
   assert.throws(() => read({ ...suggestion(), helpful: [{ position: [1], share: 0 }] }), /position/);
   assert.throws(() => read({ ...suggestion(), luminaires: [{ of: 7 }] }), /luminaires\[0\]\.of/);
 });
+
+test('a refusal says what it is of, where that is a picture or a suggestion', () => {
+  const read = (more) => decodeMessage(JSON.stringify({ type: 'refused', why: 'so', ...more }));
+  assert.deepEqual(read({}), { type: 'refused', why: 'so', picture: null, suggestion: false });
+  assert.equal(read({ picture: 7 }).picture, 7);
+  assert.equal(read({ suggestion: true }).suggestion, true);
+  assert.throws(() => read({ picture: -1 }), ProtocolError);
+});

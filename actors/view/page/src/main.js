@@ -108,7 +108,7 @@ class Page {
       added: (copy) => (selection.awaited = copy),
       picture: (picture) => panels.traced.show(picture),
       saved: ({ file }) => toast(`Saved as ${file}`, 'good'),
-      refused: ({ why }) => this.refused(why),
+      refused: (refusal) => this.refused(refusal),
       editor: ({ editor }) => panels.edits(editor),
     };
   }
@@ -130,10 +130,10 @@ class Page {
     this.light.changed();
   }
 
-  refused(why) {
+  refused({ why, picture, suggestion }) {
     toast(`Refused: ${why}`);
-    if (why.startsWith('no picture')) this.panels.traced.fail();
-    this.panels.suggest.refused();
+    if (picture !== null) return this.panels.traced.refused(picture);
+    if (suggestion) return this.panels.suggest.refused();
     const { scene } = this.live;
     if (!scene) return;
     this.panels.state.scene(scene);

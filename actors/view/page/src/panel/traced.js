@@ -76,6 +76,11 @@ export class Traced {
     this.state.textContent += ` · ${words_}`;
   }
 
+  /** The program refuses a picture, which may be one of before. */
+  refused(id) {
+    if (id === this.id) this.fail();
+  }
+
   /** The program has refused it, or is gone. */
   fail() {
     if (!this.growing) return;

@@ -271,7 +271,11 @@ const readers = {
     name: text(m.name, 'name'),
   }),
   saved: (m) => ({ file: text(m.file, 'file') }),
-  refused: (m) => ({ why: text(m.why, 'why') }),
+  refused: (m) => ({
+    why: text(m.why, 'why'),
+    picture: m.picture === undefined ? null : whole(m.picture, 'picture', 0, 2 ** 53),
+    suggestion: m.suggestion === true,
+  }),
   editor: (m) => ({ editor: m.editor === true }),
 };
 
