@@ -69,7 +69,8 @@ class TileWorker final : public BatchWorker {
     return done_ < sums_.size();
   }
 
-  void merge_into(Totals& totals) override {
+  /// A tile is a few pixels: it needs no rest.
+  void merge_into(Totals& totals, const std::function<void()>&) override {
     std::vector<Total> bins;
     for (int row = area_.first_row; row < area_.end_row; ++row) {
       bins.clear();

@@ -17,11 +17,6 @@
 
 namespace luxodus {
 
-namespace {
-/// Scores set to zero at once: a megabyte, some 0.1 ms.
-constexpr int64_t scores_of_a_step = 1 << 17;
-}  // namespace
-
 /// A batch in work.
 struct PhotonThreads::OpenBatch {
   bool used = false;
@@ -379,12 +374,7 @@ void PhotonThreads::merge(OpenBatch& open) {
   if (scheduler_.rarely(Buggify::Site::short_turn)) rest();
   totals_[merging_].merge(open.scores, open.batch.group, [this] { rest(); });
   --merges_;
-  SparseArray<int64_t>& scores = open.scores.scores;
-  const auto size = static_cast<int64_t>(scores.size());
-  for (int64_t first = 0; first < size; first += scores_of_a_step) {
-    if (first > 0) rest();
-    scores.clear(first, std::min(size, first + scores_of_a_step));
-  }
+  open.scores.scores.clear_in_steps([this] { rest(); });
   open.cleared = true;
 }
 

@@ -22,7 +22,7 @@ StateTracing::StateTracing(const CompiledScene& first, StateMaker& maker, int64_
       scheduler_(scheduler),
       port_(port),
       make_tracer_(std::move(make_tracer)) {
-  for (std::unique_ptr<Totals>& totals : totals_) totals = empty_totals(first);
+  for (std::shared_ptr<Totals>& totals : totals_) totals = empty_totals(first);
 }
 
 void StateTracing::start() {
@@ -65,7 +65,8 @@ Result<void> StateTracing::learn(ObjectId state, std::span<const std::byte> byte
 }
 
 void StateTracing::leave_state() {
-  drop_all();
+  leases_.clear();
+  open_.reset();
   done_before_ = done();
   worker_.reset();
   tracing_.reset();
@@ -78,33 +79,34 @@ void StateTracing::enter(ObjectId) {
   tracing_ = learnt_;
   const TracedState& state = *tracing_->state;
   worker_ = state.worker(tracing_->seed, portion_, make_tracer_);
-  for (std::unique_ptr<Totals>& totals : totals_) totals = state.totals();
+  for (std::shared_ptr<Totals>& totals : totals_) totals = state.totals();
   counted_ = tracing_->state;
   batch_takes_ = 0;
 }
 
 /// New memory is empty already.
 bool StateTracing::forget_merged() {
-  if (!tracing_) return false;
+  if (!tracing_ || merges_) return false;
   totals_[merging_] = tracing_->state->totals();
   return true;
 }
 
 // ---- leases -------------------------------------------------------------------------------------
 
-/// Others are asked for: nobody else knows that this node has nothing to do.
+/// Others are asked for: nobody else knows that this node has nothing to do. A batch that is being
+/// merged leaves in a flush, which is refused.
 void StateTracing::drop(std::span<const uint64_t> leases) {
   const auto named = [&](const Waiting& waiting) {
     return std::find(leases.begin(), leases.end(), waiting.lease) != leases.end();
   };
   std::erase_if(leases_, named);
-  if (open_ && named(*open_)) open_.reset();
+  if (open_ && !merges_ && named(*open_)) open_.reset();
   look_again();
 }
 
 void StateTracing::drop_all() {
   leases_.clear();
-  open_.reset();
+  if (!merges_) open_.reset();
 }
 
 void StateTracing::give_back_all() {
@@ -170,12 +172,26 @@ bool StateTracing::open_next() {
 }
 
 void StateTracing::close() {
+  if (!merge()) return;
   const uint64_t lease = open_->lease;
-  worker_->merge_into(*totals_[merging_]);
   open_.reset();
   ++counters_.batches;
   batch_takes_ = std::max<Nanoseconds>(scheduler_.clock().now() - opened_, 1);
   port_.leases_done({&lease, 1});
+}
+
+/// Millions of bins take longer than a turn may: between steps others have theirs. False: this
+/// state was left meanwhile, and nobody wants its batch.
+bool StateTracing::merge() {
+  const auto state = counted_;  // must outlive the two below
+  const auto worker = worker_;
+  const auto totals = totals_[merging_];
+  const auto rest = [this] { (void)scheduler_.fibers().yield(); };
+  merges_ = true;
+  if (scheduler_.rarely(Buggify::Site::short_turn)) rest();
+  worker->merge_into(*totals, rest);
+  merges_ = false;
+  return worker == worker_;
 }
 
 }  // namespace luxodus

@@ -41,6 +41,7 @@ class StateTracing final : public LeasedWork {
   void give_back_all() override;
   void look_again() override;
   Totals& give_totals() override;
+  bool may_give() const override { return !merges_; }
   const Totals& totals() const override { return *totals_[0]; }
   size_t at_hand() const override { return leases_.size() + (open_ ? 1 : 0); }
   void end(const std::string& why) override;
@@ -69,6 +70,7 @@ class StateTracing final : public LeasedWork {
   bool trace_portion();
   bool open_next();
   void close();
+  bool merge();
   void ask_for_more();
 
   StateMaker& maker_;
@@ -79,12 +81,13 @@ class StateTracing final : public LeasedWork {
   std::optional<Known> learnt_;                 // the last
   std::optional<Known> tracing_;                // the one that is entered
   std::shared_ptr<const TracedState> counted_;  // that the totals are of
-  std::unique_ptr<BatchWorker> worker_;         // of the one that is entered
+  std::shared_ptr<BatchWorker> worker_;         // of the one that is entered
   BatchWorker::Counters done_before_;           // by those of others
-  std::unique_ptr<Totals> totals_[2];           // one is merged into while the other is emptied
+  std::shared_ptr<Totals> totals_[2];           // one is merged into while the other is emptied
   size_t merging_ = 0;
   std::deque<Waiting> leases_;   // not begun, the oldest first
   std::optional<Waiting> open_;  // in work
+  bool merges_ = false;          // it: what is merged is not given away meanwhile, nor forgotten
   Nanoseconds opened_ = 0;
   Nanoseconds batch_takes_ = 0;  // lately
   WaitList work_;                // the fiber, while there is nothing to do

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "actors/run/batch_range.hpp"
 #include "scenes/tally/totals.hpp"
@@ -20,8 +21,9 @@ class BatchWorker {
   virtual void begin(const BatchRange& batch) = 0;
   /// Does a portion of it: some milliseconds. False: now it is whole. Requires: it is not.
   virtual bool go_on() = 0;
-  /// Adds what the batch has given. Requires: it is whole; `totals` are of this state.
-  virtual void merge_into(Totals& totals) = 0;
+  /// Adds what the batch has given, and calls `rest` between steps of a millisecond or so.
+  /// Requires: it is whole; `totals` are of this state, and nobody empties them meanwhile.
+  virtual void merge_into(Totals& totals, const std::function<void()>& rest) = 0;
 
   /// What was done so far, for metrics.
   struct Counters {

@@ -15,7 +15,7 @@ void ThreadExecutor::trace(Work& work) {
       worker->begin(*batch);
       while (worker->go_on()) {
       }
-      worker->merge_into(work.totals());
+      worker->merge_into(work.totals(), [] {});
       work.merged(1);
     }
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "scenes/transport/readout.hpp"
 
@@ -21,7 +22,14 @@ void ParticleWorker::begin(const BatchRange& batch) {
   batch_ = planned_ ? planned_->at(batch.first) : batch_of_groups(batch);
   traced_ = 0;
   looked_ = 0;
-  scores_.reset(scene_.layout);
+  if (!std::exchange(cleared_, false)) scores_.reset(scene_.layout);
+  scores_.balance = {};
+}
+
+void ParticleWorker::merge_into(Totals& totals, const std::function<void()>& rest) {
+  totals.merge(scores_, batch_.group, rest);
+  scores_.scores.clear_in_steps(rest);
+  cleared_ = true;
 }
 
 Batch ParticleWorker::batch_of_groups(const BatchRange& batch) const {

@@ -31,7 +31,7 @@ class ParticleWorker final : public BatchWorker {
 
   void begin(const BatchRange& batch) override;
   bool go_on() override;
-  void merge_into(Totals& totals) override { totals.merge(scores_, batch_.group); }
+  void merge_into(Totals& totals, const std::function<void()>& rest) override;
 
  private:
   Batch batch_of_groups(const BatchRange& batch) const;
@@ -42,6 +42,7 @@ class ParticleWorker final : public BatchWorker {
   const int64_t portion_;
   const uint32_t look_units_;  // of a batch
   BatchScores scores_;
+  bool cleared_ = false;  // the scores
   Batch batch_;
   int64_t traced_ = 0;   // particles of it
   uint32_t looked_ = 0;  // units of its paths from the eye

@@ -53,6 +53,7 @@ Result<NodesOptions> nodes_of(const StudyRun& run) {
   nodes.nodes = static_cast<int>(whole("nodes"));
   nodes.links = static_cast<int>(whole("links"));
   nodes.fan_out = static_cast<uint32_t>(whole("fan_out"));
+  nodes.tally_shards = static_cast<int>(whole("tally_shards"));
   auto graph = study_graph(run.study.word(run.point, "topology"),
                            static_cast<uint32_t>(nodes.nodes), static_cast<uint32_t>(nodes.links));
   if (!graph) return graph.problem();

@@ -52,6 +52,8 @@ TableSpec sweep_table() {
           {"fan_out", "integer sweep", "", "0", "[0, 1023]",
            "nodes that a coordinator leads at most; 0: all below 64 workers, else their square "
            "root"},
+          {"tally_shards", "integer sweep", "", "1", "[1, 256]",
+           "shares of the totals: one stays with the controller, nodes hold the others"},
           {"delay_ms", "number sweep", "ms", "0.05", "[0, 10000]", "of every link, one way"},
           {"bytes_per_second", "number sweep", "B/s", "1e9", "[0, 1e13]",
            "of every link, each way; 0: no limit"},

@@ -116,6 +116,16 @@ class SparseArray {
       page = behind;
     }
   }
+  /// Sets all to zero, a megabyte (some 0.1 ms) at a time, with `rest()` between two of them.
+  template <class Rest>
+  void clear_in_steps(const Rest& rest) {
+    constexpr int64_t step = (int64_t{1} << 20) / static_cast<int64_t>(sizeof(T));
+    static_assert(step % page_elements == 0);
+    for (int64_t first = 0; first < size_; first += step) {
+      if (first > 0) rest();
+      clear(first, std::min(size_, first + step));
+    }
+  }
 
   /// Memory in use: of the pages that are touched, or were and have been kept.
   size_t bytes() const {
