@@ -16,7 +16,7 @@
 namespace luxodus {
 
 /// Changes when a node of the old version would misunderstand a node of the new one.
-inline constexpr uint16_t protocol_version = 5;
+inline constexpr uint16_t protocol_version = 6;
 
 namespace limits {
 /// Links a frame may pass. AMP graphs of 256 nodes have diameter 6; 15 leaves room for detours

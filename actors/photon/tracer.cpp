@@ -81,14 +81,20 @@ void Tracer::ask() {
 
 void Tracer::on(const Letter<LeaseGranted>& granted) {
   if (!hears(granted.from)) {
-    std::erase(left_, granted.from);
+    std::erase_if(left_, [&](const Left& left) {
+      return left.whom == granted.from && left.word == granted.id;
+    });
     return;
   }
   if (!asking_ || asking_->id != granted.id) return;  // an answer that came twice
   const LeaseGranted& grant = granted.body;
   const uint32_t asked_for = std::get<RequestLease>(asking_->message).batches;
   asking_.reset();
-  if (asked_for == 0) return work_->drop_all();  // they were returned
+  if (asked_for == 0) {
+    returned_ = clock_.now();
+    return work_->drop_all();
+  }
+  returned_.reset();
   const uint32_t last_round = std::exchange(round_, grant.round);
   lease_time_ = milliseconds(grant.duration_ms);
   counters_.leases += grant.batches;
@@ -207,6 +213,9 @@ void Tracer::return_leases() {
   if (over_) return;
   if (packing_ || flushing_ || !done_.empty()) return flush();
   if (asking_) return;
+  // Said now and then, too, while there is nothing to return: whoever begins anew does not know it.
+  if (work_->at_hand() == 0 && returned_ && clock_.now() - *returned_ < config_.answer_patience)
+    return;
   asking_ = Question{sender().next_id(), RequestLease{0}, {}};
   put(*asking_);
 }
@@ -472,12 +481,13 @@ bool Tracer::join_another() {
   if (next == all.size()) return false;
   ++counters_.coordinators_left;
   log_warning("coordinator=lost node={} next={}", coordinator().node.value, all[next].node.value);
-  left_.push_back(coordinator());
-  std::erase(left_, all[next]);
+  left_.push_back({coordinator(), sender().next_id()});
+  std::erase_if(left_, [&](const Left& left) { return left.whom == all[next]; });
   led_by_ = next;
   counters_.led_by = coordinator().node.value;
   unreachable_since_.reset();
   asking_.reset();
+  returned_.reset();
   round_empty_ = false;
   work_->drop_all();
   work_->look_again();
@@ -486,8 +496,9 @@ bool Tracer::join_another() {
 
 /// Again and again, as soon as there is a way to whom was left.
 void Tracer::take_leave() {
-  for (const Address& former : left_)
-    if (network_.reaches(former.node)) tell(former, RequestLease{0});
+  for (const Left& left : left_)
+    if (network_.reaches(left.whom.node))
+      sender().send(address(), left.whom, left.word, EnterPhase{EndPhase::leave, 0});
 }
 
 // ---- questions and answers -------------------------------------------------------------------

@@ -178,7 +178,11 @@ class Tracer final
   size_t led_by_ = 0;  // of config_.coordinators
   /// Coordinators that were left, and have yet to answer that they heard so: they would keep
   /// batches for this node.
-  std::vector<Address> left_;
+  struct Left {
+    Address whom;
+    MessageId word;  // that it was left: newer than all questions, whose answers may still come
+  };
+  std::vector<Left> left_;
   std::optional<Question> asking_;    // for leases
   std::optional<Question> flushing_;  // one at a time; put when all its slices are held
   std::optional<Question> learning_;  // what a state of the scene is made from
@@ -200,7 +204,8 @@ class Tracer final
     Nanoseconds since;
   };
   std::vector<InVain> in_vain_;
-  bool retries_soon_ = false;  // a timer puts again what has not left
+  std::optional<Nanoseconds> returned_;  // when the coordinator last heard that all are returned
+  bool retries_soon_ = false;            // a timer puts again what has not left
   size_t wanted_ = 0;
   uint32_t round_ = 0;        // of the last grant: a round begins when all before is counted
   bool round_empty_ = false;  // the controller had none: flush, and wait for the next round

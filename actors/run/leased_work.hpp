@@ -33,7 +33,8 @@ class LeasePort {
   /// to say so. Requires: limits::leases at most.
   virtual bool give_back(std::span<const uint64_t> leases) = 0;
   /// Nobody is here who could trace, for now: what is merged is sent, and then the leases are
-  /// returned, to be lent to others, and dropped. To be called again until none is at hand.
+  /// returned, to be lent to others, and dropped; where there are none, too. To be called again and
+  /// again, for as long as it is so.
   virtual void return_leases() = 0;
 
   /// The tally is full: what is merged shall leave as soon as it can.

@@ -57,7 +57,7 @@ bool Coordinator::meet(Address worker, Incarnation life) {
     }
     peer.life = life;
     peer.told.reset();
-    peer.left = false;
+    peer.left = peer.idle = false;
   }
   peer.here = true;
   const auto here = [](const auto& entry) { return entry.second.here || !entry.second.expected; };
@@ -176,8 +176,12 @@ uint32_t Coordinator::max_to_lend(NodeId worker) const {
 LeaseGranted Coordinator::grant_of(NodeId worker, const LentBatches& lent) const {
   constexpr Nanoseconds longest = milliseconds(std::numeric_limits<uint32_t>::max());
   const auto span_ms = static_cast<uint32_t>(std::min(span_of(worker), longest) / milliseconds(1));
-  return {lent.first_lease, round(), static_cast<uint64_t>(lent.first_batch),
-          static_cast<uint32_t>(lent.count), span_ms, state()};
+  return {lent.first_lease,
+          round(),
+          static_cast<uint64_t>(lent.first_batch),
+          static_cast<uint32_t>(lent.count),
+          span_ms,
+          state()};
 }
 
 void Coordinator::on(const Letter<RequestLease>& request) {
@@ -192,10 +196,25 @@ void Coordinator::on(const Letter<RequestLease>& request) {
     return farewell_heard();
   }
   if (last.question != request.id) {
-    peers_[worker].left = batches == 0;
+    Peer& peer = peers_[worker];
+    peer.left = false;
+    peer.idle = batches == 0;
     last = {request.id, grant_of(worker, lend(worker, batches))};
   }
   answer(request, last.answer);
+  lent();
+}
+
+/// A worker has joined another coordinator, which tells it of the end.
+void Coordinator::on(const Letter<EnterPhase>& leave) {
+  const NodeId worker = leave.from.node;
+  if (leave.body.phase != EndPhase::leave || !meet(leave.from, leave.id.incarnation)) return;
+  Answered& last = last_grant_[worker];
+  if (is_older(leave.id, last.question)) return;
+  peers_[worker].left = true;
+  if (over_) return farewell_heard();
+  if (last.question != leave.id) last = {leave.id, grant_of(worker, lend(worker, 0))};
+  answer(leave, last.answer);
   lent();
 }
 

@@ -65,6 +65,7 @@ class Coordinator
                        ControlLane<Accepts<Letter<RequestLease>, 4096, WhenFull::reject>,
                                    Accepts<Letter<LeasesFenced>, 1024, WhenFull::reject>,
                                    Accepts<Letter<Flush>, 1024, WhenFull::reject>,
+                                   Accepts<Letter<EnterPhase>, 256, WhenFull::reject>,
                                    Accepts<Letter<AskState>, 256, WhenFull::reject>,
                                    Accepts<Letter<FlushSettled>, 256, WhenFull::reject>,
                                    Accepts<Letter<TotalsTold>, 256, WhenFull::reject>,
@@ -77,6 +78,7 @@ class Coordinator
   void on(const Letter<LeasesFenced>& given_back);
   void on(Letter<Flush>&& flush);
   void on(CountFlush&& count);
+  void on(const Letter<EnterPhase>& leave);
   virtual void on(const Letter<AskState>&) {}  // who leads a run has one state, which all know
   // Of shards and of the display, which only who leads a run has.
   virtual void on(const Letter<FlushSettled>&) {}
@@ -128,8 +130,11 @@ class Coordinator
     std::vector<Incarnation> former;
     std::optional<Nanoseconds> unreachable_since;
     std::optional<Nanoseconds> told;  // when it last said that it has heard of the end
-    bool left = false;                // it said that it leaves before the end
+    bool left = false;                // it has joined another coordinator
+    bool idle = false;                // it has returned its leases: nobody below it traces
     bool gone = false;                // it was let go
+
+    bool traces() const { return here && !left && !idle; }
   };
 
   // ---- what those who derive from it say ------------------------------------------------------

@@ -124,7 +124,7 @@ bool RunCoordinator::all_gone() const {
   return std::all_of(peers_.begin(), peers_.end(), [&](const auto& entry) {
     const auto& [worker, peer] = entry;
     const bool leads = levels_below(worker) > 0;
-    if (peer.here && !(peer.left && leads)) return closing_ && peer.unreachable_since;
+    if (peer.here && (peer.traces() || !leads)) return closing_ && peer.unreachable_since;
     return peer.expected || leads || peer.unreachable_since;
   });
 }
@@ -151,7 +151,7 @@ void RunCoordinator::lose_batches() {
   if (!book_.has_given_back()) return;
   std::vector<NodeId> here;
   for (const auto& [worker, peer] : peers_)
-    if (peer.here && !peer.left) here.push_back(worker);
+    if (peer.traces()) here.push_back(worker);
   const int64_t lost = book_.lose_what_all_gave_back(here);
   if (lost == 0) return;
   counters_.batches_lost += static_cast<uint64_t>(lost);

@@ -117,7 +117,7 @@ void StateCoordinator::end_when_done() {
 void StateCoordinator::take_back_lost() {
   std::vector<NodeId> here;
   for (const auto& [worker, peer] : peers_)
-    if (peer.here && !peer.left) here.push_back(worker);
+    if (peer.traces()) here.push_back(worker);
   if (here.empty() || book_.lose_what_all_gave_back(here) == 0) return;
   const std::set<int64_t> lost = book_.take_lost();
   ++stuck_;

@@ -70,7 +70,7 @@ void SubCoordinator::look_again() {
 uint32_t SubCoordinator::tracers_here() const {
   uint32_t tracers = 0;
   for (const auto& [worker, peer] : peers_)
-    if (peer.here && !peer.left) tracers += tracers_of(worker);
+    if (peer.traces()) tracers += tracers_of(worker);
   return tracers;
 }
 
@@ -98,7 +98,7 @@ void SubCoordinator::give_back_lost() {
   if (!book_.has_given_back() && lost_.empty()) return;
   std::vector<NodeId> here;
   for (const auto& [worker, peer] : peers_)
-    if (peer.here && !peer.left) here.push_back(worker);
+    if (peer.traces()) here.push_back(worker);
   book_.lose_what_all_gave_back(here);
   lost_.merge(book_.take_lost());
   std::vector<uint64_t> leases;
@@ -119,7 +119,8 @@ void SubCoordinator::look_at_work(Nanoseconds now) {
   fence(book_.fence_late(now), "late");
   give_back_lost();
   note_book();
-  if (tracers_here() == 0 && !lease_of_.empty()) return port_.return_leases();
+  // Though there may be none: the one above would keep batches for those who have left this node.
+  if (tracers_here() == 0) return port_.return_leases();
   want_more();
 }
 

@@ -73,7 +73,7 @@ uint64_t fuzz_session(std::span<const std::byte> input) {
   Cluster trio(3, ring(3));
   Codec codec;
   if (script.next() % 4 != 0) trio.bring_up();  // else the frames meet the handshake
-  Node& victim = trio[1];
+  NetNode& victim = trio[1];
   const size_t memory = victim.network.memory_bytes();
   const uint64_t before = victim.network.counters().dropped_malformed;
   uint64_t frames = 0;

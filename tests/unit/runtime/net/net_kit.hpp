@@ -132,8 +132,8 @@ class Handler : public NetHandler {
   std::map<uint64_t, std::vector<uint64_t>> rooms_;
 };
 
-struct Node {
-  Node(SimNet& net, const NetConfig& c, Nanoseconds now)
+struct NetNode {
+  NetNode(SimNet& net, const NetConfig& c, Nanoseconds now)
       : config(c), transport(net, c.self), handler(c), network(c, transport, handler, now) {}
   NetConfig config;
   SimTransport transport;
@@ -152,14 +152,14 @@ class Cluster {
     for (uint16_t i = 0; i < nodes; ++i) {
       auto config = config_of(i, nodes, edges, 1000u + i);
       if (change) change(config);
-      nodes_.push_back(std::make_unique<Node>(net, config, clock.now()));
+      nodes_.push_back(std::make_unique<NetNode>(net, config, clock.now()));
     }
   }
 
   SimNet net;
   ManualClock clock{seconds(1)};
 
-  Node& operator[](size_t i) { return *nodes_[i]; }
+  NetNode& operator[](size_t i) { return *nodes_[i]; }
   size_t size() const { return nodes_.size(); }
 
   /// Polls every node a few times, then moves time.
@@ -182,11 +182,11 @@ class Cluster {
   }
   void start(const NetConfig& config) {
     net.join(config.self);
-    nodes_[config.self.value] = std::make_unique<Node>(net, config, clock.now());
+    nodes_[config.self.value] = std::make_unique<NetNode>(net, config, clock.now());
   }
 
  private:
-  std::vector<std::unique_ptr<Node>> nodes_;
+  std::vector<std::unique_ptr<NetNode>> nodes_;
 };
 
 inline std::vector<std::byte> pattern(size_t bytes, unsigned seed = 1) {

@@ -354,7 +354,7 @@ TEST_CASE("a configuration that contradicts itself is refused at start", "[runti
     NetConfig config = config_of(0, 2, ring(2), 1);
     change(config);
     SimNet net;
-    Node node(net, config, 0);
+    NetNode node(net, config, 0);
   };
   CHECK_NOTHROW(starts([](NetConfig&) {}));
   CHECK_THROWS(starts([](NetConfig& n) { n.incarnation = {0}; }));
