@@ -192,6 +192,15 @@ class FireReader {
     return list.empty() || std::find(list.begin(), list.end(), source) != list.end();
   }
 
+  /// How far a series is from the time: by its nearest frame, or by the farther one of the two that
+  /// the time lies between [s].
+  double distance_of(const Picked& p) const {
+    const double nearest = std::abs(p.time_s - options_.at_s);
+    if (!options_.between_frames) return nearest;
+    const auto other = options_.at_s > p.time_s ? p.next_s : p.previous_s;
+    return other ? std::max(nearest, std::abs(*other - options_.at_s)) : nearest;
+  }
+
   Result<void> choose() {
     std::optional<Picked> nearest;
     for (const Candidate& c : candidates) {
@@ -200,9 +209,8 @@ class FireReader {
       if (!series) return series.problem();
       auto found = picked(std::move(series.value()), options_.at_s);
       if (!found) continue;
-      const auto distance = [&](const Picked& p) { return std::abs(p.time_s - options_.at_s); };
-      const bool near = distance(*found) <= fire_window_s;
-      if (!near && nearest && distance(*nearest) <= distance(*found)) continue;
+      const bool near = std::abs(found->time_s - options_.at_s) <= fire_window_s;
+      if (!near && nearest && distance_of(*nearest) <= distance_of(*found)) continue;
       nearest = std::move(found);
       out_.source = c.source;
       if (near) break;

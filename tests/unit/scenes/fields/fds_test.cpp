@@ -299,6 +299,30 @@ TEST_CASE("between two frames smoke is linear, if that is asked for, and a frame
   CHECK_FALSE(at(-0.5).between_frames);
 }
 
+TEST_CASE("between frames the source counts whose two frames around the time are nearest",
+          "[format][fds]") {
+  TemporaryFolder folder;
+  const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {2, 1, 1});
+  const auto even = [](float value) { return [value](int, int, int) { return value; }; };
+  const auto cells = cell_values(mesh, even(1));
+  folder.write("a.sf",
+               slice_file(mesh, extinction_label, {{0, cells}, {10.02F, cells}, {100, cells}}));
+  folder.write("s.s3d", smoke3d_file(mesh, {{9, node_values(mesh, even(100))},
+                                            {14, node_values(mesh, even(100))}}));
+  folder.write("case.smv", index_of_meshes({mesh}) +
+                               slice_entry(1, true, mesh, "a.sf", extinction_label) +
+                               smoke_entry(1, "s.s3d", "SOOT DENSITY"));
+  const auto source_at = [&](double at_s, bool between) {
+    FireOptions options;
+    options.at_s = at_s;
+    options.between_frames = between;
+    return good_fire(read_fire(folder / "case.smv", options)).source;
+  };
+  CHECK(source_at(11.5, false) == FireSource::cell_extinction);
+  CHECK(source_at(11.5, true) == FireSource::smoke3d);
+  CHECK(source_at(10.5, true) == FireSource::cell_extinction);  // within the second
+}
+
 TEST_CASE("a file of a run in progress is read up to its last whole frame", "[format][fds]") {
   const SmallCase small;
   const std::string whole =
