@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "actors/assess/judged_state.hpp"
+#include "actors/assess/line_of_sight.hpp"
 #include "actors/inspect/inspect.hpp"
 #include "actors/run/run_executor.hpp"
 #include "scenes/emergency/guidance.hpp"
@@ -56,6 +57,7 @@ struct SightRow {
   /// As verdicts count: in the light, aged or new, that gives the worse one.
   SignLook look;
   Sight sight;
+  LineOfSight line;
   bool in_new_light = false;  // they are of new light; else of aged
   /// In the other light; none where lit luminaires do not age, and where light does not matter.
   struct Other {
@@ -112,7 +114,8 @@ struct RouteOverTime {
   std::string route;
   double eye_height_m = 0;
   GuidedRoute guided;
-  GuidedRoute by_jin;  // what Jin's law would say of the same signs
+  GuidedRoute by_jin;   // what Jin's law would say of the same signs
+  GuidedRoute by_line;  // and the line-of-sight method
   /// What FDS's VISIBILITY would: a sign is seen that is no farther than it at the place. Without
   /// states where the case has no slices of it.
   GuidedRoute by_fds;

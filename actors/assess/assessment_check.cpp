@@ -114,6 +114,7 @@ constexpr RequiredKey keys[] = {
     {"sights[].legend?.value", Kind::number_or_null},
     {"sights[].ground?.value", Kind::number_or_null},
     {"sights[].jin?.legible", Kind::flag},
+    {"sights[].line_of_sight.seen", Kind::flag},
     {"sights[].viewing_distance?.within", Kind::flag},
     {"sights[].reading_level?.value", Kind::number_or_null},
     {"sights[].transmission?.value", Kind::number_or_null},
@@ -134,6 +135,7 @@ constexpr RequiredKey keys[] = {
     {"over_time?.routes[].places[]", Kind::number},
     {"over_time?.routes[].guided[]", Kind::text},
     {"over_time?.routes[].jin[]", Kind::text},
+    {"over_time?.routes[].line_of_sight[]", Kind::text},
     {"over_time?.routes[].signs[]", Kind::list},
     {"over_time?.routes[].time.until?.value", Kind::number},
     {"over_time?.routes[].time.lost_by?.value", Kind::number},
@@ -141,6 +143,9 @@ constexpr RequiredKey keys[] = {
     {"over_time?.routes[].time_by_jin.until?.value", Kind::number},
     {"over_time?.routes[].time_by_jin.lost_by?.value", Kind::number},
     {"over_time?.routes[].time_by_jin.lost_at?.value", Kind::number},
+    {"over_time?.routes[].time_by_line_of_sight.until?.value", Kind::number},
+    {"over_time?.routes[].time_by_line_of_sight.lost_by?.value", Kind::number},
+    {"over_time?.routes[].time_by_line_of_sight.lost_at?.value", Kind::number},
     {"over_time?.routes[].fds?[]", Kind::text},
     {"over_time?.routes[].fds_visibility?[]", Kind::list},
     {"over_time?.routes[].time_by_fds?.until?.value", Kind::number},
@@ -382,7 +387,7 @@ Fault bad_over_time(const Json& a) {
   if (states == 0) return "over_time.states is empty";
   for (const char* key : {"until", "lost_by", "lost_at"})
     for (const Json& route : (*over)["routes"])
-      for (const char* time : {"time", "time_by_jin"})
+      for (const char* time : {"time", "time_by_jin", "time_by_line_of_sight"})
         if (route[time].find(key) == route[time].end())
           return std::string("over_time.routes: a ") + time + " has no \"" + key + "\"";
   for (const Json& route : (*over)["routes"]) {
@@ -393,7 +398,8 @@ Fault bad_over_time(const Json& a) {
                return (row.is_string() ? row.text().size() : row.size()) == places;
              });
     };
-    if (places == 0 || !is_whole("guided") || !is_whole("jin") || !is_whole("signs"))
+    if (places == 0 || !is_whole("guided") || !is_whole("jin") || !is_whole("line_of_sight") ||
+        !is_whole("signs"))
       return "over_time.routes: a table has not as many values as states and places";
     if (Fault fault = bad_fds(route, is_whole)) return fault;
     for (const Json& row : route["signs"])

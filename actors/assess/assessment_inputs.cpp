@@ -255,6 +255,9 @@ Json plan_json(const Assessment& assessment) {
           {"height", exact_json(floor_plane_m, "m")}};
 }
 
+/// What the reader of scenes has counted.
+static_assert(limits::backdrop_lines == limits::plan_lines);
+
 Json backdrops_json(const SceneDescription& scene) {
   Json out = Json::array();
   const auto pair = [](const glm::dvec2& p) { return Json{p.x, p.y}; };

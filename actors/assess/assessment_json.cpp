@@ -76,6 +76,11 @@ Json sight_json(const SightRow& row) {
   out["angle_from_gaze"] = exact_json(row.gaze_deg, "deg");
   out["angular_height"] = exact_json(row.view.height_arcmin, "arcmin");
   out["angular_detail"] = exact_json(row.view.detail_arcmin, "arcmin");
+  out["line_of_sight"] = {{"distance", exact_json(row.line.distance_m, "m")},
+                          {"clear", row.line.clear},
+                          {"extinction", exact_json(row.line.extinction, "1/m")},
+                          {"visible_within", exact_json(row.line.visibility_m, "m")},
+                          {"seen", row.line.seen}};
   if (row.sight.verdict == SightVerdict::hidden || row.look.legend.value + row.look.face.value == 0)
     return out;
   out["light"] = row.in_new_light ? "new" : "aged";
@@ -245,6 +250,7 @@ Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
                                                     "seeing_level.value",
                                                     "extinction.value",
                                                     "jin.legible",
+                                                    "line_of_sight.seen",
                                                     "viewing_distance.within"});
   if (auto ok = write_csv(folder / "sights.csv", sights); !ok) return ok.problem();
   if (auto ok = write_or_remove(folder / "by_guid.csv", results_by_guid(assessment)); !ok)

@@ -202,7 +202,7 @@ TimedState StateOfTime::facts() const {
 /// Of the signs at a place the best counts.
 struct BestSign {
   Guidance guidance = Guidance::not_guided;
-  bool jin = false;
+  bool jin = false, line = false;
   Guidance fds = Guidance::not_guided;
   std::string name;
 
@@ -217,6 +217,7 @@ struct BestSign {
     if (!hidden && (name.empty() || here < guidance)) name = row.sign;
     guidance = std::min(guidance, here);
     jin = jin || (!hidden && row.sight.jin_legible);
+    line = line || row.line.seen;
     if (!hidden)
       fds = std::min(fds, !visibility_m                          ? Guidance::undecided
                           : row.view.distance_m <= *visibility_m ? Guidance::guided
@@ -240,10 +241,10 @@ void StateOfTime::add_to(OverTime& out) const {
         made.eye_height_m = height;
         made.guided.length_m = length_of(scene_->routes[r]);
         for (const Walker& walker : views_.people(r)) made.guided.along_m.push_back(walker.along_m);
-        made.by_jin = made.by_fds = made.guided;
+        made.by_jin = made.by_line = made.by_fds = made.guided;
       }
       RouteOverTime& route = out.routes[at++];
-      std::vector<Guidance> guided, jin, fds;
+      std::vector<Guidance> guided, jin, line, fds;
       std::vector<std::string> signs;
       std::vector<std::optional<double>> visibility;
       for (const Walker& walker : views_.people(r)) {
@@ -252,14 +253,16 @@ void StateOfTime::add_to(OverTime& out) const {
         visibility.push_back(slices.at(walker.foot + glm::dvec3(0, 0, height)));
         guided.push_back(one.guidance);
         jin.push_back(one.jin ? Guidance::guided : Guidance::not_guided);
+        line.push_back(one.line ? Guidance::guided : Guidance::not_guided);
         signs.push_back(one.name);
       }
-      for (GuidedRoute* table : {&route.guided, &route.by_jin, &route.by_fds})
+      for (GuidedRoute* table : {&route.guided, &route.by_jin, &route.by_line, &route.by_fds})
         table->times_s.push_back(now_s);
       route.by_fds.at.push_back(std::move(fds));
       route.visibility_m.push_back(std::move(visibility));
       route.guided.at.push_back(std::move(guided));
       route.by_jin.at.push_back(std::move(jin));
+      route.by_line.at.push_back(std::move(line));
       route.signs.push_back(std::move(signs));
     }
 }

@@ -90,6 +90,7 @@ Json route_json(const RouteOverTime& route) {
   for (const double along : route.guided.along_m) places.push_back(along);
   out["guided"] = letters_json(route.guided);
   out["jin"] = letters_json(route.by_jin);
+  out["line_of_sight"] = letters_json(route.by_line);
   Json& signs = out["signs"] = Json::array();
   for (const std::vector<std::string>& row : route.signs) {
     Json names = Json::array();
@@ -98,6 +99,7 @@ Json route_json(const RouteOverTime& route) {
   }
   out["time"] = time_json(route.guided);
   out["time_by_jin"] = time_json(route.by_jin);
+  out["time_by_line_of_sight"] = time_json(route.by_line);
   if (!route.by_fds.at.empty()) {
     out["fds"] = letters_json(route.by_fds);
     out["time_by_fds"] = time_json(route.by_fds);
@@ -161,7 +163,7 @@ Json over_time_json(const OverTime& over_time) {
 
 CsvTable guidance_csv(const Json& over_time) {
   CsvTable table({"route", "eye_height_m", "at_s", "along_m", "guidance", "sign", "jin",
-                  "fds_visibility_m", "fds"});
+                  "line_of_sight", "fds_visibility_m", "fds"});
   for (const Json& route : over_time["routes"])
     for (size_t t = 0; t < over_time["states"].size(); ++t)
       for (size_t i = 0; i < route["places"].size(); ++i) {
@@ -171,7 +173,8 @@ CsvTable guidance_csv(const Json& over_time) {
             .cell(route["places"][i].get<double>())
             .cell(word_of(route["guided"][t].text()[i]))
             .cell(route["signs"][t][i].text())
-            .cell(word_of(route["jin"][t].text()[i]));
+            .cell(word_of(route["jin"][t].text()[i]))
+            .cell(word_of(route["line_of_sight"][t].text()[i]));
         if (has_fds(route))
           fds_cells(route, t, i, table);
         else
@@ -189,6 +192,7 @@ std::string guidance_text(const Json& over_time) {
     out += fmt::format("  route \"{}\", eyes at {:g} m: guided {}; by Jin's law {}\n",
                        text_in(route, "route"), route["eye_height"]["value"].get<double>(),
                        time_words(route["time"]), time_words(route["time_by_jin"]));
+    out += fmt::format("    by lines of sight {}\n", time_words(route["time_by_line_of_sight"]));
     if (has_fds(route))
       out += fmt::format("    by FDS's VISIBILITY {}\n", time_words(route["time_by_fds"]));
     for (const Json& walk : route["walks"])

@@ -214,6 +214,7 @@ Result<void> RealityMode::look_for_lines(const AssessProgress& progress) {
       if (row.view.behind || (options_.wanted && !options_.wanted(row))) continue;
       const double seen = building.seen_share(access, sign, row.view, row.eye);
       row.look.visible_share = seen;
+      row.line = line_of_sight(building, access, sign, row.view, row.eye);
       if (seen == 0) row.sight.verdict = SightVerdict::hidden;
       if (stuck[i] != 0) row.sight.reason = "the eye is in a solid thing";
       Veil veil;

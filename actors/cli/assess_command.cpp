@@ -148,7 +148,7 @@ Result<ExitCode> compare_folders(const std::string& before, const std::string& a
 std::optional<AssessedStates> assessed_states(const std::string& file, std::vector<double> times) {
   AssessedStates out{std::move(times), nullptr};
   const auto at = [&](std::optional<double> time) {
-    return load_scene(file, ReadingWarnings::left_to_inspection, time);
+    return load_scene(file, ReadingWarnings::left_to_inspection, time, FireFrames::nearest);
   };
   if (out.times.empty()) {
     out.last = at(std::nullopt);
@@ -170,7 +170,8 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
   ProgressLine line("assess");
   std::optional<Estimate> estimate;  // of all times
   auto assessed = assess_states(
-      {job.scene, job.times, reader_at_times(job.scene_file)}, job.options, interrupt_flag(),
+      {job.scene, job.times, reader_at_times(job.scene_file, FireFrames::nearest)}, job.options,
+      interrupt_flag(),
       [&](const std::string& what, double share) {
         line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
       },

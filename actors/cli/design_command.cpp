@@ -130,7 +130,7 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
     if (!gap) return gap.problem();
     o.design.gap = gap.value();
   }
-  const auto scene = load_scene(o.scene);
+  const auto scene = load_scene(o.scene, ReadingWarnings::told, std::nullopt, FireFrames::nearest);
   if (!scene) return ExitCode::bad_input;
   const fs::path folder =
       o.out.empty() ? fs::path("out") / file_name_of(scene->name + "-designed") : fs::path(o.out);

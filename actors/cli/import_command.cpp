@@ -7,6 +7,7 @@
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
 #include "actors/cli/load_scene.hpp"
+#include "actors/cli/progress_line.hpp"
 #include "actors/import/write_fire.hpp"
 #include "runtime/core/printable.hpp"
 #include "scenes/fds_input/input_building.hpp"
@@ -91,7 +92,10 @@ Result<FireImport> of_input(const ImportOptions& options) {
 
 Result<ExitCode> import_fds(const ImportOptions& options) {
   const bool is_input = is_input_file(options.file);
-  const auto made = is_input ? of_input(options) : of_results(options);
+  const auto made = [&] {
+    const WaitingLine waiting("reading " + options.file);
+    return is_input ? of_input(options) : of_results(options);
+  }();
   if (!made) return made.problem();
   const FireBuilding& building = made->building;
   const auto kept = write_fire(building, made->source, options.out);

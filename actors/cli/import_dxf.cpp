@@ -3,6 +3,7 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
+#include "actors/cli/progress_line.hpp"
 #include "actors/import/write_plan.hpp"
 #include "runtime/core/printable.hpp"
 #include "scenes/dxf/dxf_plan.hpp"
@@ -26,7 +27,10 @@ Result<double> unit_of(const ImportDxfOptions& options, const DxfPlan& plan) {
 }
 
 Result<ExitCode> import_dxf(const ImportDxfOptions& options) {
-  const auto plan = read_dxf_plan(options.drawing);
+  const auto plan = [&] {
+    const WaitingLine waiting("reading " + options.drawing);
+    return read_dxf_plan(options.drawing);
+  }();
   if (!plan) return plan.problem();
   const auto unit = unit_of(options, plan.value());
   if (!unit) return unit.problem();

@@ -5,6 +5,7 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
+#include "actors/cli/progress_line.hpp"
 #include "actors/import/import_files.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/printable.hpp"
@@ -130,7 +131,10 @@ std::string luminaires_text(const GldfProduct& product, const std::string& conta
 }
 
 Result<ExitCode> import_gldf(const ImportGldfOptions& options) {
-  const auto product = read_gldf(options.file);
+  const auto product = [&] {
+    const WaitingLine waiting("reading " + options.file);
+    return read_gldf(options.file);
+  }();
   if (!product) return product.problem();
   list_contents(product.value());
   if (options.out.empty()) return ExitCode::success;

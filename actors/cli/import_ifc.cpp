@@ -66,7 +66,10 @@ void tell(const Building& building, const WrittenBuilding& written, const std::s
 Result<ExitCode> import_ifc(const ImportIfcOptions& options) {
   auto bytes = read_regular_file(options.model, limits::step_bytes);
   if (!bytes) return bytes.problem();
-  const auto model = ifc_model_of(std::move(bytes).value(), options.model);
+  const auto model = [&] {
+    const WaitingLine waiting("reading " + options.model);
+    return ifc_model_of(std::move(bytes).value(), options.model);
+  }();
   if (!model) return model.problem();
   ProgressLine line("import");
   auto shapes = ifc_shapes(options.model, shapes_script(), options.seconds, [&](double seconds) {

@@ -3,34 +3,30 @@
 #include <algorithm>
 
 #include "actors/cli/command.hpp"
+#include "actors/cli/progress_line.hpp"
 #include "actors/cli/quantities.hpp"
 
 namespace luxodus::cli {
 
 std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
                                                    ReadingWarnings warnings,
-                                                   std::optional<double> at_s) {
-  OpenedScene opened = open_scene(file, at_s);
+                                                   std::optional<double> at_s, FireFrames frames) {
+  const OpenedScene opened = [&] {
+    const WaitingLine waiting("reading " + file);
+    return open_scene(file, at_s, {}, frames);
+  }();
   for (const Problem& p : opened.problems.list()) tell(p);
   // A pack's were told when it was made.
   if (opened.scene && !opened.scene->packed && warnings == ReadingWarnings::told)
     for (const Problem& w : opened.scene->warnings) warn(w);
-  return std::move(opened.scene);
+  return opened.scene;
 }
 
-SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene) {
+SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene,
+                            FireFrames frames) {
   if (!scene.time || scene.packed) return {};
-  return reader_at_times(file);
+  return reader_at_times(file, frames);
 }
-
-namespace {
-
-std::string fault_of_time(const std::string& text) {
-  const auto seconds = parse_time(text);
-  return seconds ? std::string() : seconds.problem().what;
-}
-
-}  // namespace
 
 Option times_option(std::vector<std::string>& at) {
   return {"--at",

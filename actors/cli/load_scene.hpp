@@ -17,13 +17,16 @@ namespace luxodus::cli {
 enum class ReadingWarnings { told, left_to_inspection };
 
 /// The scene of a scene file or a pack, or null after every problem was told. `at_s`: time of its
-/// fire simulations instead of the one that it states; a pack has one time.
+/// fire simulations instead of the one that it states; a pack has one time. `frames`: what
+/// simulations have between two of theirs.
 std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
                                                    ReadingWarnings warnings = ReadingWarnings::told,
-                                                   std::optional<double> at_s = std::nullopt);
+                                                   std::optional<double> at_s = std::nullopt,
+                                                   FireFrames frames = FireFrames::between);
 
 /// Reads a scene file at other times, where the scene has a clock; empty elsewhere, and of a pack.
-SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene);
+SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene,
+                            FireFrames frames);
 
 /// The option --at, whose text goes to `at`.
 Option at_option(std::string& at);

@@ -62,6 +62,7 @@ RunDisplayOptions display_options(const ClusterConfig& cluster, const ClusterPro
   RunDisplayOptions options;
   options.folder = folder;
   options.record.scene_file = fs::absolute(cluster.run.scene).string();
+  options.record.at_s = cluster.run.at_s;
   options.record.cells = process.cells();
   options.pictures = cluster.display.pictures;
   options.picture.interrupt = options.preview.interrupt = &interrupt_flag();
@@ -104,7 +105,8 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
                                                 ClusterProcessRun& process) {
   const LocalRun& base = process.local_run();
   const auto& scene = base.scene().description;
-  const SceneAtTime scene_at = reader_of_times(cluster.run.scene.string(), *scene);
+  const SceneAtTime scene_at =
+      reader_of_times(cluster.run.scene.string(), *scene, FireFrames::between);
   LiveStates states(scene, scene_at);
   NodeWork work = work_of_states(states);
   work.controller = [&](const RunSetup& run, const Machine& machine,
@@ -113,6 +115,7 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
     if (!started) return started.problem();
     HubOptions hub{{}, {}, cluster.view.save_folder.empty() ? "." : cluster.view.save_folder};
     hub.live.scene_at = scene_at;
+    hub.live.judged_at = reader_of_times(cluster.run.scene.string(), *scene, FireFrames::nearest);
     hub.live.seed = base.seed();
     hub.live.threads = default_threads();
     if (cluster.run.particles) hub.live.particles = static_cast<int64_t>(*cluster.run.particles);
@@ -173,7 +176,9 @@ class WorkerWatch {
 
 /// What a cluster's file asks for in its table [assess]. None after every problem was told.
 std::optional<AssessmentJob> assessment_of(const ClusterConfig& cluster, const LocalRun& base) {
-  const auto states = assessed_states(cluster.run.scene.string(), {});
+  std::vector<double> times;
+  if (cluster.run.at_s) times.push_back(*cluster.run.at_s);
+  const auto states = assessed_states(cluster.run.scene.string(), times);
   if (!states) return std::nullopt;
   AssessmentJob job;
   job.scene = states->last;
@@ -193,7 +198,8 @@ std::optional<AssessmentJob> assessment_of(const ClusterConfig& cluster, const L
 /// The nodes of a cluster whose file has a table [assess].
 Result<ExitCode> assess_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process) {
   const auto& scene = process.local_run().scene().description;
-  RoundStates states(scene, reader_of_times(cluster.run.scene.string(), *scene));
+  RoundStates states(scene,
+                     reader_of_times(cluster.run.scene.string(), *scene, FireFrames::nearest));
   ExitCode code = ExitCode::success;
   NodeWork work = work_of_states(states);
   work.controller = [&](const RunSetup& run, const Machine& machine,

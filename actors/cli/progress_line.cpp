@@ -93,4 +93,23 @@ void ProgressLine::show_share(double share, const std::string& what) {
   put(text, share >= 1, share);
 }
 
+WaitingLine::WaitingLine(const std::string& what) : line_(what), thread_([this] { tell(); }) {}
+
+WaitingLine::~WaitingLine() {
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void WaitingLine::tell() {
+  constexpr std::chrono::seconds first{2}, next{1};
+  const double began_s = now_s();
+  std::unique_lock lock(mutex_);
+  for (auto pause = first; !changed_.wait_for(lock, pause, [this] { return over_; }); pause = next)
+    line_.put(time_text(now_s() - began_s), false);
+}
+
 }  // namespace luxodus::cli

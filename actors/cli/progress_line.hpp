@@ -1,8 +1,11 @@
 // How far some work is, on standard error. One thread at a time.
 #pragma once
 
+#include <condition_variable>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 namespace luxodus {
 struct Progress;
@@ -31,6 +34,26 @@ class ProgressLine {
   double began_s_;
   double logged_s_;
   int tenths_ = 0;
+};
+
+/// Says since when something goes on, from two seconds on and as long as this lives: for work that
+/// does not know its share. Nothing else is written to standard error meanwhile.
+class WaitingLine {
+ public:
+  /// `what`: "reading office.toml".
+  explicit WaitingLine(const std::string& what);
+  ~WaitingLine();
+  WaitingLine(const WaitingLine&) = delete;
+  WaitingLine& operator=(const WaitingLine&) = delete;
+
+ private:
+  void tell();
+
+  ProgressLine line_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool over_ = false;
+  std::thread thread_;  // the last: it begins when all else is there
 };
 
 }  // namespace luxodus::cli

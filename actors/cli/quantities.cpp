@@ -75,6 +75,11 @@ Result<double> parse_time(const std::string& text) {
   return value;
 }
 
+std::string fault_of_time(const std::string& text) {
+  const auto seconds = parse_time(text);
+  return seconds ? std::string() : seconds.problem().what;
+}
+
 Result<double> parse_seconds(const std::string& text) {
   const auto time = parse_time(text);
   if (time && time.value() > 0) return time;

@@ -39,6 +39,8 @@ struct RenderOptions {
   double speed = FilmedWalk().speed_m_s, fps = FilmedWalk().frames_per_s;
   double eye_height = FilmedWalk().eye_height_m;
   bool human = false;
+  std::string from, state_step = "1s";  // of the scene's clock
+  double clock = 1;                     // its seconds for each of the film
 };
 
 /// The route that is walked, by its name. Errors: there is none; the known ones are listed.
@@ -91,8 +93,8 @@ Result<std::optional<NamedFilm>> film_of(const SceneDescription& scene,
                                          const RenderOptions& options) {
   const bool walks = !options.route.empty(), flies = !options.through.empty();
   if (!walks && !flies) {
-    if (options.human || options.fps != RenderOptions().fps)
-      return problem("--human and --fps are of films: say --route or --through, too");
+    if (options.human || options.fps != RenderOptions().fps || !options.from.empty())
+      return problem("--human, --fps and --from are of films: say --route or --through, too");
     return std::optional<NamedFilm>();
   }
   if (walks && flies) return problem("--route excludes --through: a film is of one of them");
@@ -126,9 +128,72 @@ Result<std::optional<NamedFilm>> film_of(const SceneDescription& scene,
   return std::optional(std::move(out));
 }
 
-/// Frames into DIR/films/NAME, and the film of them beside that.
+/// The states of a film in which the scene's clock goes on: each is traced with the seed and as
+/// many particles as the run that is filmed, so that they differ by what changes alone.
+class FilmedClock {
+ public:
+  FilmedClock(const FinishedRun& of, const LocalRun& run, const RenderOptions& options)
+      : of_(of),
+        options_(options),
+        particles_(run.batches() * run.scene().batch_particles),
+        per_frame_s_(options.clock / options.fps),
+        frames_(frames_of_state(parse_time(options.state_step).value(), per_frame_s_)) {}
+
+  /// Errors: a last state that the scene cannot have, before the first is traced.
+  Result<void> check(size_t film_frames) const {
+    const auto last = scene_at((film_frames - 1) / frames_);
+    if (!last) return last.problem();
+    return {};
+  }
+  /// `show`: what is being done.
+  FilmedStates states(const std::function<void(const std::string& what)>& show) const {
+    return {frames_, [this, show](size_t state) { return traced(state, show); }};
+  }
+
+ private:
+  using Traced = Result<std::shared_ptr<const LocalRun>>;
+
+  /// The middle of its frames is what a state stands for.
+  double time_of(size_t state) const {
+    const auto frames = static_cast<double>(frames_);
+    return parse_time(options_.from).value() +
+           per_frame_s_ * (frames * static_cast<double>(state) + 0.5 * (frames - 1));
+  }
+
+  Result<SceneOfRun> scene_at(size_t state) const {
+    FinishedRun then = of_;
+    then.at_s = time_of(state);
+    return scene_of_run(then);
+  }
+
+  Traced traced(size_t state, const std::function<void(const std::string& what)>& show) const {
+    const std::string name = fmt::format("the state at {:.4g} s", time_of(state));
+    show("reading " + name);
+    const auto scene = scene_at(state);
+    if (!scene) return scene.problem();
+    auto run = std::make_shared<LocalRun>(scene->scene, of_.seed, options_.threads);
+    StopRule stop;
+    stop.particles = particles_;
+    const auto reason = run->run(stop, interrupt_flag(), [&](const Progress& progress) {
+      show(fmt::format(
+          "tracing {}, {:.0f} %", name,
+          100 * static_cast<double>(progress.particles) / static_cast<double>(particles_)));
+    });
+    if (reason == StopReason::interrupted) return Traced(nullptr);
+    return Traced(std::move(run));
+  }
+
+  const FinishedRun& of_;
+  const RenderOptions& options_;
+  const int64_t particles_;
+  const double per_frame_s_;
+  const size_t frames_;
+};
+
+/// Frames into DIR/films/NAME, and the film of them beside that. `clock`: null where it stands.
 Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, const NamedFilm& named,
-                               const RenderOptions& options, const PictureOptions& picture) {
+                               const RenderOptions& options, const PictureOptions& picture,
+                               const FilmedClock* clock) {
   const auto& [film, name] = named;
   const fs::path frames = folder / "films" / name;
   const fs::path file = folder / "films" / (name + ".mp4");
@@ -137,12 +202,22 @@ Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, cons
   fs::remove(file, failed);  // of an earlier film, which these frames are not of
   if (failed) return problem_in(file, "cannot remove an earlier film: " + failed.message());
   std::optional<ProgressLine> line("film");
-  const auto made = render_film(frames, run, film, picture, [&](double done) {
+  double done = 0;
+  const auto show = [&](const std::string& more) {
     line->show_share(
         done / static_cast<double>(count),
-        fmt::format(", frame {:.0f} of {}",
-                    std::min(std::floor(done) + 1, static_cast<double>(count)), count));
-  });
+        fmt::format(", frame {:.0f} of {}{}",
+                    std::min(std::floor(done) + 1, static_cast<double>(count)), count, more));
+  };
+  const auto progress = [&](double now_done) {
+    done = now_done;
+    show("");
+  };
+  const auto made =
+      clock != nullptr
+          ? render_film(frames, clock->states([&](const std::string& what) { show(", " + what); }),
+                        film, picture, progress)
+          : render_film(frames, run, film, picture, progress);
   line.reset();
   if (!made) return made.problem();
   if (made.value() < count) {
@@ -202,7 +277,12 @@ Result<ExitCode> render(const RenderOptions& options) {
     nodes = std::move(started).value();
     picture.executor = &nodes->executor();
   }
-  if (filmed) return render_frames(out->path(), run, *filmed, options, picture);
+  if (filmed && !options.from.empty()) {
+    const FilmedClock clock(finished.value(), run, options);
+    if (auto ok = clock.check(filmed->film.cameras.size()); !ok) return ok.problem();
+    return render_frames(out->path(), run, *filmed, options, picture, &clock);
+  }
+  if (filmed) return render_frames(out->path(), run, *filmed, options, picture, nullptr);
   return render_aloud(out->path(), run, options.view, picture);
 }
 
@@ -248,7 +328,30 @@ std::vector<Option> render_options(RenderOptions& o) {
       {"--human",
        &o.human,
        "Frames as an adapted eye sees them, instead of one exposure each",
-       {.group = "Film"}}};
+       {.group = "Film"}},
+      {"--from",
+       &o.from,
+       "Time of the scene's clock at the first frame; the clock then goes on with the film, and "
+       "each state is traced with the particles of the run",
+       {.form = Form::duration,
+        .otherwise = "the run's state stands",
+        .group = "Film",
+        .excludes = "--nodes",
+        .fault = fault_of_time}},
+      {"--clock",
+       &o.clock,
+       "Seconds of the scene's clock in a second of the film",
+       {.range = Range{0.001, 100'000}, .group = "Film", .needs = "--from"}},
+      {"--state-step",
+       &o.state_step,
+       "Time of the scene's clock between two states; no less than a frame's",
+       {.form = Form::duration,
+        .group = "Film",
+        .needs = "--from",
+        .fault = [](const std::string& text) {
+          const auto step = parse_seconds(text);
+          return step ? std::string() : step.problem().what;
+        }}}};
   all.insert(all.end(), film.begin(), film.end());
   return all;
 }
@@ -273,6 +376,10 @@ Command render_command() {
           "scene, as DIR/films/ROUTE/000000.png and so on, and where there is ffmpeg as "
           "DIR/films/ROUTE.mp4. With --through it goes through cameras of the scene instead:\n"
           "  luxodus render out/office_floor --through 0s=corridor --through \"6s=open plan\"\n"
+          "A scene that changes in time is filmed while its clock goes on, here 90 s in 9 s from a "
+          "place that stands:\n"
+          "  luxodus render out/fire --through 0s=corridor --through 9s=corridor --from 0s --clock "
+          "10 --state-step 5s\n"
           "Ctrl-C keeps whole frames.",
       .run = [o] { return exit_code_of(render(*o)); }};
 }

@@ -51,11 +51,12 @@ Result<ExitCode> view(const ViewOptions& options) {
   if (!found) return found.problem();
   if (!passes_inspection(scene, {found.value()}, options.live.threads)) return ExitCode::bad_input;
   install_interrupt_handler();
-  const SceneAtTime scene_at = reader_of_times(wanted->scene_file, *scene);
+  const SceneAtTime scene_at = reader_of_times(wanted->scene_file, *scene, FireFrames::between);
   LiveStates states(scene, scene_at);
   std::unique_ptr<ProcessExecutor> nodes;  // outlives whatever holds its executor
   HubOptions hub{options.live, {}, options.save_folder};
   hub.live.scene_at = scene_at;
+  hub.live.judged_at = reader_of_times(wanted->scene_file, *scene, FireFrames::nearest);
   hub.live.particles = parse_count(options.particles).value();
   hub.first.scenario = scenario;
   if (options.nodes > 0) {

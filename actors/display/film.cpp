@@ -183,27 +183,81 @@ std::vector<TiledView> frames_from(const std::vector<Camera>& cameras, size_t fi
 
 }  // namespace
 
+namespace {
+
+/// Renders frames one after another, from the flux of a run.
+class FramesOfRun {
+ public:
+  FramesOfRun(const fs::path& folder, const LocalRun& run, const Film& film,
+              const PictureOptions& options)
+      : folder_(folder),
+        run_(run),
+        film_(film),
+        options_(options),
+        flux_(picture_flux(run, options)) {}
+
+  /// False where it was interrupted. Errors: as write_shown_png.
+  Result<bool> render(size_t k, const std::function<void(double frames)>& progress) {
+    const Camera& camera = film_.cameras[k];
+    ViewPasses view(run_, camera, 0, flux_.radiance.get());
+    const auto tell = [&](double share) {
+      if (progress) progress(static_cast<double>(k) + share);
+    };
+    if (options_.executor != nullptr && k % frames_of_a_state == 0)
+      elsewhere_.emplace(run_, frames_from(film_.cameras, k), options_, flux_);
+    const bool whole =
+        elsewhere_ ? elsewhere_->add(k % frames_of_a_state, view, options_.paths_per_pixel, tell)
+                   : view.add(options_.paths_per_pixel, options_, tell);
+    if (!whole) return false;
+    const ShownView shown(view.picture(), view.paths(), options_, run_.threads());
+    auto written = write_shown_png(folder_ / name_of_frame(k), film_.human, run_, camera, shown);
+    if (!written) return written.problem();
+    return true;
+  }
+
+ private:
+  const fs::path& folder_;
+  const LocalRun& run_;
+  const Film& film_;
+  const PictureOptions& options_;
+  const PictureFlux flux_;
+  std::optional<PictureExecutor> elsewhere_;  // where others trace
+};
+
+}  // namespace
+
+size_t frames_of_state(double step_s, double seconds_per_frame) {
+  const double frames = std::floor(step_s / seconds_per_frame * (1 + 1e-12));
+  return static_cast<size_t>(std::clamp(frames, 1.0, double{limits::max_film_frames}));
+}
+
 Result<size_t> render_film(const fs::path& folder, const LocalRun& run, const Film& film,
                            const PictureOptions& options,
                            const std::function<void(double frames)>& progress) {
   if (auto ok = make_frame_folder(folder); !ok) return ok.problem();
-  const PictureFlux flux = picture_flux(run, options);
-  std::optional<PictureExecutor> elsewhere;  // where others trace
+  FramesOfRun frames(folder, run, film, options);
   for (size_t k = 0; k < film.cameras.size(); ++k) {
-    const Camera& camera = film.cameras[k];
-    ViewPasses view(run, camera, 0, flux.radiance.get());
-    const auto tell = [&](double share) {
-      if (progress) progress(static_cast<double>(k) + share);
-    };
-    if (options.executor != nullptr && k % frames_of_a_state == 0)
-      elsewhere.emplace(run, frames_from(film.cameras, k), options, flux);
-    const bool whole =
-        elsewhere ? elsewhere->add(k % frames_of_a_state, view, options.paths_per_pixel, tell)
-                  : view.add(options.paths_per_pixel, options, tell);
-    if (!whole) return k;
-    const ShownView shown(view.picture(), view.paths(), options, run.threads());
-    auto written = write_shown_png(folder / name_of_frame(k), film.human, run, camera, shown);
-    if (!written) return written.problem();
+    const auto whole = frames.render(k, progress);
+    if (!whole) return whole.problem();
+    if (!whole.value()) return k;
+  }
+  return film.cameras.size();
+}
+
+Result<size_t> render_film(const fs::path& folder, const FilmedStates& states, const Film& film,
+                           const PictureOptions& options,
+                           const std::function<void(double frames)>& progress) {
+  if (auto ok = make_frame_folder(folder); !ok) return ok.problem();
+  for (size_t first = 0; first < film.cameras.size(); first += states.frames) {
+    const auto run = states.run(first / states.frames);
+    if (!run) return run.problem();
+    if (!run.value()) return first;
+    FramesOfRun frames(folder, *run.value(), film, options);
+    for (size_t k = first; k < std::min(first + states.frames, film.cameras.size()); ++k) {
+      const auto whole = frames.render(k, progress);
+      if (!whole) return whole.problem();
+      if (!whole.value()) return k;
+    }
   }
   return film.cameras.size();
 }

@@ -1,6 +1,7 @@
 // Films: what somebody sees who walks a route, or a flight through the scene's cameras, frame by
-// frame, from the flux of one run. A frame is
-// the filtered picture of a camera, with that camera's own exposure. One call at a time per run.
+// frame, from the flux of one run, or of one for each state of a scene that changes in time. A
+// frame is the filtered picture of a camera, with that camera's own exposure. One call at a time
+// per run.
 #pragma once
 
 #include <filesystem>
@@ -51,6 +52,18 @@ struct Film {
   bool human = false;  // as an adapted eye sees it, instead of one exposure
 };
 
+/// The states that a film goes through, each of as many of its frames one after another.
+struct FilmedStates {
+  size_t frames = 0;  // of a state, at least 1
+  /// The run of a state, traced; null where it was interrupted. The one before is not used any
+  /// more.
+  std::function<Result<std::shared_ptr<const LocalRun>>(size_t state)> run;
+};
+
+/// How many frames have one state, if the scene's clock goes `seconds_per_frame` on from one frame
+/// to the next and states are `step_s` apart: at least one.
+size_t frames_of_state(double step_s, double seconds_per_frame);
+
 /// A frame's file within its folder: "000041.png".
 std::string name_of_frame(size_t frame);
 
@@ -58,8 +71,12 @@ std::string name_of_frame(size_t frame);
 /// first. Returns how many are there: fewer than cameras where it was interrupted. All frames have
 /// the random numbers of the scene's first camera: one that stands where that does is its picture,
 /// bit for bit. `progress`: frames that are done, the one under way by its share.
-/// Errors: as write_png; a folder that cannot be made.
+/// Errors: as write_png; a folder that cannot be made; of `states`.
 Result<size_t> render_film(const std::filesystem::path& folder, const LocalRun& run,
+                           const Film& film, const PictureOptions& options,
+                           const std::function<void(double frames)>& progress);
+/// The same of states. Requires: `options` name no executor.
+Result<size_t> render_film(const std::filesystem::path& folder, const FilmedStates& states,
                            const Film& film, const PictureOptions& options,
                            const std::function<void(double frames)>& progress);
 

@@ -59,20 +59,19 @@ std::string fire_geometry(const FireBuilding& building, const FireOrigin& source
       "scene.toml "
       "and materials.toml\n# instead.\n",
       printable(source.made_of), source.at_text);
-  out += comment_lines("Not there at this time: ", building.absent);
+  out += comment_lines("Not there at this time, but at others: ", building.absent);
   out += comment_lines("", building.notes);
   out += "include = [\"materials.toml\"]\n\n" + building.tables.text();
   return building.bodies.empty() ? out : out + bodies_table(building.bodies);
 }
 
-std::string smoke_text(const FireOrigin& source, const std::string& index) {
+std::string smoke_text(const std::string& index) {
   return fmt::format(R"(
 # FDS computes extinction only. How smoke scatters is for you to say.
 [[medium]]
 name = "fire"
 kind = "fds"
 file = {}
-at_s = {:g}
 albedo = 0.2      # soot of flaming fires: 0.15 to 0.3
 g = 0.6           # smoke: 0.5 to 0.8
 angstrom = 1      # extinction follows 1/wavelength
@@ -82,13 +81,26 @@ angstrom = 1      # extinction follows 1/wavelength
 # radiant_fraction = 0.35
 # soot_temperature_k = 1400
 )",
-                     index, source.at_s);
+                     index);
+}
+
+/// Smoke and obstructions go by it.
+std::string clock_text(double at_s) {
+  return fmt::format(R"(
+# The state that is taken; --at gives another. With a later 'to', `assess` follows routes over the
+# states, and `view` has a slider of them.
+[time]
+from = {0:g}
+to = {0:g}
+step = 10
+)",
+                     at_s);
 }
 
 constexpr const char* no_smoke_text =
     "\n# There are no results beside the input file, so there is no smoke. When FDS has run, name\n"
     "# its index:\n# [[medium]]\n# name = \"fire\"\n# kind = \"fds\"\n# file = \"CASE.smv\"\n"
-    "# at_s = 60\n# albedo = 0.2\n# g = 0.6\n# angstrom = 1\n";
+    "# albedo = 0.2\n# g = 0.6\n# angstrom = 1\n";
 
 /// What a person goes on with: the smoke, a light, and what is left to do.
 std::string fire_scene(const FireBuilding& building, const FireOrigin& source,
@@ -104,7 +116,7 @@ std::string fire_scene(const FireBuilding& building, const FireOrigin& source,
       R"(title = {}
 include = ["geometry.toml"]
 open_sides = [{}]
-{}
+{}{}
 # A stand-in, so that there is light: put your luminaires here.
 [[emitter]]
 name = "stand-in"
@@ -113,8 +125,9 @@ distribution = "isotropic"
 position = [{:.10g}, {:.10g}, {:.10g}]
 flux_lm = 1000
 {})",
-      toml_text(source.title), sides, index.empty() ? no_smoke_text : smoke_text(source, index),
-      building.lamp.x, building.lamp.y, building.lamp.z, exits);
+      toml_text(source.title), sides, clock_text(source.at_s),
+      index.empty() ? no_smoke_text : smoke_text(index), building.lamp.x, building.lamp.y,
+      building.lamp.z, exits);
 }
 
 }  // namespace

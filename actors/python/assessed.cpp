@@ -66,7 +66,7 @@ MadeAssessment assess_scene(const OpenScene& scene, AssessOptions options, int n
       });
     };
     const SceneAtTime reader = scene.reader();
-    const auto last = times.empty() ? scene.description() : taken(reader(times.back()));
+    const auto last = times.empty() ? scene.at_frames() : taken(reader(times.back()));
     const Assessment made =
         taken(assess_states({last, times, reader}, options, waiting.interrupt(), tell, tell));
     json = assessment_json(*last, made, LUX_VERSION);

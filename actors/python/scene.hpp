@@ -25,8 +25,12 @@ class OpenScene {
   /// As the program writes it into results.
   const std::string& file() const { return file_; }
   std::optional<double> at_s() const { return at_s_; }
-  /// The same scene at other times; of a pack, which has one, it refuses.
+  /// The same scene at other times, at frames of its simulations; of a pack, which has one time,
+  /// it refuses.
   SceneAtTime reader() const;
+  /// The scene as verdicts are made of it: at frames of its simulations. Errors (Refused): as
+  /// open_scene.
+  std::shared_ptr<const SceneDescription> at_frames() const;
 
  private:
   std::shared_ptr<const SceneDescription> description_;

@@ -39,17 +39,19 @@ std::string routes_table(const Texts& t, const Json& over) {
         html_cell(escaped(t.fixed(number_in(route["eye_height"]))) + "\u00a0m", "n") +
         cell(time_text(t, route["time"])) + html_cell(escaped(lost_text(t, route["time"])), "n") +
         cell(time_text(t, route["time_by_jin"])) +
+        cell(time_text(t, route["time_by_line_of_sight"])) +
         (fds ? cell(has_fds(route) ? time_text(t, route["time_by_fds"]) : "–") : "") + "</tr>\n";
+  const std::string note = paragraph(t("guided.line_note"), "note");
   if (!fds)
-    return table(t,
-                 {"column.route", "column.eye_height", "column.guided", "column.lost_at",
-                  "column.guided_jin"},
-                 {22, 12, 28, 12, 26}, rows);
-  return paragraph(t("guided.fds_note"), "note") +
+    return note + table(t,
+                        {"column.route", "column.eye_height", "column.guided", "column.lost_at",
+                         "column.guided_jin", "column.guided_line"},
+                        {18, 10, 22, 10, 20, 20}, rows);
+  return note + paragraph(t("guided.fds_note"), "note") +
          table(t,
                {"column.route", "column.eye_height", "column.guided", "column.lost_at",
-                "column.guided_jin", "column.guided_fds"},
-               {18, 10, 22, 10, 20, 20}, rows);
+                "column.guided_jin", "column.guided_line", "column.guided_fds"},
+               {14, 9, 19, 10, 16, 16, 16}, rows);
 }
 
 std::string walk_text(const Texts& t, const Json& walk) {

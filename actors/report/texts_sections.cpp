@@ -162,7 +162,18 @@ constexpr ReportText sections_rows[] = {
     {"column.route", {"Route", "Weg", "Chemin"}},
     {"column.guided", {"Guided", "Geführt", "Guidé"}},
     {"column.guided_jin", {"By Jin's law", "Nach Jin", "Selon Jin"}},
+    {"column.guided_line", {"By lines of sight", "Nach Sichtlinien", "Selon lignes de vue"}},
     {"column.guided_fds", {"By FDS", "Nach FDS", "Selon FDS"}},
+    {"guided.line_note",
+     {"By lines of sight (the method of FDSVismap): a sign counts as read where nothing stands on "
+      "the level line to it and C/K of the mean extinction on that line, at most 30 m, times the "
+      "cosine of the angle of view, is no less than the distance on the plan.",
+      "Nach Sichtlinien (das Verfahren von FDSVismap): Ein Zeichen gilt als gelesen, wo nichts auf "
+      "der waagerechten Linie zu ihm steht und C/K der mittleren Extinktion auf ihr, höchstens "
+      "30 m, mal dem Kosinus des Blickwinkels, nicht kleiner ist als der Abstand im Grundriss.",
+      "Selon lignes de vue (la méthode de FDSVismap) : un signal compte comme lu si rien ne se "
+      "trouve sur la ligne horizontale vers lui et si C/K de l’extinction moyenne sur elle, 30 m "
+      "au plus, fois le cosinus de l’angle de vue, n’est pas inférieur à la distance en plan."}},
     {"guided.fds_note",
      {"By FDS: a sign counts as read from places that are no farther from it than the VISIBILITY "
       "of "

@@ -27,18 +27,19 @@ OpenedScene open_pack(const std::filesystem::path& file, bool other_time, bool c
 }  // namespace
 
 OpenedScene open_scene(const std::filesystem::path& file, std::optional<double> at_s,
-                       const std::string& changes) {
+                       const std::string& changes, FireFrames frames) {
   if (is_pack(file)) return open_pack(file, at_s.has_value(), !changes.empty());
-  ReadScene read = read_scene(file, at_s, changes);
+  ReadScene read = read_scene(file, at_s, changes, frames);
   OpenedScene out;
   out.problems = std::move(read.problems);
   if (read.scene) out.scene = std::make_shared<const SceneDescription>(std::move(*read.scene));
   return out;
 }
 
-SceneAtTime reader_at_times(const std::filesystem::path& file, const std::string& changes) {
-  return [file, changes](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
-    OpenedScene opened = open_scene(file, at_s, changes);
+SceneAtTime reader_at_times(const std::filesystem::path& file, FireFrames frames,
+                            const std::string& changes) {
+  return [file, frames, changes](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
+    OpenedScene opened = open_scene(file, at_s, changes, frames);
     if (!opened.scene) return opened.problems.list().front();
     return std::move(opened.scene);
   };

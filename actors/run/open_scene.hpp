@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "scenes/world/fire_frames.hpp"
 #include "scenes/world/timed_scenes.hpp"
 
 namespace luxodus {
@@ -19,12 +20,13 @@ struct OpenedScene {
 };
 
 /// `at_s`: time of its fire simulations instead of the one that it states. `changes`: as TOML; see
-/// read_scene. A pack has one time and is not changed.
+/// read_scene. A pack has one time and is not changed. `frames`: what simulations have between two.
 OpenedScene open_scene(const std::filesystem::path& file, std::optional<double> at_s = std::nullopt,
-                       const std::string& changes = {});
+                       const std::string& changes = {}, FireFrames frames = FireFrames::between);
 
 /// Reads a scene file with these changes at other times. Errors: the first of its problems.
-SceneAtTime reader_at_times(const std::filesystem::path& file, const std::string& changes = {});
+SceneAtTime reader_at_times(const std::filesystem::path& file, FireFrames frames,
+                            const std::string& changes = {});
 
 /// The scenarios that a name stands for: one, all of them for "all", the first for "".
 /// Errors: as find_scenario.

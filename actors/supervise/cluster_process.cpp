@@ -155,8 +155,10 @@ Result<void> ClusterProcessRun::load_keys(const std::vector<NodeId>& nodes) {
 
 namespace {
 
-Result<std::shared_ptr<const SceneDescription>> described(const std::filesystem::path& scene) {
-  OpenedScene opened = open_scene(scene);
+/// Assessments are of frames of simulations, all else lies between them.
+Result<std::shared_ptr<const SceneDescription>> described(const ClusterConfig& cluster) {
+  const FireFrames frames = cluster.assess.asked ? FireFrames::nearest : FireFrames::between;
+  OpenedScene opened = open_scene(cluster.run.scene, cluster.run.at_s, {}, frames);
   if (!opened.scene) return opened.problems.list().front();
   return std::move(opened.scene);
 }
@@ -164,7 +166,7 @@ Result<std::shared_ptr<const SceneDescription>> described(const std::filesystem:
 }  // namespace
 
 Result<void> ClusterProcessRun::load_scene() {
-  auto description = described(cluster_.run.scene);
+  auto description = described(cluster_);
   if (!description) return description.problem();
   auto scenario = find_scenario(*description.value(), cluster_.run.scenario);
   if (!scenario) return scenario.problem();

@@ -73,6 +73,7 @@ struct LiveOptions {
   double relative_error = 0.002;            // at which it ends
   std::shared_ptr<Executor> executor = {};  // null: `threads` of this process
   SceneAtTime scene_at = {};                // at other times; empty: there is one state
+  SceneAtTime judged_at = {};  // the same for verdicts, at frames of simulations; or empty
 };
 
 namespace limits {

@@ -32,14 +32,25 @@ std::string reason_of(const SightRow& row) {
   return out;
 }
 
+/// " Smoke "fire" as at 60.03 s." of each simulation: that of a frame, where the view may lie
+/// between two.
+std::string frames_note(const SceneDescription& scene) {
+  std::string out;
+  for (const Medium& medium : scene.media)
+    if (medium.simulation)
+      out += fmt::format(" Smoke \"{}\" as at {:.5g} s.", medium.name, medium.simulation->time_s);
+  return out;
+}
+
 /// The state that verdicts are of, and what limits them. Its time is that of the view.
 std::string state_note(const SceneDescription& scene, const Scenario& scenario) {
   const AssessedState state = state_of(scene, scenario, {});
-  if (state.operation == Operation::mains) return state.remarks.front() + ".";
+  if (state.operation == Operation::mains) return state.remarks.front() + "." + frames_note(scene);
   return fmt::format(
-      "{} operation. Light: {}. Eyes are taken as adapted to it: within {:g} s of a failure of the "
-      "mains people see less.",
-      name_of(state.operation), state.light, adapted_after_s);
+             "{} operation. Light: {}. Eyes are taken as adapted to it: within {:g} s of a failure "
+             "of the mains people see less.",
+             name_of(state.operation), state.light, adapted_after_s) +
+         frames_note(scene);
 }
 
 }  // namespace

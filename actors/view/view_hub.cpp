@@ -77,7 +77,11 @@ double outside(const Bounds& box, const glm::dvec3& place) {
 
 ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions& options,
                  Post post)
-    : scene_(std::move(scene)), options_(options), post_(std::move(post)), edits_(options.first) {
+    : scene_(std::move(scene)),
+      options_(options),
+      post_(std::move(post)),
+      edits_(options.first),
+      backdrops_(backdrops_json(*scene_).dump()) {
   if (const auto scenario = find_scenario(*scene_, edits_.scenario); scenario)
     dimming_.seconds = seconds_said(scenario.value());
   if (scene_->time && options_.live.scene_at) edits_.at_s = scene_->at_s;
@@ -90,11 +94,6 @@ ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions
         });
       },
       options_.pictures);
-}
-
-const std::string& ViewHub::backdrops() {
-  if (!backdrops_) backdrops_ = backdrops_json(*scene_).dump();
-  return *backdrops_;
 }
 
 ViewHub::~ViewHub() {
@@ -482,7 +481,10 @@ Json ViewHub::answer_to(const Question& question, const SceneEdits& edits,
   if (!scene) return {{"type", "refused"}, {"why", scene.problem().text()}};
   if (const auto* const ask = std::get_if<SuggestAsk>(&question))
     return suggestion(*scene.value(), edits, ask->free, options_.live, ends_);
-  return sign_verdicts(*scene.value(), edits, factors, std::get<JudgeAsk>(question).sign,
+  const bool has_frames = options_.live.judged_at && edits.at_s;
+  const auto judged = has_frames ? options_.live.judged_at(*edits.at_s) : scene;
+  if (!judged) return {{"type", "refused"}, {"why", judged.problem().text()}};
+  return sign_verdicts(*judged.value(), edits, factors, std::get<JudgeAsk>(question).sign,
                        options_.live, ends_);
 }
 

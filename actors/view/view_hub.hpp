@@ -44,9 +44,9 @@ class ViewHub final : private LiveAudience {
   void leaves(Viewer& viewer);
   void says(Viewer& viewer, std::string_view text);
   size_t viewers() const { return viewers_.size(); }
-  /// Drawings that lie under plans, as JSON text: the page asks for them once, for no edit changes
-  /// them.
-  const std::string& backdrops();
+  /// Drawings that lie under plans, as JSON text: made once, before anybody asks, for no edit
+  /// changes them.
+  const std::string& backdrops() const { return backdrops_; }
 
  private:
   void begins(const LiveGeneration& generation) override;
@@ -119,9 +119,9 @@ class ViewHub final : private LiveAudience {
   std::thread answering_;
   bool is_answering_ = false;
   std::deque<std::pair<uint64_t, Question>> questions_;  // by viewer: the last that each asked
-  std::optional<std::string> backdrops_;                 // once they have been asked for
-  std::unique_ptr<LiveTrace> trace_;                     // the last but one: it tells at once
-  std::unique_ptr<ViewPictures> pictures_;               // asks trace_ for the scene
+  const std::string backdrops_;
+  std::unique_ptr<LiveTrace> trace_;        // the last but one: it tells at once
+  std::unique_ptr<ViewPictures> pictures_;  // asks trace_ for the scene
 };
 
 }  // namespace luxodus

@@ -94,7 +94,8 @@ struct RunChoice {
   uint64_t id = 0;
   Level level = Level::bit;
   std::filesystem::path scene;
-  std::string scenario;  // "": the scene's first
+  std::string scenario;        // "": the scene's first
+  std::optional<double> at_s;  // of the scene's clock; none: the scene's own time
   std::filesystem::path out;
   std::filesystem::path profile;  // empty: none
   bool sharing = true;            // nodes of one process share what they build

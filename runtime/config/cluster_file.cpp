@@ -38,6 +38,7 @@ void read_run(TableReader& top, ClusterReading& reading) {
   run.id = id ? static_cast<uint64_t>(*id) : hash.value();
   run.scene = keys.path("scene");
   run.scenario = keys.text("scenario");
+  run.at_s = keys.maybe_number("at_s");
   run.out = keys.path("out");
   if (!keys.has("out")) run.out = reading.cluster.file.parent_path() / "out" / run.name;
   run.profile = keys.path("profile");

@@ -47,6 +47,9 @@ std::vector<TableSpec> run_tables() {
            {"scene", "path", "", "required", "", "scene file or pack"},
            {"scenario", "text", "", "\"\"", "",
             "state of the building; the scene's first if empty"},
+           {"at_s", "number", "s", "", "[0, 1e9]",
+            "time of the state of a scene that changes in time, as `--at`; the scene's own unless "
+            "said"},
            {"out", "path", "", "", "",
             "folder of the results, on the host of the display; `out/NAME` beside this file unless "
             "said"},

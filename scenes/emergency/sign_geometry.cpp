@@ -9,6 +9,10 @@ namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 constexpr double arcmin = 60.0 * degrees;
+/// A normal whose level part is as short is that of a face on the floor or under the ceiling.
+constexpr double level_normal = 1e-3;
+/// Lines to a face end so far before it [m].
+constexpr double before_face_m = 1e-3;
 
 /// Angle between two directions; the form with atan2 keeps its digits for small and for flat
 /// angles, where acos loses half of them.
@@ -55,6 +59,20 @@ ViewingDistance viewing_distance(const Sign& sign, const SignView& view) {
   rule.allowed_oblique_m = rule.allowed_m * std::max(0.0, std::cos(view.angle_deg / degrees));
   rule.within = !view.behind && view.distance_m <= rule.allowed_oblique_m;
   return rule;
+}
+
+PlanLine plan_line(const SignView& view, const glm::dvec3& eye) {
+  PlanLine line;
+  const glm::dvec2 normal(view.normal), to_eye(glm::dvec2(eye) - glm::dvec2(view.centre));
+  const bool lies_level = glm::length(normal) < level_normal;
+  // Off the face, so that the wall behind it does not hide it.
+  const glm::dvec2 off = lies_level ? glm::dvec2(0) : before_face_m * glm::normalize(normal);
+  line.to = {glm::dvec2(view.centre) + off, eye.z};
+  line.distance_m = glm::length(line.to - eye);
+  const bool turned = !lies_level && glm::length(to_eye) > before_face_m;
+  line.cosine =
+      turned ? std::max(0.0, glm::dot(glm::normalize(normal), glm::normalize(to_eye))) : 1;
+  return line;
 }
 
 }  // namespace luxodus

@@ -38,4 +38,13 @@ struct ViewingDistance {
 };
 ViewingDistance viewing_distance(const Sign& sign, const SignView& view);
 
+/// A sign and an eye on the plan at the height of the eye, where the line-of-sight method works.
+struct PlanLine {
+  glm::dvec3 to{0};       // where the line from the eye ends: before the face, level with the eye
+  double distance_m = 0;  // of its end from the eye
+  /// Of the angle of view, from above; 1 of a face that lies level, 0 of one seen from behind.
+  double cosine = 0;
+};
+PlanLine plan_line(const SignView& view, const glm::dvec3& eye);
+
 }  // namespace luxodus

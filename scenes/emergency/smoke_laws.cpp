@@ -20,4 +20,8 @@ double irritant_distance_m(double constant, double extinction) {
   return dry * std::clamp(0.133 - 1.47 * std::log10(extinction), 0.0, 1.0);
 }
 
+double line_of_sight_distance_m(double constant, double extinction, double cosine) {
+  return std::min(jin_distance_m(constant, extinction), farthest_visibility_m) * cosine;
+}
+
 }  // namespace luxodus

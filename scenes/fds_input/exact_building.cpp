@@ -66,7 +66,7 @@ class ExactBuilding {
     for (const FdsHole& hole : input_.holes)
       if (is_there(hole.name, hole.course, options_)) holes.push_back(hole.box);
     for (const FdsObstruction& o : input_.obstructions) {
-      if (!is_there(o.name, o.course, options_)) continue;
+      if (!fds_input::is_ever_there(o, options_)) continue;
       const bool in_a_mesh =
           std::any_of(input_.meshes.begin(), input_.meshes.end(),
                       [&](const FdsInputMesh& m) { return touch(o.box, m.box, touching_m); });
@@ -96,10 +96,10 @@ class ExactBuilding {
     const fds::FireLook look = input_look(input_, o.surface, o.rgb, o.opacity);
     if (flat == 0) {
       ++out_.solids;
-      out_.tables.box(name, box.low, box.high, look);
+      out_.tables.box(name, box.low, box.high, look, fds_input::times_of(o.course));
     } else {
       ++out_.plates;
-      out_.tables.plate(name, box.low, box.high, across, look);
+      out_.tables.plate(name, box.low, box.high, across, look, fds_input::times_of(o.course));
     }
   }
 

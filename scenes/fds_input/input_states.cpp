@@ -2,12 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "runtime/core/printable.hpp"
 
 namespace luxodus::fds_input {
 
 bool is_there(const std::string& name, const FdsCourse& course, const FdsInputOptions& options) {
   return course.at(options.at_s) && !options.without.contains(name);
+}
+
+bool is_ever_there(const FdsObstruction& o, const FdsInputOptions& options) {
+  return (o.course.at_start || o.course.turns_s) && !options.without.contains(o.name);
+}
+
+fds::FireTimes times_of(const FdsCourse& course) {
+  fds::FireTimes out;
+  if (course.turns_s) (course.at_start ? out.vanishes : out.appears).push_back(*course.turns_s);
+  return out;
 }
 
 Result<void> names_known(const FdsInput& input, const FdsInputOptions& options) {
@@ -66,8 +78,10 @@ void add_bodies_and_notes(const FdsInput& input, const FdsInputOptions& options,
   out.notes.insert(out.notes.end(), input.notes.begin(), input.notes.end());
   for (const FdsObstruction& o : input.obstructions) {
     note_driven("obstruction", o.name, o.course, told, out);
-    if (!is_there(o.name, o.course, options))
-      out.absent.push_back(fds::scene_name(o.name, "obstruction"));
+    const std::string name = fds::scene_name(o.name, "obstruction");
+    const bool told_already =
+        std::find(out.absent.begin(), out.absent.end(), name) != out.absent.end();
+    if (!is_there(o.name, o.course, options) && !told_already) out.absent.push_back(name);
   }
   for (const FdsHole& h : input.holes) note_driven("hole", h.name, h.course, told, out);
   for (const FdsOpening& o : input.openings) note_driven("opening", o.name, o.course, told, out);

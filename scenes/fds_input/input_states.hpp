@@ -11,6 +11,11 @@ namespace luxodus::fds_input {
 /// Whether something is there: by its clock, and not taken away by its name.
 bool is_there(const std::string& name, const FdsCourse& course, const FdsInputOptions& options);
 
+/// Whether an obstruction is there at any time, and not taken away by its name.
+bool is_ever_there(const FdsObstruction& o, const FdsInputOptions& options);
+/// When it comes or goes by a clock.
+fds::FireTimes times_of(const FdsCourse& course);
+
 /// Errors: a name in `without` that nothing has.
 Result<void> names_known(const FdsInput& input, const FdsInputOptions& options);
 

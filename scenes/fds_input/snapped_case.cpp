@@ -212,12 +212,14 @@ std::vector<Box> holes_of(const FdsInput& input, const FdsInputOptions& options,
   return out;
 }
 
-/// The obstructions of a mesh, with the holes that are open. `pairs`: that were compared.
+/// The obstructions of a mesh, with the holes that are open, and when they come and go. `pairs`:
+/// that were compared.
 Result<void> fill_mesh(const FdsInput& input, const FdsInputOptions& options,
                        const MeshSnapper& snapper, const std::vector<Box>& holes, uint64_t& pairs,
-                       fds::Mesh& mesh) {
+                       size_t m, fds::Case& out) {
+  fds::Mesh& mesh = out.meshes[m];
   for (const FdsObstruction& o : input.obstructions) {
-    if (!is_there(o.name, o.course, options)) continue;
+    if (!fds_input::is_ever_there(o, options)) continue;
     const auto whole = snapper.snap(o);
     if (!whole) continue;
     std::vector<Piece> pieces{*whole};
@@ -231,6 +233,9 @@ Result<void> fill_mesh(const FdsInput& input, const FdsInputOptions& options,
       if (pieces.size() > limits::fire_objects) return too_many_objects(input);
     }
     for (const Piece& piece : pieces) {
+      if (o.course.turns_s)
+        out.changes.push_back(
+            {m, mesh.obstructions.size(), *o.course.turns_s, !o.course.at_start, 0});
       mesh.obstructions.push_back(piece.nodes);
       mesh.labels.push_back({o.name, o.surface, o.rgb, o.opacity});
     }
@@ -259,11 +264,14 @@ Result<fds::Case> snapped_case(const FdsInput& input, const FdsInputOptions& opt
     mesh.cells = input.meshes[m].cells;
     mesh.nodes = snapper.nodes();
     const std::vector<Box> holes = holes_of(input, options, input.meshes[m]);
-    if (auto ok = fill_mesh(input, options, snapper, holes, pairs, mesh); !ok) return ok.problem();
+    if (auto ok = fill_mesh(input, options, snapper, holes, pairs, m, out); !ok)
+      return ok.problem();
     for (const FdsOpening& o : input.openings)
       if (is_there(o.name, o.course, options))
         if (const auto opening = snapper.opening(o)) mesh.openings.push_back(*opening);
   }
+  std::stable_sort(out.changes.begin(), out.changes.end(),
+                   [](const fds::Change& a, const fds::Change& b) { return a.time_s < b.time_s; });
   return out;
 }
 

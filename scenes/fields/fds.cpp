@@ -9,6 +9,7 @@
 #include <new>
 
 #include "scenes/fields/data_set.hpp"
+#include "scenes/fields/fds_between.hpp"
 #include "scenes/fields/fds_cells.hpp"
 #include "scenes/fields/fds_frames.hpp"
 #include "scenes/fields/fds_grids.hpp"
@@ -19,8 +20,6 @@ namespace luxodus {
 namespace fds {
 namespace {
 
-/// Frames of one tick of FDS have one time in all files, but for the digits of PLOT3D's names [s].
-constexpr double same_tick_s = 0.006;
 /// FDS writes optical densities with 2.3 for ln 10.
 constexpr double optical_density_factor = 2.3;
 /// Soot of flaming fires at 633 nm [m2/kg]; what FDS takes, unless it is told otherwise.
@@ -45,7 +44,8 @@ struct Picked {
   std::vector<Frame> frames;
   double time_s = 0;
   double first_s = 0, last_s = 0;
-  size_t common = 0;  // frames that all meshes have
+  size_t common = 0;                         // frames that all meshes have
+  std::optional<double> previous_s, next_s;  // of these, around time_s
 };
 
 bool covers(const Mesh& mesh, const NodeBox& nodes) {
@@ -131,7 +131,11 @@ std::optional<Picked> picked(Series series, double at_s) {
     if (!everywhere) continue;
     if (out.common++ == 0) out.first_s = t;
     out.last_s = t;
-    if (!best || std::abs(t - at_s) < std::abs(*best - at_s)) best = t;
+    if (best && !out.next_s) out.next_s = t;
+    if (best && std::abs(t - at_s) >= std::abs(*best - at_s)) continue;
+    out.previous_s = best;
+    out.next_s.reset();
+    best = t;
   }
   if (!best) return std::nullopt;
   out.time_s = *best;
@@ -188,6 +192,15 @@ class FireReader {
     return list.empty() || std::find(list.begin(), list.end(), source) != list.end();
   }
 
+  /// How far a series is from the time: by its nearest frame, or by the farther one of the two that
+  /// the time lies between [s].
+  double distance_of(const Picked& p) const {
+    const double nearest = std::abs(p.time_s - options_.at_s);
+    if (!options_.between_frames) return nearest;
+    const auto other = options_.at_s > p.time_s ? p.next_s : p.previous_s;
+    return other ? std::max(nearest, std::abs(*other - options_.at_s)) : nearest;
+  }
+
   Result<void> choose() {
     std::optional<Picked> nearest;
     for (const Candidate& c : candidates) {
@@ -196,9 +209,8 @@ class FireReader {
       if (!series) return series.problem();
       auto found = picked(std::move(series.value()), options_.at_s);
       if (!found) continue;
-      const auto distance = [&](const Picked& p) { return std::abs(p.time_s - options_.at_s); };
-      const bool near = distance(*found) <= fire_window_s;
-      if (!near && nearest && distance(*nearest) <= distance(*found)) continue;
+      const bool near = std::abs(found->time_s - options_.at_s) <= fire_window_s;
+      if (!near && nearest && distance_of(*nearest) <= distance_of(*found)) continue;
       nearest = std::move(found);
       out_.source = c.source;
       if (near) break;
@@ -217,6 +229,8 @@ class FireReader {
     out_.first_s = smoke_.first_s;
     out_.last_s = smoke_.last_s;
     out_.frames = smoke_.common;
+    out_.previous_s = smoke_.previous_s;
+    out_.next_s = smoke_.next_s;
     const bool beyond = options_.at_s > smoke_.last_s + fire_window_s ||
                         options_.at_s < smoke_.first_s - fire_window_s;
     if (beyond)
@@ -450,17 +464,12 @@ class FireReader {
 };
 
 }  // namespace
-}  // namespace fds
 
-Result<LoadedFire> read_fire(const std::filesystem::path& index, const FireOptions& options) {
-  try {
-    auto fire = fds::read_case(index);
-    if (!fire) return fire.problem();
-    return fds::FireReader(std::move(fire.value()), options).read();
-  } catch (const std::bad_alloc&) {
-    return problem_in(index.string(), "its cells take more memory than this process gets");
-  }
+Result<LoadedFire> read_frame(Case fire, const FireOptions& options) {
+  return FireReader(std::move(fire), options).read();
 }
+
+}  // namespace fds
 
 const char* source_words(FireSource source) {
   switch (source) {

@@ -33,10 +33,14 @@ enum class FireSource {
 struct FireOptions {
   double at_s = 0;
   /// Those that may be taken; all where empty. Taken is the first, in the order of preference, with
-  /// a frame within fire_window_s of `at_s`; else the one with the nearest frame.
+  /// a frame within fire_window_s of `at_s`; else the one with the nearest frame, or between frames
+  /// the one whose two frames around the time are nearest.
   std::vector<FireSource> sources;
   /// Instead of the one FDS used [m2/kg].
   std::optional<double> mass_extinction_m2_per_kg;
+  /// Smoke and flames are linear between the two frames around the time, not those of the nearer.
+  /// A time within a hundredth of the way between the two is that of the frame.
+  bool between_frames = false;
   /// Flames are read: `emission` of the grids, in kW/m3, and extinction taken out where they are.
   bool flames = false;
 };
@@ -54,9 +58,12 @@ struct FireGrid {
 struct LoadedFire {
   std::vector<FireGrid> grids;
   FireSource source = FireSource::cell_extinction;
-  double time_s = 0;                  // of the frame
-  double first_s = 0, last_s = 0;     // of the source's frames
-  size_t frames = 0;                  // that all meshes have
+  double time_s = 0;               // of the frame, or between two
+  double first_s = 0, last_s = 0;  // of the source's frames
+  size_t frames = 0;               // that all meshes have
+  /// Of the frames before and after the one at time_s; or of those that time_s lies between.
+  std::optional<double> previous_s, next_s;
+  bool between_frames = false;
   std::vector<Bounds> meshes;         // in the coordinates of FDS
   uint64_t cells = 0;                 // of all meshes
   size_t resampled_meshes = 0;        // stretched ones
@@ -67,7 +74,7 @@ struct LoadedFire {
   std::string version;                // of FDS
 };
 
-/// Reads the frame nearest to the time that is asked for.
+/// Reads the frame nearest to the time that is asked for, or what lies between two.
 /// Errors, with the file and for the index the line: what fds_case.hpp and fds_frames.hpp say; no
 /// source that covers all meshes; a time beyond the results; values that are negative or no
 /// numbers, with their cell; soot that is zero in all frames; flames without HRRPUV or _hrr.csv.

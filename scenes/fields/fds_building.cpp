@@ -102,12 +102,10 @@ class BuildingWriter {
   void obstructions(size_t m) {
     const Mesh& mesh = fire_.meshes[m];
     const auto there = obstructions_at(fire_, m, at_s_);
+    const std::vector<FireTimes> times = times_of_obstructions(m);
     for (size_t i = 0; i < mesh.obstructions.size(); ++i) {
       const std::string name = scene_name(mesh.labels[i].name, "obstruction");
-      if (there[i] == 0) {
-        out_.absent.push_back(name);
-        continue;
-      }
+      if (there[i] == 0) out_.absent.push_back(name);
       const auto& [a, b] = mesh.obstructions[i];
       glm::dvec3 low, high;
       int flat = 0, across = 0;
@@ -122,17 +120,27 @@ class BuildingWriter {
       if (flat > 1) continue;
       if (flat == 0) {
         ++out_.solids;
-        out_.tables.box(name, low, high, look_of(mesh.labels[i]));
+        out_.tables.box(name, low, high, look_of(mesh.labels[i]), times[i]);
         continue;
       }
-      plate(mesh, mesh.labels[i], low, high, across);
+      plate(mesh, mesh.labels[i], low, high, across, times[i]);
     }
+  }
+
+  std::vector<FireTimes> times_of_obstructions(size_t m) const {
+    std::vector<FireTimes> out(fire_.meshes[m].obstructions.size());
+    for (const Change& change : fire_.changes) {
+      if (change.mesh != m) continue;
+      FireTimes& times = out[change.obstruction];
+      (change.appears ? times.appears : times.vanishes).push_back(change.time_s);
+    }
+    return out;
   }
 
   /// One without thickness; not on an outer face, where the face stands already, and once where
   /// two meshes name it.
   void plate(const Mesh& mesh, const ObstructionLabel& label, const glm::dvec3& low,
-             const glm::dvec3& high, int across) {
+             const glm::dvec3& high, int across, const FireTimes& times) {
     const bool outer = std::abs(low[across] - out_.bounds.low[across]) < seam_m ||
                        std::abs(low[across] - out_.bounds.high[across]) < seam_m;
     if (outer || !plates_.insert(place_text(low, high)).second) return;
@@ -144,7 +152,8 @@ class BuildingWriter {
       if (is_solid(behind)) return;
     }
     ++out_.plates;
-    out_.tables.plate(scene_name(label.name, "obstruction"), low, high, across, look_of(label));
+    out_.tables.plate(scene_name(label.name, "obstruction"), low, high, across, look_of(label),
+                      times);
   }
 
   bool is_solid(const glm::dvec3& place) {
@@ -157,7 +166,7 @@ class BuildingWriter {
 
   const std::vector<uint8_t>& gas(size_t m) {
     if (gas_.empty()) gas_.resize(fire_.meshes.size());
-    if (gas_[m].empty()) gas_[m] = gas_cells(fire_, m, at_s_);
+    if (gas_[m].empty()) gas_[m] = gas_cells_ever(fire_, m);
     return gas_[m];
   }
 

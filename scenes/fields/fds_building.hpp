@@ -37,15 +37,16 @@ struct FireBuilding {
   size_t faces = 0;                     // rectangles of closed faces of meshes
   std::vector<std::string> open_sides;  // words of the scene's key open_sides
   std::vector<glm::dvec3> exits;    // middles of openings that reach the floor of their mesh [m]
-  std::vector<std::string> absent;  // obstructions that are not there at this time
+  std::vector<std::string> absent;  // obstructions that are not there at this time, but at others
   std::vector<std::string> notes;   // what a person must know of it
   Bounds bounds;                    // of the meshes [m]
   glm::dvec3 lamp{0};               // a place in gas under the ceiling of the first mesh [m]
 };
 
-/// As it stands at a time. Colours are those of the surfaces in Smokeview, which are for display:
-/// FDS knows no reflectances.
-/// Errors: as fds_case.hpp says; more than limits::fire_objects.
+/// As it stands over time: obstructions that come and go say when. `at_s`: for what is told of it.
+/// Faces of meshes are there where any obstruction before them ever goes. Colours are those of the
+/// surfaces in Smokeview, which are for display: FDS knows no reflectances. Errors: as fds_case.hpp
+/// says; more than limits::fire_objects.
 Result<FireBuilding> read_fire_building(const std::filesystem::path& index, double at_s);
 
 /// The same of a case whose meshes and obstructions are known otherwise.

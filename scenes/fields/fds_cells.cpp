@@ -132,6 +132,13 @@ std::vector<uint8_t> gas_cells(const Case& fire, size_t mesh, double time_s) {
   return cells_outside(fire.meshes[mesh], obstructions_at(fire, mesh, time_s));
 }
 
+std::vector<uint8_t> gas_cells_ever(const Case& fire, size_t mesh) {
+  std::vector<uint8_t> always(fire.meshes[mesh].obstructions.size(), 1);
+  for (const Change& change : fire.changes)
+    if (change.mesh == mesh) always[change.obstruction] = 0;
+  return cells_outside(fire.meshes[mesh], always);
+}
+
 int64_t cell_at(const Mesh& mesh, const glm::dvec3& place) {
   const glm::ivec3 cell(cell_of(mesh.nodes[0], place.x), cell_of(mesh.nodes[1], place.y),
                         cell_of(mesh.nodes[2], place.z));

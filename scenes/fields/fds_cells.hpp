@@ -20,6 +20,9 @@ int64_t cell_at(const Mesh& mesh, const glm::dvec3& place);
 /// 1 where a cell holds gas, x fastest; 0 in an obstruction that is there at this time.
 std::vector<uint8_t> gas_cells(const Case& fire, size_t mesh, double time_s);
 
+/// 1 where a cell may hold gas at some time: in no obstruction that stands always.
+std::vector<uint8_t> gas_cells_ever(const Case& fire, size_t mesh);
+
 /// Gas cells of all meshes at one time.
 using GasMasks = std::vector<std::vector<uint8_t>>;
 

@@ -27,6 +27,13 @@ std::string metres_text(const glm::dvec3& p) {
   return fmt::format("[{:.10g}, {:.10g}, {:.10g}]", p.x, p.y, p.z);
 }
 
+/// "vanishes_at = [40.06]"; nothing where there are none.
+std::string times_text(const char* key, const std::vector<double>& times) {
+  std::string out;
+  for (const double time : times) out += fmt::format("{}{:.10g}", out.empty() ? "" : ", ", time);
+  return out.empty() ? "" : fmt::format("{} = [{}]\n", key, out);
+}
+
 std::string hexadecimal(const glm::dvec3& rgb) {
   const auto byte = [](double v) { return static_cast<int>(std::lround(255 * v)); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(rgb.x), byte(rgb.y), byte(rgb.z));
@@ -70,34 +77,36 @@ std::string FireTables::name(const std::string& base) {
   }
 }
 
-void FireTables::object(const std::string& base, const std::string& shape, const FireLook& look) {
+void FireTables::object(const std::string& base, const std::string& shape, const FireLook& look,
+                        const FireTimes& times) {
   ++objects_;
-  text_ += fmt::format("[[object]]\nname = \"{}\"\n{}material = \"{}\"\n\n", name(base), shape,
-                       material(look));
+  text_ += fmt::format("[[object]]\nname = \"{}\"\n{}material = \"{}\"\n{}{}\n", name(base), shape,
+                       material(look), times_text("appears_at", times.appears),
+                       times_text("vanishes_at", times.vanishes));
 }
 
 void FireTables::box(const std::string& base, const glm::dvec3& low, const glm::dvec3& high,
-                     const FireLook& look) {
+                     const FireLook& look, const FireTimes& times) {
   object(base,
          fmt::format("shape = \"box\"\nlow = {}\nhigh = {}\n", metres_text(low), metres_text(high)),
-         look);
+         look, times);
 }
 
 void FireTables::quad(const std::string& base, const glm::dvec3& corner, const glm::dvec3& edge_u,
-                      const glm::dvec3& edge_v, const FireLook& look) {
+                      const glm::dvec3& edge_v, const FireLook& look, const FireTimes& times) {
   object(base,
          fmt::format("shape = \"quad\"\ncorner = {}\nedge_u = {}\nedge_v = {}\n",
                      metres_text(corner), metres_text(edge_u), metres_text(edge_v)),
-         look);
+         look, times);
 }
 
 void FireTables::plate(const std::string& base, const glm::dvec3& low, const glm::dvec3& high,
-                       int across, const FireLook& look) {
+                       int across, const FireLook& look, const FireTimes& times) {
   const int u = (across + 1) % 3, v = (across + 2) % 3;
   glm::dvec3 edge_u(0), edge_v(0);
   edge_u[u] = high[u] - low[u];
   edge_v[v] = high[v] - low[v];
-  quad(base, low, edge_u, edge_v, look);
+  quad(base, low, edge_u, edge_v, look, times);
 }
 
 void FireTables::face(int face, const glm::dvec3& low, const glm::dvec3& high,

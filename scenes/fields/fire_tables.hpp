@@ -31,6 +31,11 @@ struct FireLook {
   double opacity = 1;
 };
 
+/// When an object comes and goes [s]; always there where both are empty.
+struct FireTimes {
+  std::vector<double> appears, vanishes;
+};
+
 /// A name that a scene takes: no quotes, slashes, control characters, outer blanks or leading dot.
 std::string scene_name(const std::string& name, const std::string& otherwise);
 
@@ -42,12 +47,12 @@ class FireTables {
   std::string name(const std::string& base);
 
   void box(const std::string& base, const glm::dvec3& low, const glm::dvec3& high,
-           const FireLook& look);
+           const FireLook& look, const FireTimes& times = {});
   void quad(const std::string& base, const glm::dvec3& corner, const glm::dvec3& edge_u,
-            const glm::dvec3& edge_v, const FireLook& look);
+            const glm::dvec3& edge_v, const FireLook& look, const FireTimes& times = {});
   /// A box without thickness across an axis.
   void plate(const std::string& base, const glm::dvec3& low, const glm::dvec3& high, int across,
-             const FireLook& look);
+             const FireLook& look, const FireTimes& times = {});
   /// A rectangle on a face of a mesh, which looks into the mesh: 0 to 5, low x, high x, low y...
   void face(int face, const glm::dvec3& low, const glm::dvec3& high, const FireLook& look);
 
@@ -57,7 +62,8 @@ class FireTables {
   const std::vector<FireMaterial>& materials() const { return materials_; }
 
  private:
-  void object(const std::string& base, const std::string& shape, const FireLook& look);
+  void object(const std::string& base, const std::string& shape, const FireLook& look,
+              const FireTimes& times);
 
   std::string text_;
   size_t objects_ = 0;

@@ -16,6 +16,12 @@ namespace limits {
 /// m.
 inline constexpr uint64_t backdrop_bytes = uint64_t{4} << 20;
 inline constexpr int backdrop_side = 3000;
+/// Of all drawings of a scene, as pages get them [bytes]: pages hold them in memory, and a third
+/// more as text.
+inline constexpr uint64_t backdrops_bytes = uint64_t{32} << 20;
+/// Lines of a drawing that are shown, the longest; each takes so much at most [bytes].
+inline constexpr size_t backdrop_lines = 20'000;
+inline constexpr uint64_t backdrop_line_bytes = 100;
 }  // namespace limits
 
 struct PagePicture {

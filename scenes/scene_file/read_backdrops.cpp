@@ -40,6 +40,20 @@ bool ends_in(const std::filesystem::path& file, const std::string& wanted) {
   return ending == wanted;
 }
 
+/// Pages get all drawings of a scene at once.
+void take_room(KeyReader& keys, uint64_t bytes) {
+  uint64_t& all = keys.reading().backdrop_bytes;
+  const bool had_room = all <= limits::backdrops_bytes;
+  all += bytes;
+  if (had_room && all > limits::backdrops_bytes)
+    keys.problem("file",
+                 fmt::format("the drawings up to this one take {:.3g} MB on a page, of {:.3g} "
+                             "MB that all of a scene may: make pictures smaller, or leave "
+                             "some out",
+                             static_cast<double>(all) / 1e6,
+                             static_cast<double>(limits::backdrops_bytes) / 1e6));
+}
+
 void read_picture(KeyReader& keys, const std::filesystem::path& path, Backdrop& out) {
   if (!keys.has("metres_per_pixel"))
     return keys.problem("file",
@@ -51,6 +65,7 @@ void read_picture(KeyReader& keys, const std::filesystem::path& path, Backdrop& 
   out.corner = placing.origin;
   out.across = placing.x * static_cast<double>(picture->width);
   out.up = placing.y * static_cast<double>(picture->height);
+  take_room(keys, picture->png.size());
 }
 
 void read_drawing(KeyReader& keys, const std::filesystem::path& path, Backdrop& out) {
@@ -72,6 +87,7 @@ void read_drawing(KeyReader& keys, const std::filesystem::path& path, Backdrop& 
     if (std::max({std::abs(from.x), std::abs(from.y), std::abs(to.x), std::abs(to.y)}) < farthest_m)
       out.lines.emplace_back(from, to);
   }
+  take_room(keys, limits::backdrop_line_bytes * std::min(out.lines.size(), limits::backdrop_lines));
 }
 
 /// Units and origins that are wrong put a drawing elsewhere.

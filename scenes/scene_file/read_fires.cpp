@@ -18,7 +18,8 @@ namespace {
 /// What flames of buildings have: radiant fractions of fuels, temperatures of their soot.
 constexpr double low_fraction = 0.1, high_fraction = 0.6;
 constexpr double low_soot_k = 1100, high_soot_k = 1900;
-/// A frame this far from the time that is asked for is another state of the fire [s].
+/// A frame this far from the time that is asked for is another state of the fire; between two that
+/// are twice as far apart there was more than a mean of both [s].
 constexpr double far_from_asked_s = 5;
 
 struct Flames {
@@ -93,17 +94,29 @@ std::string extent_words(const LoadedFire& fire) {
   return out;
 }
 
+/// How the state came about.
+std::string frame_words(const LoadedFire& fire, double asked_s) {
+  if (!fire.between_frames) return fmt::format("{:g} s asked for, the nearest frame", asked_s);
+  return fmt::format("linear between the frames at {:.6g} and {:.6g} s", *fire.previous_s,
+                     *fire.next_s);
+}
+
 /// What was taken, for who reads the results.
 void tell_fire(KeyReader& keys, const std::string& name, const LoadedFire& fire,
                const std::optional<Flames>& flames, double asked_s) {
   SceneReading& reading = keys.reading();
   reading.note_for_reader(
       keys.place("file"),
-      fmt::format("the smoke \"{}\" is the state at {:.6g} s ({:g} s asked for; the nearest of {} "
-                  "frames from {:.6g} to {:.6g} s), computed by {}: {}. Accuracy: {}. {}",
-                  name, fire.time_s, asked_s, fire.frames, fire.first_s, fire.last_s,
-                  fire.version.empty() ? "FDS" : fire.version, source_words(fire.source),
-                  accuracy_words(fire.source), extent_words(fire)));
+      fmt::format("the smoke \"{}\" is the state at {:.6g} s ({}; {} frames from {:.6g} to "
+                  "{:.6g} s), computed by {}: {}. Accuracy: {}. {}",
+                  name, fire.time_s, frame_words(fire, asked_s), fire.frames, fire.first_s,
+                  fire.last_s, fire.version.empty() ? "FDS" : fire.version,
+                  source_words(fire.source), accuracy_words(fire.source), extent_words(fire)));
+  if (fire.between_frames && *fire.next_s - *fire.previous_s > 2 * far_from_asked_s)
+    reading.warning(keys.place(keys.has("at_s") ? "at_s" : "file"),
+                    fmt::format("{:.6g} s lies between two frames that are {:.3g} s apart: their "
+                                "mean is no state that the simulation had",
+                                fire.time_s, *fire.next_s - *fire.previous_s));
   if (std::abs(fire.time_s - asked_s) > far_from_asked_s)
     reading.warning(keys.place(keys.has("at_s") ? "at_s" : "file"),
                     fmt::format("the nearest frame lies {:.3g} s from the time that is asked for",
@@ -179,6 +192,7 @@ void read_fire_medium(KeyReader& keys, Medium m) {
   m.optics.phase.g = keys.number("g");
   FireOptions options;
   options.at_s = time_of_state(keys);
+  options.between_frames = reading.frames == FireFrames::between;
   options.sources = sources_named(keys.choice("source"));
   options.mass_extinction_m2_per_kg = keys.maybe_number("mass_extinction");
   const auto flames = read_flames(keys);

@@ -1,4 +1,6 @@
 // Objects written in the scene file.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -191,6 +193,38 @@ void read_room(KeyReader& keys, const Object& common, const SurfaceWords& words,
   }
 }
 
+/// Whether an object that comes and goes is there: by the last of its times that has passed.
+bool is_there_now(KeyReader& keys, const std::string& shape) {
+  struct Turn {
+    double at_s;
+    bool appears;
+  };
+  std::vector<Turn> turns;
+  for (const double at_s : keys.numbers("appears_at")) turns.push_back({at_s, true});
+  for (const double at_s : keys.numbers("vanishes_at")) turns.push_back({at_s, false});
+  if (turns.empty()) return true;
+  SceneReading& reading = keys.reading();
+  const char* key = keys.has("vanishes_at") ? "vanishes_at" : "appears_at";
+  reading.changes_in_time = reading.goes_by_clock = true;
+  std::sort(turns.begin(), turns.end(),
+            [](const Turn& a, const Turn& b) { return a.at_s < b.at_s; });
+  for (size_t i = 1; i < turns.size(); ++i)
+    if (turns[i].at_s == turns[i - 1].at_s && turns[i].appears != turns[i - 1].appears)
+      keys.problem(key, fmt::format("it appears and vanishes at {:g} s", turns[i].at_s));
+  if (shape == "room") keys.problem(key, "a room stands: write what comes and goes by itself");
+  const auto now = reading.time_s();
+  if (!now) {
+    keys.problem(key, fmt::format("'{}' goes by the clock, and no time is said: give --at 60s, or "
+                                  "add [time] with 'from', 'to' and 'step'",
+                                  key));
+    return true;
+  }
+  bool there = !turns.front().appears;
+  for (const Turn& turn : turns)
+    if (turn.at_s <= *now) there = turn.appears;
+  return there;
+}
+
 }  // namespace
 
 void read_object(const toml::Table& table, SceneReading& reading) {
@@ -206,6 +240,7 @@ void read_object(const toml::Table& table, SceneReading& reading) {
   read_surface(keys, object, words);
   const Transform transform = read_transform(keys);
   const auto copies = read_repeat(keys);
+  const bool there = is_there_now(keys, kind);
   if (kind == "room") return read_room(keys, object, words, transform, copies);
   read_door(keys, object);
   if (object.door && copies.size() > 1)
@@ -222,15 +257,15 @@ void read_object(const toml::Table& table, SceneReading& reading) {
       adopt_problem(keys, shape.problem());
     }
   }
-  // A material that was not given has been reported as missing; only the name must be known from
-  // here on.
-  if (words.material.empty() || !keys.clean()) {
+  // A material that was not given has been reported as missing. Of that, and of what is not there
+  // at this time, only the name must be known from here on.
+  if (words.material.empty() || !keys.clean() || !there) {
     reading.note("object or tag", object.name, object.place);
     for (const auto& tag : object.tags) reading.note("object or tag", tag, object.place);
     if (object.door) reading.note("door", object.name, object.place);
     if (words.material.empty()) return;
   }
-  if (keys.clean()) {
+  if (keys.clean() && there) {
     add_object(std::move(object), words, reading);
   } else {
     reading.material_index(words.material, words.material_place);

@@ -202,9 +202,10 @@ void check_whole(SceneReading& reading) {
 }  // namespace
 
 ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at_s,
-                     std::string_view changes) {
+                     std::string_view changes, FireFrames frames) {
   SceneReading reading;
   reading.at_s = at_s;
+  reading.frames = frames;
   Loader loader(reading);
   loader.load(path, {path.string(), 1});
   if (!changes.empty()) loader.change(changes);

@@ -10,6 +10,7 @@
 
 #include "runtime/core/result.hpp"
 #include "scenes/world/description.hpp"
+#include "scenes/world/fire_frames.hpp"
 
 namespace luxodus {
 
@@ -27,7 +28,8 @@ inline constexpr const char* named_changes = "changes";
 /// `at_s`: time of its fire simulations instead of the one that they state; a problem where there
 /// is none.
 /// `changes`: read as if they stood in a file that includes this one; "" for none.
+/// `frames`: what simulations have between two of their frames.
 ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at_s = std::nullopt,
-                     std::string_view changes = {});
+                     std::string_view changes = {}, FireFrames frames = FireFrames::between);
 
 }  // namespace luxodus

@@ -16,6 +16,7 @@
 #include "runtime/toml/findings.hpp"
 #include "runtime/toml/value.hpp"
 #include "scenes/world/description.hpp"
+#include "scenes/world/fire_frames.hpp"
 
 namespace luxodus {
 
@@ -43,6 +44,8 @@ class SceneReading {
 
   /// Time that was asked for, instead of the one that the scene states [s].
   std::optional<double> at_s;
+  /// What simulations have between two frames.
+  FireFrames frames = FireFrames::between;
   /// Something in the scene is another thing at another time; it is so by the clock, not by frames
   /// of a simulation, which are hashed themselves.
   bool changes_in_time = false, goes_by_clock = false;
@@ -87,6 +90,8 @@ class SceneReading {
   void resolve_backs();
   /// Triangles of all objects so far.
   size_t triangles = 0;
+  /// Of all drawings under plans so far, as pages get them.
+  uint64_t backdrop_bytes = 0;
   /// Default of an object's patch edge [m].
   double patch_edge_m = 0.5;
 

@@ -13,7 +13,8 @@ TableSpec fire_keys() {
           {"file", "path", "", "required", "",
            "index of the case (.smv); its results lie in the same folder or below it"},
           {"at_s", "number", "s", "", "[-1e6, 1e9]",
-           "time; the nearest frame is taken. `--at` overrides it. Mandatory unless the scene has "
+           "time; between two frames smoke is linear, and for verdicts that of the nearer. `--at` "
+           "overrides it. Mandatory unless the scene has "
            "`[time]`, which says the time itself"},
           {"source", "choice", "", "\"best\"", "best, cells, nodes, plot3d, smoke3d",
            "what extinction is taken from; `best`: the first of these with a frame within 1 s, "

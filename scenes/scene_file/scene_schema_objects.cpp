@@ -162,7 +162,13 @@ std::vector<TableSpec> object_schema() {
                    {"material", "text", "", "required", "", "name of a material, or a named grey"}},
                   surface_keys()),
            joined(transform_keys(),
-                  {repeat_key(), {"door", "table", "", "", "", "makes it a leaf that turns"}}))},
+                  {repeat_key(),
+                   {"door", "table", "", "", "", "makes it a leaf that turns"},
+                   {"appears_at", "numbers", "s", "", "[-1e6, 1e6]",
+                    "times of the scene's clock at which it comes; what first appears was not "
+                    "there before"},
+                   {"vanishes_at", "numbers", "s", "", "[-1e6, 1e6]",
+                    "times at which it goes: a curtain that falls, a wall that breaks"}}))},
   };
   for (auto& t : flat_shapes()) all.push_back(std::move(t));
   for (auto& t : round_shapes()) all.push_back(std::move(t));

@@ -38,6 +38,11 @@ inline bool is_luminaire(const CompiledEmitter& e) {
 double clear_share(const CompiledScene& scene, const GeometryAccess& access, const Vec3& from,
                    const Vec3& to);
 
+/// Optical depth of the media on the straight line between two points at a wavelength [nm], from
+/// the bands about it; what is solid does not count.
+double depth_between(const CompiledScene& scene, const GeometryAccess& access, const Vec3& from,
+                     const Vec3& to, double wavelength_nm);
+
 struct MetSurface {
   Real distance_m = 0;
   bool front = true;     // its front side is met

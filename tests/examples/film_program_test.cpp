@@ -128,6 +128,46 @@ TEST_CASE("a film goes through cameras of the scene", "[program][film]") {
   CHECK_FALSE(fs::exists(frames / "000004.png"));
 }
 
+TEST_CASE("a film lets the scene's clock go on, and each state is that of a run at its time",
+          "[program][film]") {
+  const std::string thickens = walked_room +
+                               "[time]\nfrom = 0\nto = 6\nstep = 3\n[[medium]]\nname = "
+                               "\"smoke\"\nkind = \"homogeneous\"\nalbedo = 0.5\n"
+                               "extinction = [[0, 0], [6, 1.5]]\n";
+  const ScenePlace place("room.toml", thickens);
+  REQUIRE(place.run("--particles 20k --no-views").code == 0);
+  const std::string stands = " --through 0s=small --through 3s=small --fps 1 --paths 4 ";
+  const auto film = [&](const fs::path& of, const std::string& clock) {
+    return place.luxodus("render " + of.string() + stands + clock, "env PATH=/nowhere ");
+  };
+  // Two seconds of the clock in a frame: at 0, 2, 4 and 6 s.
+  const Outcome made = film(place.out, "--from 0s --clock 2 --state-step 2s");
+  INFO(made.err);
+  REQUIRE(made.code == 0);
+  const fs::path frames = "films/small_to_small";
+  const auto frame = [&](const fs::path& of, const std::string& name) {
+    return slurp(of / frames / name);
+  };
+  const fs::path then = place.folder / "at_4s";
+  REQUIRE(place
+              .luxodus("run " + (place.folder / "room.toml").string() +
+                       " --at 4s --particles 20k --no-views --out " + then.string())
+              .code == 0);
+  REQUIRE(film(then, "").code == 0);
+  CHECK(frame(place.out, "000002.png") == frame(then, "000000.png"));
+  CHECK(frame(place.out, "000001.png") != frame(then, "000000.png"));
+  CHECK(frame(place.out, "000003.png") != frame(then, "000000.png"));
+  // A state of two frames is that between them, here at 3 and at 7 s, and the scene ends at 6 s.
+  const Outcome late = film(place.out, "--from 2s --clock 2 --state-step 4s");
+  CHECK(late.code == 2);
+  CHECK_THAT(late.err, Contains("'extinction' is known from 0 to 6 s, and the time is 7 s"));
+  const WalkedRoom still;
+  const Outcome timeless = still.render("--route \"to the door\" --from 0s");
+  CHECK(timeless.code == 2);
+  CHECK_THAT(timeless.err, Contains("nothing in this scene changes in time"));
+  CHECK_THAT(still.render("--from 0s").err, Contains("--route or --through"));
+}
+
 TEST_CASE("a film that cannot be made is refused with one clear error", "[program][film]") {
   const WalkedRoom place;
   const auto refused = [&](const std::string& options, const std::string& why) {

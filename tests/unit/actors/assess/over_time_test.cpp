@@ -194,12 +194,15 @@ TEST_CASE("FDS's own visibility stands beside the verdicts, where there are slic
         std::vector<Guidance>{Guidance::not_guided, Guidance::not_guided, Guidance::guided});
   CHECK(route.by_fds.at[2] == std::vector<Guidance>(3, Guidance::not_guided));
   CHECK(route.visibility_m[1][0].value_or(0) == Approx(6));
+  // C/K of the thin smoke is 800 m, so that the 30 m count: every place is nearer.
+  CHECK(route.by_line.at[2] == std::vector<Guidance>(3, Guidance::guided));
   // Smoke this thin hides no sign, whatever the slice says.
   CHECK(route.guided.holds(2));
   const Json json = over_time_json(all);
   CHECK(json["routes"][0]["fds"][1].text() == "nng");
   CHECK(json["routes"][0]["time_by_fds"]["until"]["value"] == 0);
-  CHECK(guidance_csv(json).text().find("guided,exit,guided,6,not guided\n") != std::string::npos);
+  CHECK(guidance_csv(json).text().find("guided,exit,guided,guided,6,not guided\n") !=
+        std::string::npos);
   CHECK(guidance_text(json).find("by FDS's VISIBILITY up to 0 s, lost by 30 s") !=
         std::string::npos);
 
@@ -213,6 +216,46 @@ TEST_CASE("FDS's own visibility stands beside the verdicts, where there are slic
   CHECK(damaged.routes.front().guided.at == without.routes.front().guided.at);
   REQUIRE(damaged.warnings.size() == 1);
   CHECK(damaged.warnings.front().find("VISIBILITY is not shown") != std::string::npos);
+}
+
+TEST_CASE("the line-of-sight method stands beside the verdicts: C/K, 30 m, and what stands there",
+          "[assess][time]") {
+  // Places are 1, 4.33 and 7.67 m along the room, 10.95, 7.62 and 4.28 m from the sign, C is 8:
+  // at 1/m it is seen from within 8 m.
+  const std::string even =
+      "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nalbedo = 0.3\n"
+      "extinction = [[0, 0], [60, 1], [120, 4]]\n";
+  const RouteOverTime route = over(timed_room("", even), {0, 60, 120}).routes.front();
+  using enum Guidance;
+  REQUIRE(route.by_line.at.size() == 3);
+  CHECK(route.by_line.at[0] == std::vector<Guidance>(3, guided));
+  CHECK(route.by_line.at[1] == std::vector<Guidance>{not_guided, guided, guided});
+  CHECK(route.by_line.at[2] == std::vector<Guidance>(3, not_guided));
+  // Smoke above the eyes is not on the level line, although the sign hangs in it.
+  const RouteOverTime high = over(timed_room("", sinking("40")), {60}).routes.front();
+  CHECK(high.guided.at[0] == std::vector<Guidance>(3, not_guided));
+  CHECK(high.by_line.at[0] == std::vector<Guidance>(3, guided));
+  // A screen at the height of the eyes, which the sign is seen above.
+  const std::string screen =
+      "[[object]]\nname = \"screen\"\nshape = \"box\"\nlow = [6, -2, 1.6]\n"
+      "high = [6.05, 2, 1.7]\nmaterial = \"grey50\"\n";
+  const RouteOverTime screened =
+      over(timed_room("", screen + "[time]\nto = 1\nstep = 1\n"), {0}).routes.front();
+  CHECK(screened.by_line.at[0] == std::vector<Guidance>{not_guided, not_guided, guided});
+}
+
+TEST_CASE("the line-of-sight method takes extinction at the wavelength of FDS", "[assess]") {
+  // Of bands, which are tens of nanometres wide, none is at 633 nm.
+  const Assessment a =
+      test::assessed(test::room +
+                     "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nextinction = 0.5\n"
+                     "wavelength_nm = 633\nangstrom = 1\nalbedo = 0.3\n");
+  REQUIRE_FALSE(a.sights.empty());
+  for (const SightRow& row : a.sights) {
+    CHECK(row.line.extinction == Approx(0.5).epsilon(1e-4));
+    CHECK(row.line.visibility_m == Approx(8 / 0.5).epsilon(1e-4));
+    CHECK(row.line.clear);
+  }
 }
 
 TEST_CASE("an arrow that points elsewhere guides nobody, and no sign at all is an error",
@@ -246,7 +289,7 @@ TEST_CASE("guidance over time goes through its JSON, whose faults are named", "[
   CHECK(route["time"]["lost_by"].is_null());
   CHECK(route["walks"].size() == 4);
   const std::string csv = guidance_csv(json["over_time"]).text();
-  CHECK(csv.find("way,1.65,0,0,guided,exit,guided,,\n") != std::string::npos);
+  CHECK(csv.find("way,1.65,0,0,guided,exit,guided,guided,,\n") != std::string::npos);
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 1 + 4 * 3);
   CHECK(guidance_text(json["over_time"]).find("up to the last state, 60 s") != std::string::npos);
   Json cut = json;

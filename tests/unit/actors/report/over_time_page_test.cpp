@@ -37,7 +37,7 @@ Json with_guidance() {
   route.guided.at = {{yes, yes, yes}, {yes, Guidance::undecided, yes}, {no, no, no}};
   route.guided.times_s = {0, 30, 60};
   for (const double at : route.guided.times_s) over.states.emplace_back().at_s = at;
-  route.by_jin = route.by_fds = route.guided;
+  route.by_jin = route.by_line = route.by_fds = route.guided;
   route.visibility_m.assign(3, {30.0, 12.5, std::nullopt});
   route.signs.assign(3, {"exit", "exit", ""});
   for (const double start : {0.0, 60.0}) route.walks.push_back(walk(route.guided, start, 0.5));

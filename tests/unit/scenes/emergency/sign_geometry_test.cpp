@@ -1,11 +1,12 @@
 #include "scenes/emergency/sign_geometry.hpp"
-#include "scenes/emergency/sign_light.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "scenes/emergency/sign_face.hpp"
+#include "scenes/emergency/sign_light.hpp"
+#include "scenes/emergency/smoke_laws.hpp"
 
 using namespace luxodus;
 
@@ -188,4 +189,28 @@ TEST_CASE("a face's flux is the integral of its luminance over area and half spa
       CHECK(flux_lm == Approx(normal * 0.04 * 2 * std::numbers::pi / (n + 2)).epsilon(1e-5));
     }
   }
+}
+
+TEST_CASE("on the plan a sign is as far as its foot, and turned away by its angle from above",
+          "[emergency][geometry]") {
+  const Sign sign = facing_y();  // at the origin
+  const glm::dvec3 eye(3, 4, -1.5);
+  const PlanLine line = plan_line(view_of_sign(sign, eye), eye);
+  CHECK(line.to.z == eye.z);
+  CHECK(line.distance_m == Approx(5).margin(1e-3));
+  CHECK(line.cosine == Approx(0.8));
+  CHECK(line.to.y == Approx(1e-3));  // before the wall that it hangs on
+  const glm::dvec3 behind(0, -4, 0);
+  CHECK(plan_line(view_of_sign(sign, behind), behind).cosine == 0);
+  // A sign under the ceiling is seen from all around.
+  Sign flat = sign;
+  flat.frame.axes = glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
+  CHECK(plan_line(view_of_sign(flat, eye), eye).cosine == 1);
+}
+
+TEST_CASE("the line-of-sight method takes C/K up to 30 m, and less aslant", "[emergency]") {
+  CHECK(line_of_sight_distance_m(8, 0, 1) == 30);
+  CHECK(line_of_sight_distance_m(8, 0.1, 1) == 30);
+  CHECK(line_of_sight_distance_m(3, 1, 0.5) == Approx(1.5));
+  CHECK(line_of_sight_distance_m(3, 1, 0) == 0);
 }

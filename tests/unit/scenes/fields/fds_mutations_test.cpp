@@ -133,6 +133,7 @@ TEST_CASE("harmed results of FDS are read or refused with one sentence", "[forma
     folder.write(name, harmed(name, whole.at(name), other, random));
     FireOptions options;
     options.at_s = random.bits() % 4 == 0 ? 2.5 : 5;
+    options.between_frames = random.bits() % 2 == 0;
     options.sources = sources[random.bits() % std::size(sources)];
     options.flames = random.bits() % 2 == 0;
     const auto building = read_fire_building(folder / "case.smv", options.at_s);

@@ -264,6 +264,65 @@ TEST_CASE("the frame nearest to the time is taken, and a time beyond the results
   CHECK(says(refusal(small.read(-2)), "there is no frame near -2 s"));
 }
 
+TEST_CASE("between two frames smoke is linear, if that is asked for, and a frame is itself",
+          "[format][fds]") {
+  TemporaryFolder folder;
+  const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {2, 1, 1});
+  const auto of = [&](float a, float b) {
+    return cell_values(mesh, [=](int i, int, int) { return i == 0 ? a : b; });
+  };
+  folder.write("a.sf", slice_file(mesh, extinction_label,
+                                  {{0, of(0, 0)}, {10.02F, of(1, 0)}, {20, of(2, 4)}}));
+  folder.write("case.smv",
+               index_of_meshes({mesh}) + slice_entry(1, true, mesh, "a.sf", extinction_label));
+  const auto at = [&](double at_s, bool between = true) {
+    FireOptions options;
+    options.at_s = at_s;
+    options.between_frames = between;
+    return good_fire(read_fire(folder / "case.smv", options));
+  };
+  const LoadedFire fire = at(15.01);
+  CHECK(fire.between_frames);
+  CHECK(fire.time_s == Approx(15.01));
+  CHECK(fire.previous_s.value_or(0) == Approx(10.02));
+  CHECK(fire.next_s == 20);
+  CHECK(fire.grids[0].data.extinction[0] == Approx(1.5));
+  CHECK(fire.grids[0].data.extinction[1] == Approx(2));
+  // The nearer frame may be the later one.
+  CHECK(at(18.004).grids[0].data.extinction[1] == Approx(3.2));
+  // FDS writes the tick of 10 s at its next step.
+  CHECK_FALSE(at(10).between_frames);
+  CHECK(at(10).grids[0].data.extinction[0] == 1);
+  CHECK_FALSE(at(15.01, false).between_frames);
+  CHECK_FALSE(at(20.5).between_frames);
+  CHECK(at(20.5).time_s == 20);
+  CHECK_FALSE(at(-0.5).between_frames);
+}
+
+TEST_CASE("between frames the source counts whose two frames around the time are nearest",
+          "[format][fds]") {
+  TemporaryFolder folder;
+  const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {2, 1, 1});
+  const auto even = [](float value) { return [value](int, int, int) { return value; }; };
+  const auto cells = cell_values(mesh, even(1));
+  folder.write("a.sf",
+               slice_file(mesh, extinction_label, {{0, cells}, {10.02F, cells}, {100, cells}}));
+  folder.write("s.s3d", smoke3d_file(mesh, {{9, node_values(mesh, even(100))},
+                                            {14, node_values(mesh, even(100))}}));
+  folder.write("case.smv", index_of_meshes({mesh}) +
+                               slice_entry(1, true, mesh, "a.sf", extinction_label) +
+                               smoke_entry(1, "s.s3d", "SOOT DENSITY"));
+  const auto source_at = [&](double at_s, bool between) {
+    FireOptions options;
+    options.at_s = at_s;
+    options.between_frames = between;
+    return good_fire(read_fire(folder / "case.smv", options)).source;
+  };
+  CHECK(source_at(11.5, false) == FireSource::cell_extinction);
+  CHECK(source_at(11.5, true) == FireSource::smoke3d);
+  CHECK(source_at(10.5, true) == FireSource::cell_extinction);  // within the second
+}
+
 TEST_CASE("a file of a run in progress is read up to its last whole frame", "[format][fds]") {
   const SmallCase small;
   const std::string whole =

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <set>
 
 #include "tests/fuzz/mutate.hpp"
 #include "tests/kit/temporary_folder.hpp"
@@ -56,6 +57,20 @@ struct Product {
     return std::move(out).value();
   }
 };
+
+/// All that a luminaire is made of.
+std::string words_of(const GldfProduct& product, const GldfVariant& variant,
+                     const GldfLight& light) {
+  const auto number = [](const std::optional<double>& v) { return v ? std::to_string(*v) : "-"; };
+  std::string out = product.manufacturer + "\n" + product.name + "\n" + product.number + "\n" +
+                    variant.id + "\n" + light.emitter + "\n" + light.behaviour + "\n" +
+                    light.photometry + "\n" + light.fault + "\n" + number(light.rated_lm) +
+                    number(light.lamp_lm) + number(light.emergency_lm) +
+                    number(light.ballast_factor) + "\n";
+  for (const GldfDuration& d : variant.durations) out += number(d.hours) + number(d.flux_lm);
+  for (const GldfFile& file : product.photometry) out += "\n" + file.name + "\n" + file.bytes;
+  return out;
+}
 
 std::string gldf_refusal(const std::string& bytes) {
   const auto product = gldf_of(bytes, "test.gldf");
@@ -275,7 +290,7 @@ TEST_CASE("harmed containers are read or refused with one sentence", "[photometr
   const char* seed_text = std::getenv("LUXODUS_SEED");
   const uint64_t seed = seed_text != nullptr ? std::strtoull(seed_text, nullptr, 0) : 1;
   const char* count_text = std::getenv("LUXODUS_MUTATIONS");
-  const int tries = count_text != nullptr ? std::atoi(count_text) : 2000;
+  const int tries = count_text != nullptr ? std::atoi(count_text) : 5000;
   INFO("seed " << seed);
   Random random(seed, RandomStream::test);
   random.start(0);
@@ -290,6 +305,7 @@ TEST_CASE("harmed containers are read or refused with one sentence", "[photometr
   };
   const Bytes whole = bytes_of(product.container()), xml = bytes_of(product.xml());
   int read = 0;
+  std::set<std::string> made;  // luminaires: making one takes longer than reading a container
   for (int i = 0; i < tries; ++i) {
     // The container itself, or its text within a sound container.
     const bool packed = random.bits() % 2 == 0;
@@ -304,6 +320,8 @@ TEST_CASE("harmed containers are read or refused with one sentence", "[photometr
     ++read;
     for (const GldfVariant& variant : answer->variants)
       for (const size_t light : variant.lights) {
+        if (!made.insert(words_of(answer.value(), variant, answer->lights.at(light))).second)
+          continue;
         const auto luminaire =
             luminaire_of(answer.value(), variant.id, answer->lights.at(light).emitter, {});
         if (luminaire) REQUIRE(luminaire->photometry.web->flux_lm() > 0);

@@ -81,6 +81,33 @@ TEST_CASE("a drawing under plans has its lines in metres", "[format][backdrop]")
   CHECK_THAT(far.scene->warnings.front().text(), Contains("beside the building"));
 }
 
+TEST_CASE("all backdrops of a scene have a limit together, told where it is passed",
+          "[format][backdrop]") {
+  BackdropScene scene;
+  // Noise does not compress: three bytes a pixel.
+  PngImage noise;
+  noise.width = noise.height = 1000;
+  uint32_t state = 1;
+  for (int i = 0; i < 3 * noise.width * noise.height; ++i)
+    noise.rgb.push_back(static_cast<uint8_t>((state = state * 1664525 + 1013904223) >> 24));
+  const auto png = encode_png(noise, {});
+  REQUIRE(png.ok());
+  REQUIRE(png->size() < limits::backdrop_bytes);
+  scene.folder.write("noise.png",
+                     std::string(reinterpret_cast<const char*>(png->data()), png->size()));
+  const std::string one = "file = \"noise.png\"\nmetres_per_pixel = 0.01\n";
+  const auto times = [&](size_t n) {
+    std::string out = one;
+    for (size_t i = 1; i < n; ++i) out += "[[backdrop]]\n" + one;
+    return out;
+  };
+  const size_t fit = limits::backdrops_bytes / png->size();
+  CHECK(scene.read(times(fit)).scene);
+  const std::string refused = scene.fault(times(fit + 2));
+  CHECK_THAT(refused, Contains("MB that all of a scene may"));
+  CHECK(std::count(refused.begin(), refused.end(), '\n') == 1);  // once, not of each that follows
+}
+
 TEST_CASE("a backdrop without a measure, of another kind or too large is refused",
           "[format][backdrop]") {
   BackdropScene scene;

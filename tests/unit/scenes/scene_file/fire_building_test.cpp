@@ -10,9 +10,9 @@ namespace luxodus {
 
 namespace {
 
-/// Its objects and materials, as an import writes them into two files.
-std::string whole_text(const FireBuilding& building) {
-  std::string out;
+/// Its objects and materials, as an import writes them into two files, and a clock.
+std::string whole_text(const FireBuilding& building, const std::string& at = "60") {
+  std::string out = "[time]\nfrom = " + at + "\nto = 100\nstep = 10\n";
   for (const FireMaterial& material : building.tables.materials())
     out += material_table(material) + "\n";
   return out + building.tables.text();
@@ -32,7 +32,7 @@ TEST_CASE("the building of a simulation is read as a scene: closed but for its o
   folder.put("fire.smv", index_of_meshes({a, b}) + "HIDE_OBST 1\n 3 30.0\n");
   const auto building = read_fire_building(folder.path() / "fire.smv", 60);
   REQUIRE(building.ok());
-  CHECK(building->solids == 1);
+  CHECK(building->solids == 2);
   CHECK(building->plates == 1);
   CHECK(building->absent.size() == 1);
   CHECK(building->open_sides == std::vector<std::string>{"west"});
@@ -68,8 +68,11 @@ TEST_CASE("the building of a simulation is read as a scene: closed but for its o
   CHECK(walls == Approx(10 - 0.5 - 2 * 0.25));
   CHECK(block == Approx(6 * 0.25));
   CHECK(plate == Approx(0.25));
-  // Before it vanishes the wall is there.
-  CHECK(read_fire_building(folder.path() / "fire.smv", 0)->solids == 2);
+  // Before it vanishes the wall is there, and nothing else is another.
+  CHECK(read_fire_building(folder.path() / "fire.smv", 0)->absent.empty());
+  const auto before = good(folder, whole_text(building.value(), "29"));
+  CHECK(before.objects.size() == scene.objects.size() + 1);
+  CHECK(good(folder, whole_text(building.value(), "30")).objects.size() == scene.objects.size());
 }
 
 TEST_CASE("names of a simulation cannot leave their quotes in a scene", "[format][scene][fds]") {
@@ -94,7 +97,8 @@ TEST_CASE("the building of a real case is a scene", "[format][scene][fds]") {
   const auto at_0 = read_fire_building(index, 0), at_60 = read_fire_building(index, 60);
   REQUIRE(at_0.ok());
   REQUIRE(at_60.ok());
-  CHECK(at_0->solids == at_60->solids + 1);  // the curtain
+  CHECK(at_0->tables.text() == at_60->tables.text());
+  CHECK(at_0->absent.empty());
   CHECK(at_60->absent == std::vector<std::string>{"curtain"});
   CHECK(at_60->open_sides.size() == 2);  // west and east
   SceneFolder folder;
@@ -107,6 +111,14 @@ TEST_CASE("the building of a real case is a scene", "[format][scene][fds]") {
   CHECK(scene.materials[of_beam].name == "WALL #999999");
   CHECK(named(scene.objects, "table").mesh.triangles.size() == 12);
   CHECK(named(scene.objects, "beam").mesh.triangles.size() == 12);
+  // The curtain falls at 40.06 s.
+  const auto has_curtain = [&](const std::string& at) {
+    const auto then = good(folder, whole_text(at_0.value(), at));
+    return std::any_of(then.objects.begin(), then.objects.end(),
+                       [](const Object& o) { return o.name == "curtain"; });
+  };
+  CHECK(has_curtain("40"));
+  CHECK_FALSE(has_curtain("41"));
 }
 
 }  // namespace luxodus

@@ -109,7 +109,7 @@ TEST_CASE("a time from outside takes the place of the one that a simulation stat
           "[format][scene][fds]") {
   FireFolder folder;
   const auto path = folder.put("scene.toml", fire_table);
-  const ReadScene at_10 = read_scene(path), at_0 = read_scene(path, 0.4);
+  const ReadScene at_10 = read_scene(path), at_0 = read_scene(path, 0.04);
   REQUIRE(at_10.scene);
   REQUIRE(at_0.scene);
   CHECK(at_0.scene->media[0].data.extinction[0] == 0);
@@ -170,12 +170,24 @@ TEST_CASE("flames of an odd temperature or fraction are warned of", "[format][sc
   CHECK(all.find("'radiant_fraction' is 0.9") != std::string::npos);
 }
 
-TEST_CASE("a frame far from the time is warned of", "[format][scene][fds]") {
+TEST_CASE("light is of smoke between two frames, verdicts are of the nearer one",
+          "[format][scene][fds]") {
   FireFolder folder;
-  const auto near = good(folder, test::replaced(fire_table, "at_s = 10", "at_s = 6"));
-  const auto far = good(folder, test::replaced(fire_table, "at_s = 10", "at_s = 4.9"));
-  CHECK(near.media[0].simulation->time_s == 10);
-  CHECK(far.media[0].simulation->time_s == 0);
+  const auto path = folder.put("scene.toml", fire_table);
+  const auto at = [&](double at_s, FireFrames frames) {
+    const ReadScene read = read_scene(path, at_s, {}, frames);
+    INFO(all_problems(read));
+    REQUIRE(read.scene);
+    return *read.scene;
+  };
+  const auto whole = at(10, FireFrames::between), half = at(5, FireFrames::between);
+  CHECK(half.media[0].simulation->time_s == Approx(5));
+  CHECK(notes_say(half, "linear between the frames at 0 and 10 s"));
+  CHECK(half.media[0].data.extinction[0] == Approx(0.5F * whole.media[0].data.extinction[0]));
+  CHECK(half.content_hash != whole.content_hash);
+  CHECK(at(6, FireFrames::nearest).media[0].simulation->time_s == 10);
+  CHECK(at(6, FireFrames::nearest).content_hash == whole.content_hash);
+  CHECK(at(4.9, FireFrames::nearest).media[0].simulation->time_s == 0);
 }
 
 TEST_CASE("a variant thickens all grids of a simulation by one factor", "[format][scene][fds]") {

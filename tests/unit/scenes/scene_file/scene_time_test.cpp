@@ -150,6 +150,31 @@ TEST_CASE("doors open and close at their times", "[format][scene][time]") {
             .find("there is no door") != std::string::npos);
 }
 
+TEST_CASE("an object comes and goes at its times, and its name is known in between",
+          "[format][scene][time]") {
+  SceneFolder f;
+  const auto curtain = [](const std::string& more) {
+    return "[[object]]\nname = \"curtain\"\nshape = \"box\"\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\n"
+           "material = \"grey50\"\n" +
+           more + "[[surface_group]]\nname = \"cloth\"\nobjects = [\"curtain\"]\n";
+  };
+  const auto is_there = [&](const std::string& more, double at_s) {
+    return !good_at(f, curtain(more), at_s).objects.empty();
+  };
+  CHECK(is_there("vanishes_at = [40]\n", 39.9));
+  CHECK_FALSE(is_there("vanishes_at = [40]\n", 40));
+  CHECK_FALSE(is_there("appears_at = [10, 60]\nvanishes_at = [40]\n", 9));
+  CHECK(is_there("appears_at = [10, 60]\nvanishes_at = [40]\n", 10));
+  CHECK_FALSE(is_there("appears_at = [10, 60]\nvanishes_at = [40]\n", 50));
+  CHECK(is_there("appears_at = [10, 60]\nvanishes_at = [40]\n", 60));
+  CHECK(good_at(f, curtain("vanishes_at = [40]\n"), 0).content_hash !=
+        good_at(f, curtain("vanishes_at = [40]\n"), 50).content_hash);
+  CHECK_THAT(refused_at(f, curtain("vanishes_at = [40]\n")),
+             Catch::Contains("scene.toml:7") && Catch::Contains("no time is said"));
+  CHECK_THAT(refused_at(f, curtain("vanishes_at = [40]\nappears_at = [40]\n"), 0),
+             Catch::Contains("appears and vanishes at 40 s"));
+}
+
 TEST_CASE("a sign says which routes it leads to, and they exist", "[format][scene][time]") {
   SceneFolder f;
   const std::string way = "[[sign.leads_to]]\nroute = \"corridor\"\narrow = \"left\"\n";
