@@ -7,8 +7,10 @@
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
+#include "actors/cli/film_states.hpp"
 #include "actors/cli/findings.hpp"
 #include "actors/cli/finished_run.hpp"
+#include "actors/cli/load_scene.hpp"
 #include "actors/cli/nodes_option.hpp"
 #include "actors/cli/picture_choices.hpp"
 #include "actors/cli/progress_line.hpp"
@@ -39,6 +41,7 @@ struct RenderOptions {
   double speed = FilmedWalk().speed_m_s, fps = FilmedWalk().frames_per_s;
   double eye_height = FilmedWalk().eye_height_m;
   bool human = false;
+  std::string from;  // of the scene's clock
 };
 
 /// The route that is walked, by its name. Errors: there is none; the known ones are listed.
@@ -91,8 +94,8 @@ Result<std::optional<NamedFilm>> film_of(const SceneDescription& scene,
                                          const RenderOptions& options) {
   const bool walks = !options.route.empty(), flies = !options.through.empty();
   if (!walks && !flies) {
-    if (options.human || options.fps != RenderOptions().fps)
-      return problem("--human and --fps are of films: say --route or --through, too");
+    if (options.human || options.fps != RenderOptions().fps || !options.from.empty())
+      return problem("--human, --fps and --from are of films: say --route or --through, too");
     return std::optional<NamedFilm>();
   }
   if (walks && flies) return problem("--route excludes --through: a film is of one of them");
@@ -127,8 +130,9 @@ Result<std::optional<NamedFilm>> film_of(const SceneDescription& scene,
 }
 
 /// Frames into DIR/films/NAME, and the film of them beside that.
-Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, const NamedFilm& named,
-                               const RenderOptions& options, const PictureOptions& picture) {
+Result<ExitCode> render_frames(const fs::path& folder, const RunOfFrame& run_of,
+                               const NamedFilm& named, const RenderOptions& options,
+                               const PictureOptions& picture) {
   const auto& [film, name] = named;
   const fs::path frames = folder / "films" / name;
   const fs::path file = folder / "films" / (name + ".mp4");
@@ -137,7 +141,7 @@ Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, cons
   fs::remove(file, failed);  // of an earlier film, which these frames are not of
   if (failed) return problem_in(file, "cannot remove an earlier film: " + failed.message());
   std::optional<ProgressLine> line("film");
-  const auto made = render_film(frames, run, film, picture, [&](double done) {
+  const auto made = render_film(frames, run_of, film, picture, [&](double done) {
     line->show_share(
         done / static_cast<double>(count),
         fmt::format(", frame {:.0f} of {}",
@@ -202,7 +206,17 @@ Result<ExitCode> render(const RenderOptions& options) {
     nodes = std::move(started).value();
     picture.executor = &nodes->executor();
   }
-  if (filmed) return render_frames(out->path(), run, *filmed, options, picture);
+  if (filmed && !options.from.empty()) {
+    auto states = FilmStates::make(finished.value(), *description, *time_asked(options.from),
+                                   options.fps, run.particles(), options.threads);
+    if (!states) return states.problem();
+    const auto run_of = [&states](size_t frame) { return states->run_of(frame); };
+    return render_frames(out->path(), run_of, *filmed, options, picture);
+  }
+  if (filmed) {
+    const auto run_of = [&run](size_t) -> Result<const LocalRun*> { return &run; };
+    return render_frames(out->path(), run_of, *filmed, options, picture);
+  }
   return render_aloud(out->path(), run, options.view, picture);
 }
 
@@ -250,6 +264,15 @@ std::vector<Option> render_options(RenderOptions& o) {
        "Frames as an adapted eye sees them, instead of one exposure each",
        {.group = "Film"}}};
   all.insert(all.end(), film.begin(), film.end());
+  Option from = at_option(o.from);
+  from.name = "--from";
+  from.meaning =
+      "Time of the scene's clock at which a film begins, to go on with it, e.g. 30s; each state of "
+      "[time] is traced with as many particles as the run has";
+  from.traits.otherwise = "the run's state throughout";
+  from.traits.group = "Film";
+  from.traits.excludes = "--nodes";
+  all.push_back(std::move(from));
   return all;
 }
 
@@ -273,6 +296,8 @@ Command render_command() {
           "scene, as DIR/films/ROUTE/000000.png and so on, and where there is ffmpeg as "
           "DIR/films/ROUTE.mp4. With --through it goes through cameras of the scene instead:\n"
           "  luxodus render out/office_floor --through 0s=corridor --through \"6s=open plan\"\n"
+          "In a scene with [time] --from 30s has the film begin in the state of 30 s, and smoke, "
+          "flames, doors and lights change as it goes on.\n"
           "Ctrl-C keeps whole frames.",
       .run = [o] { return exit_code_of(render(*o)); }};
 }

@@ -186,17 +186,32 @@ std::vector<TiledView> frames_from(const std::vector<Camera>& cameras, size_t fi
 Result<size_t> render_film(const fs::path& folder, const LocalRun& run, const Film& film,
                            const PictureOptions& options,
                            const std::function<void(double frames)>& progress) {
+  return render_film(
+      folder, [&](size_t) -> Result<const LocalRun*> { return &run; }, film, options, progress);
+}
+
+Result<size_t> render_film(const fs::path& folder, const RunOfFrame& run_of, const Film& film,
+                           const PictureOptions& options,
+                           const std::function<void(double frames)>& progress) {
   if (auto ok = make_frame_folder(folder); !ok) return ok.problem();
-  const PictureFlux flux = picture_flux(run, options);
+  const LocalRun* known = nullptr;  // whose flux this is
+  std::optional<PictureFlux> flux;
   std::optional<PictureExecutor> elsewhere;  // where others trace
   for (size_t k = 0; k < film.cameras.size(); ++k) {
     const Camera& camera = film.cameras[k];
-    ViewPasses view(run, camera, 0, flux.radiance.get());
+    const auto of_frame = run_of(k);
+    if (!of_frame) return of_frame.problem();
+    if (of_frame.value() == nullptr) return k;
+    const LocalRun& run = *of_frame.value();
+    const bool another = &run != known;
+    if (another) flux.emplace(picture_flux(run, options));
+    known = &run;
+    ViewPasses view(run, camera, 0, flux->radiance.get());
     const auto tell = [&](double share) {
       if (progress) progress(static_cast<double>(k) + share);
     };
     if (options.executor != nullptr && k % frames_of_a_state == 0)
-      elsewhere.emplace(run, frames_from(film.cameras, k), options, flux);
+      elsewhere.emplace(run, frames_from(film.cameras, k), options, *flux);
     const bool whole =
         elsewhere ? elsewhere->add(k % frames_of_a_state, view, options.paths_per_pixel, tell)
                   : view.add(options.paths_per_pixel, options, tell);

@@ -1,6 +1,6 @@
 // Films: what somebody sees who walks a route, or a flight through the scene's cameras, frame by
-// frame, from the flux of one run. A frame is
-// the filtered picture of a camera, with that camera's own exposure. One call at a time per run.
+// frame, from the flux of one run, or of one for each state of a scene that changes. A frame is the
+// filtered picture of a camera, with that camera's own exposure. One call at a time per run.
 #pragma once
 
 #include <filesystem>
@@ -51,6 +51,10 @@ struct Film {
   bool human = false;  // as an adapted eye sees it, instead of one exposure
 };
 
+/// The run whose flux a frame is of; null where it was interrupted. It stays until another frame is
+/// asked for.
+using RunOfFrame = std::function<Result<const LocalRun*>(size_t frame)>;
+
 /// A frame's file within its folder: "000041.png".
 std::string name_of_frame(size_t frame);
 
@@ -60,6 +64,10 @@ std::string name_of_frame(size_t frame);
 /// bit for bit. `progress`: frames that are done, the one under way by its share.
 /// Errors: as write_png; a folder that cannot be made.
 Result<size_t> render_film(const std::filesystem::path& folder, const LocalRun& run,
+                           const Film& film, const PictureOptions& options,
+                           const std::function<void(double frames)>& progress);
+/// The same of frames of several runs. Errors: as `run_of`, too.
+Result<size_t> render_film(const std::filesystem::path& folder, const RunOfFrame& run_of,
                            const Film& film, const PictureOptions& options,
                            const std::function<void(double frames)>& progress);
 

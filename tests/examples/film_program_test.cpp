@@ -128,6 +128,60 @@ TEST_CASE("a film goes through cameras of the scene", "[program][film]") {
   CHECK_FALSE(fs::exists(frames / "000004.png"));
 }
 
+TEST_CASE("a film goes on with the clock of its scene", "[program][film]") {
+  // Smoke is there from 20 s on; the lamp goes out with the mains, between 40 and 50 s.
+  const std::string burning = walked_room + R"(
+[time]
+from = 0
+to = 60
+step = 10
+mains_fail_at = 45
+[[medium]]
+name = "smoke"
+kind = "layered"
+[[medium.layer]]
+z_low = 0
+z_high = 3
+extinction = [[0, 0], [19, 0], [20, 1], [60, 1]]
+albedo = 0.2
+[[scenario]]
+name = "fire"
+operation = "emergency"
+)";
+  const ScenePlace place("room.toml", burning);
+  const Outcome ran = place.run("--particles 20k --no-views --at 10s --scenario fire");
+  INFO(ran.err);
+  REQUIRE(ran.code == 0);
+  const auto film = [&](const std::string& more) {
+    return place.luxodus(
+        "render " + place.out.string() +
+            " --route \"along the wall\" --view small --speed 0.05 --fps 0.1 --paths 4 " + more,
+        "env PATH=/nowhere ");
+  };
+  // 2 m at 0.05 m/s are 40 s: a frame every 10 s.
+  const Outcome made = film("--from 10s");
+  INFO(made.err);
+  CHECK(made.code == 0);
+  CHECK_THAT(made.err, Contains("5 frames"));
+  CHECK_THAT(made.err, Contains("the state at 20 s") && Contains("the state at 50 s"));
+  const fs::path frames = place.out / "films/along_the_wall";
+  std::vector<std::string> shown;
+  for (const char* name : {"000000.png", "000001.png", "000004.png"})
+    shown.push_back(slurp(frames / name));
+  CHECK(film("").code == 0);  // the run's own state throughout
+  CHECK(slurp(frames / "000000.png") == shown[0]);
+  CHECK(slurp(frames / "000001.png") != shown[1]);  // without the smoke
+  CHECK(slurp(frames / "000004.png") != shown[2]);  // not dark
+  const auto refused = [&](const std::string& more, const std::string& why) {
+    const Outcome outcome = film(more);
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains(why));
+  };
+  refused("--from 61s", "0 s to 60 s");
+  refused("--from soon", "--from");
+  refused("--from 10s --nodes 2", "--nodes");
+}
+
 TEST_CASE("a film that cannot be made is refused with one clear error", "[program][film]") {
   const WalkedRoom place;
   const auto refused = [&](const std::string& options, const std::string& why) {
@@ -145,6 +199,8 @@ TEST_CASE("a film that cannot be made is refused with one clear error", "[progra
   refused("--route \"to the door\" --picture-time 5s", "exclude --picture-time");
   refused("--speed 2", "--route");
   refused("--fps 2", "--through");
+  refused("--from 2s", "--through");
+  refused("--route \"to the door\" --from 2s", "has no [time]");
   refused("--route \"to the door\" --through 0s=small", "excludes --through");
   refused("--through 0s=small", "two cameras");
   refused("--through small", "TIME=CAMERA");
@@ -158,7 +214,7 @@ TEST_CASE("wrong limits of pictures are refused before anything is traced", "[pr
   for (const std::string wrong :
        {"--picture-time -5", "--picture-time 0", "--picture-time soon", "--picture-error 0",
         "--picture-error 150%", "--picture-paths 0", "--picture-paths 65537", "--display-white 0.5",
-        "--display-white 0"}) {
+        "--display-white 0", "--human-limits sleep", "--human-limits none,glare"}) {
     const Outcome outcome = place.run("--particles 20k " + wrong);
     INFO(wrong << "\n" << outcome.err);
     CHECK(outcome.code == 2);

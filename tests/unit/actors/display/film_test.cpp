@@ -149,6 +149,43 @@ TEST_CASE("a frame is the picture of a camera that stands there, bit for bit", "
         pixels_of(folder / "views/at_two_metres_human.png"));
 }
 
+TEST_CASE("each frame ends in the flux of its own run, and a film ends where a run is interrupted",
+          "[display]") {
+  const TemporaryFolder folder;
+  // The same hall before and after its lamp has changed.
+  std::string bright = hall();
+  bright.replace(bright.find("flux_lm = 1000"), 14, "flux_lm = 4000");
+  const auto before = traced(hall(), 1 << 13), after = traced(bright, 1 << 13);
+  const Camera camera = before->scene().description->cameras[0];
+  const std::vector<Camera> cameras(4, camera);
+  PictureOptions options;
+  options.paths_per_pixel = 4;
+  const auto film = [&](const std::string& name, const RunOfFrame& run_of) {
+    const auto made = render_film(folder / name, run_of, {cameras}, options, {});
+    REQUIRE(made.ok());
+    return made.value();
+  };
+  const auto one = [](const LocalRun& run) {
+    return [&run](size_t) -> Result<const LocalRun*> { return &run; };
+  };
+  REQUIRE(film("before", one(*before)) == 4);
+  REQUIRE(film("after", one(*after)) == 4);
+  const size_t both = film("both", [&](size_t frame) -> Result<const LocalRun*> {
+    if (frame == 3) return static_cast<const LocalRun*>(nullptr);
+    return frame < 1 ? before.get() : after.get();
+  });
+  CHECK(both == 3);
+  CHECK_FALSE(std::filesystem::exists(folder / "both/000003.png"));
+  CHECK(pixels_of(folder / "both/000000.png") == pixels_of(folder / "before/000000.png"));
+  for (const char* frame : {"000001.png", "000002.png"})
+    CHECK(pixels_of(folder / "both" / frame) == pixels_of(folder / "after" / frame));
+  const auto refused = render_film(
+      folder / "none", [](size_t) -> Result<const LocalRun*> { return problem("no such state"); },
+      {cameras}, options, {});
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.problem().what == "no such state");
+}
+
 TEST_CASE("a film that is interrupted keeps whole frames, and none of an earlier one",
           "[display]") {
   const TemporaryFolder folder;
