@@ -45,6 +45,7 @@ Result<const LocalRun*> FilmStates::run_of(size_t frame) {
   at_time.batch_shares.clear();
   auto scene = scene_of_run(at_time);
   if (!scene) return scene.problem();
+  // The former one goes when this one is there: a film tells them apart by their addresses.
   run_ = std::make_unique<LocalRun>(scene->scene, finished_.seed, threads_);
   traced_s_ = time_s;
   StopRule stop;

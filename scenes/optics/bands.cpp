@@ -24,6 +24,8 @@ constexpr double dark_share = 1e-12;
 constexpr double told_colour = 1e-6;
 // Of the watts of a band, for the sake of chromaticity.
 constexpr double max_colour_loss = 0.8;
+// Determinant of the bands' colours over the product of its diagonal: less is rounding.
+constexpr double min_independence = 1e-9;
 constexpr double bin_nm = 20.0;
 constexpr int bins = 20;
 
@@ -195,6 +197,9 @@ std::vector<double> Bands::powers(const Spectrum& shape, double lumens) const {
   }
   missing.y = 0;  // but for roundings
   if (lit < 3 || glm::length(missing) < told_colour * lumens) return watts;
+  // Bands of deep red alone have no Z, or one chromaticity.
+  const double independent = glm::determinant(normal);
+  if (!(independent > min_independence * normal[0][0] * normal[1][1] * normal[2][2])) return watts;
   // The least sum of squared changes by watts, under three linear constraints.
   const glm::dvec3 multiplier = glm::inverse(normal) * missing;
   double step = 1;

@@ -129,8 +129,16 @@ TEST_CASE("a film goes through cameras of the scene", "[program][film]") {
 }
 
 TEST_CASE("a film goes on with the clock of its scene", "[program][film]") {
-  // Smoke is there from 20 s on; the lamp goes out with the mains, between 40 and 50 s.
+  // Smoke is there from 20 s on; one lamp goes out with the mains, between 40 and 50 s.
   const std::string burning = walked_room + R"(
+[[emitter]]
+name = "emergency light"
+shape = "rectangle"
+position = [1, 1, 2.9]
+size = [0.2, 0.2]
+flux_lm = 100
+emergency = "maintained"
+emergency_factor = 1
 [time]
 from = 0
 to = 60

@@ -94,6 +94,24 @@ TEST_CASE("the scene's own light keeps its spectrum, and two bands keep the lume
   CHECK(scaled[0] / scaled[1] == Approx(two.power(flame, 0) / two.power(flame, 1)));
 }
 
+TEST_CASE("light of deep red bands alone, which have one colour, keeps its lumens",
+          "[optics][bands]") {
+  const Bands bands({380, 600, 700, 720, 740, 780}, white_led_shape(4000));
+  for (const double from : {605.0, 700.0}) {
+    Spectrum red;
+    for (int i = 0; i < spectrum_samples; ++i)
+      red.value[static_cast<size_t>(i)] = Spectrum::wavelength_nm(i) > from ? 1 : 0;
+    double lumens = 0;
+    const std::vector<double> watts = bands.powers(red, 20);
+    for (int b = 0; b < bands.count(); ++b) {
+      CHECK(std::isfinite(watts[static_cast<size_t>(b)]));
+      CHECK(watts[static_cast<size_t>(b)] >= 0);
+      lumens += watts[static_cast<size_t>(b)] * bands[b].lm_per_w;
+    }
+    CHECK(lumens == Approx(20));
+  }
+}
+
 TEST_CASE("a colour that bands cannot give is approached, and no band goes out",
           "[optics][bands]") {
   // A laser in bands of 4000 K lamps: its own band alone has its light.
