@@ -139,6 +139,8 @@ size = [0.2, 0.2]
 flux_lm = 100
 emergency = "maintained"
 emergency_factor = 1
+maintenance_factor = 1
+end_of_duration_factor = 1
 [time]
 from = 0
 to = 60
