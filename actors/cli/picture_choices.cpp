@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "actors/cli/quantities.hpp"
@@ -52,8 +53,31 @@ std::vector<Option> options_of(PictureChoices& choices, const char* paths_name) 
       {"--display-black",
        &choices.display.black_cd_m2,
        "Luminance of its black, with the light of the room that it reflects [cd/m2]",
-       {.range = Range{1e-4, 1e3}}}};
+       {.range = Range{1e-4, 1e3}}},
+      {"--human-limits",
+       &choices.sight,
+       "Limits of sight that NAME_human.png heeds beside that of contrast",
+       {.otherwise = "glare,acuity,colour",
+        .choices = {"glare", "acuity", "colour", "none"},
+        .comma_separated = true}}};
 }
+
+namespace {
+
+Result<void> read_sight(const std::vector<std::string>& sight, HumanTone& human) {
+  if (sight.empty()) return {};
+  const auto heeds = [&](const char* limit) {
+    return std::find(sight.begin(), sight.end(), limit) != sight.end();
+  };
+  if (heeds("none") && sight.size() > 1)
+    return problem("--human-limits: \"none\" excludes all other limits");
+  human.glare = heeds("glare");
+  human.lose_acuity = heeds("acuity");
+  human.lose_colour = heeds("colour");
+  return {};
+}
+
+}  // namespace
 
 Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture) {
   if (!choices.time.empty()) {
@@ -66,7 +90,8 @@ Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture
     if (!error) return of_option("--picture-error", error.problem());
     picture.target_error = error.value();
   }
-  picture.display = choices.display;
+  picture.human.display = choices.display;
+  if (auto read = read_sight(choices.sight, picture.human); !read) return read.problem();
   if (!(choices.display.white_cd_m2 > choices.display.black_cd_m2))
     return problem(fmt::format("--display-white {:g} must be above --display-black {:g}",
                                choices.display.white_cd_m2, choices.display.black_cd_m2));

@@ -19,6 +19,7 @@ struct PictureChoices {
   std::optional<uint64_t> paths;
   std::string time, error;
   DisplayModel display;
+  std::vector<std::string> sight;  // limits; none are named: all are heeded
 };
 
 /// `paths_name`: of the option that counts paths. Requires: `choices` outlives them.
@@ -28,7 +29,7 @@ std::vector<Option> options_of(PictureChoices& choices, const char* paths_name);
 void limit_paths(const std::optional<uint64_t>& paths, PictureOptions& picture);
 /// Into `picture`, with limit_paths.
 /// Errors: a time or a share that is none, or not above 0; a monitor whose white is not above its
-/// black.
+/// black; limits of sight that exclude each other.
 Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture);
 
 /// "34 %, 12 paths, error 18 %, about 40 s left".

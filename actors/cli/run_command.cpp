@@ -102,7 +102,7 @@ Result<RunDisplayOptions> display_options(const RunFolder& folder, const RunReco
   display.picture.progressive = true;
   display.picture.raw = options.raw;
   display.preview.paths_per_pixel = preview_paths;
-  display.preview.display = display.picture.display;
+  display.preview.human = display.picture.human;
   display.picture.interrupt = display.preview.interrupt = &interrupt_flag();
   if (!options.preview.empty()) {
     const auto every = parse_seconds(options.preview);

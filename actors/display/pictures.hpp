@@ -44,8 +44,8 @@ struct PictureOptions {
   /// End paths in the run's flux. Without it they are traced to their end: slower and noisier, free
   /// of the patches' size. A run that has traced nothing has no flux to end in.
   bool gather = true;
-  bool raw = false;      // PNG files show light as traced, instead of filtered
-  DisplayModel display;  // the monitor that human views are made for
+  bool raw = false;  // PNG files show light as traced, instead of filtered
+  HumanTone human;   // monitor and limits of sight of human views; angles are those of each camera
   /// When it is set, what is under way ends within a pixel, and pictures that are not whole are not
   /// written. Null: nobody interrupts.
   const std::atomic<bool>* interrupt = nullptr;

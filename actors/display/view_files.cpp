@@ -107,8 +107,8 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view
           "white.");
   image.numbers = {{"paths_per_pixel", static_cast<double>(view.paths)},
                    {"particles", static_cast<double>(run.particles())},
-                   {"display_white_cd_m2", view.display.white_cd_m2},
-                   {"display_black_cd_m2", view.display.black_cd_m2},
+                   {"display_white_cd_m2", view.human.display.white_cd_m2},
+                   {"display_black_cd_m2", view.human.display.black_cd_m2},
                    {"degrees_per_pixel", degrees_per_pixel(camera)}};
   return image;
 }
@@ -181,16 +181,25 @@ FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera, cons
   return p;
 }
 
+/// The limits of sight that a human view heeds.
+std::string limits_of_sight(const HumanTone& human) {
+  std::string out = "contrast";
+  if (human.glare) out += ", glare";
+  if (human.lose_acuity) out += ", acuity";
+  if (human.lose_colour) out += ", colour";
+  return out;
+}
+
 /// What an eye before the picture sees.
 PngImage human_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced,
-                   const DisplayModel& display) {
-  HumanTone human;
-  human.display = display;
+                   HumanTone human) {
   human.degrees_per_pixel = degrees_per_pixel(camera);
+  const DisplayModel& display = human.display;
   std::vector<ImageText> texts = texts_of(run, camera);
   texts.emplace_back("Display white [cd/m2]", fmt::format("{:g}", display.white_cd_m2));
   texts.emplace_back("Display black [cd/m2]", fmt::format("{:g}", display.black_cd_m2));
   texts.emplace_back("Degrees per pixel", fmt::format("{:.6g}", human.degrees_per_pixel));
+  texts.emplace_back("Limits of sight", limits_of_sight(human));
   return png_of(tone_human(balanced, human), texts,
                 fmt::format("What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko "
                             "1997), shown on a monitor of {:g} cd/m2; luminance data is in the EXR "
@@ -230,7 +239,7 @@ XyzPicture enlarged(const XyzPicture& half, int width, int height) {
 
 ShownView::ShownView(TracedPicture picture, int paths_per_pixel, const PictureOptions& options,
                      int threads, const RegressionFilter& filter)
-    : traced(std::move(picture)), paths(paths_per_pixel), display(options.display) {
+    : traced(std::move(picture)), paths(paths_per_pixel), human(options.human) {
   if (paths >= min_filtered_paths) filtered = filter_traced(traced, threads, filter);
   raw = options.raw || !filtered;
 }
@@ -243,20 +252,20 @@ double ShownView::error() const {
 namespace {
 
 PngImage image_of(bool human, const LocalRun& run, const Camera& camera, const XyzPicture& light,
-                  const DisplayModel& display) {
+                  const HumanTone& tone) {
   const XyzPicture balanced = white_balanced(run.scene(), light);
-  return human ? human_png(run, camera, balanced, display) : plain_png(run, camera, balanced);
+  return human ? human_png(run, camera, balanced, tone) : plain_png(run, camera, balanced);
 }
 
 }  // namespace
 
 PngImage shown_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& view) {
-  return image_of(human, run, camera, view.shown(), view.display);
+  return image_of(human, run, camera, view.shown(), view.human);
 }
 
 PngImage first_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& half) {
   return image_of(human, run, camera, enlarged(half.shown(), camera.width, camera.height),
-                  half.display);
+                  half.human);
 }
 
 Result<void> write_shown_png(const std::filesystem::path& file, bool human, const LocalRun& run,

@@ -13,7 +13,7 @@ namespace luxodus {
 /// A picture with all that its files hold.
 struct ShownView {
   /// Filters it, where it has the paths for that. `options`: whether PNG files show what was
-  /// traced, and on what monitor.
+  /// traced, and as what eye on what monitor.
   ShownView(TracedPicture picture, int paths_per_pixel, const PictureOptions& options, int threads,
             const RegressionFilter& filter = {});
 
@@ -25,7 +25,7 @@ struct ShownView {
   int paths;                             // per pixel
   std::optional<FilteredView> filtered;  // nothing where there are too few paths
   bool raw;
-  DisplayModel display;
+  HumanTone human;
 };
 
 /// In the order of `view_endings`.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <glm/glm.hpp>
 #include <limits>
 #include <stdexcept>
 
@@ -19,6 +20,12 @@ constexpr double unseen_weight = 0.01;
 // A band with less than this share of the emission is dark: its average would be a ratio of
 // roundings.
 constexpr double dark_share = 1e-12;
+// A tristimulus value that is off by less than this share of the luminous flux is left.
+constexpr double told_colour = 1e-6;
+// Of the watts of a band, for the sake of chromaticity.
+constexpr double max_colour_loss = 0.8;
+// Determinant of the bands' colours over the product of its diagonal: less is rounding.
+constexpr double min_independence = 1e-9;
 constexpr double bin_nm = 20.0;
 constexpr int bins = 20;
 
@@ -160,6 +167,48 @@ Bands::Bands(const std::vector<double>& edges_nm, const Spectrum& total_emission
 double Bands::power(const Spectrum& emission_w_per_nm, int b) const {
   const Band& band = (*this)[b];
   return integral_over(emission_w_per_nm, band.low_nm, band.high_nm);
+}
+
+std::vector<double> Bands::powers(const Spectrum& shape, double lumens) const {
+  // Tristimulus values by the colour matching functions, scaled so that Y is the luminous flux.
+  const double y = integral_over(shape * cie_y(), spectrum_first_nm, spectrum_last_nm);
+  const auto tristimulus = [&](const Spectrum& response) {
+    return integral_over(shape * response, spectrum_first_nm, spectrum_last_nm) / y * lumens;
+  };
+  const glm::dvec3 wanted(tristimulus(cie_x()), lumens, tristimulus(cie_z()));
+  const auto of_band = [](const Band& band) {
+    return glm::dvec3(band.x_per_w, band.lm_per_w, band.z_per_w);
+  };
+  std::vector<double> watts;
+  double flux = 0;
+  for (int b = 0; b < count(); ++b) {
+    watts.push_back(power(shape, b));
+    flux += watts.back() * (*this)[b].lm_per_w;
+  }
+  glm::dvec3 missing = wanted;
+  glm::dmat3 normal(0);
+  int lit = 0;
+  for (size_t b = 0; b < bands_.size(); ++b) {
+    watts[b] *= lumens / flux;
+    const glm::dvec3 c = of_band(bands_[b]);
+    missing -= watts[b] * c;
+    normal += watts[b] * glm::outerProduct(c, c);
+    if (watts[b] > 0) ++lit;
+  }
+  missing.y = 0;  // but for roundings
+  if (lit < 3 || glm::length(missing) < told_colour * lumens) return watts;
+  // Bands of deep red alone have no Z, or one chromaticity.
+  const double independent = glm::determinant(normal);
+  if (!(independent > min_independence * normal[0][0] * normal[1][1] * normal[2][2])) return watts;
+  // The least sum of squared changes by watts, under three linear constraints.
+  const glm::dvec3 multiplier = glm::inverse(normal) * missing;
+  double step = 1;
+  for (const Band& band : bands_)
+    step = std::min(
+        step, max_colour_loss / std::max(max_colour_loss, -glm::dot(multiplier, of_band(band))));
+  for (size_t b = 0; b < bands_.size(); ++b)
+    watts[b] *= 1 + step * glm::dot(multiplier, of_band(bands_[b]));
+  return watts;
 }
 
 double Bands::average(const Spectrum& property, int b) const {

@@ -30,6 +30,11 @@ class Bands {
 
   /// Integral of an emission spectrum (W/nm) over band b [W].
   double power(const Spectrum& emission_w_per_nm, int b) const;
+  /// Watts in each band of light of this shape and luminous flux: as near to those of the spectrum
+  /// as its chromaticity allows, which the bands' coefficients, those of all the scene's light,
+  /// would miss. No band loses more than four fifths for that; where fewer than three bands of
+  /// independent colours are lit, only the flux is exact. Requires: shape has luminous flux.
+  std::vector<double> powers(const Spectrum& shape, double lumens) const;
   /// Average of a property (reflectance, extinction) over band b, weighted by emission times
   /// (V + 0.01): right for luminance, defined where V vanishes.
   double average(const Spectrum& property, int b) const;

@@ -17,11 +17,13 @@ namespace luxodus {
 
 namespace {
 
-/// Green of signs in public drawings, sRGB #237F52 (ISO 3864-4 region of safety green).
-Spectrum safety_green_shape() {
-  return emission_shape_from_linear_srgb(linear_from_srgb(0x23 / 255.0),
-                                         linear_from_srgb(0x7F / 255.0),
-                                         linear_from_srgb(0x52 / 255.0));
+/// Green of signs in public drawings, sRGB #237F52 (ISO 3864-4 region of safety green), as a film
+/// before the lamp that gives white: beside that white it has this colour, whatever the lamp is.
+Spectrum safety_green_shape(const Spectrum& white) {
+  const Spectrum light = white * reflectance_from_linear_srgb(linear_from_srgb(0x23 / 255.0),
+                                                              linear_from_srgb(0x7F / 255.0),
+                                                              linear_from_srgb(0x52 / 255.0));
+  return light * (1 / light.integral());
 }
 
 std::string lower_extension(const std::filesystem::path& path) {
@@ -198,8 +200,8 @@ void read_sign_itself(KeyReader& keys, Sign& sign) {
   }
   sign.group = keys.text("group");
   sign.white_shape = emission_shape(keys, "white_spectrum");
-  sign.green_shape =
-      keys.has("green_spectrum") ? emission_shape(keys, "green_spectrum") : safety_green_shape();
+  sign.green_shape = keys.has("green_spectrum") ? emission_shape(keys, "green_spectrum")
+                                                : safety_green_shape(sign.white_shape);
   sign.white_reflectance = property(keys, "white_reflectance");
   sign.green_reflectance = property(keys, "green_reflectance");
   read_luminances(keys, sign);
@@ -220,7 +222,7 @@ void make_generic_sign(Sign& sign) {
   sign.mains = {500, 50};
   sign.emergency = {200, 20};
   sign.white_shape = emission_shape_from_linear_srgb(1, 1, 1);
-  sign.green_shape = safety_green_shape();
+  sign.green_shape = safety_green_shape(sign.white_shape);
   // The text fits: letters, stroke and face are those above.
   sign.face = face_from_text(sign.text, width_m, height_m, letter_m, stroke_m, spacing_m,
                              SignColour::white, texels)

@@ -198,7 +198,8 @@ TableSpec sign_keys() {
           {"white_spectrum", "emission", "", "\"led 4000 K\"", "[0, 1e9]",
            "shape of white's spectrum"},
           {"green_spectrum", "emission", "", "", "[0, 1e9]",
-           "shape of green's spectrum; the colour sRGB #237F52 unless said"},
+           "shape of green's spectrum; unless said that of white through a film of the colour sRGB "
+           "#237F52"},
           {"white_reflectance", "reflectance", "", "0.7", "[0, 1]", "reflectance of white"},
           {"green_reflectance", "reflectance", "", "0.15", "[0, 1]", "reflectance of green"},
           {"circuit", "name", "", "", "", "circuit it hangs on"},

@@ -257,16 +257,13 @@ CompiledEmitter compile_emitter(const ActiveSource& s, const CompiledScene& scen
   } else {
     compile_sign_face(out, s, scene);
   }
-  // The bands' efficacies hold for the scene's light as a whole; an emitter of another spectrum is
-  // scaled so that its lumens are exact.
-  const int bands = scene.bands.count();
-  double lumens = 0;
-  for (int b = 0; b < bands; ++b) {
-    out.power_w.push_back(s.watts * scene.bands.power(s.shape, b));
-    lumens += out.power_w.back() * scene.bands[b].lm_per_w;
-  }
-  if (lumens > 0) {
-    for (double& p : out.power_w) p *= s.lumens / lumens;
+  // The bands' coefficients hold for the scene's light as a whole; of an emitter of another
+  // spectrum the lumens and the colour are exact.
+  if (s.lumens > 0) {
+    out.power_w = scene.bands.powers(s.shape, s.lumens);
+  } else {
+    for (int b = 0; b < scene.bands.count(); ++b)
+      out.power_w.push_back(s.watts * scene.bands.power(s.shape, b));
   }
   return out;
 }

@@ -2,6 +2,7 @@
 // any thread. Written to files by scenes/images and actors/display; made here by tone.hpp.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,6 +18,12 @@ struct XyzPicture {
 
   size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
 };
+
+/// Whether a pixel is light, if it be none: no number that went wrong.
+inline bool is_light(const XyzPicture& picture, size_t i) {
+  const float* xyz = &picture.xyz[3 * i];
+  return std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]) && xyz[1] >= 0;
+}
 
 /// Row-major, top row first, 3 bytes per pixel, sRGB (IEC 61966-2-1).
 struct SrgbPicture {

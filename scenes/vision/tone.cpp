@@ -1,6 +1,6 @@
 // Both operators carry a pixel's colour along: its XYZ is divided by its luminance and multiplied
 // by the display's. Where a channel would pass the monitor's white all three are scaled alike, so
-// that hue and saturation stay and luminance gives way.
+// that hue and saturation stay and luminance gives way; but for colours of fire, which turn yellow.
 #include "scenes/vision/tone.hpp"
 
 #include <algorithm>
@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "scenes/optics/chromaticity.hpp"
+#include "scenes/vision/eye_glare.hpp"
+#include "scenes/vision/foveal_cells.hpp"
 #include "scenes/vision/mesopic.hpp"
 
 namespace luxodus {
@@ -35,12 +37,6 @@ Pixel pixel(const XyzPicture& picture, size_t i) {
   return p;
 }
 
-// Whether a pixel is light, if it be none: no number that went wrong.
-bool is_light(const XyzPicture& picture, size_t i) {
-  const float* xyz = &picture.xyz[3 * i];
-  return std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]) && xyz[1] >= 0;
-}
-
 double leading(const std::array<double, 3>& rgb) {
   return std::max({rgb[0], rgb[1], rgb[2]});
 }
@@ -62,6 +58,15 @@ std::array<double, 3> shown_colour(const Xyz& xyz, double shown) {
 void put_scaled(SrgbPicture& out, const std::array<double, 3>& rgb, double to) {
   const double most = leading(rgb);
   for (const double v : rgb) out.rgb.push_back(srgb_byte(most > 0 ? v / most * to : 0));
+}
+
+// How much a colour is one of fire, from red to amber: 1 where its channels are a quarter of the
+// leading one apart, red first and blue last; 0 where they are in another order. Beyond the white
+// that a picture takes by itself such colours burn out channel by channel, as on film: the core of
+// a flame turns yellow, and stands out from a wall that it lights. A sign's green would turn cyan.
+double warmth(const std::array<double, 3>& rgb) {
+  const double apart = std::min(rgb[0] - rgb[1], rgb[1] - rgb[2]);
+  return std::clamp(4 * apart / leading(rgb), 0.0, 1.0);
 }
 
 SrgbPicture empty_like(const XyzPicture& picture) {
@@ -96,14 +101,16 @@ Exposure exposure_of(const XyzPicture& picture, const PlainTone& tone) {
   return {factor, std::max(1.0, factor * lit[rank])};
 }
 
+// How much of a colour burns out whose leading channel is exposed so far.
+double burnt_share(const Exposure& exposure, double lead, const std::array<double, 3>& rgb) {
+  return lead > exposure.white ? (1 - exposure.white / lead) * warmth(rgb) : 0;
+}
+
 // ---- human --------------------------------------------------------------------------------------
 
 constexpr int histogram_bins = 100;       // Ward Larson et al. 1997
 constexpr double trim_tolerance = 0.025;  // their share of the histogram that a pass may still cut
 constexpr int max_passes = 200;
-constexpr double fovea_deg = 1.0;
-// A small picture is not averaged into fewer cells than this: a histogram of ten is none.
-constexpr double min_cells = 256;
 
 struct LogHistogram {
   double log_low = 0;
@@ -162,6 +169,11 @@ bool trim_to_human_contrast(LogHistogram& h, double log_black, double log_white)
   return true;
 }
 
+// The leading channel of a colour as a camera with this exposure has it.
+double lead_of_colour(const Pixel& p, const Exposure& exposure) {
+  return p.luminance > 0 ? leading(shown_colour(p.xyz, exposure.factor * p.luminance)) : 0;
+}
+
 // One factor for all, so that what is just visible in the scene is just visible on the display
 // (Ward 1994): the eye before the display adapts to half of its white.
 ToneCurve linear_curve(const std::vector<double>& luminances, const DisplayModel& display) {
@@ -179,28 +191,16 @@ ToneCurve linear_curve(const std::vector<double>& luminances, const DisplayModel
 
 // What each pixel looks like to the adapted eye, and the mean of that over cells of one degree.
 struct Seen {
-  int cell_px = 1;
-  int cells_wide = 0;
+  FovealCells cells;
   std::vector<double> cell_adaptation;  // m of CIE 191, per cell
   std::vector<double> cell_luminance;   // mesopic [cd/m2], per cell
   std::vector<double> pixel_photopic;   // [cd/m2]
   std::vector<double> pixel_scotopic;   // [scotopic cd/m2]
-
-  size_t cell_of(int x, int y) const {
-    return static_cast<size_t>(y / cell_px) * static_cast<size_t>(cells_wide) +
-           static_cast<size_t>(x / cell_px);
-  }
 };
 
 Seen see(const XyzPicture& picture, const HumanTone& tone) {
-  Seen seen;
-  const auto n = static_cast<double>(picture.pixels());
-  const double widest = std::max(1.0, std::floor(std::sqrt(n / min_cells)));
-  const double wanted = tone.degrees_per_pixel > 0 ? fovea_deg / tone.degrees_per_pixel : 1;
-  seen.cell_px = static_cast<int>(std::clamp(std::round(wanted), 1.0, widest));
-  seen.cells_wide = (picture.width + seen.cell_px - 1) / seen.cell_px;
-  const int cells_high = (picture.height + seen.cell_px - 1) / seen.cell_px;
-  const size_t cells = static_cast<size_t>(seen.cells_wide) * static_cast<size_t>(cells_high);
+  Seen seen{FovealCells(picture, tone.degrees_per_pixel), {}, {}, {}, {}};
+  const size_t cells = seen.cells.count();
   std::vector<double> photopic(cells, 0.0), scotopic(cells, 0.0), members(cells, 0.0);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
@@ -211,7 +211,7 @@ Seen see(const XyzPicture& picture, const HumanTone& tone) {
       if (!(s > 0) || !std::isfinite(s)) s = 0;
       seen.pixel_photopic.push_back(p.luminance);
       seen.pixel_scotopic.push_back(s);
-      const size_t c = seen.cell_of(x, y);
+      const size_t c = seen.cells.cell_of(x, y);
       photopic[c] += p.luminance;
       scotopic[c] += s;
       members[c] += 1;
@@ -269,32 +269,11 @@ double mean_around(const SummedArea& sums, const XyzPicture& picture, int x, int
   return (1 - more) * within(reach) + more * within(reach + 1);
 }
 
-// A value of cells at a pixel, bilinear between the centres of the cells, so that no cell shows as
-// a square.
-double at_pixel(const Seen& seen, const std::vector<double>& by_cell, int x, int y) {
-  const int wide = seen.cells_wide;
-  const int high = static_cast<int>(by_cell.size()) / wide;
-  const auto place = [&](int pixel_index, int cells) {
-    const double at = (pixel_index + 0.5) / seen.cell_px - 0.5;
-    return std::clamp(at, 0.0, static_cast<double>(cells - 1));
-  };
-  const double u = place(x, wide), v = place(y, high);
-  const int i = std::min(static_cast<int>(u), std::max(0, wide - 2));
-  const int j = std::min(static_cast<int>(v), std::max(0, high - 2));
-  const double fu = u - i, fv = v - j;
-  const auto m = [&](int a, int b) {
-    return by_cell[static_cast<size_t>(std::min(b, high - 1)) * static_cast<size_t>(wide) +
-                   static_cast<size_t>(std::min(a, wide - 1))];
-  };
-  return (1 - fv) * ((1 - fu) * m(i, j) + fu * m(i + 1, j)) +
-         fv * ((1 - fu) * m(i, j + 1) + fu * m(i + 1, j + 1));
-}
-
 // The picture as an eye resolves it: each pixel is the mean over the finest spot, half a cycle of
 // the finest grating, of an eye that is adapted to its degree of view.
 XyzPicture as_resolved(const XyzPicture& picture, const Seen& seen, double degrees_per_pixel) {
   const auto spot_px = [&](int x, int y) {
-    const double adaptation = at_pixel(seen, seen.cell_luminance, x, y);
+    const double adaptation = seen.cells.at_pixel(seen.cell_luminance, x, y);
     return 0.5 / (visual_acuity_cycles_per_degree(adaptation) * degrees_per_pixel);
   };
   const double darkest = *std::min_element(seen.cell_luminance.begin(), seen.cell_luminance.end());
@@ -331,19 +310,6 @@ double shoulder(double exposed, double white) {
   return shoulder_knee + (1 - shoulder_knee) * slope * t / (1 + (slope - 1) * t);
 }
 
-namespace {
-
-/// How much a colour is one of fire, from red to amber: 1 where its channels are a quarter of the
-/// leading one apart, red first and blue last; 0 where they are in another order. Beyond the white
-/// that a picture takes by itself such colours burn out channel by channel, as on film: the core of
-/// a flame turns yellow, and stands out from a wall that it lights. A sign's green would turn cyan.
-double warmth(const std::array<double, 3>& rgb) {
-  const double apart = std::min(rgb[0] - rgb[1], rgb[1] - rgb[2]);
-  return std::clamp(4 * apart / leading(rgb), 0.0, 1.0);
-}
-
-}  // namespace
-
 SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone) {
   const Exposure exposure = exposure_of(picture, tone);
   SrgbPicture out = empty_like(picture);
@@ -354,8 +320,7 @@ SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone) {
     // The leading channel meets the shoulder, not the luminance: a green that is as bright as white
     // would have to be white, and a sign's legend would be lost on it.
     const double lead = leading(rgb), to = shoulder(lead, exposure.white);
-    const bool far = !tone.white_cd_m2 && lead > exposure.white;
-    const double burnt = far ? (1 - exposure.white / lead) * warmth(rgb) : 0;
+    const double burnt = tone.white_cd_m2 ? 0 : burnt_share(exposure, lead, rgb);
     for (double& v : rgb) {
       const double scaled = lead > 0 ? v / lead * to : 0;
       v = scaled + burnt * (shoulder(v, exposure.white) - scaled);
@@ -429,16 +394,19 @@ double visual_acuity_cycles_per_degree(double adaptation_cd_m2) {
 SrgbPicture tone_human(const XyzPicture& whole, const HumanTone& tone) {
   SrgbPicture out = empty_like(whole);
   if (whole.pixels() == 0) return out;
-  Seen seen = see(whole, tone);
-  XyzPicture picture = whole;
-  if (tone.lose_acuity && tone.degrees_per_pixel > 0) {
-    picture = as_resolved(whole, seen, tone.degrees_per_pixel);
+  const bool angles_known = tone.degrees_per_pixel > 0;
+  XyzPicture picture =
+      tone.glare && angles_known ? with_eye_glare(whole, tone.degrees_per_pixel) : whole;
+  Seen seen = see(picture, tone);
+  if (tone.lose_acuity && angles_known) {
+    picture = as_resolved(picture, seen, tone.degrees_per_pixel);
     // Cells stay what they were: adaptation is taken before the blur.
     const Seen resolved = see(picture, tone);
     seen.pixel_photopic = resolved.pixel_photopic;
     seen.pixel_scotopic = resolved.pixel_scotopic;
   }
   const ToneCurve curve = human_curve(seen.cell_luminance, tone.display);
+  const Exposure exposure = exposure_of(picture, {});  // beyond whose white fire burns out
   const double black = tone.display.black_cd_m2;
   const double range = tone.display.white_cd_m2 - black;
   for (int y = 0; y < picture.height; ++y)
@@ -446,7 +414,7 @@ SrgbPicture tone_human(const XyzPicture& whole, const HumanTone& tone) {
       const size_t i =
           static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(x);
       Pixel p = pixel(picture, i);
-      const double m = at_pixel(seen, seen.cell_adaptation, x, y);
+      const double m = seen.cells.at_pixel(seen.cell_adaptation, x, y);
       const double l = mesopic_luminance_adapted(seen.pixel_photopic[i], seen.pixel_scotopic[i], m);
       if (tone.lose_colour && p.luminance > 0) {
         // Rods see no colour: the cones' share of the adaptation is the share of the colour kept.
@@ -457,7 +425,13 @@ SrgbPicture tone_human(const XyzPicture& whole, const HumanTone& tone) {
       if (p.luminance > 0) {
         rgb = shown_colour(p.xyz, std::clamp((curve.display(l) - black) / range, 0.0, 1.0));
       }
-      put_scaled(out, rgb, std::min(leading(rgb), 1.0));
+      const double lead = leading(rgb), to = std::min(lead, 1.0);
+      const double burnt = lead > 1 ? burnt_share(exposure, lead_of_colour(p, exposure), rgb) : 0;
+      for (double& v : rgb) {
+        const double scaled = lead > 0 ? v / lead * to : 0;
+        v = scaled + burnt * (std::min(v, 1.0) - scaled);
+      }
+      put_scaled(out, rgb, leading(rgb));
     }
   return out;
 }

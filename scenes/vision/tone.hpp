@@ -2,9 +2,9 @@
 // is a camera: one exposure, one shoulder. `human` shows what an adapted eye could tell apart:
 // histogram adjustment with human contrast limits (Ward Larson, Rushmeier and Piatko, "A visibility
 // matching tone reproduction operator for high dynamic range scenes", IEEE TVCG 3(4), 1997), their
-// loss of acuity in the dark, and the loss of colour at low light (CIE 191). It adds no veil: glare
-// belongs to the light that reaches the eye and is computed elsewhere. Nothing is judged from these
-// pictures: a sign is judged from luminance data. Pure functions; any thread.
+// glare of the eye and loss of acuity in the dark, and the loss of colour at low light (CIE 191).
+// Nothing is judged from these pictures: a sign is judged from luminance data. Pure functions; any
+// thread.
 #pragma once
 
 #include <optional>
@@ -47,9 +47,10 @@ struct DisplayModel {
 
 struct HumanTone {
   DisplayModel display;
-  /// Angle of view of one pixel [degrees]: adaptation is taken over 1 degree, the size of the
-  /// fovea.
+  /// Angle of view of one pixel in the middle [degrees]: adaptation is taken over 1 degree, the
+  /// size of the fovea. 0: not known; then there is neither glare nor loss of acuity.
   double degrees_per_pixel = 0.1;
+  bool glare = true;        // light scattered within the eye veils what is beside it
   bool lose_colour = true;  // desaturate by mesopic and scotopic adaptation
   bool lose_acuity = true;  // blur what an eye as dark-adapted does not resolve
 };

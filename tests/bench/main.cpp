@@ -13,8 +13,8 @@ namespace {
 
 struct Options {
   int repeats = 9;
-  double share = 1;   // of the particles and paths of images and allocation
-  std::string scene;  // of merit: those that begin so
+  double share = 1;   // of the particles and paths of images, bias and allocation
+  std::string scene;  // of merit and bias: those that begin so
   std::string pack;   // of residency
 };
 
@@ -38,6 +38,7 @@ constexpr Table tables[] = {
     {"residency", [](const Options& o) { luxodus::bench::print_residency(o.pack); }},
     {"merit", [](const Options& o) { luxodus::bench::print_merit(o.repeats, o.scene); }},
     {"images", [](const Options& o) { luxodus::bench::print_images(o.share); }},
+    {"bias", [](const Options& o) { luxodus::bench::print_bias(o.share, o.scene); }},
     {"colours", [](const Options& o) { luxodus::bench::print_colours(o.share); }},
     {"rooms", [](const Options& o) { luxodus::bench::print_rooms(o.share); }},
     {"features", [](const Options& o) { luxodus::bench::print_features(o.repeats); }},

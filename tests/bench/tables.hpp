@@ -39,6 +39,9 @@ void print_merit(int turns, const std::string& scene);
 /// How far pictures are from a long run, by paths and seconds, and by the size of patches; with a
 /// share of the particles and of the long picture's paths.
 void print_images(double share);
+/// How far pictures that end in patches and voxels are off in the mean, by the voxels' edge, on the
+/// scenes whose names begin so; with a share of the particles and of the paths.
+void print_bias(double share, const std::string& scene);
 /// What paths of all bands gain over paths of one, and how true colours of filtered pictures are;
 /// with a share of the particles and of the long picture's paths.
 void print_colours(double share);

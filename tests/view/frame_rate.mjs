@@ -35,7 +35,7 @@ const server = process.argv[2] ? null : new MockServer();
 const address = process.argv[2] ?? `http://127.0.0.1:${await server.listen()}/`;
 const browser = await chromium.launch({
   executablePath: process.env.LUX_CHROMIUM ?? '/usr/bin/chromium', args: flags });
-const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
+const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
 await page.goto(address);
 await page.waitForFunction(() => window.luxodus?.page.live.shown?.surfaces?.groups.size > 0 &&
   window.luxodus.page.live.shown.air?.groups.size > 0, null, { timeout: 180_000 });

@@ -56,6 +56,78 @@ TEST_CASE("the light of the scene summed over bands is its spectral flux", "[opt
   }
 }
 
+TEST_CASE("light of any shape has its lumens and its colour in the bands of other light",
+          "[optics][bands]") {
+  // Six bands as coarse as scenes have them, weighted by lamps.
+  const Bands bands({380, 455, 500, 550, 600, 650, 780}, white_led_shape(4000));
+  const Spectrum green = emission_shape_from_linear_srgb(0.0168, 0.2122, 0.0843);
+  for (const Spectrum& e : {green, illuminant_a_shape(), illuminant_d65_shape(),
+                            white_led_shape(2700), blackbody_shape(1400), equal_energy_shape()}) {
+    const std::vector<double> watts = bands.powers(e, 300);
+    double x = 0, y = 0, z = 0;
+    for (int b = 0; b < bands.count(); ++b) {
+      const double w = watts[static_cast<size_t>(b)];
+      CHECK(w > 0);
+      x += w * bands[b].x_per_w;
+      y += w * bands[b].lm_per_w;
+      z += w * bands[b].z_per_w;
+    }
+    CHECK(y == Approx(300).epsilon(1e-12));
+    const double lit = e.integral_with(cie_y());
+    CHECK(x / y == Approx(e.integral_with(cie_x()) / lit).epsilon(1e-6));
+    CHECK(z / y == Approx(e.integral_with(cie_z()) / lit).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("the scene's own light keeps its spectrum, and two bands keep the lumens alone",
+          "[optics][bands]") {
+  const Spectrum lamp = white_led_shape(4000);
+  const Bands own({380, 455, 500, 550, 600, 650, 780}, lamp);
+  const double lumens = efficacy_lm_per_w(lamp);  // of a watt
+  const std::vector<double> watts = own.powers(lamp, lumens);
+  for (int b = 0; b < own.count(); ++b)
+    CHECK(watts[static_cast<size_t>(b)] == Approx(own.power(lamp, b)).epsilon(1e-9));
+  const Bands two({380, 550, 780}, lamp);
+  const Spectrum flame = blackbody_shape(1400);
+  const std::vector<double> scaled = two.powers(flame, 100);
+  CHECK(scaled[0] * two[0].lm_per_w + scaled[1] * two[1].lm_per_w == Approx(100));
+  CHECK(scaled[0] / scaled[1] == Approx(two.power(flame, 0) / two.power(flame, 1)));
+}
+
+TEST_CASE("light of deep red bands alone, which have one colour, keeps its lumens",
+          "[optics][bands]") {
+  const Bands bands({380, 600, 700, 720, 740, 780}, white_led_shape(4000));
+  for (const double from : {605.0, 700.0}) {
+    Spectrum red;
+    for (int i = 0; i < spectrum_samples; ++i)
+      red.value[static_cast<size_t>(i)] = Spectrum::wavelength_nm(i) > from ? 1 : 0;
+    double lumens = 0;
+    const std::vector<double> watts = bands.powers(red, 20);
+    for (int b = 0; b < bands.count(); ++b) {
+      CHECK(std::isfinite(watts[static_cast<size_t>(b)]));
+      CHECK(watts[static_cast<size_t>(b)] >= 0);
+      lumens += watts[static_cast<size_t>(b)] * bands[b].lm_per_w;
+    }
+    CHECK(lumens == Approx(20));
+  }
+}
+
+TEST_CASE("a colour that bands cannot give is approached, and no band goes out",
+          "[optics][bands]") {
+  // A laser in bands of 4000 K lamps: its own band alone has its light.
+  const Bands bands({380, 455, 500, 550, 600, 650, 780}, white_led_shape(4000));
+  const Spectrum laser = made([](double w) { return std::abs(w - 532) < 6 ? 1.0 : 1e-4; });
+  const std::vector<double> watts = bands.powers(laser, 100);
+  double lumens = 0, plain = 0;
+  for (int b = 0; b < bands.count(); ++b) plain += bands.power(laser, b) * bands[b].lm_per_w;
+  for (int b = 0; b < bands.count(); ++b) {
+    const double w = watts[static_cast<size_t>(b)];
+    CHECK(w >= 0.199 * bands.power(laser, b) * 100 / plain);
+    lumens += w * bands[b].lm_per_w;
+  }
+  CHECK(lumens == Approx(100).epsilon(1e-9));
+}
+
 TEST_CASE("light of another shape keeps its watts, and its lumens nearly, in narrow bands",
           "[optics][bands]") {
   std::vector<double> edges;

@@ -160,6 +160,31 @@ TEST_CASE("a flame far beyond a picture's white turns yellow, and the wall behin
         Approx(0.4 * test::linear_of_srgb_byte(shown.g)).margin(0.01));
 }
 
+TEST_CASE("in a human view a flame is yellow, the wall beside it orange, and a sign green",
+          "[vision][tone]") {
+  // A room of 30 cd/m2, a wall of 300, a flame of 4000.
+  const std::array<double, 3> orange{1, 0.27, 0.01};
+  XyzPicture p = row(std::vector<double>(950, 30), orange);
+  for (const double level : {300.0, 4000.0}) {
+    const XyzPicture more = row(std::vector<double>(25, level), orange);
+    p.xyz.insert(p.xyz.end(), more.xyz.begin(), more.xyz.end());
+  }
+  p.width = 1000;
+  HumanTone eye;
+  eye.glare = false;  // a row of pixels has no picture beside it
+  const SrgbPicture out = tone_human(p, eye);
+  const auto green = [](const Rgb8& c) {
+    return test::linear_of_srgb_byte(c.g) / test::linear_of_srgb_byte(c.r);
+  };
+  const Rgb8 wall = at(out, 960), flame = at(out, 990);
+  CHECK(green(flame) > green(wall) + 0.1);
+  CHECK(luminance(flame) > luminance(wall) + 0.1);
+  CHECK(flame.b < flame.g);
+  const SrgbPicture sign = tone_human(row({1, 10, 3000}, {0.05, 1, 0.4}), eye);
+  CHECK(test::linear_of_srgb_byte(at(sign, 2).b) ==
+        Approx(0.4 * test::linear_of_srgb_byte(at(sign, 2).g)).margin(0.02));
+}
+
 TEST_CASE("the white legend of an overexposed sign is readable on its green", "[vision][tone]") {
   // A dark corridor of 0.1 cd/m2; the sign has 75 and 15.
   XyzPicture p = row(std::vector<double>(900, 0.1));
@@ -373,6 +398,7 @@ TEST_CASE("a grey ramp is shown as a ramp", "[vision][tone]") {
   for (const DisplayModel& display : displays) {
     HumanTone tone;
     tone.display = display;
+    tone.glare = false;  // seven decades in 25 degrees dazzle: the dark end would be all veil
     const SrgbPicture out = tone_human(p, tone);
     for (size_t x = 1; x < 256; ++x) CHECK(at(out, 4 * 256 + x).g >= at(out, 4 * 256 + x - 1).g);
     CHECK(at(out, 4 * 256 + 255).g > at(out, 4 * 256).g + 100);

@@ -18,7 +18,7 @@ const nothingCut = 1e9;
 const ratioMost = 2;
 /** The raster becomes coarser until a picture takes no longer than this. */
 const slowest_ms = { moving: 45, still: 300 };
-const coarsest = { moving: 0.3, still: 0.4 };
+const coarsest = { moving: 0.2, still: 0.4 };
 
 function target(options = {}) {
   return new THREE.WebGLRenderTarget(1, 1, {
