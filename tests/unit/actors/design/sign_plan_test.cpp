@@ -14,20 +14,17 @@
 #include "scenes/emergency/guidance.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
-#include "tests/unit/actors/design/silent.hpp"
+#include "tests/unit/actors/design/design_scenes.hpp"
 
 namespace luxodus {
 namespace {
 
+using test::route;
 using test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 std::string hall(double x, double y, double z) {
-  return fmt::format(
-      "[[object]]\nname = \"room\"\nshape = \"room\"\nlow = [0, 0, 0]\nhigh = [{}, {}, {}]\n"
-      "material = \"white50\"\n[assessment]\nrules = [\"en1838-2013\"]\n[[scenario]]\nname = "
-      "\"failed\"\noperation = \"emergency\"\n",
-      x, y, z);
+  return test::box_room(x, y, z) + test::judged_2013;
 }
 
 std::string partition(const char* name, const char* low, const char* high) {
@@ -37,18 +34,11 @@ std::string partition(const char* name, const char* low, const char* high) {
       name, low, high);
 }
 
-std::string route(const char* name, const std::string& path) {
-  return fmt::format("[[route]]\nname = \"{}\"\npath = [{}]\nwidth = 1\n", name, path);
-}
-
 DesignResult designed_with_signs(const fs::path& file) {
   DesignOptions options;
-  options.threads = 2;
   options.gap = 0.2;
-  auto result = design(test::described(file), options, test::nobody, test::silent);
-  INFO((result ? "" : result.problem().text()));
-  REQUIRE(result);
-  return std::move(result).value();
+  options.what_binds = false;
+  return test::designed(file, options);
 }
 
 /// The scene of the layout, read from the file that it was written to.
