@@ -22,6 +22,9 @@ constexpr int max_verifications = 8;
 constexpr double share_for_binding = 0.25;
 /// Of the time of the search, what may go into finding out why no layout exists [s].
 constexpr double conflict_seconds = 60;
+/// Of layouts that differ so many are made for each that is judged in smoke: most hold by the
+/// rules, and fewer when their luminaires are off their places.
+constexpr size_t tries_of_each = 4;
 constexpr double no_objective = std::numeric_limits<double>::infinity();
 
 /// A scene without scenarios is as written: to be judged it needs one in emergency operation.
@@ -452,12 +455,12 @@ class Designing {
     };
     tell("looking for other layouts");
     AlternativesWish wish;
-    wish.count = scene_->design->alternatives;
+    wish.count = tries_of_each * scene_->design->alternatives;
     wish.seed = options_.seed;
     std::vector<JudgedLayout> layouts{contender("A", out_, out_.answer.layout)};
     for (const Layout& chosen :
          alternatives_to(demands_->problem(), out_.answer.layout, wish, interrupt_)) {
-      if (interrupt_) break;
+      if (interrupt_ || layouts.size() > scene_->design->alternatives) break;
       tell("assessing other layouts by the rules");
       if (const auto holds = holds_off_place(chosen); !holds)
         return holds.problem();

@@ -381,6 +381,30 @@ emergency_green = 30
   CHECK(out.left_out.forbidden > 0);
 }
 
+TEST_CASE("a circuit that only a type of a design hangs on is known to scenarios",
+          "[design][signs]") {
+  const auto scene =
+      test::described_text(test::box_room(20, 2, 3) + test::judged_2013 +
+                           "circuits = { B = 0.5 }\n" + test::way_along(1, 19, 1) + R"(
+[design]
+place_signs = true
+[[design.sign]]
+name = "group B"
+circuit = "B"
+plain = "green"
+smallest_detail = 0.02
+width = 0.3
+height = 0.15
+mains_white = 500
+mains_green = 60
+emergency_white = 200
+emergency_green = 30
+)");
+  REQUIRE(scene->design->sign_types.size() == 1);
+  const SceneDescription switched = as_switched(*scene, scene->scenarios.front());
+  CHECK(switched.design->sign_types[0].sign.emergency.white_cd_m2 == Approx(100));
+}
+
 TEST_CASE("a sign that is lit from outside gets its luminaire", "[design][signs]") {
   const TemporaryFolder folder;
   const fs::path file =
