@@ -66,6 +66,13 @@ class LowPlace {
   std::optional<double> height_;
 };
 
+std::string free_name(const SceneDescription& scene, std::string name) {
+  while (std::any_of(scene.signs.begin(), scene.signs.end(),
+                     [&](const Sign& sign) { return sign.name == name; }))
+    name += "+";
+  return name;
+}
+
 }  // namespace
 
 std::vector<LowSign> low_signs_of(const SceneDescription& scene, const Building& building) {
@@ -76,7 +83,7 @@ std::vector<LowSign> low_signs_of(const SceneDescription& scene, const Building&
       const auto place = LowPlace(scene, building, access, sign).find();
       if (!place) continue;
       LowSign low{sign.name, sign};
-      low.sign.name = sign.name + " (low)";
+      low.sign.name = free_name(scene, sign.name + " (low)");
       low.sign.frame.origin = *place;
       out.push_back(std::move(low));
     }

@@ -17,8 +17,8 @@ std::vector<double> direct_by_emitter(const CompiledScene& scene, const Geometry
                                       const Vec3& point, const Vec3& normal,
                                       const DirectOptions& options);
 
-/// All direct light at a point by each of these emitters, in their order: with and without media, and as if
-/// nothing solid were in the way.
+/// All direct light at a point by each of these emitters, in their order: with and without media,
+/// and as if nothing solid were in the way.
 std::vector<DirectFromEmitter> direct_lights(const CompiledScene& scene,
                                              const GeometryAccess& access, const Vec3& point,
                                              const Vec3& normal, const DirectOptions& options);
