@@ -1,6 +1,7 @@
 #include "actors/assess/code_light.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "actors/inspect/site.hpp"
 #include "scenes/transport/compile_light.hpp"
@@ -21,6 +22,22 @@ constexpr double faint_share = 1e-3;
 constexpr Real deepest_m = 1000, own_body_m = 0.15_r;
 /// What is met so little above a route is no floor: desks, counters [m].
 constexpr double desk_m = 1.3;
+
+/// Luminaires whose heights differ by less are looked at together, as those of a storey [m].
+constexpr double one_storey_m = 2;
+
+/// A box that holds all that an emitter may shine from.
+Bounds box_of(const CompiledEmitter& e, const glm::dvec3& origin) {
+  Bounds out;
+  for (const Vec3& corner : e.corners) out.extend(origin + glm::dvec3(corner));
+  const glm::dvec3 centre = origin + glm::dvec3(e.origin);
+  const double radius = glm::length(glm::dvec3(e.size));
+  if (e.kind != EmitterKind::mesh) {
+    out.extend(centre - radius);
+    out.extend(centre + radius);
+  }
+  return out;
+}
 
 DirectOptions clear_air() {
   DirectOptions options;
@@ -87,12 +104,46 @@ CodeLight::CodeLight(const SceneDescription& scene, const Building& building,
                      std::vector<uint32_t> places)
     : scene_(scene),
       building_(building),
+      screens_(building.scene()),
       luminaires_(emergency_luminaires(scene)),
       places_(std::move(places)) {
   if (luminaires_.empty()) return;
   const auto& emitters = building.scene().emitters;
-  for (size_t i = 0; i < emitters.size(); ++i)
+  for (uint32_t i = 0; i < emitters.size(); ++i)
     if (emitters[i].sign == none_index) columns_.push_back(i);
+  find_storeys();
+}
+
+/// From the lowest up: what is too far above the lowest of a storey begins another.
+void CodeLight::find_storeys() {
+  std::vector<uint32_t> by_height(columns_.size());
+  std::iota(by_height.begin(), by_height.end(), 0U);
+  std::vector<Bounds> boxes;
+  for (const uint32_t column : columns_)
+    boxes.push_back(box_of(building_.scene().emitters[column], building_.scene().local_origin));
+  std::stable_sort(by_height.begin(), by_height.end(),
+                   [&](uint32_t a, uint32_t b) { return boxes[a].low.z < boxes[b].low.z; });
+  for (const uint32_t i : by_height) {
+    if (storeys_.empty() || boxes[i].low.z > storeys_.back().box.low.z + one_storey_m)
+      storeys_.emplace_back();
+    storeys_.back().box.extend(boxes[i]);
+    storeys_.back().luminaires.push_back(i);
+  }
+  for (Storey& storey : storeys_) {
+    std::sort(storey.luminaires.begin(), storey.luminaires.end());
+    for (const uint32_t i : storey.luminaires) storey.boxes.push_back(boxes[i]);
+  }
+}
+
+std::vector<uint32_t> CodeLight::in_question(const glm::dvec3& place) const {
+  std::vector<uint32_t> out;
+  for (const Storey& storey : storeys_) {
+    if (screens_.hide(place, storey.box)) continue;
+    for (size_t i = 0; i < storey.luminaires.size(); ++i)
+      if (!screens_.hide(place, storey.boxes[i])) out.push_back(storey.luminaires[i]);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 std::vector<LitPoint> CodeLight::lit(const std::vector<glm::dvec3>& places,
@@ -100,8 +151,7 @@ std::vector<LitPoint> CodeLight::lit(const std::vector<glm::dvec3>& places,
   std::vector<LitPoint> out(places.size());
   building_.each(places.size(), [&](const GeometryAccess& access, size_t i) {
     out[i].place = places[i] + normal * lift_m;
-    const auto lux = light_at(access, out[i].place, normal);
-    for (const size_t column : columns_) out[i].lux.push_back(lux[column]);
+    out[i].lux = light_at(access, out[i].place, normal);
   });
   return out;
 }
@@ -110,32 +160,48 @@ std::vector<LitPoint> CodeLight::lit(const std::vector<glm::dvec3>& places,
 /// it is hidden in part.
 std::vector<double> CodeLight::light_at(const GeometryAccess& access, const glm::dvec3& place,
                                         const glm::dvec3& normal) const {
+  std::vector<double> out(columns_.size(), 0);
   const CompiledScene& scene = building_.scene();
+  const glm::vec3 local = building_.local(place), facing(normal);
+  const std::vector<uint32_t> asked = in_question(place);
   DirectOptions options = clear_air();
-  if (places_.empty())
-    return direct_by_emitter(scene, access, building_.local(place), glm::vec3(normal), options);
-  std::vector<KnownSight> first(scene.emitters.size(), KnownSight::hidden), rest = first;
-  for (size_t i = 0; i < columns_.size(); ++i)
-    if (i == 0 || places_[i] != places_[i - 1]) first[columns_[i]] = KnownSight::nothing;
-  options.known = first;
-  const auto of_first =
-      direct_lights(scene, access, building_.local(place), glm::vec3(normal), options);
-  std::vector<double> out(scene.emitters.size(), 0);
-  size_t leader = 0;
-  for (size_t i = 0; i < columns_.size(); ++i) {
-    const size_t column = columns_[i];
-    const bool leads = i == 0 || places_[i] != places_[i - 1];
-    if (leads) leader = column;
-    const DirectFromEmitter& seen = of_first[leader];
-    out[column] = leads ? seen.illuminance_lx : 0;
-    if (leads || (seen.illuminance_lx == 0 && seen.open_lx > 0)) continue;
-    const bool clear = seen.open_lx > 0 && seen.illuminance_lx >= seen.open_lx * (1 - 1e-9);
-    rest[column] = clear ? KnownSight::clear : KnownSight::nothing;
+  std::vector<uint32_t> leaders, others;
+  for (const uint32_t i : asked)
+    if (leads(i)) leaders.push_back(i);
+  std::vector<DirectFromEmitter> of_leaders;
+  std::vector<KnownSight> known(scene.emitters.size(), KnownSight::nothing);
+  if (!leaders.empty()) {
+    const auto columns = columns_of(leaders);
+    options.only = columns;
+    of_leaders = direct_lights(scene, access, local, facing, options);
   }
-  options.known = rest;
-  const auto others =
-      direct_by_emitter(scene, access, building_.local(place), glm::vec3(normal), options);
-  for (const size_t column : columns_) out[column] += others[column];
+  size_t leader = 0;
+  for (const uint32_t i : asked) {
+    while (leader + 1 < leaders.size() && leaders[leader + 1] <= i) ++leader;
+    const bool known_leader = !leaders.empty() && leaders[leader] == leader_of(i);
+    if (leads(i)) {
+      out[i] = of_leaders[leader].illuminance_lx;
+    } else if (!known_leader) {
+      others.push_back(i);  // a screen hides the first of its place alone
+    } else if (const DirectFromEmitter& seen = of_leaders[leader];
+               !(seen.illuminance_lx == 0 && seen.open_lx > 0)) {
+      const bool clear = seen.open_lx > 0 && seen.illuminance_lx >= seen.open_lx * (1 - 1e-9);
+      if (clear) known[columns_[i]] = KnownSight::clear;
+      others.push_back(i);
+    }
+  }
+  if (others.empty()) return out;
+  const auto columns = columns_of(others);
+  options.only = columns;
+  options.known = known;
+  const auto of_others = direct_by_emitter(scene, access, local, facing, options);
+  for (size_t k = 0; k < others.size(); ++k) out[others[k]] = of_others[k];
+  return out;
+}
+
+std::vector<uint32_t> CodeLight::columns_of(const std::vector<uint32_t>& luminaires) const {
+  std::vector<uint32_t> out;
+  for (const uint32_t i : luminaires) out.push_back(columns_[i]);
   return out;
 }
 
@@ -176,32 +242,31 @@ LinesOfSight CodeLight::seen_from(const std::vector<glm::dvec3>& places) const {
     const glm::dvec3 lamp = scene_.emitters[luminaires_[i]].frame.origin;
     for (const glm::dvec3& place : places) {
       const double distance = glm::length(place - lamp);
-      if (!(distance > before_opening_m)) continue;
+      if (!(distance > before_opening_m) || screens_.hide(place, {lamp, lamp})) continue;
       const glm::dvec3 before = lamp + (place - lamp) * (before_opening_m / distance);
       if (clear_share(building_.scene(), access, building_.local(place), building_.local(before)) >
               0 &&
-          shines_at(access, luminaires_[i], place))
+          shines_at(access, i, place))
         seen[i] = 1;
     }
   });
   return LinesOfSight(seen.begin(), seen.end());
 }
 
-bool CodeLight::shines_at(const GeometryAccess& access, uint32_t luminaire,
+bool CodeLight::shines_at(const GeometryAccess& access, size_t luminaire,
                           const glm::dvec3& place) const {
-  const Emitter& e = scene_.emitters[luminaire];
+  const Emitter& e = scene_.emitters[luminaires_[luminaire]];
   if (e.distribution == Distribution::web) {
     const glm::dvec3 local = glm::transpose(e.frame.axes) * glm::normalize(place - e.frame.origin);
     return e.web->intensity(local) > faint_share * e.web->peak_cd();
   }
   // Of simple shapes by what falls on a face that is turned to them.
-  const auto at = std::find(luminaires_.begin(), luminaires_.end(), luminaire);
-  const auto column = static_cast<size_t>(at - luminaires_.begin());
-  if (column >= columns_.size()) return true;
-  const auto lux =
-      direct_by_emitter(building_.scene(), access, building_.local(place),
-                        glm::vec3(glm::normalize(e.frame.origin - place)), clear_air());
-  return lux[columns_[column]] > 0;
+  if (luminaire >= columns_.size()) return true;
+  DirectOptions options = clear_air();
+  options.only = {&columns_[luminaire], 1};
+  return direct_by_emitter(building_.scene(), access, building_.local(place),
+                           glm::vec3(glm::normalize(e.frame.origin - place)), options)
+             .front() > 0;
 }
 
 std::optional<double> CodeLight::floor_under(const glm::dvec3& place) const {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "actors/assess/level_screens.hpp"
 #include "actors/inspect/building.hpp"
 #include "scenes/emergency/rules.hpp"
 
@@ -60,17 +61,36 @@ class CodeLight {
   std::optional<double> floor_under(const glm::dvec3& place) const;
 
  private:
-  /// At one point, of each emitter [lx].
+  /// Those on one storey, by number; what hides all of it is looked for once.
+  struct Storey {
+    Bounds box;
+    std::vector<uint32_t> luminaires;
+    std::vector<Bounds> boxes;  // of each
+  };
+  void find_storeys();
+  /// Luminaires that no floor slab certainly hides from a place, ascending.
+  std::vector<uint32_t> in_question(const glm::dvec3& place) const;
+  /// The first of those in the place of a luminaire.
+  uint32_t leader_of(uint32_t luminaire) const {
+    while (!leads(luminaire)) --luminaire;
+    return luminaire;
+  }
+  bool leads(uint32_t i) const { return places_.empty() || i == 0 || places_[i] != places_[i - 1]; }
+  std::vector<uint32_t> columns_of(const std::vector<uint32_t>& luminaires) const;
+
+  /// At one point, of each luminaire [lx].
   std::vector<double> light_at(const GeometryAccess& access, const glm::dvec3& place,
                                const glm::dvec3& normal) const;
   /// Whether a luminaire sends any of its light to a place.
-  bool shines_at(const GeometryAccess& access, uint32_t luminaire, const glm::dvec3& place) const;
+  bool shines_at(const GeometryAccess& access, size_t luminaire, const glm::dvec3& place) const;
 
   const SceneDescription& scene_;
   const Building& building_;
+  LevelScreens screens_;
   std::vector<uint32_t> luminaires_;  // emergency luminaires among the scene's emitters
-  std::vector<size_t> columns_;       // the same among the compiled emitters
+  std::vector<uint32_t> columns_;     // the same among the compiled emitters
   std::vector<uint32_t> places_;      // of each
+  std::vector<Storey> storeys_;
 };
 
 }  // namespace luxodus

@@ -11,6 +11,7 @@
 #include "actors/cli/quantities.hpp"
 #include "actors/cli/signals.hpp"
 #include "actors/cli/version.hpp"
+#include "actors/design/binding_words.hpp"
 #include "actors/design/design_files.hpp"
 #include "actors/design/sign_files.hpp"
 #include "actors/design/smoke_section.hpp"
@@ -98,6 +99,12 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
   }
 }
 
+void print_because(const SceneDescription& scene, const DesignResult& result) {
+  const Json design = design_json(scene, result, "");
+  for (const std::string& words : because_words(Texts(Language::en), design))
+    std::printf("  %s\n", words.c_str());
+}
+
 void print_smoke(const DesignResult& result) {
   const Json smoke = smoke_json(*result.smoke);
   for (const std::string& words : smoke_words(Texts(Language::en), smoke))
@@ -159,6 +166,7 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
     if (auto ok = print_pdf(out->path() / "design.html", out->path() / "design.pdf"); !ok)
       return ok.problem();
   print_design(*scene, result.value());
+  print_because(*scene, result.value());
   if (result->smoke) print_smoke(result.value());
   for (const char* file : {"design.html", "design.pdf", "layout.toml"})
     if (o.pdf || std::string_view(file) != "design.pdf")

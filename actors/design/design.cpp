@@ -18,8 +18,13 @@ namespace {
 
 /// Layouts that an assessment rejects are solved again with more asked for, so often.
 constexpr int max_verifications = 8;
+/// Of the time of the search, the share after it that may go into what binds.
+constexpr double share_for_binding = 0.25;
 /// Of the time of the search, what may go into finding out why no layout exists [s].
 constexpr double conflict_seconds = 60;
+/// Of layouts that differ so many are made for each that is judged in smoke: most hold by the
+/// rules, and fewer when their luminaires are off their places.
+constexpr size_t tries_of_each = 4;
 constexpr double no_objective = std::numeric_limits<double>::infinity();
 
 /// A scene without scenarios is as written: to be judged it needs one in emergency operation.
@@ -176,6 +181,7 @@ class Designing {
       break;
     }
     out_.tightest = tightest_of(demands_->problem(), out_.answer.layout);
+    if (options_.what_binds && !interrupt_) find_what_binds();
     if ((scene_->design->refine || options_.refine) && !interrupt_)
       if (auto problem = refine()) return *problem;
     if (!scenarios_in_smoke().empty() && !interrupt_)
@@ -251,6 +257,23 @@ class Designing {
     });
   }
 
+  void find_what_binds() {
+    progress_("looking for what binds", out_.answer.objective, out_.answer.bound);
+    WhatBindsSettings asked;
+    asked.seconds = share_for_binding * options_.seconds;
+    asked.seed = options_.seed;
+    for (const Relaxed& one : what_binds(demands_->problem(), out_.answer, asked, interrupt_))
+      out_.because.push_back({one, name_of(one.without.never_fails)});
+  }
+
+  std::string name_of(const std::optional<uint32_t>& option) const {
+    if (!option) return "";
+    const auto at = std::find_if(
+        out_.luminaires.begin(), out_.luminaires.end(),
+        [&](const auto& one) { return one.candidate.place == candidates_.all[*option].place; });
+    return at == out_.luminaires.end() ? "" : at->name;
+  }
+
   /// What is left of the minima with luminaires off their places.
   std::optional<Problem> find_tolerance() {
     out_.tolerance.emplace();
@@ -315,10 +338,24 @@ class Designing {
   }
 
   std::vector<LuminaireCandidate> chosen_candidates() const {
+    return chosen_candidates(out_.answer.layout);
+  }
+  std::vector<LuminaireCandidate> chosen_candidates(const Layout& layout) const {
     std::vector<LuminaireCandidate> out;
     for (size_t i = 0; i < candidates_.all.size(); ++i)
-      if (out_.answer.layout[i] != 0) out.push_back(candidates_.all[i]);
+      if (layout[i] != 0) out.push_back(candidates_.all[i]);
     return out;
+  }
+
+  /// Whether another layout keeps the minima off its places as the best one does; where that does
+  /// not, none is asked to.
+  Result<bool> holds_off_place(const Layout& layout) const {
+    if (!(scene_->design->place_tolerance_m > 0) || !out_.tolerance || !out_.tolerance->holds())
+      return true;
+    auto found = tolerance_of(switched_, *switched_.design, chosen_candidates(layout), codes_,
+                              scenario_, options_.threads);
+    if (!found) return found.problem();
+    return found->holds();
   }
 
   /// False where nothing can be asked for, or no layout gives more: then what is there is told.
@@ -418,13 +455,17 @@ class Designing {
     };
     tell("looking for other layouts");
     AlternativesWish wish;
-    wish.count = scene_->design->alternatives;
+    wish.count = tries_of_each * scene_->design->alternatives;
     wish.seed = options_.seed;
     std::vector<JudgedLayout> layouts{contender("A", out_, out_.answer.layout)};
     for (const Layout& chosen :
          alternatives_to(demands_->problem(), out_.answer.layout, wish, interrupt_)) {
-      if (interrupt_) break;
+      if (interrupt_ || layouts.size() > scene_->design->alternatives) break;
       tell("assessing other layouts by the rules");
+      if (const auto holds = holds_off_place(chosen); !holds)
+        return holds.problem();
+      else if (!holds.value())
+        continue;
       PlacedLayout layout = placed(*scene_, candidates_, chosen);
       const auto assessed = assessed_by_codes(layout.variant);
       if (!assessed) return assessed.problem();

@@ -18,6 +18,7 @@
 #include "actors/design/sign_plan.hpp"
 #include "actors/design/smoke_stage.hpp"
 #include "actors/design/solve_layout.hpp"
+#include "actors/design/what_binds.hpp"
 
 namespace luxodus {
 
@@ -26,9 +27,10 @@ struct DesignOptions {
   std::vector<std::string> rules, deviations;  // by name; empty: those of the scene
   uint64_t seed = 1;
   int threads = 1;
-  double seconds = 120;  // of the search
-  bool refine = false;   // as [design] refine
-  double gap = 0;        // it ends within this share of the best possible
+  double seconds = 120;    // of the search
+  bool refine = false;     // as [design] refine
+  double gap = 0;          // it ends within this share of the best possible
+  bool what_binds = true;  // solve again without single demands, to say what each takes
   /// Scenarios in whose smoke layouts are judged; empty: those of the scene's [design].
   std::vector<std::string> in_smoke;
 };
@@ -45,6 +47,12 @@ struct Refined {
   double before = 0, after = 0;  // least share of what is planned for, over all minima
 };
 
+/// What a layout could do without if one demand were not there; as words need it.
+struct BindingDemand {
+  Relaxed relaxed;
+  std::string luminaire;  // whose failure it is, if one's
+};
+
 /// The layout is the best by the rules alone.
 struct DesignResult : PlacedLayout {
   size_t places = 0, candidates = 0;  // of new luminaires; of these and those that are there
@@ -55,6 +63,7 @@ struct DesignResult : PlacedLayout {
   std::vector<ConstraintGroup> groups;
   std::vector<double> tightest;  // of each group: the least share of what it asks for that is there
   LayoutAnswer answer;
+  std::vector<BindingDemand> because;  // what takes luminaires that would not be needed without
   std::optional<PlaceTolerance> tolerance;  // of the layout
   std::optional<Refined> refined;           // where luminaires were moved
   Conflict conflict;                        // where no layout exists

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "actors/assess/assessment_json.hpp"
+#include "actors/design/binding_words.hpp"
 #include "actors/design/design_page.hpp"
 #include "actors/design/sign_files.hpp"
 #include "actors/design/smoke_section.hpp"
@@ -186,7 +187,8 @@ Result<void> write_alternatives(const fs::path& folder, const SceneDescription& 
     fs::create_directories(path.parent_path(), failed);
     if (failed)
       return problem_in(path.parent_path(), "cannot make this folder: " + failed.message());
-    const std::string text = variant_text(scene, result, one.layout, path.parent_path());
+    const std::string text =
+        variant_text(scene, result, one.layout, path.parent_path()) + changes_of_signs(one);
     if (auto ok = write_file_atomically(path, text); !ok) return ok.problem();
   }
   return {};
@@ -424,6 +426,7 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
   out["removed"] = result.removed;
   out["types"] = types_json(scene, result);
   out["constraints"] = groups_json(result);
+  out["because"] = because_json(result);
   out["checks"] = {{"pass", count_of(counts, CheckVerdict::pass)},
                    {"fail", count_of(counts, CheckVerdict::fail)},
                    {"not_assessed", count_of(counts, CheckVerdict::not_assessed)},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "actors/design/binding_words.hpp"
 #include "actors/design/smoke_section.hpp"
 #include "actors/output/html_page.hpp"
 #include "actors/report/html.hpp"
@@ -154,12 +155,6 @@ std::string signs_of(const Texts& t, const Json& signs) {
          (gone.empty() ? "" : paragraph(t.say("design.signs_removed", gone)));
 }
 
-/// What a group asks for, in the language.
-std::string demand_text(const Texts& t, const Json& group) {
-  const std::string key = "design.kind_" + text_in(group, "kind");
-  return t.say(key, t.number(group["asked"].get<double>(), 3));
-}
-
 std::string binding(const Texts& t, const Json& d) {
   std::vector<const Json*> groups;
   for (const Json& group : d["constraints"]) groups.push_back(&group);
@@ -181,7 +176,9 @@ std::string binding(const Texts& t, const Json& d) {
         (least.is_number() ? fixed_cell(t, 100 * least.get<double>(), 0) : html_cell("–", "n")) +
         cell(said) + "</tr>\n";
   }
-  return paragraph(t("design.binding_note"), "note") +
+  std::string because;
+  for (const std::string& words : because_words(t, d)) because += paragraph(words);
+  return because + paragraph(t("design.binding_note"), "note") +
          table(t,
                {"design.rule", "design.subject", "design.asked", "design.least", "design.binding"},
                {8, 26, 34, 12, 20}, rows);

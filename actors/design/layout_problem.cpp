@@ -63,9 +63,9 @@ bool LayoutSums::covers_hold() const {
 
 void LayoutSums::find_largest(std::vector<float>& largest, std::vector<uint32_t>& whose) const {
   largest.assign(light_.size(), 0);
-  whose.assign(light_.size(), 0);
+  whose.assign(light_.size(), no_place);
   for (uint32_t i = 0; i < layout_.size(); ++i) {
-    if (layout_[i] == 0) continue;
+    if (layout_[i] == 0 || problem_.options[i].never_fails) continue;
     for (const auto& e : index_.points(i))
       if (e.value > largest[e.row]) {
         largest[e.row] = e.value;

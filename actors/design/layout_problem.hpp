@@ -31,7 +31,11 @@ struct LayoutOption {
   /// Options of different regions have little to do with each other: they are in other rooms.
   uint32_t region = no_region;
   glm::dvec2 position{0};
+  bool never_fails = false;  // no demand on failures takes it away
 };
+
+/// No number of a place.
+inline constexpr uint32_t no_place = static_cast<uint32_t>(-1);
 
 /// What a group of constraints asks for.
 enum class DemandKind {
@@ -113,7 +117,7 @@ struct Violation {
   enum class Kind { cover, failure, spread } kind = Kind::cover;
   uint32_t index = 0;      // of covers, failures or spreads
   uint32_t point = 0;      // of a failure; of a spread the darkest
-  uint32_t place = 0;      // of a failure: whose luminaire is out
+  uint32_t place = 0;      // of a failure: whose luminaire is out; no_place: none can be
   uint32_t brightest = 0;  // of a spread
   double share = 0;        // of what is asked for that is there: below 1
 };
@@ -158,7 +162,8 @@ class LayoutSums {
 
  private:
   void change(uint32_t option, int sign);
-  /// The largest of one luminaire's light at each point, and the place that it comes from.
+  /// The largest light at each point of one luminaire that may fail, and the place that it comes
+  /// from.
   void find_largest(std::vector<float>& largest, std::vector<uint32_t>& whose) const;
 
   const LayoutIndex& index_;

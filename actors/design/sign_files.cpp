@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actors/design/wall_probe.hpp"
 #include "runtime/core/output_text.hpp"
 #include "scenes/emergency/way.hpp"
 
@@ -70,6 +71,22 @@ std::string sign_changes(const SceneDescription& scene, const SignPlan& plan) {
     for (const LeadsTo& way : one.leads_to)
       out += "[[change.leads_to]]\nroute = " + toml_text(way.route) + "\narrow = \"" +
              std::string(arrow_word(way.arrow)) + "\"\n";
+  }
+  return out;
+}
+
+std::string changes_of_signs(const JudgedLayout& layout) {
+  std::string out;
+  if (layout.sign_factor != 1)
+    for (const Sign& sign : layout.layout.variant->signs)
+      out += "\n[[change]]\nkind = \"sign\"\nof = " + toml_text(sign.name) +
+             "\nfactor = " + shortest_number(layout.sign_factor) + "\n";
+  for (const LowSign& low : layout.low_signs) {
+    const glm::dvec3 &p = low.sign.frame.origin, f = told_direction(low.sign.frame.axes[2]);
+    out += "\n[[change]]\nkind = \"sign\"\nof = " + toml_text(low.of) +
+           "\ncopy = " + toml_text(low.sign.name) + "\nposition = [" + toml_metres(p.x) + ", " +
+           toml_metres(p.y) + ", " + toml_metres(p.z) + "]\nfacing = [" + shortest_number(f.x) +
+           ", " + shortest_number(f.y) + ", " + shortest_number(f.z) + "]\n";
   }
   return out;
 }

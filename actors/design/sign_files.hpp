@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "actors/design/sign_plan.hpp"
+#include "actors/design/smoke_stage.hpp"
 #include "actors/output/csv.hpp"
 #include "actors/output/json_out.hpp"
 
@@ -27,5 +28,8 @@ std::vector<std::string> sign_words(const SignPlan& plan);
 
 /// "left"
 std::string_view arrow_word(SignArrow arrow);
+
+/// Signs of a layout made brighter, and low ones added, as changes of a variant.
+std::string changes_of_signs(const JudgedLayout& layout);
 
 }  // namespace luxodus

@@ -14,6 +14,7 @@
 #include "actors/assess/code_light.hpp"
 #include "actors/design/candidates.hpp"
 #include "actors/inspect/site.hpp"
+#include "runtime/core/clock.hpp"
 #include "scenes/emergency/guidance.hpp"
 #include "scenes/emergency/rule_limits.hpp"
 
@@ -34,6 +35,9 @@ constexpr int most_plans = 6;
 constexpr double near_way_m = 3;
 /// Behind the place where a sign is passed the way is looked at so far [m].
 constexpr double way_behind_m = 1;
+
+/// A plan is looked for in no less [s]: what is left of the time may be nothing.
+constexpr double least_seconds = 1;
 
 /// A place on a route where somebody has to be guided.
 struct Asked {
@@ -117,9 +121,8 @@ class SignPlanning {
   /// Until the signs of a plan do not hide each other; places that no plan guides from are told.
   std::optional<Problem> plan() {
     std::vector<size_t> lost;
-    int plans = 1;
-    for (;; ++plans) {
-      const LayoutAnswer answer = solve(problem_);
+    for (int plans = 1;; ++plans) {
+      const LayoutAnswer answer = solve(problem_, time_left());
       if (is_none(answer)) {
         if (plans == 1) return no_plan(answer.end);
         for (const size_t place : lost) give_up(place);  // the plan before stands
@@ -127,20 +130,24 @@ class SignPlanning {
       }
       if (plans == 1) bound_ = answer.bound;
       take(answer);
-      auto found = lost_places();
+      auto found = lost_places(rows_of_);
       if (!found) return found.problem();
       lost = std::move(found).value();
       if (lost.empty()) break;
-      const bool last = plans == most_plans || interrupt_;
+      const bool last = plans == most_plans || interrupt_ || !(time_left() > 0);
       std::erase_if(lost, [&](size_t place) {
-        if (!last && ask_for_another(place)) return false;
+        if (!last && (ask_for_another(place) || leave_out_hiding(place))) return false;
         give_up(place);
         return true;
       });
       if (last) break;
     }
-    tell_bound(plans > 1);
-    return std::nullopt;
+    tell_bound();
+    return tell_given_up();
+  }
+
+  double time_left() const {
+    return options_.seconds - 1e-9 * static_cast<double>(clock_.now() - began_);
   }
 
   const Building& furnished() const { return furnished_ ? *furnished_ : *bare_; }
@@ -363,16 +370,16 @@ class SignPlanning {
       for (const uint32_t p : sign_options_[i].furnished) furnished[p].push_back({i, 1});
       for (const uint32_t p : sign_options_[i].bare) bare[p].push_back({i, 1});
     }
+    terms_of_.resize(asked_.size());
     for (size_t p = 0; p < asked_.size(); ++p) {
       asked_[p].bare = furnished[p].empty() && !bare[p].empty();
       const bool none = furnished[p].empty() && bare[p].empty();
       if (none || asked_[p].bare) tell_unguided(asked_[p], false);
       if (none) continue;
       rows_of_.push_back(p);
+      terms_of_[p] = std::make_shared<std::vector<Term>>(asked_[p].bare ? bare[p] : furnished[p]);
       problem_.covers.push_back(
-          {static_cast<uint32_t>(asked_[p].route),
-           std::make_shared<std::vector<Term>>(asked_[p].bare ? bare[p] : furnished[p]), 1,
-           asked_[p].walker.foot});
+          {static_cast<uint32_t>(asked_[p].route), terms_of_[p], 1, asked_[p].walker.foot});
     }
   }
 
@@ -399,14 +406,14 @@ class SignPlanning {
     ++at->places;
   }
 
-  LayoutAnswer solve(const LayoutProblem& problem) {
+  LayoutAnswer solve(const LayoutProblem& problem, double seconds) {
     if (problem.options.empty()) {
       LayoutAnswer nothing;
       nothing.end = LayoutEnd::optimal;
       return nothing;
     }
     SolveSettings settings;
-    settings.seconds = options_.seconds;
+    settings.seconds = std::max(seconds, least_seconds);
     settings.seed = options_.seed;
     return solve_layout(
         problem, settings, interrupt_,
@@ -435,12 +442,14 @@ class SignPlanning {
     out_.end = answer.end;
     out_.signs.clear();
     out_.objective = 0;
+    chosen_.clear();
     std::vector<PlacedSign> fresh;
     std::set<std::string> staying;
     for (size_t i = 0; i < layout.size(); ++i) {
       if (layout[i] == 0) continue;
       const Hung& one = hung_[sign_options_[i].hung];
       const bool there = one.type == PlacedSign::existing;
+      chosen_.push_back(i);
       if (!problem_.options[i].fixed) out_.objective += weight_of(one);
       if (there) staying.insert(one.sign.name);
       (there ? out_.signs : fresh)
@@ -463,48 +472,67 @@ class SignPlanning {
     }
   }
 
-  /// Rows that were raised for one plan may exclude others: the bound is that of the rows before,
-  /// but for those that were given up.
-  void tell_bound(bool raised) {
-    if (gave_up_) {
-      LayoutProblem plain = problem_;
-      for (CoverRow& cover : plain.covers) cover.least = 1;
-      bound_ = interrupt_ ? 0 : solve(plain).bound;
-    }
+  /// Rows that were raised for one plan, and signs that were left out, may exclude others: the
+  /// bound is that of the rows before, but for those that were given up.
+  void tell_bound() {
+    if (gave_up_) bound_ = bound_of_what_is_asked();
     // Without what mounts add to the weights.
     const double bound = bound_ / (1 + 2 * share_of_mount);
     constexpr double rounding_of_number = 1e-6;
     out_.bound = std::min(out_.objective, design_.objective == DesignObjective::number
                                               ? std::ceil(bound - rounding_of_number)
                                               : bound);
-    if ((raised || gave_up_) && out_.end == LayoutEnd::optimal &&
-        out_.bound < out_.objective * (1 - sum_tolerance))
+    if (out_.end == LayoutEnd::optimal && out_.bound < out_.objective * (1 - sum_tolerance))
       out_.end = LayoutEnd::within_gap;
   }
 
+  /// Known after an interrupt, too: the plan that is there has a bound all the same.
+  double bound_of_what_is_asked() {
+    LayoutProblem plain = problem_;
+    for (size_t i = 0; i < plain.covers.size(); ++i) {
+      plain.covers[i].least = 1;
+      plain.covers[i].terms = terms_of_[rows_of_[i]];
+    }
+    if (plain.options.empty()) return 0;
+    SolveSettings settings;
+    settings.seconds = std::max(time_left(), least_seconds);
+    settings.seed = options_.seed;
+    static const std::atomic<bool> never{false};
+    return solve_layout(plain, settings, never, [](const std::string&, double, double) {}).bound;
+  }
+
+  /// The plan that stands may guide where an earlier one did not.
+  std::optional<Problem> tell_given_up() {
+    auto lost = lost_places(given_up_);
+    if (!lost) return lost.problem();
+    for (const size_t place : lost.value())
+      if (!asked_[place].bare) tell_unguided(asked_[place], true);  // else it is told already
+    return std::nullopt;
+  }
+
   /// Places that the plan does not guide from any more where its signs hide each other.
-  Result<std::vector<size_t>> lost_places() {
+  Result<std::vector<size_t>> lost_places(const std::vector<size_t>& places) {
     const auto planned = with_signs(scene_, out_);
     std::vector<size_t> out;
     for (const bool bare : {false, true}) {
-      std::vector<size_t> rows;
-      for (size_t row = 0; row < rows_of_.size(); ++row)
-        if (asked_[rows_of_[row]].bare == bare) rows.push_back(row);
-      if (rows.empty()) continue;
+      std::vector<size_t> alike;
+      for (const size_t place : places)
+        if (asked_[place].bare == bare) alike.push_back(place);
+      if (alike.empty()) continue;
       auto building = Building::make(code_scene(*planned, !bare),
                                      code_scenario(*planned, options_.doors), options_.threads);
       if (!building) return building.problem();
       std::vector<Walker> people;
-      for (const size_t row : rows) people.push_back(asked_[rows_of_[row]].walker);
+      for (const size_t place : alike) people.push_back(asked_[place].walker);
       const auto clear = clear_signs(*planned, *building.value(), people);
-      for (size_t i = 0; i < rows.size(); ++i) {
-        const EscapeRoute& route = scene_.routes[asked_[rows_of_[rows[i]]].route];
+      for (size_t i = 0; i < alike.size(); ++i) {
+        const EscapeRoute& route = scene_.routes[asked_[alike[i]].route];
         const bool guided =
             std::any_of(clear[i].begin(), clear[i].end(), [&](const ClearSign& seen) {
               const Sign& sign = planned->signs[seen.sign];
               return near_enough(sign, seen.view) && can_guide(route, people[i], sign, seen.view);
             });
-        if (!guided) out.push_back(rows_of_[rows[i]]);
+        if (!guided) out.push_back(alike[i]);
       }
     }
     return out;
@@ -525,10 +553,53 @@ class SignPlanning {
     return true;
   }
 
-  /// From here on nothing is asked for there.
+  /// Where no further sign can be asked for, the new sign that stands in the way goes: it is in no
+  /// later plan. False where none does, or where other places have no sign but it.
+  bool leave_out_hiding(size_t place) {
+    for (const size_t own : chosen_) {
+      const std::vector<uint32_t>& guided =
+          asked_[place].bare ? sign_options_[own].bare : sign_options_[own].furnished;
+      if (std::find(guided.begin(), guided.end(), place) == guided.end()) continue;
+      for (const size_t other : chosen_)
+        if (other != own && hung_[sign_options_[other].hung].type != PlacedSign::existing &&
+            stands_between(other, own, asked_[place].eye) && leave_out(other))
+          return true;
+    }
+    return false;
+  }
+
+  bool stands_between(size_t other, size_t own, const glm::dvec3& eye) const {
+    const Sign &hiding = hung_[sign_options_[other].hung].sign,
+               &hidden = hung_[sign_options_[own].hung].sign;
+    const glm::dvec3 way = hidden.frame.origin - eye, to = hiding.frame.origin - eye;
+    const double along = std::clamp(glm::dot(to, way) / glm::dot(way, way), 0.0, 1.0);
+    const double reach = (std::hypot(hiding.width_m, hiding.height_m) +
+                          std::hypot(hidden.width_m, hidden.height_m) * along) /
+                         2;
+    return along < 1 && glm::length(to - way * along) < reach;
+  }
+
+  bool leave_out(size_t option) {
+    const auto is_it = [&](const Term& term) { return term.option == option; };
+    const auto has_others = [&](const CoverRow& cover) {
+      std::set<uint32_t> left;
+      for (const Term& term : *cover.terms)
+        if (!is_it(term)) left.insert(problem_.options[term.option].place);
+      return static_cast<double>(left.size()) >= cover.least;
+    };
+    if (!std::all_of(problem_.covers.begin(), problem_.covers.end(), has_others)) return false;
+    for (CoverRow& cover : problem_.covers) {
+      auto rest = std::make_shared<std::vector<Term>>(*cover.terms);
+      std::erase_if(*rest, is_it);
+      cover.terms = std::move(rest);
+    }
+    return true;
+  }
+
+  /// From here on nothing is asked for there. Whether it is guided all the same is seen at the end.
   void give_up(size_t place) {
     gave_up_ = true;
-    if (!asked_[place].bare) tell_unguided(asked_[place], true);  // else it is told already
+    given_up_.push_back(place);
     const auto row = static_cast<std::ptrdiff_t>(row_of(place));
     problem_.covers.erase(problem_.covers.begin() + row);
     rows_of_.erase(rows_of_.begin() + row);
@@ -545,9 +616,14 @@ class SignPlanning {
   std::vector<Hung> hung_;
   std::vector<SignOption> sign_options_;
   LayoutProblem problem_;
-  std::vector<size_t> rows_of_;  // the place that each cover row asks for
-  double bound_ = 0;             // of all plans, before any row was raised
-  bool gave_up_ = false;         // a place
+  std::vector<size_t> rows_of_;   // the place that each cover row asks for
+  std::vector<Terms> terms_of_;   // of each place: all signs that guide there
+  std::vector<size_t> chosen_;    // options of the plan
+  std::vector<size_t> given_up_;  // places
+  double bound_ = 0;              // of all plans, before any row was raised
+  bool gave_up_ = false;          // a place
+  SystemClock clock_;
+  Nanoseconds began_ = clock_.now();
   SignPlan out_;
 };
 

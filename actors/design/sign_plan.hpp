@@ -57,7 +57,7 @@ struct SignPlan {
 struct SignPlanOptions {
   std::vector<CodeChoice> codes;
   Scenario doors;
-  double seconds = 30;  // of the search
+  double seconds = 30;  // of all searches: a plan whose signs hide each other is made again
   uint64_t seed = 1;
   int threads = 1;
 };

@@ -36,6 +36,7 @@ Json layout_json(const SmokeStage& stage, const JudgedLayout& one) {
           {"cost", number_json(one.cost)},
           {"watts", number_json(one.watts)},
           {"sign_factor", number_json(one.sign_factor)},
+          {"low_signs", one.low_signs.size()},
           {"rounds", one.rounds},
           {"places_lost", one.lost},
           {"places_won", one.won},
@@ -51,6 +52,12 @@ double most_of(const Json& layout) {
 }
 bool has_brighter_signs(const Json& layout) {
   return layout["sign_factor"].get<double>() != 1;
+}
+bool has_low_signs(const Json& layout) {
+  return layout["low_signs"].get<size_t>() > 0;
+}
+bool has_other_signs(const Json& layout) {
+  return has_brighter_signs(layout) || has_low_signs(layout);
 }
 
 /// "62 %", "62 to 70 %".
@@ -71,7 +78,7 @@ const Json& named_layout(const Json& smoke, const std::string& name) {
 double most_of_all(const Json& smoke) {
   double out = 0;
   for (const Json& one : smoke["layouts"])
-    if (!has_brighter_signs(one)) out = std::max(out, most_of(one));
+    if (!has_other_signs(one)) out = std::max(out, most_of(one));
   return out;
 }
 
@@ -82,7 +89,7 @@ const Json* most_veiling(const Json& smoke) {
   int64_t most = 1;  // a single place may be an accident of the paths
   for (const Json& one : smoke["layouts"]) {
     const int64_t net = one["places_lost"].get<int64_t>() - one["places_won"].get<int64_t>();
-    if (has_brighter_signs(one) || net <= most ||
+    if (has_other_signs(one) || net <= most ||
         !(one["objective"].get<double>() > first["objective"].get<double>()))
       continue;
     most = net;
@@ -112,14 +119,15 @@ std::string plot_of(const Texts& t, const Json& design) {
   plot.label_x = t.word("design.objective", text_in(design["objective"], "kind"));
   plot.label_y = t("design.smoke_axis");
   plot.height = 420;
-  const auto as_they_are = [](const Json& one) { return !has_brighter_signs(one); };
+  const auto as_they_are = [](const Json& one) { return !has_other_signs(one); };
   for (PlotSeries series : {series_of(t, "design.smoke_front", smoke,
                                       [&](const Json& one) { return one["on_front"].get<bool>(); }),
                             series_of(t, "design.smoke_others", smoke,
                                       [&](const Json& one) {
                                         return as_they_are(one) && !one["on_front"].get<bool>();
                                       }),
-                            series_of(t, "design.smoke_bright", smoke, has_brighter_signs)})
+                            series_of(t, "design.smoke_bright", smoke, has_brighter_signs),
+                            series_of(t, "design.smoke_low", smoke, has_low_signs)})
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   const auto svg = svg_plot_text(plot, {});
   return svg ? figure(svg.value(), t("design.smoke_plot_note")) : "";
@@ -135,7 +143,8 @@ std::string rows_of(const Texts& t, const Json& smoke) {
     const std::string name =
         has_brighter_signs(one)
             ? t.say("design.smoke_bright_row", text_in(smoke["layouts"][0], "name"))
-            : text_in(one, "name") + (one["on_front"].get<bool>() ? " ●" : "");
+        : has_low_signs(one) ? t.say("design.smoke_low_row", text_in(smoke["layouts"][0], "name"))
+                             : text_in(one, "name") + (one["on_front"].get<bool>() ? " ●" : "");
     const std::string file = text_in(one, "file");
     out += "<tr>" + cell(name) + number_cell(t, one["luminaires"]) +
            number_cell(t, one["cost"], "", 4) + number_cell(t, one["watts"], "W") +
@@ -150,7 +159,8 @@ std::string rows_of(const Texts& t, const Json& smoke) {
 }  // namespace
 
 std::string file_of(const JudgedLayout& layout) {
-  if (layout.sign_factor != 1) return "";
+  if (layout.sign_factor != 1) return "alternatives/layout_A_brighter_signs.toml";
+  if (!layout.low_signs.empty()) return "alternatives/layout_A_low_signs.toml";
   return layout.name == "A" ? "layout.toml" : "alternatives/layout_" + layout.name + ".toml";
 }
 
@@ -179,11 +189,15 @@ std::vector<std::string> smoke_words(const Texts& t, const Json& smoke) {
     out.push_back(t.say("design.smoke_better", best_name, best["luminaires"].get<int64_t>(),
                         first["luminaires"].get<int64_t>(), share_words(t, best["worst"])));
   for (const Json& one : smoke["layouts"]) {
-    if (!has_brighter_signs(one)) continue;
     const bool helps = least_of(one) > most_of_all(smoke);
-    out.push_back(t.say(helps ? "design.smoke_signs_help" : "design.smoke_signs",
-                        t.number(one["sign_factor"].get<double>(), 2),
-                        share_words(t, one["worst"])));
+    if (has_brighter_signs(one))
+      out.push_back(t.say(helps ? "design.smoke_signs_help" : "design.smoke_signs",
+                          t.number(one["sign_factor"].get<double>(), 2),
+                          share_words(t, one["worst"])));
+    if (has_low_signs(one))
+      out.push_back(t.say(helps ? "design.smoke_low_helps" : "design.smoke_low_signs",
+                          one["low_signs"].get<int64_t>(), t.number(low_sign_height_m, 2),
+                          share_words(t, one["worst"])));
   }
   if (const Json* veiling = most_veiling(smoke))
     out.push_back(t.say("design.smoke_veil", text_in(*veiling, "name"),

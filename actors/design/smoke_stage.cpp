@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "actors/assess/code_light.hpp"
 #include "actors/assess/reality_mode.hpp"
 #include "runtime/core/clock.hpp"
 #include "scenes/emergency/way.hpp"
@@ -80,6 +81,29 @@ bool beats(const JudgedLayout& a, const JudgedLayout& b) {
   return a.objective < b.objective * (1 - 1e-9) || a.worst().least > b.worst().least;
 }
 
+/// Layouts are beside each other with the same signs.
+bool like_signs(const JudgedLayout& a, const JudgedLayout& b) {
+  return a.sign_factor == b.sign_factor && a.low_signs.size() == b.low_signs.size();
+}
+
+/// Signs near the floor, where smoke is often thinner. Nothing where no wall has room for any.
+Result<std::optional<JudgedLayout>> with_signs_below(const JudgedLayout& best,
+                                                     const SmokeStageOptions& options) {
+  const SceneDescription& scene = *best.layout.variant;
+  const auto scenario = find_scenario(scene, options.scenarios.front());
+  if (!scenario) return scenario.problem();
+  const auto building = Building::make(code_scene(scene, false),
+                                       code_scenario(scene, scenario.value()), options.threads);
+  if (!building) return building.problem();
+  JudgedLayout out = best;
+  out.name += " low";
+  out.low_signs = low_signs_of(scene, *building.value());
+  if (out.low_signs.empty()) return std::optional<JudgedLayout>();
+  out.layout.variant =
+      std::make_shared<const SceneDescription>(with_low_signs(scene, out.low_signs));
+  return std::optional(std::move(out));
+}
+
 class Race {
  public:
   Race(SmokeStage& stage, const SmokeStageOptions& options, const std::atomic<bool>& interrupt,
@@ -108,7 +132,7 @@ class Race {
     const LegibleShare share = one.worst();
     return share.least < share.most && std::none_of(stage_.layouts.begin(), stage_.layouts.end(),
                                                     [&](const JudgedLayout& other) {
-                                                      return other.sign_factor == one.sign_factor &&
+                                                      return like_signs(other, one) &&
                                                              beats(other, one);
                                                     });
   }
@@ -172,9 +196,9 @@ class Race {
 void mark_front(SmokeStage& stage) {
   for (JudgedLayout& one : stage.layouts)
     one.on_front =
-        one.sign_factor == 1 &&
+        one.has_usual_signs() &&
         std::none_of(stage.layouts.begin(), stage.layouts.end(), [&](const JudgedLayout& other) {
-          return other.sign_factor == 1 && beats(other, one);
+          return other.has_usual_signs() && beats(other, one);
         });
 }
 
@@ -192,7 +216,7 @@ LegibleShare JudgedLayout::worst() const {
 const JudgedLayout& SmokeStage::recommended() const {
   const JudgedLayout* best = &layouts.front();
   for (const JudgedLayout& one : layouts) {
-    if (one.sign_factor != 1) continue;
+    if (!one.has_usual_signs()) continue;
     const bool surely_better = one.worst().least > best->worst().most;
     const bool as_good_and_cheaper =
         one.worst().least >= best->worst().most && one.objective < best->objective;
@@ -204,6 +228,12 @@ const JudgedLayout& SmokeStage::recommended() const {
 const JudgedLayout* SmokeStage::with_brighter_signs() const {
   for (const JudgedLayout& one : layouts)
     if (one.sign_factor != 1) return &one;
+  return nullptr;
+}
+
+const JudgedLayout* SmokeStage::with_low_signs() const {
+  for (const JudgedLayout& one : layouts)
+    if (!one.low_signs.empty()) return &one;
   return nullptr;
 }
 
@@ -238,8 +268,11 @@ Result<SmokeStage> judge_in_smoke(std::vector<JudgedLayout> layouts,
   bright.name += "+";
   bright.sign_factor = brighter_signs;
   bright.layout.variant = with_bright_signs(*bright.layout.variant);
+  auto low = with_signs_below(layouts.front(), options);
+  if (!low) return low.problem();
   stage.layouts = std::move(layouts);
   stage.layouts.push_back(std::move(bright));
+  if (low.value()) stage.layouts.push_back(*std::move(low).value());
   if (auto ok = Race(stage, options, interrupt, progress).run(); !ok) return ok.problem();
   mark_front(stage);
   stage.seconds = 1e-9 * static_cast<double>(clock.now() - began);

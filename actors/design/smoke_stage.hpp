@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "actors/assess/assessment.hpp"
+#include "actors/design/low_signs.hpp"
 #include "actors/design/placed_layout.hpp"
 
 namespace luxodus {
@@ -37,12 +38,15 @@ struct JudgedLayout {
   double objective = 0, cost = 0, watts = 0;  // of what it places
   size_t placed = 0;                          // luminaires
   double sign_factor = 1;                     // of the luminance of signs
+  std::vector<LowSign> low_signs;             // beside those above
   int rounds = 0;                             // of paths that it was judged by; 0: it was not
   std::vector<SmokeVerdict> smoke;
   /// Places on routes from which a sign is read with "A" and not with this one; the other way.
   size_t lost = 0, won = 0;
   bool on_front = false;  // none is read more and costs no more
 
+  /// Whether its signs are those of the first layout, no brighter and no more.
+  bool has_usual_signs() const { return sign_factor == 1 && low_signs.empty(); }
   /// In the scenario where it is worst.
   LegibleShare worst() const;
 };
@@ -59,6 +63,8 @@ struct SmokeStage {
   const JudgedLayout& recommended() const;
   /// The one whose signs are brighter; null where there is none.
   const JudgedLayout* with_brighter_signs() const;
+  /// The one with low-level signs beside the others; null where no wall has room for any.
+  const JudgedLayout* with_low_signs() const;
 };
 
 struct SmokeStageOptions {
@@ -69,8 +75,8 @@ struct SmokeStageOptions {
 };
 
 /// Judges layouts that pass the rules; the first is the best by them, of which a copy with brighter
-/// signs is judged as well. `interrupt` keeps what was judged so far.
-/// Errors: no such scenario; one without smoke; as assess_sights.
+/// signs, and one with low-level signs, are judged as well. `interrupt` keeps what was judged so
+/// far. Errors: no such scenario; one without smoke; as assess_sights.
 Result<SmokeStage> judge_in_smoke(std::vector<JudgedLayout> layouts,
                                   const SmokeStageOptions& options,
                                   const std::atomic<bool>& interrupt,

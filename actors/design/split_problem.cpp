@@ -36,6 +36,7 @@ class Splitting {
 
   std::vector<ProblemPart> run() {
     if (!join_all()) return {whole()};
+    if (!join_idle()) return {whole()};
     make_parts();
     if (parts_.size() < 2) return {whole()};
     for (const CoverRow& row : problem_.covers) {
@@ -88,8 +89,8 @@ class Splitting {
     return true;
   }
 
-  /// Options that no row asks for are with the first that one does.
-  void join_idle() {
+  /// Options that no row asks for are with the first that one does. False where there is no row.
+  bool join_idle() {
     std::vector<char> asked(problem_.options.size(), 0);
     const auto mark = [&](const std::vector<Term>& terms) {
       for (const Term& term : terms) asked[term.option] = 1;
@@ -101,13 +102,13 @@ class Splitting {
       for (const auto* list : {&rows.low, &rows.high})
         for (const uint32_t p : *list) mark(*problem_.points[p].light);
     const auto first = std::find(asked.begin(), asked.end(), 1);
-    if (first == asked.end()) return;
+    if (first == asked.end()) return false;
     for (uint32_t i = 0; i < asked.size(); ++i)
       if (asked[i] == 0) joined_.join(i, static_cast<uint32_t>(first - asked.begin()));
+    return true;
   }
 
   void make_parts() {
-    join_idle();
     std::map<uint32_t, size_t> number;
     number_of_.resize(problem_.options.size());
     part_of_.resize(problem_.options.size());

@@ -15,7 +15,7 @@ struct ProblemPart {
 };
 
 /// In the order of their first options. One part with everything where nothing can be taken apart,
-/// or where a row has no option at all.
+/// where there is no row, or where a row has no option at all.
 std::vector<ProblemPart> parts_of(const LayoutProblem& problem);
 
 }  // namespace luxodus

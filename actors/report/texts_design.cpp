@@ -133,6 +133,22 @@ constexpr ReportText design_rows[] = {
     {"design.asked", {"Planned for", "Geplant auf", "Prévu"}},
     {"design.least", {"Least there [%]", "Kleinster Wert [%]", "Minimum atteint [%]"}},
     {"design.binding", {"Effect", "Wirkung", "Effet"}},
+    {"design.because",
+     {"{0} more because of {1}: without it {2} would do.",
+      "{0} mehr wegen dieser Forderung: {1}. Ohne sie würden {2} genügen.",
+      "{0} de plus à cause de cette exigence : {1}. Sans elle, {2} suffiraient."}},
+    {"design.because_at_least",
+     {"At least {0} more because of {1}: without it {2} would do.",
+      "Mindestens {0} mehr wegen dieser Forderung: {1}. Ohne sie würden {2} genügen.",
+      "Au moins {0} de plus à cause de cette exigence : {1}. Sans elle, {2} suffiraient."}},
+    {"design.because_failures",
+     {"the failure of single luminaires", "Ausfall einzelner Leuchten",
+      "la panne de luminaires isolés"}},
+    {"design.because_failure",
+     {"the single failure of {0}", "Ausfall von {0} allein", "la panne de {0} seul"}},
+    {"design.because_amount", {"{0} ({1})", "{0} ({1})", "{0} ({1})"}},
+    {"design.one_luminaire", {"1 luminaire", "1 Leuchte", "1 luminaire"}},
+    {"design.some_luminaires", {"{0} luminaires", "{0} Leuchten", "{0} luminaires"}},
     {"design.binds",
      {"binds: {0} of the objective", "bindet: {0} des Zielwerts", "contraint : {0} de l’objectif"}},
     {"design.tight", {"tight", "knapp", "serrée"}},
@@ -259,6 +275,24 @@ constexpr ReportText design_rows[] = {
      {"Signs {0} times as bright would be read from {1}.",
       "Zeichen mit der {0}-fachen Leuchtdichte wären von {1} lesbar.",
       "Des panneaux {0} fois plus lumineux seraient lisibles depuis {1}."}},
+    {"design.smoke_low_helps",
+     {"With {0} low-level signs beside the others, {1} m above the floor, a sign would be read "
+      "from "
+      "{2}: that helps more than any layout that was tried.",
+      "Mit {0} bodennahen Zeichen neben den anderen, {1} m über dem Boden, wäre von {2} ein "
+      "Zeichen "
+      "lesbar: das hilft mehr als jede Anordnung, die versucht wurde.",
+      "Avec {0} panneaux bas en plus des autres, à {1} m du sol, un panneau serait lisible depuis "
+      "{2} : cela aide plus que toute implantation essayée."}},
+    {"design.smoke_low_signs",
+     {"With {0} low-level signs beside the others, {1} m above the floor, a sign would be read "
+      "from "
+      "{2}.",
+      "Mit {0} bodennahen Zeichen neben den anderen, {1} m über dem Boden, wäre von {2} ein "
+      "Zeichen "
+      "lesbar.",
+      "Avec {0} panneaux bas en plus des autres, à {1} m du sol, un panneau serait lisible depuis "
+      "{2}."}},
     {"design.smoke_veil",
      {"Layout {0} has more light, and from {1} places where a sign is read with layout {2} none is "
       "read: light in the smoke veils it.",
@@ -285,6 +319,9 @@ constexpr ReportText design_rows[] = {
       "aucune n’est plus lisible pour autant"}},
     {"design.smoke_others", {"other layouts", "andere Anordnungen", "autres implantations"}},
     {"design.smoke_bright", {"brighter signs", "hellere Zeichen", "panneaux plus lumineux"}},
+    {"design.smoke_low", {"low-level signs", "bodennahe Zeichen", "panneaux bas"}},
+    {"design.smoke_low_row",
+     {"{0}, low-level signs too", "{0}, auch bodennahe Zeichen", "{0}, aussi des panneaux bas"}},
     {"design.smoke_bright_row",
      {"{0}, brighter signs", "{0}, hellere Zeichen", "{0}, panneaux plus lumineux"}},
     {"design.smoke_layout", {"Layout", "Anordnung", "Implantation"}},

@@ -234,11 +234,12 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
       {"open_area", read_open_area},
       {"task_area", read_task_area},
       {"emphasis", read_emphasis},
-      {"scenario", read_scenario},
   };
   for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);
   for (const auto& route : reading.routes_named) reading.require("route", route.name, route.place);
+  // Types of a design may hang on circuits of their own, which scenarios name.
   read_designs(documents, reading);
+  read_all(documents, "scenario", read_scenario, reading);
   read_all(documents, "change", read_change, reading);
   check_whole(reading);
   reading.scene.at_s = reading.time_s();

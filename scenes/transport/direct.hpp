@@ -66,14 +66,20 @@ class DirectSum {
         options_(options),
         resolver_(resolver),
         in_media_(options.media && scene.features.media != MediaNeed::none) {
-    for (uint32_t i = 0; i < scene.emitters.size(); ++i) add_emitter(i);
+    if (options.only.empty())
+      for (uint32_t i = 0; i < scene.emitters.size(); ++i) add_emitter(i);
+    for (const uint32_t i : options.only) add_emitter(i);
     resolve_shadows();
   }
 
-  /// By emitter, in their order.
+  /// By emitter that is asked for, in their order.
   std::vector<DirectFromEmitter> by_emitter() const {
-    std::vector<DirectFromEmitter> out(scene_.emitters.size());
-    for (const Leaf& leaf : leaves_) out[leaf.emitter] += leaf.light;
+    const auto& only = options_.only;
+    std::vector<DirectFromEmitter> out(only.empty() ? scene_.emitters.size() : only.size());
+    for (const Leaf& leaf : leaves_) {
+      const auto at = std::lower_bound(only.begin(), only.end(), leaf.emitter);
+      out[only.empty() ? leaf.emitter : static_cast<size_t>(at - only.begin())] += leaf.light;
+    }
     return out;
   }
 

@@ -37,6 +37,9 @@ struct DirectOptions {
   /// By emitter; empty: nothing. Those that are hidden are left out, those that are clear take no
   /// shadow rays.
   std::span<const KnownSight> known{};
+  /// Numbers of emitters, ascending: no other is looked at, and answers are of these alone, in
+  /// their order. Empty: all.
+  std::span<const uint32_t> only{};
 };
 
 /// Light from one emitter.

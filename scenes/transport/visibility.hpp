@@ -11,14 +11,14 @@
 
 namespace luxodus {
 
-/// Direct illuminance at a point [local coordinates] by each emitter of the scene, in their order
-/// [lx].
+/// Direct illuminance at a point [local coordinates] by each emitter of the scene that is asked
+/// for, in their order [lx].
 std::vector<double> direct_by_emitter(const CompiledScene& scene, const GeometryAccess& access,
                                       const Vec3& point, const Vec3& normal,
                                       const DirectOptions& options);
 
-/// All direct light at a point by each emitter, in their order: with and without media, and as if
-/// nothing solid were in the way.
+/// All direct light at a point by each of these emitters, in their order: with and without media,
+/// and as if nothing solid were in the way.
 std::vector<DirectFromEmitter> direct_lights(const CompiledScene& scene,
                                              const GeometryAccess& access, const Vec3& point,
                                              const Vec3& normal, const DirectOptions& options);

@@ -31,6 +31,11 @@ class GeneticAlgorithm {
   GeneticAlgorithm(const LayoutProblem& problem, uint64_t seed)
       : problem_(problem), index_(problem), sums_(index_), random_(seed, RandomStream::layout, 7) {
     random_.start(seed);
+    // Penalties are luminaires, in the unit of the objective.
+    double sum = 0, count = 0;
+    for (const LayoutOption& option : problem.options)
+      if (!option.fixed) sum += option.weight, ++count;
+    if (sum > 0) luminaire_ = sum / count;
   }
 
   struct Best {
@@ -80,7 +85,7 @@ class GeneticAlgorithm {
     const double objective = objective_of(problem_, layout);
     if (missing == 0) best_.objective = std::min(best_.objective, objective);
     // A demand that fails, however little, costs more than half a luminaire.
-    constexpr double penalty = 2, of_any = 0.5;
+    const double penalty = 2 * luminaire_, of_any = 0.5 * luminaire_;
     fitness_.push_back(objective + penalty * missing + (missing > 0 ? of_any : 0));
     population_.push_back(std::move(layout));
   }
@@ -122,6 +127,7 @@ class GeneticAlgorithm {
   Random random_;
   std::vector<Layout> population_;
   std::vector<double> fitness_;
+  double luminaire_ = 1;  // mean weight of one
   Best best_;
 };
 

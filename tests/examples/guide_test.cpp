@@ -182,6 +182,54 @@ TEST_CASE("the guide's store room gets the layout that it tells, and every comma
   for (const auto& check : a["checks"]) CHECK(check["verdict"] != "fail");
 }
 
+TEST_CASE("the guide's office floor gets a layout that passes what luminaires decide",
+          "[program][guide]") {
+  const std::string text = slurp(source / "docs/guide/placement.md");
+  const TemporaryFolder folder;
+  const fs::path project = folder / "project";
+  fs::create_directories(project);
+  fs::create_directories(folder / "scenes");
+  fs::create_directory_symlink(source / "scenes/library", folder / "scenes/library");
+  // Without failures the search takes a second; the guide says how many luminaires that gives.
+  std::string scene = toml_blocks(text).at(1);
+  const std::string spacing = "spacing_m = 1.2\n";
+  REQUIRE(scene.find(spacing) != std::string::npos);
+  scene.insert(scene.find(spacing), "failure = \"none\"\n");
+  std::ofstream(project / "placement.toml") << scene;
+  const Outcome run = run_luxodus(folder, "design " + (project / "placement.toml").string() +
+                                              " --out " + (folder / "layout").string());
+  INFO(run.out << run.err);
+  REQUIRE(run.code == 0);
+  CHECK(
+      run.out.starts_with("7 new luminaires, 10 of the scene stay, 12 go; objective (number) 7, "
+                          "the smallest possible with these candidates"));
+  CHECK(text.find("with `failure = \"none\"` seven") != std::string::npos);
+  for (const char* told : {"112 places, 346 candidates, 2668 points",
+                           "planned without furniture, which hides 42 points from all candidates",
+                           "fails, and is not decided here: sign \"open-plan east door sign\""}) {
+    INFO(told);
+    CHECK(run.out.find(told) != std::string::npos);
+    CHECK(text.find(std::string(told).substr(0, 31)) != std::string::npos);
+  }
+  const Outcome assessed =
+      run_luxodus(folder, "assess " + (folder / "layout/layout.toml").string() +
+                              " --codes-alone --out " + (folder / "assessed").string());
+  INFO(assessed.out << assessed.err);
+  REQUIRE(assessed.code == 0);
+  const auto d = nlohmann::json::parse(slurp(folder / "layout/design.json"));
+  std::vector<std::string> told;
+  for (const auto& check : d["failing_otherwise"])
+    told.push_back(check["rule"].get<std::string>() + check["subject"].get<std::string>());
+  const auto a = nlohmann::json::parse(slurp(folder / "assessed/assessment.json"));
+  for (const auto& check : a["checks"])
+    if (check["verdict"] == "fail") {
+      const std::string one =
+          check["rule"].get<std::string>() + check["subject"].get<std::string>();
+      INFO(one);
+      CHECK(std::find(told.begin(), told.end(), one) != told.end());
+    }
+}
+
 TEST_CASE("the guide's imported room gets the luminaires and the sign that it tells",
           "[program][guide]") {
   const fs::path model = fs::path(LUX_SHARED_DATA) / "ifc/room_ifc4.ifc";

@@ -11,7 +11,7 @@
 #include "runtime/core/random.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
-#include "tests/unit/actors/design/silent.hpp"
+#include "tests/unit/actors/design/design_scenes.hpp"
 
 namespace luxodus {
 namespace {
@@ -19,41 +19,12 @@ namespace {
 using test::TemporaryFolder;
 namespace fs = std::filesystem;
 
+using test::box_room;
+using test::designed;
+using test::judged_2013;
 using test::nobody;
 using test::silent;
-
-std::string box_room(double x, double y, double z) {
-  return fmt::format(R"(
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [{}, {}, {}]
-material = "white50"
-)",
-                     x, y, z);
-}
-
-/// A scenario and a rule set, and what people have to be told of.
-const std::string judged_2013 = R"(
-[assessment]
-rules = ["en1838-2013"]
-[[scenario]]
-name = "failed"
-operation = "emergency"
-)";
-
-Result<DesignResult> tried(const fs::path& file, DesignOptions options = {}) {
-  options.threads = 2;
-  return design(test::described(file), options, nobody, silent);
-}
-
-DesignResult designed(const fs::path& file, const DesignOptions& options = {}) {
-  auto result = tried(file, options);
-  INFO((result ? "" : result.problem().text()));
-  REQUIRE(result);
-  return std::move(result).value();
-}
+using test::tried;
 
 std::string problem_of(const std::string& text) {
   const TemporaryFolder folder;
@@ -131,6 +102,7 @@ void check_random_rooms(uint64_t first, uint64_t count) {
     DesignOptions options;
     options.gap = 0.1;
     options.seconds = 60;
+    options.what_binds = false;
     const DesignResult result = designed(file, options);
     if (result.answer.layout.empty()) {
       CHECK(result.answer.end == LayoutEnd::infeasible);

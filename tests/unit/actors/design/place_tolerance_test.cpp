@@ -6,54 +6,23 @@
 #include <numbers>
 #include <set>
 
-#include "actors/design/design.hpp"
 #include "runtime/core/random.hpp"
-#include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
-#include "tests/unit/actors/design/silent.hpp"
+#include "tests/unit/actors/design/design_scenes.hpp"
 
 namespace luxodus {
 namespace {
 
 using test::TemporaryFolder;
 
-std::string corridor_scene(double length, double margin, double tolerance_m) {
-  return fmt::format(R"(
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [{0}, 2.4, 2.8]
-material = "white50"
-[assessment]
-rules = ["en1838-2013"]
-[[scenario]]
-name = "failed"
-operation = "emergency"
-[[route]]
-name = "way"
-path = [[1, 1.2, 0], [{1}, 1.2, 0]]
-width = 1.4
-[design]
-spacing_m = 0.7
-place_signs = false
-failure = "none"
-margin = {2}
-place_tolerance_m = {3}
-)",
-                     length, length - 1, margin, tolerance_m);
-}
-
 DesignResult corridor(const TemporaryFolder& folder, double length, double margin,
                       double tolerance_m) {
-  DesignOptions options;
-  options.threads = 2;
-  auto result = design(
-      test::described(folder.write("scene.toml", corridor_scene(length, margin, tolerance_m))),
-      options, test::nobody, test::silent);
-  INFO((result ? "" : result.problem().text()));
-  REQUIRE(result);
-  return std::move(result).value();
+  return test::designed(folder.write(
+      "scene.toml", test::box_room(length, 2.4, 2.8) + test::judged_2013 +
+                        test::way_along(1, length - 1, 1.2, 1.4) +
+                        fmt::format("[design]\nspacing_m = 0.7\nplace_signs = false\nfailure = "
+                                    "\"none\"\nmargin = {}\nplace_tolerance_m = {}\n",
+                                    margin, tolerance_m)));
 }
 
 /// Of the minima of the rules, which fail when each luminaire is so far off, in its own direction.

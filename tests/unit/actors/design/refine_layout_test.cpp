@@ -4,11 +4,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "actors/design/design.hpp"
 #include "actors/design/design_files.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
-#include "tests/unit/actors/design/silent.hpp"
+#include "tests/unit/actors/design/design_scenes.hpp"
 
 namespace luxodus {
 namespace {
@@ -16,39 +15,14 @@ namespace {
 using test::TemporaryFolder;
 
 std::string way_in_a_room(double length, const char* settings) {
-  return fmt::format(R"(
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [{0}, 4, 3]
-material = "white50"
-[assessment]
-rules = ["en1838-2013"]
-[[scenario]]
-name = "failed"
-operation = "emergency"
-[[route]]
-name = "way"
-path = [[1, 2, 0], [{1}, 2, 0]]
-width = 1
-[design]
-place_signs = false
-failure = "none"
-{2}
-)",
-                     length, length - 1, settings);
+  return test::box_room(length, 4, 3) + test::judged_2013 + test::way_along(1, length - 1, 2) +
+         "[design]\nplace_signs = false\nfailure = \"none\"\n" + settings + "\n";
 }
 
 DesignResult refined(const TemporaryFolder& folder, const std::string& scene, bool refine) {
   DesignOptions options;
-  options.threads = 2;
   options.refine = refine;
-  auto result = design(test::described(folder.write("scene.toml", scene)), options, test::nobody,
-                       test::silent);
-  INFO((result ? "" : result.problem().text()));
-  REQUIRE(result);
-  return std::move(result).value();
+  return test::designed(folder.write("scene.toml", scene), options);
 }
 
 }  // namespace

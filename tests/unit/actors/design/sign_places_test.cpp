@@ -9,7 +9,7 @@
 namespace luxodus {
 namespace {
 
-constexpr double width_m = 0.4, height_m = 0.2, lower_edge_m = 2.2;
+constexpr double face_width_m = 0.4, face_height_m = 0.2, lower_edge_m = 2.2;
 
 /// Places for a sign in a corridor of 10 m to the end wall, with a body in it.
 std::vector<SignSpot> spots_with(const std::string& body) {
@@ -20,7 +20,7 @@ std::vector<SignSpot> spots_with(const std::string& body) {
       "width = 1\n[design]\n" +
       body);
   Sign sign = scene->design->sign_types.front().sign;
-  sign.width_m = width_m, sign.height_m = height_m;
+  sign.width_m = face_width_m, sign.height_m = face_height_m;
   DesignSettings design = *scene->design;
   design.sign_height_m = lower_edge_m;
   const auto bare = Building::make(code_scene(*scene, false), code_scenario(*scene, {}), 1);

@@ -14,20 +14,17 @@
 #include "scenes/emergency/guidance.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
-#include "tests/unit/actors/design/silent.hpp"
+#include "tests/unit/actors/design/design_scenes.hpp"
 
 namespace luxodus {
 namespace {
 
+using test::route;
 using test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 std::string hall(double x, double y, double z) {
-  return fmt::format(
-      "[[object]]\nname = \"room\"\nshape = \"room\"\nlow = [0, 0, 0]\nhigh = [{}, {}, {}]\n"
-      "material = \"white50\"\n[assessment]\nrules = [\"en1838-2013\"]\n[[scenario]]\nname = "
-      "\"failed\"\noperation = \"emergency\"\n",
-      x, y, z);
+  return test::box_room(x, y, z) + test::judged_2013;
 }
 
 std::string partition(const char* name, const char* low, const char* high) {
@@ -37,18 +34,11 @@ std::string partition(const char* name, const char* low, const char* high) {
       name, low, high);
 }
 
-std::string route(const char* name, const std::string& path) {
-  return fmt::format("[[route]]\nname = \"{}\"\npath = [{}]\nwidth = 1\n", name, path);
-}
-
 DesignResult designed_with_signs(const fs::path& file) {
   DesignOptions options;
-  options.threads = 2;
   options.gap = 0.2;
-  auto result = design(test::described(file), options, test::nobody, test::silent);
-  INFO((result ? "" : result.problem().text()));
-  REQUIRE(result);
-  return std::move(result).value();
+  options.what_binds = false;
+  return test::designed(file, options);
 }
 
 /// The scene of the layout, read from the file that it was written to.
@@ -389,6 +379,30 @@ emergency_green = 30
   const SignPlan out = signs_with("circuits = { B = 0 }\n");
   CHECK(out.signs.empty());
   CHECK(out.left_out.forbidden > 0);
+}
+
+TEST_CASE("a circuit that only a type of a design hangs on is known to scenarios",
+          "[design][signs]") {
+  const auto scene =
+      test::described_text(test::box_room(20, 2, 3) + test::judged_2013 +
+                           "circuits = { B = 0.5 }\n" + test::way_along(1, 19, 1) + R"(
+[design]
+place_signs = true
+[[design.sign]]
+name = "group B"
+circuit = "B"
+plain = "green"
+smallest_detail = 0.02
+width = 0.3
+height = 0.15
+mains_white = 500
+mains_green = 60
+emergency_white = 200
+emergency_green = 30
+)");
+  REQUIRE(scene->design->sign_types.size() == 1);
+  const SceneDescription switched = as_switched(*scene, scene->scenarios.front());
+  CHECK(switched.design->sign_types[0].sign.emergency.white_cd_m2 == Approx(100));
 }
 
 TEST_CASE("a sign that is lit from outside gets its luminaire", "[design][signs]") {

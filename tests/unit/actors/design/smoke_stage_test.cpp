@@ -119,6 +119,16 @@ TEST_CASE("what is told of layouts in smoke follows from how they are read", "[d
   CHECK(alone.find("50 to 60 % of the routes") != std::string::npos);
   CHECK(alone.find("With no other layout is a sign surely read") != std::string::npos);
   CHECK(alone.find("that helps more than any layout") != std::string::npos);
+  JudgedLayout low = judged_as("A low", 4, 0.8, 0.9);
+  low.low_signs = {{"exit", {}}, {"west", {}}};
+  const std::string below = told({a, low});
+  INFO(below);
+  CHECK(below.find("2 low-level signs beside the others, 0.3 m above the floor") !=
+        std::string::npos);
+  CHECK(below.find("from 80 to 90 %: that helps more than any layout") != std::string::npos);
+  // With other signs it is no layout of luminaires that could be recommended.
+  CHECK(stage_of({a, low}).recommended().name == "A");
+  CHECK(stage_of({a, low}).with_low_signs()->name == "A low");
   JudgedLayout veiled = judged_as("B", 6, 0.3, 0.4);
   veiled.lost = 5;
   veiled.won = 1;
@@ -152,6 +162,12 @@ TEST_CASE("a corridor in smoke: alternatives pass the rules, brighter signs are 
   CHECK(best.worst().least < 0.9);
   REQUIRE(bright != nullptr);
   CHECK(bright->worst().most >= best.worst().least);
+  const JudgedLayout* low = stage.with_low_signs();
+  REQUIRE(low != nullptr);
+  REQUIRE(low->low_signs.size() == 1);
+  CHECK(low->layout.variant->signs.size() == 2);
+  // What is read above is read with the sign below, too.
+  CHECK(low->worst().most >= best.worst().least);
   for (const JudgedLayout& one : stage.layouts) {
     INFO(one.name);
     CHECK(one.rounds >= 1);
@@ -183,6 +199,14 @@ TEST_CASE("a corridor in smoke: alternatives pass the rules, brighter signs are 
     REQUIRE(assessed);
     for (const Check& check : assessed->checks)
       if (is_of_luminaires(check.rule.id)) CHECK(check.verdict != CheckVerdict::fail);
+    // The file has the signs that were judged.
+    const auto written = test::described(folder.path() / "out" / file_of(one));
+    REQUIRE(written->signs.size() == one.layout.variant->signs.size());
+    for (size_t i = 0; i < written->signs.size(); ++i) {
+      const Sign &there = written->signs[i], &judged = one.layout.variant->signs[i];
+      CHECK(there.emergency.white_cd_m2 == Approx(judged.emergency.white_cd_m2));
+      CHECK(glm::length(there.frame.origin - judged.frame.origin) < 1e-6);
+    }
   }
 }
 

@@ -8,35 +8,21 @@
 
 #include "actors/design/greedy.hpp"
 #include "runtime/core/random.hpp"
+#include "tests/unit/actors/design/problems.hpp"
 #include "tests/unit/actors/design/silent.hpp"
 
 namespace luxodus {
 namespace {
 
+using test::ask;
 using test::nobody;
 using test::silent;
-
-Terms terms(std::vector<Term> list) {
-  return std::make_shared<const std::vector<Term>>(std::move(list));
-}
+using test::sum_of;
+using test::with_options;
 
 LayoutAnswer solved(const LayoutProblem& problem, SolveSettings settings = {}) {
   settings.greedy_rounds = 20;
   return solve_layout(problem, settings, nobody, silent);
-}
-
-/// A problem with `options` luminaires of one type, each at a place of its own, of weight 1.
-LayoutProblem with_options(uint32_t options) {
-  LayoutProblem out;
-  for (uint32_t i = 0; i < options; ++i)
-    out.options.push_back({i, 1, false, no_region, {static_cast<double>(i), 0}});
-  return out;
-}
-
-void ask(LayoutProblem& problem, std::vector<Term> list, double least, const char* subject) {
-  problem.groups.push_back({DemandKind::minimum, "E1", subject, least, no_region});
-  problem.covers.push_back(
-      {static_cast<uint32_t>(problem.groups.size() - 1), terms(std::move(list)), least, {}});
 }
 
 /// Places and points at random in a square; two types at every other place; failures and a spread.
@@ -66,7 +52,7 @@ LayoutProblem random_problem(uint64_t seed, uint32_t options, uint32_t points) {
       const double candela = i % 2 == 0 ? 60 : 110;
       light.push_back({i, static_cast<float>(candela * height_m * height_m / (square * square))});
     }
-    out.points.push_back({terms(light), {x, y, 0}});
+    out.points.push_back({sum_of(light), {x, y, 0}});
     out.covers.push_back({0, out.points.back().light, 0.6, {x, y, 0}});
     failures.points.push_back(p);
     spread.low.push_back(p);
@@ -173,8 +159,8 @@ TEST_CASE("of constraints that cannot hold together the smallest set is named", 
   LayoutProblem problem = with_options(3);
   ask(problem, {{0, 10}}, 10, "bright");
   ask(problem, {{1, 1}, {2, 1}}, 1, "aside");
-  problem.points.push_back({terms({{0, 10}}), {0, 0, 0}});
-  problem.points.push_back({terms({{0, 0.1f}, {1, 0.1f}, {2, 0.1f}}), {5, 0, 0}});
+  problem.points.push_back({sum_of({{0, 10}}), {0, 0, 0}});
+  problem.points.push_back({sum_of({{0, 0.1f}, {1, 0.1f}, {2, 0.1f}}), {5, 0, 0}});
   problem.groups.push_back({DemandKind::spread, "E4", "even", 10, no_region});
   problem.spreads.push_back({2, 10, {1}, {0}});
   CHECK(solved(problem).end == LayoutEnd::infeasible);
@@ -190,7 +176,7 @@ TEST_CASE("with any one luminaire failed, what the others give is enough", "[des
   for (uint32_t i = 0; i < 4; ++i) all.push_back({i, 1});
   ask(problem, all, 1, "a");
   CHECK(solved(problem).objective == Approx(1));
-  problem.points.push_back({terms(all), {}});
+  problem.points.push_back({sum_of(all), {}});
   problem.groups.push_back({DemandKind::failed, "", "a", 2, no_region});
   problem.failures.push_back({1, 2, {0}});
   CHECK(solved(problem).objective == Approx(3));

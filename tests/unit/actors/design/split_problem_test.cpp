@@ -5,14 +5,13 @@
 
 #include "actors/design/solve_layout.hpp"
 #include "runtime/core/random.hpp"
+#include "tests/unit/actors/design/problems.hpp"
 #include "tests/unit/actors/design/silent.hpp"
 
 namespace luxodus {
 namespace {
 
-Terms sum_of(std::vector<Term> list) {
-  return std::make_shared<const std::vector<Term>>(std::move(list));
-}
+using test::sum_of;
 
 /// Storeys of a line of places and points each, with failures and a ratio; every storey is alike
 /// unless `varied`.
@@ -102,6 +101,29 @@ TEST_CASE("a tower takes as many luminaires as its storeys do, and its layout ho
   sums.set(all.layout);
   CHECK(sums.holds());
   CHECK(objective_of(tower, all.layout) == Approx(all.objective));
+}
+
+TEST_CASE("without a row there is one part, and nothing is placed", "[design][parts]") {
+  const LayoutProblem nothing_asked = test::with_options(5);
+  REQUIRE(parts_of(nothing_asked).size() == 1);
+  CHECK(parts_of(nothing_asked).front().options.size() == 5);
+  const LayoutAnswer answer = answer_to(nothing_asked);
+  CHECK(answer.end == LayoutEnd::optimal);
+  CHECK(answer.objective == 0);
+}
+
+TEST_CASE("a tower has a layout of all storeys before any of them is searched", "[design][parts]") {
+  SolveSettings no_time;
+  no_time.seconds = 0;
+  const LayoutProblem tower = storeys(10, true);
+  const LayoutAnswer answer = solve_layout(tower, no_time, test::nobody, test::silent);
+  REQUIRE_FALSE(answer.layout.empty());
+  const LayoutIndex index(tower);
+  LayoutSums sums(index);
+  sums.set(answer.layout);
+  CHECK(sums.holds());
+  CHECK(answer.first_seconds <= answer.seconds);
+  CHECK(answer.bound <= answer.objective + 1e-6);
 }
 
 TEST_CASE("a tower with one storey that cannot be lit has no layout", "[design][parts]") {

@@ -8,25 +8,14 @@
 #include "scenes/geometry/transform.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
-#include "tests/unit/actors/design/silent.hpp"
+#include "tests/unit/actors/design/design_scenes.hpp"
 
 namespace luxodus {
 namespace {
 
 using test::TemporaryFolder;
 
-const char* const one_lamp = R"(
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [16, 3, 3]
-material = "white50"
-[assessment]
-rules = ["en1838-2013"]
-[[scenario]]
-name = "failed"
-operation = "emergency"
+const std::string one_lamp = test::box_room(16, 3, 3) + test::judged_2013 + R"(
 [[emitter]]
 name = "lamp"
 shape = "disc"
@@ -37,13 +26,8 @@ emergency = "non-maintained"
 emergency_flux = 200
 maintenance_factor = 0.8
 end_of_duration_factor = 0.7
-[[route]]
-name = "way"
-path = [[1, 1.5, 0], [15, 1.5, 0]]
-width = 1
-[design]
-failure = "none"
-)";
+)" + test::way_along(1, 15, 1.5) +
+                             "[design]\nfailure = \"none\"\n";
 
 LayoutOption at_place(uint32_t place, bool fixed) {
   LayoutOption out;

@@ -8,7 +8,7 @@
 #include "actors/design/design_files.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
-#include "tests/unit/actors/design/silent.hpp"
+#include "tests/unit/actors/design/design_scenes.hpp"
 
 namespace luxodus {
 namespace {
@@ -17,18 +17,7 @@ using test::TemporaryFolder;
 
 /// A corridor of 2 m, and a bulkhead in it to be like, which goes.
 std::string wall_scene(const char* settings) {
-  return fmt::format(R"(
-[[object]]
-name = "room"
-shape = "room"
-low = [0, 0, 0]
-high = [12, 2, 3]
-material = "white50"
-[assessment]
-rules = ["en1838-2013"]
-[[scenario]]
-name = "failed"
-operation = "emergency"
+  return test::box_room(12, 2, 3) + test::judged_2013 + R"(
 [[emitter]]
 name = "bulkhead"
 shape = "disc"
@@ -39,16 +28,8 @@ emergency = "non-maintained"
 emergency_flux = 400
 maintenance_factor = 0.8
 end_of_duration_factor = 0.8
-[[route]]
-name = "way"
-path = [[1, 1, 0], [11, 1, 0]]
-width = 1
-[design]
-place_signs = false
-existing = "removed"
-{}
-)",
-                     settings);
+)" + test::way_along(1, 11, 1) +
+         "[design]\nplace_signs = false\nexisting = \"removed\"\n" + settings + "\n";
 }
 
 const char* const on_walls = R"(
