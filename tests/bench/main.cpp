@@ -38,6 +38,7 @@ constexpr Table tables[] = {
     {"residency", [](const Options& o) { luxodus::bench::print_residency(o.pack); }},
     {"merit", [](const Options& o) { luxodus::bench::print_merit(o.repeats, o.scene); }},
     {"images", [](const Options& o) { luxodus::bench::print_images(o.share); }},
+    {"choice", [](const Options& o) { luxodus::bench::print_choice(o.share); }},
     {"colours", [](const Options& o) { luxodus::bench::print_colours(o.share); }},
     {"rooms", [](const Options& o) { luxodus::bench::print_rooms(o.share); }},
     {"features", [](const Options& o) { luxodus::bench::print_features(o.repeats); }},
