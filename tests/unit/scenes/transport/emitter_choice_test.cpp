@@ -45,8 +45,8 @@ flux_lm = 20
 name = "hidden lamp"
 shape = "point"
 distribution = "isotropic"
-position = [12, 5, 2.8]
-flux_lm = 5000
+position = [14, 5, 2.8]
+flux_lm = 600
 )";
 constexpr size_t lamp = 0, weak_lamp = 1, hidden_lamp = 2;
 
@@ -78,7 +78,7 @@ TEST_CASE("a lamp in sight is chosen before a brighter one behind a wall", "[tra
   EmitterChoice choice(*rooms.scene);
   const Vec3 place = rooms.at(8.5, 5, 1);
   REQUIRE(choice.weigh_at(place, in_the_air, all_bands, nullptr));
-  CHECK(choice.probability_at(hidden_lamp) > 0.9);  // by power and distance alone
+  CHECK(choice.probability_at(hidden_lamp) > 0.75);  // by power and distance alone
   const CellSight& seen = rooms.sight.at(place, rooms.resolver);
   REQUIRE(choice.weigh_at(place, in_the_air, all_bands, &seen));
   CHECK(choice.probability_at(lamp) > choice.probability_at(hidden_lamp));
