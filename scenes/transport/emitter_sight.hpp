@@ -22,7 +22,7 @@ namespace luxodus {
 namespace limits {
 /// Emitters that are asked from a cell: those of the most power over squared distance.
 inline constexpr size_t asked_emitters = 256;
-/// Of each; it takes about as long to ask as to trace ten paths an emitter.
+/// Of each: with half as many, emitters that a part of a cell sees are missed too often.
 inline constexpr int sight_rays = 16;
 /// An emitter that no ray has met may still be seen from somewhere in the cell: it counts as so
 /// much of its light in the open.
