@@ -118,7 +118,7 @@ class TileWorker final : public BatchWorker {
       const LocalRun& run = state_.run();
       const TiledView& view = view_of(batch_);
       tracer.emplace(run.scene(), GeometryAccess::resident(run.index()), run.seed(), view.camera,
-                     view.number, state_.flux());
+                     view.number, state_.flux(), state_.sight());
     }
     return *tracer;
   }
@@ -272,7 +272,10 @@ Result<TiledPictures> parse_tiles(const std::string& text) try {
 
 PictureState::PictureState(const LocalRun& run, TiledPictures pictures,
                            std::shared_ptr<const KnownRadiance> flux)
-    : run_(run), pictures_(std::move(pictures)), flux_(std::move(flux)) {
+    : run_(run),
+      pictures_(std::move(pictures)),
+      flux_(std::move(flux)),
+      sight_(make_emitter_sight(run.scene())) {
   int64_t pixels = 1;
   for (const TiledView& view : pictures_.views)
     pixels = std::max(pixels, int64_t{view.camera.width} * view.camera.height);

@@ -54,11 +54,13 @@ class PictureState final : public TracedState {
   const LocalRun& run() const { return run_; }
   const TiledPictures& pictures() const { return pictures_; }
   const KnownRadiance* flux() const { return flux_.get(); }
+  const std::shared_ptr<const EmitterSight>& sight() const { return sight_; }
 
  private:
   const LocalRun& run_;
   const TiledPictures pictures_;
   const std::shared_ptr<const KnownRadiance> flux_;
+  const std::shared_ptr<const EmitterSight> sight_;  // of all workers
   TallyLayout layout_;
 };
 

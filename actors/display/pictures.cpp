@@ -41,7 +41,12 @@ int next_pass(int paths) {
 
 ViewPasses::ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number,
                        const KnownRadiance* flux)
-    : run_(run), camera_(camera), number_(number), flux_(flux), sums_(pixels()) {}
+    : run_(run),
+      camera_(camera),
+      number_(number),
+      flux_(flux),
+      sight_(make_emitter_sight(run.scene())),
+      sums_(pixels()) {}
 
 size_t ViewPasses::pixels() const {
   return static_cast<size_t>(camera_.width) * static_cast<size_t>(camera_.height);
@@ -59,8 +64,8 @@ bool ViewPasses::trace(const PictureOptions& options, const ShareDone& progress,
   // Parts of a row, so that there is work for many fibers.
   const int parts = (camera_.width + columns_at_once - 1) / columns_at_once;
   const auto make = [&](const GeometryAccess& access) {
-    auto tracer =
-        std::make_shared<PixelTracer>(run_.scene(), access, run_.seed(), camera_, number_, flux_);
+    auto tracer = std::make_shared<PixelTracer>(run_.scene(), access, run_.seed(), camera_, number_,
+                                                flux_, sight_);
     return [&, tracer](int64_t unit) {
       const int row = static_cast<int>(unit / parts);
       const int first = static_cast<int>(unit % parts) * columns_at_once;

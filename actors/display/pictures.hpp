@@ -141,6 +141,7 @@ class ViewPasses {
   const Camera camera_;
   const uint64_t number_;
   const KnownRadiance* flux_;
+  std::shared_ptr<const EmitterSight> sight_;  // of all passes and threads
   std::vector<PixelSums> sums_;
   int paths_ = 0;
   int first_paths_ = 0;  // that pixels of even columns and rows have when others have none

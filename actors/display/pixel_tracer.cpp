@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace luxodus {
@@ -35,9 +36,10 @@ Ray Pinhole::ray(double x, double y) const {
 }
 
 PixelTracer::PixelTracer(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
-                         const Camera& camera, uint64_t number, const KnownRadiance* flux)
+                         const Camera& camera, uint64_t number, const KnownRadiance* flux,
+                         std::shared_ptr<const EmitterSight> sight)
     : scene_(scene),
-      tracer_(make_picture_tracer(scene, access, seed)),
+      tracer_(make_picture_tracer(scene, access, seed, std::move(sight))),
       pinhole_(camera, scene.local_origin),
       first_path_(number << camera_shift),
       flux_(flux),

@@ -16,7 +16,7 @@ namespace luxodus {
 namespace limits {
 inline constexpr int max_paths_per_pixel = 1 << 16;  // 17 bits of a path's number
 inline constexpr int max_picture_edge = 1 << 14;     // of a scene's cameras, too
-}
+}  // namespace limits
 
 /// A camera without a lens: every ray passes through one point.
 class Pinhole {
@@ -34,9 +34,10 @@ class Pinhole {
 class PixelTracer {
  public:
   /// `number`: of the random numbers, a camera's own; below 2^16. `flux`: where paths end, or null.
-  /// Requires: what is referred to outlives this.
+  /// `sight`: of make_emitter_sight. Requires: what is referred to outlives this.
   PixelTracer(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
-              const Camera& camera, uint64_t number, const KnownRadiance* flux);
+              const Camera& camera, uint64_t number, const KnownRadiance* flux,
+              std::shared_ptr<const EmitterSight> sight);
 
   /// Adds the paths [from, to) of a pixel; `pixel`: row * width + column, below 2^28.
   /// Requires: to <= limits::max_paths_per_pixel.

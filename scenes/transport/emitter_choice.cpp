@@ -15,7 +15,14 @@ Vec3 centre_of(const CompiledEmitter& e) {
 }  // namespace
 
 EmitterChoice::EmitterChoice(const CompiledScene& scene) : scene_(scene) {
-  for (const CompiledEmitter& e : scene.emitters) seen_power_.push_back(power_seen(scene, e));
+  double sum = 0;
+  for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
+    const CompiledEmitter& e = scene.emitters[i];
+    seen_power_.push_back(power_seen(scene, e));
+    bounds_.push_back(emitter_bound(scene, i));
+    if (e.distribution != Distribution::collimated) sum += seen_power_.back();
+    by_power_.push_back(sum);
+  }
 }
 
 /// In proportion to power times weight(emitter), of each that sends light in more than one
@@ -35,7 +42,36 @@ double EmitterChoice::weigh(Cumulative& cumulative, int band, WeightOf&& weight)
   return total;
 }
 
-bool EmitterChoice::weigh_at(const Vec3& place, int band) {
+/// Of what arrives in the cell, what arrives at the place: by its own distances, and before the
+/// surface.
+bool EmitterChoice::weigh_bright(const Vec3& place, const Vec3& normal, int band) {
+  at_.resize(seen_->bright.size());
+  const bool surface = normal != Vec3(0);
+  double total = 0;
+  for (size_t i = 0; i < at_.size(); ++i) {
+    const auto& [emitter, arriving] = seen_->bright[i];
+    const EmitterBound& bound = bounds_[emitter];
+    const Vec3 way = bound.centre - place;
+    const Real square = glm::dot(way, way) + bound.radius * bound.radius;
+    double weight = arriving / static_cast<double>(square);
+    if (surface) {
+      // Its highest point may be above the horizon where its middle is not.
+      const Real height = std::max(0.0_r, glm::dot(way, normal) + bound.radius);
+      weight *= static_cast<double>(height / std::sqrt(square));
+    }
+    total +=
+        weight * (band == all_bands ? seen_power_[emitter]
+                                    : scene_.emitters[emitter].power_w[static_cast<size_t>(band)]);
+    at_[i] = total;
+  }
+  bright_ = total > 0 ? limits::bright_choice : 0;
+  return by_power_.back() > 0;
+}
+
+bool EmitterChoice::weigh_at(const Vec3& place, const Vec3& normal, int band,
+                             const CellSight* seen) {
+  seen_ = seen;
+  if (seen != nullptr) return weigh_bright(place, normal, band);
   const bool few = scene_.emitters.size() <= limits::nearby_emitters;
   const Real least = 1e-9_r * scene_.diagonal_m * scene_.diagonal_m;
   const double total = weigh(at_, band, [&](const CompiledEmitter& e) {
@@ -60,6 +96,39 @@ bool EmitterChoice::weigh_along(const Ray& ray, Real end, int band) {
     return static_cast<double>(end / (least * (least + end / 3)));
   });
   return near && total > 0;
+}
+
+EmitterSample EmitterChoice::choose_at(double u) const {
+  if (seen_ == nullptr) return choose(at_, u);
+  size_t emitter = 0;
+  if (u < bright_) {
+    emitter = seen_->bright[choose(at_, u / bright_).emitter].emitter;
+  } else if (u = (u - bright_) / (1 - bright_); u < seen_->asked_share) {
+    const auto at = std::upper_bound(seen_->cumulative.begin(), seen_->cumulative.end(),
+                                     static_cast<float>(u / seen_->asked_share)) -
+                    seen_->cumulative.begin();
+    emitter = seen_->asked[std::min(static_cast<size_t>(at), seen_->asked.size() - 1)];
+  } else {
+    emitter = choose(by_power_, std::min(1.0, (u - seen_->asked_share) / (1 - seen_->asked_share)))
+                  .emitter;
+  }
+  return {emitter, probability_at(emitter)};
+}
+
+double EmitterChoice::probability_at(size_t emitter) const {
+  if (seen_ == nullptr) return share_of(emitter, at_);
+  double other = (1 - seen_->asked_share) * share_of(emitter, by_power_);
+  const auto asked = std::lower_bound(seen_->asked.begin(), seen_->asked.end(), emitter);
+  if (asked != seen_->asked.end() && *asked == emitter) {
+    const auto i = static_cast<size_t>(asked - seen_->asked.begin());
+    const auto before = i > 0 ? static_cast<double>(seen_->cumulative[i - 1]) : 0.0;
+    other += seen_->asked_share * (static_cast<double>(seen_->cumulative[i]) - before);
+  }
+  double probability = (1 - bright_) * other;
+  if (!(bright_ > 0)) return probability;
+  for (size_t i = 0; i < at_.size(); ++i)
+    if (seen_->bright[i].emitter == emitter) probability += bright_ * share_of(i, at_);
+  return probability;
 }
 
 EmitterSample EmitterChoice::choose(const Cumulative& cumulative, double u) {

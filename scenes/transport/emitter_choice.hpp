@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/transport/compiled_scene.hpp"
+#include "scenes/transport/emitter_sight.hpp"
 
 namespace luxodus {
 
@@ -15,6 +16,9 @@ inline constexpr size_t nearby_emitters = 256;  // up to here distance decides w
 /// An emitter is near where it is closer to the stretch than this share of its length and half its
 /// own size: collisions, which are spread over all of it, would seldom come as close.
 inline constexpr Real near_line = 0.125_r;
+/// Share of the choice that goes to emitters by what is known of them at a place; the rest goes by
+/// what is known of the cell around it, which has all emitters.
+inline constexpr double bright_choice = 0.9;
 }  // namespace limits
 
 /// Of the light of all bands together, as a path that carries them all asks.
@@ -29,12 +33,14 @@ class EmitterChoice {
  public:
   explicit EmitterChoice(const CompiledScene& scene);
 
-  /// Weighs all emitters as seen from a place, by squared distance where they are few. False where
-  /// none shines in this band, or with `all_bands` in any.
-  bool weigh_at(const Vec3& place, int band);
+  /// Weighs emitters as seen from a place: those that `seen` knows to be bright by what arrives
+  /// from there, or without it all by squared distance where they are few. `normal` is that of a
+  /// surface, and zero in a medium. False where none shines in this band, or with `all_bands` in
+  /// any.
+  bool weigh_at(const Vec3& place, const Vec3& normal, int band, const CellSight* seen);
   /// Of the last weigh_at, by a uniform number u in [0, 1).
-  EmitterSample choose_at(double u) const { return choose(at_, u); }
-  double probability_at(size_t emitter) const { return share_of(emitter, at_); }
+  EmitterSample choose_at(double u) const;
+  double probability_at(size_t emitter) const;
 
   /// Weighs emitters by what each sends to the first `end` of a ray, nearly: the angle at
   /// which it sees it, over its distance. False where none is near, so that none need be chosen so.
@@ -45,6 +51,7 @@ class EmitterChoice {
  private:
   /// Sums of the weights of the emitters up to each.
   using Cumulative = std::vector<double>;
+  bool weigh_bright(const Vec3& place, const Vec3& normal, int band);
   template <class WeightOf>
   double weigh(Cumulative& cumulative, int band, WeightOf&& weight) const;
   static EmitterSample choose(const Cumulative& cumulative, double u);
@@ -52,7 +59,11 @@ class EmitterChoice {
 
   const CompiledScene& scene_;
   std::vector<double> seen_power_;  // of each emitter, in all bands, by how they look
-  Cumulative at_, along_;
+  Cumulative by_power_;             // of all emitters
+  std::vector<EmitterBound> bounds_;
+  const CellSight* seen_ = nullptr;  // of the last weigh_at
+  double bright_ = 0;                // the share of the choice that its bright emitters have
+  Cumulative at_, along_;            // at_: of the bright ones, or of all
 };
 
 }  // namespace luxodus

@@ -40,6 +40,7 @@ struct Stretch {
 struct PathTurn {
   Vec3 place{0};
   double pdf = 0;          // [1/sr]
+  Vec3 normal{0};          // of a surface
   bool in_medium = false;  // then the place is `t` along the stretch
   Stretch stretch{{}, 0, 1, PathBands::one(0)};
   Real t = 0;
@@ -49,12 +50,15 @@ template <class Resolver>
 class NextEvent {
  public:
   /// `aimed`: whether paths are also turned towards the glow around emitters.
-  NextEvent(const CompiledScene& scene, Resolver& resolver, Random& random, bool aimed)
+  /// `sight`: what emitters are chosen by; null: by power and distance alone.
+  NextEvent(const CompiledScene& scene, Resolver& resolver, Random& random, bool aimed,
+            const EmitterSight* sight)
       : scene_(scene),
         resolver_(resolver),
         random_(random),
         choice_(scene),
         media_(scene),
+        sight_(sight),
         aimed_(aimed) {}
 
   const MediaBands& media() const { return media_; }
@@ -74,7 +78,7 @@ class NextEvent {
   void add_reflected(const Vec3& place, const Vec3& direction, const Vec3& normal,
                      std::span<const SurfaceModel> models, const PathBands& bands, double weight,
                      GroupLight& into) {
-    if (!choice_.weigh_at(place, chosen_by(bands))) return;
+    if (!weigh_at(place, normal, bands)) return;
     const EmitterSample sampled = choice_.choose_at(random_.uniform_double());
     if (sampled.probability <= 0) return;
     const CompiledEmitter& e = scene_.emitters[sampled.emitter];
@@ -120,9 +124,8 @@ class NextEvent {
                        const PathBands& bands) {
     const double hit = turn.pdf * apparent_sr;
     if (!(hit > 0)) return 0;
-    const int band = chosen_by(bands);
-    double sampled = choice_.weigh_at(turn.place, band) ? choice_.probability_at(emitter) : 0;
-    if (turn.in_medium && choice_.weigh_along(turn.stretch.ray, turn.stretch.end, band))
+    double sampled = weigh_at(turn.place, turn.normal, bands) ? choice_.probability_at(emitter) : 0;
+    if (turn.in_medium && choice_.weigh_along(turn.stretch.ray, turn.stretch.end, chosen_by(bands)))
       sampled += drawn_near(turn.stretch, turn.place, turn.t, emitter, point);
     return hit / (hit + sampled);
   }
@@ -141,6 +144,12 @@ class NextEvent {
   }
 
  private:
+  /// Weighs emitters as seen from a place. `normal`: of a surface; zero in a medium.
+  bool weigh_at(const Vec3& place, const Vec3& normal, const PathBands& bands) {
+    const CellSight* seen = sight_ != nullptr ? &sight_->at(place, resolver_) : nullptr;
+    return choice_.weigh_at(place, normal, chosen_by(bands), seen);
+  }
+
   /// Irradiance [W/m2] of a point of an emitter, normal to the line between, by the path's bands.
   struct Arriving {
     Vec3 direction{0};  // towards the emitter
@@ -227,7 +236,7 @@ class NextEvent {
   void add_at_collision(const Stretch& s, const FreeFlight& flight, bool emitters_near,
                         const BandValues& passed, double weight, GroupLight& into) {
     const Vec3 place = s.ray.origin + s.ray.direction * flight.t;
-    if (!choice_.weigh_at(place, chosen_by(s.bands))) return;
+    if (!weigh_at(place, Vec3(0), s.bands)) return;
     const EmitterSample sampled = choice_.choose_at(random_.uniform_double());
     if (sampled.probability <= 0) return;
     const CompiledEmitter& e = scene_.emitters[sampled.emitter];
@@ -260,7 +269,7 @@ class NextEvent {
     if (!may_collide_at(s, place) || !arrive(e, point, place, s.bands)) return;
     const double here = density_of_collisions(s, t);
     if (!(here > 0)) return;
-    choice_.weigh_at(place, chosen_by(s.bands));
+    weigh_at(place, Vec3(0), s.bands);
     const double drawn = share * line.density(static_cast<double>(t));
     const double sampled = choice_.probability_at(chosen);
     const Real cosine = glm::dot(arriving_.direction, s.ray.direction);
@@ -287,6 +296,7 @@ class NextEvent {
   Random& random_;
   EmitterChoice choice_;
   MediaBands media_;
+  const EmitterSight* sight_;
   bool aimed_, knows_glows_ = false;
   GlowGuide guide_;
 

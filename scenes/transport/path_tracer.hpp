@@ -39,11 +39,13 @@ enum class EmitterHits {
 template <class Resolver>
 class PathTracer {
  public:
-  PathTracer(const CompiledScene& scene, Resolver& resolver, uint64_t seed, RandomStream stream)
+  /// `sight`: what emitters are chosen by; null: by power and distance alone.
+  PathTracer(const CompiledScene& scene, Resolver& resolver, uint64_t seed, RandomStream stream,
+             const EmitterSight* sight = nullptr)
       : scene_(scene),
         resolver_(resolver),
         random_(seed, stream),
-        next_event_(scene, resolver, random_, stream == RandomStream::picture),
+        next_event_(scene, resolver, random_, stream == RandomStream::picture, sight),
         models_(static_cast<size_t>(scene.bands.count())),
         straight_(scene.groups.size(), static_cast<size_t>(scene.bands.count())) {
     // A picture shows colours, an estimate of luminance needs few.
@@ -120,6 +122,7 @@ class PathTracer {
                                  GroupLight& into) {
     Path path{ray, PathBands::one(band), EmitterHits::weighted, weight, into};
     path.turn.place = ray.origin;
+    path.turn.normal = normal;
     path.turn.pdf = static_cast<double>(cosine_pdf(glm::dot(ray.direction, normal)));
     trace(path, nullptr);
   }
@@ -353,7 +356,10 @@ class PathTracer {
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     const Vec3& before = stretch.ray.direction;
     return {stretch.ray.origin + before * flight.t,
-            static_cast<double>(evaluate(phase, glm::dot(before, direction))), true, stretch,
+            static_cast<double>(evaluate(phase, glm::dot(before, direction))),
+            Vec3(0),
+            true,
+            stretch,
             flight.t};
   }
 
@@ -412,6 +418,7 @@ class PathTracer {
     p.diffused = true;
     p.turn.place = p.ray.origin;
     p.turn.pdf = pdf;
+    p.turn.normal = normal;
     p.turn.in_medium = false;
     if (aimed) weigh_aimed(p, s.direction);
     return true;

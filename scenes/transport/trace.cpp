@@ -69,9 +69,11 @@ namespace {
 template <class Resolver>
 class ResolverPictureTracer final : public PictureTracer {
  public:
-  ResolverPictureTracer(const CompiledScene& scene, Resolver resolver, uint64_t seed)
+  ResolverPictureTracer(const CompiledScene& scene, Resolver resolver, uint64_t seed,
+                        std::shared_ptr<const EmitterSight> sight)
       : resolver_(std::move(resolver)),
-        eye_(scene, resolver_, seed, RandomStream::picture),
+        sight_(std::move(sight)),
+        eye_(scene, resolver_, seed, RandomStream::picture, sight_.get()),
         set_(seed, RandomStream::picture),
         stratified_(scene.description->run.stratified),
         light_(scene.groups.size(), static_cast<size_t>(scene.bands.count())) {}
@@ -98,6 +100,7 @@ class ResolverPictureTracer final : public PictureTracer {
 
  private:
   Resolver resolver_;
+  std::shared_ptr<const EmitterSight> sight_;
   PathTracer<Resolver> eye_;
   SobolSet set_;
   bool stratified_;
@@ -106,11 +109,17 @@ class ResolverPictureTracer final : public PictureTracer {
 
 }  // namespace
 
+std::shared_ptr<const EmitterSight> make_emitter_sight(const CompiledScene& scene) {
+  if (scene.emitters.size() < 2) return nullptr;
+  return std::make_shared<const EmitterSight>(scene);
+}
+
 std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,
-                                                   const GeometryAccess& access, uint64_t seed) {
+                                                   const GeometryAccess& access, uint64_t seed,
+                                                   std::shared_ptr<const EmitterSight> sight) {
   return with_resolver(scene, access, [&](auto resolver) -> std::unique_ptr<PictureTracer> {
     return std::make_unique<ResolverPictureTracer<decltype(resolver)>>(scene, std::move(resolver),
-                                                                       seed);
+                                                                       seed, sight);
   });
 }
 

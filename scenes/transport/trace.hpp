@@ -56,8 +56,16 @@ class PictureTracer {
   /// What is known of the ray without chance. `first` keeps its memory.
   virtual void meet_first(const Ray& ray, FirstHit& first) = 0;
 };
+
+class EmitterSight;
+/// What paths of pictures choose emitters by, learned as they go; for all tracers of a scene.
+/// Requires: the scene outlives it. Null where there is nothing to choose.
+std::shared_ptr<const EmitterSight> make_emitter_sight(const CompiledScene& scene);
+
+/// `sight`: of the scene, or null where emitters are chosen by power and distance alone.
 std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,
-                                                   const GeometryAccess& access, uint64_t seed);
+                                                   const GeometryAccess& access, uint64_t seed,
+                                                   std::shared_ptr<const EmitterSight> sight);
 
 /// "layered media, 8 bands, ...": what the chosen kernel contains, and what it leaves out.
 std::string describe_kernel(const CompiledScene& scene);

@@ -127,7 +127,8 @@ std::array<Way, 2> trace_ways(const LocalRun& run, const KnownRadiance* flux) {
   const double half = std::tan(glm::radians(camera.vertical_fov_deg) / 2);
   const glm::dvec3 up = glm::cross(right, forward);
   run.rows().run(1, [&](const GeometryAccess& access) -> ParallelFor::Worker {
-    const std::shared_ptr<PictureTracer> tracer = make_picture_tracer(scene, access, 5);
+    const std::shared_ptr<PictureTracer> tracer =
+        make_picture_tracer(scene, access, 5, make_emitter_sight(scene));
     return [&, tracer](int64_t) {
       for (uint64_t pixel = 0; pixel < uint64_t{width} * height; ++pixel) {
         for (const size_t way : {size_t{0}, size_t{1}}) {

@@ -39,6 +39,7 @@ constexpr Table tables[] = {
     {"merit", [](const Options& o) { luxodus::bench::print_merit(o.repeats, o.scene); }},
     {"images", [](const Options& o) { luxodus::bench::print_images(o.share); }},
     {"bias", [](const Options& o) { luxodus::bench::print_bias(o.share, o.scene); }},
+    {"choice", [](const Options& o) { luxodus::bench::print_choice(o.share); }},
     {"colours", [](const Options& o) { luxodus::bench::print_colours(o.share); }},
     {"rooms", [](const Options& o) { luxodus::bench::print_rooms(o.share); }},
     {"features", [](const Options& o) { luxodus::bench::print_features(o.repeats); }},

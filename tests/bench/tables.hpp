@@ -45,6 +45,9 @@ void print_bias(double share, const std::string& scene);
 /// What paths of all bands gain over paths of one, and how true colours of filtered pictures are;
 /// with a share of the particles and of the long picture's paths.
 void print_colours(double share);
+/// What paths gain that choose emitters by what cells of space have learned; of a share of the
+/// particles and paths.
+void print_choice(double share);
 /// Processor seconds that pictures of a furnished room take to an error of 10 %, in clear air and
 /// in smoke; with a share of the particles and of the long picture's paths.
 void print_rooms(double share);

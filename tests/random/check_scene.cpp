@@ -168,7 +168,7 @@ class Tracing {
     const Camera& camera = scene_.description->cameras.front();
     const glm::dvec3 way = camera.target - camera.eye;
     if (!(glm::length(way) > 1e-6)) return;
-    const auto tracer = make_picture_tracer(scene_, access_, seed_);
+    const auto tracer = make_picture_tracer(scene_, access_, seed_, make_emitter_sight(scene_));
     for (uint32_t path = 0; path < 4; ++path) {
       tracer->start(0, 4, path);
       const int hero = tracer->choose_band(static_cast<double>(tracer->uniform()));

@@ -195,7 +195,8 @@ std::vector<BandLight> seen(const LocalRun& run, const glm::vec3& eye, const glm
   const glm::vec3 local(glm::dvec3(eye) - run.scene().local_origin);
   std::vector<double> sums(bands), squares(bands), counts(bands);
   run.rows().run(1, [&](const GeometryAccess& access) -> ParallelFor::Worker {
-    const std::shared_ptr<PictureTracer> tracer = make_picture_tracer(run.scene(), access, 3);
+    const std::shared_ptr<PictureTracer> tracer =
+        make_picture_tracer(run.scene(), access, 3, make_emitter_sight(run.scene()));
     return [&, tracer](int64_t) {
       FirstHit first;
       for (uint32_t i = 0; i < static_cast<uint32_t>(paths); ++i) {
@@ -318,7 +319,8 @@ spectrum = "A"
   const std::vector<double>& power = run->scene().groups[0].power_w;
   REQUIRE(power.size() == 4);
   run->rows().run(1, [&](const GeometryAccess& access) -> ParallelFor::Worker {
-    const std::shared_ptr<PictureTracer> tracer = make_picture_tracer(run->scene(), access, 3);
+    const std::shared_ptr<PictureTracer> tracer =
+        make_picture_tracer(run->scene(), access, 3, make_emitter_sight(run->scene()));
     return [&, tracer](int64_t) {
       for (uint32_t i = 0; i < 64; ++i) {
         tracer->start(0, 64, i);

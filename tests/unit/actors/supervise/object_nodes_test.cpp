@@ -211,7 +211,8 @@ TEST_CASE("direct light and pictures read bricks and tiles through a cache", "[n
     run.rows().run(
         rows,
         [&](const GeometryAccess& access) -> ParallelFor::Worker {
-          const std::shared_ptr<PictureTracer> eye = make_picture_tracer(run.scene(), access, 5);
+          const std::shared_ptr<PictureTracer> eye =
+              make_picture_tracer(run.scene(), access, 5, make_emitter_sight(run.scene()));
           return [&run, &out, access, eye](int64_t row) {
             const auto i = static_cast<size_t>(row);
             const auto at = static_cast<float>(row) / rows;

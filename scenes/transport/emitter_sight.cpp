@@ -1,0 +1,67 @@
+#include "scenes/transport/emitter_sight.hpp"
+
+namespace luxodus {
+
+EmitterSight::EmitterSight(const CompiledScene& scene) : scene_(scene), cells_(scene) {
+  for (int b = 0; b < scene.bands.count(); ++b)
+    if (scene.bands[b].lm_per_w > scene.bands[band_].lm_per_w) band_ = b;
+  for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
+    const bool spreads = scene.emitters[i].distribution != Distribution::collimated;
+    power_.push_back(spreads ? power_seen(scene, scene.emitters[i]) : 0);
+    bounds_.push_back(emitter_bound(scene, i));
+  }
+}
+
+std::vector<EmitterSight::Asked> EmitterSight::candidates(const Vec3& middle) const {
+  std::vector<Asked> out;
+  for (uint32_t i = 0; i < power_.size(); ++i) {
+    if (!(power_[i] > 0)) continue;
+    const Vec3 d = bounds_[i].centre - middle;
+    const double square =
+        static_cast<double>(glm::dot(d, d) + bounds_[i].radius * bounds_[i].radius +
+                            0.25_r * cells_.edge() * cells_.edge());
+    out.push_back({i, power_[i] / square, 0, 0});
+  }
+  if (out.size() > limits::asked_emitters) {
+    const auto brighter = [](const Asked& a, const Asked& b) {
+      return a.over_square != b.over_square ? a.over_square > b.over_square : a.emitter < b.emitter;
+    };
+    std::nth_element(out.begin(), out.begin() + limits::asked_emitters, out.end(), brighter);
+    out.resize(limits::asked_emitters);
+    std::sort(out.begin(), out.end(),
+              [](const Asked& a, const Asked& b) { return a.emitter < b.emitter; });
+  }
+  return out;
+}
+
+CellSight EmitterSight::conclude(std::vector<Asked> asked) const {
+  CellSight out;
+  double sum = 0;
+  for (const Asked& a : asked) sum += a.light(a.arriving);
+  if (!(sum > 0)) {  // nothing arrives: whatever is asked is asked by its power
+    out.asked_share = 0;
+    return out;
+  }
+  std::vector<Asked> bright;
+  double so_far = 0;
+  for (const Asked& a : asked) {
+    so_far += a.light(a.arriving);
+    out.asked.push_back(a.emitter);
+    out.cumulative.push_back(static_cast<float>(so_far / sum));
+    if (a.light(a.arriving) > limits::bright_share * sum) bright.push_back(a);
+  }
+  out.cumulative.back() = 1;
+  if (bright.size() > limits::bright_emitters) {
+    std::stable_sort(bright.begin(), bright.end(), [](const Asked& a, const Asked& b) {
+      return a.light(a.arriving) > b.light(b.arriving);
+    });
+    bright.resize(limits::bright_emitters);
+    std::sort(bright.begin(), bright.end(),
+              [](const Asked& a, const Asked& b) { return a.emitter < b.emitter; });
+  }
+  for (const Asked& a : bright) out.bright.push_back({a.emitter, a.arriving});
+  out.asked_share = 0.9;
+  return out;
+}
+
+}  // namespace luxodus
