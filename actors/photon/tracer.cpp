@@ -380,7 +380,7 @@ bool Tracer::drained() const {
 }
 
 void Tracer::say_goodbye() {
-  tell(coordinator(), RequestLease{0});
+  tell(coordinator(), EnterPhase{EndPhase::leave, 0});
 }
 
 /// `abandoned`: this node gives the run up; else it has heard of the end.
@@ -404,25 +404,25 @@ void Tracer::end(std::optional<Problem> fault) {
 /// has outlived: until the controller has lent this node something, or has itself told it of the
 /// end, it is but a rumour, which is right if the controller never comes.
 void Tracer::on(const Letter<RunEnded>& ended) {
-  const bool first_hand = ended.from == coordinator();
+  const bool first_hand = hears(ended.from) || leads_still(ended.from);
   // Of one that was left for another: it need not wait for this node.
   if (!first_hand && ended.from.actor == ActorName::coordinator) {
     tell(ended.from, RequestLease{0});
     return;
   }
-  heard_ = heard_ || first_hand;
   end_word_ = ended.body;
   rumour_ = !first_hand && !over_ && counters_.leases == 0;
   if (rumour_) return;
   const auto says = [&] { return problem("the controller says: " + end_word_.text); };
   stop_work(end_word_.text.empty() ? std::nullopt : std::optional(says()), false);
   // It says so again and again: until those below know, it is told nothing.
-  if (work_->end_is_known()) say_goodbye();
+  if (work_->end_is_known()) tell(first_hand ? ended.from : coordinator(), RequestLease{0});
   if (!first_hand) let_go();
 }
 
 void Tracer::on(const Letter<EnterPhase>& phase) {
-  if (hears(phase.from) && phase.body.phase == EndPhase::leave) let_go();
+  const bool first_hand = hears(phase.from) || (over_ && leads_still(phase.from));
+  if (first_hand && phase.body.phase == EndPhase::leave) let_go();
 }
 
 /// Neighbours are told first: with this node they may lose their way to the controller.
@@ -488,14 +488,17 @@ bool Tracer::join_another() {
   unreachable_since_.reset();
   asking_.reset();
   returned_.reset();
+  known_here_ = false;
   round_empty_ = false;
   work_->drop_all();
   work_->look_again();
   return true;
 }
 
-/// Again and again, as soon as there is a way to whom was left.
+/// Again and again, as soon as there is a way to whom was left; but not before another coordinator
+/// knows of this node: somebody must wait for it at the end.
 void Tracer::take_leave() {
+  if (!known_here_) return;
   for (const Left& left : left_)
     if (network_.reaches(left.whom.node))
       sender().send(address(), left.whom, left.word, EnterPhase{EndPhase::leave, 0});
@@ -544,8 +547,14 @@ void Tracer::on_timer() {
 /// Whether a letter is of the coordinator, which so has been heard.
 bool Tracer::hears(Address from) {
   if (from != coordinator()) return false;
-  heard_ = true;
+  heard_ = known_here_ = true;
   return true;
+}
+
+/// Whether this coordinator was left, and no other knows of this node yet.
+bool Tracer::leads_still(Address from) const {
+  return !known_here_ && std::any_of(left_.begin(), left_.end(),
+                                     [&](const Left& left) { return left.whom == from; });
 }
 
 }  // namespace luxodus

@@ -111,7 +111,7 @@ class Tracer final
   void drain();
   /// Whether all that was at hand is with the controller.
   bool drained() const;
-  /// Tells the controller that this node leaves before the run has ended.
+  /// Tells the coordinator that this node leaves before the run has ended.
   void say_goodbye();
 
   struct Counters {
@@ -162,6 +162,7 @@ class Tracer final
   void watch_coordinator(Nanoseconds now);
   bool join_another();
   void take_leave();
+  bool leads_still(Address from) const;
   void end(std::optional<Problem> fault);
   void stop_work(std::optional<Problem> fault, bool abandoned);
   void let_go();
@@ -183,6 +184,7 @@ class Tracer final
     MessageId word;  // that it was left: newer than all questions, whose answers may still come
   };
   std::vector<Left> left_;
+  bool known_here_ = false;           // the coordinator was heard since it was joined
   std::optional<Question> asking_;    // for leases
   std::optional<Question> flushing_;  // one at a time; put when all its slices are held
   std::optional<Question> learning_;  // what a state of the scene is made from

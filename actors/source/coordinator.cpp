@@ -77,7 +77,7 @@ void Coordinator::watch_workers(Nanoseconds now) {
       continue;
     }
     if (!peer.unreachable_since) peer.unreachable_since = now;
-    if (!(begun_ || over_) || !peer.here || now - *peer.unreachable_since < config_.lost) continue;
+    if (!(begun_ || over_) || !peer.here || !is_lost(peer)) continue;
     peer.here = false;
     ++counters_.workers_lost;
     const std::string since =
@@ -205,7 +205,7 @@ void Coordinator::on(const Letter<RequestLease>& request) {
   lent();
 }
 
-/// A worker has joined another coordinator, which tells it of the end.
+/// A worker has joined another coordinator, which tells it of the end, or ends before the run does.
 void Coordinator::on(const Letter<EnterPhase>& leave) {
   const NodeId worker = leave.from.node;
   if (leave.body.phase != EndPhase::leave || !meet(leave.from, leave.id.incarnation)) return;
@@ -266,8 +266,7 @@ void Coordinator::tell_end() {
   if (keeps_end_to_itself()) return;
   before_end_is_told();
   for (const auto& [worker, peer] : peers_)
-    if ((peer.here || (peer.expected && tells_all())) &&
-        std::count(untold_.begin(), untold_.end(), worker) == 0)
+    if (is_told(peer) && std::count(untold_.begin(), untold_.end(), worker) == 0)
       untold_.push_back(worker);
   tell_untold();
 }
@@ -296,11 +295,18 @@ void Coordinator::answer_with_end(const Letter<RequestLease>& request) {
   if (letting_go_) tell(request.from, EnterPhase{EndPhase::leave, 0});
 }
 
+/// Who has not been heard of may wait for a word of the end, when an earlier life led it.
+bool Coordinator::is_told(const Peer& peer) const {
+  return peer.here || (peer.expected && tells_all());
+}
+
+bool Coordinator::is_lost(const Peer& peer) const {
+  return peer.unreachable_since && clock_.now() - *peer.unreachable_since >= config_.lost;
+}
+
 bool Coordinator::knows_end(NodeId worker, const Peer& peer) const {
-  if (peer.left) return true;
-  // Who has not been heard of may wait for a word of the end, when an earlier life counted it.
-  if (!peer.here) return !(peer.expected && tells_all());
-  if (!network_.reaches(worker)) return hurries();
+  if (peer.left || !is_told(peer)) return true;
+  if (!network_.reaches(worker)) return hurries() || (!peer.here && is_lost(peer));
   return peer.told && clock_.now() - *peer.told <= word_is_fresh(config_);
 }
 

@@ -130,7 +130,7 @@ class Coordinator
     std::vector<Incarnation> former;
     std::optional<Nanoseconds> unreachable_since;
     std::optional<Nanoseconds> told;  // when it last said that it has heard of the end
-    bool left = false;                // it has joined another coordinator
+    bool left = false;                // it has joined another coordinator, or ended
     bool idle = false;                // it has returned its leases: nobody below it traces
     bool gone = false;                // it was let go
 
@@ -170,7 +170,7 @@ class Coordinator
   virtual bool keeps_end_to_itself() const { return false; }
   /// Nobody who is out of reach is waited for.
   virtual bool hurries() const { return false; }
-  /// The others may hear of the end too, though they were never here.
+  /// The others that are expected hear of the end too, though they were never here.
   virtual bool tells_all() const { return false; }
   virtual void wait_for_farewells(Nanoseconds now) = 0;
   /// First: without room they would be told at the next look.
@@ -232,6 +232,8 @@ class Coordinator
   void set_timer();
   void tell_untold();
   bool knows_end(NodeId worker, const Peer& peer) const;
+  bool is_told(const Peer& peer) const;
+  bool is_lost(const Peer& peer) const;
   void answer_with_end(const Letter<RequestLease>& request);
 
   const Clock& clock_;

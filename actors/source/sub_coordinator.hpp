@@ -54,6 +54,8 @@ class SubCoordinator final : public Coordinator, public LeasedWork {
   bool holds_back(size_t leases) override;
   void counted(const Letter<Flush>& letter, std::span<const int64_t> batches) override;
   RunEnded end_word() const override { return {round(), why_ended_}; }
+  /// Whoever began anew may not have heard yet of those whom its earlier life led.
+  bool tells_all() const override { return true; }
   void wait_for_farewells(Nanoseconds now) override;
 
   uint32_t tracers_here() const;

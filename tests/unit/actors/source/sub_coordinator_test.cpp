@@ -9,6 +9,7 @@
 #include "runtime/core/hash.hpp"
 #include "scenes/transport/readout.hpp"
 #include "tests/kit/encode_flush.hpp"
+#include "tests/kit/noted_sender.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
 #include "tests/unit/runtime/net/net_kit.hpp"
 
@@ -44,41 +45,6 @@ struct NotedPort final : LeasePort {
   Numbers done, given_back;
   int returns = 0, rooms_wanted = 0;
 };
-
-struct QuietSource final : EventSource {
-  bool poll() override { return false; }
-  void wait_until(Nanoseconds) override {}
-  void wake() noexcept override {}
-};
-
-/// The last answer to each node, by its type.
-struct NotedSender final : Sender {
-  MessageId next_id() override { return {self, {1}, ++ids}; }
-  SendOutcome send(Address, Address to, const MessageId&, const Message& message,
-                   SharedBytes = {}) override {
-    sent[to.node].push_back(message);
-    return SendOutcome::taken;
-  }
-  template <class Body>
-  std::vector<Body> told(NodeId node) const {
-    std::vector<Body> out;
-    const auto at = sent.find(node);
-    if (at == sent.end()) return out;
-    for (const Message& message : at->second)
-      if (const Body* const body = std::get_if<Body>(&message)) out.push_back(*body);
-    return out;
-  }
-
-  uint64_t ids = 0;
-  std::map<NodeId, std::vector<Message>> sent;
-};
-
-SchedulerLimits two_fibers() {
-  SchedulerLimits limits;
-  limits.fibers.count = 2;
-  limits.fibers.max_maps = 1000;
-  return limits;
-}
 
 CoordinatorConfig leading_two() {
   CoordinatorConfig config;
@@ -152,11 +118,11 @@ struct Stage {
   }
 
   test::Cluster cluster{3, test::ring(3)};
-  QuietSource source;
-  Scheduler scheduler{two_fibers(), cluster.clock, source};
+  test::QuietSource source;
+  Scheduler scheduler{test::few_fibers(), cluster.clock, source};
   const std::shared_ptr<const CompiledScene> scene = scene_of("empty_room", "", 1);
   NotedPort port;
-  NotedSender sender;
+  test::NotedSender sender{self};
   SubCoordinator coordinator{leading_two(), *scene, port, scheduler, cluster[0].network, sender};
   uint64_t questions = 0;
 };
@@ -329,6 +295,26 @@ TEST_CASE("who has returned its leases is waited for at the end, who has left is
   stage.coordinator.end("");
   stage.say(right, RequestLease{0});
   CHECK(stage.coordinator.end_is_known() == leaves);
+}
+
+TEST_CASE("who has not come yet is told of the end, as long as it may come", "[sub-coordinator]") {
+  Stage stage;
+  stage.ask(left, 1);
+  SECTION("it is there, and answers") {
+    stage.coordinator.end("");
+    stage.say(left, RequestLease{0});
+    CHECK_FALSE(stage.coordinator.end_is_known());
+    CHECK(stage.sender.told<RunEnded>(right).size() == 1);
+    stage.say(right, RequestLease{0});
+    CHECK(stage.coordinator.end_is_known());
+  }
+  SECTION("no way leads to it, for as long as one waits for a lost node") {
+    stage.cluster.stop(right.value);
+    stage.run(lost_after + seconds(4));
+    stage.coordinator.end("");
+    stage.say(left, RequestLease{0});
+    CHECK(stage.coordinator.end_is_known());
+  }
 }
 
 TEST_CASE("a word of leaving that comes late does not count against one who is here again",

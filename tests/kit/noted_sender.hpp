@@ -1,0 +1,56 @@
+// What an actor needs that is tested alone, with the test as all others: a sender that notes what
+// is sent, and a scheduler's source that brings nothing.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "runtime/actor/scheduler.hpp"
+#include "runtime/messaging/actor_system.hpp"
+
+namespace luxodus::test {
+
+struct NotedSender final : Sender {
+  explicit NotedSender(NodeId of) : self(of) {}
+
+  struct Sent {
+    MessageId id;
+    Message message;
+  };
+
+  MessageId next_id() override { return {self, {1}, ++ids}; }
+  SendOutcome send(Address, Address to, const MessageId& id, const Message& message,
+                   SharedBytes = {}) override {
+    sent[to.node].push_back({id, message});
+    return SendOutcome::taken;
+  }
+  /// All of this type that were sent to a node.
+  template <class Body>
+  std::vector<Body> told(NodeId node) const {
+    std::vector<Body> out;
+    const auto at = sent.find(node);
+    if (at == sent.end()) return out;
+    for (const Sent& one : at->second)
+      if (const Body* const body = std::get_if<Body>(&one.message)) out.push_back(*body);
+    return out;
+  }
+
+  NodeId self;
+  uint64_t ids = 0;
+  std::map<NodeId, std::vector<Sent>> sent;
+};
+
+struct QuietSource final : EventSource {
+  bool poll() override { return false; }
+  void wait_until(Nanoseconds) override {}
+  void wake() noexcept override {}
+};
+
+inline SchedulerLimits few_fibers() {
+  SchedulerLimits limits;
+  limits.fibers.count = 4;
+  limits.fibers.max_maps = 1000;
+  return limits;
+}
+
+}  // namespace luxodus::test
