@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <optional>
 
 namespace luxodus {
 
@@ -54,6 +56,19 @@ Polygon side_of(const Polygon& polygon, const glm::dvec2& a, const glm::dvec2& b
     const double hp = height(p), hq = height(q);
     if (hp >= 0) out.push_back(p);
     if ((hp > 0 && hq < 0) || (hp < 0 && hq > 0)) out.push_back(p + (q - p) * (hp / (hp - hq)));
+  }
+  return out;
+}
+
+/// What of a piece lies beside a triangle; none where the triangle does not reach it.
+std::optional<std::vector<Polygon>> without(const Polygon& piece, const LevelTriangle& t) {
+  std::vector<Polygon> out;
+  Polygon rest = piece;
+  for (size_t i = 0; i < 3; ++i) {
+    Polygon beside = side_of(rest, t[i], t[(i + 1) % 3], false);
+    if (beside.size() > 2 && area_of(beside) > no_area_m2) out.push_back(std::move(beside));
+    rest = side_of(rest, t[i], t[(i + 1) % 3], true);
+    if (rest.size() < 3 || !(area_of(rest) > no_area_m2)) return std::nullopt;
   }
   return out;
 }
@@ -105,15 +120,20 @@ class LevelScreens::Drawing {
     level_.columns = static_cast<int>(std::ceil(size.x / cell_m));
     level_.rows = static_cast<int>(std::ceil(size.y / cell_m));
     level_.cell_m = size / glm::dvec2(level_.columns, level_.rows);
-    closed_.assign(count(), 0);
-    for (const LevelTriangle& t : triangles) take(t);
+    for (const LevelTriangle& t : triangles) visits_ += size_of(cells_around(t));
   }
+
+  /// How often a cell is looked at while the triangles are taken.
+  size_t visits() const { return visits_; }
 
   size_t count() const {
     return static_cast<size_t>(level_.columns) * static_cast<size_t>(level_.rows);
   }
 
-  Level level() {
+  /// Of the triangles that it was made for.
+  Level level(const std::vector<LevelTriangle>& triangles) {
+    closed_.assign(count(), 0);
+    for (const LevelTriangle& t : triangles) take(t);
     const size_t wide = static_cast<size_t>(level_.columns) + 1;
     level_.closed.assign(wide * (static_cast<size_t>(level_.rows) + 1), 0);
     for (size_t y = 1; y <= static_cast<size_t>(level_.rows); ++y)
@@ -134,10 +154,23 @@ class LevelScreens::Drawing {
                       last);
   }
 
+  struct CellRange {
+    glm::ivec2 first, last;
+  };
+
+  CellRange cells_around(const LevelTriangle& t) const {
+    return {cell_of(glm::min(t[0], glm::min(t[1], t[2]))),
+            cell_of(glm::max(t[0], glm::max(t[1], t[2])))};
+  }
+
+  static size_t size_of(const CellRange& cells) {
+    const glm::ivec2 size = cells.last - cells.first + 1;
+    return static_cast<size_t>(size.x) * static_cast<size_t>(size.y);
+  }
+
   /// Takes a triangle out of what is left of the cells that it reaches.
   void take(const LevelTriangle& t) {
-    const glm::ivec2 first = cell_of(glm::min(t[0], glm::min(t[1], t[2]))),
-                     last = cell_of(glm::max(t[0], glm::max(t[1], t[2])));
+    const auto [first, last] = cells_around(t);
     for (int y = first.y; y <= last.y; ++y)
       for (int x = first.x; x <= last.x; ++x)
         take_from(
@@ -152,16 +185,17 @@ class LevelScreens::Drawing {
     if (fresh)
       found->second = {{at, at + glm::dvec2(size.x, 0), at + size, at + glm::dvec2(0, size.y)}};
     std::vector<Polygon> left;
-    for (const Polygon& piece : found->second) {
-      Polygon rest = piece;
-      for (size_t i = 0; i < 3 && !rest.empty(); ++i) {
-        Polygon beside = side_of(rest, t[i], t[(i + 1) % 3], false);
-        if (beside.size() > 2 && area_of(beside) > no_area_m2) left.push_back(std::move(beside));
-        rest = side_of(rest, t[i], t[(i + 1) % 3], true);
-        if (rest.size() < 3) rest.clear();
+    bool any_changed = false;
+    for (const Polygon& piece : found->second)
+      if (auto rest = without(piece, t)) {
+        any_changed = true;
+        std::move(rest->begin(), rest->end(), std::back_inserter(left));
+      } else {
+        left.push_back(piece);
       }
-    }
-    if (left.empty()) {
+    if (!any_changed) {
+      if (fresh) left_.erase(found);
+    } else if (left.empty()) {
       closed_[cell] = 1;
       left_.erase(found);
     } else if (left.size() <= most_pieces) {
@@ -170,6 +204,7 @@ class LevelScreens::Drawing {
   }
 
   Level level_;
+  size_t visits_ = 0;
   std::vector<char> closed_;
   std::map<size_t, std::vector<Polygon>> left_;  // of cells that were begun
 };
@@ -187,13 +222,15 @@ bool LevelScreens::Level::covers(const glm::dvec2& from, const glm::dvec2& to) c
 }
 
 LevelScreens::LevelScreens(const CompiledScene& scene) {
-  size_t cells = 0;
+  size_t cells = 0, visits = 0;
   for (const auto& [z, triangles] : level_triangles(scene)) {
     if (area_of(triangles) < least_area_m2) continue;
     Drawing drawing(static_cast<double>(z) * one_level_m, triangles);
+    if (drawing.visits() > limits::screen_visits - visits) continue;
     cells += drawing.count();
+    visits += drawing.visits();
     if (cells > limits::all_screen_cells) break;
-    levels_.push_back(drawing.level());
+    levels_.push_back(drawing.level(triangles));
   }
 }
 

@@ -14,6 +14,9 @@ namespace luxodus {
 namespace limits {
 /// Cells of one level, and of all: above it cells are larger, or levels are left out.
 inline constexpr size_t screen_cells = 250'000, all_screen_cells = 20'000'000;
+/// A triangle is looked at in each cell around it: so often in all levels together. A level that
+/// takes more than is left of this is left out: light is the same, and takes longer.
+inline constexpr size_t screen_visits = 20'000'000;
 }  // namespace limits
 
 class LevelScreens {

@@ -128,7 +128,8 @@ std::optional<Layout> completed(const LayoutIndex& index, const Layout& begun, d
     double best = 0;
     uint32_t choice = 0;
     for (uint32_t i = 0; i < problem.options.size(); ++i) {
-      if (taken[problem.options[i].place] != 0 || !(gains.of(i) > 0)) continue;
+      const LayoutOption& option = problem.options[i];
+      if (option.barred || taken[option.place] != 0 || !(gains.of(i) > 0)) continue;
       const double score = gains.of(i) * (noise > 0 ? 1 + noise * random.uniform_double() : 1);
       // In symmetric rooms scores differ by rounding alone: the first is taken.
       if (score <= best * (1 + same)) continue;

@@ -34,7 +34,7 @@ GrowingProgram::GrowingProgram(const LayoutProblem& problem, bool feasible_only)
     : problem_(problem) {
   for (const LayoutOption& option : problem.options)
     program_.add_variable(feasible_only || option.fixed ? 0 : option.weight, option.fixed ? 1 : 0,
-                          1, true);
+                          option.barred ? 0 : 1, true);
   add_places();
   for (size_t i = 0; i < problem.spreads.size(); ++i)
     darkest_.push_back(program_.add_variable(0, 0, infinite_light, false));

@@ -32,6 +32,7 @@ struct LayoutOption {
   uint32_t region = no_region;
   glm::dvec2 position{0};
   bool never_fails = false;  // no demand on failures takes it away
+  bool barred = false;       // chosen in no layout
 };
 
 /// No number of a place.

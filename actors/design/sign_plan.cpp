@@ -493,6 +493,7 @@ class SignPlanning {
       plain.covers[i].least = 1;
       plain.covers[i].terms = terms_of_[rows_of_[i]];
     }
+    for (LayoutOption& option : plain.options) option.barred = false;
     if (plain.options.empty()) return 0;
     SolveSettings settings;
     settings.seconds = std::max(time_left(), least_seconds);
@@ -593,6 +594,7 @@ class SignPlanning {
       std::erase_if(*rest, is_it);
       cover.terms = std::move(rest);
     }
+    problem_.options[option].barred = true;  // it may weigh nothing: then nothing else keeps it out
     return true;
   }
 

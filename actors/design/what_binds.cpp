@@ -64,6 +64,23 @@ class Relaxing {
     return out;
   }
 
+  /// The parts that a demand has to do with are solved again; the others stay. They share the time.
+  Relaxed relaxed(const Relaxation& what, double seconds_left) const {
+    const double until = seconds() + seconds_left;
+    Relaxed out{what, answer_.objective, 0, 0, answer_.end == LayoutEnd::optimal};
+    const std::vector<Easier> touched = touched_by(what);
+    for (size_t i = 0; i < touched.size(); ++i) {
+      const double left = until - seconds();
+      if (interrupt_ || !(left > 0)) {
+        out.exact = false;
+        break;
+      }
+      solve_again(touched[i], left / static_cast<double>(touched.size() - i), out);
+    }
+    out.objective = answer_.objective - out.saved;
+    return out;
+  }
+
  private:
   bool holds() const {
     const LayoutIndex index(problem_);
@@ -116,9 +133,14 @@ class Relaxing {
     return out;
   }
 
-  /// The parts that a demand has to do with are solved again; the others stay.
-  Relaxed relaxed(const Relaxation& what, double seconds_left) const {
-    Relaxed out{what, answer_.objective, 0, 0, answer_.end == LayoutEnd::optimal};
+  /// A part that a demand has to do with, without it.
+  struct Easier {
+    const ProblemPart* part;
+    LayoutProblem problem;
+  };
+
+  std::vector<Easier> touched_by(const Relaxation& what) const {
+    std::vector<Easier> out;
     for (const ProblemPart& part : parts_) {
       Relaxation its = what;
       if (what.never_fails) {
@@ -126,27 +148,30 @@ class Relaxing {
         if (at == part.options.end()) continue;
         its.never_fails = static_cast<uint32_t>(at - part.options.begin());
       }
-      const LayoutProblem easier = without(part.problem, its);
-      const bool touched = what.never_fails || easier.covers.size() < part.problem.covers.size() ||
-                           easier.failures.size() < part.problem.failures.size() ||
-                           easier.spreads.size() < part.problem.spreads.size();
-      if (!touched) continue;
-      SolveSettings asked;
-      asked.seconds = seconds_left;
-      asked.seed = settings_.seed;
-      asked.greedy_rounds = rounds_of_each;
-      for (const uint32_t option : part.options) asked.start.push_back(answer_.layout[option]);
-      const LayoutAnswer found =
-          solve_layout(easier, asked, interrupt_, [](const std::string&, double, double) {});
-      const double before = objective_of(easier, asked.start);
-      out.exact = out.exact && found.end == LayoutEnd::optimal;
-      if (found.layout.empty() || found.objective > before - same_objective) continue;
-      out.saved += before - found.objective;
-      out.fewer += std::count(asked.start.begin(), asked.start.end(), 1) -
-                   std::count(found.layout.begin(), found.layout.end(), 1);
+      LayoutProblem easier = without(part.problem, its);
+      if (what.never_fails || easier.covers.size() < part.problem.covers.size() ||
+          easier.failures.size() < part.problem.failures.size() ||
+          easier.spreads.size() < part.problem.spreads.size())
+        out.push_back({&part, std::move(easier)});
     }
-    out.objective = answer_.objective - out.saved;
     return out;
+  }
+
+  void solve_again(const Easier& easier, double seconds_for_it, Relaxed& out) const {
+    SolveSettings asked;
+    asked.seconds = seconds_for_it;
+    asked.seed = settings_.seed;
+    asked.greedy_rounds = rounds_of_each;
+    for (const uint32_t option : easier.part->options)
+      asked.start.push_back(answer_.layout[option]);
+    const LayoutAnswer found =
+        solve_layout(easier.problem, asked, interrupt_, [](const std::string&, double, double) {});
+    const double before = objective_of(easier.problem, asked.start);
+    out.exact = out.exact && found.end == LayoutEnd::optimal;
+    if (found.layout.empty() || found.objective > before - same_objective) return;
+    out.saved += before - found.objective;
+    out.fewer += std::count(asked.start.begin(), asked.start.end(), 1) -
+                 std::count(found.layout.begin(), found.layout.end(), 1);
   }
 
   const LayoutProblem& problem_;
@@ -164,6 +189,12 @@ std::vector<Relaxed> what_binds(const LayoutProblem& problem, const LayoutAnswer
                                 const WhatBindsSettings& settings,
                                 const std::atomic<bool>& interrupt) {
   return Relaxing(problem, answer, settings, interrupt).run();
+}
+
+Relaxed solved_without(const LayoutProblem& problem, const LayoutAnswer& answer,
+                       const Relaxation& demand, const WhatBindsSettings& settings,
+                       const std::atomic<bool>& interrupt) {
+  return Relaxing(problem, answer, settings, interrupt).relaxed(demand, settings.seconds);
 }
 
 }  // namespace luxodus

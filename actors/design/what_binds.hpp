@@ -35,10 +35,17 @@ struct WhatBindsSettings {
 /// Those that save anything, the most first. What is tried: all failures together, the demands
 /// that add most to the bound, and the luminaires whose failure leaves least. A layout that was not
 /// proven optimal may itself be improved by the search: then `exact` is false. When the time is
-/// out, fewer are tried. Nothing where the
-/// layout of `answer` breaks a row.
+/// out, fewer are tried, and what was begun is not `exact`. Nothing where the layout of `answer`
+/// breaks a row.
 std::vector<Relaxed> what_binds(const LayoutProblem& problem, const LayoutAnswer& answer,
                                 const WhatBindsSettings& settings,
                                 const std::atomic<bool>& interrupt);
+
+/// One demand, whether it saves anything or not. The parts of the problem that it has to do with
+/// are solved again within the time of the settings; after an interrupt, or when that is out, the
+/// others stay as they are. Requires: the layout of `answer` breaks no row.
+Relaxed solved_without(const LayoutProblem& problem, const LayoutAnswer& answer,
+                       const Relaxation& demand, const WhatBindsSettings& settings,
+                       const std::atomic<bool>& interrupt);
 
 }  // namespace luxodus

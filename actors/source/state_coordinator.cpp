@@ -63,10 +63,12 @@ void StateCoordinator::begin(Work& work) {
   end_when_done();
 }
 
-/// As many batches wait here as all workers may ask for at once: nobody waits for the work.
+/// As many batches wait here as all who trace may ask for at once: nobody waits for the work.
 void StateCoordinator::fill_book() {
   if (work_ == nullptr || over_) return;
-  const auto wish = static_cast<int64_t>(config_.max_leases * std::max<size_t>(workers_here(), 1));
+  const auto tracing = static_cast<size_t>(std::count_if(
+      peers_.begin(), peers_.end(), [](const auto& at) { return at.second.traces(); }));
+  const auto wish = static_cast<int64_t>(config_.max_leases * std::max<size_t>(tracing, 1));
   while (!all_given_ && book_.waiting() < wish) {
     const auto batches = work_->next(wish - book_.waiting());
     all_given_ = !batches;

@@ -10,6 +10,7 @@
 
 #include "actors/study/results.hpp"
 #include "actors/study/study_schema.hpp"
+#include "actors/supervise/planned_nodes.hpp"
 #include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "runtime/toml/document.hpp"
@@ -100,11 +101,30 @@ StudyAxis read_axis(TableReader& keys, const toml::KeySpec& spec) {
   return axis;
 }
 
+const std::vector<double>& values_of(const std::vector<StudyAxis>& axes, std::string_view key) {
+  return std::find_if(axes.begin(), axes.end(), [&](auto& axis) { return axis.key == key; })
+      ->numbers;
+}
+
+/// Every point has to run: a study takes hours, and would find the one that cannot at its end.
+void check_coordination(TableReader& keys, const std::vector<StudyAxis>& axes) {
+  for (const double nodes : values_of(axes, "nodes"))
+    for (const double fan_out : values_of(axes, "fan_out"))
+      for (const double shards : values_of(axes, "tally_shards"))
+        if (const auto fault = coordination_fault(
+                static_cast<int>(nodes), static_cast<uint32_t>(fan_out), static_cast<int>(shards)))
+          return keys.problem(
+              fault->option,
+              fmt::format("no run has nodes = {}, fan_out = {} and tally_shards = {}: {}", nodes,
+                          fan_out, shards, fault->what));
+}
+
 std::vector<StudyAxis> read_axes(TableReader& top) {
   TableReader keys = top.inner("sweep", {"sweep"});
   std::vector<StudyAxis> axes;
   for (const toml::KeySpec& spec : study_schema().table("sweep").keys)
     axes.push_back(read_axis(keys, spec));
+  if (keys.clean()) check_coordination(keys, axes);
   return axes;
 }
 

@@ -15,15 +15,8 @@ constexpr uint32_t max_controller_links = 4;
 
 std::optional<std::string> fault_of(const NodesOptions& options, const CompiledScene& scene,
                                     bool resident) {
-  if (options.tally_shards < 1 || options.tally_shards > options.nodes + 1 ||
-      options.tally_shards > static_cast<int>(limits::tally_shards))
-    return "the totals can have 1 to " + std::to_string(options.nodes + 1) +
-           " shards: one of the controller, and one of each node";
-  if (options.fan_out == 1) return "a coordinator leads at least 2 nodes (fan_out)";
-  if (options.tally_shards > 1 && options.fan_out > 0 &&
-      options.fan_out < static_cast<uint32_t>(options.nodes))
-    return "totals in shards need one coordinator for all nodes: leave out the shards or the "
-           "fan-out";
+  if (auto fault = coordination_fault(options.nodes, options.fan_out, options.tally_shards))
+    return std::move(fault->what);
   if (options.object_bytes == 0) {
     if (resident) return std::nullopt;
     return "nodes that do not hold the whole scene need a budget for scene parts";
@@ -94,6 +87,21 @@ Result<std::optional<Residency>> planned_residency(const RunSetup& run, const No
 }
 
 }  // namespace
+
+std::optional<CoordinationFault> coordination_fault(int nodes, uint32_t fan_out, int tally_shards) {
+  if (tally_shards < 1 || tally_shards > nodes + 1 ||
+      tally_shards > static_cast<int>(limits::tally_shards))
+    return CoordinationFault{"tally_shards",
+                             "the totals can have 1 to " + std::to_string(nodes + 1) +
+                                 " shards: one of the controller, and one of each node"};
+  if (fan_out == 1)
+    return CoordinationFault{"fan_out", "a coordinator leads at least 2 nodes (fan_out)"};
+  if (tally_shards > 1 && fan_out > 0 && fan_out < static_cast<uint32_t>(nodes))
+    return CoordinationFault{"tally_shards",
+                             "totals in shards need one coordinator for all nodes: leave out the "
+                             "shards or the fan-out"};
+  return std::nullopt;
+}
 
 Result<Graph> graph_of_process(int nodes, int links) {
   AmpRequest request;

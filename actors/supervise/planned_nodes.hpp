@@ -6,6 +6,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "actors/objects/residency.hpp"
@@ -60,6 +62,14 @@ struct NodesOptions {
   /// before the run does.
   std::function<bool()> stop = [] { return false; };
 };
+
+/// What no run can have, and the option that says it.
+struct CoordinationFault {
+  std::string_view option;
+  std::string what;
+};
+/// Whether so many nodes can be led and hold the totals like that; none where they can.
+std::optional<CoordinationFault> coordination_fault(int nodes, uint32_t fan_out, int tally_shards);
 
 /// The minimum-path graph of so many workers and a controller. Errors: as find_amp.
 Result<Graph> graph_of_process(int nodes, int links);

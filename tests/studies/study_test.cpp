@@ -116,6 +116,21 @@ TEST_CASE("a simulated study needs costs, one on real nodes does not", "[study]"
   CHECK(parse_study(without + "on = \"nodes\"\n" + plot_text, "s.toml").study.has_value());
 }
 
+TEST_CASE("points that can never run are found before the first of them runs", "[study]") {
+  // Line 6 is the first one after `fibers`.
+  const std::string shards = first_problem(text_of("", "nodes = [8, 3]\ntally_shards = [1, 5]\n"));
+  CHECK(shards.rfind("s.toml:7:", 0) == 0);
+  CHECK(shards.find("nodes = 3, fan_out = 0 and tally_shards = 5") != std::string::npos);
+  CHECK(shards.find("1 to 4 shards") != std::string::npos);
+  const std::string levels =
+      first_problem(text_of("", "tally_shards = 2\nfan_out = [0, 4]\nnodes = [4, 8]\n"));
+  CHECK(levels.rfind("s.toml:6:", 0) == 0);
+  CHECK(levels.find("one coordinator") != std::string::npos);
+  CHECK(first_problem(text_of("", "nodes = 4\nfan_out = 1\n")).rfind("s.toml:7:", 0) == 0);
+  CHECK(good("", "nodes = [4, 8]\nfan_out = [0, 8]\ntally_shards = [1, 5]\n").points().size() ==
+        16);
+}
+
 TEST_CASE("the points of a study are all combinations of its values", "[study]") {
   const Study study = good("", "nodes = [2, 4, 8]\ntopology = [\"amp\", \"ring\"]\n");
   CHECK(study.points().size() == 12);

@@ -2,7 +2,10 @@
 // geometry is plain; the light of the codes is the same with and without them.
 #include "actors/assess/level_screens.hpp"
 
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "actors/assess/code_light.hpp"
 #include "runtime/core/random.hpp"
@@ -51,6 +54,45 @@ std::unique_ptr<Building> building_of(const SceneDescription& scene) {
 
 Bounds box_at(const glm::dvec3& place, double half) {
   return {place - half, place + half};
+}
+
+/// The scene of storeys() with these triangles in place of its second slab's largest part.
+std::shared_ptr<const SceneDescription> with_level(
+    const SceneDescription& scene, const std::vector<std::array<glm::dvec2, 3>>& triangles) {
+  auto out = std::make_shared<SceneDescription>(scene);
+  const auto slab = std::find_if(out->objects.begin(), out->objects.end(),
+                                 [](const Object& one) { return one.name == "slab 1 0"; });
+  REQUIRE(slab != out->objects.end());
+  Mesh mesh;
+  for (const auto& corners : triangles) {
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    for (const glm::dvec2& corner : corners) mesh.positions.emplace_back(corner, 3.0);
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  slab->mesh = std::move(mesh);
+  return out;
+}
+
+/// That the light at places on all storeys is the sum over all luminaires, by rays.
+void check_light(const SceneDescription& scene) {
+  const auto building = building_of(scene);
+  std::vector<glm::dvec3> places;
+  for (int storey = 0; storey < 3; ++storey)
+    for (double x = 0.75; x < 12; x += 1.3)
+      for (double y = 0.6; y < 8; y += 1.1) places.emplace_back(x, y, 3.0 * storey);
+  const CodeLight light(scene, *building);
+  const auto lit = light.lit(places, {0, 0, 1}, 0.02);
+  DirectOptions clear_air;
+  clear_air.media = false;
+  building->each(1, [&](const GeometryAccess& access, size_t) {
+    for (const LitPoint& point : lit) {
+      const auto all = direct_by_emitter(building->scene(), access, building->local(point.place),
+                                         {0, 0, 1}, clear_air);
+      REQUIRE(point.lux.size() == all.size());
+      for (size_t i = 0; i < all.size(); ++i)
+        CHECK(point.lux[i] == Approx(all[i]).epsilon(1e-9).margin(1e-12));
+    }
+  });
 }
 
 }  // namespace
@@ -113,27 +155,64 @@ TEST_CASE("no place is said to be hidden that a ray reaches", "[assess][screens]
   CHECK(wrong == 0);
 }
 
+TEST_CASE("triangles that do not reach a cell leave it whole", "[assess][screens]") {
+  // The shortest edges of narrow triangles lie on lines through a cell that the triangles pass by;
+  // then eight triangles that meet in the cell cover the slab. Cut along all these lines, the cell
+  // would have more pieces than are kept, and stay open.
+  const glm::dvec2 middle(2.55, 4.05);
+  std::vector<std::array<glm::dvec2, 3>> triangles;
+  for (int i = 0; i < 60; ++i) {
+    const double angle = glm::radians(60 + 0.4 * i);
+    const glm::dvec2 along(std::cos(angle), std::sin(angle)), aside(-along.y, along.x);
+    const glm::dvec2 beside = middle + 0.01 * ((7 * i) % 11 - 5) * aside;
+    triangles.push_back({beside + 2.9 * along, beside + 3.0 * along, beside - along + 1.5 * aside});
+  }
+  const std::array<glm::dvec2, 8> rim{
+      {{0, 0}, {2.6, 0}, {5, 0}, {5, 4.2}, {5, 8}, {2.3, 8}, {0, 8}, {0, 3.8}}};
+  for (size_t i = 0; i < rim.size(); ++i)
+    triangles.push_back({middle, rim[i], rim[(i + 1) % rim.size()]});
+  const auto scene = with_level(*test::described_text(storeys("white50")), triangles);
+  const LevelScreens screens(building_of(*scene)->scene());
+  CHECK(screens.hide({middle, 0.02}, box_at({middle, 5.7}, 0.02)));
+}
+
+TEST_CASE("a narrow triangle closes no cell that it only passes", "[assess][screens]") {
+  const std::vector<std::array<glm::dvec2, 3>> narrow{{{{0, 0}, {5, 7}, {5, 8}}}};
+  const auto scene = with_level(*test::described_text(storeys("white50")), narrow);
+  const LevelScreens screens(building_of(*scene)->scene());
+  const auto hidden_at = [&](double x, double y) {
+    return screens.hide({x, y, 0.02}, box_at({x, y, 5.7}, 0.02));
+  };
+  CHECK(hidden_at(4.9, 7.35));         // within it
+  CHECK_FALSE(hidden_at(4.6, 7.85));   // beside it
+  CHECK_FALSE(hidden_at(4.6, 5.6));    // beside it
+  CHECK_FALSE(hidden_at(0.5, 0.75));   // narrower than a cell there
+  CHECK_FALSE(hidden_at(0.15, 7.85));  // at a corner of the box around it
+}
+
 TEST_CASE("the light of the codes is that of all luminaires, screened or not",
           "[assess][screens]") {
-  const auto scene = test::described_text(storeys("white50"));
-  const auto building = building_of(*scene);
-  std::vector<glm::dvec3> places;
-  for (int storey = 0; storey < 3; ++storey)
-    for (double x = 0.75; x < 12; x += 1.3)
-      for (double y = 0.6; y < 8; y += 1.1) places.emplace_back(x, y, 3.0 * storey);
-  const CodeLight light(*scene, *building);
-  const auto lit = light.lit(places, {0, 0, 1}, 0.02);
-  DirectOptions clear_air;
-  clear_air.media = false;
-  building->each(1, [&](const GeometryAccess& access, size_t) {
-    for (const LitPoint& point : lit) {
-      const auto all = direct_by_emitter(building->scene(), access, building->local(point.place),
-                                         {0, 0, 1}, clear_air);
-      REQUIRE(point.lux.size() == all.size());
-      for (size_t i = 0; i < all.size(); ++i)
-        CHECK(point.lux[i] == Approx(all[i]).epsilon(1e-9).margin(1e-12));
-    }
-  });
+  check_light(*test::described_text(storeys("white50")));
+}
+
+TEST_CASE("a level that takes too long to draw is left out, and light is the same",
+          "[assess][screens]") {
+  constexpr double wide_m = 130;
+  std::vector<std::array<glm::dvec2, 3>> triangles{{{{0, 0}, {wide_m, 0}, {wide_m, wide_m}}},
+                                                   {{{0, 0}, {wide_m, wide_m}, {0, wide_m}}}};
+  const auto whole = with_level(*test::described_text(storeys("white50")), triangles);
+  const auto hides = [](const SceneDescription& scene) {
+    const LevelScreens screens(building_of(scene)->scene());
+    // The slab above this one is as it was.
+    CHECK(screens.hide({2, 2, 5.02}, box_at({2, 2, 8.7}, 0.1)));
+    return screens.hide({2, 2, 0.02}, box_at({2, 2, 5.7}, 0.1));
+  };
+  CHECK(hides(*whole));
+  for (size_t cells = 0; cells <= limits::screen_visits; cells += limits::screen_cells / 2)
+    triangles.push_back({{{0, 0}, {wide_m, wide_m - 1}, {wide_m, wide_m}}});
+  const auto above_limit = with_level(*test::described_text(storeys("white50")), triangles);
+  CHECK_FALSE(hides(*above_limit));
+  check_light(*above_limit);
 }
 
 }  // namespace luxodus

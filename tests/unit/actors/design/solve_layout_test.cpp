@@ -182,6 +182,20 @@ TEST_CASE("with any one luminaire failed, what the others give is enough", "[des
   CHECK(solved(problem).objective == Approx(3));
 }
 
+TEST_CASE("a barred luminaire is in no layout, whatever it weighs", "[design]") {
+  for (const double weight : {0.0, 0.1}) {
+    LayoutProblem problem = with_options(3);
+    problem.options[0].weight = weight;
+    problem.options[0].barred = true;
+    ask(problem, {{0, 1}, {1, 1}}, 1, "a");
+    const LayoutAnswer answer = solved(problem);
+    CHECK(answer.end == LayoutEnd::optimal);
+    CHECK(answer.layout == Layout{0, 1, 0});
+    problem.options[1].barred = true;
+    CHECK(solved(problem).end == LayoutEnd::infeasible);
+  }
+}
+
 TEST_CASE("greedy layouts hold, and pruning takes out what is not needed", "[design]") {
   const LayoutProblem problem = random_problem(3, 16, 40);
   const LayoutIndex index(problem);

@@ -88,6 +88,42 @@ TEST_CASE("in a tower a demand is looked at where it is, and others stay as they
   CHECK(found[1].objective == Approx(2));
 }
 
+TEST_CASE("all storeys share the time of a demand, and what is not solved again is not exact",
+          "[design][binding]") {
+  constexpr uint32_t storeys = 40;
+  LayoutProblem problem = with_options(2 * storeys);
+  for (uint32_t i = 0; i < 2 * storeys; i += 2) {
+    const std::vector<Term> both{{i, 1}, {i + 1, 1}};
+    ask(problem, both, 1, "a");
+    ask_after_failure(problem, both, 1);
+  }
+  const LayoutAnswer best = best_of(problem);
+  REQUIRE(best.objective == Approx(2 * storeys));
+  const Relaxation no_failures{{}, {}, true};
+  SECTION("with time, each does without one luminaire") {
+    const Relaxed found = solved_without(problem, best, no_failures, {}, test::nobody);
+    CHECK(found.exact);
+    CHECK(found.saved == Approx(storeys));
+    CHECK(found.fewer == storeys);
+  }
+  SECTION("without any time, none is looked at") {
+    WhatBindsSettings none;
+    none.seconds = 0;
+    const Relaxed found = solved_without(problem, best, no_failures, none, test::nobody);
+    CHECK_FALSE(found.exact);
+    CHECK(found.saved == 0);
+    CHECK(found.objective == best.objective);
+    CHECK(what_binds(problem, best, none, test::nobody).empty());
+  }
+  SECTION("after an interrupt, none is looked at") {
+    const std::atomic<bool> interrupted{true};
+    const Relaxed found = solved_without(problem, best, no_failures, {}, interrupted);
+    CHECK_FALSE(found.exact);
+    CHECK(found.saved == 0);
+    CHECK(what_binds(problem, best, {}, interrupted).empty());
+  }
+}
+
 TEST_CASE("of a layout that breaks a row nothing is said", "[design][binding]") {
   LayoutProblem problem = with_options(2);
   ask(problem, {{0, 1}, {1, 1}}, 2, "a");
