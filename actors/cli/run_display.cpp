@@ -13,6 +13,7 @@
 #include "actors/display/preview.hpp"
 #include "actors/run/flux_store.hpp"
 #include "runtime/core/log.hpp"
+#include "scenes/transport/trace.hpp"
 
 namespace luxodus::cli {
 
@@ -56,7 +57,8 @@ bool RunDisplay::preview_is_due() const {
 }
 
 /// Sums, as they are and as they were before the step that is under way; light, errors and the
-/// features of the filter, twice: as traced and filtered. Of as many pictures as grow together.
+/// features of the filter, twice: as traced and filtered. Of as many pictures as grow together; and
+/// what all of them choose emitters by.
 uint64_t RunDisplay::picture_bytes() const {
   constexpr uint64_t floats_of_a_pixel = 2 * (4 + 4 + 1 + picture_features);
   uint64_t sums = 0, largest = 0, pixels = 0;
@@ -69,7 +71,8 @@ uint64_t RunDisplay::picture_bytes() const {
   const uint64_t together = std::max(largest, std::min(sums, limits::max_growing_bytes));
   const double share = sums > 0 ? static_cast<double>(together) / static_cast<double>(sums) : 0;
   const double shown = share * static_cast<double>(pixels * floats_of_a_pixel * sizeof(float));
-  return together + largest + static_cast<uint64_t>(shown);
+  const uint64_t sight = sums > 0 ? emitter_sight_bytes(base_.scene()) : 0;
+  return together + largest + static_cast<uint64_t>(shown) + sight;
 }
 
 void RunDisplay::show(const LocalRun& run) {

@@ -199,7 +199,7 @@ class FramesOfRun {
   /// False where it was interrupted. Errors: as write_shown_png.
   Result<bool> render(size_t k, const std::function<void(double frames)>& progress) {
     const Camera& camera = film_.cameras[k];
-    ViewPasses view(run_, camera, 0, flux_.radiance.get());
+    ViewPasses view(run_, camera, 0, flux_.radiance.get(), flux_.sight);
     const auto tell = [&](double share) {
       if (progress) progress(static_cast<double>(k) + share);
     };

@@ -271,11 +271,9 @@ Result<TiledPictures> parse_tiles(const std::string& text) try {
 // ---- states -------------------------------------------------------------------------------------
 
 PictureState::PictureState(const LocalRun& run, TiledPictures pictures,
-                           std::shared_ptr<const KnownRadiance> flux)
-    : run_(run),
-      pictures_(std::move(pictures)),
-      flux_(std::move(flux)),
-      sight_(make_emitter_sight(run.scene())) {
+                           std::shared_ptr<const KnownRadiance> flux,
+                           std::shared_ptr<const EmitterSight> sight)
+    : run_(run), pictures_(std::move(pictures)), flux_(std::move(flux)), sight_(std::move(sight)) {
   int64_t pixels = 1;
   for (const TiledView& view : pictures_.views)
     pixels = std::max(pixels, int64_t{view.camera.width} * view.camera.height);
@@ -298,6 +296,9 @@ std::unique_ptr<BatchWorker> PictureState::worker(uint64_t seed, int64_t,
   return std::make_unique<TileWorker>(*this);
 }
 
+PictureStates::PictureStates(const LocalRun& run)
+    : run_(run), sight_(make_emitter_sight(run.scene())) {}
+
 Result<std::shared_ptr<const TracedState>> PictureStates::make(const std::string& text) {
   const std::lock_guard lock(mutex_);
   if (state_ && text == text_) return state_;
@@ -307,7 +308,7 @@ Result<std::shared_ptr<const TracedState>> PictureStates::make(const std::string
   if (!radiance) return radiance.problem();
   pictures->flux.clear();  // it is there as radiance
   state_ = std::make_shared<PictureState>(run_, std::move(pictures).value(),
-                                          std::move(radiance).value());
+                                          std::move(radiance).value(), sight_);
   text_ = text;
   return state_;
 }
@@ -342,6 +343,7 @@ Result<std::shared_ptr<const KnownRadiance>> PictureStates::radiance_of(const st
 
 PictureFlux picture_flux(const LocalRun& run, const PictureOptions& options) {
   PictureFlux flux;
+  flux.sight = make_emitter_sight(run.scene());
   if (!options.gather || run.batches() == 0) return flux;
   flux.radiance = flux_radiance(run);
   if (options.executor == nullptr) return flux;
@@ -355,7 +357,7 @@ PictureFlux picture_flux(const LocalRun& run, const PictureOptions& options) {
 PictureExecutor::PictureExecutor(const LocalRun& run, std::vector<TiledView> views,
                                  const PictureOptions& options, const PictureFlux& flux)
     : options_(options),
-      state_(run, {std::move(views), options.paths_per_pixel, {}}, flux.radiance),
+      state_(run, {std::move(views), options.paths_per_pixel, {}}, flux.radiance, flux.sight),
       totals_(state_.totals()) {
   TiledPictures told = state_.pictures();
   told.flux = flux.bytes;

@@ -42,9 +42,11 @@ Result<TiledPictures> parse_tiles(const std::string& text);
 /// A state whose batches are tiles: of view `group`, where `stream` says which paths of each pixel.
 class PictureState final : public TracedState {
  public:
-  /// `flux`: of `pictures`, or null. Requires: the run is resident, and outlives this.
+  /// `flux`: of `pictures`, or null. `sight`: of make_emitter_sight.
+  /// Requires: the run is resident, and outlives this.
   PictureState(const LocalRun& run, TiledPictures pictures,
-               std::shared_ptr<const KnownRadiance> flux);
+               std::shared_ptr<const KnownRadiance> flux,
+               std::shared_ptr<const EmitterSight> sight);
 
   std::unique_ptr<Totals> totals() const override;
   /// Throws std::runtime_error: `seed` is not the run's.
@@ -70,7 +72,7 @@ class PictureStates final : public StateMaker {
  public:
   /// Whatever the run has traced does not count. Requires: it is resident, and outlives this and
   /// all states.
-  explicit PictureStates(const LocalRun& run) : run_(run) {}
+  explicit PictureStates(const LocalRun& run);
   /// Errors: as parse_tiles; a flux of another scene, scenario or seed than the run's.
   Result<std::shared_ptr<const TracedState>> make(const std::string& text) override;
 
@@ -78,16 +80,19 @@ class PictureStates final : public StateMaker {
   Result<std::shared_ptr<const KnownRadiance>> radiance_of(const std::string& flux);
 
   const LocalRun& run_;
-  std::mutex mutex_;  // guards all below
+  const std::shared_ptr<const EmitterSight> sight_;  // of all states: cameras do not matter to it
+  std::mutex mutex_;                                 // guards all below
   std::string text_, flux_;
   std::shared_ptr<const KnownRadiance> radiance_;  // of the flux
   std::shared_ptr<const TracedState> state_;
 };
 
-/// Light that the paths of pictures end in, for those who trace here and elsewhere.
+/// Light that the paths of pictures end in, for those who trace here and elsewhere; and what they
+/// choose emitters by. For all pictures of a run.
 struct PictureFlux {
   std::shared_ptr<const KnownRadiance> radiance;  // null: they are traced to their end
   std::string bytes;                              // of a flux file; none where nobody asks for them
+  std::shared_ptr<const EmitterSight> sight;      // of make_emitter_sight
 };
 
 /// That of a run, as `options` ask for it. Requires: the run outlives it.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "actors/run/parallel_for.hpp"
 #include "scenes/optics/sampling.hpp"
@@ -40,12 +41,12 @@ int next_pass(int paths) {
 }
 
 ViewPasses::ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number,
-                       const KnownRadiance* flux)
+                       const KnownRadiance* flux, std::shared_ptr<const EmitterSight> sight)
     : run_(run),
       camera_(camera),
       number_(number),
       flux_(flux),
-      sight_(make_emitter_sight(run.scene())),
+      sight_(std::move(sight)),
       sums_(pixels()) {}
 
 size_t ViewPasses::pixels() const {
@@ -230,7 +231,8 @@ TracedPicture ViewPasses::picture_of(const std::vector<const PixelSums*>& all, i
 
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
                             const KnownRadiance* flux, const ShareDone& progress) {
-  ViewPasses view(run, run.scene().description->cameras[camera], camera, flux);
+  ViewPasses view(run, run.scene().description->cameras[camera], camera, flux,
+                  make_emitter_sight(run.scene()));
   view.add(options.paths_per_pixel, options, progress);
   return view.picture();
 }

@@ -104,8 +104,11 @@ int next_pass(int paths);
 class ViewPasses {
  public:
   /// `number`: of the random numbers, a camera's own; below 2^16. `flux`: where paths end, or null.
+  /// `sight`: of make_emitter_sight, for all pictures of the run; pixels do not depend on what it
+  /// has learned before. Whoever only takes what others have traced needs neither.
   /// Requires: run and flux outlive this.
-  ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number, const KnownRadiance* flux);
+  ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number, const KnownRadiance* flux,
+             std::shared_ptr<const EmitterSight> sight);
   ViewPasses(const ViewPasses&) = delete;
   ViewPasses& operator=(const ViewPasses&) = delete;
 
@@ -141,7 +144,7 @@ class ViewPasses {
   const Camera camera_;
   const uint64_t number_;
   const KnownRadiance* flux_;
-  std::shared_ptr<const EmitterSight> sight_;  // of all passes and threads
+  std::shared_ptr<const EmitterSight> sight_;  // of all pictures and threads
   std::vector<PixelSums> sums_;
   int paths_ = 0;
   int first_paths_ = 0;  // that pixels of even columns and rows have when others have none

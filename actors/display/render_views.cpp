@@ -58,8 +58,10 @@ Result<std::vector<size_t>> chosen_views(const SceneDescription& scene, const st
 }
 
 struct GrowingView {
-  GrowingView(const LocalRun& run, size_t of, const KnownRadiance* flux)
-      : camera(run.scene().description->cameras[of]), number(of), passes(run, camera, of, flux) {}
+  GrowingView(const LocalRun& run, size_t of, const PictureFlux& flux)
+      : camera(run.scene().description->cameras[of]),
+        number(of),
+        passes(run, camera, of, flux.radiance.get(), flux.sight) {}
 
   double pixels() const { return static_cast<double>(camera.width) * camera.height; }
 
@@ -93,7 +95,7 @@ class GrowingViews {
         progress_(std::move(progress)) {}
 
   void add(size_t camera, const std::filesystem::path& stem) {
-    views_.emplace_back(run_, camera, flux_.radiance.get()).stem = stem;
+    views_.emplace_back(run_, camera, flux_).stem = stem;
     pixels_ += views_.back().pixels();
   }
 

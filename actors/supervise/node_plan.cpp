@@ -59,7 +59,8 @@ void add_display(MemoryPlan& plan, const RunSetup& run, const NodeSetup& node) {
       "totals that are shown", 2 * bytes,
       fmt::format("a copy and the flux file made of it, {} bins x {} source groups x {} B each",
                   run.scene.layout.totals(), run.scene.groups.size(), sizeof(Total)));
-  plan.add("pictures", node.display->picture_bytes(), "the largest, with its features and errors");
+  plan.add("pictures", node.display->picture_bytes(),
+           "the largest, with its features and errors, and what cells of space know of emitters");
 }
 
 uint64_t histogram_bytes(const RunSetup& run) {

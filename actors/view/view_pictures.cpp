@@ -40,11 +40,13 @@ Camera camera_of(const RenderAsk& ask) {
 
 }  // namespace
 
-/// A run of the building in a state, and what paths of its pictures end in.
+/// A run of the building in a state, what paths of its pictures end in, and what they choose
+/// emitters by.
 struct ViewPictures::Traced {
   std::string state;
   std::unique_ptr<LocalRun> run;
   std::unique_ptr<KnownRadiance> flux;
+  std::shared_ptr<const EmitterSight> sight;
 };
 
 /// Tells one viewer of a picture, from its order on.
@@ -162,6 +164,7 @@ Result<const ViewPictures::Traced*> ViewPictures::flux_for(const Order& order, G
                    [&](const Progress& progress) { growing.tell_flux(progress.particles); });
   if (interrupt_) return nullptr;
   if (traced->run->batches() > 0) traced->flux = flux_radiance(*traced->run);
+  traced->sight = make_emitter_sight(traced->run->scene());
   traced_ = std::move(traced);
   return traced_.get();
 }
@@ -184,7 +187,7 @@ Result<void> ViewPictures::render(const Order& order) {
   PictureOptions options;
   options.interrupt = &interrupt_;
   options.gives_up = [&] { return growing.seconds() > limits_.seconds; };
-  ViewPasses passes(run, camera, 0, traced.value()->flux.get());
+  ViewPasses passes(run, camera, 0, traced.value()->flux.get(), traced.value()->sight);
   if (!passes.add_first(min_pass, options)) return unfinished();
   const ShownView half(passes.first_picture(), min_pass, options, run.threads(), first_filter);
   if (auto ok = growing.tell_picture(first_image(human, run, camera, half), run.particles(), 0,

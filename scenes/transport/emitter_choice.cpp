@@ -103,26 +103,25 @@ EmitterSample EmitterChoice::choose_at(double u) const {
   size_t emitter = 0;
   if (u < bright_) {
     emitter = seen_->bright[choose(at_, u / bright_).emitter].emitter;
-  } else if (u = (u - bright_) / (1 - bright_); u < seen_->asked_share) {
+  } else if (u = (u - bright_) / (1 - bright_); u < seen_->by_cell) {
     const auto at = std::upper_bound(seen_->cumulative.begin(), seen_->cumulative.end(),
-                                     static_cast<float>(u / seen_->asked_share)) -
+                                     static_cast<float>(u / seen_->by_cell)) -
                     seen_->cumulative.begin();
     emitter = seen_->asked[std::min(static_cast<size_t>(at), seen_->asked.size() - 1)];
   } else {
-    emitter = choose(by_power_, std::min(1.0, (u - seen_->asked_share) / (1 - seen_->asked_share)))
-                  .emitter;
+    emitter = choose(by_power_, std::min(1.0, (u - seen_->by_cell) / (1 - seen_->by_cell))).emitter;
   }
   return {emitter, probability_at(emitter)};
 }
 
 double EmitterChoice::probability_at(size_t emitter) const {
   if (seen_ == nullptr) return share_of(emitter, at_);
-  double other = (1 - seen_->asked_share) * share_of(emitter, by_power_);
+  double other = (1 - seen_->by_cell) * share_of(emitter, by_power_);
   const auto asked = std::lower_bound(seen_->asked.begin(), seen_->asked.end(), emitter);
   if (asked != seen_->asked.end() && *asked == emitter) {
     const auto i = static_cast<size_t>(asked - seen_->asked.begin());
     const auto before = i > 0 ? static_cast<double>(seen_->cumulative[i - 1]) : 0.0;
-    other += seen_->asked_share * (static_cast<double>(seen_->cumulative[i]) - before);
+    other += seen_->by_cell * (static_cast<double>(seen_->cumulative[i]) - before);
   }
   double probability = (1 - bright_) * other;
   if (!(bright_ > 0)) return probability;

@@ -2,7 +2,30 @@
 
 namespace luxodus {
 
-EmitterSight::EmitterSight(const CompiledScene& scene) : scene_(scene), cells_(scene) {
+namespace {
+
+/// Memory of a learned cell, its pointer included [bytes]. An allocation takes some more than it is
+/// asked for.
+uint64_t bytes_of_cell(uint64_t emitters) {
+  constexpr uint64_t allocations = 4, of_allocation = 16;
+  const uint64_t asked = std::min<uint64_t>(emitters, limits::asked_emitters);
+  const uint64_t bright = std::min<uint64_t>(emitters, limits::bright_emitters);
+  return sizeof(void*) + sizeof(CellSight) + allocations * of_allocation +
+         asked * (sizeof(uint32_t) + sizeof(float)) + bright * sizeof(CellSight::Bright);
+}
+
+CellGrid grid_of(const CompiledScene& scene) {
+  const uint64_t affordable = limits::sight_bytes / bytes_of_cell(scene.emitters.size());
+  return {scene, std::min(limits::learned_cells, static_cast<int64_t>(affordable))};
+}
+
+}  // namespace
+
+uint64_t EmitterSight::most_bytes(const CompiledScene& scene) {
+  return grid_of(scene).count() * bytes_of_cell(scene.emitters.size());
+}
+
+EmitterSight::EmitterSight(const CompiledScene& scene) : scene_(scene), cells_(grid_of(scene)) {
   for (int b = 0; b < scene.bands.count(); ++b)
     if (scene.bands[b].lm_per_w > scene.bands[band_].lm_per_w) band_ = b;
   for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
@@ -19,7 +42,7 @@ std::vector<EmitterSight::Asked> EmitterSight::candidates(const Vec3& middle) co
     const Vec3 d = bounds_[i].centre - middle;
     const double square =
         static_cast<double>(glm::dot(d, d) + bounds_[i].radius * bounds_[i].radius +
-                            0.25_r * cells_.edge() * cells_.edge());
+                            0.25_r * cells_.grid().edge() * cells_.grid().edge());
     out.push_back({i, power_[i] / square, 0, 0});
   }
   if (out.size() > limits::asked_emitters) {
@@ -39,11 +62,13 @@ CellSight EmitterSight::conclude(std::vector<Asked> asked) const {
   double sum = 0;
   for (const Asked& a : asked) sum += a.light(a.arriving);
   if (!(sum > 0)) {  // nothing arrives: whatever is asked is asked by its power
-    out.asked_share = 0;
+    out.by_cell = 0;
     return out;
   }
   std::vector<Asked> bright;
   double so_far = 0;
+  out.asked.reserve(asked.size());
+  out.cumulative.reserve(asked.size());
   for (const Asked& a : asked) {
     so_far += a.light(a.arriving);
     out.asked.push_back(a.emitter);
@@ -59,8 +84,9 @@ CellSight EmitterSight::conclude(std::vector<Asked> asked) const {
     std::sort(bright.begin(), bright.end(),
               [](const Asked& a, const Asked& b) { return a.emitter < b.emitter; });
   }
+  out.bright.reserve(bright.size());
   for (const Asked& a : bright) out.bright.push_back({a.emitter, a.arriving});
-  out.asked_share = 0.9;
+  out.by_cell = limits::cell_choice;
   return out;
 }
 

@@ -25,16 +25,21 @@ inline constexpr size_t asked_emitters = 256;
 /// Of each: with half as many, emitters that a part of a cell sees are missed too often.
 inline constexpr int sight_rays = 16;
 /// An emitter that no ray has met may still be seen from somewhere in the cell: it counts as so
-/// much of its light in the open.
+/// much of the light that would arrive without walls, through smoke as it is.
 inline constexpr double unseen_share = 0.1;
 /// The same of one that has sent nothing towards them, as of light that goes everywhere [1/sr].
 inline constexpr double least_arriving = 0.03 / (4 * 3.14159265358979324);
 /// Light of an emitter, of that of all, below which nobody asks whether it is hidden.
-inline constexpr double asked_share = 1e-3;
+inline constexpr double looked_at_share = 1e-3;
 /// Emitters of a cell that are weighed at each place of it: those of more than a share, and at most
 /// so many.
 inline constexpr size_t bright_emitters = 32;
 inline constexpr double bright_share = 3e-3;
+/// Share of the choices in a cell, as a whole, that go by what arrives there; the rest go by power.
+inline constexpr double cell_choice = 0.9;
+/// Memory of all cells when each has been learned [bytes]: where it would be more, cells are
+/// larger. All count from the start, since which are learned first depends on the order of threads.
+inline constexpr uint64_t sight_bytes = uint64_t{256} << 20;
 }  // namespace limits
 
 /// What is known of all emitters from the places of a cell.
@@ -48,13 +53,16 @@ struct CellSight {
   /// Of all emitters asked, by number, what arrives in the cell: sums up to each, the last is 1.
   std::vector<uint32_t> asked;
   std::vector<float> cumulative;
-  double asked_share = 1;  // of the choice by `cumulative`; the rest is by power alone
+  double by_cell = 1;  // share of the choices by `cumulative`; the rest are by power alone
 };
 
 class EmitterSight {
  public:
   /// Requires: the scene outlives this.
   explicit EmitterSight(const CompiledScene& scene);
+
+  /// Memory that it takes at most, when every cell has been learned [bytes].
+  static uint64_t most_bytes(const CompiledScene& scene);
 
   template <class Resolver>
   const CellSight& at(const Vec3& place, Resolver& resolver) const {
@@ -79,7 +87,8 @@ class EmitterSight {
 
   template <class Resolver>
   CellSight learn(size_t cell, Resolver& resolver) const {
-    std::vector<Asked> asked = candidates(cells_.low_of(cell) + Vec3(0.5_r * cells_.edge()));
+    std::vector<Asked> asked =
+        candidates(cells_.grid().low_of(cell) + Vec3(0.5_r * cells_.grid().edge()));
     Random random(0, RandomStream::picture, sight_part);
     double all = 0;
     for (Asked& a : asked) {
@@ -89,7 +98,7 @@ class EmitterSight {
     }
     for (Asked& a : asked) {
       a.arriving = limits::unseen_share * a.open;
-      if (!(a.light(a.open) > limits::asked_share * all)) continue;
+      if (!(a.light(a.open) > limits::looked_at_share * all)) continue;
       random.start(uint64_t{cell} * scene_.emitters.size() + a.emitter);
       look(cell, a, random, resolver);
     }
@@ -101,14 +110,14 @@ class EmitterSight {
   void for_each_ray(size_t cell, uint32_t emitter, Random& random, Resolver& resolver,
                     OfRay&& of_ray) const {
     const CompiledEmitter& e = scene_.emitters[emitter];
-    const Vec3 low = cells_.low_of(cell);
+    const Vec3 low = cells_.grid().low_of(cell);
     for (int i = 0; i < limits::sight_rays; ++i) {
       const Real x = random.uniform();
       const Real y = random.uniform();
       const Real z = random.uniform();
       const EmissionPoint point = emission_point(scene_, e, random, resolver);
-      const ShadowRay c = connect(scene_, low + Vec3(x, y, z) * cells_.edge(), point.position,
-                                  point.axis, e.kind != EmitterKind::volume);
+      const ShadowRay c = connect(scene_, low + Vec3(x, y, z) * cells_.grid().edge(),
+                                  point.position, point.axis, e.kind != EmitterKind::volume);
       if (!(c.distance > 0)) continue;
       const auto density =
           static_cast<double>(directional_density(e, point, -c.ray.direction, resolver));

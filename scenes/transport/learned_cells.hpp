@@ -22,25 +22,26 @@ inline constexpr Real learned_edge_share = 1.0_r / 32;
 inline constexpr int64_t learned_cells = 1 << 20;
 }  // namespace limits
 
-template <class Learned>
-class LearnedCells {
+/// Cubes of one size that fill a scene.
+class CellGrid {
  public:
-  explicit LearnedCells(const CompiledScene& scene) : low_(scene.local_low) {
-    const Vec3 size = scene.local_high - scene.local_low;
-    edge_ = std::min(limits::max_learned_edge_m, limits::learned_edge_share * scene.diagonal_m);
+  /// Of at most so many cells; at least one.
+  CellGrid(const CompiledScene& scene, int64_t most) : low_(scene.local_low) {
+    const glm::dvec3 size = glm::max(glm::dvec3(scene.local_high) - glm::dvec3(low_), 0.0);
+    edge_ = limits::max_learned_edge_m;  // where all that stands in a scene is a point
+    if (scene.diagonal_m > 0)
+      edge_ = std::min(edge_, limits::learned_edge_share * scene.diagonal_m);
+    // As floating point: the cells of 1 m of a country are more than whole numbers can say.
+    glm::dvec3 counts;
+    const auto limit = static_cast<double>(std::max<int64_t>(most, 1));
     for (;; edge_ *= 1.25_r) {
-      nx_ = static_cast<int64_t>(size.x / edge_) + 1;
-      ny_ = static_cast<int64_t>(size.y / edge_) + 1;
-      nz_ = static_cast<int64_t>(size.z / edge_) + 1;
-      if (nx_ * ny_ * nz_ <= limits::learned_cells) break;
+      counts = glm::floor(size / static_cast<double>(edge_)) + 1.0;
+      if (counts.x * counts.y * counts.z <= limit) break;
     }
-    cells_ = std::make_unique<std::atomic<const Learned*>[]>(count());
+    nx_ = static_cast<int64_t>(counts.x);
+    ny_ = static_cast<int64_t>(counts.y);
+    nz_ = static_cast<int64_t>(counts.z);
   }
-  ~LearnedCells() {
-    for (size_t i = 0; i < count(); ++i) delete cells_[i].load();
-  }
-  LearnedCells(const LearnedCells&) = delete;
-  LearnedCells& operator=(const LearnedCells&) = delete;
 
   size_t count() const { return static_cast<size_t>(nx_ * ny_ * nz_); }
   Real edge() const { return edge_; }
@@ -50,20 +51,7 @@ class LearnedCells {
     return low_ + edge_ * Vec3(static_cast<Real>(i % nx_), static_cast<Real>(i / nx_ % ny_),
                                static_cast<Real>(i / nx_ / ny_));
   }
-
-  /// Of the cell of a place, or of the nearest one. `learn(cell)` makes it.
-  template <class Learn>
-  const Learned& at(const Vec3& place, Learn&& learn) const {
-    const size_t cell = cell_of(place);
-    if (const Learned* known = cells_[cell].load(std::memory_order_acquire)) return *known;
-    auto own = std::make_unique<const Learned>(learn(cell));
-    const Learned* faster = nullptr;
-    if (!cells_[cell].compare_exchange_strong(faster, own.get(), std::memory_order_acq_rel))
-      return *faster;
-    return *own.release();
-  }
-
- private:
+  /// That of a place, or the nearest one.
   size_t cell_of(const Vec3& place) const {
     const auto along = [&](Real at, int64_t count) {
       const Real last = static_cast<Real>(count - 1);
@@ -73,9 +61,39 @@ class LearnedCells {
     return static_cast<size_t>((along(p.z, nz_) * ny_ + along(p.y, ny_)) * nx_ + along(p.x, nx_));
   }
 
+ private:
   Vec3 low_;
-  Real edge_ = 1;
+  Real edge_;
   int64_t nx_ = 1, ny_ = 1, nz_ = 1;
+};
+
+template <class Learned>
+class LearnedCells {
+ public:
+  explicit LearnedCells(const CellGrid& grid)
+      : grid_(grid), cells_(std::make_unique<std::atomic<const Learned*>[]>(grid.count())) {}
+  ~LearnedCells() {
+    for (size_t i = 0; i < grid_.count(); ++i) delete cells_[i].load();
+  }
+  LearnedCells(const LearnedCells&) = delete;
+  LearnedCells& operator=(const LearnedCells&) = delete;
+
+  const CellGrid& grid() const { return grid_; }
+
+  /// Of the cell of a place, or of the nearest one. `learn(cell)` makes it.
+  template <class Learn>
+  const Learned& at(const Vec3& place, Learn&& learn) const {
+    const size_t cell = grid_.cell_of(place);
+    if (const Learned* known = cells_[cell].load(std::memory_order_acquire)) return *known;
+    auto own = std::make_unique<const Learned>(learn(cell));
+    const Learned* faster = nullptr;
+    if (!cells_[cell].compare_exchange_strong(faster, own.get(), std::memory_order_acq_rel))
+      return *faster;
+    return *own.release();
+  }
+
+ private:
+  CellGrid grid_;
   std::unique_ptr<std::atomic<const Learned*>[]> cells_;
 };
 

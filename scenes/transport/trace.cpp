@@ -107,11 +107,19 @@ class ResolverPictureTracer final : public PictureTracer {
   GroupLight light_;
 };
 
+bool has_choice(const CompiledScene& scene) {
+  return scene.emitters.size() > 1;
+}
+
 }  // namespace
 
 std::shared_ptr<const EmitterSight> make_emitter_sight(const CompiledScene& scene) {
-  if (scene.emitters.size() < 2) return nullptr;
+  if (!has_choice(scene)) return nullptr;
   return std::make_shared<const EmitterSight>(scene);
+}
+
+uint64_t emitter_sight_bytes(const CompiledScene& scene) {
+  return has_choice(scene) ? EmitterSight::most_bytes(scene) : 0;
 }
 
 std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,

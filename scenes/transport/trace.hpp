@@ -62,6 +62,9 @@ class EmitterSight;
 /// Requires: the scene outlives it. Null where there is nothing to choose.
 std::shared_ptr<const EmitterSight> make_emitter_sight(const CompiledScene& scene);
 
+/// Memory that it takes at most [bytes]; 0 where there is nothing to choose.
+uint64_t emitter_sight_bytes(const CompiledScene& scene);
+
 /// `sight`: of the scene, or null where emitters are chosen by power and distance alone.
 std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,
                                                    const GeometryAccess& access, uint64_t seed,

@@ -1,6 +1,6 @@
 // What paths of pictures gain where emitters are chosen by what cells of space have learned of
 // them, over the choice by power and distance alone: variance of luminance, by processor time, of
-// the same pixels in turn.
+// the same pixels, one way after the other.
 #include <fmt/core.h>
 
 #include <algorithm>

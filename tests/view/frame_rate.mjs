@@ -1,8 +1,9 @@
 // How many pictures a second the page draws while somebody turns around, and how fine they are:
 // `node frame_rate.mjs [ADDRESS]`; without an address, of the room of mock_server.mjs. LUX_GPU=1
 // leaves the choice of the renderer to the browser, else it draws in software (SwiftShader).
-// LUX_RASTER=0.5 keeps that share of the screen's raster, instead of letting the page learn it. The
-// processor time of a picture is that of all of the browser: it hardly depends on what else runs.
+// LUX_RASTER=0.5 keeps that share of the screen's raster, instead of letting the page learn it.
+// LUX_HEIGHT is that of the window, 1280 wide [px]. The processor time of a picture is that of all of
+// the browser: it hardly depends on what else runs.
 import { readdirSync, readFileSync } from 'node:fs';
 import { chromium } from 'playwright-core';
 import { MockServer } from './mock_server.mjs';
@@ -13,6 +14,7 @@ const software = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-
 const flags = ['--headless=new', '--no-sandbox', ...(process.env.LUX_GPU ? [] : software)];
 
 const raster = Number(process.env.LUX_RASTER ?? 0);
+const windowHeight = Number(process.env.LUX_HEIGHT ?? 800);
 
 /** Processor seconds of a process and of all that it has begun (Linux). */
 function processorSeconds(root) {
@@ -35,7 +37,7 @@ const server = process.argv[2] ? null : new MockServer();
 const address = process.argv[2] ?? `http://127.0.0.1:${await server.listen()}/`;
 const browser = await chromium.launch({
   executablePath: process.env.LUX_CHROMIUM ?? '/usr/bin/chromium', args: flags });
-const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+const page = await browser.newPage({ viewport: { width: 1280, height: windowHeight } });
 await page.goto(address);
 await page.waitForFunction(() => window.luxodus?.page.live.shown?.surfaces?.groups.size > 0 &&
   window.luxodus.page.live.shown.air?.groups.size > 0, null, { timeout: 180_000 });

@@ -29,13 +29,14 @@ void check_tiles(const LocalRun& run, Executor& executor) {
   options.paths_per_pixel = asked_paths;
   options.executor = &executor;
   const PictureFlux flux = picture_flux(run, options);
+  REQUIRE(flux.sight);
   const auto& cameras = run.scene().description->cameras;
   PictureExecutor elsewhere(run, {{cameras[0], 0, true}, {cameras[1], 1, false}}, options, flux);
   for (const size_t view : {size_t{0}, size_t{1}}) {
-    ViewPasses passes(run, cameras[view], view, nullptr);
+    ViewPasses passes(run, cameras[view], view, nullptr, nullptr);
     if (view == 0) {
       REQUIRE(elsewhere.add_first(view, passes));
-      ViewPasses here(run, cameras[0], 0, flux.radiance.get());
+      ViewPasses here(run, cameras[0], 0, flux.radiance.get(), flux.sight);
       REQUIRE(here.add_first(PictureExecutor::paths_of_tile, {}));
       check_same(passes.first_picture(), here.first_picture());
     }
@@ -99,7 +100,7 @@ TEST_CASE("a picture of nodes that is interrupted stays as it was", "[display][t
   const PictureFlux flux = picture_flux(*run, options);
   const Camera& camera = run->scene().description->cameras[0];
   PictureExecutor elsewhere(*run, {{camera}}, options, flux);
-  ViewPasses passes(*run, camera, 0, nullptr);
+  ViewPasses passes(*run, camera, 0, nullptr, nullptr);
   REQUIRE(elsewhere.add(0, passes, 4));
   const TracedPicture before = passes.picture();
   CHECK_FALSE(elsewhere.add(0, passes, 4, [&](double) { interrupt = true; }));

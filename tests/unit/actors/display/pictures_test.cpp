@@ -529,3 +529,65 @@ height = 20
   CHECK(x / sum == Approx(10 - 0.4 / std::tan(std::numbers::pi / 6) * 10).margin(0.3));
   CHECK(y / sum == Approx(10 - 0.4 / std::tan(std::numbers::pi / 6) * 10).margin(0.3));
 }
+
+namespace {
+
+/// Lit smoke before a camera, and whatever else stands there.
+std::string point_in_smoke(const std::string& more) {
+  return R"(
+[run]
+max_bands = 2
+[[medium]]
+name = "smoke"
+kind = "homogeneous"
+extinction = 0.2
+albedo = 0.8
+[[emitter]]
+name = "lamp"
+shape = "point"
+distribution = "isotropic"
+position = [1, 2, 3]
+flux_lm = 1000
+[[camera]]
+name = "view"
+eye = [-2, 2, 3.2]
+target = [1, 2, 3]
+width = 12
+height = 8
+)" + more;
+}
+
+const std::string second_lamp = R"(
+[[emitter]]
+name = "second lamp"
+shape = "point"
+distribution = "isotropic"
+flux_lm = 300
+)";
+
+}  // namespace
+
+TEST_CASE("scenes of no size and as large as coordinates go have pictures", "[display]") {
+  const std::string flame = R"(
+[[medium]]
+name = "flame"
+kind = "bounded"
+body = "ellipsoid"
+position = [1, 2, 3]
+radii = [0.2, 0.2, 0.4]
+extinction = 1
+albedo = 0
+emission = { power_w = 10000, temperature_k = 1400 }
+)";
+  const auto [more, of_no_size] =
+      GENERATE_COPY(std::pair(second_lamp + "position = [1, 2, 3]\n", true), std::pair(flame, true),
+                    std::pair(second_lamp + "position = [-1e7, 1e7, 1e7]\n", false));
+  CAPTURE(more);
+  const auto run = traced(point_in_smoke(more), 1 << 10);
+  REQUIRE(run->scene().emitters.size() == 2);
+  REQUIRE((run->scene().diagonal_m == 0) == of_no_size);
+  const TracedPicture picture = picture_of(*run, 4, false);
+  for (const float y : picture.light.xyz) {
+    if (!(std::isfinite(y) && y >= 0)) FAIL("a pixel has " << y);
+  }
+}

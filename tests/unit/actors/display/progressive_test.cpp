@@ -35,7 +35,8 @@ TEST_CASE("a picture in passes is the picture of as many paths at once, for any 
   const auto one = traced(smoky_room("17"), 1 << 14, 1);
   const auto three = traced(smoky_room("17"), 1 << 14, 3);
   const auto flux = flux_radiance(*three);
-  ViewPasses view(*three, three->scene().description->cameras[0], 0, flux.get());
+  ViewPasses view(*three, three->scene().description->cameras[0], 0, flux.get(),
+                  make_emitter_sight(three->scene()));
   REQUIRE(view.add_first(4, {}));
   CHECK(view.first_picture().light.pixels() == 9 * 6);
   for (const int paths : {4, 4, 1, 59, 28}) REQUIRE(view.add(paths, {}));
@@ -46,7 +47,8 @@ TEST_CASE("a picture in passes is the picture of as many paths at once, for any 
 TEST_CASE("a first picture has the first paths of one pixel of four", "[display]") {
   const auto run = traced(smoky_room("17"), 1 << 14);
   const auto flux = flux_radiance(*run);
-  ViewPasses view(*run, run->scene().description->cameras[0], 0, flux.get());
+  ViewPasses view(*run, run->scene().description->cameras[0], 0, flux.get(),
+                  make_emitter_sight(run->scene()));
   REQUIRE(view.add_first(4, {}));
   const TracedPicture first = view.first_picture();
   const TracedPicture whole = at_once(*run, 4);

@@ -1,4 +1,5 @@
-// A room in smoke, seen by two cameras, and pictures compared to the bit.
+// A room in smoke with two lamps, one behind a screen, seen by two cameras, and pictures compared
+// to the bit.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -34,6 +35,18 @@ shape = "rectangle"
 size = [0.6, 0.3]
 position = [1.5, 1.5, 2.4]
 flux_lm = 1000
+[[object]]
+name = "screen"
+shape = "box"
+low = [1.9, 0.3, 0]
+high = [2, 1.1, 1.6]
+material = "ochre"
+[[emitter]]
+name = "lamp behind it"
+shape = "point"
+distribution = "isotropic"
+position = [2.4, 0.7, 1]
+flux_lm = 300
 [[camera]]
 name = "view"
 eye = [0.5, 1.2, 1.2]

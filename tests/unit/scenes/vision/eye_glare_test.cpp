@@ -106,8 +106,14 @@ TEST_CASE("a view of more degrees than are veiled one by one keeps its even fiel
           p.xyz[3 * static_cast<size_t>(y * edge + x) + c] = 100;
     return luminance_at(with_eye_glare(p, degrees), edge - edge / 5, edge / 2);
   };
-  // The same view of 100 degrees across, in cells of one degree and of two.
-  CHECK(far_veil(1, 80) == Approx(far_veil(0.5, 160)).epsilon(0.05));
+  // The same view, in 100 x 100 pixels of one degree, which are more than are veiled one by one, so
+  // that cells are of two; and in 50 x 50 pixels of two degrees, whose middles lie half a degree
+  // farther.
+  const double coarse = far_veil(1, 100);
+  CHECK(coarse == Approx(far_veil(2, 50)).epsilon(0.05));
+  // Light within a cell is left out of its mean, and far light has the larger share of a mean from
+  // two degrees on: ln(50 / 1) / ln(50 / 2) = 1.2, in a field of some 50 degrees around.
+  CHECK(coarse / far_veil(100.0 / 90, 90) == Approx(1.2).margin(0.1));
 }
 
 TEST_CASE("a pixel that is no light veils nothing and stays as it is", "[vision][glare]") {
