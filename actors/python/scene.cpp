@@ -93,14 +93,15 @@ OpenScene OpenScene::load(const fs::path& file, const py::list& changes,
 }
 
 SceneAtTime OpenScene::reader() const {
-  return reader_at_times(description_->file, FireFrames::nearest, changes_);
+  return reader_at_times(file_, FireFrames::nearest, changes_);
 }
 
 std::shared_ptr<const SceneDescription> OpenScene::at_frames() const {
   const auto& media = description_->media;
-  if (std::none_of(media.begin(), media.end(), [](const Medium& m) { return m.simulation; }))
+  if (description_->packed ||
+      std::none_of(media.begin(), media.end(), [](const Medium& m) { return m.simulation; }))
     return description_;
-  OpenedScene opened = open_scene(description_->file, at_s_, changes_, FireFrames::nearest);
+  OpenedScene opened = open_scene(file_, at_s_, changes_, FireFrames::nearest);
   if (!opened.scene) throw Refused(opened.problems.list());
   return std::move(opened.scene);
 }

@@ -28,8 +28,8 @@ class OpenScene {
   /// The same scene at other times, at frames of its simulations; of a pack, which has one time,
   /// it refuses.
   SceneAtTime reader() const;
-  /// The scene as verdicts are made of it: at frames of its simulations. Errors (Refused): as
-  /// open_scene.
+  /// The scene as verdicts are made of it: at frames of its simulations; a pack as it is. Errors
+  /// (Refused): as open_scene.
   std::shared_ptr<const SceneDescription> at_frames() const;
 
  private:

@@ -47,7 +47,7 @@ std::vector<TableSpec> run_tables() {
            {"scene", "path", "", "required", "", "scene file or pack"},
            {"scenario", "text", "", "\"\"", "",
             "state of the building; the scene's first if empty"},
-           {"at_s", "number", "s", "", "[0, 1e9]",
+           {"at_s", "number", "s", "", "[-1e6, 1e9]",
             "time of the state of a scene that changes in time, as `--at`; the scene's own unless "
             "said"},
            {"out", "path", "", "", "",

@@ -17,9 +17,8 @@ bool is_ever_there(const FdsObstruction& o, const FdsInputOptions& options) {
 }
 
 fds::FireTimes times_of(const FdsCourse& course) {
-  fds::FireTimes out;
-  if (course.turns_s) (course.at_start ? out.vanishes : out.appears).push_back(*course.turns_s);
-  return out;
+  if (!course.turns_s) return {};
+  return fds::times_of_turns({{*course.turns_s, !course.at_start}});
 }
 
 Result<void> names_known(const FdsInput& input, const FdsInputOptions& options) {

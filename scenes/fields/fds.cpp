@@ -26,6 +26,8 @@ constexpr double optical_density_factor = 2.3;
 constexpr double usual_mass_extinction = 8700;
 /// Cells with less are no flame: two steps of a byte of Smoke3D's HRRPUV [kW/m3].
 constexpr double weakest_flame_kw_m3 = 2 * 1200.0 / 254;
+/// A frame may be so late: FDS writes at the first of its steps after a tick.
+constexpr double step_of_fds_s = 0.1;
 /// Rounding below zero in densities that FDS transports [1/m].
 constexpr float rounding_per_m = 1e-3F;
 
@@ -131,9 +133,10 @@ std::optional<Picked> picked(Series series, double at_s) {
     if (!everywhere) continue;
     if (out.common++ == 0) out.first_s = t;
     out.last_s = t;
-    if (best && !out.next_s) out.next_s = t;
+    const bool later = best && t > *best + same_tick_s;  // not the same tick once more
+    if (later && !out.next_s) out.next_s = t;
     if (best && std::abs(t - at_s) >= std::abs(*best - at_s)) continue;
-    out.previous_s = best;
+    if (later) out.previous_s = best;
     out.next_s.reset();
     best = t;
   }
@@ -165,7 +168,7 @@ constexpr Candidate candidates[] = {
 
 class FireReader {
  public:
-  FireReader(Case fire, const FireOptions& options) : fire_(std::move(fire)), options_(options) {}
+  FireReader(const Case& fire, const FireOptions& options) : fire_(fire), options_(options) {}
 
   Result<LoadedFire> read() {
     if (auto ok = choose(); !ok) return ok.problem();
@@ -196,9 +199,23 @@ class FireReader {
   /// the time lies between [s].
   double distance_of(const Picked& p) const {
     const double nearest = std::abs(p.time_s - options_.at_s);
-    if (!options_.between_frames) return nearest;
-    const auto other = options_.at_s > p.time_s ? p.next_s : p.previous_s;
+    const auto other = other_frame(p);
     return other ? std::max(nearest, std::abs(*other - options_.at_s)) : nearest;
+  }
+
+  /// Between frames: the one on the other side of the time.
+  std::optional<double> other_frame(const Picked& p) const {
+    if (!options_.between_frames) return std::nullopt;
+    return options_.at_s > p.time_s ? p.next_s : p.previous_s;
+  }
+
+  /// Whether a series is so near to the time that no worse source is taken instead. Rare frames are
+  /// so at their own times alone.
+  bool is_near(const Picked& p) const {
+    if (distance_of(p) <= fire_window_s) return true;
+    const auto other = other_frame(p);
+    return other && std::abs(p.time_s - options_.at_s) <= step_of_fds_s &&
+           is_of_frame(options_.at_s, p.time_s, *other);
   }
 
   Result<void> choose() {
@@ -209,7 +226,7 @@ class FireReader {
       if (!series) return series.problem();
       auto found = picked(std::move(series.value()), options_.at_s);
       if (!found) continue;
-      const bool near = std::abs(found->time_s - options_.at_s) <= fire_window_s;
+      const bool near = is_near(*found);
       if (!near && nearest && distance_of(*nearest) <= distance_of(*found)) continue;
       nearest = std::move(found);
       out_.source = c.source;
@@ -453,7 +470,7 @@ class FireReader {
     out_.flame_extinction_share = all > 0 ? taken / all : 0;
   }
 
-  Case fire_;
+  const Case& fire_;
   const FireOptions& options_;
   Picked smoke_;
   std::optional<Picked> heat_;
@@ -465,8 +482,8 @@ class FireReader {
 
 }  // namespace
 
-Result<LoadedFire> read_frame(Case fire, const FireOptions& options) {
-  return FireReader(std::move(fire), options).read();
+Result<LoadedFire> read_frame(const Case& fire, const FireOptions& options) {
+  return FireReader(fire, options).read();
 }
 
 }  // namespace fds

@@ -33,8 +33,9 @@ enum class FireSource {
 struct FireOptions {
   double at_s = 0;
   /// Those that may be taken; all where empty. Taken is the first, in the order of preference, with
-  /// a frame within fire_window_s of `at_s`; else the one with the nearest frame, or between frames
-  /// the one whose two frames around the time are nearest.
+  /// a frame within fire_window_s of `at_s`; else the one with the nearest frame. Between frames:
+  /// the first with both frames around the time within fire_window_s, or with a frame at the time;
+  /// else the one whose two frames around the time are nearest.
   std::vector<FireSource> sources;
   /// Instead of the one FDS used [m2/kg].
   std::optional<double> mass_extinction_m2_per_kg;

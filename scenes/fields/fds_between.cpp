@@ -46,14 +46,16 @@ void blend(FireGrid& early, const FireGrid& late, double share) {
 /// The frame on the other side of the time; none where the time is that of a frame.
 std::optional<double> other_frame(const LoadedFire& nearest, double at_s) {
   const auto other = at_s > nearest.time_s ? nearest.next_s : nearest.previous_s;
-  if (!other) return std::nullopt;
-  const double gap = std::abs(*other - nearest.time_s);
-  const double away = std::abs(at_s - nearest.time_s);
-  if (gap <= same_tick_s || away <= same_frame_share * gap) return std::nullopt;
+  if (!other || is_of_frame(at_s, nearest.time_s, *other)) return std::nullopt;
   return other;
 }
 
 }  // namespace
+
+bool is_of_frame(double at_s, double frame_s, double other_s) {
+  const double gap = std::abs(other_s - frame_s);
+  return gap <= same_tick_s || std::abs(at_s - frame_s) <= same_frame_share * gap;
+}
 
 LoadedFire blended(LoadedFire early, const LoadedFire& late, double share) {
   const auto mix = [share](double a, double b) { return (1 - share) * a + share * b; };

@@ -20,9 +20,11 @@ constexpr double seam_m = 1e-5;
 constexpr double threshold_m = 0.05;
 constexpr double below_ceiling_m = 0.1;
 
-std::string place_text(const glm::dvec3& low, const glm::dvec3& high) {
-  return fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g}", low.x, low.y, low.z, high.x,
-                     high.y, high.z);
+/// Plates of one place and time are one; at other times another may stand there.
+std::string plate_text(const glm::dvec3& low, const glm::dvec3& high, const FireTimes& times) {
+  return fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} | {} | {}", low.x, low.y, low.z,
+                     high.x, high.y, high.z, fmt::join(times.appears, " "),
+                     fmt::join(times.vanishes, " "));
 }
 
 /// A rectangle of cells on a face of a mesh.
@@ -128,22 +130,21 @@ class BuildingWriter {
   }
 
   std::vector<FireTimes> times_of_obstructions(size_t m) const {
-    std::vector<FireTimes> out(fire_.meshes[m].obstructions.size());
-    for (const Change& change : fire_.changes) {
-      if (change.mesh != m) continue;
-      FireTimes& times = out[change.obstruction];
-      (change.appears ? times.appears : times.vanishes).push_back(change.time_s);
-    }
+    std::vector<std::vector<FireTurn>> turns(fire_.meshes[m].obstructions.size());
+    for (const Change& change : fire_.changes)
+      if (change.mesh == m) turns[change.obstruction].push_back({change.time_s, change.appears});
+    std::vector<FireTimes> out;
+    for (std::vector<FireTurn>& of_one : turns) out.push_back(times_of_turns(std::move(of_one)));
     return out;
   }
 
   /// One without thickness; not on an outer face, where the face stands already, and once where
-  /// two meshes name it.
+  /// two meshes name it with the same times.
   void plate(const Mesh& mesh, const ObstructionLabel& label, const glm::dvec3& low,
              const glm::dvec3& high, int across, const FireTimes& times) {
     const bool outer = std::abs(low[across] - out_.bounds.low[across]) < seam_m ||
                        std::abs(low[across] - out_.bounds.high[across]) < seam_m;
-    if (outer || !plates_.insert(place_text(low, high)).second) return;
+    if (outer || !plates_.insert(plate_text(low, high, times)).second) return;
     const bool below = std::abs(low[across] - mesh.low()[across]) < seam_m;
     if (below || std::abs(low[across] - mesh.high()[across]) < seam_m) {
       // On a seam, the wall itself is often an obstruction of the mesh behind.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace luxodus {
@@ -23,6 +24,9 @@ namespace fds {
 
 namespace {
 
+/// The range of `appears_at` and `vanishes_at` [s].
+constexpr double last_turn_s = 1e6;
+
 std::string metres_text(const glm::dvec3& p) {
   return fmt::format("[{:.10g}, {:.10g}, {:.10g}]", p.x, p.y, p.z);
 }
@@ -40,6 +44,26 @@ std::string hexadecimal(const glm::dvec3& rgb) {
 }
 
 }  // namespace
+
+FireTimes times_of_turns(std::vector<FireTurn> turns) {
+  FireTimes out;
+  if (turns.empty()) return out;
+  std::stable_sort(turns.begin(), turns.end(),
+                   [](const FireTurn& a, const FireTurn& b) { return a.at_s < b.at_s; });
+  // What first appears was not there before.
+  const bool at_start = !turns.front().appears;
+  for (FireTurn& turn : turns) turn.at_s = std::max(turn.at_s, -last_turn_s);
+  bool there = at_start;
+  for (size_t i = 0; i < turns.size() && turns[i].at_s <= last_turn_s; ++i) {
+    const bool is_last = i + 1 == turns.size() || turns[i + 1].at_s > turns[i].at_s;
+    if (!is_last || turns[i].appears == there) continue;
+    there = turns[i].appears;
+    (there ? out.appears : out.vanishes).push_back(turns[i].at_s);
+  }
+  // What never comes is said to come at the end of all times.
+  if (!at_start && out.appears.empty()) out.appears.push_back(last_turn_s);
+  return out;
+}
 
 std::string scene_name(const std::string& name, const std::string& otherwise) {
   std::string out;

@@ -35,6 +35,14 @@ struct FireLook {
 struct FireTimes {
   std::vector<double> appears, vanishes;
 };
+/// An object comes or goes [s].
+struct FireTurn {
+  double at_s = 0;
+  bool appears = false;
+};
+/// As a scene may state it: each change once, none beyond the times that scenes have. Of several at
+/// one time the last counts. `turns`: in the order in which they happen at one time.
+FireTimes times_of_turns(std::vector<FireTurn> turns);
 
 /// A name that a scene takes: no quotes, slashes, control characters, outer blanks or leading dot.
 std::string scene_name(const std::string& name, const std::string& otherwise);

@@ -17,8 +17,9 @@ TableSpec fire_keys() {
            "overrides it. Mandatory unless the scene has "
            "`[time]`, which says the time itself"},
           {"source", "choice", "", "\"best\"", "best, cells, nodes, plot3d, smoke3d",
-           "what extinction is taken from; `best`: the first of these with a frame within 1 s, "
-           "else the one nearest in time"},
+           "what extinction is taken from; `best`: for verdicts the first of these with a frame "
+           "within 1 s, for light the first with both frames around the time within 1 s or with a "
+           "frame at the time itself; else the one nearest in time"},
           {"mass_extinction", "number", "m2/kg", "", "(0, 1e6]",
            "of soot, at `wavelength_nm`; as FDS has it unless said"},
           {"wavelength_nm", "number", "nm", "633", "[200, 5000]",

@@ -11,6 +11,7 @@ shift
 rooms=("$@")
 [ "${#rooms[@]}" -gt 0 ] || rooms=(fields fds_input ifc dxf photometry)
 
+mkdir -p build
 cmake --preset asan-ubsan >build/mutations.log
 ninja -C build/asan-ubsan "${rooms[@]/#/test_scenes_}" >>build/mutations.log
 

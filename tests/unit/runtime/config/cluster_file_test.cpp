@@ -47,6 +47,16 @@ TEST_CASE("paths are relative to the folder of the file", "[runtime][config]") {
   CHECK(cluster.topology.file == "/srv/graph.toml");
 }
 
+TEST_CASE("a run may be of any time of the scene's clock", "[runtime][config]") {
+  CHECK_FALSE(good(small_cluster).run.at_s.has_value());
+  const auto at = [](const std::string& at_s) {
+    return run_part + "at_s = " + at_s + "\n" + host_part + controller_part + worker_part;
+  };
+  CHECK(good(at("60")).run.at_s == 60.0);
+  CHECK(good(at("-20")).run.at_s == -20.0);
+  CHECK(only_problem(at("-2e6")).what.find("at_s") != std::string::npos);
+}
+
 TEST_CASE("shards of the totals are workers by their names", "[runtime][config]") {
   CHECK(good(small_cluster).tally.shards.empty());
   const ClusterConfig cluster =

@@ -51,7 +51,8 @@ TEST_CASE("every type of the schema is explained, every default lies in its rang
       if (counted) {
         const auto range = toml::interval_of(key.range);
         REQUIRE(range.has_value());
-        CHECK(range->low >= 0);
+        // A scene's clock alone may begin before zero.
+        if (table.name != "run" || key.name != "at_s") CHECK(range->low >= 0);
         CHECK(range->low < range->high);
         if (const auto value = toml::bytes_in(fallback)) CHECK(range->holds(*value));
       }

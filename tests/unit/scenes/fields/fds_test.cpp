@@ -320,7 +320,31 @@ TEST_CASE("between frames the source counts whose two frames around the time are
   };
   CHECK(source_at(11.5, false) == FireSource::cell_extinction);
   CHECK(source_at(11.5, true) == FireSource::smoke3d);
-  CHECK(source_at(10.5, true) == FireSource::cell_extinction);  // within the second
+  // A frame within the second does not do where the other one is far; one at the time does.
+  CHECK(source_at(10.5, false) == FireSource::cell_extinction);
+  CHECK(source_at(10.5, true) == FireSource::smoke3d);
+  CHECK(source_at(10, true) == FireSource::cell_extinction);
+}
+
+TEST_CASE("a tick that stands twice, after a restart, is one frame to what lies between",
+          "[format][fds]") {
+  TemporaryFolder folder;
+  const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+  const auto of = [&](float value) {
+    return cell_values(mesh, [=](int, int, int) { return value; });
+  };
+  folder.write("a.sf", slice_file(mesh, extinction_label,
+                                  {{0, of(0)}, {10, of(1)}, {10.004F, of(1)}, {20, of(2)}}));
+  folder.write("case.smv",
+               index_of_meshes({mesh}) + slice_entry(1, true, mesh, "a.sf", extinction_label));
+  for (const double at_s : {6.0, 14.0, 16.0}) {
+    FireOptions options;
+    options.at_s = at_s;
+    options.between_frames = true;
+    const LoadedFire fire = good_fire(read_fire(folder / "case.smv", options));
+    CHECK(fire.between_frames);
+    CHECK(fire.grids[0].data.extinction[0] == Approx(at_s / 10).epsilon(1e-3));
+  }
 }
 
 TEST_CASE("a file of a run in progress is read up to its last whole frame", "[format][fds]") {

@@ -75,6 +75,50 @@ TEST_CASE("the building of a simulation is read as a scene: closed but for its o
   CHECK(good(folder, whole_text(building.value(), "30")).objects.size() == scene.objects.size());
 }
 
+TEST_CASE("plates of one place are one, unless their times differ", "[format][scene][fds]") {
+  using namespace test;
+  SceneFolder folder;
+  SmallMesh mesh = even_mesh({0, 0, 0}, {0.5, 0.5, 0.5}, {2, 2, 2});
+  const std::array<int, 6> plate{0, 1, 1, 1, 0, 1};
+  mesh.obstructions = {plate, plate, plate, plate};
+  folder.put("fire.smv", index_of_meshes({mesh}) + "HIDE_OBST 1\n 1 30.0\nSHOW_OBST 1\n 2 50.0\n" +
+                             "SHOW_OBST 1\n 3 50.0\nHIDE_OBST 1\n 4 30.0\n");
+  const auto building = read_fire_building(folder.path() / "fire.smv", 0);
+  REQUIRE(building.ok());
+  CHECK(building->plates == 2);
+  const auto objects_at = [&](const std::string& at) {
+    return good(folder, whole_text(building.value(), at)).objects.size();
+  };
+  CHECK(objects_at("20") == objects_at("40") + 1);
+  CHECK(objects_at("60") == objects_at("40") + 1);
+}
+
+TEST_CASE("changes of a simulation that no scene can state are read as what they do",
+          "[format][scene][fds]") {
+  using namespace test;
+  SceneFolder folder;
+  SmallMesh mesh = even_mesh({0, 0, 0}, {0.5, 0.5, 0.5}, {2, 2, 2});
+  mesh.obstructions = {
+      {0, 1, 0, 1, 0, 1}, {1, 2, 0, 1, 0, 1}, {0, 1, 1, 2, 0, 1}, {1, 2, 1, 2, 0, 1}};
+  folder.put("fire.smv", index_of_meshes({mesh}) +
+                             "HIDE_OBST 1\n 1 1e10\n"                    // never goes
+                             "SHOW_OBST 1\n 2 1e10\n"                    // never comes
+                             "SHOW_OBST 1\n 3 30\nHIDE_OBST 1\n 3 30\n"  // never comes
+                             "HIDE_OBST 1\n 4 30\nSHOW_OBST 1\n 4 30\n"  // never goes
+                             "HIDE_OBST 1\n 4 50\n");                    // but at 50 s
+  const auto building = read_fire_building(folder.path() / "fire.smv", 0);
+  REQUIRE(building.ok());
+  CHECK(building->solids == 4);
+  const auto solids_at = [&](const std::string& at) {
+    const auto scene = good(folder, whole_text(building.value(), at));
+    return std::count_if(scene.objects.begin(), scene.objects.end(),
+                         [](const Object& o) { return o.mesh.triangles.size() == 12; });
+  };
+  CHECK(solids_at("0") == 2);
+  CHECK(solids_at("40") == 2);
+  CHECK(solids_at("60") == 1);
+}
+
 TEST_CASE("names of a simulation cannot leave their quotes in a scene", "[format][scene][fds]") {
   using namespace test;
   SceneFolder folder;
