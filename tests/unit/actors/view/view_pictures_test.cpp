@@ -14,7 +14,7 @@ namespace {
 ViewPictureLimits few_paths() {
   ViewPictureLimits out;
   out.seconds = out.flux_seconds = 1e9;
-  out.flux_particles = 1 << 16;
+  out.flux_particles = 1 << 18;
   out.paths = 64;
   return out;
 }
