@@ -132,16 +132,18 @@ Result<std::optional<NamedFilm>> film_of(const SceneDescription& scene,
 /// many particles as the run that is filmed, so that they differ by what changes alone.
 class FilmedClock {
  public:
-  FilmedClock(const FinishedRun& of, const LocalRun& run, const RenderOptions& options)
+  FilmedClock(const FinishedRun& of, const LocalRun& run, const RenderOptions& options,
+              size_t film_frames)
       : of_(of),
         options_(options),
+        film_frames_(film_frames),
         particles_(run.batches() * run.scene().batch_particles),
         per_frame_s_(options.clock / options.fps),
         frames_(frames_of_state(parse_time(options.state_step).value(), per_frame_s_)) {}
 
   /// Errors: a last state that the scene cannot have, before the first is traced.
-  Result<void> check(size_t film_frames) const {
-    const auto last = scene_at((film_frames - 1) / frames_);
+  Result<void> check() const {
+    const auto last = scene_at((film_frames_ - 1) / frames_);
     if (!last) return last.problem();
     return {};
   }
@@ -153,16 +155,19 @@ class FilmedClock {
  private:
   using Traced = Result<std::shared_ptr<const LocalRun>>;
 
-  /// The middle of its frames is what a state stands for.
+  /// The middle of the frames that show it is what a state stands for; the film may end within the
+  /// last one's.
   double time_of(size_t state) const {
-    const auto frames = static_cast<double>(frames_);
+    const size_t first = state * frames_;
+    const size_t shown = std::min(frames_, film_frames_ - first);
     return parse_time(options_.from).value() +
-           per_frame_s_ * (frames * static_cast<double>(state) + 0.5 * (frames - 1));
+           per_frame_s_ * (static_cast<double>(first) + 0.5 * static_cast<double>(shown - 1));
   }
 
   Result<SceneOfRun> scene_at(size_t state) const {
     FinishedRun then = of_;
     then.at_s = time_of(state);
+    then.batch_shares.clear();  // dealt by the need of the run's state; lights may come and go
     return scene_of_run(then);
   }
 
@@ -185,6 +190,7 @@ class FilmedClock {
 
   const FinishedRun& of_;
   const RenderOptions& options_;
+  const size_t film_frames_;
   const int64_t particles_;
   const double per_frame_s_;
   const size_t frames_;
@@ -278,8 +284,8 @@ Result<ExitCode> render(const RenderOptions& options) {
     picture.executor = &nodes->executor();
   }
   if (filmed && !options.from.empty()) {
-    const FilmedClock clock(finished.value(), run, options);
-    if (auto ok = clock.check(filmed->film.cameras.size()); !ok) return ok.problem();
+    const FilmedClock clock(finished.value(), run, options, filmed->film.cameras.size());
+    if (auto ok = clock.check(); !ok) return ok.problem();
     return render_frames(out->path(), run, *filmed, options, picture, &clock);
   }
   if (filmed) return render_frames(out->path(), run, *filmed, options, picture, nullptr);

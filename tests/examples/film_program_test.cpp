@@ -157,6 +157,12 @@ TEST_CASE("a film lets the scene's clock go on, and each state is that of a run 
   CHECK(frame(place.out, "000002.png") == frame(then, "000000.png"));
   CHECK(frame(place.out, "000001.png") != frame(then, "000000.png"));
   CHECK(frame(place.out, "000003.png") != frame(then, "000000.png"));
+  // A film of four frames ends within its second state of three: that shows one, at 6 s.
+  const std::string at_6s = frame(place.out, "000003.png");
+  const Outcome ends_within = film(place.out, "--from 0s --clock 2 --state-step 6s");
+  INFO(ends_within.err);
+  REQUIRE(ends_within.code == 0);
+  CHECK(frame(place.out, "000003.png") == at_6s);
   // A state of two frames is that between them, here at 3 and at 7 s, and the scene ends at 6 s.
   const Outcome late = film(place.out, "--from 2s --clock 2 --state-step 4s");
   CHECK(late.code == 2);
@@ -166,6 +172,31 @@ TEST_CASE("a film lets the scene's clock go on, and each state is that of a run 
   CHECK(timeless.code == 2);
   CHECK_THAT(timeless.err, Contains("nothing in this scene changes in time"));
   CHECK_THAT(still.render("--from 0s").err, Contains("--route or --through"));
+}
+
+TEST_CASE("other states of an adaptive run are dealt by their own light", "[program][film]") {
+  const ScenePlace place("room.toml", walked_room +
+                                          "[time]\nfrom = 0\nto = 6\nstep = 3\n[[emitter]]\nname = "
+                                          "\"far\"\nshape = \"point\"\ndistribution = "
+                                          "\"isotropic\"\nposition = [0.5, 0.5, 2]\nflux_lm = 200\n"
+                                          "group = \"far\"\n[[medium]]\nname = \"smoke\"\nkind = "
+                                          "\"homogeneous\"\nalbedo = 0.5\n"
+                                          "extinction = [[0, 0], [6, 1.5]]\n");
+  const auto last_frame = [&](const std::string& run, const std::string& options) {
+    const fs::path out = place.folder / run;
+    REQUIRE(place
+                .luxodus("run " + (place.folder / "room.toml").string() +
+                         " --particles 20k --no-views --out " + out.string() + options)
+                .code == 0);
+    const Outcome made = place.luxodus("render " + out.string() +
+                                           " --through 0s=small --through 1s=small --fps 1 "
+                                           "--paths 4 --from 2s --clock 2 --state-step 2s",
+                                       "env PATH=/nowhere ");
+    INFO(made.err);
+    REQUIRE(made.code == 0);
+    return slurp(out / "films/small_to_small/000001.png");
+  };
+  CHECK(last_frame("adaptive", " --adaptive") == last_frame("usual", ""));
 }
 
 TEST_CASE("a film that cannot be made is refused with one clear error", "[program][film]") {
