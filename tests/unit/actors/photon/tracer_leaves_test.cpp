@@ -4,9 +4,8 @@
 
 #include "actors/photon/tracer.hpp"
 #include "actors/run/particle_worker.hpp"
-#include "tests/kit/noted_sender.hpp"
+#include "tests/kit/lone_actor.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
-#include "tests/unit/runtime/net/net_kit.hpp"
 
 using namespace luxodus;
 
@@ -41,28 +40,13 @@ TracerConfig led_by_first() {
   return config;
 }
 
-struct Led {
+struct Led : test::LoneNode {
   Led() {
-    spdlog::set_level(spdlog::level::off);
-    cluster.bring_up();
     work.port = &tracer;
     tracer.start(work);
     work.look_again();
   }
-  ~Led() {
-    scheduler.fibers().cancel_all();
-    settle();
-  }
-  void settle() {
-    while (scheduler.turn() <= cluster.clock.now()) {
-    }
-  }
-  void run(Nanoseconds span) {
-    for (const Nanoseconds end = cluster.clock.now() + span; cluster.clock.now() < end;) {
-      cluster.turn(milliseconds(50));
-      settle();
-    }
-  }
+  ~Led() { end_fibers(); }
   void say(NodeId node, const MessageId& id, const Message& message) {
     Message copy = message;
     REQUIRE(tracer.accept({{node, ActorName::coordinator}, id, copy, Payload()}) == Offered::taken);
@@ -79,14 +63,11 @@ struct Led {
     run(seconds(6));
   }
 
-  test::Cluster cluster{3, test::ring(3)};
-  test::QuietSource source;
-  Scheduler scheduler{test::few_fibers(), cluster.clock, source};
   const std::shared_ptr<const CompiledScene> scene = scene_of("empty_room", "", 1);
   IdleWork work{*scene};
   ShardPlan one_shard;
   test::NotedSender sender{own};
-  Tracer tracer{led_by_first(), one_shard, scheduler, cluster[0].network, sender};
+  Tracer tracer{led_by_first(), one_shard, scheduler, network(), sender};
   uint64_t words = 0;
 };
 

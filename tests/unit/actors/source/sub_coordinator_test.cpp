@@ -9,9 +9,8 @@
 #include "runtime/core/hash.hpp"
 #include "scenes/transport/readout.hpp"
 #include "tests/kit/encode_flush.hpp"
-#include "tests/kit/noted_sender.hpp"
+#include "tests/kit/lone_actor.hpp"
 #include "tests/unit/actors/supervise/library_scene.hpp"
-#include "tests/unit/runtime/net/net_kit.hpp"
 
 using namespace luxodus;
 
@@ -57,27 +56,12 @@ CoordinatorConfig leading_two() {
   return config;
 }
 
-struct Stage {
+struct Stage : test::LoneNode {
   Stage() {
-    spdlog::set_level(spdlog::level::off);
-    cluster.bring_up();
     coordinator.start();
     settle();
   }
-  ~Stage() {
-    scheduler.fibers().cancel_all();
-    settle();
-  }
-  void settle() {
-    while (scheduler.turn() <= cluster.clock.now()) {
-    }
-  }
-  void run(Nanoseconds span) {
-    for (const Nanoseconds end = cluster.clock.now() + span; cluster.clock.now() < end;) {
-      cluster.turn(milliseconds(50));
-      settle();
-    }
-  }
+  ~Stage() { end_fibers(); }
 
   /// What a node's tracer says.
   void say(NodeId node, const Message& message, std::vector<std::byte> payload = {}) {
@@ -117,13 +101,10 @@ struct Stage {
     return static_cast<int64_t>(totals.state(0).totals[0].sum);
   }
 
-  test::Cluster cluster{3, test::ring(3)};
-  test::QuietSource source;
-  Scheduler scheduler{test::few_fibers(), cluster.clock, source};
   const std::shared_ptr<const CompiledScene> scene = scene_of("empty_room", "", 1);
   NotedPort port;
   test::NotedSender sender{self};
-  SubCoordinator coordinator{leading_two(), *scene, port, scheduler, cluster[0].network, sender};
+  SubCoordinator coordinator{leading_two(), *scene, port, scheduler, network(), sender};
   uint64_t questions = 0;
 };
 

@@ -1,5 +1,5 @@
 // What an actor needs that is tested alone, with the test as all others: a sender that notes what
-// is sent, and a scheduler's source that brings nothing.
+// is sent, and a node among three, of which the two others are there and say nothing.
 #pragma once
 
 #include <map>
@@ -7,6 +7,7 @@
 
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/messaging/actor_system.hpp"
+#include "tests/unit/runtime/net/net_kit.hpp"
 
 namespace luxodus::test {
 
@@ -40,17 +41,41 @@ struct NotedSender final : Sender {
   std::map<NodeId, std::vector<Sent>> sent;
 };
 
-struct QuietSource final : EventSource {
-  bool poll() override { return false; }
-  void wait_until(Nanoseconds) override {}
-  void wake() noexcept override {}
-};
+/// Node 0, on a clock that is moved by hand.
+struct LoneNode {
+  LoneNode() { cluster.bring_up(); }
+  void end_fibers() {
+    scheduler.fibers().cancel_all();
+    settle();
+  }
+  /// Turns until only time could bring more.
+  void settle() {
+    while (scheduler.turn() <= cluster.clock.now()) {
+    }
+  }
+  void run(Nanoseconds span) {
+    for (const Nanoseconds end = cluster.clock.now() + span; cluster.clock.now() < end;) {
+      cluster.turn(milliseconds(50));
+      settle();
+    }
+  }
+  Network& network() { return cluster[0].network; }
 
-inline SchedulerLimits few_fibers() {
-  SchedulerLimits limits;
-  limits.fibers.count = 4;
-  limits.fibers.max_maps = 1000;
-  return limits;
-}
+  static SchedulerLimits few_fibers() {
+    SchedulerLimits limits;
+    limits.fibers.count = 4;
+    limits.fibers.max_maps = 1000;
+    return limits;
+  }
+  struct QuietSource final : EventSource {
+    bool poll() override { return false; }
+    void wait_until(Nanoseconds) override {}
+    void wake() noexcept override {}
+  };
+
+  Cluster cluster{3, ring(3)};
+  QuietSource source;
+  Scheduler scheduler{few_fibers(), cluster.clock, source};
+};
 
 }  // namespace luxodus::test
