@@ -384,8 +384,7 @@ Command render_command() {
           "  luxodus render out/office_floor --through 0s=corridor --through \"6s=open plan\"\n"
           "A scene that changes in time is filmed while its clock goes on, here 90 s in 9 s from a "
           "place that stands:\n"
-          "  luxodus render out/fire --through 0s=corridor --through 9s=corridor --from 0s --clock "
-          "10 --state-step 5s\n"
+          "  luxodus render out/fire --through 0s=hall --through 9s=hall --from 0s --clock 10\n"
           "Ctrl-C keeps whole frames.",
       .run = [o] { return exit_code_of(render(*o)); }};
 }
