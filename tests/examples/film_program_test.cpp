@@ -175,13 +175,14 @@ TEST_CASE("a film lets the scene's clock go on, and each state is that of a run 
 }
 
 TEST_CASE("other states of an adaptive run are dealt by their own light", "[program][film]") {
-  const ScenePlace place("room.toml", walked_room +
-                                          "[time]\nfrom = 0\nto = 6\nstep = 3\n[[emitter]]\nname = "
-                                          "\"far\"\nshape = \"point\"\ndistribution = "
-                                          "\"isotropic\"\nposition = [0.5, 0.5, 2]\nflux_lm = 200\n"
-                                          "group = \"far\"\n[[medium]]\nname = \"smoke\"\nkind = "
-                                          "\"homogeneous\"\nalbedo = 0.5\n"
-                                          "extinction = [[0, 0], [6, 1.5]]\n");
+  const ScenePlace place(
+      "room.toml", walked_room +
+                       "[run]\ngroups = \"emitter\"\n[time]\nfrom = 0\nto = 6\n"
+                       "step = 3\n[[emitter]]\nname = \"far\"\nshape = \"point\"\ndistribution = "
+                       "\"isotropic\"\nposition = [0.5, 0.5, 2]\nflux_lm = 200\n"
+                       "[[medium]]\nname = \"smoke\"\nkind = "
+                       "\"homogeneous\"\nalbedo = 0.5\n"
+                       "extinction = [[0, 0], [6, 1.5]]\n");
   const auto last_frame = [&](const std::string& run, const std::string& options) {
     const fs::path out = place.folder / run;
     REQUIRE(place
