@@ -59,7 +59,7 @@ bool Coordinator::meet(Address worker, Incarnation life) {
     peer.told.reset();
     peer.left = peer.idle = false;
   }
-  peer.here = true;
+  if (!std::exchange(peer.here, true)) worker_came(worker.node);
   const auto here = [](const auto& entry) { return entry.second.here || !entry.second.expected; };
   if (!begun_ && !over_ && std::all_of(peers_.begin(), peers_.end(), here)) all_are_here();
   return true;

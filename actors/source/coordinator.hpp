@@ -144,6 +144,8 @@ class Coordinator
   /// A flush has been counted or refused.
   virtual void look_at_totals() = 0;
   virtual void all_are_here() = 0;
+  /// A worker is here that was not, or has been found again.
+  virtual void worker_came(NodeId) {}
   /// A worker has another life than before, or is lost.
   virtual void life_ended(NodeId, Incarnation) {}
   virtual void worker_gone(NodeId, const char* /*how*/) {}

@@ -133,7 +133,6 @@ void StateCoordinator::take_back_lost() {
 void StateCoordinator::look_at_work(Nanoseconds now) {
   fence(book_.fence_late(now), "late");
   note_book();
-  tell_who_is_here();
   note_refusal();
   if (work_ == nullptr) return;
   take_back_lost();
@@ -147,13 +146,8 @@ size_t StateCoordinator::workers_here() const {
       std::count_if(peers_.begin(), peers_.end(), [](const auto& at) { return at.second.here; }));
 }
 
-void StateCoordinator::tell_who_is_here() {
-  for (const auto& [worker, peer] : peers_) {
-    if (!peer.here)
-      told_here_.erase(worker);
-    else if (told_here_.insert(worker).second)
-      log_info("worker=here node={} text=\"{} is there\"", worker.value, name_of(worker));
-  }
+void StateCoordinator::worker_came(NodeId worker) {
+  log_info("worker=here node={} text=\"{} is there\"", worker.value, name_of(worker));
 }
 
 /// Whoever has had workers waits for them; whoever is turned away at first would wait for ever.

@@ -62,13 +62,13 @@ class StateCoordinator final : public Coordinator {
   bool hurries() const override { return true; }
   void wait_for_farewells(Nanoseconds now) override;
   void farewell_heard() override { leave_when_told(); }
+  void worker_came(NodeId worker) override;
 
   void fill_book();
   void take_back_lost();
   void give_back(const std::set<int64_t>& batches);
   void end_when_done();
   void leave_when_told();
-  void tell_who_is_here();
   void note_refusal();
   /// A state, and its name: to make that its bytes are hashed, which may be megabytes.
   struct Named {
@@ -83,7 +83,6 @@ class StateCoordinator final : public Coordinator {
   bool all_given_ = false;  // the work has no more
   std::set<int64_t> out_;   // its batches that are here, and neither counted nor given back
   uint64_t stuck_ = 0;
-  std::set<NodeId> told_here_;  // workers that were there at the last look
   std::optional<Problem> fault_;
 };
 
