@@ -115,7 +115,7 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
     if (!started) return started.problem();
     HubOptions hub{{}, {}, cluster.view.save_folder.empty() ? "." : cluster.view.save_folder};
     hub.live.scene_at = scene_at;
-    hub.live.judged_at = reader_of_times(cluster.run.scene.string(), *scene, FireFrames::nearest);
+    hub.live.judged = FrameScenes::of(*scene, cluster.run.scene, cluster.run.at_s);
     hub.live.seed = base.seed();
     hub.live.threads = default_threads();
     if (cluster.run.particles) hub.live.particles = static_cast<int64_t>(*cluster.run.particles);

@@ -56,7 +56,7 @@ Result<ExitCode> view(const ViewOptions& options) {
   std::unique_ptr<ProcessExecutor> nodes;  // outlives whatever holds its executor
   HubOptions hub{options.live, {}, options.save_folder};
   hub.live.scene_at = scene_at;
-  hub.live.judged_at = reader_of_times(wanted->scene_file, *scene, FireFrames::nearest);
+  hub.live.judged = FrameScenes::of(*scene, wanted->scene_file, wanted->at_s);
   hub.live.particles = parse_count(options.particles).value();
   hub.first.scenario = scenario;
   if (options.nodes > 0) {

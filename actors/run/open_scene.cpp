@@ -1,5 +1,7 @@
 #include "actors/run/open_scene.hpp"
 
+#include <algorithm>
+
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
@@ -43,6 +45,25 @@ SceneAtTime reader_at_times(const std::filesystem::path& file, FireFrames frames
     if (!opened.scene) return opened.problems.list().front();
     return std::move(opened.scene);
   };
+}
+
+std::shared_ptr<FrameScenes> FrameScenes::of(const SceneDescription& scene,
+                                             const std::filesystem::path& file,
+                                             std::optional<double> at_s) {
+  const bool has_simulation = std::any_of(scene.media.begin(), scene.media.end(),
+                                          [](const Medium& m) { return m.simulation; });
+  if (scene.packed || !has_simulation) return nullptr;
+  return std::shared_ptr<FrameScenes>(new FrameScenes(file, at_s));
+}
+
+Result<std::shared_ptr<const SceneDescription>> FrameScenes::at(std::optional<double> at_s) {
+  const std::lock_guard lock(mutex_);
+  if (!scenes_) {
+    OpenedScene first = open_scene(file_, at_s_, {}, FireFrames::nearest);
+    if (!first.scene) return first.problems.list().front();
+    scenes_.emplace(std::move(first.scene), reader_at_times(file_, FireFrames::nearest));
+  }
+  return scenes_->at(at_s);
 }
 
 Result<std::vector<Scenario>> chosen_scenarios(const SceneDescription& scene,

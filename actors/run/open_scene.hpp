@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,29 @@ OpenedScene open_scene(const std::filesystem::path& file, std::optional<double> 
 /// Reads a scene file with these changes at other times. Errors: the first of its problems.
 SceneAtTime reader_at_times(const std::filesystem::path& file, FireFrames frames,
                             const std::string& changes = {});
+
+/// A scene with fire simulations as verdicts are of it: at their frames, not between two. The last
+/// few states are kept. Any thread.
+class FrameScenes {
+ public:
+  /// Of the scene that `file` is at `at_s`, as open_scene takes them. Null where it has no
+  /// simulation, and of a pack, which is as it was packed: verdicts are then of the scene itself.
+  static std::shared_ptr<FrameScenes> of(const SceneDescription& scene,
+                                         const std::filesystem::path& file,
+                                         std::optional<double> at_s);
+
+  /// As the scene stands where no time is said. Errors: the first of its problems.
+  Result<std::shared_ptr<const SceneDescription>> at(std::optional<double> at_s);
+
+ private:
+  FrameScenes(std::filesystem::path file, std::optional<double> at_s)
+      : file_(std::move(file)), at_s_(at_s) {}
+
+  const std::filesystem::path file_;
+  const std::optional<double> at_s_;
+  std::mutex mutex_;
+  std::optional<TimedScenes> scenes_;  // read when a verdict is asked for
+};
 
 /// The scenarios that a name stands for: one, all of them for "all", the first for "".
 /// Errors: as find_scenario.

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <thread>
 
+#include "actors/run/open_scene.hpp"
 #include "actors/view/frames.hpp"
 #include "actors/view/live_scene.hpp"
 #include "scenes/world/timed_scenes.hpp"
@@ -69,11 +70,11 @@ class LiveAudience {
 struct LiveOptions {
   uint64_t seed = 1;
   int threads = 1;
-  int64_t particles = 100'000'000;          // of a generation, at most
-  double relative_error = 0.002;            // at which it ends
-  std::shared_ptr<Executor> executor = {};  // null: `threads` of this process
-  SceneAtTime scene_at = {};                // at other times; empty: there is one state
-  SceneAtTime judged_at = {};  // the same for verdicts, at frames of simulations; or empty
+  int64_t particles = 100'000'000;           // of a generation, at most
+  double relative_error = 0.002;             // at which it ends
+  std::shared_ptr<Executor> executor = {};   // null: `threads` of this process
+  SceneAtTime scene_at = {};                 // at other times; empty: there is one state
+  std::shared_ptr<FrameScenes> judged = {};  // what verdicts are of; null: the scenes themselves
 };
 
 namespace limits {

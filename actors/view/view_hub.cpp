@@ -481,8 +481,7 @@ Json ViewHub::answer_to(const Question& question, const SceneEdits& edits,
   if (!scene) return {{"type", "refused"}, {"why", scene.problem().text()}};
   if (const auto* const ask = std::get_if<SuggestAsk>(&question))
     return suggestion(*scene.value(), edits, ask->free, options_.live, ends_);
-  const bool has_frames = options_.live.judged_at && edits.at_s;
-  const auto judged = has_frames ? options_.live.judged_at(*edits.at_s) : scene;
+  const auto judged = options_.live.judged ? options_.live.judged->at(edits.at_s) : scene;
   if (!judged) return {{"type", "refused"}, {"why", judged.problem().text()}};
   return sign_verdicts(*judged.value(), edits, factors, std::get<JudgeAsk>(question).sign,
                        options_.live, ends_);

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "scenes/scene_file/scene_file.hpp"
+#include "tests/kit/small_fire.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/view/live_room.hpp"
 
@@ -209,8 +210,9 @@ Sign small_sign(const std::string& name) {
 /// A hub with one viewer who edits, after all that it was told.
 class Edited {
  public:
-  explicit Edited(std::shared_ptr<const SceneDescription> scene = nullptr)
-      : hub(scene ? scene : scene_in(folder), small_runs(folder), posts.post()) {
+  explicit Edited(std::shared_ptr<const SceneDescription> scene = nullptr,
+                  std::shared_ptr<FrameScenes> judged = nullptr)
+      : hub(scene ? scene : scene_in(folder), runs(judged), posts.post()) {
     hub.joins(viewer);
     until_done();
   }
@@ -242,7 +244,21 @@ class Edited {
     return out;
   }
   std::string why() const { return (*viewer.last("refused"))["why"].get<std::string>(); }
+  /// What a click on a sign tells.
+  Json verdicts_on(const std::string& sign) {
+    says(Json({{"type", "judge"}, {"sign", sign}}).dump());
+    posts.until(
+        [&] { return viewer.last("sign") != nullptr || viewer.last("refused") != nullptr; });
+    INFO(answers());
+    REQUIRE(viewer.last("sign") != nullptr);
+    return *viewer.last("sign");
+  }
 
+  HubOptions runs(const std::shared_ptr<FrameScenes>& judged) const {
+    HubOptions options = small_runs(folder);
+    options.live.judged = judged;
+    return options;
+  }
   const test::TemporaryFolder folder;
   Posts posts;
   Remembers viewer;
@@ -351,6 +367,51 @@ TEST_CASE("an added sign lays triangles anew, and light of before comes with the
   CHECK(live.scene()["signs"].size() == 1);
   CHECK(live.group("left")["light"] == "before");
   CHECK(light_of(3, 0).size() == old.size());
+}
+
+TEST_CASE("verdicts are of the nearer frame where the view lies between two", "[view][fds]") {
+  using namespace test;
+  const TemporaryFolder folder;
+  const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {6, 4, 3});
+  const auto smoke = [&](float per_m) {
+    return cell_values(mesh, [=](int, int, int) { return per_m; });
+  };
+  const std::string label = "SOOT EXTINCTION COEFFICIENT";
+  folder.write("a.sf", slice_file(mesh, label, {{0, smoke(0)}, {10, smoke(8)}}));
+  folder.write("fire.smv", index_of_meshes({mesh}) + slice_entry(1, true, mesh, "a.sf", label));
+  const std::string file =
+      folder.write("scene.toml", live_room +
+                                     "[[medium]]\nname = \"fire\"\nkind = \"fds\"\nfile = "
+                                     "\"fire.smv\"\nat_s = 4\nalbedo = 0.2\ng = 0.6\nangstrom = 1\n"
+                                     "[[observer]]\nname = \"walker\"\neye = [1, 2, 1.6]\n"
+                                     "target = [5.9, 2, 2.2]\n"
+                                     "[assessment]\nirritant_smoke = false\n");
+  const auto shown = described(file);
+  REQUIRE(shown->media.front().simulation->time_s == 4);
+  const auto verdicts_at = [&](std::optional<double> at_s) {
+    Edited live(shown, FrameScenes::of(*shown, file, at_s));
+    return live.verdicts_on("exit");
+  };
+  const auto said = [](const Json& verdicts, const std::string& words) {
+    INFO(verdicts.dump());
+    return verdicts["note"].get<std::string>().find(words) != std::string::npos;
+  };
+  const Json clear = verdicts_at(std::nullopt), dense = verdicts_at(6);
+  CHECK(said(clear, "Smoke \"fire\" as at 0 s."));
+  CHECK(said(dense, "Smoke \"fire\" as at 10 s."));
+  REQUIRE(clear["rows"].size() == 1);
+  CHECK(clear["rows"][0]["verdict"] == "legible");
+  CHECK(dense["rows"][0]["verdict"] == "invisible");
+  // A state that was judged is kept: its files are not read again.
+  const auto judged = FrameScenes::of(*shown, file, std::nullopt);
+  Edited live(shown, judged);
+  CHECK(live.verdicts_on("exit")["rows"] == clear["rows"]);
+  const auto kept = judged->at(std::nullopt);
+  std::filesystem::remove(folder / "a.sf");
+  CHECK(live.verdicts_on("exit")["rows"] == clear["rows"]);
+  CHECK(judged->at(std::nullopt).value() == kept.value());
+  // Nothing is read for a scene without a simulation.
+  CHECK(FrameScenes::of(*scene_in(folder), file, std::nullopt) == nullptr);
 }
 
 TEST_CASE("what cannot be added is refused, and there is an end to it", "[view]") {
