@@ -387,13 +387,11 @@ TEST_CASE("verdicts are of the nearer frame where the view lies between two", "[
                                      "target = [5.9, 2, 2.2]\n"
                                      "[assessment]\nirritant_smoke = false\n");
   const auto shown = described(file);
-  REQUIRE(shown->media.front().simulation->time_s == 4);
   const auto verdicts_at = [&](std::optional<double> at_s) {
     Edited live(shown, FrameScenes::of(*shown, file, at_s));
     return live.verdicts_on("exit");
   };
   const auto said = [](const Json& verdicts, const std::string& words) {
-    INFO(verdicts.dump());
     return verdicts["note"].get<std::string>().find(words) != std::string::npos;
   };
   const Json clear = verdicts_at(std::nullopt), dense = verdicts_at(6);
@@ -410,7 +408,6 @@ TEST_CASE("verdicts are of the nearer frame where the view lies between two", "[
   std::filesystem::remove(folder / "a.sf");
   CHECK(live.verdicts_on("exit")["rows"] == clear["rows"]);
   CHECK(judged->at(std::nullopt).value() == kept.value());
-  // Nothing is read for a scene without a simulation.
   CHECK(FrameScenes::of(*scene_in(folder), file, std::nullopt) == nullptr);
 }
 
