@@ -237,9 +237,13 @@ class FireReader {
       for (const Candidate& c : candidates)
         if (allowed(c.source) && wanted.find(source_words(c.source)) == std::string::npos)
           wanted += (wanted.empty() ? "" : ", no ") + std::string(source_words(c.source));
-      return wrong(fmt::format("this case has no {} with a whole frame of all its {} meshes{}",
-                               wanted, fire_.meshes.size(),
-                               fire_.unread.empty() ? "" : "; " + fire_.unread + " are not read"));
+      return wrong(fmt::format(
+          "this case has no {} with a whole frame of all its {} meshes{}: wait for it where it "
+          "still "
+          "runs, or add &SLCF XB=..., QUANTITY='EXTINCTION COEFFICIENT', CELL_CENTERED=T / to its "
+          "input file, with an XB that holds all meshes",
+          wanted, fire_.meshes.size(),
+          fire_.unread.empty() ? "" : "; " + fire_.unread + " are not read"));
     }
     smoke_ = std::move(*nearest);
     out_.time_s = smoke_.time_s;

@@ -127,7 +127,7 @@ const std::map<std::string, std::vector<std::string>> arrows{
     {"scenes/intersect", {"scenes/geometry"}},
     {"scenes/world", {"scenes/geometry", "scenes/optics"}},
     {"scenes/vision", {"scenes/optics"}},
-    {"scenes/photometry", {"scenes/optics"}},
+    {"scenes/photometry", {"scenes/geometry", "scenes/optics"}},
     {"scenes/fields", {"scenes/geometry", "scenes/optics"}},
     {"scenes/dxf", {}},
     {"scenes/fds_input", {"scenes/fields", "scenes/geometry"}},
