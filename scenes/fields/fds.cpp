@@ -8,6 +8,7 @@
 #include <cmath>
 #include <new>
 
+#include "runtime/core/reading_share.hpp"
 #include "scenes/fields/data_set.hpp"
 #include "scenes/fields/fds_between.hpp"
 #include "scenes/fields/fds_cells.hpp"
@@ -179,8 +180,13 @@ class FireReader {
       gas_.push_back(gas_cells(fire_, mesh, smoke_.time_s));
     if (auto ok = find_flames(); !ok) return ok.problem();
     start();
-    for (size_t mesh = 0; mesh < fire_.meshes.size(); ++mesh)
+    uint64_t all = 0, done = 0;
+    for (const Frame& frame : smoke_.frames) all += frame.bytes;
+    ReadingPart part(options_.reading, all);
+    for (size_t mesh = 0; mesh < fire_.meshes.size(); ++mesh) {
       if (auto ok = read_mesh(mesh); !ok) return ok.problem();
+      part.at(done += smoke_.frames[mesh].bytes);
+    }
     if (auto ok = finish(); !ok) return ok.problem();
     return std::move(out_);
   }
