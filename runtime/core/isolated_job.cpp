@@ -155,8 +155,7 @@ class Orders {
   Orders(const Orders&) = delete;
 
   /// 0 or an errno.
-  int spawn(pid_t& process, const char* name) const {
-    std::vector<std::string> words = begun_by();
+  int spawn(pid_t& process, std::vector<std::string> words, const char* name) const {
     words.insert(words.end(), {verb, name});
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -191,15 +190,11 @@ std::optional<Problem> end_of(int status, const IsolatedLimits& most) {
   return problem("reading it failed without a reason: it is damaged; write it anew");
 }
 
-}  // namespace
-
-IsolatedJob::IsolatedJob(const char* name, Work work) : name_(name), work_(work), next_(first_job) {
-  first_job = this;
-}
-
-Result<PlainReader> IsolatedJob::run(const std::function<void(PlainWriter& question)>& ask,
-                                     const IsolatedLimits& most,
-                                     const std::function<void(double)>& told_share) const {
+/// `words` begin the program that does the job.
+Result<PlainReader> ask_process(const std::vector<std::string>& words, const char* job,
+                                const std::function<void(PlainWriter& question)>& ask,
+                                const IsolatedLimits& most,
+                                const std::function<void(double)>& told_share) {
   FileDescriptor question = memory_file(), answer = memory_file();
   if (!question.valid() || !answer.valid())
     return problem("no process can be begun to read it: " + of_system(errno));
@@ -212,7 +207,8 @@ Result<PlainReader> IsolatedJob::run(const std::function<void(PlainWriter& quest
   if (!asked || ::lseek(question.number(), 0, SEEK_SET) != 0)
     return problem("no process can be begun to read it: " + of_system(errno));
   pid_t process = 0;
-  if (const int error = Orders(question.number(), answer.number()).spawn(process, name_); error)
+  if (const int error = Orders(question.number(), answer.number()).spawn(process, words, job);
+      error)
     return problem("no process can be begun to read it: " + of_system(error));
   if (told_share) wait_and_tell(process, question.number(), share_place, told_share);
   int status = 0;
@@ -226,6 +222,24 @@ Result<PlainReader> IsolatedJob::run(const std::function<void(PlainWriter& quest
   if (!reader.get(first) || first != mark)
     return problem("this program reads such files in a process of its own, and cannot begin one");
   return reader;
+}
+
+}  // namespace
+
+IsolatedJob::IsolatedJob(const char* name, Work work) : name_(name), work_(work), next_(first_job) {
+  first_job = this;
+}
+
+Result<PlainReader> IsolatedJob::run(const std::function<void(PlainWriter& question)>& ask,
+                                     const IsolatedLimits& most,
+                                     const std::function<void(double)>& told_share) const {
+  return ask_process(begun_by(), name_, ask, most, told_share);
+}
+
+Result<PlainReader> ask_program(const std::string& program, const char* job,
+                                const std::function<void(PlainWriter& question)>& ask,
+                                const IsolatedLimits& most) {
+  return ask_process({program}, job, ask, most, {});
 }
 
 void begin_isolated_jobs_by(std::vector<std::string> words) {

@@ -56,6 +56,12 @@ class IsolatedJob {
   const IsolatedJob* next_;  // of all jobs
 };
 
+/// The same by another program, whose main() serves the job of this name: for what needs libraries
+/// that this program is not linked with.
+Result<PlainReader> ask_program(const std::string& program, const char* job,
+                                const std::function<void(PlainWriter& question)>& ask,
+                                const IsolatedLimits& limits);
+
 /// In a job that has found how much there is to do: so much more than it was given. Elsewhere it
 /// does nothing.
 void allow_more(const IsolatedLimits& more);

@@ -33,8 +33,8 @@ std::string small_container(const std::string& name = "Small lamp", const std::s
       R"(photometryId="p"/><RatedLuminousFlux>1000</RatedLuminousFlux>)"
       R"(<EmergencyRatedLuminousFlux>200</EmergencyRatedLuminousFlux></FixedLightEmitter>)"
       R"(</Emitter></Emitters><Geometries><ModelGeometry id="m"><GeometryFileReference )"
-      R"(fileId="g"/></ModelGeometry></Geometries></GeneralDefinitions><ProductDefinitions><ProductMetaData><Name>)"
-      R"(<Locale language="en">)" +
+      R"(fileId="g"/></ModelGeometry></Geometries></GeneralDefinitions><ProductDefinitions>)"
+      R"(<ProductMetaData><Name><Locale language="en">)" +
       name +
       R"(</Locale></Name></ProductMetaData><Variants>)"
       R"(<Variant id="v"><Geometry>)" +
@@ -105,6 +105,15 @@ TEST_CASE("a luminaire's model becomes its body, and hides none of its light",
   REQUIRE(without.code == 0);
   CHECK_THAT(without.out, Contains("\"body.l3d\" is not read: this is no L3D model"));
   CHECK_THAT(slurp(folder / "plain/luminaires.toml"), Contains("# Its model body.l3d is left out"));
+}
+
+TEST_CASE("what is no OpenVDB file is refused by its name", "[program][import]") {
+  const TemporaryFolder folder;
+  folder.write("smoke.vdb", "no grids");
+  const Outcome refused = run_luxodus(folder, "import vdb " + within(folder, "smoke.vdb"));
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Contains("smoke.vdb: "));
+  CHECK_FALSE(fs::exists(folder / "smoke"));
 }
 
 TEST_CASE("light is traced in an imported model, and its results are by GlobalId",
