@@ -122,6 +122,12 @@ std::string model_text(const WrittenBody& body, const L3dModel& model, const std
         "\n# It reaches {:.3g} m below its luminous opening and hides light there, which the\n"
         "# intensities of the file lack already: leave it out where that counts.",
         place.below_m);
+  constexpr double level = -0.9998;  // within a degree of straight down
+  if (place.down.z > level)
+    out += fmt::format(
+        "\n# Its luminous opening shines along [{:.3g}, {:.3g}, {:.3g}]; the luminaire does not "
+        "yet.",
+        place.down.x, place.down.y, place.down.z);
   return out + fmt::format(
                    "\n[[import]]\nname = {}\nfile = {}\nunits = \"m\"\nup = \"z\"\n"
                    "material = \"white70\"\none_patch = true\n"
@@ -232,6 +238,10 @@ Result<ExitCode> import_gldf(const ImportGldfOptions& options) {
   }
   const auto bodies = write_bodies(product.value(), folder.value());
   if (!bodies) return bodies.problem();
+  for (size_t i = 0; i < bodies->size(); ++i)
+    if (const WrittenBody& body = bodies.value()[i]; !body.fault.empty())
+      std::printf("left out: the model \"%s\": %s\n", printable(product->models[i].file).c_str(),
+                  printable(body.fault).c_str());
   const std::string text = luminaires_text(product.value(), bodies.value(), container.value());
   const fs::path tables = folder.value() / "luminaires.toml";
   if (auto ok = write_file_atomically(tables, std::string_view(text)); !ok) return ok.problem();
@@ -250,8 +260,7 @@ Command import_gldf_command() {
           {{"container", &o->file, "Container (.gldf)", {.form = Form::file, .required = true}},
            {"-o,--out",
             &o->out,
-            "Folder of luminaires.toml, the photometric files and the bodies; without it nothing "
-            "is "
+            "Folder of luminaires.toml, photometric files and bodies; without it nothing is "
             "written",
             {.form = Form::folder}}},
       .notes =

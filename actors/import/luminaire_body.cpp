@@ -70,10 +70,11 @@ BodyPlace body_place(const L3dModel& model, const Mesh& body, const std::string&
   constexpr double gap_m = 1e-3, largest_lift_m = 0.1;
   const double low = bounds_of(body).low.z;
   const L3dOpening* at = opening_of(model, opening);
-  if (at == nullptr) return {{0, 0, gap_m - low}, 0};
+  if (at == nullptr) return {{0, 0, gap_m - low}};
   const double reach = at->centre_m.z - low;
   BodyPlace place;
   place.offset_m = -at->centre_m;
+  place.down = at->down;
   if (reach <= largest_lift_m) {
     place.offset_m.z = gap_m - low;
   } else {

@@ -26,7 +26,8 @@ Result<Mesh> luminaire_body(const L3dModel& model);
 /// whether it then hides light that goes down from there.
 struct BodyPlace {
   glm::dvec3 offset_m{0};
-  double below_m = 0;  // how far it reaches below the opening; 0: nothing is hidden
+  double below_m = 0;         // how far it reaches below the opening; 0: nothing is hidden
+  glm::dvec3 down{0, 0, -1};  // where the opening shines
 };
 
 /// `opening`: its name in the model; where there is none of it, the one there is, else the lowest

@@ -104,6 +104,7 @@ TEST_CASE("a luminaire's model becomes its body, and hides none of its light",
   const Outcome without = run_luxodus(folder, import + within(folder, "plain"));
   REQUIRE(without.code == 0);
   CHECK_THAT(without.out, Contains("\"body.l3d\" is not read: this is no L3D model"));
+  CHECK_THAT(without.out, Contains("left out: the model \"body.l3d\""));
   CHECK_THAT(slurp(folder / "plain/luminaires.toml"), Contains("# Its model body.l3d is left out"));
 }
 

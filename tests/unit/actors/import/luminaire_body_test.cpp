@@ -49,6 +49,7 @@ TEST_CASE("a body stands a millimetre above its opening, with the opening in its
   const Mesh body = body_of(model);
   const BodyPlace place = body_place(model, body, "leo");
   CHECK(place.below_m == 0);
+  CHECK(place.down == glm::dvec3(0, 0, -1));
   Bounds bounds = bounds_of(body);
   CHECK(bounds.low.z + place.offset_m.z == Approx(0.001));
   CHECK(bounds.low.x + place.offset_m.x == Approx(-0.1));
