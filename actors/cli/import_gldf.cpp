@@ -11,6 +11,7 @@
 #include "actors/import/luminaire_body.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 #include "scenes/photometry/gldf.hpp"
 
 namespace luxodus::cli {
@@ -90,13 +91,15 @@ struct WrittenBody {
 /// Writes the bodies of the product's models.
 /// Errors: a file that cannot be written. A model that cannot be read is said in its place.
 Result<std::vector<WrittenBody>> write_bodies(const GldfProduct& product, const fs::path& folder) {
+  ReadingShare share;
+  const WaitingLine waiting("reading the models of " + product.file, &share);
   std::vector<WrittenBody> out;
   std::set<std::string> taken;
   for (const GldfModel& model : product.models) {
     WrittenBody& body = out.emplace_back();
     body.fault = model.fault;
     if (!body.fault.empty()) continue;
-    auto mesh = luminaire_body(model.shape);
+    auto mesh = luminaire_body(model.shape, &share);
     if (!mesh) {
       body.fault = mesh.problem().what;
       continue;

@@ -18,10 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The triangles of a shape, in metres.
-Result<Mesh> shape_mesh(const L3dShape& shape, const fs::path& file) {
+Result<Mesh> shape_mesh(const L3dShape& shape, const fs::path& file, ReadingShare* reading) {
   const std::string who = "the shape \"" + excerpt(shape.name) + "\" of its model: ";
   if (auto ok = write_file_atomically(file, std::string_view(shape.obj)); !ok) return ok.problem();
-  const auto parts = import_mesh(file.string(), shape.metres_per_unit, UpAxis::z);
+  const auto parts = import_mesh(file.string(), shape.metres_per_unit, UpAxis::z, nullptr, reading);
   if (!parts) return problem(who + parts.problem().what);  // the file is ours, for a moment
   Mesh mesh;
   for (ImportedPart part : parts.value()) {
@@ -41,7 +41,7 @@ const L3dOpening* opening_of(const L3dModel& model, const std::string& name) {
 
 }  // namespace
 
-Result<Mesh> luminaire_body(const L3dModel& model) {
+Result<Mesh> luminaire_body(const L3dModel& model, ReadingShare* reading) {
   const AnswerFolder folder;
   if (folder.path().empty()) {
     std::error_code failed;
@@ -49,7 +49,7 @@ Result<Mesh> luminaire_body(const L3dModel& model) {
   }
   std::vector<Mesh> shapes;
   for (const L3dShape& shape : model.shapes) {
-    auto mesh = shape_mesh(shape, folder.path() / fmt::format("{}.obj", shapes.size()));
+    auto mesh = shape_mesh(shape, folder.path() / fmt::format("{}.obj", shapes.size()), reading);
     if (!mesh) return mesh.problem();
     shapes.push_back(std::move(mesh).value());
   }

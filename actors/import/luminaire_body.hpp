@@ -12,15 +12,17 @@
 
 namespace luxodus {
 
+class ReadingShare;
+
 namespace limits {
 /// Of a body: many luminaires hang in a building, each with its own.
 inline constexpr size_t luminaire_body_triangles = 200'000;
 }  // namespace limits
 
-/// The body in the model's metres, z up.
+/// The body in the model's metres, z up. `reading`, where given, hears how far it is.
 /// Errors: a shape that cannot be read, by its name; more triangles than the limit; a place for the
 /// shapes' files cannot be had.
-Result<Mesh> luminaire_body(const L3dModel& model);
+Result<Mesh> luminaire_body(const L3dModel& model, ReadingShare* reading = nullptr);
 
 /// How far the body is moved, so that the middle of its luminous opening lies at the origin, and
 /// whether it then hides light that goes down from there.

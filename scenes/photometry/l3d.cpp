@@ -62,6 +62,7 @@ class L3dReader {
     for (const auto node : root.child("GeometryDefinitions").children("GeometryFileDefinition"))
       definitions_.emplace(node.attribute("id").value(), node);
     add_geometries(root.child("Structure"), {}, 1);
+    // A copy of each: the list grows meanwhile.
     for (size_t i = 0; i < open_.size() && !problem_; ++i) place(Open(open_[i]));
     if (problem_) return *problem_;
     if (model_.parts.empty()) return problem_in(file_, "'structure.xml' in it places no part");
