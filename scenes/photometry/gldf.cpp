@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 /// What unpacking and parsing may take: the container, all that it holds within the limits, and
 /// pugixml's tree, which is some 20 times its text.
-constexpr IsolatedLimits gldf_limits{uint64_t{640} << 20, 30};
+constexpr IsolatedLimits gldf_limits{uint64_t{768} << 20, 30};
 
 // ---- the container -----------------------------------------------------------------------------
 

@@ -31,7 +31,7 @@ inline constexpr uint64_t gldf_all_bytes = uint64_t{64} << 20;
 inline constexpr int64_t gldf_entries = 4096;
 inline constexpr size_t gldf_variants = 4096;
 inline constexpr size_t gldf_lights = 4096;
-inline constexpr size_t gldf_models = 64;
+inline constexpr size_t gldf_models = 1024;
 }  // namespace limits
 
 /// What a light emitter of a variant gives. Absent where the container does not say it.

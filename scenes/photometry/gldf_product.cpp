@@ -79,6 +79,8 @@ class ProductReader {
       read_variant(variant);
       if (product_.lights.size() > limits::gldf_lights)
         return problem_in(file_, fmt::format("more than {} light emitters", limits::gldf_lights));
+      if (product_.models.size() > limits::gldf_models)
+        return problem_in(file_, fmt::format("more than {} models", limits::gldf_models));
     }
     if (product_.variants.empty()) return problem_in(file_, "the product has no variants");
     return std::move(product_);
@@ -156,7 +158,6 @@ class ProductReader {
     const auto known = std::find_if(models.begin(), models.end(),
                                     [&](const GldfModel& m) { return m.file == model.file; });
     if (known != models.end()) return static_cast<size_t>(known - models.begin());
-    if (models.size() >= limits::gldf_models) return std::nullopt;
     const std::string_view kind = file.attribute("contentType").value();
     if (std::string_view(file.attribute("type").value()) == "url")
       model.fault = "it is at " + excerpt(model.file, 200) + ", and nothing is fetched";

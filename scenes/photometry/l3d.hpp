@@ -20,7 +20,7 @@ namespace luxodus {
 namespace limits {
 /// Of `structure.xml`, and of all shapes of a container's models, unpacked [bytes].
 inline constexpr uint64_t l3d_xml_bytes = uint64_t{1} << 20;
-inline constexpr uint64_t l3d_all_bytes = uint64_t{48} << 20;
+inline constexpr uint64_t l3d_all_bytes = uint64_t{128} << 20;
 /// Of parts, of luminous openings, and of parts that hang on each other by joints.
 inline constexpr size_t l3d_parts = 1000;
 inline constexpr size_t l3d_openings = 1000;

@@ -182,6 +182,29 @@ TEST_CASE("a container gives its model where it is asked for, and a fault of it 
   CHECK_THAT(fault(container_with("", "geo/l3d", "url")), Contains("nothing is fetched"));
 }
 
+TEST_CASE("a container of too many models is refused", "[photometry][l3d]") {
+  std::string files, geometries, variants;
+  for (size_t i = 0; i <= limits::gldf_models; ++i) {
+    const std::string n = std::to_string(i);
+    files +=
+        "<File id=\"f" + n + R"(" contentType="geo/l3d" type="localFileName">)" + n + ".l3d</File>";
+    geometries += "<ModelGeometry id=\"m" + n + R"("><GeometryFileReference fileId="f)" + n +
+                  "\"/></ModelGeometry>";
+    variants += "<Variant id=\"v" + n + R"("><Geometry><ModelGeometryReference geometryId="m)" + n +
+                "\"/></Geometry></Variant>";
+  }
+  const auto many = gldf_of(
+      zip_of(
+          {{"product.xml", R"(<Root><Header><FormatVersion major="1" minor="0"/></Header>)"
+                           "<GeneralDefinitions><Files>" +
+                               files + "</Files><Geometries>" + geometries +
+                               "</Geometries></GeneralDefinitions><ProductDefinitions><Variants>" +
+                               variants + "</Variants></ProductDefinitions></Root>"}}),
+      "many.gldf", GldfModels::read);
+  REQUIRE_FALSE(many.ok());
+  CHECK_THAT(many.problem().what, Contains("more than 1024 models"));
+}
+
 TEST_CASE("a model of others is read", "[photometry][l3d]") {
   if (!data_is_there("gldf")) return;
   const auto read =
