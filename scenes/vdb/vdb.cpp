@@ -14,9 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The tree of a grid, its cells as a box, and once more on their way here; stacks of threads and
-/// the library itself are address space, too.
-constexpr IsolatedLimits vdb_limits{uint64_t{6} << 30, 120};
+/// The largest box of cells twice, where y is up, and on its way here; the tree of a grid, which
+/// Blosc may have packed to a quarter; the library itself.
+IsolatedLimits vdb_limits(uint64_t bytes) {
+  return {(uint64_t{3} << 30) + 4 * bytes, 30 + static_cast<uint32_t>(bytes >> 22)};
+}
 
 /// The answer behind its mark of success.
 Result<PlainReader> asked(const vdb::Question& question, const fs::path& program) {
@@ -36,7 +38,7 @@ Result<PlainReader> asked(const vdb::Question& question, const fs::path& program
                                   "alone",
                                   bytes, limits::vdb_bytes));
   auto in = ask_program(
-      program.string(), vdb::job, [&](PlainWriter& out) { put(out, question); }, vdb_limits);
+      program.string(), vdb::job, [&](PlainWriter& out) { put(out, question); }, vdb_limits(bytes));
   if (!in) return problem_in(question.file, in.problem().what);
   uint8_t good = 0;
   std::string why;

@@ -113,14 +113,14 @@ void check_head(const GridBase& head) {
 /// Cells in the file's own axes, x fastest.
 VdbSmoke cells_of(const FloatGrid& grid, const Place& place) {
   const openvdb::CoordBBox box = box_of(grid);
-  openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(box);
-  openvdb::tools::copyToDense(grid, dense, true);
   const openvdb::Coord dim = box.dim();
   VdbSmoke smoke;
   smoke.nx = static_cast<uint64_t>(dim.x());
   smoke.ny = static_cast<uint64_t>(dim.y());
   smoke.nz = static_cast<uint64_t>(dim.z());
-  smoke.values.assign(dense.data(), dense.data() + dense.valueCount());
+  smoke.values.resize(smoke.nx * smoke.ny * smoke.nz);
+  openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(box, smoke.values.data());
+  openvdb::tools::copyToDense(grid, dense, true);
   for (size_t i = 0; i < smoke.values.size(); ++i) {
     if (smoke.values[i] >= 0 && std::isfinite(smoke.values[i])) continue;
     const auto x = static_cast<int64_t>(i % smoke.nx),
