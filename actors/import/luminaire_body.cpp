@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <iterator>
+#include <vector>
 
 #include "actors/import/answer_folder.hpp"
 #include "runtime/core/atomic_file.hpp"

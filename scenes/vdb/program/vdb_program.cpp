@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "runtime/core/isolated_job.hpp"
 #include "runtime/core/printable.hpp"

@@ -4,8 +4,10 @@
 
 #include <openvdb/openvdb.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 
