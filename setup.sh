@@ -29,6 +29,8 @@ packages=(
   libdxflib-dev
   # containers of luminaires (GLDF)
   libzip-dev libpugixml-dev
+  # smoke from OpenVDB files
+  libopenvdb-dev
   # mixed-integer programs: where emergency luminaires go; moving them without gradients
   coinor-libcbc-dev libnlopt-dev
   libopenexr-dev libpng-dev librsvg2-dev libcairo2-dev fonts-dejavu-core libzstd-dev libxxhash-dev

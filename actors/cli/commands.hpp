@@ -10,6 +10,7 @@ Command check_command();
 Command pack_command();
 Command import_command();
 Command import_gldf_command();
+Command import_vdb_command();
 Command import_ifc_command();
 Command import_dxf_command();
 // results

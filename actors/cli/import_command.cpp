@@ -148,7 +148,7 @@ Command import_command() {
           .summary = "Make a scene of what other programs know",
           .heading = "Scenes",
           .commands = {std::move(fds), import_gldf_command(), import_ifc_command(),
-                       import_dxf_command()}};
+                       import_dxf_command(), import_vdb_command()}};
 }
 
 }  // namespace luxodus::cli

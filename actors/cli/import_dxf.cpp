@@ -6,6 +6,7 @@
 #include "actors/cli/progress_line.hpp"
 #include "actors/import/write_plan.hpp"
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 #include "scenes/dxf/dxf_plan.hpp"
 #include "scenes/geometry/transform.hpp"
 
@@ -28,8 +29,9 @@ Result<double> unit_of(const ImportDxfOptions& options, const DxfPlan& plan) {
 
 Result<ExitCode> import_dxf(const ImportDxfOptions& options) {
   const auto plan = [&] {
-    const WaitingLine waiting("reading " + options.drawing);
-    return read_dxf_plan(options.drawing);
+    ReadingShare share;
+    const WaitingLine waiting("reading " + options.drawing, &share);
+    return read_dxf_plan(options.drawing, &share);
   }();
   if (!plan) return plan.problem();
   const auto unit = unit_of(options, plan.value());

@@ -2,13 +2,16 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <vector>
 
 #include "actors/cli/command.hpp"
 #include "actors/cli/commands.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/import/import_files.hpp"
+#include "actors/import/luminaire_body.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 #include "scenes/photometry/gldf.hpp"
 
 namespace luxodus::cli {
@@ -40,6 +43,23 @@ std::string duration_words(const GldfVariant& variant) {
   return out;
 }
 
+/// What stands for the luminaire in a scene, in words; "" where the container has no shape of it.
+std::string body_words(const GldfProduct& product, const GldfVariant& variant) {
+  std::string out;
+  if (variant.model) {
+    const GldfModel& model = product.models[*variant.model];
+    const std::string who = "  body: model \"" + printable(model.file) + "\"";
+    if (model.fault.empty())
+      return who + fmt::format(" of {} part{}\n", model.shape.parts.size(),
+                               model.shape.parts.size() == 1 ? "" : "s");
+    out = who + " is not read: " + printable(model.fault) + "\n";
+  }
+  if (!variant.housing) return out;
+  const glm::dvec3 size = variant.housing->size_m;
+  return out + fmt::format("  body: {}, {:.6g} x {:.6g} x {:.6g} m\n",
+                           variant.housing->round ? "cylinder" : "box", size.x, size.y, size.z);
+}
+
 void list_contents(const GldfProduct& product) {
   std::string out =
       fmt::format("product       {}\nnumber        {}\nmanufacturer  {}\n", printable(product.name),
@@ -56,8 +76,66 @@ void list_contents(const GldfProduct& product) {
     }
     if (!variant.durations.empty())
       out += "  emergency flux by duration: " + duration_words(variant) + "\n";
+    out += body_words(product, variant);
   }
   std::printf("%s", out.c_str());
+}
+
+/// A model of the product, as written to the folder.
+struct WrittenBody {
+  std::string file;   // within the folder
+  std::string fault;  // why it is not there; "" where it is
+  Mesh mesh;
+};
+
+/// Writes the bodies of the product's models.
+/// Errors: a file that cannot be written. A model that cannot be read is said in its place.
+Result<std::vector<WrittenBody>> write_bodies(const GldfProduct& product, const fs::path& folder) {
+  ReadingShare share;
+  const WaitingLine waiting("reading the models of " + product.file, &share);
+  std::vector<WrittenBody> out;
+  std::set<std::string> taken;
+  for (const GldfModel& model : product.models) {
+    WrittenBody& body = out.emplace_back();
+    body.fault = model.fault;
+    if (!body.fault.empty()) continue;
+    auto mesh = luminaire_body(model.shape, &share);
+    if (!mesh) {
+      body.fault = mesh.problem().what;
+      continue;
+    }
+    body.mesh = std::move(mesh).value();
+    const std::string wish = as_name(fs::path(model.file).stem().string(), "body");
+    body.file = wish + ".obj";
+    for (int i = 2; !taken.insert(body.file).second; ++i)
+      body.file = fmt::format("{} {}.obj", wish, i);
+    if (auto ok = write_body(body.mesh, folder / body.file); !ok) return ok.problem();
+  }
+  return out;
+}
+
+/// A model as an import that has its luminous opening where the luminaire is.
+std::string model_text(const WrittenBody& body, const L3dModel& model, const std::string& opening,
+                       const std::string& name, double x) {
+  const BodyPlace place = body_place(model, body.mesh, opening);
+  const glm::dvec3 at = place.offset_m + glm::dvec3(x, 0, 3);
+  std::string out;
+  if (place.below_m > 0)
+    out = fmt::format(
+        "\n# It reaches {:.3g} m below its luminous opening and hides light there, which the\n"
+        "# intensities of the file lack already: leave it out where that counts.",
+        place.below_m);
+  constexpr double level = -0.9998;  // within a degree of straight down
+  if (place.down.z > level)
+    out += fmt::format(
+        "\n# Its luminous opening shines along [{:.3g}, {:.3g}, {:.3g}]; the luminaire does not "
+        "yet.",
+        place.down.x, place.down.y, place.down.z);
+  return out + fmt::format(
+                   "\n[[import]]\nname = {}\nfile = {}\nunits = \"m\"\nup = \"z\"\n"
+                   "material = \"white70\"\none_patch = true\n"
+                   "translate = [{:.6g}, {:.6g}, {:.6g}]\n",
+                   toml_text(name + " housing"), toml_text(body.file), at.x, at.y, at.z);
 }
 
 /// The housing as an object that stands on the luminous opening, a millimetre above it, so that it
@@ -100,8 +178,21 @@ std::string luminaire_text(const GldfVariant& variant, const GldfLight& light,
   return out;
 }
 
+/// What stands for the luminaire: the model, else the box or cylinder.
+std::string body_text(const GldfProduct& product, const std::vector<WrittenBody>& bodies,
+                      const GldfVariant& variant, size_t light, const std::string& name, double x) {
+  if (!variant.model) return housing_text(variant, name, x);
+  const WrittenBody& body = bodies[*variant.model];
+  const GldfModel& model = product.models[*variant.model];
+  if (body.fault.empty()) return model_text(body, model.shape, variant.openings[light], name, x);
+  return fmt::format("\n# Its model {} is left out: {}\n", as_name(model.file, "without a name"),
+                     as_name(body.fault, "it cannot be read")) +
+         housing_text(variant, name, x);
+}
+
 /// Tables of every light that can be had, in a row.
-std::string luminaires_text(const GldfProduct& product, const std::string& container) {
+std::string luminaires_text(const GldfProduct& product, const std::vector<WrittenBody>& bodies,
+                            const std::string& container) {
   std::string out = fmt::format(
       "# {}, {}, {}\n"
       "# Made by `luxodus import gldf`, which writes this file anew: copy its tables to your scene "
@@ -111,8 +202,8 @@ std::string luminaires_text(const GldfProduct& product, const std::string& conta
   std::set<std::string> taken;
   double x = 0;
   for (const GldfVariant& variant : product.variants) {
-    for (const size_t at : variant.lights) {
-      const GldfLight& light = product.lights[at];
+    for (size_t place = 0; place < variant.lights.size(); ++place) {
+      const GldfLight& light = product.lights[variant.lights[place]];
       if (!light.fault.empty()) {
         out += "\n# Left out: " + as_name(light.emitter, "an emitter") + ": " +
                as_name(light.fault, "") + "\n";
@@ -123,7 +214,7 @@ std::string luminaires_text(const GldfProduct& product, const std::string& conta
       std::string name = wish;
       for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{} {}", wish, i);
       out += luminaire_text(variant, light, name, container, x);
-      out += housing_text(variant, name, x);
+      out += body_text(product, bodies, variant, place, name, x);
       x += 2;
     }
   }
@@ -133,7 +224,7 @@ std::string luminaires_text(const GldfProduct& product, const std::string& conta
 Result<ExitCode> import_gldf(const ImportGldfOptions& options) {
   const auto product = [&] {
     const WaitingLine waiting("reading " + options.file);
-    return read_gldf(options.file);
+    return read_gldf(options.file, GldfModels::read);
   }();
   if (!product) return product.problem();
   list_contents(product.value());
@@ -148,7 +239,13 @@ Result<ExitCode> import_gldf(const ImportGldfOptions& options) {
     if (auto ok = write_file_atomically(folder.value() / name, std::string_view(file.bytes)); !ok)
       return ok.problem();
   }
-  const std::string text = luminaires_text(product.value(), container.value());
+  const auto bodies = write_bodies(product.value(), folder.value());
+  if (!bodies) return bodies.problem();
+  for (size_t i = 0; i < bodies->size(); ++i)
+    if (const WrittenBody& body = bodies.value()[i]; !body.fault.empty())
+      std::printf("left out: the model \"%s\": %s\n", printable(product->models[i].file).c_str(),
+                  printable(body.fault).c_str());
+  const std::string text = luminaires_text(product.value(), bodies.value(), container.value());
   const fs::path tables = folder.value() / "luminaires.toml";
   if (auto ok = write_file_atomically(tables, std::string_view(text)); !ok) return ok.problem();
   std::printf("%s\n", (fs::path(options.out) / "luminaires.toml").c_str());
@@ -166,7 +263,8 @@ Command import_gldf_command() {
           {{"container", &o->file, "Container (.gldf)", {.form = Form::file, .required = true}},
            {"-o,--out",
             &o->out,
-            "Folder of luminaires.toml and the photometric files; without it nothing is written",
+            "Folder of luminaires.toml, photometric files and bodies; without it nothing is "
+            "written",
             {.form = Form::folder}}},
       .notes =
           "A scene may name the container itself, as the file of a luminaire, with 'variant' and "

@@ -11,6 +11,7 @@
 #include "actors/import/ifc_shapes.hpp"
 #include "actors/import/write_building.hpp"
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "scenes/ifc/ifc_model.hpp"
 
@@ -67,8 +68,9 @@ Result<ExitCode> import_ifc(const ImportIfcOptions& options) {
   auto bytes = read_regular_file(options.model, limits::step_bytes);
   if (!bytes) return bytes.problem();
   const auto model = [&] {
-    const WaitingLine waiting("reading " + options.model);
-    return ifc_model_of(std::move(bytes).value(), options.model);
+    ReadingShare share;
+    const WaitingLine waiting("reading " + options.model, &share);
+    return ifc_model_of(std::move(bytes).value(), options.model, &share);
   }();
   if (!model) return model.problem();
   ProgressLine line("import");

@@ -5,6 +5,7 @@
 #include "actors/cli/command.hpp"
 #include "actors/cli/progress_line.hpp"
 #include "actors/cli/quantities.hpp"
+#include "runtime/core/reading_share.hpp"
 
 namespace luxodus::cli {
 
@@ -12,8 +13,9 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
                                                    ReadingWarnings warnings,
                                                    std::optional<double> at_s, FireFrames frames) {
   const OpenedScene opened = [&] {
-    const WaitingLine waiting("reading " + file);
-    return open_scene(file, at_s, {}, frames);
+    ReadingShare share;
+    const WaitingLine waiting("reading " + file, &share);
+    return open_scene(file, at_s, {}, frames, &share);
   }();
   for (const Problem& p : opened.problems.list()) tell(p);
   // A pack's were told when it was made.

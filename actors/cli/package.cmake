@@ -23,6 +23,9 @@ add_custom_target(package_files
 add_dependencies(package_files luxodus)
 
 install(TARGETS luxodus RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(LUX_HAS_VDB)  # apart, so that a package does not depend on OpenVDB: --component vdb
+  install(TARGETS luxodus_vdb RUNTIME DESTINATION lib/luxodus COMPONENT vdb EXCLUDE_FROM_ALL)
+endif()
 if(LUX_HAS_PYTHON)
   # Where Debian's Python looks for modules of packages, below the prefix /usr.
   install(TARGETS luxodus_python LIBRARY DESTINATION lib/python3/dist-packages OPTIONAL)

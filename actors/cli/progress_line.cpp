@@ -12,6 +12,7 @@
 #include "actors/run/local_run.hpp"
 #include "runtime/core/log.hpp"
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 
 namespace luxodus::cli {
 
@@ -93,7 +94,8 @@ void ProgressLine::show_share(double share, const std::string& what) {
   put(text, share >= 1, share);
 }
 
-WaitingLine::WaitingLine(const std::string& what) : line_(what), thread_([this] { tell(); }) {}
+WaitingLine::WaitingLine(const std::string& what, const ReadingShare* share)
+    : line_(what), share_(share), thread_([this] { tell(); }) {}
 
 WaitingLine::~WaitingLine() {
   {
@@ -108,8 +110,16 @@ void WaitingLine::tell() {
   constexpr std::chrono::seconds first{2}, next{1};
   const double began_s = now_s();
   std::unique_lock lock(mutex_);
-  for (auto pause = first; !changed_.wait_for(lock, pause, [this] { return over_; }); pause = next)
-    line_.put(time_text(now_s() - began_s), false);
+  for (auto pause = first; !changed_.wait_for(lock, pause, [this] { return over_; });
+       pause = next) {
+    const std::string since = time_text(now_s() - began_s);
+    const auto share = share_ == nullptr ? std::nullopt : share_->share();
+    // All bytes are read, and something else goes on: nobody knows for how long.
+    if (share && *share < 1)
+      line_.show_share(*share, ", " + since);
+    else
+      line_.put(since, false);
+  }
 }
 
 }  // namespace luxodus::cli

@@ -9,7 +9,8 @@
 
 namespace luxodus {
 struct Progress;
-}
+class ReadingShare;
+}  // namespace luxodus
 
 namespace luxodus::cli {
 
@@ -37,11 +38,13 @@ class ProgressLine {
 };
 
 /// Says since when something goes on, from two seconds on and as long as this lives: for work that
-/// does not know its share. Nothing else is written to standard error meanwhile.
+/// is done elsewhere, or does not know its share. Nothing else is written to standard error
+/// meanwhile.
 class WaitingLine {
  public:
-  /// `what`: "reading office.toml".
-  explicit WaitingLine(const std::string& what);
+  /// `what`: "reading office.toml". `share`, which outlives this: what is known of the bytes; the
+  /// line then has the share, and an estimate of the time that is left.
+  explicit WaitingLine(const std::string& what, const ReadingShare* share = nullptr);
   ~WaitingLine();
   WaitingLine(const WaitingLine&) = delete;
   WaitingLine& operator=(const WaitingLine&) = delete;
@@ -50,6 +53,7 @@ class WaitingLine {
   void tell();
 
   ProgressLine line_;
+  const ReadingShare* share_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool over_ = false;

@@ -29,9 +29,9 @@ OpenedScene open_pack(const std::filesystem::path& file, bool other_time, bool c
 }  // namespace
 
 OpenedScene open_scene(const std::filesystem::path& file, std::optional<double> at_s,
-                       const std::string& changes, FireFrames frames) {
+                       const std::string& changes, FireFrames frames, ReadingShare* share) {
   if (is_pack(file)) return open_pack(file, at_s.has_value(), !changes.empty());
-  ReadScene read = read_scene(file, at_s, changes, frames);
+  ReadScene read = read_scene(file, at_s, changes, frames, share);
   OpenedScene out;
   out.problems = std::move(read.problems);
   if (read.scene) out.scene = std::make_shared<const SceneDescription>(std::move(*read.scene));

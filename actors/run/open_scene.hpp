@@ -15,6 +15,8 @@
 
 namespace luxodus {
 
+class ReadingShare;
+
 struct OpenedScene {
   std::shared_ptr<const SceneDescription> scene;  // null where there are problems
   Problems problems;
@@ -22,8 +24,10 @@ struct OpenedScene {
 
 /// `at_s`: time of its fire simulations instead of the one that it states. `changes`: as TOML; see
 /// read_scene. A pack has one time and is not changed. `frames`: what simulations have between two.
+/// `share`: hears how far reading is; packs are mapped, not read.
 OpenedScene open_scene(const std::filesystem::path& file, std::optional<double> at_s = std::nullopt,
-                       const std::string& changes = {}, FireFrames frames = FireFrames::between);
+                       const std::string& changes = {}, FireFrames frames = FireFrames::between,
+                       ReadingShare* share = nullptr);
 
 /// Reads a scene file with these changes at other times. Errors: the first of its problems.
 SceneAtTime reader_at_times(const std::filesystem::path& file, FireFrames frames,

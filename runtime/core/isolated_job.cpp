@@ -5,11 +5,14 @@
 #include "runtime/core/isolated_job.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -92,6 +95,34 @@ FileDescriptor memory_file() {
   return FileDescriptor(file.valid() ? ::fcntl(file.number(), F_DUPFD_CLOEXEC, 3) : -1);
 }
 
+/// Where the other process tells its share: behind the question, in the file of which it is.
+void put_share(int file, off_t at, double share) {
+  (void)!::pwrite(file, &share, sizeof share, at);
+}
+
+std::optional<double> share_at(int file, off_t at) {
+  double share = 0;
+  if (::pread(file, &share, sizeof share, at) != sizeof share) return std::nullopt;
+  return share >= 0 && share <= 1 ? std::optional(share) : std::nullopt;
+}
+
+/// Ends when the process does; tells its share meanwhile.
+void wait_and_tell(pid_t process, int question, off_t share_place,
+                   const std::function<void(double)>& told) {
+  constexpr int pause_ms = 200;
+  const FileDescriptor watched(static_cast<int>(::syscall(SYS_pidfd_open, process, 0)));
+  if (!watched.valid()) return;
+  pollfd end{watched.number(), POLLIN, 0};
+  while (::poll(&end, 1, pause_ms) == 0)
+    if (const auto share = share_at(question, share_place)) told(*share);
+}
+
+/// In a job: the place of its share in descriptor 0; elsewhere -1.
+off_t& share_place_of_job() {
+  static off_t place = -1;
+  return place;
+}
+
 /// The words that begin the other process: the running program, also where its file was replaced or
 /// removed since, unless begin_isolated_jobs_by() said others.
 std::vector<std::string>& begun_by() {
@@ -124,8 +155,7 @@ class Orders {
   Orders(const Orders&) = delete;
 
   /// 0 or an errno.
-  int spawn(pid_t& process, const char* name) const {
-    std::vector<std::string> words = begun_by();
+  int spawn(pid_t& process, std::vector<std::string> words, const char* name) const {
     words.insert(words.end(), {verb, name});
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -160,6 +190,40 @@ std::optional<Problem> end_of(int status, const IsolatedLimits& most) {
   return problem("reading it failed without a reason: it is damaged; write it anew");
 }
 
+/// `words` begin the program that does the job.
+Result<PlainReader> ask_process(const std::vector<std::string>& words, const char* job,
+                                const std::function<void(PlainWriter& question)>& ask,
+                                const IsolatedLimits& most,
+                                const std::function<void(double)>& told_share) {
+  FileDescriptor question = memory_file(), answer = memory_file();
+  if (!question.valid() || !answer.valid())
+    return problem("no process can be begun to read it: " + of_system(errno));
+  PlainWriter writer(question.number());
+  writer.put(most);
+  ask(writer);
+  const bool asked = writer.flush();
+  const off_t share_place = ::lseek(question.number(), 0, SEEK_END);
+  put_share(question.number(), share_place, 0);
+  if (!asked || ::lseek(question.number(), 0, SEEK_SET) != 0)
+    return problem("no process can be begun to read it: " + of_system(errno));
+  pid_t process = 0;
+  if (const int error = Orders(question.number(), answer.number()).spawn(process, words, job);
+      error)
+    return problem("no process can be begun to read it: " + of_system(error));
+  if (told_share) wait_and_tell(process, question.number(), share_place, told_share);
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0)
+    if (errno != EINTR) return problem("the process that reads it was lost: " + of_system(errno));
+  if (auto bad = end_of(status, most)) return *bad;
+  if (const auto share = share_at(question.number(), share_place); told_share && share)
+    told_share(*share);
+  PlainReader reader(std::move(answer));
+  uint64_t first = 0;
+  if (!reader.get(first) || first != mark)
+    return problem("this program reads such files in a process of its own, and cannot begin one");
+  return reader;
+}
+
 }  // namespace
 
 IsolatedJob::IsolatedJob(const char* name, Work work) : name_(name), work_(work), next_(first_job) {
@@ -167,27 +231,15 @@ IsolatedJob::IsolatedJob(const char* name, Work work) : name_(name), work_(work)
 }
 
 Result<PlainReader> IsolatedJob::run(const std::function<void(PlainWriter& question)>& ask,
-                                     const IsolatedLimits& most) const {
-  FileDescriptor question = memory_file(), answer = memory_file();
-  if (!question.valid() || !answer.valid())
-    return problem("no process can be begun to read it: " + of_system(errno));
-  PlainWriter writer(question.number());
-  writer.put(most);
-  ask(writer);
-  if (!writer.flush() || ::lseek(question.number(), 0, SEEK_SET) != 0)
-    return problem("no process can be begun to read it: " + of_system(errno));
-  pid_t process = 0;
-  if (const int error = Orders(question.number(), answer.number()).spawn(process, name_); error)
-    return problem("no process can be begun to read it: " + of_system(error));
-  int status = 0;
-  while (::waitpid(process, &status, 0) < 0)
-    if (errno != EINTR) return problem("the process that reads it was lost: " + of_system(errno));
-  if (auto bad = end_of(status, most)) return *bad;
-  PlainReader reader(std::move(answer));
-  uint64_t first = 0;
-  if (!reader.get(first) || first != mark)
-    return problem("this program reads such files in a process of its own, and cannot begin one");
-  return reader;
+                                     const IsolatedLimits& most,
+                                     const std::function<void(double)>& told_share) const {
+  return ask_process(begun_by(), name_, ask, most, told_share);
+}
+
+Result<PlainReader> ask_program(const std::string& program, const char* job,
+                                const std::function<void(PlainWriter& question)>& ask,
+                                const IsolatedLimits& most) {
+  return ask_process({program}, job, ask, most, {});
 }
 
 void begin_isolated_jobs_by(std::vector<std::string> words) {
@@ -204,6 +256,11 @@ void allow_more(const IsolatedLimits& more) {
   raise(RLIMIT_CPU, uint64_t{more.processor_s} * slower);
 }
 
+void tell_share(double share) {
+  const off_t place = share_place_of_job();
+  if (place >= 0) put_share(0, place, share);
+}
+
 std::optional<int> serve_isolated_job(int argc, char** argv) {
   if (argc != 3 || std::strcmp(argv[1], verb) != 0) return std::nullopt;
   const IsolatedJob* job = first_job;
@@ -212,6 +269,9 @@ std::optional<int> serve_isolated_job(int argc, char** argv) {
   IsolatedLimits most;
   if (job == nullptr || !question.get(most)) return has_thrown;
   limit_this_process(most);
+  struct stat question_file {};
+  if (::fstat(0, &question_file) == 0)
+    share_place_of_job() = question_file.st_size - static_cast<off_t>(sizeof(double));
   int code = 0;
   try {
     PlainWriter answer(1);

@@ -43,8 +43,10 @@ class IsolatedJob {
   /// Asks, waits, and gives what was answered; the answer is to be read without trust.
   /// Errors: more memory or time than the limits, a crash, an exception, a process that cannot be
   /// started. No file is named: the caller knows it.
+  /// `told`, where given, hears while it waits, and once at the end, the share that the job tells.
   Result<PlainReader> run(const std::function<void(PlainWriter& question)>& ask,
-                          const IsolatedLimits& limits) const;
+                          const IsolatedLimits& limits,
+                          const std::function<void(double share)>& told = {}) const;
 
  private:
   friend std::optional<int> serve_isolated_job(int argc, char** argv);
@@ -54,9 +56,18 @@ class IsolatedJob {
   const IsolatedJob* next_;  // of all jobs
 };
 
+/// The same by another program, whose main() serves the job of this name: for what needs libraries
+/// that this program is not linked with.
+Result<PlainReader> ask_program(const std::string& program, const char* job,
+                                const std::function<void(PlainWriter& question)>& ask,
+                                const IsolatedLimits& limits);
+
 /// In a job that has found how much there is to do: so much more than it was given. Elsewhere it
 /// does nothing.
 void allow_more(const IsolatedLimits& more);
+
+/// In a job: how much of it is done, from 0 to 1. Elsewhere it does nothing.
+void tell_share(double share);
 
 /// Has the processes of jobs begun by this program with these words before its own, which is to
 /// call serve_isolated_job: a library does, which is not the running program. Once, before any job.

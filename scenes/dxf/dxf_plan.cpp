@@ -4,12 +4,15 @@
 #include <dxflib/dl_dxf.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "runtime/core/isolated_job.hpp"
+#include "runtime/core/reading_share.hpp"
 #include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
@@ -50,9 +53,19 @@ bool finite(const glm::dvec2& p) {
 /// Collects what dxflib tells.
 class PlanCollector : public DL_CreationAdapter {
  public:
+  /// Of a text of so many bytes, read from `text`, which outlives this.
+  PlanCollector(std::istream& text, size_t bytes) : text_(text), bytes_(bytes) {}
+
   DxfPlan plan;
   bool too_many = false;
 
+  /// Of every group of the text: a code and a value.
+  void processCodeValuePair(unsigned int, const std::string&) override {
+    constexpr size_t groups_of_a_word = 65'536;
+    if (++groups_ % groups_of_a_word != 0) return;
+    const auto at = static_cast<double>(std::max<std::streamoff>(0, text_.tellg()));
+    tell_share(std::min(1.0, at / static_cast<double>(bytes_)));
+  }
   void setVariableInt(const std::string& key, int value, int) override {
     if (key == "$INSUNITS") plan.metres_per_unit = metres_of(value);
   }
@@ -143,6 +156,8 @@ class PlanCollector : public DL_CreationAdapter {
     }
   }
 
+  std::istream& text_;
+  size_t bytes_, groups_ = 0;
   bool in_block_ = false, in_polyline_ = false, closed_ = false;
   std::string polyline_layer_;
   std::vector<std::pair<glm::dvec2, double>> vertices_;
@@ -197,8 +212,8 @@ bool get(PlainReader& in, DxfPlan& plan) {
 Result<DxfPlan> dxf_plan_of(const std::string& text, const std::string& file) {
   if (text.starts_with("AutoCAD Binary DXF") || text.starts_with("AC10"))
     return problem_in(file, "this is a binary drawing (DWG, binary DXF): save it as DXF in text");
-  PlanCollector collector;
   std::istringstream stream(text);
+  PlanCollector collector(stream, text.size());
   DL_Dxf reader;
   if (!reader.in(stream, &collector)) return problem_in(file, "this is no DXF drawing");
   collector.end_polyline();
@@ -211,9 +226,13 @@ Result<DxfPlan> dxf_plan_of(const std::string& text, const std::string& file) {
   return std::move(collector.plan);
 }
 
-Result<DxfPlan> read_dxf_plan(const fs::path& file) {
+Result<DxfPlan> read_dxf_plan(const fs::path& file, ReadingShare* reading) {
   const std::string name = file.string();
-  auto in = dxf_job.run([&](PlainWriter& question) { question.put(name); }, dxf_limits);
+  std::error_code unknown;
+  const uint64_t bytes = fs::file_size(file, unknown);
+  ReadingPart part(reading, unknown ? 0 : bytes);
+  auto in = dxf_job.run([&](PlainWriter& question) { question.put(name); }, dxf_limits,
+                        [&](double share) { part.at_share(share); });
   if (!in) return problem_in(name, in.problem().what);
   const Problem damaged = problem_in(name, "cannot be read: the reader gave no sound answer");
   uint8_t good = 0;

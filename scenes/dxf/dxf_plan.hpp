@@ -13,6 +13,8 @@
 
 namespace luxodus {
 
+class ReadingShare;
+
 namespace limits {
 /// Of a drawing [bytes].
 inline constexpr uint64_t dxf_plan_bytes = uint64_t{256} << 20;
@@ -37,9 +39,9 @@ struct DxfPlan {
   std::vector<DxfInsert> inserts;
 };
 
-/// Names are as the drawing has them, of any bytes.
+/// Names are as the drawing has them, of any bytes. `reading`, where given, hears how far it is.
 /// Errors: it cannot be read, holds nothing of these, or more than the limits.
-Result<DxfPlan> read_dxf_plan(const std::filesystem::path& file);
+Result<DxfPlan> read_dxf_plan(const std::filesystem::path& file, ReadingShare* reading = nullptr);
 
 /// The same of its text, in this process. `file` names it in messages.
 /// Requires: a text that is known to be sound, since dxflib writes beyond its memory for some that

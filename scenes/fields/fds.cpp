@@ -8,6 +8,7 @@
 #include <cmath>
 #include <new>
 
+#include "runtime/core/reading_share.hpp"
 #include "scenes/fields/data_set.hpp"
 #include "scenes/fields/fds_between.hpp"
 #include "scenes/fields/fds_cells.hpp"
@@ -179,8 +180,13 @@ class FireReader {
       gas_.push_back(gas_cells(fire_, mesh, smoke_.time_s));
     if (auto ok = find_flames(); !ok) return ok.problem();
     start();
-    for (size_t mesh = 0; mesh < fire_.meshes.size(); ++mesh)
+    uint64_t all = 0, done = 0;
+    for (const Frame& frame : smoke_.frames) all += frame.bytes;
+    ReadingPart part(options_.reading, all);
+    for (size_t mesh = 0; mesh < fire_.meshes.size(); ++mesh) {
       if (auto ok = read_mesh(mesh); !ok) return ok.problem();
+      part.at(done += smoke_.frames[mesh].bytes);
+    }
     if (auto ok = finish(); !ok) return ok.problem();
     return std::move(out_);
   }
@@ -237,9 +243,13 @@ class FireReader {
       for (const Candidate& c : candidates)
         if (allowed(c.source) && wanted.find(source_words(c.source)) == std::string::npos)
           wanted += (wanted.empty() ? "" : ", no ") + std::string(source_words(c.source));
-      return wrong(fmt::format("this case has no {} with a whole frame of all its {} meshes{}",
-                               wanted, fire_.meshes.size(),
-                               fire_.unread.empty() ? "" : "; " + fire_.unread + " are not read"));
+      return wrong(fmt::format(
+          "this case has no {} with a whole frame of all its {} meshes{}: wait for it where it "
+          "still "
+          "runs, or add &SLCF XB=..., QUANTITY='EXTINCTION COEFFICIENT', CELL_CENTERED=T / to its "
+          "input file, with an XB that holds all meshes",
+          wanted, fire_.meshes.size(),
+          fire_.unread.empty() ? "" : "; " + fire_.unread + " are not read"));
     }
     smoke_ = std::move(*nearest);
     out_.time_s = smoke_.time_s;

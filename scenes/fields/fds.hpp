@@ -20,6 +20,8 @@
 
 namespace luxodus {
 
+class ReadingShare;
+
 /// From what files extinction is taken; in the order of preference.
 enum class FireSource {
   cell_extinction,  // 3-D cell-centred slice, 1/m
@@ -44,6 +46,8 @@ struct FireOptions {
   bool between_frames = false;
   /// Flames are read: `emission` of the grids, in kW/m3, and extinction taken out where they are.
   bool flames = false;
+  /// Hears how far it is; null where nobody asks.
+  ReadingShare* reading = nullptr;
 };
 
 /// A better source is preferred if it has a frame so near to the time that is asked for [s]: smoke

@@ -12,6 +12,7 @@
 
 #include "runtime/core/isolated_job.hpp"
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 #include "scenes/geometry/assimp_import.hpp"
 #include "scenes/geometry/mesh_text.hpp"
 
@@ -141,7 +142,8 @@ Result<std::vector<ImportedPart>> parts_of(PlainReader& in, const std::string& p
 }  // namespace
 
 Result<std::vector<ImportedPart>> import_mesh(const std::string& path, double metres_per_unit,
-                                              UpAxis up, std::vector<std::string>* files_read) {
+                                              UpAxis up, std::vector<std::string>* files_read,
+                                              ReadingShare* reading) {
   if (!(metres_per_unit > 0) || !std::isfinite(metres_per_unit)) {
     return problem_in(path, fmt::format("a unit of {} m: give a length above 0", metres_per_unit));
   }
@@ -157,13 +159,15 @@ Result<std::vector<ImportedPart>> import_mesh(const std::string& path, double me
                                         bytes, limits::mesh_file_bytes));
   }
   const IsolatedLimits more = import_limits(bytes);
+  ReadingPart part(reading, bytes);
   auto in = import_job.run(
       [&](PlainWriter& question) {
         question.put(path);
         question.put(metres_per_unit);
         question.put(up);
       },
-      {for_all.memory_bytes + more.memory_bytes, for_all.processor_s + more.processor_s});
+      {for_all.memory_bytes + more.memory_bytes, for_all.processor_s + more.processor_s},
+      [&](double share) { part.at_share(share); });
   if (!in) return problem_in(path, in.problem().what);
   return parts_of(in.value(), path, files_read);
 }

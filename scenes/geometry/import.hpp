@@ -24,6 +24,8 @@
 
 namespace luxodus {
 
+class ReadingShare;
+
 struct ImportedPart {
   std::string name;           // of the node or OBJ object; "#2", "#3" appended where names repeat
   std::string material_name;  // "" where the file gives none
@@ -58,11 +60,13 @@ inline IsolatedLimits import_limits(uint64_t bytes) {
 
 /// One part per mesh and place in the file, in the file's order. `metres_per_unit` scales the
 /// file's numbers (1 for glTF, which is in metres); `up` is the file's upward axis (glTF: y).
-/// `files_read`, where given, gets the path of every file that was opened, for a hash of the scene.
+/// `files_read`, where given, gets the path of every file that was opened, for a hash of the scene;
+/// `reading` hears how far it is.
 /// Errors: a missing, oversized, unreadable or unknown file, no triangles, a coordinate or colour
 /// that is not a number (by part and vertex), more than the limits.
 Result<std::vector<ImportedPart>> import_mesh(const std::string& path, double metres_per_unit,
                                               UpAxis up,
-                                              std::vector<std::string>* files_read = nullptr);
+                                              std::vector<std::string>* files_read = nullptr,
+                                              ReadingShare* reading = nullptr);
 
 }  // namespace luxodus

@@ -396,8 +396,8 @@ std::string IfcProduct::property(const std::string& path) const {
   return it == properties.end() ? std::string() : it->second;
 }
 
-Result<IfcModel> ifc_model_of(std::string bytes, const std::string& file) {
-  const auto step = StepFile::of(std::move(bytes), file);
+Result<IfcModel> ifc_model_of(std::string bytes, const std::string& file, ReadingShare* reading) {
+  const auto step = StepFile::of(std::move(bytes), file, reading);
   if (!step) return step.problem();
   return ModelReader(step.value(), file).read();
 }

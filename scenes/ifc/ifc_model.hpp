@@ -67,8 +67,9 @@ struct IfcModel {
   size_t more_faults = 0;            // that are not among them: there are too many
 };
 
-/// Reads a model from its bytes.
+/// Reads a model from its bytes; `reading`, where given, hears how far it is.
 /// Errors: no such file, no unit of length, more than the limits.
-Result<IfcModel> ifc_model_of(std::string bytes, const std::string& file);
+Result<IfcModel> ifc_model_of(std::string bytes, const std::string& file,
+                              ReadingShare* reading = nullptr);
 
 }  // namespace luxodus

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 
 namespace luxodus {
 namespace {
@@ -258,7 +259,7 @@ std::string step_text(std::string_view written) {
   return out;
 }
 
-Result<StepFile> StepFile::of(std::string bytes, const std::string& file) {
+Result<StepFile> StepFile::of(std::string bytes, const std::string& file, ReadingShare* reading) {
   if (bytes.size() > limits::step_bytes)
     return problem_in(file, fmt::format("a model of {} bytes; the most are {}", bytes.size(),
                                         limits::step_bytes));
@@ -270,7 +271,7 @@ Result<StepFile> StepFile::of(std::string bytes, const std::string& file) {
     return problem_in(file, text.starts_with("PK")
                                 ? "this is a ZIP file (.ifczip?): unpack it and import the .ifc"
                                 : "this is no IFC model: it does not begin with ISO-10303-21");
-  out.index(file);
+  out.index(file, reading);
   if (out.instances_.size() > limits::step_instances)
     return problem_in(file, fmt::format("more than {} instances", limits::step_instances));
   if (out.instances_.empty()) return problem_in(file, "there is nothing in this model");
@@ -285,14 +286,16 @@ void StepFile::fault(const std::string& file, size_t at, std::string what) {
   faults_.push_back(problem_in(file, static_cast<int>(lines) + 1, std::move(what)));
 }
 
-void StepFile::index(const std::string& file) {
+void StepFile::index(const std::string& file, ReadingShare* reading) {
   const std::string_view text = *text_;
+  ReadingPart part(reading, text.size());
   for (size_t at = skip(text, 0); at < text.size(); at = skip(text, at)) {
     const size_t end = end_of_statement(text, at);
     if (end == std::string_view::npos) {
       fault(file, at, "the file ends within a statement: it is cut off");
       return;
     }
+    part.at(at);
     const std::string_view statement = text.substr(at, end - at);
     const size_t from = at;
     at = end + 1;

@@ -18,6 +18,8 @@
 
 namespace luxodus {
 
+class ReadingShare;
+
 namespace limits {
 /// Of a model [bytes]; the largest public ones have some 400 MB.
 inline constexpr uint64_t step_bytes = uint64_t{1} << 30;
@@ -40,8 +42,10 @@ struct StepValue {
 
 class StepFile {
  public:
-  /// Takes the bytes of a file. Errors: it is no such file, or larger than the limits.
-  static Result<StepFile> of(std::string bytes, const std::string& file);
+  /// Takes the bytes of a file; `reading`, where given, hears how far it is.
+  /// Errors: it is no such file, or larger than the limits.
+  static Result<StepFile> of(std::string bytes, const std::string& file,
+                             ReadingShare* reading = nullptr);
 
   struct Instance {
     uint64_t id = 0;
@@ -61,7 +65,7 @@ class StepFile {
   size_t fault_count() const { return fault_count_; }
 
  private:
-  void index(const std::string& file);
+  void index(const std::string& file, ReadingShare* reading);
   void fault(const std::string& file, size_t at, std::string what);
 
   std::unique_ptr<const std::string> text_;  // on the heap: views into it outlive a move

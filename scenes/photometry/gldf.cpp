@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 /// What unpacking and parsing may take: the container, all that it holds within the limits, and
 /// pugixml's tree, which is some 20 times its text.
-constexpr IsolatedLimits gldf_limits{uint64_t{512} << 20, 30};
+constexpr IsolatedLimits gldf_limits{uint64_t{768} << 20, 30};
 
 // ---- the container -----------------------------------------------------------------------------
 
@@ -44,10 +44,11 @@ std::optional<size_t> only(const std::vector<std::string>& names, const auto& wa
   return at;
 }
 
-/// The entry of a photometric file: by its name, by its name but for capitals, or as the one file
-/// of that ending, since old packers spelled names in code pages that nobody tells.
-std::optional<size_t> entry_of(const std::vector<std::string>& names, const std::string& file) {
-  const std::string path = "ldc/" + file;
+/// The entry of a file in a folder ("ldc/"): by its name, by its name but for capitals, or as the
+/// one file of that ending, since old packers spelled names in code pages that nobody tells.
+std::optional<size_t> entry_of(const std::vector<std::string>& names, const std::string& folder,
+                               const std::string& file) {
+  const std::string path = folder + file;
   const auto exact = std::find(names.begin(), names.end(), path);
   if (exact != names.end()) return static_cast<size_t>(exact - names.begin());
   const std::string small = lower(path);
@@ -58,7 +59,7 @@ std::optional<size_t> entry_of(const std::vector<std::string>& names, const std:
                                  [](char c) { return static_cast<unsigned char>(c) < 0x80; });
   if (ascii || ending.empty()) return std::nullopt;
   return only(names, [&](const std::string& n) {
-    return lower(n).starts_with("ldc/") && lower(n).ends_with(ending);
+    return lower(n).starts_with(folder) && lower(n).ends_with(ending);
   });
 }
 
@@ -70,7 +71,7 @@ Result<void> take_photometry(const GldfArchive& archive, GldfProduct& product) {
     const bool there = std::any_of(product.photometry.begin(), product.photometry.end(),
                                    [&](const GldfFile& f) { return f.name == light.photometry; });
     if (there) continue;
-    const auto entry = entry_of(archive.names(), light.photometry);
+    const auto entry = entry_of(archive.names(), "ldc/", light.photometry);
     if (!entry) {
       light.fault =
           "its photometric file \"" + excerpt(light.photometry) + "\" is not in the container";
@@ -86,6 +87,27 @@ Result<void> take_photometry(const GldfArchive& archive, GldfProduct& product) {
     product.photometry.push_back({light.photometry, std::move(bytes).value()});
   }
   return {};
+}
+
+/// Reads each model; a fault where that is not possible.
+void take_models(const GldfArchive& archive, GldfProduct& product) {
+  uint64_t left = limits::l3d_all_bytes;
+  for (GldfModel& model : product.models) {
+    if (!model.fault.empty()) continue;
+    const auto entry = entry_of(archive.names(), "geo/", model.file);
+    if (!entry) {
+      model.fault = "it is not in the container";
+      continue;
+    }
+    const auto bytes = archive.read(*entry, limits::gldf_file_bytes);
+    auto shape = bytes ? l3d_of(bytes.value(), product.file, left) : bytes.problem();
+    if (!shape) {
+      model.fault = shape.problem().what;
+      continue;
+    }
+    model.shape = std::move(shape).value();
+    for (const L3dShape& one : model.shape.shapes) left -= one.obj.size();
+  }
 }
 
 // ---- from process to process --------------------------------------------------------------------
@@ -141,7 +163,9 @@ void put(PlainWriter& out, const GldfVariant& variant) {
   out.put(variant.name);
   std::vector<uint64_t> lights(variant.lights.begin(), variant.lights.end());
   out.put(lights);
+  for (const std::string& opening : variant.openings) out.put(opening);
   out.put(variant.durations);
+  out.put(static_cast<uint64_t>(variant.model.value_or(limits::gldf_models)));
   const GldfHousing housing = variant.housing.value_or(GldfHousing{});
   out.put(static_cast<uint8_t>(variant.housing.has_value()));
   out.put(static_cast<uint8_t>(housing.round));
@@ -150,15 +174,62 @@ void put(PlainWriter& out, const GldfVariant& variant) {
 
 bool get(PlainReader& in, GldfVariant& variant, size_t all_lights) {
   std::vector<uint64_t> lights;
+  uint64_t model = 0;
   uint8_t housed = 0, round = 0;
   GldfHousing housing;
-  if (!in.get(variant.id) || !in.get(variant.name) || !in.get(lights) ||
-      !in.get(variant.durations) || !in.get(housed) || !in.get(round) || !in.get(housing.size_m))
+  if (!in.get(variant.id) || !in.get(variant.name) || !in.get(lights)) return false;
+  variant.openings.resize(lights.size());
+  for (std::string& opening : variant.openings)
+    if (!in.get(opening)) return false;
+  if (!in.get(variant.durations) || !in.get(model) || !in.get(housed) || !in.get(round) ||
+      !in.get(housing.size_m))
     return false;
+  if (model < limits::gldf_models) variant.model = model;
   variant.lights.assign(lights.begin(), lights.end());
   housing.round = round == 1;
   if (housed == 1) variant.housing = housing;
   return std::all_of(lights.begin(), lights.end(), [&](uint64_t l) { return l < all_lights; });
+}
+
+void put(PlainWriter& out, const GldfModel& model) {
+  out.put(model.file);
+  out.put(model.fault);
+  put_list(out, model.shape.shapes, [&](const L3dShape& shape) {
+    out.put(shape.name);
+    out.put(shape.obj);
+    out.put(shape.metres_per_unit);
+  });
+  put_list(out, model.shape.parts, [&](const L3dPart& part) {
+    out.put(part.name);
+    out.put(static_cast<uint64_t>(part.shape));
+    out.put(part.place);
+  });
+  put_list(out, model.shape.openings, [&](const L3dOpening& opening) {
+    out.put(opening.name);
+    out.put(opening.centre_m);
+    out.put(opening.down);
+  });
+}
+
+bool get(PlainReader& in, GldfModel& model) {
+  const auto get_shape = [&](L3dShape& shape) {
+    return in.get(shape.name) && in.get(shape.obj) && in.get(shape.metres_per_unit) &&
+           shape.metres_per_unit > 0 && shape.metres_per_unit <= 1;
+  };
+  const auto get_part = [&](L3dPart& part) {
+    uint64_t shape = 0;
+    if (!in.get(part.name) || !in.get(shape) || !in.get(part.place)) return false;
+    part.shape = shape;
+    return shape < model.shape.shapes.size() && part.place.usable();
+  };
+  const auto get_opening = [&](L3dOpening& opening) {
+    return in.get(opening.name) && in.get(opening.centre_m) && in.get(opening.down) &&
+           is_finite(opening.centre_m) && is_finite(opening.down);
+  };
+  return in.get(model.file) && in.get(model.fault) &&
+         get_list(in, model.shape.shapes, limits::l3d_parts, get_shape) &&
+         get_list(in, model.shape.parts, limits::l3d_parts, get_part) &&
+         get_list(in, model.shape.openings, limits::l3d_openings, get_opening);
 }
 
 void put(PlainWriter& out, const GldfProduct& product) {
@@ -169,6 +240,7 @@ void put(PlainWriter& out, const GldfProduct& product) {
     out.put(file.name);
     out.put(file.bytes);
   });
+  put_list(out, product.models, [&](const GldfModel& model) { put(out, model); });
 }
 
 bool get(PlainReader& in, GldfProduct& product) {
@@ -180,14 +252,20 @@ bool get(PlainReader& in, GldfProduct& product) {
          get_list(in, product.variants, limits::gldf_variants,
                   [&](GldfVariant& v) { return get(in, v, product.lights.size()); }) &&
          get_list(in, product.photometry, 2 * limits::gldf_lights,
-                  [&](GldfFile& file) { return in.get(file.name) && in.get(file.bytes); });
+                  [&](GldfFile& file) { return in.get(file.name) && in.get(file.bytes); }) &&
+         get_list(in, product.models, limits::gldf_models,
+                  [&](GldfModel& model) { return get(in, model); }) &&
+         std::all_of(product.variants.begin(), product.variants.end(), [&](const GldfVariant& v) {
+           return !v.model || *v.model < product.models.size();
+         });
 }
 
 void gldf_answer(PlainReader& question, PlainWriter& out) {
   std::string path;
-  if (!question.get(path)) throw std::runtime_error("no question");
+  GldfModels models = GldfModels::left;
+  if (!question.get(path) || !question.get(models)) throw std::runtime_error("no question");
   const auto bytes = read_regular_file(path, limits::gldf_bytes);
-  const auto product = bytes ? gldf_of(bytes.value(), path) : bytes.problem();
+  const auto product = bytes ? gldf_of(bytes.value(), path, models) : bytes.problem();
   out.put(static_cast<uint8_t>(product.ok()));
   if (product) return put(out, product.value());
   out.put(product.problem().what);
@@ -271,8 +349,8 @@ Result<std::shared_ptr<const PhotometricWeb>> with_flux(const PhotometricWeb& we
 
 }  // namespace
 
-Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file) {
-  const auto archive = GldfArchive::open(bytes, file);
+Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file, GldfModels models) {
+  const auto archive = GldfArchive::open(bytes, file, "GLDF container");
   if (!archive) return archive.problem();
   const auto& names = archive->names();
   const auto at = only(names, [](const std::string& n) { return lower(n) == "product.xml"; });
@@ -283,12 +361,18 @@ Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file) {
   if (!product) return product;
   if (auto taken = take_photometry(archive.value(), product.value()); !taken)
     return taken.problem();
+  if (models == GldfModels::read) take_models(archive.value(), product.value());
   return product;
 }
 
-Result<GldfProduct> read_gldf(const fs::path& path) {
+Result<GldfProduct> read_gldf(const fs::path& path, GldfModels models) {
   const std::string name = path.string();
-  auto in = gldf_job.run([&](PlainWriter& question) { question.put(name); }, gldf_limits);
+  auto in = gldf_job.run(
+      [&](PlainWriter& question) {
+        question.put(name);
+        question.put(models);
+      },
+      gldf_limits);
   if (!in) return problem_in(name, in.problem().what);
   const Problem damaged = problem_in(name, "cannot be read: the reader gave no sound answer");
   uint8_t good = 0;

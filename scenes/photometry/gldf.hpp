@@ -2,7 +2,8 @@
 // photometric files of a product's variants; the one open format that says what a luminaire gives
 // on emergency supply. libzip and pugixml read it in a process of its own with limits on memory and
 // time. Nothing is fetched from elsewhere: a file that the container names by an address is said to
-// be missing. Shapes that are models (L3D) and pictures are not read. Plain values; any thread.
+// be missing. Pictures are not read, models (L3D) where they are asked for. Plain values; any
+// thread.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "scenes/photometry/l3d.hpp"
 #include "scenes/photometry/photometric_file.hpp"
 
 namespace luxodus {
@@ -25,10 +27,11 @@ inline constexpr uint64_t gldf_xml_bytes = uint64_t{8} << 20;
 /// Of one photometric file in it, as of one beside a scene, and of all of them, unpacked [bytes].
 inline constexpr uint64_t gldf_file_bytes = uint64_t{16} << 20;
 inline constexpr uint64_t gldf_all_bytes = uint64_t{64} << 20;
-/// Of files in a container, of variants, of light emitters.
+/// Of files in a container, of variants, of light emitters, of models.
 inline constexpr int64_t gldf_entries = 4096;
 inline constexpr size_t gldf_variants = 4096;
 inline constexpr size_t gldf_lights = 4096;
+inline constexpr size_t gldf_models = 1024;
 }  // namespace limits
 
 /// What a light emitter of a variant gives. Absent where the container does not say it.
@@ -56,12 +59,21 @@ struct GldfHousing {
   glm::dvec3 size_m{0};
 };
 
+/// A housing that is a model.
+struct GldfModel {
+  std::string file;   // its name in the container, or the address it is said to be at
+  std::string fault;  // why it cannot be had; "" where it can, or was not asked for
+  L3dModel shape;
+};
+
 struct GldfVariant {
   std::string id;
   std::string name;
-  std::vector<size_t> lights;  // which of the product's
+  std::vector<size_t> lights;         // which of the product's
+  std::vector<std::string> openings;  // of each light: that of the model; "" where none is said
   std::vector<GldfDuration> durations;
   std::optional<GldfHousing> housing;
+  std::optional<size_t> model;  // which of the product's
 };
 
 struct GldfFile {
@@ -75,15 +87,22 @@ struct GldfProduct {
   std::vector<GldfLight> lights;
   std::vector<GldfVariant> variants;
   std::vector<GldfFile> photometry;  // of the lights, each once
+  std::vector<GldfModel> models;
 };
+
+/// Whether models are read: scenes need none.
+enum class GldfModels { left, read };
 
 /// Reads a container, in a process of its own.
 /// Errors: it cannot be read, is no ZIP, holds no `product.xml`, another version than 1.0, a
-/// document type (entities), names that lead out of it, or more than the limits.
-Result<GldfProduct> read_gldf(const std::filesystem::path& path);
+/// document type (entities), names that lead out of it, or more than the limits. A model that
+/// cannot be read is a fault of that model alone.
+Result<GldfProduct> read_gldf(const std::filesystem::path& path,
+                              GldfModels models = GldfModels::left);
 
 /// The same of its bytes, in this process. `file` names it in messages.
-Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file);
+Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file,
+                            GldfModels models = GldfModels::left);
 
 /// One light of one variant, as a scene takes it.
 struct GldfLuminaire {

@@ -36,7 +36,8 @@ void GldfArchive::Closed::operator()(struct zip* archive) const {
   zip_discard(archive);
 }
 
-Result<GldfArchive> GldfArchive::open(std::string_view bytes, const std::string& file) {
+Result<GldfArchive> GldfArchive::open(std::string_view bytes, const std::string& file,
+                                      const char* kind) {
   zip_error_t error;
   zip_error_init(&error);
   zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
@@ -46,7 +47,8 @@ Result<GldfArchive> GldfArchive::open(std::string_view bytes, const std::string&
   archive.zip_.reset(zip_open_from_source(source, ZIP_RDONLY, &error));
   if (!archive.zip_) {
     zip_source_free(source);
-    return problem_in(file, "this is no GLDF container, which is a ZIP file: " + said(error));
+    return problem_in(file,
+                      std::string("this is no ") + kind + ", which is a ZIP file: " + said(error));
   }
   const int64_t count = zip_get_num_entries(archive.zip_.get(), 0);
   if (count > limits::gldf_entries)
@@ -57,7 +59,7 @@ Result<GldfArchive> GldfArchive::open(std::string_view bytes, const std::string&
     archive.names_.emplace_back(name == nullptr ? "" : name);
     if (name != nullptr && !stays_within(name))
       return problem_in(file, "the file \"" + excerpt(name) +
-                                  "\" in it leads out of it: such a container is not read");
+                                  "\" in it leads out of it: such an archive is not read");
   }
   return archive;
 }

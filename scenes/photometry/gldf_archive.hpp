@@ -1,5 +1,5 @@
-// The files in a ZIP that others made, from memory, within limits. Internal to the reading of GLDF;
-// the only source that includes libzip is gldf_archive.cpp. One thread.
+// The files in a ZIP that others made, from memory, within limits. Internal to the reading of GLDF
+// and L3D; the only source that includes libzip is gldf_archive.cpp. One thread.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,10 @@ namespace luxodus {
 
 class GldfArchive {
  public:
-  /// `bytes` outlive the archive; `file` names it in messages.
+  /// `bytes` outlive the archive; `file` and `kind` ("GLDF container") name it in messages.
   /// Errors: no ZIP, too many entries, a name that leads out of the archive.
-  static Result<GldfArchive> open(std::string_view bytes, const std::string& file);
+  static Result<GldfArchive> open(std::string_view bytes, const std::string& file,
+                                  const char* kind);
 
   /// In the archive's order, as UTF-8.
   const std::vector<std::string>& names() const { return names_; }

@@ -12,6 +12,7 @@
 
 #include "runtime/core/printable.hpp"
 #include "scenes/photometry/photometric_text.hpp"
+#include "scenes/photometry/plain_xml.hpp"
 
 namespace luxodus {
 namespace {
@@ -78,6 +79,8 @@ class ProductReader {
       read_variant(variant);
       if (product_.lights.size() > limits::gldf_lights)
         return problem_in(file_, fmt::format("more than {} light emitters", limits::gldf_lights));
+      if (product_.models.size() > limits::gldf_models)
+        return problem_in(file_, fmt::format("more than {} models", limits::gldf_models));
     }
     if (product_.variants.empty()) return problem_in(file_, "the product has no variants");
     return std::move(product_);
@@ -99,9 +102,12 @@ class ProductReader {
         add_lights(simple.attribute("emitterId").value(), variant);
         variant.housing = housing_of(found(geometries_, simple.attribute("geometryId").value()));
       }
-      for (const xml_node model : place.children("ModelGeometryReference"))
+      for (const xml_node model : place.children("ModelGeometryReference")) {
         for (const xml_node e : model.children("EmitterReference"))
-          add_lights(e.attribute("emitterId").value(), variant);
+          add_lights(e.attribute("emitterId").value(), variant,
+                     std::string(bare(e.child_value("EmitterObjectExternalName"))));
+        if (!variant.model) variant.model = model_of(model.attribute("geometryId").value());
+      }
     }
     product_.variants.push_back(std::move(variant));
   }
@@ -138,8 +144,32 @@ class ProductReader {
     return housing;
   }
 
-  /// Adds the lights of an emitter to those of the variant; each is kept once.
-  void add_lights(const char* id, GldfVariant& variant) {
+  /// Number of the model of a geometry; nothing where none is named. Of several files of one shape
+  /// that differ in detail the first is taken.
+  std::optional<size_t> model_of(const std::string& geometry) {
+    const xml_node file = found(files_, found(geometries_, geometry.c_str())
+                                            .child("GeometryFileReference")
+                                            .attribute("fileId")
+                                            .value());
+    if (!file) return std::nullopt;
+    GldfModel model;
+    model.file = bare(file.child_value());
+    const auto& models = product_.models;
+    const auto known = std::find_if(models.begin(), models.end(),
+                                    [&](const GldfModel& m) { return m.file == model.file; });
+    if (known != models.end()) return static_cast<size_t>(known - models.begin());
+    const std::string_view kind = file.attribute("contentType").value();
+    if (std::string_view(file.attribute("type").value()) == "url")
+      model.fault = "it is at " + excerpt(model.file, 200) + ", and nothing is fetched";
+    else if (kind != "geo/l3d")
+      model.fault = "it is \"" + excerpt(kind) + "\"; \"geo/l3d\" is read";
+    product_.models.push_back(std::move(model));
+    return models.size() - 1;
+  }
+
+  /// Adds the lights of an emitter to those of the variant; each is kept once. `opening`: where it
+  /// shines from in the variant's model.
+  void add_lights(const char* id, GldfVariant& variant, const std::string& opening = {}) {
     const xml_node emitter = found(emitters_, id);
     if (!emitter) return;
     auto [it, fresh] = lights_of_.try_emplace(id);
@@ -156,9 +186,15 @@ class ProductReader {
             light_of(light, number == 1 ? std::string(id) : fmt::format("{}#{}", id, number)));
       }
     }
-    for (const size_t light : it->second)
-      if (std::find(variant.lights.begin(), variant.lights.end(), light) == variant.lights.end())
+    for (const size_t light : it->second) {
+      const auto at = std::find(variant.lights.begin(), variant.lights.end(), light);
+      const auto place = static_cast<size_t>(at - variant.lights.begin());
+      if (at == variant.lights.end()) {
         variant.lights.push_back(light);
+        variant.openings.emplace_back();
+      }
+      if (!opening.empty()) variant.openings[place] = opening;
+    }
   }
 
   GldfLight light_of(xml_node node, std::string name) const {
@@ -230,16 +266,8 @@ std::string version_of(xml_node root) {
 
 Result<GldfProduct> gldf_product_of(const std::string& xml, const std::string& file) {
   pugi::xml_document document;
-  const auto parsed =
-      document.load_buffer(xml.data(), xml.size(), pugi::parse_default | pugi::parse_doctype);
-  if (!parsed)
-    return problem_in(file, fmt::format("'product.xml' in it is no XML: {} at byte {}",
-                                        parsed.description(), parsed.offset));
-  for (const xml_node node : document.children())
-    if (node.type() == pugi::node_doctype)
-      return problem_in(file,
-                        "'product.xml' in it has a document type (DOCTYPE), which GLDF has "
-                        "not and which may hide entities: it is not read");
+  if (const auto fault = load_plain_xml(document, xml, "product.xml"))
+    return problem_in(file, *fault);
   const xml_node root = document.child("Root");
   if (!root) return problem_in(file, "'product.xml' in it has no element 'Root'");
   const std::string version = version_of(root);

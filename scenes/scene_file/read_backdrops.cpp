@@ -69,7 +69,7 @@ void read_picture(KeyReader& keys, const std::filesystem::path& path, Backdrop& 
 }
 
 void read_drawing(KeyReader& keys, const std::filesystem::path& path, Backdrop& out) {
-  const auto plan = read_dxf_plan(path);
+  const auto plan = read_dxf_plan(path, keys.reading().share);
   if (!plan) return take_problem(plan.problem(), keys.place("file"), keys.reading());
   double metres = plan->metres_per_unit;
   if (const auto unit = keys.maybe_choice("units")) {

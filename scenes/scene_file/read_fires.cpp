@@ -197,6 +197,7 @@ void read_fire_medium(KeyReader& keys, Medium m) {
   options.mass_extinction_m2_per_kg = keys.maybe_number("mass_extinction");
   const auto flames = read_flames(keys);
   options.flames = flames.has_value();
+  options.reading = reading.share;
   const auto path = keys.file("file");
   if (!path || !keys.clean()) return;
   auto fire = read_fire(*path, options);

@@ -193,7 +193,7 @@ void read_import(const toml::Table& table, SceneReading& reading) {
     return;
   }
   std::vector<std::string> files;
-  auto parts = import_mesh(path->string(), scale.value(), up.value(), &files);
+  auto parts = import_mesh(path->string(), scale.value(), up.value(), &files, reading.share);
   for (const auto& file : files) take_hash(file, keys.place("file"), reading);
   if (!parts) {
     reading.incomplete = true;

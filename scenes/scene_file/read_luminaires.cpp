@@ -163,7 +163,7 @@ void read_mesh_shape(KeyReader& keys, Emitter& e) {
   const Transform transform = read_transform(keys);
   if (!path || !keys.clean()) return;
   std::vector<std::string> files;
-  auto parts = import_mesh(path->string(), scale.value(), up.value(), &files);
+  auto parts = import_mesh(path->string(), scale.value(), up.value(), &files, keys.reading().share);
   for (const auto& f : files) take_hash(f, keys.place("file"), keys.reading());
   if (!parts) {
     take_problem(parts.problem(), keys.place("file"), keys.reading());

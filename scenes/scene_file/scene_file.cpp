@@ -202,8 +202,9 @@ void check_whole(SceneReading& reading) {
 }  // namespace
 
 ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at_s,
-                     std::string_view changes, FireFrames frames) {
+                     std::string_view changes, FireFrames frames, ReadingShare* share) {
   SceneReading reading;
+  reading.share = share;
   reading.at_s = at_s;
   reading.frames = frames;
   Loader loader(reading);

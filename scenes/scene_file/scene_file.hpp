@@ -14,6 +14,8 @@
 
 namespace luxodus {
 
+class ReadingShare;
+
 struct ReadScene {
   std::optional<SceneDescription> scene;  // only where there is no problem
   Problems problems;
@@ -29,7 +31,9 @@ inline constexpr const char* named_changes = "changes";
 /// is none.
 /// `changes`: read as if they stood in a file that includes this one; "" for none.
 /// `frames`: what simulations have between two of their frames.
+/// `share`, where given, hears how far the reading of meshes and simulations is.
 ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at_s = std::nullopt,
-                     std::string_view changes = {}, FireFrames frames = FireFrames::between);
+                     std::string_view changes = {}, FireFrames frames = FireFrames::between,
+                     ReadingShare* share = nullptr);
 
 }  // namespace luxodus

@@ -20,6 +20,8 @@
 
 namespace luxodus {
 
+class ReadingShare;
+
 namespace scene_limits {
 /// A scene file is written by people or small scripts; 16 MiB of TOML is already 200 000 tables.
 inline constexpr uint64_t file_bytes = uint64_t{16} << 20;
@@ -42,6 +44,8 @@ class SceneReading {
   /// missed.
   bool incomplete = false;
 
+  /// Hears how far the reading of large files is; null where nobody asks.
+  ReadingShare* share = nullptr;
   /// Time that was asked for, instead of the one that the scene states [s].
   std::optional<double> at_s;
   /// What simulations have between two frames.

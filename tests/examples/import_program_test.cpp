@@ -4,6 +4,7 @@
 
 #include "tests/examples/program_kit.hpp"
 #include "tests/kit/small_ifc.hpp"
+#include "tests/kit/small_l3d.hpp"
 #include "tests/kit/zip_kit.hpp"
 
 using namespace luxodus::program;
@@ -16,22 +17,31 @@ const std::string small_lamp =
     "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 -1 1 3 1 1 2 -0.2 -0.2 0\n1 1 10\n0 45 90\n0\n"
     "300 200 0\n";
 
-/// A container of the lamp, rated at 1000 lm, and at 200 lm in an emergency.
-std::string small_container(const std::string& name = "Small lamp") {
+/// A container of the lamp, rated at 1000 lm, and at 200 lm in an emergency; with `model` as its
+/// body where there is one.
+std::string small_container(const std::string& name = "Small lamp", const std::string& model = "") {
+  const std::string shape =
+      R"(<GeometryReferences><ModelGeometryReference geometryId="m"><EmitterReference )"
+      R"(emitterId="e"><EmitterObjectExternalName>leo</EmitterObjectExternalName>)"
+      R"(</EmitterReference></ModelGeometryReference></GeometryReferences>)";
   const std::string xml =
       R"(<Root><Header><FormatVersion major="1" minor="0"/></Header><GeneralDefinitions><Files>)"
-      R"(<File id="f" contentType="ldc/ies" type="localFileName">lamp.ies</File></Files>)"
+      R"(<File id="f" contentType="ldc/ies" type="localFileName">lamp.ies</File>)"
+      R"(<File id="g" contentType="geo/l3d" type="localFileName">body.l3d</File></Files>)"
       R"(<Photometries><Photometry id="p"><PhotometryFileReference fileId="f"/></Photometry>)"
       R"(</Photometries><Emitters><Emitter id="e"><FixedLightEmitter><PhotometryReference )"
       R"(photometryId="p"/><RatedLuminousFlux>1000</RatedLuminousFlux>)"
       R"(<EmergencyRatedLuminousFlux>200</EmergencyRatedLuminousFlux></FixedLightEmitter>)"
-      R"(</Emitter></Emitters></GeneralDefinitions><ProductDefinitions><ProductMetaData><Name>)"
-      R"(<Locale language="en">)" +
+      R"(</Emitter></Emitters><Geometries><ModelGeometry id="m"><GeometryFileReference )"
+      R"(fileId="g"/></ModelGeometry></Geometries></GeneralDefinitions><ProductDefinitions>)"
+      R"(<ProductMetaData><Name><Locale language="en">)" +
       name +
       R"(</Locale></Name></ProductMetaData><Variants>)"
-      R"(<Variant id="v"><Geometry><EmitterReference emitterId="e"/></Geometry></Variant>)"
-      R"(</Variants></ProductDefinitions></Root>)";
-  return luxodus::test::zip_of({{"product.xml", xml}, {"ldc/lamp.ies", small_lamp}});
+      R"(<Variant id="v"><Geometry>)" +
+      (model.empty() ? R"(<EmitterReference emitterId="e"/>)" : shape) +
+      R"(</Geometry></Variant></Variants></ProductDefinitions></Root>)";
+  return luxodus::test::zip_of(
+      {{"product.xml", xml}, {"ldc/lamp.ies", small_lamp}, {"geo/body.l3d", model}});
 }
 
 std::string within(const TemporaryFolder& folder, const std::string& name) {
@@ -71,6 +81,40 @@ TEST_CASE("a container is listed, and its tables make a scene", "[program][impor
   const Outcome refused = run_luxodus(folder, "import gldf " + within(folder, "bad.gldf"));
   CHECK(refused.code == 2);
   CHECK_THAT(refused.err, Contains("bad.gldf: this is no GLDF container"));
+}
+
+TEST_CASE("a luminaire's model becomes its body, and hides none of its light",
+          "[program][import]") {
+  const TemporaryFolder folder;
+  folder.write("lamp.gldf", small_container("Lamp", luxodus::test::SmallL3d{}.bytes()));
+  const std::string import = "import gldf " + within(folder, "lamp.gldf") + " --out ";
+  const Outcome written = run_luxodus(folder, import + within(folder, "lamps"));
+  INFO(written.err);
+  REQUIRE(written.code == 0);
+  CHECK_THAT(written.out, Contains("body: model \"body.l3d\" of 1 part"));
+  CHECK_THAT(slurp(folder / "lamps/luminaires.toml"), Contains("file = \"body.obj\""));
+  const Outcome run = run_luxodus(folder, "run " + within(folder, "lamps/luminaires.toml") +
+                                              " --particles 20k --out " + within(folder, "out"));
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  // All of it shines down, past the body, which is above the opening by a millimetre.
+  CHECK_THAT(run.out, Contains("100 % escaped"));
+
+  folder.write("lamp.gldf", small_container("Lamp", "no model"));
+  const Outcome without = run_luxodus(folder, import + within(folder, "plain"));
+  REQUIRE(without.code == 0);
+  CHECK_THAT(without.out, Contains("\"body.l3d\" is not read: this is no L3D model"));
+  CHECK_THAT(without.out, Contains("left out: the model \"body.l3d\""));
+  CHECK_THAT(slurp(folder / "plain/luminaires.toml"), Contains("# Its model body.l3d is left out"));
+}
+
+TEST_CASE("what is no OpenVDB file is refused by its name", "[program][import]") {
+  const TemporaryFolder folder;
+  folder.write("smoke.vdb", "no grids");
+  const Outcome refused = run_luxodus(folder, "import vdb " + within(folder, "smoke.vdb"));
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Contains("smoke.vdb: "));
+  CHECK_FALSE(fs::exists(folder / "smoke"));
 }
 
 TEST_CASE("light is traced in an imported model, and its results are by GlobalId",

@@ -7,16 +7,19 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <numeric>
 #include <stdexcept>
 #include <thread>
+
+#include "runtime/core/reading_share.hpp"
 
 using namespace luxodus;
 
 namespace {
 
 /// What the other process is to do with its question.
-enum class ChildTask { answer, crash, take_memory, loop, throw_up, write_much, lie, count };
+enum class ChildTask { answer, crash, take_memory, loop, throw_up, write_much, lie, tell, count };
 
 volatile uint64_t spun = 0;
 
@@ -42,6 +45,10 @@ void work(PlainReader& question, PlainWriter& answer) {
     case ChildTask::lie:
       answer.put(uint64_t{1} << 60);  // numbers that do not follow
       return;
+    case ChildTask::tell:
+      tell_share(0.25);
+      tell_share(0.5);
+      break;
     default:
       break;
   }
@@ -52,14 +59,15 @@ void work(PlainReader& question, PlainWriter& answer) {
 const IsolatedJob job("test", work);
 constexpr IsolatedLimits little{uint64_t{64} << 20, 1};
 
-Result<PlainReader> run(ChildTask task, const std::vector<uint32_t>& numbers = {}) {
+Result<PlainReader> run(ChildTask task, const std::vector<uint32_t>& numbers = {},
+                        const std::function<void(double)>& told = {}) {
   return job.run(
       [&](PlainWriter& question) {
         question.put(task);
         question.put(std::string("text"));
         question.put(numbers);
       },
-      little);
+      little, told);
 }
 
 std::string failure(ChildTask task) {
@@ -121,6 +129,37 @@ TEST_CASE("threads run jobs side by side, and none leaves a descriptor", "[runti
   CHECK(second == first + 1);
   ::close(first);
   ::close(second);
+}
+
+TEST_CASE("who waits for a job hears how far it is, up to its end", "[runtime][isolated]") {
+  std::vector<double> heard;
+  auto answer = run(ChildTask::tell, {1, 2}, [&](double share) { heard.push_back(share); });
+  REQUIRE(answer.ok());
+  REQUIRE_FALSE(heard.empty());
+  CHECK(std::is_sorted(heard.begin(), heard.end()));
+  CHECK(heard.back() == 0.5);
+  std::string text;
+  uint64_t sum = 0;
+  REQUIRE((answer->get(text) && answer->get(sum)));
+  CHECK((text == "text!" && sum == 3));
+}
+
+TEST_CASE("a share of reading is that of all bytes, and each counts once", "[runtime]") {
+  ReadingShare share;
+  CHECK_FALSE(share.share());
+  {
+    ReadingPart first(&share, 300);
+    CHECK(share.share() == std::optional(0.0));
+    first.at(150);
+    first.at(120);  // what was told before is not undone
+    CHECK(share.share() == std::optional(0.5));
+    ReadingPart second(&share, 300);
+    CHECK(share.share() == std::optional(0.25));
+    second.at_share(2);  // more than all there is
+    CHECK(share.share() == std::optional(0.75));
+  }
+  CHECK(share.share() == std::optional(1.0));
+  ReadingPart(nullptr, 5).at(5);
 }
 
 TEST_CASE("more memory is allowed in a job only", "[runtime][isolated]") {

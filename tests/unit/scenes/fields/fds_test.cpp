@@ -564,7 +564,8 @@ TEST_CASE("what is not read of a case is named where there is nothing else", "[f
   const auto read = read_fire(folder / "fire.smv", {});
   REQUIRE_FALSE(read.ok());
   CHECK_THAT(read.problem().text(),
-             Catch::Contains("(SLCT) and Smoke3D of 16 bits (.s16) are not read"));
+             Catch::Contains("(SLCT) and Smoke3D of 16 bits (.s16) are not read") &&
+                 Catch::Contains("add &SLCF XB=..., QUANTITY='EXTINCTION COEFFICIENT'"));
 }
 
 TEST_CASE("a slice of a part of a mesh is no source", "[format][fds]") {

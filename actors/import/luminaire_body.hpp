@@ -1,0 +1,43 @@
+// The body of a luminaire from the parts of its model (L3D): their shapes are OBJ files, which the
+// reader of meshes takes in, placed and joined to one mesh. Colours are left out. Any thread.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+
+#include "runtime/core/result.hpp"
+#include "scenes/geometry/mesh.hpp"
+#include "scenes/photometry/l3d.hpp"
+
+namespace luxodus {
+
+class ReadingShare;
+
+namespace limits {
+/// Of a body: many luminaires hang in a building, each with its own.
+inline constexpr size_t luminaire_body_triangles = 200'000;
+}  // namespace limits
+
+/// The body in the model's metres, z up. `reading`, where given, hears how far it is.
+/// Errors: a shape that cannot be read, by its name; more triangles than the limit; a place for the
+/// shapes' files cannot be had.
+Result<Mesh> luminaire_body(const L3dModel& model, ReadingShare* reading = nullptr);
+
+/// How far the body is moved, so that the middle of its luminous opening lies at the origin, and
+/// whether it then hides light that goes down from there.
+struct BodyPlace {
+  glm::dvec3 offset_m{0};
+  double below_m = 0;         // how far it reaches below the opening; 0: nothing is hidden
+  glm::dvec3 down{0, 0, -1};  // where the opening shines
+};
+
+/// `opening`: its name in the model; where there is none of it, the one there is, else the lowest
+/// point below the model's own origin. What reaches down by less than 0.1 m, as frames do, is
+/// raised to a millimetre above the opening, since intensities hold its shadow already.
+BodyPlace body_place(const L3dModel& model, const Mesh& body, const std::string& opening);
+
+/// Writes it as an OBJ file in metres, z up. Errors: as write_file_atomically.
+Result<void> write_body(const Mesh& body, const std::filesystem::path& file);
+
+}  // namespace luxodus

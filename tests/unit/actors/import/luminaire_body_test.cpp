@@ -1,0 +1,90 @@
+// Bodies of luminaires from their models, and how they stand at the luminous opening.
+#include "actors/import/luminaire_body.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "scenes/geometry/import.hpp"
+#include "scenes/geometry/mesh_tools.hpp"
+#include "tests/kit/small_l3d.hpp"
+#include "tests/kit/temporary_folder.hpp"
+
+using namespace luxodus;
+using namespace luxodus::test;
+using Catch::Contains;
+
+namespace {
+
+L3dModel l3d_model(const SmallL3d& small) {
+  auto model = l3d_of(small.bytes(), "test.l3d", limits::l3d_all_bytes);
+  if (!model) FAIL(model.problem().text());
+  return std::move(model).value();
+}
+
+Mesh body_of(const L3dModel& model) {
+  auto body = luminaire_body(model);
+  if (!body) FAIL(body.problem().text());
+  return std::move(body).value();
+}
+
+}  // namespace
+
+TEST_CASE("a body has the volume of its parts, in metres, and comes back from its file",
+          "[import][l3d]") {
+  SmallL3d small;
+  small.joints = joint_with("");
+  const Mesh body = body_of(l3d_model(small));
+  CHECK(body.triangles.size() == 24);
+  CHECK(signed_volume_of(body) == Approx(2 * 0.2 * 0.1 * 0.04).epsilon(1e-6));
+  const TemporaryFolder folder;
+  REQUIRE(write_body(body, folder / "body.obj").ok());
+  const auto back = import_mesh((folder / "body.obj").string(), 1, UpAxis::z);
+  REQUIRE(back.ok());
+  REQUIRE(back->size() == 1);
+  CHECK(signed_volume_of(back->front().mesh) == Approx(2 * 0.2 * 0.1 * 0.04).epsilon(1e-5));
+}
+
+TEST_CASE("a body stands a millimetre above its opening, with the opening in its middle",
+          "[import][l3d]") {
+  const L3dModel model = l3d_model({});
+  const Mesh body = body_of(model);
+  const BodyPlace place = body_place(model, body, "leo");
+  CHECK(place.below_m == 0);
+  CHECK(place.down == glm::dvec3(0, 0, -1));
+  Bounds bounds = bounds_of(body);
+  CHECK(bounds.low.z + place.offset_m.z == Approx(0.001));
+  CHECK(bounds.low.x + place.offset_m.x == Approx(-0.1));
+  CHECK(bounds.high.y + place.offset_m.y == Approx(0.05));
+}
+
+TEST_CASE("a body that reaches far below its opening stands as the model says, and that is said",
+          "[import][l3d]") {
+  L3dModel model = l3d_model({});
+  const Mesh body = body_of(model);
+  model.openings[0].centre_m.z += 3;  // on a mast
+  const BodyPlace place = body_place(model, body, "leo");
+  CHECK(place.below_m == Approx(3));
+  CHECK(bounds_of(body).low.z + place.offset_m.z == Approx(-3 + 0.001));
+}
+
+TEST_CASE("a model without openings hangs by its own origin", "[import][l3d]") {
+  L3dModel model = l3d_model({});
+  model.openings.clear();
+  const Mesh body = body_of(model);
+  const BodyPlace place = body_place(model, body, "leo");
+  CHECK((place.offset_m.x == 0 && place.offset_m.y == 0));
+  CHECK(bounds_of(body).low.z + place.offset_m.z == Approx(0.001));
+}
+
+TEST_CASE("a shape that is no mesh is said by its name, and too many triangles are refused",
+          "[import][l3d]") {
+  L3dModel model = l3d_model({});
+  model.parts.resize(20'000, model.parts.front());
+  const auto many = luminaire_body(model);
+  REQUIRE_FALSE(many.ok());
+  CHECK_THAT(many.problem().what, Contains("more than 200000 triangles"));
+  model.parts.resize(1);
+  model.shapes[0].obj = "hello\n";
+  const auto wrong = luminaire_body(model);
+  REQUIRE_FALSE(wrong.ok());
+  CHECK_THAT(wrong.problem().what, Contains("the shape \"box/box.obj\" of its model"));
+}
