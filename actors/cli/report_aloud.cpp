@@ -7,12 +7,12 @@
 
 namespace luxodus::cli {
 
-Result<Json> write_report_aloud(const std::filesystem::path& folder, const LocalRun& run,
-                                const RunRecord& record) {
+Result<Json> finish_report_aloud(const std::filesystem::path& folder, const LocalRun& run,
+                                 const RunRecord& record) {
   constexpr auto moment = std::chrono::seconds(2);
   const auto began = std::chrono::steady_clock::now();
   std::optional<ProgressLine> line;
-  return write_report(folder, run, record, [&](double share) {
+  return finish_report(folder, run, record, [&](double share) {
     if (!line && std::chrono::steady_clock::now() - began > moment) line.emplace("direct light");
     if (line) line->show_share(share);
   });

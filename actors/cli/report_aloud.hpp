@@ -7,8 +7,8 @@
 
 namespace luxodus::cli {
 
-/// Errors: as write_report.
-Result<Json> write_report_aloud(const std::filesystem::path& folder, const LocalRun& run,
-                                const RunRecord& record);
+/// Errors and what is required: as finish_report.
+Result<Json> finish_report_aloud(const std::filesystem::path& folder, const LocalRun& run,
+                                 const RunRecord& record);
 
 }  // namespace luxodus::cli

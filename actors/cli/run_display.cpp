@@ -105,16 +105,30 @@ Result<void> RunDisplay::keep_flux(const LocalRun& run, StopReason reason) {
 Result<void> RunDisplay::write_results(const LocalRun& run, StopReason reason) {
   if (keeps_other(run, reason)) return {};
   options_.record.stopped_by = name_of(reason);
-  auto result = write_report_aloud(options_.folder, run, options_.record);
-  if (!result) return result.problem();
-  result_ = std::move(result).value();
+  if (auto ok = begin_report(options_.folder, run, options_.record); !ok) return ok;
+  const auto report = [&]() -> Result<void> {
+    auto result = finish_report_aloud(options_.folder, run, options_.record);
+    if (!result) return result.problem();
+    result_ = std::move(result).value();
+    return {};
+  };
   const bool pictures = options_.pictures && !run.scene().description->cameras.empty();
-  if (!pictures || reason == StopReason::interrupted) return {};
-  std::optional<ProgressLine> line("pictures");
-  const auto rendered =
-      render_views(options_.folder, run, "", options_.picture,
-                   [&](const PictureProgress& progress) { show_pictures(*line, progress); });
+  if (!pictures || reason == StopReason::interrupted) return report();
+  // First pictures are there within seconds. Direct light on planes may take longer.
+  bool reported = false;
+  const auto report_once = [&] {
+    reported = true;
+    return report();
+  };
+  std::optional<ProgressLine> line;
+  const auto show = [&](const PictureProgress& progress) {
+    if (!line) line.emplace("pictures");
+    show_pictures(*line, progress);
+  };
+  const auto rendered = render_views(options_.folder, run, "", options_.picture, show, report_once);
   line.reset();
+  if (!reported)
+    if (auto ok = report(); !ok) return ok;
   if (!rendered) return rendered.problem();
   tell_rendered(rendered.value());
   return {};

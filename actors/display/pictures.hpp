@@ -174,10 +174,13 @@ struct RenderedViews {
 /// NAME_human.png (what an adapted eye tells apart), NAME_luminance.png (false colours with a
 /// scale; up to 8192 pixels an edge); NAME is that of result_names(). A scene without cameras has
 /// no pictures, which is no error. Where it is interrupted, pictures of the paths that all of their
-/// pixels have are there. Errors: as check_views; a file that cannot be written.
+/// pixels have are there. `after_first` is called once, as soon as there are first pictures or none
+/// are to be awaited, and takes none of their time; not where this fails before.
+/// Errors: as check_views; a file that cannot be written; those of `after_first`.
 Result<RenderedViews> render_views(const std::filesystem::path& folder, const LocalRun& run,
                                    const std::string& only_view, const PictureOptions& options,
-                                   const std::function<void(const PictureProgress&)>& progress);
+                                   const std::function<void(const PictureProgress&)>& progress,
+                                   const std::function<Result<void>()>& after_first = {});
 
 /// Errors: no camera of that name, paths per pixel out of range, a picture that takes more memory
 /// than limits::max_view_bytes.

@@ -8,6 +8,7 @@
 #include <deque>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include "actors/display/picture_tiles.hpp"
 #include "actors/display/result_files.hpp"
@@ -33,12 +34,19 @@ constexpr double writing_slack = 1.2;
 
 class Stopwatch {
  public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
+  /// Of something else, which counts for nothing.
+  template <class Work>
+  auto left_out(const Work& work) {
+    const auto before = Clock::now();
+    auto outcome = work();
+    began_ += Clock::now() - before;
+    return outcome;
   }
 
  private:
-  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point began_ = Clock::now();
 };
 
 /// The cameras to render, by number.
@@ -100,9 +108,11 @@ class GrowingViews {
   }
 
   /// Until all is done that was asked for, or somebody interrupts; then all is written.
-  Result<void> grow() {
+  /// `after_first`: called when first pictures are there.
+  Result<void> grow(const std::function<Result<void>()>& after_first) {
     if (options_.executor != nullptr) elsewhere_.emplace(run_, tiled_views(), options_, flux_);
     if (auto ok = show_first(); !ok) return ok;
+    if (auto ok = watch_.left_out(after_first); !ok) return ok;
     for (int target = next_target(); target > 0 && !interrupted_; target = next_target()) {
       const double before_s = watch_.seconds();
       const int added = target - paths_;
@@ -328,12 +338,21 @@ Result<void> check_views(const SceneDescription& scene, const std::string& only_
 
 Result<RenderedViews> render_views(const std::filesystem::path& folder, const LocalRun& run,
                                    const std::string& only_view, const PictureOptions& options,
-                                   const std::function<void(const PictureProgress&)>& progress) {
+                                   const std::function<void(const PictureProgress&)>& progress,
+                                   const std::function<Result<void>()>& after_first) {
   const SceneDescription& scene = *run.scene().description;
   if (auto ok = check_views(scene, only_view, options); !ok) return ok.problem();
   const auto views = chosen_views(scene, only_view);
+  std::function<Result<void>()> once = after_first;
+  const auto once_after_first = [&once]() -> Result<void> {
+    const auto work = std::exchange(once, nullptr);
+    return work ? work() : Result<void>();
+  };
   RenderedViews rendered;
-  if (views->empty()) return rendered;
+  if (views->empty()) {
+    if (auto ok = once_after_first(); !ok) return ok.problem();
+    return rendered;
+  }
   std::error_code error;
   std::filesystem::create_directories(folder / "views", error);
   if (error) return problem_in(folder / "views", "cannot make this folder: " + error.message());
@@ -351,7 +370,7 @@ Result<RenderedViews> render_views(const std::filesystem::path& folder, const Lo
     };
     GrowingViews growing(run, options, flux, seconds * pixels / left, tell);
     for (const size_t view : group) growing.add(view, folder / "views" / names[view]);
-    if (auto ok = growing.grow(); !ok) return ok.problem();
+    if (auto ok = growing.grow(once_after_first); !ok) return ok.problem();
     rendered.paths = std::min(rendered.paths, growing.paths());
     if (!(growing.error() <= rendered.relative_error)) rendered.relative_error = growing.error();
     rendered.interrupted = growing.interrupted();

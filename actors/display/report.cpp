@@ -463,21 +463,30 @@ Json begun_json(const LocalRun& run, const RunRecord& record, double seconds) {
   return out;
 }
 
-Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
-                          const RunRecord& record, const ShareDone& progress) {
+Result<void> begin_report(const std::filesystem::path& folder, const LocalRun& run,
+                          const RunRecord& record) {
   if (auto ok = remove_old_maps(folder); !ok) return ok.problem();
   std::error_code error;
   std::filesystem::create_directories(folder / "planes", error);
   if (error) return problem_in(folder, "cannot make this folder: " + error.message());
-  // Should this process be killed before the end, the files below are known to be a run's.
-  if (auto ok = write_json(folder / "result.json", begun_json(run, record, run.seconds())); !ok)
-    return ok.problem();
+  // Should this process be killed before the end, the files to come are known to be a run's.
+  return write_json(folder / "result.json", begun_json(run, record, run.seconds()));
+}
+
+Result<Json> finish_report(const std::filesystem::path& folder, const LocalRun& run,
+                           const RunRecord& record, const ShareDone& progress) {
   const PlaneMaps maps = make_plane_maps(run, progress);
   if (auto ok = write_plane_maps(folder / "planes", run, maps); !ok) return ok.problem();
   if (auto ok = write_flux_maps(folder, run); !ok) return ok.problem();
   Json result = result_json(run, record, maps);
   if (auto ok = write_json(folder / "result.json", result); !ok) return ok.problem();
   return result;
+}
+
+Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
+                          const RunRecord& record, const ShareDone& progress) {
+  if (auto ok = begin_report(folder, run, record); !ok) return ok.problem();
+  return finish_report(folder, run, record, progress);
 }
 
 }  // namespace luxodus

@@ -28,10 +28,18 @@ Json result_json(const LocalRun& run, const RunRecord& record, const PlaneMaps& 
 /// render` and `run --resume` need, which files are its own, and that it has not ended.
 Json begun_json(const LocalRun& run, const RunRecord& record, double seconds);
 
-/// Writes result.json, planes/*.csv and *.png, patches.vtp and volume.vti into `folder` (made if
-/// missing). Maps and pictures of an earlier run are removed first; nothing else in the folder is.
-/// Until all is written, result.json is begun_json. Returns what it wrote as result.json.
-/// `progress` is of the direct light, which takes longest.
+/// Makes `folder` ready for the results of a run: maps and pictures of an earlier one are removed,
+/// nothing else, and result.json is begun_json. Files of the run may be written from then on.
+Result<void> begin_report(const std::filesystem::path& folder, const LocalRun& run,
+                          const RunRecord& record);
+
+/// Writes planes/*.csv and *.png, patches.vtp and volume.vti into `folder`, then result.json, which
+/// it returns. `progress` is of the direct light, which takes longest.
+/// Requires: begin_report of the same run and record.
+Result<Json> finish_report(const std::filesystem::path& folder, const LocalRun& run,
+                           const RunRecord& record, const ShareDone& progress = {});
+
+/// Both, one after the other.
 Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
                           const RunRecord& record, const ShareDone& progress = {});
 

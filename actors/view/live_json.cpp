@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "actors/view/gloss.hpp"
+#include "actors/view/lamps.hpp"
 #include "runtime/core/base64.hpp"
 #include "scenes/optics/spectrum.hpp"
 
@@ -130,6 +132,64 @@ Json flames_json(const LiveGeneration& generation) {
   return out;
 }
 
+Json rgb_json(const std::array<double, 3>& rgb) {
+  return {rgb[0], rgb[1], rgb[2]};
+}
+
+const char* shape_name(EmitterKind kind) {
+  switch (kind) {
+    case EmitterKind::disc:
+      return "disc";
+    case EmitterKind::sphere:
+      return "sphere";
+    case EmitterKind::tube:
+      return "tube";
+    case EmitterKind::mesh:
+      return "mesh";
+    default:
+      return "rectangle";
+  }
+}
+
+Json lamps_json(const LiveLamps& lamps) {
+  Json out = Json::array();
+  for (const LiveLamp& lamp : lamps.lamps) {
+    Json corners = Json::array();
+    for (const glm::dvec3& corner : lamp.corners) corners.push_back(place(corner));
+    out.push_back({{"group", lamp.group},
+                   {"shape", shape_name(lamp.kind)},
+                   {"position", place(lamp.origin)},
+                   {"axes", {place(lamp.axes[0]), place(lamp.axes[1]), place(lamp.axes[2])}},
+                   {"size", place(lamp.size)},
+                   {"corners", std::move(corners)},
+                   {"colour", rgb_json(lamp.colour)},
+                   {"table", lamp.table},
+                   {"of_luminaire", lamp.of_luminaire}});
+  }
+  return out;
+}
+
+Json lamp_tables_json(const LiveLamps& lamps) {
+  Json out = Json::array();
+  for (const LampTable& table : lamps.tables)
+    out.push_back({{"peak", table.peak},
+                   {"polar", limits::lamp_polar},
+                   {"azimuth", limits::lamp_azimuth},
+                   {"values", base64(table.values)}});
+  return out;
+}
+
+Json gloss_json(const CompiledScene& scene) {
+  Json out = Json::array();
+  for (const LiveGloss& gloss : gloss_of(scene))
+    out.push_back({{"surface", gloss.surface},
+                   {"back", gloss.back},
+                   {"mirrored", rgb_json(gloss.mirrored)},
+                   {"spread", gloss.spread},
+                   {"roughness", gloss.roughness}});
+  return out;
+}
+
 Json voxels_json(const CompiledScene& scene) {
   const VoxelGrid& grid = scene.voxels;
   if (!(grid.edge > 0)) return {};
@@ -149,6 +209,7 @@ std::map<std::string, double> LiveDimming::both() const {
 Json live_scene_json(const SceneDescription& scene, const LiveGeneration& generation,
                      const LiveDimming& dimming, bool editor, bool follows) {
   const CompiledScene& compiled = *generation.scene;
+  const LiveLamps lamps = lamps_of(compiled);
   Json observers = Json::array(), cameras = Json::array();
   for (const Observer& o : scene.observers)
     observers.push_back({{"name", o.name}, {"eye", place(o.eye)}, {"gaze", place(o.gaze)}});
@@ -177,6 +238,9 @@ Json live_scene_json(const SceneDescription& scene, const LiveGeneration& genera
           {"cameras", cameras},
           {"voxels", voxels_json(compiled)},
           {"flames", flames_json(generation)},
+          {"lamps", lamps_json(lamps)},
+          {"lamp_tables", lamp_tables_json(lamps)},
+          {"gloss", gloss_json(compiled)},
           {"editor", editor}};
 }
 

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { chromium } from 'playwright-core';
+import { glossyFloor } from './mock_room.mjs';
 import { MockServer } from './mock_server.mjs';
 
 const shots =
@@ -163,6 +164,103 @@ test('a flame has the shape of its cells, and nothing glows around it', async ()
   const [low, high, above, beside, corner] = seen;
   assert.ok(low > 100 && high > 20 && low > 2 * high, `${seen}`);
   assert.ok(Math.max(above, beside, corner) < 0.02 * low, `${seen}`);
+});
+
+/**
+ * Luminances of a room in clear air whose surfaces all send out 1 cd/m2, at places of a view; lamps
+ * are seen, signs are not. `gloss`: of the floor.
+ */
+const seenInGrey = (gloss, places) => page.evaluate(async ([of, at]) => {
+  const { page: p } = window.luxodus;
+  const { surfaces, air } = p.live.shown;
+  surfaces.sum.fill(1);
+  const { present } = p.picture.smoke;
+  p.picture.smoke.present = false;
+  p.picture.signs.object.visible = false;
+  p.walk.solid = false;
+  p.walk.jump({ eye: [0.5, 3, 1.5], gaze: [1, 0, -0.23], fov: 80 });
+  p.walk.show();
+  p.picture.gloss.kinds(of);
+  p.light.awaited = { now: false, soon: false };
+  p.picture.surfaces.shine(surfaces);
+  p.picture.again();
+  await window.luxodus.settled();
+  const found = at.map((place) => {
+    const [x, y] = p.panels.labels.project(place, p.picture.camera);
+    return p.picture.luminanceAt(x, y);
+  });
+  for (const sum of [surfaces, air]) sum.stained(true);
+  p.live.settle();
+  p.picture.gloss.kinds(p.live.scene.gloss);
+  p.picture.smoke.present = present;
+  p.picture.signs.object.visible = p.walk.solid = true;
+  p.light.changed();
+  return found;
+}, [gloss, places]);
+
+test('a lamp is seen where it hangs, and where a floor mirrors it', async () => {
+  const lamp = [5.2, 3, 2.9];
+  /** Between the eye at 1.5 m and the lamp at 2.9 m, heights below the floor share the way. */
+  const mirror = [0.5 + (4.7 * 1.5) / 4.4, 3, 0];
+  const places = [lamp, mirror, [mirror[0], 3.5, 0], [mirror[0] + 0.6, 3, 0], [4, 1, 0]];
+  const matt = await seenInGrey([], places);
+  const sharp = await seenInGrey(glossyFloor(0), places);
+  const rough = await seenInGrey(glossyFloor(0.15), places);
+  for (const x of matt.slice(1)) assert.ok(Math.abs(x - 1) < 2e-3, `${matt}`);
+  // As bright from everywhere: 200, 195, 180 cd by 0.0707 m2.
+  const luminance = (0.2126 * 200 + 0.7152 * 195 + 0.0722 * 180) / (Math.PI * 0.15 ** 2) + 1;
+  assert.ok(Math.abs(matt[0] / luminance - 1) < 0.02, `${matt[0]}, not ${luminance}`);
+  assert.equal(sharp[0], matt[0]);
+  // 0.6 of what the floor sends out, and 0.2 of what it mirrors: the lamp, or grey.
+  const reflected = 0.6 + 0.2 * luminance;
+  assert.ok(Math.abs(sharp[1] / reflected - 1) < 0.05, `${sharp[1]}, not ${reflected}`);
+  for (const x of sharp.slice(2)) assert.ok(Math.abs(x - 0.8) < 0.01, `${sharp}`);
+  // A rough floor spreads it: less bright there, more beside it along the view than across.
+  assert.ok(rough[1] < 0.7 * sharp[1] && rough[1] > 2, `${rough}`);
+  assert.ok(rough[3] > rough[2] && rough[2] >= 0.75, `${rough}`);
+  assert.ok(Math.abs(rough[4] - 0.8) < 0.08, `${rough}`);
+});
+
+test('smoke on the way to a floor and from there dims what it mirrors', async () => {
+  const seen = await page.evaluate(async (of) => {
+    const { page: p } = window.luxodus;
+    const { picture } = p;
+    const { surfaces, air } = p.live.shown;
+    const { glow } = picture.smoke.texels;
+    const before = glow.slice();
+    surfaces.sum.fill(0);
+    air.sum.fill(0);
+    picture.signs.object.visible = false;
+    const { flames } = picture.smoke.flames;
+    picture.smoke.flames.uniforms.flameCount.value = 0;
+    picture.gloss.kinds(of);
+    p.walk.solid = false;
+    const mirror = [0.5 + (4.7 * 1.5) / 4.4, 3, 0];
+    p.walk.jump({ eye: [0.5, 3, 1.5], gaze: [1, 0, -0.3] });
+    const found = [];
+    const quarter = glow instanceof Float32Array ? 0.25 : 0x3400;
+    for (const extinction of [0, quarter]) {
+      for (let i = 3; i < glow.length; i += 4) glow[i] = extinction;
+      p.light.changed();
+      p.light.update(performance.now());
+      surfaces.sum.fill(0);
+      await window.luxodus.settled();
+      const [x, y] = p.panels.labels.project(mirror, picture.camera);
+      found.push(picture.luminanceAt(x, y));
+    }
+    glow.set(before);
+    for (const sum of [surfaces, air]) sum.stained(true);
+    p.live.settle();
+    picture.gloss.kinds(p.live.scene.gloss);
+    picture.smoke.flames.uniforms.flameCount.value = flames.length;
+    picture.signs.object.visible = p.walk.solid = true;
+    p.light.changed();
+    return found;
+  }, glossyFloor(0));
+  const way = Math.hypot(4.7, 4.4);
+  const expected = Math.exp(-0.25 * way);
+  const ratio = seen[1] / seen[0];
+  assert.ok(Math.abs(ratio / expected - 1) < 0.03, `${ratio}, not ${expected}: ${seen}`);
 });
 
 test('the mean luminance follows a dimmed luminaire linearly', async () => {

@@ -281,6 +281,29 @@ export const flames = [
     colour: [9000, 3300, 600], cells: flameCells([10, 10, 18]) },
 ];
 
+const lampAcross_m = 0.3;
+const polar = 36;
+
+/** Lambertian: the density of directions by their cosine is 1 / pi below, and nothing above. */
+function lambertTable() {
+  const bytes = Buffer.alloc(2 * polar);
+  for (let i = 0; i < polar / 2; ++i) bytes.writeUInt16LE(65535, 2 * i);
+  return { peak: 1 / Math.PI, polar, azimuth: 1, values: bytes.toString('base64') };
+}
+export const lampTables = [lambertTable()];
+
+/** A disc that looks down at each luminaire. Along its axis it has the luminaire's intensity. */
+export const lampsOf = (state) => state.luminaires.map(({ name, position, group }) => ({
+  group, shape: 'disc', position, axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+  size: [lampAcross_m, lampAcross_m, 0], corners: [], table: 0, of_luminaire: false,
+  colour: (state.sources.find((s) => s.name === name) ?? sources[0]).colour
+    .map((x) => (4 * x) / lampAcross_m ** 2),
+}));
+
+/** A floor with a lobe of this roughness. */
+export const glossyFloor = (roughness) => [{ surface: surfaceNames.indexOf('floor'), back: false,
+  mirrored: [0.2, 0.2, 0.2], spread: 0.6, roughness }];
+
 export const observers = [
   { name: 'west, by the table', eye: [0.8, 2.2, 1.65], gaze: [5.7, 0.7, 0.35] },
   { name: 'east, at the door', eye: [7.2, 3.2, 1.65], gaze: [3.8, 1.0, 0.25] },

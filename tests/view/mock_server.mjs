@@ -57,6 +57,7 @@ export class MockServer {
     this.frames = null;
     this.seconds = null;
     this.relaid = false;
+    this.gloss = [];
   }
 
   async listen(port = 0) {
@@ -108,7 +109,9 @@ export class MockServer {
       scenario: state.scenario, smoke: state.smoke, seconds: this.seconds, low: room.low,
       high: room.high, relaid: this.relaid, groups,
       signs: state.signs, luminaires: state.luminaires, observers: room.observers,
-      cameras: room.cameras, voxels: room.voxels, flames: room.flames, editor: viewer !== null && viewer === this.editor,
+      cameras: room.cameras, voxels: room.voxels, flames: room.flames,
+      lamps: room.lampsOf(state), lamp_tables: room.lampTables, gloss: this.gloss,
+      editor: viewer !== null && viewer === this.editor,
     };
   }
 

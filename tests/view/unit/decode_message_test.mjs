@@ -5,6 +5,7 @@ import { decodeMessage, limits }
   from '../../../actors/view/page/src/protocol/decode_message.js';
 import { sizeOf } from '../../../actors/view/page/src/panel/traced.js';
 import { liveAddress } from '../../../actors/view/page/src/protocol/connection.js';
+import { glossyFloor } from '../mock_room.mjs';
 import { greyPng, MockServer } from '../mock_server.mjs';
 
 const scene = () => new MockServer().scene(null);
@@ -18,6 +19,14 @@ test('a scene is taken over field by field', () => {
   assert.equal(read(scene()).flames[0].cells.length, 10 * 10 * 18);
   assert.equal(editor, false);
   assert.ok(!('surprise' in read({ ...scene(), surprise: 1 })));
+});
+
+test('lamps come with tables of brightness, surfaces with their gloss', () => {
+  const { lamps, lampTables, gloss } = read({ ...scene(), gloss: glossyFloor(0.2) });
+  assert.deepEqual(lamps.map(({ shape, table }) => [shape, table]), Array(3).fill(['disc', 0]));
+  assert.deepEqual([...lampTables[0].values], [...Array(18).fill(65535), ...Array(18).fill(0)]);
+  assert.deepEqual(gloss, [{ surface: 0, back: false, mirrored: [0.2, 0.2, 0.2],
+    spread: 0.6, roughness: 0.2 }]);
 });
 
 test('a scene with a wrong part is refused, and the part named', () => {
@@ -37,6 +46,13 @@ test('a scene with a wrong part is refused, and the part named', () => {
   assert.throws(harmed((s) => (s.flames[0].count = [65, 1, 1])), named(/flames\[0\]\.count/));
   assert.throws(harmed((s) => (s.flames[0].size = [0, 1, 1])), named(/flames\[0\]\.size/));
   assert.throws(harmed((s) => (s.flames = Array(9).fill(s.flames[0]))), named(/9 flames/));
+  assert.throws(harmed((s) => (s.lamps[1].shape = 'cube')), named(/lamps\[1\]\.shape/));
+  assert.throws(harmed((s) => (s.lamps[2].table = 1)), named(/lamps\[2\]\.table/));
+  assert.throws(harmed((s) => (s.lamps[0].axes = [[1, 0, 0]])), named(/lamps\[0\]\.axes/));
+  assert.throws(harmed((s) => (s.lamp_tables[0].polar = 35)), named(/lamp_tables\[0\]\.values/));
+  const gloss = (change) => harmed((s) => (s.gloss = [{ ...glossyFloor(0.2)[0], ...change }]));
+  assert.throws(gloss({ roughness: 1.5 }), named(/gloss\[0\]\.roughness/));
+  assert.throws(gloss({ spread: 2 }), named(/gloss\[0\]\.spread/));
   assert.throws(harmed((s) => (s.voxels.count = [4000, 4000, 4000])), named(/voxels/));
   assert.throws(harmed((s) => delete s.low), named(/low/));
   assert.throws(harmed((s) => (s.luminaires[0] = null)), ProtocolError);

@@ -9,6 +9,7 @@ function display() {
     surfaces: { shine: () => (told.drawn += 1) },
     smoke: { shine: () => {}, flames: { shine: () => {} } },
     signs: { shine: () => {} },
+    lamps: { shine: () => {} },
     again: () => {},
   };
   const live = { scene: null, shown: null, settle: () => ++told.settled, setFactor: () => {} };

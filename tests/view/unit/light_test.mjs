@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { smokeSum, surfaceSum } from '../../../actors/view/page/src/light/sum.js';
-import { smooth, weld } from '../../../actors/view/page/src/light/weld.js';
+import { placesOf, smooth, weld } from '../../../actors/view/page/src/light/weld.js';
 import { atlasOf } from '../../../actors/view/page/src/draw/flames.js';
 import { toHalf } from '../../../actors/view/page/src/protocol/half.js';
 
@@ -89,6 +89,15 @@ test('triangles of one flat surface share their points', () => {
   assert.equal(points, 4);
   assert.equal(pointOf[0], pointOf[3]);
   assert.deepEqual([...area], [0.5, 0.5]);
+});
+
+test('points lie where their corners do', () => {
+  const welded = weld(square);
+  const places = placesOf(welded, square.corners);
+  assert.equal(places.length, 3 * 4);
+  welded.pointOf.forEach((point, i) => assert.deepEqual(
+    [...places.subarray(3 * point, 3 * point + 3)],
+    [...square.corners.subarray(3 * i, 3 * i + 3)]));
 });
 
 test('another surface or another plane keeps its own points', () => {

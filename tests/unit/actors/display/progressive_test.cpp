@@ -113,6 +113,35 @@ TEST_CASE("pictures that are interrupted keep the last whole pass", "[display]")
   check_file(folder / "views/view.exr", at_once(*run, 8));
 }
 
+TEST_CASE("what waits for first pictures is done once, before any picture is whole", "[display]") {
+  const TemporaryFolder folder;
+  const auto run = traced(smoky_room("1000"), 1 << 14);
+  PictureOptions options;
+  options.paths_per_pixel = 8;
+  options.progressive = true;
+  int calls = 0;
+  const auto rendered =
+      render_views(folder.path(), *run, "view", options, {}, [&]() -> Result<void> {
+        ++calls;
+        CHECK(std::filesystem::exists(folder / "views/view.png"));
+        CHECK_FALSE(std::filesystem::exists(folder / "views/view.exr"));
+        return {};
+      });
+  REQUIRE(rendered.ok());
+  CHECK(calls == 1);
+  check_file(folder / "views/view.exr", at_once(*run, 8));
+}
+
+TEST_CASE("what waits for first pictures and fails ends them", "[display]") {
+  const TemporaryFolder folder;
+  const auto run = traced(smoky_room("17"), 1 << 14);
+  const auto rendered = render_views(folder.path(), *run, "", {}, {},
+                                     [] { return Result<void>(problem("no space")); });
+  REQUIRE_FALSE(rendered.ok());
+  CHECK(rendered.problem().what == "no space");
+  CHECK_FALSE(std::filesystem::exists(folder / "views/view.exr"));
+}
+
 TEST_CASE("a picture that no machine has the memory for is refused with its camera", "[display]") {
   const auto described = described_text(smoky_room("16384"));
   SceneDescription scene = *described;

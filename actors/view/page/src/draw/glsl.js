@@ -4,7 +4,7 @@ import { luminanceWeights } from '../light/colours.js';
 
 const [wr, wg, wb] = luminanceWeights;
 
-const common = `
+export const common = `
 precision highp float;
 precision highp int;
 precision highp sampler2D;
@@ -13,7 +13,7 @@ float luminance(vec3 c) { return dot(c, vec3(${wr}, ${wg}, ${wb})); }
 `;
 
 /** A half has no room for more; nothing on a screen needs it. */
-const brightest = '60000.0';
+export const brightest = '60000.0';
 
 export const surfaceVertex = `${common}
 in vec3 position;
@@ -35,10 +35,10 @@ void main() {
 export const surfaceFragment = `${common}
 in vec3 front, back;
 in float height;
-uniform float cut;
+uniform float cut, above;
 out vec4 colour;
 void main() {
-  if (height > cut) discard;
+  if (height > cut || height < above) discard;
   vec3 c = gl_FrontFacing ? front : back;
   colour = vec4(clamp(c, 0.0, ${brightest}), 1.0);
 }`;
@@ -61,10 +61,10 @@ in vec2 at;
 in float height;
 uniform sampler2D shares;
 uniform vec3 white, green;
-uniform float cut;
+uniform float cut, above;
 out vec4 colour;
 void main() {
-  if (height > cut) discard;
+  if (height > cut || height < above) discard;
   vec2 share = texture(shares, at).rg;
   colour = vec4(clamp(share.r * white + share.g * green, 0.0, ${brightest}), 1.0);
 }`;
@@ -77,7 +77,7 @@ void main() {
   gl_Position = vec4(position.xy, 0.0, 1.0);
 }`;
 
-const depthTools = `
+export const depthTools = `
 uniform sampler2D depth;
 uniform mat4 clipToWorld;
 vec3 world(vec2 at, float d) {
@@ -95,7 +95,7 @@ export const smokeFragment = `${common}${depthTools}
 in vec2 at;
 uniform sampler3D glow, beam;
 uniform vec3 low, size;
-uniform float cut, shift;
+uniform float cut, above, shift;
 uniform int steps;
 const int flamesMost = 8;
 uniform sampler3D flameCells;
@@ -154,6 +154,12 @@ void main() {
   vec3 along = world(at, texture(depth, at).r) - from;
   float reach = length(along);
   vec3 direction = along / max(reach, 1e-6);
+  // The rays of an eye behind a mirror begin at the mirror.
+  if (from.z < above) {
+    float skipped = direction.z > 0.0 ? min((above - from.z) / direction.z, reach) : reach;
+    from += skipped * direction;
+    reach -= skipped;
+  }
   vec3 top = vec3(low.xy + size.xy, min(low.z + size.z, cut));
   vec3 inverse = 1.0 / mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
   vec2 air = within(from, inverse, low, top, reach);
@@ -186,43 +192,50 @@ void main() {
 }`;
 
 // Smoke is marched on a coarser raster; of its four neighbours those count that lie as deep as
-// this pixel does, so that no fog hangs over edges.
-export const composeFragment = `${common}
-in vec2 at;
-uniform sampler2D depth, surfaces, smoke, before;
+// this pixel does, so that no fog hangs over edges. Comes after `depthTools`.
+export const smokeTools = `
+uniform sampler2D smoke;
 uniform vec4 unproject;
-uniform float weight;
-uniform bool smoky;
-out vec4 colour;
-float far(vec2 p) {
-  float z = 2.0 * texture(depth, p).r - 1.0;
+float far(sampler2D depths, vec2 p) {
+  float z = 2.0 * texture(depths, p).r - 1.0;
   return -(unproject.x * z + unproject.y) / (unproject.z * z + unproject.w);
 }
-vec4 smokeHere() {
-  vec2 raster = vec2(textureSize(smoke, 0));
+vec4 smokeHere(vec2 at) {
+  ivec2 size = textureSize(smoke, 0);
+  vec2 raster = vec2(size);
   vec2 p = at * raster - 0.5;
   vec2 corner = floor(p);
   vec2 share = p - corner;
-  float here = far(at);
+  float here = far(depth, at);
   vec4 sum = vec4(0.0);
   float weights = 0.0;
   for (int i = 0; i < 4; ++i) {
     vec2 o = vec2(i & 1, i >> 1);
+    ivec2 cell = clamp(ivec2(corner + o), ivec2(0), size - 1);
     vec2 q = (corner + o + 0.5) / raster;
     vec2 s = mix(1.0 - share, share, o);
-    float w = (s.x * s.y + 1e-4) / (0.02 + abs(far(q) - here) / (1.0 + here));
-    sum += w * texture(smoke, q);
+    float w = (s.x * s.y + 1e-4) / (0.02 + abs(far(depth, q) - here) / (1.0 + here));
+    sum += w * texelFetch(smoke, cell, 0);
     weights += w;
   }
   return sum / weights;
 }
+`;
+
+export const composeFragment = `${common}${depthTools}${smokeTools}
+in vec2 at;
+uniform sampler2D surfaces, before;
+uniform float weight;
+uniform bool smoky;
+out vec4 colour;
 void main() {
-  vec3 c = texture(surfaces, at).rgb;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec3 c = texelFetch(surfaces, pixel, 0).rgb;
   if (smoky) {
-    vec4 s = smokeHere();
+    vec4 s = smokeHere(at);
     c = c * s.a + s.rgb;
   }
-  vec3 old = weight < 1.0 ? texture(before, at).rgb : vec3(0.0);
+  vec3 old = weight < 1.0 ? texelFetch(before, pixel, 0).rgb : vec3(0.0);
   colour = vec4(mix(old, c, weight), luminance(c) > 1e-5 ? 1.0 : 0.0);
 }`;
 
@@ -232,11 +245,10 @@ in vec2 at;
 uniform sampler2D picture;
 out vec4 colour;
 void main() {
-  vec2 texel = 1.0 / vec2(textureSize(picture, 0));
   vec2 cell = 1.0 / vec2(32.0);
   vec2 sum = vec2(0.0);
-  for (int i = 0; i < 64; ++i) {
-    vec2 o = (vec2(i & 7, i >> 3) + 0.5) / 8.0 - 0.5;
+  for (int i = 0; i < 16; ++i) {
+    vec2 o = (vec2(i & 3, i >> 2) + 0.5) / 4.0 - 0.5;
     float y = luminance(texture(picture, at + o * cell).rgb);
     if (y > 1e-5) sum += vec2(log2(y), 1.0);
   }
@@ -294,7 +306,7 @@ float grain(vec2 p) {
   return fract(52.9829189 * fract(dot(p + seed, vec2(0.06711056, 0.00583715)))) - 0.5;
 }
 void main() {
-  vec3 c = max(texture(picture, at).rgb, 0.0);
+  vec3 c = max(texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb, 0.0);
   vec3 shown;
   if (mode == 2) shown = falseColour(luminance(c));
   else if (mode == 1) shown = encode(knee(eyeSees(c) * scale));
@@ -302,13 +314,6 @@ void main() {
   shown = mix(shown, vec3(0.35 * dot(shown, vec3(0.3, 0.6, 0.1)) + 0.06), 0.75 * fade);
   colour = vec4(shown + grain(gl_FragCoord.xy) / 255.0, 1.0);
 }`;
-
-/** Bytes of a coarser raster on the screen. */
-export const screenFragment = `${common}
-in vec2 at;
-uniform sampler2D bytes;
-out vec4 colour;
-void main() { colour = texture(bytes, at); }`;
 
 export const markVertex = `
 precision highp float;

@@ -63,8 +63,8 @@ export class LightDisplay {
     const weights = new Map((live.scene?.groups ?? []).map((g) => [g.name, weightOf(g)]));
     picture.surfaces.shine(live.shown?.surfaces ?? null);
     picture.smoke.shine(live.shown?.air ?? null);
-    picture.signs.shine((name) => weights.get(name) ?? 1);
-    picture.smoke.flames.shine((name) => weights.get(name) ?? 1);
+    for (const shining of [picture.signs, picture.lamps, picture.smoke.flames])
+      shining.shine((name) => weights.get(name) ?? 1);
     picture.again();
   }
 }

@@ -4,8 +4,9 @@ import * as THREE from 'three';
 import { scaleTexels } from '../light/colours.js';
 import { halfValues } from '../protocol/half.js';
 import { Exposure, renditions, whitePoint } from './exposure.js';
-import { composeFragment, meterFragment, screenFragment, screenVertex, toneFragment }
-  from './glsl.js';
+import { composeFragment, meterFragment, screenVertex, toneFragment } from './glsl.js';
+import { Gloss, nothingBelow } from './gloss.js';
+import { Lamps } from './lamps.js';
 import { Marks } from './marks.js';
 import { Signs } from './signs.js';
 import { Smoke, smokePaces } from './smoke.js';
@@ -16,6 +17,8 @@ const pictures = { least: 6, most: 24, seconds: 4 };
 const meterCells = 32;
 const nothingCut = 1e9;
 const ratioMost = 2;
+/** Size of marks on the screen [px]. */
+const markAcross = 13;
 /** The raster becomes coarser until a picture takes no longer than this. */
 const slowest_ms = { moving: 45, still: 300 };
 const coarsest = { moving: 0.2, still: 0.4 };
@@ -59,6 +62,7 @@ export class Picture {
     this.exposure = new Exposure();
     this.fade = { now: 0, wanted: 0 };
     this.share = 1;
+    this.size = [1, 1];
     this.shares = { moving: 1, still: 1 };
     this.learns = true;
     this.added = 0;
@@ -72,26 +76,31 @@ export class Picture {
       surfaces: target({ depthBuffer: true, depthTexture: depth }),
       smoke: target(),
       sums: [target(), target()],
-      bytes: target({ type: THREE.UnsignedByteType }),
       meter: target({ type: THREE.FloatType, minFilter: THREE.NearestFilter }),
     };
     this.targets.meter.setSize(meterCells, meterCells);
     this.shared = {
       depth: { value: depth },
       clipToWorld: { value: new THREE.Matrix4() },
+      unproject: { value: new THREE.Vector4() },
       cut: { value: nothingCut },
+      above: { value: nothingBelow },
     };
   }
 
   makePasses() {
     const { shared } = this;
-    this.surfaces = new Surfaces();
-    this.surfaces.material.uniforms.cut = shared.cut;
-    this.signs = new Signs(shared.cut);
-    this.smoke = new Smoke(shared);
+    this.surfaces = new Surfaces(shared);
+    this.signs = new Signs(shared);
+    this.lamps = new Lamps(shared);
+    this.gloss = new Gloss(shared, { target, screenPass });
+    const floats = this.renderer.extensions.has('OES_texture_float_linear');
+    this.smoke = new Smoke(shared, floats);
     this.marks = new Marks(shared.depth);
     this.world = new THREE.Scene();
-    this.world.add(this.surfaces.mesh, this.signs.object);
+    this.world.add(this.surfaces.mesh);
+    this.shining = new THREE.Scene();
+    this.shining.add(this.gloss.object, this.signs.object, this.lamps.object);
     this.compose = screenPass(composeFragment, {
       ...shared,
       surfaces: { value: this.targets.surfaces.texture },
@@ -99,7 +108,6 @@ export class Picture {
       before: { value: null },
       weight: { value: 1 },
       smoky: { value: false },
-      unproject: { value: new THREE.Vector4() },
     });
     this.meterPass = screenPass(meterFragment, { picture: { value: null } });
     const colours = new THREE.DataTexture(scaleTexels(), 256, 1);
@@ -114,7 +122,6 @@ export class Picture {
       fade: { value: 0 },
       seed: { value: 0 },
     });
-    this.screen = screenPass(screenFragment, { bytes: { value: this.targets.bytes.texture } });
     const triangle = new THREE.BufferGeometry();
     const corners = new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]);
     triangle.setAttribute('position', new THREE.BufferAttribute(corners, 3));
@@ -133,18 +140,20 @@ export class Picture {
   }
 
   resize(width, height) {
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, ratioMost));
-    this.renderer.setSize(width, height, false);
+    this.size = [width, height];
     this.layTargets();
   }
 
+  /**
+   * A coarse raster is that of the canvas, too, which the browser enlarges: without a graphics card
+   * it takes longer to bring a fine canvas to the screen than to draw the picture.
+   */
   layTargets() {
-    const [width, height] = this.renderer.getDrawingBufferSize(new THREE.Vector2()).toArray()
-      .map((n) => Math.max(1, Math.round(n * this.share)));
-    this.width = width;
-    this.height = height;
-    const { surfaces, sums, bytes } = this.targets;
-    for (const t of [surfaces, ...sums, bytes]) t.setSize(width, height);
+    const { renderer, targets, share } = this;
+    const ratio = Math.min(window.devicePixelRatio, ratioMost) * share;
+    renderer.setSize(...this.size.map((n) => Math.max(1, Math.round(n * ratio))), false);
+    [this.width, this.height] = renderer.getDrawingBufferSize(new THREE.Vector2()).toArray();
+    for (const t of [targets.surfaces, ...targets.sums]) t.setSize(this.width, this.height);
     this.again();
   }
 
@@ -172,6 +181,7 @@ export class Picture {
     camera.updateMatrixWorld();
     this.camera = camera;
     this.shared.cut.value = cut ?? nothingCut;
+    this.gloss.look(view.span || this.shared.cut.value < nothingCut ? null : view, aspect);
     this.marks.walls.visible = Boolean(view.span);
     this.marks.backdrops.group.visible = Boolean(view.span);
     this.again();
@@ -228,21 +238,10 @@ export class Picture {
     const shift = [0.5 - radicalInverse(n + 1, 2), 0.5 - radicalInverse(n + 1, 3)];
     const { width, height, camera, targets } = this;
     camera.setViewOffset(width, height, n ? shift[0] : 0, n ? shift[1] : 0, width, height);
-    this.shared.clipToWorld.value
-      .copy(camera.matrixWorld).multiply(camera.projectionMatrixInverse);
-    const inverse = camera.projectionMatrixInverse.elements;
-    this.compose.uniforms.unproject.value
-      .set(inverse[10], inverse[14], inverse[11], inverse[15]);
-    this.renderer.setRenderTarget(targets.surfaces);
-    this.renderer.clear();
-    this.renderer.render(this.world, camera);
-    if (this.smoke.present) {
-      const { steps, coarser } = this.smokePace(moving);
-      targets.smoke.setSize(Math.ceil(width / coarser), Math.ceil(height / coarser));
-      this.smoke.material.uniforms.steps.value = steps;
-      this.smoke.material.uniforms.shift.value = (0.618034 * n) % 1;
-      this.pass(this.smoke.material, targets.smoke);
-    }
+    this.drawSurfaces(camera, targets.surfaces);
+    if (this.gloss.draw(this, camera, n, moving)) this.aim(camera);
+    this.drawShining(camera, targets.surfaces);
+    this.drawSmoke(targets.smoke, this.smokePace(moving), n);
     const uniforms = this.compose.uniforms;
     uniforms.smoky.value = this.smoke.present;
     uniforms.before.value = targets.sums[1].texture;
@@ -250,6 +249,37 @@ export class Picture {
     this.pass(this.compose, targets.sums[0]);
     targets.sums.reverse();
     if (n === 0 || n === pictures.least - 1) this.meter();
+  }
+
+  /** Passes over the screen know the camera that has drawn what they read. */
+  aim(camera) {
+    const { clipToWorld, unproject } = this.shared;
+    clipToWorld.value.copy(camera.matrixWorld).multiply(camera.projectionMatrixInverse);
+    const inverse = camera.projectionMatrixInverse.elements;
+    unproject.value.set(inverse[10], inverse[14], inverse[11], inverse[15]);
+  }
+
+  drawSurfaces(camera, to) {
+    this.aim(camera);
+    this.renderer.setRenderTarget(to);
+    this.renderer.clear();
+    this.renderer.render(this.world, camera);
+  }
+
+  /** What glossy floors mirror, and the faces of signs and lamps: they are added to surfaces. */
+  drawShining(camera, to) {
+    this.renderer.setRenderTarget(to);
+    this.renderer.render(this.shining, camera);
+  }
+
+  /** Smoke before what was drawn last, on a raster that is coarser than the picture's. */
+  drawSmoke(to, { steps, coarser }, n) {
+    if (!this.smoke.present) return;
+    to.setSize(Math.ceil(this.width / coarser), Math.ceil(this.height / coarser));
+    const { uniforms } = this.smoke.material;
+    uniforms.steps.value = steps;
+    uniforms.shift.value = (0.618034 * n) % 1;
+    this.pass(this.smoke.material, to);
   }
 
   /** A machine that needs a coarse raster is spared steps and pixels of smoke, too. */
@@ -305,16 +335,10 @@ export class Picture {
     uniforms.scale.value = this.exposure.scale;
     uniforms.fade.value = this.fade.now;
     uniforms.seed.value = (this.added * 17.3) % 97;
-    // Exposed on its own raster: on a coarse one that takes a part of the time.
-    if (this.share < 1) {
-      this.pass(this.tone, this.targets.bytes);
-      this.pass(this.screen, null);
-    } else {
-      this.pass(this.tone, null);
-    }
+    this.pass(this.tone, null);
     this.camera.clearViewOffset();
     this.renderer.getDrawingBufferSize(this.marks.points.material.uniforms.raster.value);
-    this.marks.points.material.uniforms.size.value = 13 * this.renderer.getPixelRatio();
+    this.marks.points.material.uniforms.size.value = (markAcross * this.height) / this.size[1];
     this.renderer.render(this.marks.scene, this.camera);
   }
 

@@ -8,15 +8,19 @@ export class SceneBuilding {
     Object.assign(this, { picture, live, walk });
   }
 
-  scene({ signs, flames }) {
+  scene({ signs, flames, lamps, lampTables, gloss }) {
     this.picture.signs.build(signs);
+    this.picture.lamps.build(lamps, lampTables);
+    this.picture.gloss.kinds(gloss);
     this.picture.smoke.flames.build(flames);
     this.placeMarks();
   }
 
   geometry(geometry) {
     this.picture.surfaces.build(geometry);
-    this.walk.enter(new Building(geometry));
+    const building = new Building(geometry);
+    this.picture.gloss.build(building, geometry);
+    this.walk.enter(building);
   }
 
   smoke({ scene, smoke }) {

@@ -3,6 +3,7 @@
 import * as THREE from 'three';
 import { add, cross, scale, unit } from '../walk/vectors.js';
 import { signFragment, signVertex } from './glsl.js';
+import { drawnAfter } from './surfaces.js';
 
 const beforeWall_m = 0.004;
 const marks = { white: 0, green: 1 };
@@ -47,8 +48,9 @@ function quadOf(corners) {
 }
 
 export class Signs {
-  constructor(cut) {
-    this.cut = cut;
+  /** `cut` and `above`: heights that bound what is drawn. */
+  constructor({ cut, above }) {
+    this.shared = { cut, above };
     this.object = new THREE.Group();
     this.signs = [];
   }
@@ -80,12 +82,13 @@ export class Signs {
         shares: { value: sharesOf(sign) },
         white: { value: new THREE.Vector3() },
         green: { value: new THREE.Vector3() },
-        cut: this.cut,
+        ...this.shared,
       },
     });
     for (const turned of sign.doubleSided ? [false, true] : [false]) {
       const mesh = new THREE.Mesh(quadOf(faceOf(sign, turned)), material);
       mesh.userData.sign = sign;
+      mesh.renderOrder = drawnAfter.floors;
       this.object.add(mesh);
     }
   }

@@ -1,7 +1,7 @@
 // Smoke as two 3D textures: what it sends out on the mean over directions, and how much it takes
 // away; along which way the light goes that it scatters, and how much it scatters onwards.
 import * as THREE from 'three';
-import { toHalf } from '../protocol/half.js';
+import { halfValues, toHalf } from '../protocol/half.js';
 import { Flames } from './flames.js';
 import { screenVertex, smokeFragment } from './glsl.js';
 
@@ -15,10 +15,13 @@ export const smokePaces = {
   still: { steps: 32, coarser: 2 },
 };
 
+/** Up to so many voxels, textures are of floats: they take twice the memory. */
+const floatsMost = 1 << 20;
+
 function volume([nx, ny, nz], data) {
   const texture = new THREE.Data3DTexture(data, nx, ny, nz);
   texture.format = THREE.RGBAFormat;
-  texture.type = THREE.HalfFloatType;
+  texture.type = data instanceof Float32Array ? THREE.FloatType : THREE.HalfFloatType;
   texture.minFilter = texture.magFilter = THREE.LinearFilter;
   texture.unpackAlignment = 1;
   texture.needsUpdate = true;
@@ -28,8 +31,10 @@ function volume([nx, ny, nz], data) {
 const none = () => volume([1, 1, 1], new Uint16Array(4));
 
 export class Smoke {
-  constructor(shared) {
+  /** `floats`: textures of floats can be interpolated. Software reads them in half the time. */
+  constructor(shared, floats = false) {
     this.present = false;
+    this.floats = floats;
     this.flames = new Flames();
     this.material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
@@ -62,11 +67,14 @@ export class Smoke {
   build(voxels, smoke, most) {
     this.present = Boolean(voxels && smoke && Math.max(...voxels.count) <= most);
     if (!this.present) return !voxels || !smoke;
-    this.texels = { glow: new Uint16Array(2 * smoke.length), beam: new Uint16Array(2 * smoke.length) };
+    const asFloats = this.floats && voxels.total <= floatsMost;
+    const Texels = asFloats ? Float32Array : Uint16Array;
+    this.texels = { glow: new Texels(2 * smoke.length), beam: new Texels(2 * smoke.length) };
     const { glow, beam } = this.texels;
+    const texel = asFloats ? (half) => halfValues[half] : (half) => half;
     for (let from = 0, to = 3; from < smoke.length; from += 2, to += 4) {
-      glow[to] = smoke[from];
-      beam[to] = smoke[from + 1];
+      glow[to] = texel(smoke[from]);
+      beam[to] = texel(smoke[from + 1]);
     }
     this.replace('glow', volume(voxels.count, glow));
     this.replace('beam', volume(voxels.count, beam));
@@ -80,10 +88,11 @@ export class Smoke {
     if (!this.present) return;
     const { glow, beam } = this.texels;
     const sum = light && 4 * light.cells === glow.length ? light.sum : null;
+    const texel = glow instanceof Float32Array ? (x) => x : toHalf;
     for (let to = 0; to < glow.length; to += 4)
       for (let k = 0; k < 3; ++k) {
-        glow[to + k] = sum ? toHalf(sum[2 * to + k]) : 0;
-        beam[to + k] = sum ? toHalf(sum[2 * to + 4 + k]) : 0;
+        glow[to + k] = sum ? texel(sum[2 * to + k]) : 0;
+        beam[to + k] = sum ? texel(sum[2 * to + 4 + k]) : 0;
       }
     this.material.uniforms.glow.value.needsUpdate = true;
     this.material.uniforms.beam.value.needsUpdate = true;

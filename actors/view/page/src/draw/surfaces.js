@@ -1,10 +1,13 @@
 // The building's triangles. Their light lies in a texture, two texels (front, back) for each
 // triangle or, drawn smoothly, for each welded point; dimming writes the texture and nothing else.
 import * as THREE from 'three';
-import { smooth, weld } from '../light/weld.js';
+import { placesOf, smooth, weld } from '../light/weld.js';
 import { surfaceFragment, surfaceVertex } from './glsl.js';
 
 const texelsAcross = 2048;
+
+/** Order in which three.js draws: floors that mirror before what shines by itself is added. */
+export const drawnAfter = { surfaces: 1, floors: 2 };
 
 function lightTexture(cells) {
   const rows = Math.max(1, Math.ceil((2 * cells) / texelsAcross));
@@ -13,13 +16,14 @@ function lightTexture(cells) {
 }
 
 export class Surfaces {
-  constructor() {
+  /** `cut` and `above`: heights that bound what is drawn. */
+  constructor({ cut, above }) {
     this.material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
       vertexShader: surfaceVertex,
       fragmentShader: surfaceFragment,
       side: THREE.DoubleSide,
-      uniforms: { light: { value: lightTexture(1) }, cut: { value: Infinity } },
+      uniforms: { light: { value: lightTexture(1) }, cut, above },
     });
     this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), this.material);
     this.mesh.frustumCulled = false;
@@ -39,15 +43,23 @@ export class Surfaces {
 
   layOut() {
     const { triangles, corners } = this.source;
-    const texel = this.smooth
-      ? this.welded.pointOf
-      : Uint32Array.from({ length: 3 * triangles }, (_, i) => (i / 3) | 0);
+    const { pointOf, points } = this.welded;
+    const cells = this.smooth ? points : triangles;
+    const geometry = new THREE.BufferGeometry();
+    const set = (name, values, size) =>
+      geometry.setAttribute(name, new THREE.BufferAttribute(values, size));
+    if (this.smooth) {
+      // Six triangles share most points, so most work on vertices is done once.
+      set('position', placesOf(this.welded, corners), 3);
+      set('texel', Uint32Array.from({ length: points }, (_, i) => i), 1);
+      geometry.setIndex(new THREE.BufferAttribute(pointOf, 1));
+    } else {
+      set('position', corners, 3);
+      set('texel', Uint32Array.from({ length: 3 * triangles }, (_, i) => (i / 3) | 0), 1);
+    }
     this.mesh.geometry.dispose();
-    this.mesh.geometry = new THREE.BufferGeometry();
-    this.mesh.geometry.setAttribute('position', new THREE.BufferAttribute(corners, 3));
-    this.mesh.geometry.setAttribute('texel', new THREE.BufferAttribute(texel, 1));
+    this.mesh.geometry = geometry;
     this.material.uniforms.light.value.dispose();
-    const cells = this.smooth ? this.welded.points : triangles;
     this.material.uniforms.light.value = lightTexture(cells);
   }
 

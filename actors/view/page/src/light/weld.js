@@ -76,6 +76,14 @@ function weights(pointOf, area, points) {
   return weight.map((sum) => (sum > 0 ? 1 / sum : 0));
 }
 
+/** Where points are, three numbers each: as exactly as the last of the corners there says. */
+export function placesOf({ pointOf, points }, corners) {
+  const places = new Float32Array(3 * points);
+  for (let i = 0; i < pointOf.length; ++i)
+    for (let k = 0; k < 3; ++k) places[3 * pointOf[i] + k] = corners[3 * i + k];
+  return places;
+}
+
 /** Light of points from light of triangles, by area; both eight numbers each. */
 export function smooth(sum, { pointOf, area, points, weight }, out) {
   out.fill(0, 0, 8 * points);

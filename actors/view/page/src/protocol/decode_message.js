@@ -11,6 +11,7 @@ export const limits = {
   pngCharacters: 1 << 23,
   flames: 8,
   flameCells: 64,
+  tableCells: 1 << 16,
 };
 
 function fail(path, what) {
@@ -134,6 +135,59 @@ function flames(value, path) {
   return all.length <= limits.flames ? all : fail(path, `${all.length} flames`);
 }
 
+/** Two bytes each, the lower one first. */
+function wordsOf(value, path, count) {
+  const bytes = texelsOf(value, path, 2 * count, 1);
+  return Uint16Array.from({ length: count }, (_, i) => bytes[2 * i] | (bytes[2 * i + 1] << 8));
+}
+
+function lampTable(value, path) {
+  const t = record(value, path);
+  const polar = whole(t.polar, `${path}.polar`, 1, 4096);
+  const azimuth = whole(t.azimuth, `${path}.azimuth`, 1, 4096);
+  if (polar * azimuth > limits.tableCells) fail(path, 'too many directions');
+  return {
+    peak: number(t.peak, `${path}.peak`, 0, 1e9),
+    polar,
+    azimuth,
+    values: wordsOf(t.values, `${path}.values`, polar * azimuth),
+  };
+}
+
+function axes(value, path) {
+  if (!Array.isArray(value) || value.length !== 3) fail(path, 'not three directions');
+  return value.map((axis, i) => triple(axis, `${path}[${i}]`, -1.001, 1.001));
+}
+
+const lampShapes = ['rectangle', 'disc', 'sphere', 'tube', 'mesh'];
+
+const lamp = (l, path) => ({
+  group: text(l.group, `${path}.group`),
+  shape: oneOf(l.shape, `${path}.shape`, lampShapes),
+  position: place(l.position, `${path}.position`),
+  axes: axes(l.axes, `${path}.axes`),
+  size: triple(l.size, `${path}.size`, 0, 1e4),
+  corners: list(l.corners ?? [], `${path}.corners`, place),
+  colour: colour(l.colour, `${path}.colour`),
+  table: whole(l.table, `${path}.table`, 0, limits.listed),
+  ofLuminaire: l.of_luminaire === true,
+});
+
+/** Lamps, each with a table that is there. */
+function lamps(value, path, tables) {
+  const all = list(value, path, lamp);
+  all.forEach(({ table }, i) => table < tables || fail(`${path}[${i}].table`, 'no such table'));
+  return all;
+}
+
+const glossy = (g, path) => ({
+  surface: whole(g.surface, `${path}.surface`, 0, 0xffffffff),
+  back: g.back === true,
+  mirrored: triple(g.mirrored, `${path}.mirrored`, 0, 1),
+  spread: number(g.spread, `${path}.spread`, 0, 1),
+  roughness: number(g.roughness, `${path}.roughness`, 0, 1),
+});
+
 const group = (g, path) => ({
   name: text(g.name, `${path}.name`),
   kind: oneOf(g.kind, `${path}.kind`, ['luminaire', 'sign', 'flame']),
@@ -212,6 +266,9 @@ const readers = {
     cameras: list(m.cameras ?? [], 'cameras', camera),
     voxels: voxelsOf(m.voxels, 'voxels'),
     flames: flames(m.flames ?? [], 'flames'),
+    lamps: lamps(m.lamps ?? [], 'lamps', (m.lamp_tables ?? []).length),
+    lampTables: list(m.lamp_tables ?? [], 'lamp_tables', lampTable),
+    gloss: list(m.gloss ?? [], 'gloss', glossy),
     editor: m.editor === true,
   }),
   progress: (m) => ({

@@ -1,0 +1,87 @@
+// Level glossy floors: where they are, and the eye behind one of them. Pure.
+import { add, dot, length, subtract, unit } from '../walk/vectors.js';
+
+/** A floor is level where its normal is off the vertical by less than this. */
+const levelMost = 1e-3;
+const perMetre = 1000;
+/** Nearer patches count as if they lay so far away. */
+const nearest_m = 0.5;
+/** What is looked for over a floor: from its own rounding up to the height of any room [m]. */
+const leastOver_m = 1e-3;
+const highest_m = 100;
+
+/** Twice a triangle's area, along its normal. */
+function doubleArea(c, k) {
+  const [ux, uy, uz] = [c[k + 3] - c[k], c[k + 4] - c[k + 1], c[k + 5] - c[k + 2]];
+  const [vx, vy, vz] = [c[k + 6] - c[k], c[k + 7] - c[k + 1], c[k + 8] - c[k + 2]];
+  return [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+}
+
+/** Whether a floor's back, seen from above, is inside a body: then a back is over it, too. */
+function isInside(middle, building) {
+  const over = building.ahead(add(middle, [0, 0, leastOver_m]), [0, 0, 1], highest_m);
+  return over !== null && building.normal(over.triangle)[2] > 0;
+}
+
+/**
+ * The glossy floors of a building by their height: `parts`, the corners of each kind of gloss;
+ * `patches`, a middle and an area for each triangle.
+ */
+export function levelsOf(building, surfaces, gloss) {
+  if (!gloss.length) return [];
+  const { triangles, corners } = building;
+  const kinds = new Map(gloss.map((one) => [`${one.surface} ${one.back}`, one]));
+  const levels = new Map();
+  for (let t = 0; t < triangles; ++t) {
+    const k = 9 * t;
+    const [x, y, z] = doubleArea(corners, k);
+    const size = Math.hypot(x, y, z);
+    if (!(size > 0) || Math.hypot(x, y) > levelMost * size) continue;
+    const kind = kinds.get(`${surfaces[t]} ${z < 0}`);
+    if (!kind) continue;
+    const middle = [k, k + 1, k + 2].map((a) => (corners[a] + corners[a + 3] + corners[a + 6]) / 3);
+    if (kind.back && isInside(middle, building)) continue;
+    const key = Math.round(corners[k + 2] * perMetre);
+    if (!levels.has(key))
+      levels.set(key, { height: corners[k + 2], parts: new Map(), patches: [] });
+    const level = levels.get(key);
+    if (!level.parts.has(kind)) level.parts.set(kind, []);
+    level.parts.get(kind).push(...corners.subarray(k, k + 9));
+    level.patches.push({ middle, area: size / 2 });
+  }
+  return [...levels.values()];
+}
+
+/** About the solid angle that a level fills in a view, walls left out of account. */
+export function seenOf({ height, patches }, { eye, target, fov }, aspect) {
+  if (eye[2] <= height) return 0;
+  const ahead = unit(subtract(target, eye));
+  const up = Math.tan((fov * Math.PI) / 360);
+  const least = 1 / Math.hypot(1, up, up * aspect);
+  let sum = 0;
+  for (const { middle, area } of patches) {
+    const to = subtract(middle, eye);
+    const far = length(to);
+    // A patch whose middle is outside may reach into the view.
+    if (dot(to, ahead) < least * far - Math.sqrt(area)) continue;
+    sum += (area * (eye[2] - height)) / Math.max(far, nearest_m) ** 3;
+  }
+  return sum;
+}
+
+/** The level that fills most of a view, or null. */
+export function levelIn(levels, view, aspect) {
+  let best = null;
+  let most = 0;
+  for (const level of levels) {
+    const seen = seenOf(level, view, aspect);
+    if (seen > most) [best, most] = [level, seen];
+  }
+  return best;
+}
+
+/** The view of the eye behind a level mirror. Its picture has left and right exchanged. */
+export function mirrored({ eye, target, up, fov }, height) {
+  const below = ([x, y, z]) => [x, y, 2 * height - z];
+  return { eye: below(eye), target: below(target), up: [up[0], up[1], -up[2]], fov };
+}
