@@ -172,7 +172,11 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
       return ok.problem();
   print_design(*scene, result.value());
   print_because(*scene, result.value());
-  if (result->smoke) print_smoke(result.value());
+  const bool in_smoke = !o.design.in_smoke.empty() || !scene->design->in_smoke.empty();
+  if (result->smoke)
+    print_smoke(result.value());
+  else if (in_smoke && !interrupt_flag())
+    log_warning("no layout was judged in smoke before --smoke-time was over");
   for (const char* file : {"design.html", "design.pdf", "layout.toml"})
     if (o.pdf || std::string_view(file) != "design.pdf")
       std::printf("written to %s\n", (out->named() / file).string().c_str());

@@ -1,7 +1,5 @@
 #include "actors/design/layout_heats.hpp"
 
-#include <algorithm>
-
 #include "actors/design/smoke_stage.hpp"
 #include "scenes/emergency/way.hpp"
 
@@ -9,9 +7,10 @@ namespace luxodus {
 
 namespace {
 
-/// Up to so many luminaires for each layout paths are shared: each path then chooses among them
-/// all, and few of its choices are any one layout's (docs/performance/placement.md).
-constexpr size_t luminaires_of_each = 12;
+/// Luminaires that only some layouts of a heat have, at most. Of more than 256 emitters paths
+/// choose by power alone (limits::nearby_emitters), and those of one layout are seldom near: what
+/// is left of that is for the building's own.
+constexpr size_t varying_luminaires = 200;
 
 size_t views_of(const SceneDescription& scene) {
   size_t places = 0;
@@ -29,10 +28,23 @@ Heat heat_of(const std::vector<JudgedLayout>& layouts, std::vector<size_t> membe
 }
 
 bool pays(const Heat& heat) {
-  const size_t layouts = heat.members.size();
-  return layouts > 1 && heat.lights->can_add() &&
-         heat.lights->emitters() <= luminaires_of_each * layouts &&
-         layouts * views_of(*heat.base) <= limits::heat_views;
+  return heat.lights->can_add() && heat.lights->varying() <= varying_luminaires &&
+         heat.members.size() * views_of(*heat.base) <= limits::heat_views;
+}
+
+/// The layout joins the first heat of its kind where paths can be shared; else it has a new one.
+void join(const std::vector<JudgedLayout>& layouts, size_t layout, std::vector<Heat>& heats) {
+  for (Heat& heat : heats) {
+    if (layouts[heat.members.front()].low_signs.size() != layouts[layout].low_signs.size())
+      continue;
+    std::vector<size_t> members = heat.members;
+    members.push_back(layout);
+    Heat larger = heat_of(layouts, std::move(members));
+    if (!pays(larger)) continue;
+    heat = std::move(larger);
+    return;
+  }
+  heats.push_back(heat_of(layouts, {layout}));
 }
 
 }  // namespace
@@ -50,15 +62,11 @@ Result<std::unique_ptr<HeatState>> HeatState::make(const LayoutLights& lights,
 }
 
 std::vector<Heat> heats_of(const std::vector<JudgedLayout>& layouts, bool together) {
-  std::vector<size_t> kin;
-  for (size_t i = 0; i < layouts.size(); ++i)
-    if (layouts[i].low_signs.size() == layouts.front().low_signs.size()) kin.push_back(i);
   std::vector<Heat> out;
-  if (together) out.push_back(heat_of(layouts, kin));
-  const bool shared = together && pays(out.front());
-  if (!shared) out.clear();
   for (size_t i = 0; i < layouts.size(); ++i)
-    if (!shared || std::find(kin.begin(), kin.end(), i) == kin.end())
+    if (together)
+      join(layouts, i, out);
+    else
       out.push_back(heat_of(layouts, {i}));
   return out;
 }

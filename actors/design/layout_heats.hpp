@@ -47,8 +47,9 @@ struct Heat {
   std::unique_ptr<LayoutLights> lights;          // of the members
 };
 
-/// Which layouts share their paths: those with the signs of the first, or the same but brighter,
-/// where that pays; each other one has its own. `together`: false for each by itself.
+/// Which layouts share their paths: those with the same signs, or the same but brighter, whose
+/// light can be added and does not come from too many luminaires. `together`: false for each by
+/// itself.
 std::vector<Heat> heats_of(const std::vector<JudgedLayout>& layouts, bool together);
 
 }  // namespace luxodus

@@ -48,11 +48,19 @@ LayoutLights::LayoutLights(const std::vector<LayoutLight>& layouts) {
   }
 }
 
+bool LayoutLights::varies(size_t emitter) const {
+  return std::find(has_[emitter].begin(), has_[emitter].end(), false) != has_[emitter].end();
+}
+
+size_t LayoutLights::varying() const {
+  size_t count = 0;
+  for (size_t i = 0; i < emitters_.size(); ++i) count += varies(i);
+  return count;
+}
+
 bool LayoutLights::can_add() const {
   for (size_t i = 0; i < emitters_.size(); ++i)
-    if (!emitters_[i].body_material.empty() &&
-        std::find(has_[i].begin(), has_[i].end(), false) != has_[i].end())
-      return false;
+    if (!emitters_[i].body_material.empty() && varies(i)) return false;
   return true;
 }
 

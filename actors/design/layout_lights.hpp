@@ -27,6 +27,8 @@ class LayoutLights {
 
   size_t layouts() const { return sign_factors_.size(); }
   size_t emitters() const { return emitters_.size(); }
+  /// Of these, those that some layouts have and others have not.
+  size_t varying() const;
   /// Whether light can be added: no layout has a luminaire with a body, which would stand in the
   /// way of others' light, that another one has not.
   bool can_add() const;
@@ -37,6 +39,8 @@ class LayoutLights {
                              const OtherSmoke& smoke) const;
 
  private:
+  bool varies(size_t emitter) const;
+
   std::vector<Emitter> emitters_;       // of all layouts
   std::vector<std::vector<bool>> has_;  // of each emitter: which layouts have it
   std::vector<double> sign_factors_;    // of each layout

@@ -82,7 +82,7 @@ struct SmokeStageOptions {
   std::vector<std::string> scenarios;
   uint64_t seed = 1;
   int threads = 1;
-  int rounds = 3;        // of paths at most, each of four times as many
+  int rounds = 4;        // of paths at most, each of four times as many
   double seconds = 600;  // until the race ends, decided or not
   bool together = true;  // layouts share paths where that pays; else each has its own
   /// The building at other times, to say until when layouts guide; empty: it does not change.

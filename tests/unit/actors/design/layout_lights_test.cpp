@@ -101,11 +101,29 @@ TEST_CASE("light is not added of layouts whose luminaires stand in each other's 
   CHECK(heats_of(layouts, true).size() == 1);
   with_body(layouts[1], 1);  // at 10.5 m, in one
   CHECK_FALSE(LayoutLights(lights_of(layouts)).can_add());
-  CHECK(heats_of(layouts, true).size() == 3);
+  const auto heats = heats_of(layouts, true);
+  REQUIRE(heats.size() == 2);
+  CHECK(heats[0].members == std::vector<size_t>{0, 2});
+  CHECK(heats[1].members == std::vector<size_t>{1});
 }
 
-TEST_CASE("layouts with other signs, or far more luminaires than pays, are traced by themselves",
-          "[design]") {
+TEST_CASE("layouts share paths up to so many luminaires that only some of them have", "[design]") {
+  const auto scene = smoky_corridor();
+  std::vector<JudgedLayout> layouts;
+  for (size_t i = 0; i < 5; ++i) {
+    std::vector<double> places;
+    for (size_t k = 0; k < 60; ++k)
+      places.push_back(0.5 + 0.25 * static_cast<double>(k) + 0.01 * static_cast<double>(i));
+    layouts.push_back(corridor_layout(scene, std::string(1, static_cast<char>('A' + i)), places));
+  }
+  const auto heats = heats_of(layouts, true);  // 60 of each, 180 of three, 240 of four
+  REQUIRE(heats.size() == 2);
+  CHECK(heats[0].members == std::vector<size_t>{0, 1, 2});
+  CHECK(heats[1].members == std::vector<size_t>{3, 4});
+  CHECK(heats[0].lights->varying() == 180);
+}
+
+TEST_CASE("layouts with other signs are traced by themselves", "[design]") {
   const auto scene = smoky_corridor();
   auto layouts = three_layouts(scene);
   layouts.push_back(layouts.front());

@@ -44,7 +44,7 @@ inline const std::string even_smoke =
 
 /// A luminaire of 200 lm under the ceiling that ages, as a layout has it.
 inline Emitter corridor_luminaire(const std::string& name, double x) {
-  const auto scene = described_text(corridor_with(even_smoke) + R"(
+  static const auto scene = described_text(corridor_with(even_smoke) + R"(
 [[emitter]]
 name = "a"
 shape = "disc"
