@@ -14,7 +14,8 @@ namespace luxodus {
 struct JudgedLayout;
 
 namespace limits {
-/// Pairs of a view and a layout in one heat: each takes some 400 bytes of tallies.
+/// Pairs of a view and a layout in one heat: each takes some 500 bytes of tallies, and as much for
+/// its verdict.
 inline constexpr size_t heat_views = 500'000;
 }  // namespace limits
 

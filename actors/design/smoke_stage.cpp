@@ -66,7 +66,7 @@ class Stage {
     };
     if (auto ok = SmokeRace(stage_, heats, options_, stopped_, tell).run(); !ok)
       return ok.problem();
-    if (stopped_) stage_.end = interrupt_ ? RaceEnd::interrupted : RaceEnd::time;
+    if (stopped_) stage_.end = why_stopped();
     stage_.seconds = seconds();
     if (!followed || interrupt_) return {};
     seconds_ = options_.seconds;
@@ -79,6 +79,8 @@ class Stage {
   void stops() {
     if (interrupt_ || seconds() > seconds_) stopped_ = true;
   }
+
+  RaceEnd why_stopped() const { return interrupt_ ? RaceEnd::interrupted : RaceEnd::time; }
 
   bool can_follow(const std::vector<Heat>& heats) const {
     const SceneDescription& scene = *heats.front().base;
@@ -102,8 +104,12 @@ class Stage {
           heats, stage_.layouts.size(), asked, stopped_, [&](const std::string& what, double) {
             tell(fmt::format("following layouts in \"{}\", {}", scenario, what));
           });
-      if (!found && stopped_) stage_.times_s.clear();
-      if (!found) return stopped_ ? Result<void>() : found.problem();
+      if (!found && !stopped_) return found.problem();
+      if (!found) {
+        stage_.times_s.clear();
+        stage_.end = why_stopped();
+        return {};
+      }
       for (size_t i = 0; i < worst.size(); ++i)
         if (worst[i].empty() || is_lost_before(found.value()[i], worst[i]))
           worst[i] = found.value()[i];
