@@ -16,11 +16,9 @@ std::string group_name(size_t number) {
 
 }  // namespace
 
-std::vector<double> Ageing::renewals(const CompiledScene& scene) const {
-  std::vector<double> out(scene.groups.size(), 1);
-  for (size_t g = 0; g < out.size(); ++g)
-    for (size_t i = 0; i < shares.size(); ++i)
-      if (scene.groups[g].name == group_name(i)) out[g] = 1 / shares[i];
+GroupMixture Ageing::renewal() const {
+  GroupMixture out;
+  for (size_t i = 0; i < shares.size(); ++i) out.factors[group_name(i)] = 1 / shares[i];
   return out;
 }
 

@@ -3,7 +3,7 @@
 // aged light of each source group over the share that is left of it. Pure; any thread.
 #pragma once
 
-#include "scenes/transport/compiled_scene.hpp"
+#include "scenes/transport/compile.hpp"
 
 namespace luxodus {
 
@@ -11,8 +11,8 @@ namespace luxodus {
 struct Ageing {
   std::vector<double> shares{1};
 
-  /// Of new light to aged light, by source group of a scene that group_by_ageing has grouped.
-  std::vector<double> renewals(const CompiledScene& scene) const;
+  /// New light of aged light, in a scene that group_by_ageing has grouped.
+  GroupMixture renewal() const;
   bool any() const { return shares.size() > 1; }
 };
 

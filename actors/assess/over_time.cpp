@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "actors/assess/guiding_views.hpp"
 #include "actors/assess/reality_mode.hpp"
 #include "scenes/fields/fds_visibility.hpp"
 #include "scenes/transport/compile.hpp"
@@ -33,40 +34,10 @@ ViewKey key_of(const SightRow& row) {
   return {row.from, row.along_m, row.height_m, row.sign};
 }
 
-std::string from_route(const EscapeRoute& route) {
-  return "route \"" + route.name + "\"";
-}
-
 /// Mean over the wavelengths.
 double mean_albedo(const SmokeOptics& optics) {
   return optics.albedo.integral() / Spectrum::constant(1).integral();
 }
-
-/// The pairs of place and sign of a scene that may guide, of all its routes.
-class GuidingViews {
- public:
-  explicit GuidingViews(const SceneDescription& scene) : scene_(scene) {
-    for (const EscapeRoute& route : scene.routes) {
-      auto& people = people_.emplace_back(walkers(route, scene.assessment.spacing_m));
-      for (const Walker& walker : people)
-        places_[{from_route(route), walker.along_m}] = {&route, walker};
-    }
-  }
-
-  bool can_guide(const SightRow& row) const {
-    const auto place = places_.find({row.from, row.along_m});
-    if (place == places_.end()) return false;
-    const auto sign = std::find_if(scene_.signs.begin(), scene_.signs.end(),
-                                   [&](const Sign& one) { return one.name == row.sign; });
-    return luxodus::can_guide(*place->second.first, place->second.second, *sign, row.view);
-  }
-  const std::vector<Walker>& people(size_t route) const { return people_[route]; }
-
- private:
-  const SceneDescription& scene_;
-  std::vector<std::vector<Walker>> people_;
-  std::map<std::pair<std::string, double>, std::pair<const EscapeRoute*, Walker>> places_;
-};
 
 /// FDS's own slices of VISIBILITY at a state, in the scene.
 class SlicesOfFires {

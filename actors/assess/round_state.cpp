@@ -6,7 +6,6 @@
 #include "actors/assess/assessment.hpp"
 #include "actors/inspect/building.hpp"
 #include "actors/output/json_out.hpp"
-#include "scenes/transport/compile.hpp"
 #include "scenes/transport/compile_light.hpp"
 
 namespace luxodus {
@@ -99,12 +98,22 @@ Scenario thickened(Scenario scenario, double factor) {
 
 Result<JudgedScene> judged_scene(const SceneDescription& scene, const Scenario& scenario,
                                  const OtherSmoke& smoke) {
-  JudgedScene out{thickened(scenario, smoke.factor), without_measurements(scene), {}};
+  JudgedScene out{thickened(scenario, smoke.factor), without_measurements(scene), {}, {}};
   if (smoke.by_errors) thicken_by_errors(scene, out.scenario);
   if (smoke.albedo) set_albedo(out.scene, *smoke.albedo);
   auto ageing = group_by_ageing(out.scene, scenario.operation);
   if (!ageing) return ageing.problem();
   out.ageing = std::move(ageing).value();
+  out.lights = {{{}, out.ageing.renewal()}};
+  return out;
+}
+
+std::vector<GroupMixture> JudgedScene::mixtures() const {
+  std::vector<GroupMixture> out;
+  for (const JudgedLight& light : lights) {
+    out.push_back(light.aged);
+    if (ageing.any()) out.push_back(light.as_new);
+  }
   return out;
 }
 
@@ -118,7 +127,10 @@ Result<std::shared_ptr<const CompiledScene>> compile_round(const JudgedScene& ju
         return problem("a round of an assessment asks about a sign that the scene has not");
   scene->run.batch_particles = limits::round_batch_particles;
   scene->run.eye_path_factor = round.eye_path_factor;
-  return compile_scene(std::move(scene), judged.scenario, {});
+  CompileOptions options;
+  const bool as_it_is = judged.lights.size() == 1 && !judged.ageing.any();
+  if (!as_it_is) options.mixtures = judged.mixtures();
+  return compile_scene(std::move(scene), judged.scenario, options);
 }
 
 Result<std::shared_ptr<const TracedState>> RoundStates::make(const std::string& text) {

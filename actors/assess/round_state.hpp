@@ -10,6 +10,7 @@
 
 #include "actors/assess/aged_light.hpp"
 #include "actors/run/scene_state.hpp"
+#include "scenes/transport/compile.hpp"
 #include "scenes/world/timed_scenes.hpp"
 
 namespace luxodus {
@@ -53,17 +54,29 @@ void for_each_smoke(Scene& scene, const Work& work) {
   }
 }
 
+/// A light that a scene is judged in: aged, and as when its luminaires were new.
+struct JudgedLight {
+  GroupMixture aged, as_new;
+};
+
 /// The scene of a judged state, which measures nothing but what eyes look at.
 struct JudgedScene {
   Scenario scenario;
   SceneDescription scene;
-  Ageing ageing;  // by which its sources are grouped
+  Ageing ageing;                    // by which its sources are grouped
+  std::vector<JudgedLight> lights;  // at least one
+
+  /// Of all lights: the aged one, and the new one where luminaires age.
+  std::vector<GroupMixture> mixtures() const;
+  size_t aged_mixture(size_t light) const { return ageing.any() ? 2 * light : light; }
+  /// Requires: luminaires age.
+  size_t new_mixture(size_t light) const { return 2 * light + 1; }
 };
 
 /// A scenario with the extinctions of all media times a factor, named ones too.
 Scenario thickened(Scenario scenario, double factor);
 
-/// Errors: as group_by_ageing.
+/// In the one light that it has. Errors: as group_by_ageing.
 Result<JudgedScene> judged_scene(const SceneDescription& scene, const Scenario& scenario,
                                  const OtherSmoke& smoke = {});
 

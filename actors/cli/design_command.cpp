@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 struct DesignCommandOptions {
   std::string scene, out;
-  std::string time = "2m";
+  std::string time = "2m", smoke_time = "10m";
   std::string language = "en";
   DesignOptions design;
   std::string gap;
@@ -109,8 +109,9 @@ void print_smoke(const DesignResult& result) {
   const Json smoke = smoke_json(*result.smoke);
   for (const std::string& words : smoke_words(Texts(Language::en), smoke))
     std::printf("in smoke: %s\n", words.c_str());
-  std::printf("%zu layouts judged in smoke in %.1f s\n", result.smoke->layouts.size(),
-              result.smoke->seconds);
+  std::printf("%zu layouts judged in smoke in %.1f s, by %zu trace%s\n",
+              result.smoke->layouts.size(), result.smoke->seconds, result.smoke->traces,
+              result.smoke->traces == 1 ? "" : "s");
 }
 
 Result<ExitCode> tell_none(const SceneDescription& scene, const DesignResult& result) {
@@ -132,6 +133,9 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
   const auto seconds = parse_seconds(o.time);
   if (!seconds) return seconds.problem();
   o.design.seconds = seconds.value();
+  const auto smoke_seconds = parse_seconds(o.smoke_time);
+  if (!smoke_seconds) return smoke_seconds.problem();
+  o.design.smoke_seconds = smoke_seconds.value();
   if (!o.gap.empty()) {
     const auto gap = parse_share(o.gap);
     if (!gap) return gap.problem();
@@ -139,6 +143,7 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
   }
   const auto scene = load_scene(o.scene, ReadingWarnings::told, std::nullopt, FireFrames::nearest);
   if (!scene) return ExitCode::bad_input;
+  o.design.scene_at = reader_of_times(o.scene, *scene, FireFrames::nearest);
   const fs::path folder =
       o.out.empty() ? fs::path("out") / file_name_of(scene->name + "-designed") : fs::path(o.out);
   const auto out = OutputFolder::claim(folder, {design_files, {"plans", "alternatives"}});
@@ -167,7 +172,11 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
       return ok.problem();
   print_design(*scene, result.value());
   print_because(*scene, result.value());
-  if (result->smoke) print_smoke(result.value());
+  const bool in_smoke = !o.design.in_smoke.empty() || !scene->design->in_smoke.empty();
+  if (result->smoke)
+    print_smoke(result.value());
+  else if (in_smoke && !interrupt_flag())
+    log_warning("no layout was judged in smoke before --smoke-time was over");
   for (const char* file : {"design.html", "design.pdf", "layout.toml"})
     if (o.pdf || std::string_view(file) != "design.pdf")
       std::printf("written to %s\n", (out->named() / file).string().c_str());
@@ -210,6 +219,10 @@ Command design_command() {
             "Scenarios in whose smoke the best layout and others are judged, by what people read "
             "of the signs",
             {.form = Form::name, .otherwise = "those of the scene", .comma_separated = true}},
+           {"--smoke-time",
+            &o->smoke_time,
+            "Time of judging layouts in smoke, e.g. 2m; what is undecided then is told",
+            {.form = Form::duration}},
            {"--time", &o->time, "Time of the search, e.g. 30s, 5m", {.form = Form::duration}},
            {"--gap",
             &o->gap,

@@ -477,6 +477,8 @@ class Designing {
     asked.scenarios = scenarios_in_smoke();
     asked.seed = options_.seed;
     asked.threads = options_.threads;
+    asked.seconds = options_.smoke_seconds;
+    asked.scene_at = options_.scene_at;
     auto stage = judge_in_smoke(std::move(layouts), asked, interrupt_, tell);
     if (!stage) return stage.problem();
     if (!stage->layouts.empty()) out_.smoke = std::move(stage).value();

@@ -33,6 +33,8 @@ struct DesignOptions {
   bool what_binds = true;  // solve again without single demands, to say what each takes
   /// Scenarios in whose smoke layouts are judged; empty: those of the scene's [design].
   std::vector<std::string> in_smoke;
+  double smoke_seconds = 600;  // of judging layouts there, at most
+  SceneAtTime scene_at = {};   // the scene at other times, where it has a clock
 };
 
 /// A rule that is asked for without furniture alone: with it no layout passes.

@@ -15,6 +15,25 @@ Json share_json(const LegibleShare& share) {
   return {{"least", number_json(share.least)}, {"most", number_json(share.most)}};
 }
 
+Json optional_seconds(const std::optional<double>& seconds) {
+  return seconds ? number_json(*seconds) : Json();
+}
+
+Json guided_json(const JudgedLayout& one) {
+  if (one.guided.empty()) return {};
+  Json routes = Json::array();
+  for (const GuidedUntil& route : one.guided)
+    routes.push_back({{"route", route.route},
+                      {"height_m", number_json(route.height_m)},
+                      {"until_least_s", optional_seconds(route.least.until_s)},
+                      {"until_most_s", optional_seconds(route.most.until_s)}});
+  const FirstLoss loss = first_loss_of(one.guided);
+  return {{"until_least_s", optional_seconds(loss.least_s)},
+          {"until_most_s", optional_seconds(loss.most_s)},
+          {"never_lost", loss.never_lost},
+          {"routes", std::move(routes)}};
+}
+
 Json layout_json(const SmokeStage& stage, const JudgedLayout& one) {
   Json scenarios = Json::array();
   for (const SmokeVerdict& verdict : one.smoke) {
@@ -38,6 +57,8 @@ Json layout_json(const SmokeStage& stage, const JudgedLayout& one) {
           {"sign_factor", number_json(one.sign_factor)},
           {"low_signs", one.low_signs.size()},
           {"rounds", one.rounds},
+          {"open", one.is_open},
+          {"guided", guided_json(one)},
           {"places_lost", one.lost},
           {"places_won", one.won},
           {"worst", share_json(one.worst())},
@@ -65,6 +86,21 @@ std::string share_words(const Texts& t, const Json& share) {
   const std::string least = t.fixed(100 * share["least"].get<double>(), 0),
                     most = t.fixed(100 * share["most"].get<double>(), 0);
   return least == most ? least + " %" : t.say("design.smoke_range", least, most);
+}
+
+bool is_followed(const Json& layout) {
+  return !layout["guided"].is_null();
+}
+
+/// "120 s", "60 to 120 s", "never".
+std::string until_words(const Texts& t, const Json& guided) {
+  const Json &least = guided["until_least_s"], &most = guided["until_most_s"];
+  const auto seconds = [&](const Json& value) { return t.fixed(value.get<double>(), 0); };
+  if (most.is_null()) return t("design.smoke_until_never");
+  if (least.is_null()) return t.say("design.smoke_until_up_to", seconds(most));
+  if (guided["never_lost"].get<bool>()) return t.say("design.smoke_until_last", seconds(least));
+  return least == most ? t.say("design.smoke_until_s", seconds(least))
+                       : t.say("design.smoke_until_range", seconds(least), seconds(most));
 }
 
 const Json& named_layout(const Json& smoke, const std::string& name) {
@@ -108,6 +144,10 @@ PlotSeries series_of(const Texts& t, const char* name, const Json& smoke,
     out.x.push_back(one["objective"].get<double>());
     out.y.push_back(50 * (least_of(one) + most_of(one)));
     out.error.push_back(50 * (most_of(one) - least_of(one)));
+    const std::string layout = text_in(one, "name");
+    out.labels.push_back(
+        is_followed(one) ? t.say("design.smoke_until_label", layout, until_words(t, one["guided"]))
+                         : layout);
   }
   return out;
 }
@@ -148,12 +188,27 @@ std::string rows_of(const Texts& t, const Json& smoke) {
     const std::string file = text_in(one, "file");
     out += "<tr>" + cell(name) + number_cell(t, one["luminaires"]) +
            number_cell(t, one["cost"], "", 4) + number_cell(t, one["watts"], "W") +
-           cell(by_scenario) +
+           cell(by_scenario) + (is_followed(one) ? cell(until_words(t, one["guided"])) : "") +
            html_cell(file.empty() ? "–"
                                   : "<a href=\"" + escaped(file) + "\">" + escaped(file) + "</a>") +
            "</tr>\n";
   }
   return out;
+}
+
+/// What ended the race, and which layouts it leaves open; nothing where all are told apart.
+std::string end_words(const Texts& t, const Json& smoke) {
+  const std::string end = text_in(smoke, "end");
+  if (end == name_of(RaceEnd::interrupted)) return t("design.smoke_interrupted");
+  std::string open;
+  int64_t rounds = 0;
+  for (const Json& one : smoke["layouts"]) {
+    rounds = std::max(rounds, one["rounds"].get<int64_t>());
+    if (one["open"].get<bool>()) open += (open.empty() ? "" : ", ") + text_in(one, "name");
+  }
+  if (open.empty()) return "";
+  return t.say(end == name_of(RaceEnd::time) ? "design.smoke_time" : "design.smoke_rounds", rounds,
+               open);
 }
 
 }  // namespace
@@ -172,7 +227,9 @@ Json smoke_json(const SmokeStage& stage) {
   return {{"scenarios", stage.scenarios},
           {"heights_m", std::move(heights)},
           {"ahead_deg", number_json(ahead_deg)},
-          {"interrupted", stage.interrupted},
+          {"end", name_of(stage.end)},
+          {"traces", stage.traces},
+          {"paths", stage.paths},
           {"recommended", stage.recommended().name},
           {"layouts", std::move(layouts)}};
 }
@@ -202,7 +259,12 @@ std::vector<std::string> smoke_words(const Texts& t, const Json& smoke) {
   if (const Json* veiling = most_veiling(smoke))
     out.push_back(t.say("design.smoke_veil", text_in(*veiling, "name"),
                         (*veiling)["places_lost"].get<int64_t>(), first_name));
-  if (smoke["interrupted"].get<bool>()) out.emplace_back(t("design.smoke_interrupted"));
+  if (is_followed(first))
+    out.push_back(
+        first["guided"]["until_most_s"].is_null()
+            ? t.say("design.smoke_until_no", first_name)
+            : t.say("design.smoke_until_first", first_name, until_words(t, first["guided"])));
+  if (const std::string ended = end_words(t, smoke); !ended.empty()) out.push_back(ended);
   return out;
 }
 
@@ -210,13 +272,19 @@ std::string smoke_section(const Texts& t, const Json& design) {
   const Json& smoke = design["smoke"];
   std::string out = "<h2>" + escaped(t("design.smoke_heading")) + "</h2>\n";
   for (const std::string& words : smoke_words(t, smoke)) out += paragraph(words);
-  return out + plot_of(t, design) +
-         table(t,
-               {"design.smoke_layout", "column.count", "design.cost", "design.watts",
-                "design.smoke_read", "design.smoke_file"},
-               {16, 10, 12, 12, 30, 20}, rows_of(t, smoke)) +
-         paragraph(t.say("design.smoke_note", t.number(smoke["ahead_deg"].get<double>(), 2)),
-                   "note");
+  out += plot_of(t, design);
+  const bool followed = is_followed(smoke["layouts"][0]);
+  std::vector<const char*> columns{"design.smoke_layout", "column.count",      "design.cost",
+                                   "design.watts",        "design.smoke_read", "design.smoke_file"};
+  std::vector<int> widths{16, 10, 12, 12, 30, 20};
+  if (followed) {
+    columns.insert(columns.end() - 1, "design.smoke_until");
+    widths = {14, 8, 10, 10, 26, 14, 18};
+  }
+  out +=
+      table(t, columns, widths, rows_of(t, smoke)) +
+      paragraph(t.say("design.smoke_note", t.number(smoke["ahead_deg"].get<double>(), 2)), "note");
+  return followed ? out + paragraph(t("design.smoke_until_note"), "note") : out;
 }
 
 }  // namespace luxodus

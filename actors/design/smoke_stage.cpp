@@ -3,63 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <tuple>
 
 #include "actors/assess/code_light.hpp"
-#include "actors/assess/reality_mode.hpp"
+#include "actors/assess/over_time.hpp"
+#include "actors/design/smoke_race.hpp"
 #include "runtime/core/clock.hpp"
-#include "scenes/emergency/way.hpp"
+#include "scenes/transport/compile.hpp"
 
 namespace luxodus {
 
 namespace {
-
-/// What is read from a place on a route.
-enum class Read { nothing, undecided, a_sign };
-
-/// A place: route, metres along it, height of the eye [m].
-using Place = std::tuple<std::string, double, double>;
-
-struct Seen {
-  double stands_for = 0;  // metres of the route
-  Read read = Read::nothing;
-};
-using SeenPlaces = std::map<Place, Seen>;
-
-/// Of all places on routes: where all signs turn their backs there is no row.
-SeenPlaces places_of(const SceneDescription& scene, const Assessment& a) {
-  SeenPlaces out;
-  for (const EscapeRoute& route : scene.routes) {
-    const auto people = walkers(route, scene.assessment.spacing_m);
-    for (const Walker& walker : people)
-      for (const double height : scene.assessment.eye_heights_m)
-        out[{"route \"" + route.name + "\"", walker.along_m, height}].stands_for =
-            length_of(route) / static_cast<double>(people.size());
-  }
-  for (const SightRow& row : a.sights) {
-    const auto at = out.find({row.from, row.along_m, row.height_m});
-    if (at == out.end() || !(row.gaze_deg <= ahead_deg)) continue;
-    Seen& seen = at->second;
-    if (row.sight.verdict == SightVerdict::legible) seen.read = Read::a_sign;
-    if (row.sight.verdict == SightVerdict::undecided)
-      seen.read = std::max(seen.read, Read::undecided);
-  }
-  return out;
-}
-
-/// Of the places that `counts` names.
-LegibleShare share_of(const SeenPlaces& places, const std::function<bool(const Place&)>& counts) {
-  double all = 0, read = 0, perhaps = 0;
-  for (const auto& [place, seen] : places) {
-    if (!counts(place)) continue;
-    all += seen.stands_for;
-    if (seen.read == Read::a_sign) read += seen.stands_for;
-    if (seen.read == Read::undecided) perhaps += seen.stands_for;
-  }
-  if (!(all > 0)) return {};
-  return {read / all, (read + perhaps) / all};
-}
 
 std::shared_ptr<const SceneDescription> with_bright_signs(const SceneDescription& scene) {
   auto out = std::make_shared<SceneDescription>(scene);
@@ -69,21 +22,6 @@ std::shared_ptr<const SceneDescription> with_bright_signs(const SceneDescription
       state->green_cd_m2 *= brighter_signs;
     }
   return out;
-}
-
-bool costs_no_more(const JudgedLayout& a, const JudgedLayout& b) {
-  return a.objective <= b.objective * (1 + 1e-9);
-}
-
-/// Whether `a` is read at least as well for no more, whatever the undecided views are.
-bool beats(const JudgedLayout& a, const JudgedLayout& b) {
-  if (!costs_no_more(a, b) || a.worst().least < b.worst().most) return false;
-  return a.objective < b.objective * (1 - 1e-9) || a.worst().least > b.worst().least;
-}
-
-/// Layouts are beside each other with the same signs.
-bool like_signs(const JudgedLayout& a, const JudgedLayout& b) {
-  return a.sign_factor == b.sign_factor && a.low_signs.size() == b.low_signs.size();
 }
 
 /// Signs near the floor, where smoke is often thinner. Nothing where no wall has room for any.
@@ -104,92 +42,96 @@ Result<std::optional<JudgedLayout>> with_signs_below(const JudgedLayout& best,
   return std::optional(std::move(out));
 }
 
-class Race {
- public:
-  Race(SmokeStage& stage, const SmokeStageOptions& options, const std::atomic<bool>& interrupt,
-       const std::function<void(const std::string&)>& progress)
-      : stage_(stage),
-        options_(options),
-        interrupt_(interrupt),
-        progress_(progress),
-        places_(stage.layouts.size()) {}
+/// Of the time of a stage in a scene that changes in time, what the race may take.
+constexpr double share_of_race = 0.6;
 
+/// One race and what follows it, within a time.
+class Stage {
+ public:
+  Stage(SmokeStage& stage, const SmokeStageOptions& options, const std::atomic<bool>& interrupt,
+        const std::function<void(const std::string&)>& progress)
+      : stage_(stage), options_(options), interrupt_(interrupt), progress_(progress) {}
+
+  /// Errors: as SmokeRace::run and guidance_of, but not that time is up or a person interrupts.
   Result<void> run() {
-    for (int rounds = 1; rounds <= options_.rounds && !interrupt_; ++rounds)
-      for (size_t i = 0; i < stage_.layouts.size() && !interrupt_; ++i) {
-        if (rounds > 1 && !is_open(stage_.layouts[i])) continue;
-        if (auto ok = judge(i, rounds); !ok && !interrupt_) return ok.problem();
-      }
-    stage_.interrupted = interrupt_;
-    for (size_t i = 0; i < stage_.layouts.size(); ++i) compare(i);
-    std::erase_if(stage_.layouts, [](const JudgedLayout& one) { return one.rounds == 0; });
-    return {};
+    const std::vector<Heat> heats = heats_of(stage_.layouts, options_.together);
+    stage_.traces = heats.size();
+    if (can_follow(heats)) stage_.times_s = times_of(*heats.front().base->time);
+    const bool followed = !stage_.times_s.empty();
+    seconds_ = followed ? share_of_race * options_.seconds : options_.seconds;
+    stops();
+    const std::function<void(const std::string&)> tell = [&](const std::string& what) {
+      stops();
+      progress_(what);
+    };
+    if (auto ok = SmokeRace(stage_, heats, options_, stopped_, tell).run(); !ok)
+      return ok.problem();
+    if (stopped_) stage_.end = why_stopped();
+    stage_.seconds = seconds();
+    if (!followed || interrupt_) return {};
+    seconds_ = options_.seconds;
+    stopped_ = false;
+    return follow(heats, tell);
   }
 
  private:
-  /// Whether more paths could change its place among the others.
-  bool is_open(const JudgedLayout& one) const {
-    const LegibleShare share = one.worst();
-    return share.least < share.most && std::none_of(stage_.layouts.begin(), stage_.layouts.end(),
-                                                    [&](const JudgedLayout& other) {
-                                                      return like_signs(other, one) &&
-                                                             beats(other, one);
-                                                    });
+  double seconds() const { return 1e-9 * static_cast<double>(clock_.now() - began_); }
+  void stops() {
+    if (interrupt_ || seconds() > seconds_) stopped_ = true;
   }
 
-  Result<void> judge(size_t i, int rounds) {
-    JudgedLayout& one = stage_.layouts[i];
-    std::vector<SmokeVerdict> smoke;
-    std::vector<SeenPlaces> seen;
-    for (const std::string& name : stage_.scenarios) {
-      progress_(fmt::format("judging layout {} of {} in \"{}\", {} round{} of paths", one.name,
-                            stage_.layouts.size(), name, rounds, rounds == 1 ? "" : "s"));
-      const auto scenario = find_scenario(*one.layout.variant, name);
-      if (!scenario) return scenario.problem();
-      AssessOptions asked;
-      asked.seed = options_.seed;
-      asked.threads = options_.threads;
-      asked.rounds = rounds;
-      Assessment found;
-      const auto ok = assess_sights(
-          *one.layout.variant, scenario.value(), {}, asked, interrupt_,
-          [](const std::string&, double) {}, found);
-      if (!ok) return ok.problem();
-      seen.push_back(places_of(*one.layout.variant, found));
-      smoke.push_back(verdict_of(name, seen.back()));
+  RaceEnd why_stopped() const { return interrupt_ ? RaceEnd::interrupted : RaceEnd::time; }
+
+  bool can_follow(const std::vector<Heat>& heats) const {
+    const SceneDescription& scene = *heats.front().base;
+    return options_.scene_at && scene.time && times_of(*scene.time).size() > 1 &&
+           check_guidance(scene).ok();
+  }
+
+  /// Of each layout, the guidance of the scenario in which it is lost first.
+  Result<void> follow(const std::vector<Heat>& heats,
+                      const std::function<void(const std::string&)>& tell) {
+    GuidanceOptions asked;
+    asked.times_s = stage_.times_s;
+    asked.scene_at = options_.scene_at;
+    asked.asked.seed = options_.seed;
+    asked.asked.threads = options_.threads;
+    asked.rounds = options_.rounds;
+    std::vector<std::vector<GuidedUntil>> worst(stage_.layouts.size());
+    for (const std::string& scenario : stage_.scenarios) {
+      asked.scenario = scenario;
+      const auto found = guidance_of(
+          heats, stage_.layouts.size(), asked, stopped_, [&](const std::string& what, double) {
+            tell(fmt::format("following layouts in \"{}\", {}", scenario, what));
+          });
+      if (!found && !stopped_) return found.problem();
+      if (!found) {
+        stage_.times_s.clear();
+        stage_.end = why_stopped();
+        return {};
+      }
+      for (size_t i = 0; i < worst.size(); ++i)
+        if (worst[i].empty() || is_lost_before(found.value()[i], worst[i]))
+          worst[i] = found.value()[i];
     }
-    one.smoke = std::move(smoke);
-    one.rounds = rounds;
-    places_[i] = std::move(seen);
+    for (size_t i = 0; i < worst.size(); ++i) stage_.layouts[i].guided = std::move(worst[i]);
+    stage_.seconds = seconds();
     return {};
   }
 
-  SmokeVerdict verdict_of(const std::string& scenario, const SeenPlaces& places) const {
-    SmokeVerdict out{scenario, {}, share_of(places, [](const Place&) { return true; })};
-    for (const double height : stage_.heights_m)
-      out.by_height.push_back(
-          share_of(places, [&](const Place& place) { return std::get<2>(place) == height; }));
-    return out;
-  }
-
-  /// With the first layout, place by place.
-  void compare(size_t i) {
-    JudgedLayout& one = stage_.layouts[i];
-    one.lost = one.won = 0;
-    for (size_t s = 0; s < places_[i].size(); ++s)
-      for (const auto& [place, seen] : places_[i][s]) {
-        const auto first = places_[0][s].find(place);
-        if (first == places_[0][s].end()) continue;
-        one.lost += first->second.read == Read::a_sign && seen.read == Read::nothing;
-        one.won += first->second.read == Read::nothing && seen.read == Read::a_sign;
-      }
+  static bool is_lost_before(const std::vector<GuidedUntil>& a, const std::vector<GuidedUntil>& b) {
+    const FirstLoss first = first_loss_of(a), second = first_loss_of(b);
+    return std::pair(first.least_s, first.most_s) < std::pair(second.least_s, second.most_s);
   }
 
   SmokeStage& stage_;
   const SmokeStageOptions& options_;
   const std::atomic<bool>& interrupt_;
   const std::function<void(const std::string&)>& progress_;
-  std::vector<std::vector<SeenPlaces>> places_;  // of each layout, by scenario
+  const SystemClock clock_;
+  const Nanoseconds began_ = clock_.now();
+  double seconds_ = 0;  // since then, until it stops
+  std::atomic<bool> stopped_{false};
 };
 
 /// Which layouts with signs as they are none of the others beats.
@@ -203,6 +145,20 @@ void mark_front(SmokeStage& stage) {
 }
 
 }  // namespace
+
+const char* name_of(RaceEnd end) {
+  switch (end) {
+    case RaceEnd::decided:
+      return "decided";
+    case RaceEnd::rounds:
+      return "rounds";
+    case RaceEnd::time:
+      return "time";
+    case RaceEnd::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
 
 LegibleShare JudgedLayout::worst() const {
   LegibleShare out{1, 1};
@@ -259,8 +215,6 @@ Result<SmokeStage> judge_in_smoke(std::vector<JudgedLayout> layouts,
                                   const SmokeStageOptions& options,
                                   const std::atomic<bool>& interrupt,
                                   const std::function<void(const std::string&)>& progress) {
-  const SystemClock clock;
-  const Nanoseconds began = clock.now();
   SmokeStage stage;
   stage.scenarios = options.scenarios;
   stage.heights_m = layouts.front().layout.variant->assessment.eye_heights_m;
@@ -273,9 +227,9 @@ Result<SmokeStage> judge_in_smoke(std::vector<JudgedLayout> layouts,
   stage.layouts = std::move(layouts);
   stage.layouts.push_back(std::move(bright));
   if (low.value()) stage.layouts.push_back(*std::move(low).value());
-  if (auto ok = Race(stage, options, interrupt, progress).run(); !ok) return ok.problem();
+  if (auto ok = Stage(stage, options, interrupt, progress).run(); !ok) return ok.problem();
+  std::erase_if(stage.layouts, [](const JudgedLayout& one) { return one.rounds == 0; });
   mark_front(stage);
-  stage.seconds = 1e-9 * static_cast<double>(clock.now() - began);
   return stage;
 }
 

@@ -10,21 +10,15 @@
 #include <vector>
 
 #include "actors/assess/assessment.hpp"
+#include "actors/design/layout_guidance.hpp"
 #include "actors/design/low_signs.hpp"
 #include "actors/design/placed_layout.hpp"
+#include "actors/design/smoke_verdicts.hpp"
 
 namespace luxodus {
 
-/// A sign is ahead of a walker within this angle of the way [deg].
-inline constexpr double ahead_deg = 60;
 /// Signs of the best layout are tried so many times as bright.
 inline constexpr double brighter_signs = 2;
-
-/// Of the length of all routes: the share from which a sign ahead is read. What is undecided counts
-/// as not read in `least`, and as read in `most`.
-struct LegibleShare {
-  double least = 0, most = 0;  // [1]
-};
 
 struct SmokeVerdict {
   std::string scenario;
@@ -44,6 +38,10 @@ struct JudgedLayout {
   /// Places on routes from which a sign is read with "A" and not with this one; the other way.
   size_t lost = 0, won = 0;
   bool on_front = false;  // none is read more and costs no more
+  bool is_open = false;   // more paths could change its place among the others
+  /// Of each route and height of eyes, where the scene changes in time and signs lead along routes;
+  /// in the scenario where signs are lost first.
+  std::vector<GuidedUntil> guided;
 
   /// Whether its signs are those of the first layout, no brighter and no more.
   bool has_usual_signs() const { return sign_factor == 1 && low_signs.empty(); }
@@ -51,11 +49,24 @@ struct JudgedLayout {
   LegibleShare worst() const;
 };
 
+/// What ended the race of layouts.
+enum class RaceEnd {
+  decided,      // no more paths could change their order
+  rounds,       // there are no more of them
+  time,         // it was up
+  interrupted,  // by a person
+};
+/// "decided", ...
+const char* name_of(RaceEnd end);
+
 struct SmokeStage {
   std::vector<std::string> scenarios;
   std::vector<double> heights_m;
   std::vector<JudgedLayout> layouts;  // by name
-  bool interrupted = false;           // before all were judged
+  RaceEnd end = RaceEnd::decided;
+  size_t traces = 0;            // of layouts together, or of each by itself
+  std::vector<double> times_s;  // over which layouts were followed
+  int64_t paths = 0;            // from eyes
   double seconds = 0;
 
   /// Of the layouts with signs as they are: the first, unless with another one signs are surely
@@ -71,12 +82,16 @@ struct SmokeStageOptions {
   std::vector<std::string> scenarios;
   uint64_t seed = 1;
   int threads = 1;
-  int rounds = 3;  // of paths at most, each of four times as many
+  int rounds = 4;        // of paths at most, each of four times as many
+  double seconds = 600;  // until the race ends, decided or not
+  bool together = true;  // layouts share paths where that pays; else each has its own
+  /// The building at other times, to say until when layouts guide; empty: it does not change.
+  SceneAtTime scene_at = {};
 };
 
 /// Judges layouts that pass the rules; the first is the best by them, of which a copy with brighter
-/// signs, and one with low-level signs, are judged as well. `interrupt` keeps what was judged so
-/// far. Errors: no such scenario; one without smoke; as assess_sights.
+/// signs, and one with low-level signs, are judged as well. The end of the time and `interrupt`
+/// keep what was judged so far. Errors: no such scenario; one without smoke; as assess_sights.
 Result<SmokeStage> judge_in_smoke(std::vector<JudgedLayout> layouts,
                                   const SmokeStageOptions& options,
                                   const std::atomic<bool>& interrupt,

@@ -22,6 +22,7 @@ constexpr std::array<std::string_view, 7> colours = {"#0072b2", "#d55e00", "#009
 constexpr double left = 96, right = 32, bottom_margin = 92;
 constexpr double marker_radius = 4.6;
 constexpr double legend_line = 24;
+constexpr double label_gap = 10;  // between a point and its label
 
 /// A coordinate to a hundredth of a unit: more is noise and makes files long.
 std::string coordinate(double value) {
@@ -142,6 +143,7 @@ class SvgPainter {
   void reference();
   void series(const PlotSeries& s, size_t index);
   void error_bars(const PlotSeries& s);
+  void labels(const PlotSeries& s);
   void marker(double x, double y, size_t index);
   void frame();
   void legend();
@@ -218,6 +220,20 @@ void SvgPainter::error_bars(const PlotSeries& s) {
   }
 }
 
+/// To the right of a point, or to the left of one in the right half.
+void SvgPainter::labels(const PlotSeries& s) {
+  const double middle = 0.5 * (x_.from + x_.to);
+  for (size_t i = 0; i < s.labels.size(); ++i) {
+    if (!shown(s, i)) continue;
+    const double x = x_.place(s.x[i]);
+    const bool before = x > middle;
+    text(before ? x - label_gap : x + label_gap, y_.place(s.y[i]) - label_gap / 2,
+         std::string("stroke=\"none\" fill=\"#4a525e\" font-size=\"12\" text-anchor=\"") +
+             (before ? "end\"" : "start\""),
+         s.labels[i]);
+  }
+}
+
 void SvgPainter::marker(double x, double y, size_t index) {
   const double r = marker_radius;
   const auto point = [&](double dx, double dy) {
@@ -267,6 +283,7 @@ void SvgPainter::series(const PlotSeries& s, size_t index) {
     if (shown(s, i)) marker(x_.place(s.x[i]), y_.place(s.y[i]), index);
   }
   out_ += "</g>\n";
+  labels(s);
 }
 
 void SvgPainter::frame() {
@@ -377,7 +394,8 @@ Result<std::string> svg_plot_text(const SvgPlot& plot, const SourcePlace& place)
   }
   for (const PlotSeries& s : plot.series) {
     const std::string name = "series '" + clean_utf8(s.name) + "'";
-    if (s.y.size() != s.x.size() || (!s.error.empty() && s.error.size() != s.x.size())) {
+    if (s.y.size() != s.x.size() || (!s.error.empty() && s.error.size() != s.x.size()) ||
+        (!s.labels.empty() && s.labels.size() != s.x.size())) {
       return problem_in(place, name + " has columns of different length");
     }
     if (s.x.size() > limits::max_plot_points)

@@ -26,6 +26,7 @@ struct PlotSeries {
   std::vector<double> error;  // +- of y, >= 0; empty: none
   bool line = true;
   bool markers = true;
+  std::vector<std::string> labels = {};  // beside the points; empty: none
 };
 
 /// A dashed line of known slope through the first point that is shown of the first series: y ~

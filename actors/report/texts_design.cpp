@@ -304,6 +304,56 @@ constexpr ReportText design_rows[] = {
      {"Interrupted before all layouts were judged.",
       "Unterbrochen, bevor alle Anordnungen beurteilt waren.",
       "Interrompu avant que toutes les implantations soient jugées."}},
+    {"design.smoke_time",
+     {"Time ended the comparison after round {0} of paths: layouts {1} cannot be told apart yet "
+      "from those that are read from more places or cost less.",
+      "Die Zeit hat den Vergleich nach Runde {0} von Strahlen beendet: die Anordnungen {1} sind "
+      "noch nicht von denen zu unterscheiden, die von mehr Orten lesbar sind oder weniger kosten.",
+      "Le temps a mis fin à la comparaison après le tour {0} de chemins : les implantations {1} ne "
+      "se distinguent pas encore de celles qui sont lisibles depuis plus de places ou coûtent "
+      "moins."}},
+    {"design.smoke_rounds",
+     {"After the last round of paths ({0}) layouts {1} cannot be told apart from those that are "
+      "read "
+      "from more places or cost less.",
+      "Nach der letzten Runde von Strahlen ({0}) sind die Anordnungen {1} nicht von denen zu "
+      "unterscheiden, die von mehr Orten lesbar sind oder weniger kosten.",
+      "Après le dernier tour de chemins ({0}), les implantations {1} ne se distinguent pas de "
+      "celles "
+      "qui sont lisibles depuis plus de places ou coûtent moins."}},
+    {"design.smoke_until", {"Guides until", "Führt bis", "Guide jusqu’à"}},
+    {"design.smoke_until_never", {"never", "nie", "jamais"}},
+    {"design.smoke_until_s", {"{0} s", "{0} s", "{0} s"}},
+    {"design.smoke_until_range", {"{0} to {1} s", "{0} bis {1} s", "{0} à {1} s"}},
+    {"design.smoke_until_up_to", {"{0} s at most", "höchstens {0} s", "{0} s au plus"}},
+    {"design.smoke_until_last",
+     {"{0} s, the last state", "{0} s, dem letzten Zustand", "{0} s, le dernier état"}},
+    {"design.smoke_until_label", {"{0}, until {1}", "{0}, bis {1}", "{0}, jusqu’à {1}"}},
+    {"design.smoke_until_first",
+     {"With layout {0} signs guide from every place of every route until {1}.",
+      "Mit Anordnung {0} führen Zeichen von jedem Ort jedes Weges bis {1}.",
+      "Avec l’implantation {0}, des panneaux guident depuis chaque place de chaque itinéraire "
+      "jusqu’à {1}."}},
+    {"design.smoke_until_no",
+     {"With layout {0} signs do not guide from every place of the routes in any state.",
+      "Mit Anordnung {0} führen Zeichen in keinem Zustand von jedem Ort der Wege.",
+      "Avec l’implantation {0}, les panneaux ne guident dans aucun état depuis chaque place des "
+      "itinéraires."}},
+    {"design.smoke_until_note",
+     {"A layout guides until the last state of the scene up to which a sign that leads along is "
+      "read from every place of every route, at all eye heights; a range is what the paths leave "
+      "undecided. Between two states the worse holds. Albedo and extinction of the smoke are taken "
+      "as stated. It is no analysis of available and required safe egress time.",
+      "Eine Anordnung führt bis zum letzten Zustand der Szene, bis zu dem von jedem Ort jedes "
+      "Weges in allen Augenhöhen ein Zeichen lesbar ist, das weiterführt; ein Bereich ist, was die "
+      "Strahlen offen lassen. Zwischen zwei Zuständen gilt der schlechtere. Albedo und Extinktion "
+      "des Rauchs gelten wie angegeben. Es ist keine Analyse der verfügbaren und der nötigen Zeit "
+      "zur Räumung.",
+      "Une implantation guide jusqu’au dernier état de la scène jusqu’auquel un panneau qui mène "
+      "plus loin est lisible depuis chaque place de chaque itinéraire, à toutes les hauteurs "
+      "d’œil ; une plage est ce que les chemins laissent indécis. Entre deux états vaut le pire. "
+      "Albédo et extinction de la fumée sont pris comme indiqués. Ce n’est pas une analyse des "
+      "temps disponible et nécessaire à l’évacuation."}},
     {"design.smoke_plot",
      {"What is read in smoke, against what it takes", "Was im Rauch lesbar ist, gegen den Aufwand",
       "Ce qui est lisible dans la fumée, selon l’effort"}},

@@ -221,6 +221,23 @@ void choose_features(CompiledScene& scene) {
                 !scene.volume_groups.empty() || scene.voxels.edge > 0;
 }
 
+/// Of a sum of squared errors over all mixtures, paths make the least that choose an emitter by its
+/// light times the root mean square of its factors.
+void mix_groups(CompiledScene& scene, const std::vector<GroupMixture>& mixtures) {
+  if (mixtures.empty()) return;
+  std::vector<double> squares(scene.groups.size(), 0.0);
+  for (const GroupMixture& mixture : mixtures) {
+    std::vector<double>& factors = scene.mixtures.emplace_back();
+    for (size_t g = 0; g < scene.groups.size(); ++g) {
+      factors.push_back(mixture.factor_of(scene.groups[g].name));
+      squares[g] += factors.back() * factors.back();
+    }
+  }
+  for (CompiledEmitter& emitter : scene.emitters)
+    emitter.wanted = std::sqrt(squares[static_cast<size_t>(emitter.group)] /
+                               static_cast<double>(mixtures.size()));
+}
+
 uint64_t hash_scene(const CompiledScene& scene, int cells) {
   Hasher hash;
   hash.add(scene.description->content_hash);
@@ -234,6 +251,8 @@ uint64_t hash_scene(const CompiledScene& scene, int cells) {
   for (const Group& g : scene.groups) {
     for (const double p : g.power_w) hash.add(std::bit_cast<uint64_t>(p));
   }
+  for (const std::vector<double>& factors : scene.mixtures)
+    for (const double factor : factors) hash.add(std::bit_cast<uint64_t>(factor));
   for (const double share : scene.batch_shares) hash.add(std::bit_cast<uint64_t>(share));
   return hash.value();
 }
@@ -382,6 +401,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_scene(
   if (auto ok = choose_voxels(*scene); !ok) return ok.problem();
   choose_length_unit(*scene);
   choose_eye_targets(*scene);
+  mix_groups(*scene, options.mixtures);
   if (auto ok = choose_error_target(*scene, options.error_of); !ok) return ok.problem();
   choose_features(*scene);
   lay_out_tally(*scene);

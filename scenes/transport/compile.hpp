@@ -2,12 +2,25 @@
 // Pure; throws nothing; everything wrong is in Problems.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "scenes/transport/compiled_scene.hpp"
 
 namespace luxodus {
+
+/// Light of the source groups, each times a factor, by name; 1 of those that are not named.
+struct GroupMixture {
+  std::map<std::string, double> factors;
+
+  double factor_of(const std::string& group) const {
+    const auto at = factors.find(group);
+    return at == factors.end() ? 1 : at->second;
+  }
+};
 
 struct CompileOptions {
   int cells = 1;  // geometry cells; 1 is one merged scene; a packed scene has been cut already
@@ -15,6 +28,8 @@ struct CompileOptions {
   /// Of all batches, those of each source group, in their order [1]. Empty: by BatchPlan's own
   /// rule. Requires: all above 0, 1 in all.
   std::vector<double> batch_shares = {};
+  /// Sums of source groups that views are scored by, beside the whole; in place of single groups.
+  std::vector<GroupMixture> mixtures = {};
   /// Bands as for this one's light, if it is not null, so that totals of both can be compared to
   /// the bit. Requires: every spectrum of the scene is in it.
   const SceneDescription* bands_of = nullptr;

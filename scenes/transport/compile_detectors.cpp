@@ -220,7 +220,11 @@ void lay_out_tally(CompiledScene& scene) {
   }
   if (const uint32_t parts = 3 * size(scene.eye_targets); parts > 0) {
     b.views = l.add_block({"views", parts, eye_quantities, ScoreUnit::value, false});
-    if (groups > 1) {
+    const uint32_t mixtures = size(scene.mixtures);
+    if (mixtures > 0) {
+      b.views_by_mixture = l.add_block(
+          {"views_by_mixture", parts * mixtures, mixture_eye_quantities, ScoreUnit::value, false});
+    } else if (groups > 1) {
       b.views_by_group = l.add_block(
           {"views_by_group", parts * groups, group_eye_quantities, ScoreUnit::value, false});
     }

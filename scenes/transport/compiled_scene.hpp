@@ -69,6 +69,7 @@ struct CompiledEmitter {
   int group = 0;
   double area_m2 = 0;
   double luminous_flux_lm = 0;
+  double wanted = 1;              // how often paths choose it, for its light
   std::vector<double> power_w;    // per band
   std::vector<double> texel_cdf;  // sign face: by texel; mesh: by triangle; cumulative share
   int texel_columns = 0;          // sign face
@@ -141,6 +142,7 @@ struct TallyBlocks {
       none_index;                        // the same per (probe, source group), if there are several
   uint32_t views = none_index;           // from the eye: see EyeQuantity (values)
   uint32_t views_by_group = none_index;  // see GroupEyeQuantity; per (part, source group)
+  uint32_t views_by_mixture = none_index;  // see MixtureEyeQuantity; per (part, mixture)
 };
 
 /// What the kernels of this scene must contain.
@@ -161,6 +163,11 @@ enum class EyeQuantity : uint32_t { own, reflected, at_eye, path, transmission, 
 /// The part of them that one source group gives, where there are several.
 inline constexpr uint32_t group_eye_quantities = 3;
 enum class GroupEyeQuantity : uint32_t { reflected, at_eye, path };
+
+/// What a mixture of source groups gives. A batch scores the sum itself, so that its error over
+/// batches knows how the groups vary together.
+inline constexpr uint32_t mixture_eye_quantities = 2;
+enum class MixtureEyeQuantity : uint32_t { reflected, at_eye };
 
 /// A sign as one observer looks at it: what is estimated from the eye.
 struct EyeTarget {
@@ -238,9 +245,10 @@ struct CompiledScene {
   std::vector<GeometryCell> cells;          // by box; none where the triangles are in a pack
 
   int64_t batch_particles = 0;
-  std::vector<double> batch_shares;  // of each group [1]; empty: by BatchPlan's own rule
-  int eye_paths_per_batch = 0;       // per eye target part and per probe
-  uint64_t scene_hash = 0;           // content, scenario, partition, seed
+  std::vector<double> batch_shares;           // of each group [1]; empty: by BatchPlan's own rule
+  std::vector<std::vector<double>> mixtures;  // of each, a factor for each source group
+  int eye_paths_per_batch = 0;                // per eye target part and per probe
+  uint64_t scene_hash = 0;                    // content, scenario, partition, seed
   uint64_t triangles = 0;
   uint32_t patch_count = 0;
   double total_area_m2 = 0;

@@ -18,7 +18,7 @@ EmitterChoice::EmitterChoice(const CompiledScene& scene) : scene_(scene) {
   double sum = 0;
   for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
     const CompiledEmitter& e = scene.emitters[i];
-    seen_power_.push_back(power_seen(scene, e));
+    seen_power_.push_back(e.wanted * power_seen(scene, e));
     bounds_.push_back(emitter_bound(scene, i));
     if (e.distribution != Distribution::collimated) sum += seen_power_.back();
     by_power_.push_back(sum);
@@ -34,7 +34,7 @@ double EmitterChoice::weigh(Cumulative& cumulative, int band, WeightOf&& weight)
   for (size_t i = 0; i < cumulative.size(); ++i) {
     const CompiledEmitter& e = scene_.emitters[i];
     const double in_band =
-        band == all_bands ? seen_power_[i] : e.power_w[static_cast<size_t>(band)];
+        band == all_bands ? seen_power_[i] : e.wanted * e.power_w[static_cast<size_t>(band)];
     const double power = e.distribution == Distribution::collimated ? 0 : in_band;
     if (power > 0) total += power * weight(e);
     cumulative[i] = total;
@@ -59,9 +59,10 @@ bool EmitterChoice::weigh_bright(const Vec3& place, const Vec3& normal, int band
       const Real height = std::max(0.0_r, glm::dot(way, normal) + bound.radius);
       weight *= static_cast<double>(height / std::sqrt(square));
     }
-    total +=
-        weight * (band == all_bands ? seen_power_[emitter]
-                                    : scene_.emitters[emitter].power_w[static_cast<size_t>(band)]);
+    total += weight * (band == all_bands
+                           ? seen_power_[emitter]
+                           : scene_.emitters[emitter].wanted *
+                                 scene_.emitters[emitter].power_w[static_cast<size_t>(band)]);
     at_[i] = total;
   }
   bright_ = total > 0 ? limits::bright_choice : 0;

@@ -1,8 +1,8 @@
 // What signs and probes are asked for, from paths that start at the eye or at the probe: of a sign,
 // its surround and the veil between, the luminance at the eye; of a point, the light that reaches
-// it after at least one event. Everything is the mean of a batch, and each source group's part
-// beside the whole. Paths have a particle range, batches and standard errors of their own. Thread
-// rule: one EyeScores per thread or fiber.
+// it after at least one event. Everything is the mean of a batch, and beside the whole each source
+// group's part, or each mixture of groups. Paths have a particle range, batches and standard errors
+// of their own. Thread rule: one EyeScores per thread or fiber.
 #pragma once
 
 #include <vector>
@@ -108,11 +108,21 @@ class EyeScores {
     store(scene_.blocks.views, bin,
           {own_, reflected_.total(), at_eye_.total(), path_.total(), transmission_, visible_},
           scores);
-    if (!by_group_) return;
+    store_mixtures(bin, scores);
+    if (scene_.blocks.views_by_group == none_index) return;
     const size_t groups = scene_.groups.size();
     for (size_t g = 0; g < groups; ++g) {
       store(scene_.blocks.views_by_group, static_cast<uint32_t>(bin * groups + g),
             {reflected_.of(g), at_eye_.of(g), path_.of(g)}, scores);
+    }
+  }
+
+  void store_mixtures(uint32_t bin, BatchScores& scores) const {
+    const size_t mixtures = scene_.mixtures.size();
+    for (size_t m = 0; m < mixtures; ++m) {
+      const std::vector<double>& factors = scene_.mixtures[m];
+      store(scene_.blocks.views_by_mixture, static_cast<uint32_t>(bin * mixtures + m),
+            {reflected_.sum(factors), at_eye_.sum(factors)}, scores);
     }
   }
 

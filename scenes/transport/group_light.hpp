@@ -47,6 +47,12 @@ class GroupLight {
   }
 
   double total() const { return total_; }
+  /// Each group's light times its factor. Requires: as many factors as groups.
+  double sum(const std::vector<double>& factors) const {
+    double out = 0;
+    for (size_t g = 0; g < factors.size(); ++g) out += factors[g] * by_group_[g];
+    return out;
+  }
   double of(size_t group) const { return by_group_[group]; }
   std::span<const double> by_band() const { return by_band_; }
 

@@ -1,5 +1,6 @@
 // Light adds: what a source group gives is the light of that group alone, and the groups together
 // are the whole, at probes and at signs as on planes.
+#include "actors/run/local_run.hpp"
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {
@@ -110,6 +111,82 @@ TEST_CASE("a source group's light is what it gives alone") {
   }
   check_agree(of_group(both, b.views_by_group, white, "left", group_veil),
               of_group(alone, a.views_by_group, white, "left", group_veil), 0.02 * root_of_thrift);
+}
+
+namespace {
+
+/// Traced with mixtures of its source groups in place of the groups themselves.
+struct MixedRun {
+  MixedRun(const std::string& text, std::vector<GroupMixture> mixtures, uint64_t seed) {
+    CompileOptions options;
+    options.mixtures = std::move(mixtures);
+    auto scene = std::make_shared<SceneDescription>(scene_from_toml(text));
+    scene->run.batch_particles = 1024;
+    auto made = compile_scene(std::move(scene), plain(), options);
+    REQUIRE(made.ok());
+    compiled = std::move(made).value();
+    run = std::make_unique<LocalRun>(compiled, seed, 2);
+    StopRule stop;
+    stop.particles = 256 * 1024;
+    run->run(stop, std::atomic<bool>{false}, [](const Progress&) {});
+  }
+
+  static Scenario plain() {
+    Scenario out;
+    out.name = "as written";
+    return out;
+  }
+  Estimate whole(uint32_t part, EyeQuantity quantity) const {
+    return Readout(*compiled, run->totals())
+        .value(compiled->blocks.views, part, static_cast<uint32_t>(quantity));
+  }
+  Estimate mixed(uint32_t part, size_t mixture, MixtureEyeQuantity quantity) const {
+    const size_t bin = part * compiled->mixtures.size() + mixture;
+    return Readout(*compiled, run->totals())
+        .value(compiled->blocks.views_by_mixture, static_cast<uint32_t>(bin),
+               static_cast<uint32_t>(quantity));
+  }
+
+  std::shared_ptr<const CompiledScene> compiled;
+  std::unique_ptr<LocalRun> run;
+};
+
+}  // namespace
+
+TEST_CASE("a mixture of source groups is what the scene with that light gives, with its error") {
+  // Each lamp alone, both, and both with the second at a quarter.
+  const std::vector<GroupMixture> mixtures{
+      {{{"right", 0}}}, {{{"left", 0}}}, {}, {{{"right", 0.25}}}};
+  const MixedRun all(two_lamps(1000, 2000), mixtures, 1);
+  CHECK(all.compiled->blocks.views_by_group == none_index);
+  const MixedRun left(two_lamps(1000, 0), {{}}, 2), right(two_lamps(0, 2000), {{}}, 3),
+      quarter(two_lamps(1000, 500), {{}}, 4);
+  for (const uint32_t part : {white, green, surround}) {
+    const auto by_itself = [&](size_t mixture, const MixedRun& alone) {
+      const Estimate a = all.mixed(part, mixture, MixtureEyeQuantity::at_eye),
+                     b = alone.whole(part, EyeQuantity::at_eye);
+      INFO("part " << part << ", mixture " << mixture << ": " << a.value << " +- "
+                   << a.standard_error << ", alone " << b.value << " +- " << b.standard_error);
+      CHECK(a.standard_error > 0);
+      CHECK(std::abs(a.value - b.value) < 4 * std::hypot(a.standard_error, b.standard_error));
+    };
+    by_itself(0, left);
+    by_itself(1, right);
+    by_itself(3, quarter);
+    // With all factors 1 it is the whole, and so is its error: groups vary together.
+    const Estimate sum = all.mixed(part, 2, MixtureEyeQuantity::at_eye),
+                   whole = all.whole(part, EyeQuantity::at_eye);
+    CHECK(sum.value == Approx(whole.value).epsilon(1e-9));
+    CHECK(sum.standard_error == Approx(whole.standard_error).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("paths choose emitters of many mixtures more often than those of few") {
+  const std::vector<GroupMixture> mixtures{
+      {{{"right", 0}}}, {{{"right", 0}}}, {{{"right", 0}}}, {}};
+  const MixedRun all(two_lamps(1000, 1000), mixtures, 1);
+  for (const CompiledEmitter& emitter : all.compiled->emitters)
+    CHECK(emitter.wanted == Approx(emitter.name == "right" ? 0.5 : 1.0));
 }
 
 TEST_CASE("a scene of one source group pays for no second copy of its values") {

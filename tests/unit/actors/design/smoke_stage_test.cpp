@@ -12,6 +12,7 @@
 #include "tests/kit/room_texts.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/design/silent.hpp"
+#include "tests/unit/actors/design/smoke_corridor.hpp"
 
 namespace luxodus {
 namespace {
@@ -139,6 +140,16 @@ TEST_CASE("what is told of layouts in smoke follows from how they are read", "[d
   CHECK(told({a, veiled}).find("veils") == std::string::npos);
   for (const Language language : {Language::de, Language::fr})
     CHECK(smoke_words(Texts(language), smoke_json(stage_of({a, veiled}))).size() >= 2);
+  // What ended the race, and what it has left open.
+  SmokeStage ended = stage_of({a, judged_as("B", 4, 0.4, 0.7), judged_as("C", 5, 0.1, 0.2)});
+  ended.layouts[0].is_open = ended.layouts[1].is_open = true;
+  for (const auto& [end, words] :
+       {std::pair{RaceEnd::time, "Time ended the comparison after round 1 of paths: layouts A, B"},
+        {RaceEnd::rounds, "After the last round of paths (1) layouts A, B cannot be told apart"},
+        {RaceEnd::interrupted, "Interrupted before"}}) {
+    ended.end = end;
+    CHECK(smoke_words(english, smoke_json(ended)).back().find(words) != std::string::npos);
+  }
 }
 
 TEST_CASE("a corridor in smoke: alternatives pass the rules, brighter signs are read farther",
@@ -208,6 +219,116 @@ TEST_CASE("a corridor in smoke: alternatives pass the rules, brighter signs are 
       CHECK(glm::length(there.frame.origin - judged.frame.origin) < 1e-6);
     }
   }
+}
+
+TEST_CASE("layouts that share their paths are read from where each is by its own", "[design]") {
+  const auto scene = test::described_text(test::corridor_with(test::even_smoke));
+  const std::vector<JudgedLayout> layouts{test::corridor_layout(scene, "A", {3, 8, 13}),
+                                          test::corridor_layout(scene, "B", {3, 10.5}),
+                                          test::corridor_layout(scene, "C", {2, 6, 11, 15})};
+  const auto judged = [&](bool together) {
+    SmokeStageOptions asked;
+    asked.scenarios = {"fire"};
+    asked.threads = 2;
+    asked.together = together;
+    auto stage = judge_in_smoke(layouts, asked, nobody, [](const std::string&) {});
+    INFO((stage ? "" : stage.problem().text()));
+    REQUIRE(stage);
+    return std::move(stage).value();
+  };
+  const SmokeStage shared = judged(true), apart = judged(false);
+  REQUIRE(shared.layouts.size() == 5);  // three, A with brighter signs, A with low ones
+  REQUIRE(apart.layouts.size() == 5);
+  CHECK(shared.traces == 2);
+  CHECK(apart.traces == 5);
+  for (size_t i = 0; i < shared.layouts.size(); ++i) {
+    const LegibleShare a = shared.layouts[i].worst(), b = apart.layouts[i].worst();
+    INFO(shared.layouts[i].name << ": " << a.least << " to " << a.most << ", alone " << b.least
+                                << " to " << b.most);
+    CHECK(a.least <= b.most + 1e-9);
+    CHECK(b.least <= a.most + 1e-9);
+    CHECK(shared.layouts[i].rounds >= 1);
+    CHECK(shared.layouts[i].guided.empty());  // nothing changes in time
+  }
+  CHECK((shared.end == RaceEnd::decided || shared.end == RaceEnd::rounds));
+}
+
+TEST_CASE("a race that has no time left judges nothing and says so", "[design]") {
+  const auto scene = test::described_text(test::corridor_with(test::even_smoke));
+  SmokeStageOptions asked;
+  asked.scenarios = {"fire"};
+  asked.seconds = 0;
+  const auto stage = judge_in_smoke({test::corridor_layout(scene, "A", {3, 8, 13})}, asked, nobody,
+                                    [](const std::string&) {});
+  REQUIRE(stage);
+  CHECK(stage->end == RaceEnd::time);
+  CHECK(stage->layouts.empty());
+}
+
+TEST_CASE("where smoke sinks, it is told until when each layout guides", "[design]") {
+  const std::string text = test::corridor_with(
+      "[[medium]]\nname = \"smoke\"\nkind = \"layered\"\n[[medium.layer]]\n"
+      "z_low = [[0, 3], [100, 1]]\nz_high = 3\nalbedo = 0.3\nextinction = 40\n"
+      "[time]\nto = 60\nstep = 15\n");
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.write("scene.toml", text);
+  const auto scene_at = [&](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
+    ReadScene read = read_scene(file, at_s);
+    if (!read.scene) return read.problems.list().front();
+    return std::make_shared<const SceneDescription>(std::move(*read.scene));
+  };
+  const auto scene = scene_at(45).value();
+  SmokeStageOptions asked;
+  asked.scenarios = {"fire"};
+  asked.threads = 2;
+  asked.scene_at = scene_at;
+  const auto stage = judge_in_smoke(
+      {test::corridor_layout(scene, "A", {3, 8, 13}), test::corridor_layout(scene, "B", {3, 10.5})},
+      asked, nobody, [](const std::string&) {});
+  INFO((stage ? "" : stage.problem().text()));
+  REQUIRE(stage);
+  CHECK(stage->times_s == std::vector<double>{0, 15, 30, 45, 60});
+  REQUIRE(stage->layouts.size() == 4);
+  // The sign's letters end at 2.125 and 2.275 m: reached at 43.75 and 36.25 s.
+  for (const JudgedLayout& one : stage->layouts) {
+    INFO(one.name);
+    REQUIRE(one.guided.size() == 1);
+    CHECK(one.guided.front().route == "way");
+    const FirstLoss loss = first_loss_of(one.guided);
+    if (one.low_signs.empty()) {
+      CHECK(loss.least_s == 30);
+      CHECK(loss.most_s == 30);
+      CHECK_FALSE(loss.never_lost);
+    } else {
+      CHECK(loss.least_s == 60);  // below the smoke
+      CHECK(loss.never_lost);
+    }
+  }
+  const Texts english(Language::en);
+  const Json json = smoke_json(stage.value());
+  std::string told;
+  for (const std::string& line : smoke_words(english, json)) told += line + "\n";
+  CHECK(told.find("guide from every place of every route until 30 s") != std::string::npos);
+  const Json design = {{"objective", {{"kind", "number"}}}, {"smoke", json}};
+  const std::string page = smoke_section(english, design);
+  CHECK(page.find("Guides until") != std::string::npos);
+  CHECK(page.find("A, until 30 s") != std::string::npos);
+  CHECK(page.find("60 s, the last state") != std::string::npos);
+}
+
+TEST_CASE("until when all routes guide is told of the one that is lost first", "[design]") {
+  const auto guided = [](std::optional<double> least, std::optional<double> most, bool lost) {
+    GuidedUntil out;
+    out.least = {least, lost ? std::optional(1000.0) : std::nullopt, 0};
+    out.most = {most, {}, 0};
+    return out;
+  };
+  const FirstLoss both = first_loss_of({guided(60, 120, true), guided(90, 90, true)});
+  CHECK(both.least_s == 60);
+  CHECK(both.most_s == 90);
+  CHECK_FALSE(both.never_lost);
+  CHECK_FALSE(first_loss_of({guided({}, 120, true), guided(90, 90, true)}).least_s.has_value());
+  CHECK(first_loss_of({guided(90, 90, false)}).never_lost);
 }
 
 TEST_CASE("what cannot be judged in smoke is refused before the search", "[design]") {

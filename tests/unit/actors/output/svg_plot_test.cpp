@@ -85,6 +85,22 @@ std::vector<std::pair<double, double>> polyline(const std::string& svg) {
 
 }  // namespace
 
+TEST_CASE("points have their labels beside them, towards the middle of the plot") {
+  SvgPlot plot = convergence();
+  plot.series[0].labels = {"A & B", "C", "D", "E", "F"};
+  const std::string svg = drawn_plot(plot);
+  CHECK_THAT(svg, Contains(">A &amp; B</text>"));
+  const auto anchor_of = [&](const std::string& label) {
+    const size_t end = svg.find(">" + label + "</text>");
+    REQUIRE(end != std::string::npos);
+    return svg.substr(svg.rfind("<text", end), end - svg.rfind("<text", end));
+  };
+  CHECK_THAT(anchor_of("C"), Contains("text-anchor=\"start\""));
+  CHECK_THAT(anchor_of("F"), Contains("text-anchor=\"end\""));
+  plot.series[0].labels.pop_back();
+  CHECK_FALSE(svg_plot_text(plot, plot_place).ok());
+}
+
 TEST_CASE("a plot is an SVG that another library draws", "[format][svg]") {
   const std::string svg = drawn_plot(convergence());
   CHECK(ink(svg) > 2000);

@@ -1,0 +1,145 @@
+#include "actors/design/smoke_race.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenes/transport/compile.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Layouts are beside each other with the same signs.
+bool like_signs(const JudgedLayout& a, const JudgedLayout& b) {
+  return a.sign_factor == b.sign_factor && a.low_signs.size() == b.low_signs.size();
+}
+
+SmokeVerdict verdict_of(const std::string& scenario, const SeenPlaces& places,
+                        const std::vector<double>& heights_m) {
+  SmokeVerdict out{scenario, {}, share_of(places, [](const RoutePlace&) { return true; })};
+  for (const double height : heights_m)
+    out.by_height.push_back(
+        share_of(places, [&](const RoutePlace& place) { return std::get<2>(place) == height; }));
+  return out;
+}
+
+}  // namespace
+
+bool beats(const JudgedLayout& a, const JudgedLayout& b) {
+  const bool costs_no_more = a.objective <= b.objective * (1 + 1e-9);
+  if (!costs_no_more || a.worst().least < b.worst().most) return false;
+  return a.objective < b.objective * (1 - 1e-9) || a.worst().least > b.worst().least;
+}
+
+/// Whether more paths could change its place among the others.
+bool SmokeRace::is_open(const JudgedLayout& one) const {
+  if (one.rounds == 0) return true;
+  const LegibleShare share = one.worst();
+  return share.least < share.most &&
+         std::none_of(stage_.layouts.begin(), stage_.layouts.end(), [&](const auto& other) {
+           return other.rounds > 0 && like_signs(other, one) && beats(other, one);
+         });
+}
+
+Result<void> SmokeRace::run() {
+  stage_.end = RaceEnd::rounds;
+  for (int round = 0; round < options_.rounds && !stopped_; ++round) {
+    bool any = false;
+    for (size_t h = 0; h < heats_.size() && !stopped_; ++h) {
+      if (round == 0)
+        if (auto ok = open_heat(heats_[h]); !ok) return stopped_ ? Result<void>() : ok.problem();
+      std::vector<bool> asked;
+      for (const size_t i : heats_[h].members) asked.push_back(is_open(stage_.layouts[i]));
+      if (std::find(asked.begin(), asked.end(), true) == asked.end()) continue;
+      any = true;
+      if (auto ok = trace(h, round, asked); !ok) {
+        if (stopped_) break;
+        return ok.problem();
+      }
+      judge(h, round + 1);
+    }
+    if (!any) stage_.end = RaceEnd::decided;
+    if (!any) break;
+  }
+  for (JudgedLayout& one : stage_.layouts) one.is_open = is_open(one);
+  if (!stopped_ && std::none_of(stage_.layouts.begin(), stage_.layouts.end(),
+                                [](const JudgedLayout& one) { return one.is_open; }))
+    stage_.end = RaceEnd::decided;
+  for (const States& states : states_)
+    for (const auto& state : states) stage_.paths += state->sights().paths();
+  for (size_t i = 0; i < stage_.layouts.size(); ++i) compare(i);
+  return {};
+}
+
+AssessProgress SmokeRace::tell(const Heat& heat, size_t scenario, int round) const {
+  const std::string who = heat.members.size() == 1
+                              ? "layout " + stage_.layouts[heat.members.front()].name
+                              : fmt::format("{} layouts together", heat.members.size());
+  return [this, said = fmt::format("judging {} of {} in \"{}\", round {} of paths", who,
+                                   stage_.layouts.size(), stage_.scenarios[scenario], round + 1)](
+             const std::string&, double share) {
+    progress_(fmt::format("{}, {:.0f} %", said, 100 * share));
+  };
+}
+
+Result<void> SmokeRace::open_heat(const Heat& heat) {
+  States& states = states_.emplace_back();
+  AssessOptions asked;
+  asked.seed = options_.seed;
+  asked.threads = options_.threads;
+  asked.wanted = is_ahead;
+  for (size_t s = 0; s < stage_.scenarios.size(); ++s) {
+    const auto scenario = find_scenario(*heat.base, stage_.scenarios[s]);
+    if (!scenario) return scenario.problem();
+    auto state =
+        HeatState::make(*heat.lights, *heat.base, scenario.value(), asked, tell(heat, s, 0));
+    if (!state) return state.problem();
+    states.push_back(std::move(state).value());
+  }
+  return {};
+}
+
+Result<void> SmokeRace::trace(size_t heat, int round, const std::vector<bool>& asked) {
+  for (size_t s = 0; s < stage_.scenarios.size(); ++s) {
+    SightsInLights& sights = states_[heat][s]->sights();
+    bool any = false;
+    for (size_t i = 0; i < asked.size(); ++i) any |= asked[i] && sights.is_open(i);
+    if (!any) continue;
+    if (auto ok = sights.trace(round, asked, stopped_, tell(heats_[heat], s, round)); !ok)
+      return ok.problem();
+  }
+  return {};
+}
+
+/// All layouts of a heat, those too that were not asked for.
+void SmokeRace::judge(size_t heat, int rounds) {
+  for (size_t i = 0; i < heats_[heat].members.size(); ++i) {
+    const size_t layout = heats_[heat].members[i];
+    JudgedLayout& one = stage_.layouts[layout];
+    one.smoke.clear();
+    places_[layout].clear();
+    for (size_t s = 0; s < stage_.scenarios.size(); ++s) {
+      HeatState& state = *states_[heat][s];
+      places_[layout].push_back(places_of(state.scene(), state.sights().rows(i)));
+      one.smoke.push_back(
+          verdict_of(stage_.scenarios[s], places_[layout].back(), stage_.heights_m));
+    }
+    one.rounds = rounds;
+  }
+}
+
+/// With the first layout, place by place.
+void SmokeRace::compare(size_t layout) {
+  JudgedLayout& one = stage_.layouts[layout];
+  one.lost = one.won = 0;
+  for (size_t s = 0; s < places_[layout].size(); ++s)
+    for (const auto& [place, seen] : places_[layout][s]) {
+      const auto first = places_[0][s].find(place);
+      if (first == places_[0][s].end()) continue;
+      one.lost += first->second.read == Read::a_sign && seen.read == Read::nothing;
+      one.won += first->second.read == Read::nothing && seen.read == Read::a_sign;
+    }
+}
+
+}  // namespace luxodus
