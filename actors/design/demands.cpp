@@ -139,6 +139,12 @@ class Demands::Builder {
       option.fixed = one.fixed;
       option.position = one.position;
       option.weight = one.fixed ? 0 : weight_of(one);
+      option.barred = one.barred;
+      if (one.pool) {
+        option.pool = one.pool->number;
+        problem_.pools.resize(std::max<size_t>(problem_.pools.size(), option.pool + 1), 0);
+        problem_.pools[option.pool] = one.pool->size;
+      }
       problem_.options.push_back(option);
     }
   }
@@ -174,11 +180,27 @@ class Demands::Builder {
     return std::string(kind) + " \"" + area.name + "\"";
   }
 
-  /// A luminaire that is there has been paid for.
+  /// A luminaire that is there has been paid for, and one that stays in any case is not counted.
   double weight_of(const LuminaireCandidate& one) const {
+    if (one.moved) return weight_of_move();
+    if (one.pool) return 0;
     const bool there = one.type == LuminaireCandidate::existing;
-    const double cost = there ? 0 : design_.types[one.type].cost;
-    const double watts = there ? 0 : design_.types[one.type].watts;
+    return there ? weight_of(0, 0)
+                 : weight_of(design_.types[one.type].cost, design_.types[one.type].watts);
+  }
+
+  double weight_of_move() const {
+    if (design_.move_cost) return *design_.move_cost;
+    double least = 0;
+    for (const DesignType& type : design_.types) {
+      const double weight = weight_of(type.cost, type.watts);
+      if (weight > 0 && (least == 0 || weight < least)) least = weight;
+    }
+    // Where new ones add nothing either, a luminaire is not moved in vain.
+    return default_move_share * (least > 0 ? least : 1);
+  }
+
+  double weight_of(double cost, double watts) const {
     switch (design_.objective) {
       case DesignObjective::number:
         return 1;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "actors/design/alternatives.hpp"
@@ -87,10 +88,39 @@ std::shared_ptr<const SceneDescription> variant_of(const SceneDescription& scene
     return std::find(layout.removed.begin(), layout.removed.end(), e.name) != layout.removed.end();
   });
   for (const PlacedLuminaire& one : layout.luminaires) {
-    if (!one.is_new()) continue;
+    if (!one.is_placed()) continue;
     Emitter e = emitter_of(scene, *scene.design, one.candidate);
     e.name = one.name;
-    out->emitters.push_back(std::move(e));
+    const auto there = std::find_if(out->emitters.begin(), out->emitters.end(),
+                                    [&](const Emitter& other) { return other.name == one.name; });
+    if (there != out->emitters.end())
+      *there = std::move(e);
+    else
+      out->emitters.push_back(std::move(e));
+  }
+  return out;
+}
+
+/// Which luminaire of a pool goes where: the two that are nearest to each other, again and again.
+std::vector<PlacedLuminaire> moved_in(std::vector<LuminaireCandidate> leaving,
+                                      std::vector<LuminaireCandidate> places) {
+  std::vector<PlacedLuminaire> out;
+  while (!leaving.empty() && !places.empty()) {
+    double nearest = std::numeric_limits<double>::infinity();
+    size_t from = 0, to = 0;
+    for (size_t i = 0; i < leaving.size(); ++i)
+      for (size_t k = 0; k < places.size(); ++k)
+        if (const double way = glm::length(leaving[i].position - places[k].position);
+            way < nearest) {
+          nearest = way;
+          from = i;
+          to = k;
+        }
+    LuminaireCandidate one = places[to];
+    one.name = leaving[from].name;
+    out.push_back({one, one.name, leaving[from].position});
+    leaving.erase(leaving.begin() + static_cast<std::ptrdiff_t>(from));
+    places.erase(places.begin() + static_cast<std::ptrdiff_t>(to));
   }
   return out;
 }
@@ -100,14 +130,23 @@ PlacedLayout placed(const SceneDescription& scene, const Candidates& candidates,
   PlacedLayout out;
   out.removed = candidates.removed;
   std::vector<LuminaireCandidate> fresh;
+  std::map<uint32_t, std::vector<LuminaireCandidate>> leaving, arriving;  // by pool
   for (size_t i = 0; i < candidates.all.size(); ++i) {
     const LuminaireCandidate& one = candidates.all[i];
-    if (one.type == LuminaireCandidate::existing && layout[i] == 0)
+    if (one.pool && one.moved == (layout[i] != 0))
+      (one.moved ? arriving : leaving)[one.pool->number].push_back(one);
+    else if (one.moved)
+      continue;
+    else if (one.type == LuminaireCandidate::existing && layout[i] == 0)
       out.removed.push_back(one.name);
     else if (one.type == LuminaireCandidate::existing)
       out.luminaires.push_back({one, one.name});
     else if (layout[i] != 0)
       fresh.push_back(one);
+  }
+  for (auto& [pool, places] : arriving) {
+    const auto moved = moved_in(std::move(leaving[pool]), std::move(places));
+    out.luminaires.insert(out.luminaires.end(), moved.begin(), moved.end());
   }
   std::stable_sort(fresh.begin(), fresh.end(), comes_before);
   const std::string prefix = prefix_of_names(scene);
@@ -412,7 +451,7 @@ class Designing {
                                     std::vector<Check>* others) {
     std::set<std::string> ours;
     for (const PlacedLuminaire& one : layout.luminaires)
-      if (one.is_new()) ours.insert("luminaire \"" + one.name + "\"");
+      if (one.is_placed()) ours.insert("luminaire \"" + one.name + "\"");
     std::vector<Check> out;
     if (others != nullptr) others->clear();
     for (const Check& check : assessment.checks) {

@@ -81,9 +81,10 @@ Json luminaires_json_of(const SceneDescription& scene, const DesignResult& resul
     out.push_back({{"name", one.name},
                    {"type", type_of(scene, one)},
                    {"is_new", one.is_new()},
+                   {"moved_from", one.moved_from ? vector_json(*one.moved_from) : Json()},
                    {"position", vector_json(one.candidate.position)},
                    {"mount", one.candidate.aim ? "wall"
-                             : one.is_new()    ? "ceiling"
+                             : one.is_placed() ? "ceiling"
                                                : ""},
                    {"rotation_deg", number_json(one.candidate.rotation_deg)}});
   return out;
@@ -252,8 +253,11 @@ std::string outcome_words(const SceneDescription& scene, const DesignResult& res
   const auto fresh = std::count_if(result.luminaires.begin(), result.luminaires.end(),
                                    [](const PlacedLuminaire& one) { return one.is_new(); });
   std::string out = fmt::format("{} new luminaire{}", fresh, fresh == 1 ? "" : "s");
-  if (const size_t kept = result.luminaires.size() - static_cast<size_t>(fresh); kept > 0)
+  const auto moved = std::count_if(result.luminaires.begin(), result.luminaires.end(),
+                                   [](const auto& one) { return one.moved_from.has_value(); });
+  if (const size_t kept = result.luminaires.size() - static_cast<size_t>(fresh + moved); kept > 0)
     out += fmt::format(", {} of the scene stay{}", kept, kept == 1 ? "s" : "");
+  if (moved > 0) out += fmt::format(", {} of the scene {} moved", moved, moved == 1 ? "is" : "are");
   if (!result.removed.empty()) out += fmt::format(", {} go", result.removed.size());
   const std::string objective(objective_words[static_cast<size_t>(scene.design->objective)]);
   out += fmt::format("; objective ({}) {}", objective, readable_number(answer.objective, 4));
@@ -341,15 +345,20 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
   for (const std::string& name : layout.removed)
     out += "\n[[change]]\nkind = \"luminaire\"\nof = " + toml_text(name) + "\nremove = true\n";
   for (const PlacedLuminaire& one : layout.luminaires) {
-    if (!one.is_new()) continue;
+    if (!one.is_placed()) continue;
     const glm::dvec3& p = one.candidate.position;
-    out += "\n[[change]]\nkind = \"design_type\"\nof = " + toml_text(type_of(scene, one)) +
-           "\ncopy = " + toml_text(one.name) + "\nposition = [" + toml_metres(p.x) + ", " +
-           toml_metres(p.y) + ", " + toml_metres(p.z) + "]\n";
-    if (one.candidate.aim)
-      out += "facing = [" + shortest_number(one.candidate.aim->x) + ", " +
-             shortest_number(one.candidate.aim->y) + ", " + shortest_number(one.candidate.aim->z) +
-             "]\n";
+    out += one.is_new()
+               ? "\n[[change]]\nkind = \"design_type\"\nof = " + toml_text(type_of(scene, one)) +
+                     "\ncopy = " + toml_text(one.name)
+               : "\n[[change]]\nkind = \"luminaire\"\nof = " + toml_text(one.name);
+    out += "\nposition = [" + toml_metres(p.x) + ", " + toml_metres(p.y) + ", " + toml_metres(p.z) +
+           "]\n";
+    // A type looks down by itself; a luminaire of the scene may be turned.
+    if (one.candidate.aim || !one.is_new()) {
+      const glm::dvec3 aim = one.candidate.aim.value_or(glm::dvec3(0, 0, -1));
+      out += "facing = [" + shortest_number(aim.x) + ", " + shortest_number(aim.y) + ", " +
+             shortest_number(aim.z) + "]\n";
+    }
     if (one.candidate.rotation_deg != 0)
       out += "rotation_deg = " + shortest_number(one.candidate.rotation_deg) + "\n";
   }
@@ -359,19 +368,24 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
 CsvTable schedule_csv(const DesignResult& result) {
   CsvTable table({"name", "state", "type", "file", "x [m]", "y [m]", "z [m]",
                   "height above floor [m]", "mount", "turn [deg]", "emergency flux [lm]",
-                  "maintenance factor [1]", "end of duration factor [1]", "cost", "power [W]"});
+                  "maintenance factor [1]", "end of duration factor [1]", "cost", "power [W]",
+                  "moved from x [m]", "moved from y [m]", "moved from z [m]"});
   const SceneDescription& scene = *result.variant;
   for (const PlacedLuminaire& one : result.luminaires) {
     const auto at = std::find_if(scene.emitters.begin(), scene.emitters.end(),
                                  [&](const Emitter& e) { return e.name == one.name; });
     const glm::dvec3& p = one.candidate.position;
-    table.cell(one.name).cell(one.is_new() ? "new" : "stays").cell(type_of(scene, one));
+    table.cell(one.name)
+        .cell(one.is_new()     ? "new"
+              : one.moved_from ? "moved"
+                               : "stays")
+        .cell(type_of(scene, one));
     table.cell(at->file).cell(p.x).cell(p.y).cell(p.z);
     if (const auto floor = floor_below(scene, p))
       table.cell(p.z - *floor);
     else
       table.empty_cell();
-    table.cell(one.candidate.aim ? "wall" : one.is_new() ? "ceiling" : "");
+    table.cell(one.candidate.aim ? "wall" : one.is_placed() ? "ceiling" : "");
     table.cell(one.candidate.rotation_deg).cell(at->emergency_flux / at->emergency_ageing);
     table.cell(at->maintenance_factor).cell(at->end_of_duration_factor);
     if (one.is_new()) {
@@ -380,6 +394,11 @@ CsvTable schedule_csv(const DesignResult& result) {
     } else {
       table.empty_cell().empty_cell();
     }
+    for (int axis = 0; axis < 3; ++axis)
+      if (one.moved_from)
+        table.cell((*one.moved_from)[axis]);
+      else
+        table.empty_cell();
     table.end_row();
   }
   return table;

@@ -27,10 +27,12 @@ std::string heading(const Texts& t, const char* key) {
 
 std::string outcome(const Texts& t, const Json& d) {
   const Json& objective = d["objective"];
-  size_t fresh = 0, kept = 0;
-  for (const Json& one : d["luminaires"]) ++(one["is_new"].get<bool>() ? fresh : kept);
+  size_t fresh = 0, kept = 0, moved = 0;
+  for (const Json& one : d["luminaires"])
+    ++(one["is_new"].get<bool>() ? fresh : one["moved_from"].is_null() ? kept : moved);
   std::string words = t.say("design.luminaires", fresh);
   if (kept > 0) words += ", " + t.say("design.kept", kept);
+  if (moved > 0) words += ", " + t.say("design.moved", moved);
   if (const size_t gone = d["removed"].size(); gone > 0) words += ", " + t.say("design.gone", gone);
   const bool optimal = d["outcome"]["end"] == "optimal";
   const std::string proof =
@@ -76,6 +78,16 @@ std::string plans_of(const Texts& t, const Json& a, const Schedule& schedule) {
   return out;
 }
 
+/// What a luminaire of the schedule is.
+std::string kind_of(const Texts& t, const Json& one) {
+  if (one["is_new"].get<bool>()) return text_in(one, "type");
+  const Json& from = one["moved_from"];
+  return from.is_null()
+             ? t("design.stays")
+             : t.say("design.moved_from",
+                     t.place(from[0].get<double>(), from[1].get<double>(), from[2].get<double>()));
+}
+
 std::string schedule_of(const Texts& t, const Json& d) {
   std::string types, rows;
   for (const Json& type : d["types"])
@@ -85,8 +97,7 @@ std::string schedule_of(const Texts& t, const Json& d) {
                number_cell(t, type["watts"], "W") + "</tr>\n";
   for (const Json& one : d["luminaires"]) {
     const Json& p = one["position"];
-    rows += "<tr>" + cell(text_in(one, "name")) +
-            cell(one["is_new"].get<bool>() ? text_in(one, "type") : t("design.stays")) +
+    rows += "<tr>" + cell(text_in(one, "name")) + cell(kind_of(t, one)) +
             fixed_cell(t, p[0].get<double>(), 2) + fixed_cell(t, p[1].get<double>(), 2) +
             fixed_cell(t, p[2].get<double>(), 2) +
             fixed_cell(t, one["rotation_deg"].get<double>(), 0) + "</tr>\n";

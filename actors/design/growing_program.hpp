@@ -50,6 +50,7 @@ class GrowingProgram {
 
   void add_row(LinearRow row, int group);
   void add_places();
+  void add_pools();
   void add_cover(const std::vector<Term>& terms, double least, uint32_t but_place, uint32_t group);
   void add_failure(const std::vector<Term>& light, double least, uint32_t group);
   void add_spread(const Violation& v, double more);

@@ -40,11 +40,13 @@ LayoutSums::LayoutSums(const LayoutIndex& index)
       problem_(index.problem()),
       cover_(problem_.covers.size(), 0),
       light_(problem_.points.size(), 0),
+      in_pool_(problem_.pools.size(), 0),
       layout_(problem_.options.size(), 0) {}
 
 void LayoutSums::set(const Layout& layout) {
   std::fill(cover_.begin(), cover_.end(), 0);
   std::fill(light_.begin(), light_.end(), 0);
+  std::fill(in_pool_.begin(), in_pool_.end(), 0);
   std::fill(layout_.begin(), layout_.end(), 0);
   for (uint32_t i = 0; i < layout.size(); ++i)
     if (layout[i] != 0) add(i);
@@ -52,6 +54,7 @@ void LayoutSums::set(const Layout& layout) {
 
 void LayoutSums::change(uint32_t option, int sign) {
   layout_[option] = sign > 0 ? 1 : 0;
+  if (const uint32_t pool = problem_.options[option].pool; pool != no_pool) in_pool_[pool] += sign;
   for (const auto& e : index_.covers(option)) cover_[e.row] += sign * static_cast<double>(e.value);
   for (const auto& e : index_.points(option)) light_[e.row] += sign * static_cast<double>(e.value);
 }
@@ -101,7 +104,13 @@ std::vector<Violation> LayoutSums::violations() const {
   return out;
 }
 
+int64_t LayoutSums::lack_of(size_t pool) const {
+  return static_cast<int64_t>(problem_.pools[pool]) - in_pool_[pool];
+}
+
 bool LayoutSums::holds() const {
+  for (size_t pool = 0; pool < in_pool_.size(); ++pool)
+    if (lack_of(pool) != 0) return false;
   return covers_hold() && violations().empty();
 }
 

@@ -30,15 +30,16 @@ constexpr double time_for_prices = 0.05;
 /// Rounding of an objective.
 constexpr double rounding = 1e-6;
 
-/// The greatest step that every objective is a multiple of; 0 where there is none.
+/// The greatest step that every objective is a multiple of, in thousandths; 0 where there is none.
 double step_of(const LayoutProblem& problem) {
+  constexpr double parts = 1000;
   int64_t step = 0;
   for (const LayoutOption& option : problem.options) {
-    const double weight = option.fixed ? 0 : option.weight;
-    if (weight != std::floor(weight) || weight > 1e9) return 0;
-    step = std::gcd(step, static_cast<int64_t>(weight));
+    const double weight = parts * (option.fixed ? 0 : option.weight);
+    if (weight > 1e12 || std::abs(weight - std::round(weight)) > rounding) return 0;
+    step = std::gcd(step, std::llround(weight));
   }
-  return static_cast<double>(step);
+  return static_cast<double>(step) / parts;
 }
 
 class Solving {

@@ -28,10 +28,16 @@ std::vector<TableSpec> design_schema() {
            {"places", "points", "m", "", "[-1e7, 1e7]",
             "candidate places, listed instead of the grid"},
            {"keep_out", "tables", "", "", "", "where nothing is mounted"},
-           {"existing", "choice", "", "\"fixed\"", "fixed, removable, removed",
+           {"existing", "choice", "", "\"fixed\"", "fixed, removable, removed, movable",
             "what becomes of the emergency luminaires of the scene: they stay, they may go, they "
-            "go"},
+            "go, they stay or are moved"},
            {"fixed", "texts", "", "[]", "", "names of luminaires that stay, whatever `existing`"},
+           {"movable", "texts", "", "[]", "",
+            "names of those that stay where they are or are moved to a place of a new one on their "
+            "storey, likewise"},
+           {"move_cost", "number", "", "", "(0, 1e9]",
+            "of moving one luminaire, in the unit of `objective`; without it a quarter of the "
+            "least that a new luminaire adds"},
            {"removable", "texts", "", "[]", "", "names of those that may go, likewise"},
            {"removed", "texts", "", "[]", "", "names of those that go, likewise"},
            {"place_signs", "flag", "", "", "",

@@ -48,9 +48,10 @@ struct KeepOut {
   double radius_m = 0.5;
 };
 
-/// What becomes of emergency luminaires and of signs that are there already.
-enum class Existing { fixed, removable, removed };
-inline constexpr std::array<std::string_view, 3> existing_words{"fixed", "removable", "removed"};
+/// What becomes of emergency luminaires and of signs that are there already. Signs are not moved.
+enum class Existing { fixed, removable, removed, movable };
+inline constexpr std::array<std::string_view, 4> existing_words{"fixed", "removable", "removed",
+                                                                "movable"};
 
 enum class DesignObjective { number, cost, watts, weighted };
 inline constexpr std::array<std::string_view, 4> objective_words{"number", "cost", "watts",
@@ -59,6 +60,17 @@ inline constexpr std::array<std::string_view, 4> objective_words{"number", "cost
 /// What must still hold when any one luminaire has failed.
 enum class FailureDemand { none, two, full };
 inline constexpr std::array<std::string_view, 3> failure_words{"none", "two", "full"};
+
+/// Of what the lightest new luminaire adds to the objective: what moving one adds.
+inline constexpr double default_move_share = 0.25;
+
+/// Whether two luminaires give the same light in an emergency, for as long and as soon.
+inline bool same_light(const Emitter& a, const Emitter& b) {
+  return a.web == b.web && a.shape == b.shape && a.size == b.size &&
+         a.distribution == b.distribution && a.cosine_power == b.cosine_power &&
+         a.emergency_flux == b.emergency_flux && a.emergency_ageing == b.emergency_ageing &&
+         a.onset == b.onset && a.duration_s == b.duration_s && a.maintained == b.maintained;
+}
 
 struct DesignSettings {
   SourcePlace place;
@@ -77,7 +89,8 @@ struct DesignSettings {
 
   // Luminaires that are there
   Existing existing = Existing::fixed;
-  std::vector<std::string> fixed, removable, removed;  // by name, whatever `existing` says
+  std::vector<std::string> fixed, movable, removable, removed;  // by name, whatever `existing`
+  std::optional<double> move_cost;  // in the unit of the objective; not said: a share of a new one
 
   // Signs
   std::optional<bool> place_signs;  // not said: where the scene has no sign, or types are stated
