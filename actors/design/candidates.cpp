@@ -261,6 +261,30 @@ bool gives_light(const DesignType& type) {
   return type.emitter.emergency_flux > 0;
 }
 
+/// Why a type does not last as long as all rules ask for; none where it does, or says nothing.
+std::optional<UnusedType> too_short(const DesignType& type, const std::vector<CodeChoice>& codes) {
+  constexpr double hour_s = 3600, share = 1 - 1e-9;
+  if (!type.emitter.duration_s) return std::nullopt;
+  const double hours = *type.emitter.duration_s / hour_s;
+  for (const CodeChoice& one : codes)
+    if (const double asked = rated_duration_h(one); hours < asked * share)
+      return UnusedType{type.name, named(one.set).edition, hours, asked};
+  return std::nullopt;
+}
+
+std::vector<UnusedType> unused_types(const DesignSettings& design,
+                                     const std::vector<CodeChoice>& codes) {
+  std::vector<UnusedType> out;
+  for (const DesignType& type : design.types)
+    if (auto one = too_short(type, codes)) out.push_back(*std::move(one));
+  return out;
+}
+
+bool is_unused(const Candidates& candidates, const DesignType& type) {
+  return std::any_of(candidates.unused.begin(), candidates.unused.end(),
+                     [&](const UnusedType& one) { return one.name == type.name; });
+}
+
 /// Movable luminaires of one kind on one storey.
 struct MovableKind {
   const Emitter* emitter;           // of the first of them
@@ -340,10 +364,13 @@ void add_moves(const std::vector<MovableKind>& kinds, const std::vector<Spot>& s
 
 void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
              const std::vector<WallSpot>& walls, Candidates& out) {
+  const auto placed = [&](const DesignType& type) {
+    return gives_light(type) && !is_unused(out, type);
+  };
   const auto first = static_cast<uint32_t>(out.all.size());
   for (uint32_t s = 0; s < spots.size(); ++s)
     for (size_t t = 0; t < design.types.size(); ++t) {
-      if (design.types[t].mount == LuminaireMount::wall || !gives_light(design.types[t])) continue;
+      if (design.types[t].mount == LuminaireMount::wall || !placed(design.types[t])) continue;
       for (const double rotation_deg : rotations_of(design.types[t], spots[s].heading_deg)) {
         LuminaireCandidate one;
         one.type = t;
@@ -357,8 +384,7 @@ void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
   const auto first_wall = static_cast<uint32_t>(first + spots.size());
   for (uint32_t s = 0; s < walls.size(); ++s)
     for (size_t t = 0; t < design.types.size(); ++t) {
-      if (design.types[t].mount == LuminaireMount::ceiling || !gives_light(design.types[t]))
-        continue;
+      if (design.types[t].mount == LuminaireMount::ceiling || !placed(design.types[t])) continue;
       auto turns = design.types[t].turns_deg;
       if (turns.empty()) turns = {0};
       for (const double turn : turns) {
@@ -468,6 +494,11 @@ std::string words_of(const LeftOut& left) {
 
 }  // namespace
 
+std::string unused_words(const UnusedType& type) {
+  return fmt::format("type \"{}\" is not placed: it lasts {:g} h, and {} asks for {:g} h",
+                     type.name, type.lasts_h, type.rules, type.asked_h);
+}
+
 const Emitter& some_light(const DesignSettings& design) {
   const auto lit = std::find_if(design.types.begin(), design.types.end(), gives_light);
   return (lit == design.types.end() ? design.types.front() : *lit).emitter;
@@ -567,6 +598,7 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
       Building::make(code_scene(dark, true), code_scenario(dark, doors), threads);
   if (!furnished) return furnished.problem();
   Candidates out;
+  out.unused = unused_types(design, codes);
   add_existing(scene, design, out);
   const auto existing = static_cast<uint32_t>(out.all.size());
   const std::vector<MovableKind> kinds = find_pools(scene, out.all);
@@ -601,6 +633,9 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
       std::all_of(out.all.begin(), out.all.end(),
                   [](const LuminaireCandidate& c) { return c.fixed; })) {
     if (auto problem = no_light(design)) return *problem;
+    if (out.unused.size() == design.types.size())
+      return problem_in(design.place, "no type of luminaire lasts as long as the rules ask for: " +
+                                          unused_words(out.unused.front()));
     const std::string why = words_of(out.left_out);
     return problem_in(design.place, "there is no place for a luminaire" +
                                         (why.empty() ? std::string(": no route or area is there to "

@@ -49,11 +49,21 @@ struct LeftOut {
   size_t no_wall = 0;               // places for luminaires on walls: nothing flat is there
 };
 
+/// A type of which there are no candidates: its supply does not last as long as the rules ask for.
+struct UnusedType {
+  std::string name, rules;  // the set that asks for more
+  double lasts_h = 0, asked_h = 0;
+};
+
+/// The same in a sentence. English.
+std::string unused_words(const UnusedType& type);
+
 struct Candidates {
   std::vector<LuminaireCandidate> all;  // existing luminaires first
   size_t places = 0;                    // of new luminaires
   LeftOut left_out;
   std::vector<std::string> removed;  // luminaires of the scene that go in any case
+  std::vector<UnusedType> unused;    // types that last too short
 };
 
 /// The scene with nothing but candidates as emergency luminaires, in their order; each has a

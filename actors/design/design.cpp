@@ -260,6 +260,7 @@ class Designing {
     out_.places = candidates_.places;
     out_.candidates = candidates_.all.size();
     out_.left_out = candidates_.left_out;
+    out_.unused = candidates_.unused;
     out_.points = demands_->problem().points.size();
     out_.groups = demands_->problem().groups;
     for (const auto& [what, points] : demands_->hidden())

@@ -57,7 +57,8 @@ struct BindingDemand {
 struct DesignResult : PlacedLayout {
   size_t places = 0, candidates = 0;  // of new luminaires; of these and those that are there
   LeftOut left_out;
-  size_t points = 0;  // of calculation
+  std::vector<UnusedType> unused;  // types that last too short
+  size_t points = 0;               // of calculation
   std::vector<HiddenByFurniture> hidden;
   std::optional<SignPlan> signs;  // where signs were placed
   std::vector<ConstraintGroup> groups;

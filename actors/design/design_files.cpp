@@ -101,6 +101,7 @@ Json types_json(const SceneDescription& scene, const DesignResult& result) {
                    {"count", count},
                    {"cost", number_json(types[i].cost)},
                    {"watts", number_json(types[i].watts)},
+                   {"battery", battery_class(types[i])},
                    {"emergency_lm", number_json(types[i].emitter.emergency_flux /
                                                 types[i].emitter.emergency_ageing)}});
   }
@@ -369,7 +370,7 @@ CsvTable schedule_csv(const DesignResult& result) {
   CsvTable table({"name", "state", "type", "file", "x [m]", "y [m]", "z [m]",
                   "height above floor [m]", "mount", "turn [deg]", "emergency flux [lm]",
                   "maintenance factor [1]", "end of duration factor [1]", "cost", "power [W]",
-                  "moved from x [m]", "moved from y [m]", "moved from z [m]"});
+                  "battery", "moved from x [m]", "moved from y [m]", "moved from z [m]"});
   const SceneDescription& scene = *result.variant;
   for (const PlacedLuminaire& one : result.luminaires) {
     const auto at = std::find_if(scene.emitters.begin(), scene.emitters.end(),
@@ -390,9 +391,9 @@ CsvTable schedule_csv(const DesignResult& result) {
     table.cell(at->maintenance_factor).cell(at->end_of_duration_factor);
     if (one.is_new()) {
       const DesignType& type = scene.design->types[one.candidate.type];
-      table.cell(type.cost).cell(type.watts);
+      table.cell(type.cost).cell(type.watts).cell(battery_class(type));
     } else {
-      table.empty_cell().empty_cell();
+      table.empty_cell().empty_cell().empty_cell();
     }
     for (int axis = 0; axis < 3; ++axis)
       if (one.moved_from)
@@ -441,6 +442,12 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
   for (const HiddenByFurniture& one : result.hidden)
     out["hidden_by_furniture"].push_back(
         {{"rule", one.rule}, {"subject", one.subject}, {"points", one.points}});
+  out["types_not_placed"] = Json::array();
+  for (const UnusedType& one : result.unused)
+    out["types_not_placed"].push_back({{"name", one.name},
+                                       {"lasts_h", number_json(one.lasts_h)},
+                                       {"asked_h", number_json(one.asked_h)},
+                                       {"rules", one.rules}});
   out["luminaires"] = luminaires_json_of(scene, result);
   out["removed"] = result.removed;
   out["types"] = types_json(scene, result);

@@ -94,7 +94,8 @@ std::string schedule_of(const Texts& t, const Json& d) {
     if (type["count"].get<int64_t>() > 0)
       types += "<tr>" + cell(text_in(type, "name")) + number_cell(t, type["count"]) +
                number_cell(t, type["emergency_lm"], "lm", 4) + number_cell(t, type["cost"], "", 4) +
-               number_cell(t, type["watts"], "W") + "</tr>\n";
+               number_cell(t, type["watts"], "W") +
+               cell(text_in(type, "battery").empty() ? "–" : text_in(type, "battery")) + "</tr>\n";
   for (const Json& one : d["luminaires"]) {
     const Json& p = one["position"];
     rows += "<tr>" + cell(text_in(one, "name")) + cell(kind_of(t, one)) +
@@ -107,8 +108,8 @@ std::string schedule_of(const Texts& t, const Json& d) {
     gone += (gone.empty() ? "" : ", ") + name.get<std::string>();
   return table(t,
                {"column.type", "column.count", "column.emergency_flux", "design.cost",
-                "design.watts"},
-               {40, 12, 18, 15, 15}, types) +
+                "design.watts", "design.battery"},
+               {36, 10, 17, 13, 12, 12}, types) +
          table(t, {"design.name", "column.type", "design.x", "design.y", "design.z", "design.turn"},
                {26, 34, 10, 10, 10, 10}, rows) +
          (gone.empty() ? "" : paragraph(t.say("design.removed", gone)));
@@ -232,6 +233,11 @@ std::string off_place(const Texts& t, const Json& d) {
 std::string settings(const Texts& t, const Json& d) {
   const Json& c = d["candidates"];
   const Json& s = d["settings"];
+  std::string unused;
+  for (const Json& type : d["types_not_placed"])
+    unused += paragraph(t.say("design.not_placed", text_in(type, "name"),
+                              t.number(type["lasts_h"].get<double>(), 3), text_in(type, "rules"),
+                              t.number(type["asked_h"].get<double>(), 3)));
   std::string rules;
   for (const Json& rule : s["rules"])
     rules += (rules.empty() ? "" : ", ") + rule.get<std::string>();
@@ -243,7 +249,7 @@ std::string settings(const Texts& t, const Json& d) {
                          t.word("design.failure", text_in(s, "failure")))) +
          paragraph(t.say("design.candidates", c["places"].get<int64_t>(),
                          c["luminaires"].get<int64_t>(), c["points"].get<int64_t>())) +
-         (left.empty() ? "" : paragraph(t.say("design.left_out", left))) + hidden(t, d);
+         (left.empty() ? "" : paragraph(t.say("design.left_out", left))) + unused + hidden(t, d);
 }
 
 }  // namespace

@@ -119,6 +119,7 @@ void read_design_type(const toml::Table& table, SceneReading& reading, DesignSet
   type.watts = keys.number("watts");
   type.turns_deg = keys.numbers("turns_deg");
   type.mount = word_of<LuminaireMount>(keys, "mount", luminaire_mount_words);
+  if (keys.has("battery")) type.battery = word_of<Battery>(keys, "battery", battery_words);
   type.aim_deg = keys.number("aim_deg");
   if (keys.clean() && !(type.emitter.emergency_flux > 0))
     keys.problem("the type '" + type.name +

@@ -88,6 +88,10 @@ std::vector<TableSpec> design_schema() {
                {"turns_deg", "numbers", "deg", "", "[-360, 360]",
                 "turns about its aim that are tried, from the direction of the route below (over "
                 "areas from +x); without it 0 and 90 of those whose light has a direction, else 0"},
+               {"battery", "choice", "", "", "self-contained, central",
+                "what supplies it when the mains fail, for its class in schedules (EN 60598-2-22: "
+                "`X 0 60`); a type whose `duration_h` is shorter than the rules ask for is not "
+                "placed"},
                {"mount", "choice", "", "\"ceiling\"", "ceiling, wall, both",
                 "where it hangs: under ceilings, or on walls beside routes and around areas"},
                {"aim_deg", "number", "deg", "90", "[0, 90]",

@@ -15,6 +15,10 @@ namespace luxodus {
 enum class LuminaireMount { ceiling, wall, both };
 inline constexpr std::array<std::string_view, 3> luminaire_mount_words{"ceiling", "wall", "both"};
 
+/// What supplies a luminaire when the mains fail.
+enum class Battery { unsaid, self_contained, central };
+inline constexpr std::array<std::string_view, 3> battery_words{"", "self-contained", "central"};
+
 /// A luminaire that may be placed, at the origin, looking down, unturned. Its emitter has its name.
 struct DesignType {
   std::string name;
@@ -24,10 +28,16 @@ struct DesignType {
   double watts = 0;               // that one takes from the mains [W]
   std::vector<double> turns_deg;  // about its aim, against the way below; empty: by its symmetry
   std::string like;               // the luminaire of the scene whose light it has; "": none
+  Battery battery = Battery::unsaid;
   LuminaireMount mount = LuminaireMount::ceiling;
   double aim_deg = 90;  // of one on a wall: 0 looks straight down, 90 away from the wall
   bool stated = false;  // in the scene; else one that follows from it
 };
+
+/// The class as luminaires are marked by EN 60598-2-22, as far as a scene says it: "X 0 60" of a
+/// self-contained one (Z: central supply) that is non-maintained (1: maintained) and lasts 60 min.
+/// Empty where the battery is not said.
+std::string battery_class(const DesignType& type);
 
 /// A sign that may be placed, at the origin, facing +x. It leads nowhere yet.
 struct DesignSignType {
