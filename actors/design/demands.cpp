@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "actors/design/flights.hpp"
 #include "actors/inspect/site.hpp"
 #include "scenes/emergency/onset.hpp"
 #include "scenes/emergency/rule_limits.hpp"
@@ -24,6 +25,11 @@ namespace {
 /// Light that adds less than this is none [lx]: a ten-thousandth of the smallest limit.
 constexpr double no_light_lx = 1e-5;
 constexpr double same_storey_m = 2;
+/// Direct light falls on a tread where a luminaire gives so much: a tenth of a route's minimum
+/// [lx].
+constexpr double lit_tread_lx = 0.1;
+/// Above the line from the lowest to the highest tread, so that no edge hides its tread [m].
+constexpr double above_tread_m = 0.1;
 /// Two luminaires over each route and open area.
 constexpr double so_many = 2;
 /// Points are one place below this [m].
@@ -120,6 +126,7 @@ class Demands::Builder {
     for (const AssessedArea& area : scene_.open_areas) add_open_area(area);
     for (const AssessedArea& area : scene_.task_areas) add_task_area(area);
     for (const EmphasisPoint& point : emphasis_of(scene_)) add_emphasis(point);
+    for (const StairFlight& flight : flights_of(scene_, design_)) add_flight(flight);
     for (const Sign& sign : scene_.signs) add_sign(sign);
   }
 
@@ -547,6 +554,27 @@ class Demands::Builder {
     const double asked = equipment_lx * design_.margin;
     add_cover(add_group(DemandKind::vertical, "E13", subject, asked), terms_of(*lux, no_light_lx),
               asked, point.position);
+  }
+
+  /// One luminaire lights the whole flight, where any can; else each tread has one that lights it.
+  void add_flight(const StairFlight& flight) {
+    if (std::none_of(codes_.begin(), codes_.end(), [](const auto& one) { return one.european(); }))
+      return;
+    const Lit& darker = out_.furnished_ ? *out_.furnished_ : *out_.bare_;
+    const auto treads = darker.light.lit(treads_of(flight), up, above_tread_m);
+    const uint32_t group = add_group(DemandKind::flight, "E12",
+                                     "flight of stairs \"" + flight.name + "\"", lit_tread_lx);
+    std::vector<double> all(candidates_.size(), 1);
+    for (const LitPoint& tread : treads)
+      for (size_t i = 0; i < all.size(); ++i)
+        if (tread.lux[i] < lit_tread_lx) all[i] = 0;
+    const Terms whole = terms_of(all, 0);
+    if (!whole->empty()) return add_cover(group, whole, 1, treads[treads.size() / 2].place);
+    for (const LitPoint& tread : treads) {
+      std::vector<double> one(candidates_.size(), 0);
+      for (size_t i = 0; i < one.size(); ++i) one[i] = tread.lux[i] < lit_tread_lx ? 0 : 1;
+      add_cover(group, terms_of(one, 0), 1, tread.place);
+    }
   }
 
   void add_sign(const Sign& sign) {

@@ -49,8 +49,8 @@ const char* word_of(LayoutEnd end) {
 }
 
 const char* word_of(DemandKind kind) {
-  constexpr std::array<const char*, 9> words{"minimum", "mean", "early",    "spread", "two",
-                                             "failed",  "near", "vertical", "face"};
+  constexpr std::array<const char*, 10> words{"minimum", "mean", "early",    "spread", "two",
+                                              "failed",  "near", "vertical", "face",   "flight"};
   return words[static_cast<size_t>(kind)];
 }
 
@@ -233,6 +233,9 @@ std::string demand_words(const ConstraintGroup& group) {
     case DemandKind::face:
       what = "at least " + value + " lx on its face";
       break;
+    case DemandKind::flight:
+      what = "a luminaire whose light falls directly on it, " + value + " lx on each tread";
+      break;
   }
   return fmt::format("{}: {}{}", group.subject, what,
                      group.rule.empty() ? "" : " (" + group.rule + ")");
@@ -286,7 +289,9 @@ std::vector<std::string> conflict_words(const SceneDescription& scene, const Des
   for (const Shortage& s : result.conflict.shortages) {
     const ConstraintGroup& group = result.groups[s.group];
     std::string line = demand_words(group);
-    line += group.kind == DemandKind::two || group.kind == DemandKind::near
+    line += group.kind == DemandKind::flight
+                ? fmt::format(": no candidate lights it, at {}", at_words(s.place))
+            : group.kind == DemandKind::two || group.kind == DemandKind::near
                 ? fmt::format(": no candidates are there, near {}", at_words(s.place))
                 : fmt::format(": all candidates together give {} of it at {}", percent(s.share),
                               at_words(s.place));
@@ -294,6 +299,9 @@ std::vector<std::string> conflict_words(const SceneDescription& scene, const Des
     switch (group.kind) {
       case DemandKind::near:
         line += "a smaller 'spacing_m' or 'wall_clearance_m', or a place in 'places', would help";
+        break;
+      case DemandKind::flight:
+        line += "a place from which it is lit would help ('over', 'places', or types on walls)";
         break;
       case DemandKind::two:
         line +=

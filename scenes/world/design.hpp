@@ -63,6 +63,14 @@ enum class Existing { fixed, removable, removed, movable };
 inline constexpr std::array<std::string_view, 4> existing_words{"fixed", "removable", "removed",
                                                                 "movable"};
 
+/// Stairs between two landings. A straight line from its lowest to its highest tread meets the
+/// middle of each.
+struct StairFlight {
+  std::string name;
+  glm::dvec3 lowest{0}, highest{0};  // middles of these treads [m]
+  int treads = 1;
+};
+
 enum class DesignObjective { number, cost, watts, weighted };
 inline constexpr std::array<std::string_view, 4> objective_words{"number", "cost", "watts",
                                                                  "weighted"};
@@ -96,6 +104,7 @@ struct DesignSettings {
   double wall_height_m = 2.3;               // of luminaires on walls above the floor
   std::vector<glm::dvec3> places;           // listed, instead of the grid
   std::vector<KeepOut> keep_outs;
+  std::vector<StairFlight> flights;  // objects of the scene with shape = "stairs"
 
   // Luminaires that are there
   Existing existing = Existing::fixed;
