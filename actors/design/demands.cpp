@@ -147,6 +147,7 @@ class Demands::Builder {
       option.position = one.position;
       option.weight = one.fixed ? 0 : weight_of(one);
       option.barred = one.barred;
+      if (one.type != LuminaireCandidate::existing) option.kind = static_cast<uint32_t>(one.type);
       if (one.pool) {
         option.pool = one.pool->number;
         problem_.pools.resize(std::max<size_t>(problem_.pools.size(), option.pool + 1), 0);

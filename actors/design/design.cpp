@@ -162,25 +162,7 @@ std::vector<double> tightest_of(const LayoutProblem& problem, const Layout& layo
   const LayoutIndex index(problem);
   LayoutSums sums(index);
   sums.set(layout);
-  std::vector<double> out(problem.groups.size(), no_objective);
-  for (size_t i = 0; i < problem.covers.size(); ++i) {
-    double& least = out[problem.covers[i].group];
-    least = std::min(least, sums.cover(i));
-  }
-  for (const FailureRows& rows : problem.failures)
-    for (const uint32_t p : rows.points) {
-      double largest = 0;
-      for (const Term& term : *problem.points[p].light)
-        if (layout[term.option] != 0) largest = std::max(largest, static_cast<double>(term.value));
-      out[rows.group] = std::min(out[rows.group], (sums.at_point(p) - largest) / rows.least);
-    }
-  for (const SpreadRows& rows : problem.spreads) {
-    double low = no_objective, high = 0;
-    for (const uint32_t p : rows.low) low = std::min(low, sums.at_point(p));
-    for (const uint32_t p : rows.high) high = std::max(high, sums.at_point(p));
-    if (high > 0) out[rows.group] = std::min(out[rows.group], rows.ratio * low / high);
-  }
-  return out;
+  return sums.tightest();
 }
 
 class Designing {

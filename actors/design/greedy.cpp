@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <set>
+
+#include "actors/design/preference.hpp"
 
 namespace luxodus {
 
@@ -12,12 +13,6 @@ namespace {
 
 /// Luminaires that are in the way of nothing may still cost nothing: shares are over at least this.
 constexpr double least_weight = 1e-3;
-/// Rows of luminaires that are nearer than this are one [m].
-constexpr double one_row_m = 0.05;
-/// Places brighter than this times what is asked for are bright enough.
-constexpr double bright_enough = 2;
-/// What one row of luminaires less is worth beside a place's brightness.
-constexpr double worth_of_row = 0.02;
 /// Luminaires of a neighbourhood that is emptied.
 constexpr size_t fewest_emptied = 2, most_emptied = 5;
 /// Equal but for rounding.
@@ -111,13 +106,6 @@ Layout emptied(const LayoutProblem& problem, const Layout& layout, Random& rando
   return out;
 }
 
-size_t rows_of(const LayoutProblem& problem, const Layout& layout, int axis) {
-  std::set<int64_t> rows;
-  for (size_t i = 0; i < layout.size(); ++i)
-    if (layout[i] != 0) rows.insert(std::llround(problem.options[i].position[axis] / one_row_m));
-  return rows.size();
-}
-
 /// Movable luminaires that nothing has asked for yet, where they cost least: they stay. False where
 /// there is no place for one.
 bool fill_pools(const LayoutProblem& problem, LayoutSums& sums, std::vector<char>& taken,
@@ -208,18 +196,6 @@ Layout pruned(const LayoutIndex& index, const Layout& layout) {
     if (!sums.holds()) sums.add(option);
   }
   return sums.layout();
-}
-
-double preference(const LayoutProblem& problem, const LayoutSums& sums) {
-  std::vector<double> darkest(problem.groups.size(), bright_enough);
-  for (size_t i = 0; i < problem.covers.size(); ++i) {
-    double& d = darkest[problem.covers[i].group];
-    d = std::min(d, sums.cover(i));
-  }
-  const double light = std::accumulate(darkest.begin(), darkest.end(), 0.0);
-  const size_t rows =
-      std::min(rows_of(problem, sums.layout(), 0), rows_of(problem, sums.layout(), 1));
-  return light - worth_of_row * static_cast<double>(rows);
 }
 
 Layout improved(const LayoutIndex& index, Layout layout, int rounds, uint64_t seed,

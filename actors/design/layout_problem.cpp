@@ -104,6 +104,27 @@ std::vector<Violation> LayoutSums::violations() const {
   return out;
 }
 
+std::vector<double> LayoutSums::tightest() const {
+  std::vector<double> out(problem_.groups.size(), std::numeric_limits<double>::infinity());
+  const auto offer = [&](uint32_t group, double share) {
+    out[group] = std::min(out[group], share);
+  };
+  for (size_t i = 0; i < cover_.size(); ++i) offer(problem_.covers[i].group, cover_[i]);
+  std::vector<float> largest;
+  std::vector<uint32_t> whose;
+  if (!problem_.failures.empty()) find_largest(largest, whose);
+  for (const FailureRows& rows : problem_.failures)
+    for (const uint32_t p : rows.points)
+      offer(rows.group, (light_[p] - static_cast<double>(largest[p])) / rows.least);
+  for (const SpreadRows& rows : problem_.spreads) {
+    double low = std::numeric_limits<double>::infinity(), high = 0;
+    for (const uint32_t p : rows.low) low = std::min(low, light_[p]);
+    for (const uint32_t p : rows.high) high = std::max(high, light_[p]);
+    if (high > 0) offer(rows.group, rows.ratio * low / high);
+  }
+  return out;
+}
+
 int64_t LayoutSums::lack_of(size_t pool) const {
   return static_cast<int64_t>(problem_.pools[pool]) - in_pool_[pool];
 }

@@ -26,6 +26,9 @@ inline constexpr uint32_t no_region = static_cast<uint32_t>(-1);
 /// Of options that are no luminaires to be moved.
 inline constexpr uint32_t no_pool = static_cast<uint32_t>(-1);
 
+/// Of options that are there already: they are of none of the types that are placed.
+inline constexpr uint32_t no_kind = static_cast<uint32_t>(-1);
+
 /// A luminaire of one type, turned in one way, at one place.
 struct LayoutOption {
   uint32_t place = 0;  // options of one place exclude each other
@@ -38,6 +41,7 @@ struct LayoutOption {
   bool barred = false;       // chosen in no layout
   /// Of luminaires that are there, alike, and may move: each option is a place for one of them.
   uint32_t pool = no_pool;
+  uint32_t kind = no_kind;  // its type
 };
 
 /// No number of a place.
@@ -166,6 +170,8 @@ class LayoutSums {
   bool covers_hold() const;
   /// Of a pool, how many more it has to have in the layout; below 0 where it has too many.
   int64_t lack_of(size_t pool) const;
+  /// Of each group, the least share of what it asks for that is there; infinite without rows.
+  std::vector<double> tightest() const;
   /// All sums that do not hold.
   std::vector<Violation> violations() const;
   /// All sums, and as many of each pool as it has.

@@ -13,6 +13,7 @@
 #include "actors/design/greedy.hpp"
 #include "actors/design/growing_program.hpp"
 #include "actors/design/mixed_integer_program.hpp"
+#include "actors/design/preference.hpp"
 #include "actors/design/split_problem.hpp"
 #include "runtime/core/clock.hpp"
 
@@ -263,7 +264,7 @@ class Solving {
   void choose_among_equals() {
     if (answer_.layout.empty() || answer_.end == LayoutEnd::interrupted) return;
     tell("choosing among equals", 0);
-    const Layout liked = better(answer_.layout);
+    const Layout liked = tidied(index_, better(answer_.layout));
     const double objective = objective_of(problem_, liked);
     if (objective <= answer_.objective + rounding) {
       answer_.layout = liked;
