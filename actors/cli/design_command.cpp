@@ -83,6 +83,11 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
                 result.refined->moved, 100 * result.refined->after, 100 * result.refined->before);
   if (result.tolerance && !result.tolerance->demands.empty())
     std::printf("%s\n", tolerance_words(*result.tolerance).c_str());
+  if (result.between.added > 0)
+    std::printf(
+        "%zu points were added between those of the grid; near the least it is %.1f %% of what is "
+        "planned\n",
+        result.between.added, 100 * result.between.least);
   std::printf("the layout, assessed: %s\n", words_of(counts_of(result.assessment.checks)).c_str());
   for (const Check& check : result.others)
     std::printf("  fails, and is not decided here: %s: %s\n", check.subject.c_str(),

@@ -195,7 +195,11 @@ class Designing {
         break;
       }
       if (auto problem = find_tolerance()) return *problem;
-      if (out_.tolerance->holds()) break;
+      if (out_.tolerance->holds()) {
+        if (!look_between() || last) break;
+        nearest_ = out_;
+        continue;
+      }
       if (!nearest_ || out_.tolerance->least() > nearest_->tolerance->least()) nearest_ = out_;
       if (!last && ask_for_more_off_place()) continue;
       out_ = *std::move(nearest_);
@@ -306,6 +310,15 @@ class Designing {
     if (!found) return found.problem();
     out_.tolerance = std::move(found).value();
     return std::nullopt;
+  }
+
+  /// Whether a minimum hides between the points: it is asked for there from now on.
+  bool look_between() {
+    progress_("looking between the points", out_.answer.objective, out_.answer.bound);
+    const BetweenPoints found = demands_->look_between(out_.answer.layout);
+    out_.between.least = found.least;
+    out_.between.added += found.added;
+    return found.added > 0;
   }
 
   /// Moves what was placed; what then fails or holds less off its places stays where it was.

@@ -13,6 +13,7 @@
 
 #include "actors/assess/assessment.hpp"
 #include "actors/design/candidates.hpp"
+#include "actors/design/demands.hpp"
 #include "actors/design/place_tolerance.hpp"
 #include "actors/design/placed_layout.hpp"
 #include "actors/design/sign_plan.hpp"
@@ -66,8 +67,9 @@ struct DesignResult : PlacedLayout {
   LayoutAnswer answer;
   std::vector<BindingDemand> because;  // what takes luminaires that would not be needed without
   std::optional<PlaceTolerance> tolerance;  // of the layout
-  std::optional<Refined> refined;           // where luminaires were moved
-  Conflict conflict;                        // where no layout exists
+  BetweenPoints between;  // all points that were added, and the least beside those of this layout
+  std::optional<Refined> refined;  // where luminaires were moved
+  Conflict conflict;               // where no layout exists
   Assessment assessment;
   std::vector<Check> others;    // checks that fail and that no luminaire of the layout decides
   bool added_scenario = false;  // the scene has none: the variant has one in emergency operation

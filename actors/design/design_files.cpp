@@ -470,6 +470,8 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
     out["refined"] = {{"moved", result.refined->moved},
                       {"least_before", number_json(result.refined->before)},
                       {"least_after", number_json(result.refined->after)}};
+  out["between_points"] = {{"added", result.between.added},
+                           {"least", number_json(result.between.least)}};
   if (result.tolerance && result.tolerance->distance_m > 0)
     out["off_place"] = tolerance_json(*result.tolerance);
   if (result.signs) out["signs"] = signs_json(scene, *result.signs);
