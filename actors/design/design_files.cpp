@@ -492,8 +492,9 @@ Result<void> write_design(const fs::path& folder, const SceneDescription& scene,
   if (auto ok = write_or_remove(folder / "signs.csv", signs); !ok) return ok.problem();
   if (auto ok = remove_page_as_pdf(folder); !ok) return ok.problem();
   if (auto ok = write_json(folder / "design.json", json); !ok) return ok.problem();
-  if (auto ok =
-          write_file_atomically(folder / "design.html", design_page(json, assessed, language));
+  if (auto ok = write_file_atomically(
+          folder / "design.html",
+          design_page(json, assessed, layout_plans(result, version), language));
       !ok)
     return ok.problem();
   if (auto ok = remove_alternatives(folder); !ok) return ok.problem();

@@ -254,7 +254,8 @@ std::string settings(const Texts& t, const Json& d) {
 
 }  // namespace
 
-std::string design_page(const Json& d, const Json& a, Language language) {
+std::string design_page(const Json& d, const Json& a, const std::vector<LayoutPlan>& plans,
+                        Language language) {
   const Texts t(language);
   const Schedule schedule(a);
   std::string title = text_in(d["scene"], "title");
@@ -262,11 +263,11 @@ std::string design_page(const Json& d, const Json& a, Language language) {
   const std::string body =
       "<header class=\"cover\"><div>" + paragraph(t("design.page"), "kind") + "<h1>" +
       escaped(title) + "</h1></div></header>\n" + outcome(t, d) + notice(t, d.contains("smoke")) +
-      (d.contains("smoke") ? smoke_section(t, d) : "") + heading(t, "heading.plans") +
-      plans_of(t, a, schedule) + heading(t, "heading.schedules") + schedule_of(t, d) +
-      (d.contains("signs") ? signs_of(t, d["signs"]) : "") + heading(t, "design.binding_heading") +
-      binding(t, d) + off_place(t, d) + others(t, d) + heading(t, "design.settings_heading") +
-      settings(t, d);
+      (d.contains("smoke") ? smoke_section(t, d) : "") + side_by_side(t, d, plans) +
+      heading(t, "heading.plans") + plans_of(t, a, schedule) + heading(t, "heading.schedules") +
+      schedule_of(t, d) + (d.contains("signs") ? signs_of(t, d["signs"]) : "") +
+      heading(t, "design.binding_heading") + binding(t, d) + off_place(t, d) + others(t, d) +
+      heading(t, "design.settings_heading") + settings(t, d);
   return html_page({t.code(), title + " – " + t("design.page"), report_style}, body);
 }
 
