@@ -93,6 +93,10 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
     std::printf("  fails, and is not decided here: %s: %s\n", check.subject.c_str(),
                 check.rule.title.c_str());
   for (const UnusedType& one : result.unused) std::printf("  %s\n", unused_words(one).c_str());
+  for (const std::string& name : result.unlit_flights)
+    std::printf(
+        "  not planned, as no candidate lights all of its treads: flight of stairs \"%s\"\n",
+        name.c_str());
   for (const HiddenByFurniture& one : result.hidden)
     std::printf("  planned without furniture, which hides %zu points from all candidates: %s, %s\n",
                 one.points, one.subject.c_str(), one.rule.c_str());

@@ -190,7 +190,7 @@ class Demands::Builder {
       if (is_new) fresh.push_back(place);
       out.push_back(at->second);
     }
-    for (const LitPoint& p : lit.light.lit(fresh, up, floor_plane_m))
+    for (const LitPoint& p : lit.light.lit(fresh, floor_normal, floor_plane_m))
       problem_.points.push_back({terms_of(p.lux, no_light_lx), p.place});
     return out;
   }
@@ -488,11 +488,17 @@ class Demands::Builder {
   }
 
   /// One luminaire lights the whole flight, where any can; else each tread has one that lights it.
+  /// A flight that no candidate reaches is in no part of the building that is designed.
   void add_flight(const StairFlight& flight) {
     if (std::none_of(codes_.begin(), codes_.end(), [](const auto& one) { return one.european(); }))
       return;
     const Lit& darker = out_.furnished_ ? *out_.furnished_ : *out_.bare_;
-    const auto treads = darker.light.lit(treads_of(flight), up, above_tread_m);
+    const auto treads = darker.light.lit(treads_of(flight), floor_normal, above_tread_m);
+    const bool dark = std::any_of(treads.begin(), treads.end(), [](const LitPoint& tread) {
+      return std::all_of(tread.lux.begin(), tread.lux.end(),
+                         [](double lux) { return lux < lit_tread_lx; });
+    });
+    if (dark) return out_.unlit_flights_.push_back(flight.name);
     const uint32_t group = add_group(DemandKind::flight, "E12",
                                      "flight of stairs \"" + flight.name + "\"", lit_tread_lx);
     std::vector<double> all(candidates_.size(), 1);

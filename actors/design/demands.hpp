@@ -49,6 +49,9 @@ class Demands {
   using Hidden = std::map<std::pair<std::string, std::string>, size_t>;
   const Hidden& hidden() const { return hidden_; }
 
+  /// Flights of stairs with a tread that no candidate lights: nothing is asked for there.
+  const std::vector<std::string>& unlit_flights() const { return unlit_flights_; }
+
   /// After an assessment has found that a check of a layout fails, though its rows hold: asks for
   /// more where it is worst, by as much as was missing. False where there is nothing to ask for.
   bool ask_for_more(const Check& check, const Layout& layout);
@@ -73,6 +76,7 @@ class Demands {
   LayoutProblem problem_;
   std::map<uint32_t, std::vector<double>> factors_;  // of the light of candidates, by group
   Hidden hidden_;
+  std::vector<std::string> unlit_flights_;
 };
 
 }  // namespace luxodus

@@ -13,7 +13,7 @@ namespace luxodus {
 
 /// Light that adds less than this is none [lx]: a ten-thousandth of the smallest limit.
 inline constexpr double no_light_lx = 1e-5;
-inline const glm::dvec3 up(0, 0, 1);
+inline const glm::dvec3 floor_normal(0, 0, 1);
 
 /// Places as keys: to a micrometre.
 using PlaceKey = std::array<int64_t, 3>;

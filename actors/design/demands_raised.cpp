@@ -17,10 +17,10 @@ constexpr double one_point_m = 1e-6;
 /// Points whose light is within this of the least of their demand are looked around.
 constexpr double near_the_least = 1.25;
 /// So many of each demand at most.
-constexpr size_t looked_around = 200;
+constexpr size_t looked_around = 40;
 /// Neighbours of a point are up to this times as far as the nearest one.
 constexpr double next_to = 1.5;
-/// Less than planned by more than this share breaks a demand: light is that smooth within a grid.
+/// Less than planned by more than this share breaks a demand.
 constexpr double between_tolerance = 0.01;
 /// Points nearer to each other hide nothing between them [m].
 constexpr double finest_m = 0.02;
@@ -171,16 +171,18 @@ void Demands::look_at(uint32_t group, const std::vector<glm::dvec3>& places, con
   const auto factors = factors_.find(group);
   const auto lit = [&](const Lit& in, const std::vector<glm::dvec3>& at) {
     std::vector<Terms> light;
-    for (const LitPoint& p : in.light.lit(at, up, floor_plane_m)) {
+    for (const LitPoint& p : in.light.lit(at, floor_normal, floor_plane_m)) {
       Terms terms = terms_of(p.lux, no_light_lx);
       light.push_back(factors == factors_.end() ? terms : times(terms, factors->second));
     }
     return light;
   };
-  std::vector<Terms> light = lit(furnished_ ? *furnished_ : *bare_, places);
+  // As at points of the grid: what furniture hides from all candidates is looked at without it.
+  const ConstraintGroup& of = problem_.groups[group];
+  const bool past_furniture = furnished_ && !hidden_.contains({of.rule, of.subject});
+  std::vector<Terms> light = lit(past_furniture ? *furnished_ : *bare_, places);
   for (size_t i = 0; i < places.size(); ++i) {
-    // As at points of the grid: what furniture hides from all candidates is looked at without it.
-    if (furnished_ && most_from(*light[i], problem_.options) < asked)
+    if (past_furniture && most_from(*light[i], problem_.options) < asked)
       light[i] = lit(*bare_, {places[i]}).front();
     if (most_from(*light[i], problem_.options) < asked) continue;  // in a body
     const double share = sum_over(*light[i], layout) / asked;

@@ -289,9 +289,7 @@ std::vector<std::string> conflict_words(const SceneDescription& scene, const Des
   for (const Shortage& s : result.conflict.shortages) {
     const ConstraintGroup& group = result.groups[s.group];
     std::string line = demand_words(group);
-    line += group.kind == DemandKind::flight
-                ? fmt::format(": no candidate lights it, at {}", at_words(s.place))
-            : group.kind == DemandKind::two || group.kind == DemandKind::near
+    line += group.kind == DemandKind::two || group.kind == DemandKind::near
                 ? fmt::format(": no candidates are there, near {}", at_words(s.place))
                 : fmt::format(": all candidates together give {} of it at {}", percent(s.share),
                               at_words(s.place));
@@ -299,9 +297,6 @@ std::vector<std::string> conflict_words(const SceneDescription& scene, const Des
     switch (group.kind) {
       case DemandKind::near:
         line += "a smaller 'spacing_m' or 'wall_clearance_m', or a place in 'places', would help";
-        break;
-      case DemandKind::flight:
-        line += "a place from which it is lit would help ('over', 'places', or types on walls)";
         break;
       case DemandKind::two:
         line +=
@@ -456,6 +451,7 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
                                        {"lasts_h", number_json(one.lasts_h)},
                                        {"asked_h", number_json(one.asked_h)},
                                        {"rules", one.rules}});
+  out["unlit_flights"] = result.unlit_flights;
   out["luminaires"] = luminaires_json_of(scene, result);
   out["removed"] = result.removed;
   out["types"] = types_json(scene, result);

@@ -238,6 +238,9 @@ std::string settings(const Texts& t, const Json& d) {
     unused += paragraph(t.say("design.not_placed", text_in(type, "name"),
                               t.number(type["lasts_h"].get<double>(), 3), text_in(type, "rules"),
                               t.number(type["asked_h"].get<double>(), 3)));
+  std::string unlit;
+  for (const Json& name : d["unlit_flights"])
+    unlit += paragraph(t.say("design.unlit_flight", name.get<std::string>()));
   std::string rules;
   for (const Json& rule : s["rules"])
     rules += (rules.empty() ? "" : ", ") + rule.get<std::string>();
@@ -249,7 +252,8 @@ std::string settings(const Texts& t, const Json& d) {
                          t.word("design.failure", text_in(s, "failure")))) +
          paragraph(t.say("design.candidates", c["places"].get<int64_t>(),
                          c["luminaires"].get<int64_t>(), c["points"].get<int64_t>())) +
-         (left.empty() ? "" : paragraph(t.say("design.left_out", left))) + unused + hidden(t, d);
+         (left.empty() ? "" : paragraph(t.say("design.left_out", left))) + unused + unlit +
+         hidden(t, d);
 }
 
 }  // namespace

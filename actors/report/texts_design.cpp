@@ -193,6 +193,11 @@ constexpr ReportText design_rows[] = {
      {"a luminaire whose light falls directly on it, {0} lx on each tread",
       "eine Leuchte, deren Licht direkt darauf fällt, {0} lx auf jeder Stufe",
       "un luminaire dont la lumière y tombe directement, {0} lx sur chaque marche"}},
+    {"design.unlit_flight",
+     {"The flight of stairs “{0}” is not planned: no candidate lights all of its treads.",
+      "Der Treppenlauf „{0}“ ist nicht geplant: Kein Platz beleuchtet alle seine Stufen.",
+      "La volée d’escalier « {0} » n’est pas prévue : aucun emplacement n’éclaire toutes ses "
+      "marches."}},
     {"design.side_heading",
      {"Layouts side by side", "Entwürfe nebeneinander", "Implantations côte à côte"}},
     {"design.side_note",
