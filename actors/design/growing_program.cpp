@@ -50,6 +50,19 @@ IntegerProgram GrowingProgram::of_region(uint32_t region) const {
   IntegerProgram out = program_;
   for (size_t i = 0; i < problem_.options.size(); ++i)
     if (problem_.options[i].region != region) out.cost[i] = 0;
+  out.rows.clear();
+  for (size_t i = 0; i < program_.rows.size(); ++i) {
+    const int group = groups_[i];
+    const uint32_t of = group < 0 ? region : problem_.groups[static_cast<size_t>(group)].region;
+    if (of == region || of == no_region) out.rows.push_back(program_.rows[i]);
+  }
+  return out;
+}
+
+IntegerProgram GrowingProgram::around(const Layout& layout, uint32_t region) const {
+  IntegerProgram out = program_;
+  for (size_t i = 0; i < problem_.options.size(); ++i)
+    if (problem_.options[i].region != region) out.low[i] = out.high[i] = layout[i] != 0 ? 1 : 0;
   return out;
 }
 

@@ -24,8 +24,10 @@ class GrowingProgram {
   GrowingProgram(const LayoutProblem& problem, bool feasible_only);
 
   const IntegerProgram& program() const { return program_; }
-  /// The same rows, where only the options of one region cost anything.
+  /// Only the options of one region cost anything, and the rows of others are left out.
   IntegerProgram of_region(uint32_t region) const;
+  /// All options but those of a region are as a layout has them.
+  IntegerProgram around(const Layout& layout, uint32_t region) const;
   /// No layout's options of the region weigh less than this together.
   void add_region_bound(uint32_t region, double least);
   /// Rows that follow from the others; and those of places.
