@@ -86,8 +86,8 @@ turns_deg = [0]
 
 ROOMS = {  # of the office floor, between their walls [m]
     "meeting room": (14.1, 0.1, 19.4, 6.9), "archive": (24.1, 0.1, 29.9, 4.8),
-    "office 1": (0.1, 9.2, 4.9, 15.9),
-    "office 2": (5.1, 9.2, 9.9, 15.9), "office 3": (10.1, 9.2, 13.9, 15.9),
+    "office 1": (0.1, 9.2, 4.9, 15.9), "office 2": (5.1, 9.2, 9.9, 15.9),
+    "office 3": (10.1, 9.2, 13.9, 15.9),
     "print room": (16.1, 9.2, 20.9, 15.9), "training room": (21.1, 11.2, 29.9, 15.9)}
 
 
