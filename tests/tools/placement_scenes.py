@@ -8,7 +8,6 @@ standard output. SCENE is one of
     five-types FAILURE      the office floor of this source tree, its luminaires gone, five types;
                             FAILURE is a value of 'failure' in [design], such as two or full
     whole-floor FAILURE     the same with its rooms as open areas, places further apart
-    many-places FAILURE     the same with five times as many places
     corridor CANDIDATES     a corridor in smoke with three luminaires and 0, 33 or 110 candidates
 """
 import pathlib
@@ -91,9 +90,9 @@ ROOMS = {  # of the office floor, between their walls [m]
     "print room": (16.1, 9.2, 20.9, 15.9), "training room": (21.1, 11.2, 29.9, 15.9)}
 
 
-def whole_floor(failure, spacing_m):
+def whole_floor(failure):
     """The office floor with all its rooms to be lit."""
-    out = five_types(failure).replace("spacing_m = 1.6", f"spacing_m = {spacing_m}")
+    out = five_types(failure).replace("spacing_m = 1.6", "spacing_m = 2.3")
     names = ", ".join(f'"{name}"' for name in ROOMS)
     out = out.replace('"open plan"]', f'"open plan", {names}]')
     for name, (x0, y0, x1, y1) in ROOMS.items():
@@ -180,9 +179,7 @@ def main(scene, value):
     if scene == "five-types":
         return five_types(value)
     if scene == "whole-floor":
-        return whole_floor(value, 2.3)
-    if scene == "many-places":
-        return whole_floor(value, 1.05)
+        return whole_floor(value)
     if scene == "corridor":
         return corridor(number_of(value))
     sys.exit(__doc__)
