@@ -181,12 +181,7 @@ void add_thinned(const SceneDescription& scene, const Scenario& scenario,
 /// The shortest rated duration that the chosen codes ask for [h].
 double rated_hours(const std::vector<CodeChoice>& codes) {
   double least = std::numeric_limits<double>::infinity();
-  for (const CodeChoice& c : codes) {
-    const bool long_one = c.has(Deviation::uk_bs_5266) || c.has(Deviation::duration_3h);
-    least = std::min(least, !c.european() ? rule_limit::us_duration_h
-                            : long_one    ? rule_limit::national_duration_h
-                                          : rule_limit::duration_h);
-  }
+  for (const CodeChoice& c : codes) least = std::min(least, rated_duration_h(c));
   return least;
 }
 

@@ -83,10 +83,20 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
                 result.refined->moved, 100 * result.refined->after, 100 * result.refined->before);
   if (result.tolerance && !result.tolerance->demands.empty())
     std::printf("%s\n", tolerance_words(*result.tolerance).c_str());
+  if (result.between.added > 0)
+    std::printf(
+        "%zu points were added between those of the grid; near the least it is %.1f %% of what is "
+        "planned\n",
+        result.between.added, 100 * result.between.least);
   std::printf("the layout, assessed: %s\n", words_of(counts_of(result.assessment.checks)).c_str());
   for (const Check& check : result.others)
     std::printf("  fails, and is not decided here: %s: %s\n", check.subject.c_str(),
                 check.rule.title.c_str());
+  for (const UnusedType& one : result.unused) std::printf("  %s\n", unused_words(one).c_str());
+  for (const std::string& name : result.unlit_flights)
+    std::printf(
+        "  not planned, as no candidate lights all of its treads: flight of stairs \"%s\"\n",
+        name.c_str());
   for (const HiddenByFurniture& one : result.hidden)
     std::printf("  planned without furniture, which hides %zu points from all candidates: %s, %s\n",
                 one.points, one.subject.c_str(), one.rule.c_str());

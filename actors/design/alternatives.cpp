@@ -82,7 +82,8 @@ class Alternatives {
     for (size_t tries = 0; tries < problem_.options.size(); ++tries) {
       const size_t i = random_.bits() % problem_.options.size();
       const LayoutOption& option = problem_.options[i];
-      if (places[option.place] >= 0 || objective + option.weight > limit) continue;
+      if (option.pool != no_pool || places[option.place] >= 0 || objective + option.weight > limit)
+        continue;
       layout[i] = 1;
       places[option.place] = static_cast<int64_t>(i);
       objective += option.weight;

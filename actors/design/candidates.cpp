@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -32,6 +33,10 @@ constexpr int wall_directions = 16;
 constexpr double one_storey_m = 2;
 /// Places are told to the millimetre.
 constexpr double told_m = 1e-3;
+/// A luminaire looks down if its aim is within this of it, as a cosine: half a degree.
+constexpr double looks_down = 0.99996;
+/// Luminaires on walls whose aims differ by less are of one kind [deg].
+constexpr double same_aim_deg = 1;
 /// Light that changes by less over the azimuth, as a share of its largest, has no direction.
 constexpr double even_share = 0.02;
 
@@ -225,6 +230,7 @@ Existing fate_of(const DesignSettings& design, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
   if (in(design.fixed)) return Existing::fixed;
+  if (in(design.movable)) return Existing::movable;
   if (in(design.removable)) return Existing::removable;
   if (in(design.removed)) return Existing::removed;
   return design.existing;
@@ -242,7 +248,10 @@ void add_existing(const SceneDescription& scene, const DesignSettings& design, C
     one.place = static_cast<uint32_t>(out.all.size());
     one.position = one.floor = e.frame.origin;
     one.name = e.name;
-    one.fixed = fate == Existing::fixed;
+    // A mesh has its corners where its file says.
+    const bool movable = fate == Existing::movable && e.shape != EmitterShape::mesh;
+    one.fixed = fate == Existing::fixed || (fate == Existing::movable && !movable);
+    if (movable) one.pool = MovablePool{};
     out.all.push_back(std::move(one));
   }
 }
@@ -252,12 +261,116 @@ bool gives_light(const DesignType& type) {
   return type.emitter.emergency_flux > 0;
 }
 
+/// Why a type does not last as long as all rules ask for; none where it does, or says nothing.
+std::optional<UnusedType> too_short(const DesignType& type, const std::vector<CodeChoice>& codes) {
+  constexpr double hour_s = 3600, share = 1 - 1e-9;
+  if (!type.emitter.duration_s) return std::nullopt;
+  const double hours = *type.emitter.duration_s / hour_s;
+  for (const CodeChoice& one : codes)
+    if (const double asked = rated_duration_h(one); hours < asked * share)
+      return UnusedType{type.name, named(one.set).edition, hours, asked};
+  return std::nullopt;
+}
+
+std::vector<UnusedType> unused_types(const DesignSettings& design,
+                                     const std::vector<CodeChoice>& codes) {
+  std::vector<UnusedType> out;
+  for (const DesignType& type : design.types)
+    if (auto one = too_short(type, codes)) out.push_back(*std::move(one));
+  return out;
+}
+
+bool is_unused(const Candidates& candidates, const DesignType& type) {
+  return std::any_of(candidates.unused.begin(), candidates.unused.end(),
+                     [&](const UnusedType& one) { return one.name == type.name; });
+}
+
+/// Movable luminaires of one kind on one storey.
+struct MovableKind {
+  const Emitter* emitter;           // of the first of them
+  std::optional<double> floor_z{};  // of their storey
+  MovablePool pool;
+  std::vector<size_t> at{};  // of the candidates
+
+  /// One that does not look down hangs on a wall.
+  bool on_wall() const { return emitter->frame.axes[2].z < looks_down; }
+  double aim_deg() const {
+    return std::acos(std::clamp(emitter->frame.axes[2].z, -1.0, 1.0)) * 180 / std::numbers::pi;
+  }
+  bool is_on_storey(const glm::dvec3& floor) const {
+    return !floor_z || std::abs(floor.z - *floor_z) < one_storey_m;
+  }
+};
+
+/// Numbers the pools of the luminaires that may be moved.
+std::vector<MovableKind> find_pools(const SceneDescription& scene,
+                                    std::vector<LuminaireCandidate>& existing) {
+  std::vector<MovableKind> out;
+  for (size_t i = 0; i < existing.size(); ++i) {
+    if (!existing[i].pool) continue;
+    const Emitter& e = *std::find_if(scene.emitters.begin(), scene.emitters.end(),
+                                     [&](const Emitter& o) { return o.name == existing[i].name; });
+    const auto floor = floor_below(scene, existing[i].position);
+    MovableKind kind{&e, floor, {static_cast<uint32_t>(out.size()), 0}};
+    auto at = std::find_if(out.begin(), out.end(), [&](const MovableKind& other) {
+      return same_light(e, *other.emitter) && e.circuit == other.emitter->circuit &&
+             kind.on_wall() == other.on_wall() &&
+             std::abs(kind.aim_deg() - other.aim_deg()) < same_aim_deg &&
+             floor.has_value() == other.floor_z.has_value() &&
+             (!floor || other.is_on_storey({0, 0, *floor}));
+    });
+    if (at == out.end()) at = out.insert(out.end(), kind);
+    ++at->pool.size;
+    at->at.push_back(i);
+  }
+  for (const MovableKind& kind : out)
+    for (const size_t i : kind.at) existing[i].pool = kind.pool;
+  return out;
+}
+
+/// Where luminaires that are there may be moved to, beside staying. `first`: number of the first
+/// place.
+void add_moves(const std::vector<MovableKind>& kinds, const std::vector<Spot>& spots,
+               const std::vector<WallSpot>& walls, uint32_t first, Candidates& out) {
+  for (const MovableKind& kind : kinds) {
+    LuminaireCandidate one;
+    one.name = kind.emitter->name;
+    one.pool = kind.pool;
+    one.moved = true;
+    DesignType type;
+    type.emitter = *kind.emitter;
+    for (uint32_t s = 0; s < spots.size() && !kind.on_wall(); ++s) {
+      if (!kind.is_on_storey(spots[s].floor)) continue;
+      one.place = first + s;
+      one.position = rounded({spots[s].floor.x, spots[s].floor.y, *spots[s].z});
+      one.floor = spots[s].floor;
+      for (const double rotation_deg : rotations_of(type, spots[s].heading_deg)) {
+        one.rotation_deg = rotation_deg;
+        out.all.push_back(one);
+      }
+    }
+    one.rotation_deg = 0;
+    for (uint32_t s = 0; s < walls.size() && kind.on_wall(); ++s) {
+      if (!kind.is_on_storey(walls[s].floor)) continue;
+      one.place = static_cast<uint32_t>(first + spots.size()) + s;
+      one.position = walls[s].position;
+      one.floor = walls[s].floor;
+      one.outward = walls[s].outward;
+      one.aim = aim_from_wall(walls[s].outward, kind.aim_deg());
+      out.all.push_back(one);
+    }
+  }
+}
+
 void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
              const std::vector<WallSpot>& walls, Candidates& out) {
+  const auto placed = [&](const DesignType& type) {
+    return gives_light(type) && !is_unused(out, type);
+  };
   const auto first = static_cast<uint32_t>(out.all.size());
   for (uint32_t s = 0; s < spots.size(); ++s)
     for (size_t t = 0; t < design.types.size(); ++t) {
-      if (design.types[t].mount == LuminaireMount::wall || !gives_light(design.types[t])) continue;
+      if (design.types[t].mount == LuminaireMount::wall || !placed(design.types[t])) continue;
       for (const double rotation_deg : rotations_of(design.types[t], spots[s].heading_deg)) {
         LuminaireCandidate one;
         one.type = t;
@@ -271,8 +384,7 @@ void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
   const auto first_wall = static_cast<uint32_t>(first + spots.size());
   for (uint32_t s = 0; s < walls.size(); ++s)
     for (size_t t = 0; t < design.types.size(); ++t) {
-      if (design.types[t].mount == LuminaireMount::ceiling || !gives_light(design.types[t]))
-        continue;
+      if (design.types[t].mount == LuminaireMount::ceiling || !placed(design.types[t])) continue;
       auto turns = design.types[t].turns_deg;
       if (turns.empty()) turns = {0};
       for (const double turn : turns) {
@@ -319,14 +431,41 @@ void leave_out_forbidden(const SceneDescription& scene, const DesignSettings& de
   for (size_t i = 0; i < out.all.size(); ++i) {
     const LuminaireCandidate& one = out.all[i];
     const bool forbidden = low.contains(i) || glaring.contains(i);
+    if (forbidden && one.pool && !one.moved) {
+      good.push_back(one);
+      good.back().barred = true;
+      continue;
+    }
     if (forbidden && !one.fixed) {
       ++(low.contains(i) ? out.left_out.too_low : out.left_out.glaring);
-      if (one.type == LuminaireCandidate::existing) out.removed.push_back(one.name);
+      if (one.type == LuminaireCandidate::existing && !one.moved) out.removed.push_back(one.name);
       continue;
     }
     good.push_back(one);
   }
   out.all = std::move(good);
+}
+
+/// At its place, looking down or as one on its wall.
+void put_in_frame(Emitter& e, const LuminaireCandidate& candidate) {
+  const glm::dvec3 aim = candidate.aim.value_or(glm::dvec3(0, 0, -1));
+  e.frame = frame_aiming(candidate.position, aim, {0, 0, 1}).value();
+  // As `rotation_deg` of a luminaire: about local z.
+  e.frame.axes = e.frame.axes * rotation({0, 0, 1}, candidate.rotation_deg).value().linear;
+}
+
+/// One that may not stay where it is needs a place to go to.
+std::optional<Problem> nowhere_to_go(const DesignSettings& design, const Candidates& candidates) {
+  std::map<uint32_t, std::set<uint32_t>> places;  // of each pool
+  for (const LuminaireCandidate& one : candidates.all)
+    if (one.pool && !one.barred) places[one.pool->number].insert(one.place);
+  for (const LuminaireCandidate& one : candidates.all)
+    if (one.barred && places[one.pool->number].size() < one.pool->size)
+      return problem_in(design.place,
+                        "the movable luminaire \"" + one.name +
+                            "\" glares (E8) or hangs too low (E14) where it is, and there is no "
+                            "place to move it to: name it in 'removable', or offer more places");
+  return std::nullopt;
 }
 
 /// Luminaires that are there have bodies, which are no walls: the building is looked at bare.
@@ -354,6 +493,11 @@ std::string words_of(const LeftOut& left) {
 }
 
 }  // namespace
+
+std::string unused_words(const UnusedType& type) {
+  return fmt::format("type \"{}\" is not placed: it lasts {:g} h, and {} asks for {:g} h",
+                     type.name, type.lasts_h, type.rules, type.asked_h);
+}
 
 const Emitter& some_light(const DesignSettings& design) {
   const auto lit = std::find_if(design.types.begin(), design.types.end(), gives_light);
@@ -389,13 +533,13 @@ Emitter emitter_of(const SceneDescription& scene, const DesignSettings& design,
   if (candidate.type == LuminaireCandidate::existing) {
     const auto at = std::find_if(scene.emitters.begin(), scene.emitters.end(),
                                  [&](const Emitter& e) { return e.name == candidate.name; });
-    return *at;
+    if (!candidate.moved) return *at;
+    Emitter e = *at;
+    put_in_frame(e, candidate);
+    return e;
   }
   Emitter e = design.types[candidate.type].emitter;
-  e.frame.origin = candidate.position;
-  if (candidate.aim) e.frame = frame_aiming(candidate.position, *candidate.aim, {0, 0, 1}).value();
-  // As `rotation_deg` of a luminaire: about local z.
-  e.frame.axes = e.frame.axes * rotation({0, 0, 1}, candidate.rotation_deg).value().linear;
+  put_in_frame(e, candidate);
   return e;
 }
 
@@ -454,19 +598,29 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
       Building::make(code_scene(dark, true), code_scenario(dark, doors), threads);
   if (!furnished) return furnished.problem();
   Candidates out;
+  out.unused = unused_types(design, codes);
   add_existing(scene, design, out);
-  const size_t existing = out.all.size();
+  const auto existing = static_cast<uint32_t>(out.all.size());
+  const std::vector<MovableKind> kinds = find_pools(scene, out.all);
+  const auto any_moves = [&](bool on_wall) {
+    return std::any_of(kinds.begin(), kinds.end(),
+                       [&](const MovableKind& kind) { return kind.on_wall() == on_wall; });
+  };
   std::vector<Spot> spots;
-  if (any_mounted(design, LuminaireMount::ceiling))
+  if (any_mounted(design, LuminaireMount::ceiling) || any_moves(false))
     spots = PlaceFinder(scene, design, *bare.value(), *furnished.value()).find(out.left_out);
   std::vector<WallSpot> walls;
-  if (any_mounted(design, LuminaireMount::wall))
+  if (any_mounted(design, LuminaireMount::wall) || any_moves(true))
     walls = wall_spots(scene, design, *bare.value(), *furnished.value(), out.left_out);
   if (const size_t places = spots.size() + walls.size(); places > limits::design_places)
     return problem_in(design.place, fmt::format("there are {} candidate places, and at most {} are "
                                                 "taken: make 'spacing_m' larger, or say 'over'",
                                                 places, limits::design_places));
   add_new(design, spots, walls, out);
+  add_moves(kinds, spots, walls, existing, out);
+  // Those of one place stand one after another: what hides the first of them hides all.
+  std::stable_sort(out.all.begin(), out.all.end(),
+                   [](const auto& a, const auto& b) { return a.place < b.place; });
   if (out.all.size() > limits::design_candidates)
     return problem_in(
         design.place,
@@ -474,10 +628,14 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
                     "{} are taken: make 'spacing_m' larger",
                     out.all.size(), out.places, limits::design_candidates));
   if (!out.all.empty()) leave_out_forbidden(scene, design, codes, *bare.value(), out);
+  if (auto problem = nowhere_to_go(design, out)) return *problem;
   if (out.all.size() == existing &&
       std::all_of(out.all.begin(), out.all.end(),
                   [](const LuminaireCandidate& c) { return c.fixed; })) {
     if (auto problem = no_light(design)) return *problem;
+    if (out.unused.size() == design.types.size())
+      return problem_in(design.place, "no type of luminaire lasts as long as the rules ask for: " +
+                                          unused_words(out.unused.front()));
     const std::string why = words_of(out.left_out);
     return problem_in(design.place, "there is no place for a luminaire" +
                                         (why.empty() ? std::string(": no route or area is there to "

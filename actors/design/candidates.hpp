@@ -19,6 +19,11 @@ namespace limits {
 inline constexpr size_t design_places = 5'000, design_candidates = 20'000;
 }  // namespace limits
 
+/// Movable luminaires that are alike, on one storey: places are found for all of them together.
+struct MovablePool {
+  uint32_t number = 0, size = 0;  // size: luminaires
+};
+
 /// One luminaire that may be there.
 struct LuminaireCandidate {
   static constexpr size_t existing = static_cast<size_t>(-1);
@@ -32,6 +37,9 @@ struct LuminaireCandidate {
   double rotation_deg = 0;              // as a change of the variant writes it
   std::string name;                     // of an existing luminaire
   bool fixed = false;
+  std::optional<MovablePool> pool{};  // of one that may be moved
+  bool moved = false;                 // one of its pool, at another place: `name` is one of them
+  bool barred = false;                // it may not stay where it is
 };
 
 /// How many places or candidates were left out, and why.
@@ -41,11 +49,21 @@ struct LeftOut {
   size_t no_wall = 0;               // places for luminaires on walls: nothing flat is there
 };
 
+/// A type of which there are no candidates: its supply does not last as long as the rules ask for.
+struct UnusedType {
+  std::string name, rules;  // the set that asks for more
+  double lasts_h = 0, asked_h = 0;
+};
+
+/// The same in a sentence. English.
+std::string unused_words(const UnusedType& type);
+
 struct Candidates {
   std::vector<LuminaireCandidate> all;  // existing luminaires first
   size_t places = 0;                    // of new luminaires
   LeftOut left_out;
   std::vector<std::string> removed;  // luminaires of the scene that go in any case
+  std::vector<UnusedType> unused;    // types that last too short
 };
 
 /// The scene with nothing but candidates as emergency luminaires, in their order; each has a

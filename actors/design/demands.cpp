@@ -10,6 +10,8 @@
 #include <map>
 #include <set>
 
+#include "actors/design/demands_lit.hpp"
+#include "actors/design/flights.hpp"
 #include "actors/inspect/site.hpp"
 #include "scenes/emergency/onset.hpp"
 #include "scenes/emergency/rule_limits.hpp"
@@ -21,59 +23,14 @@ using namespace rule_limit;
 
 namespace {
 
-/// Light that adds less than this is none [lx]: a ten-thousandth of the smallest limit.
-constexpr double no_light_lx = 1e-5;
 constexpr double same_storey_m = 2;
+/// Direct light falls on a tread where a luminaire gives so much: a tenth of a route's minimum
+/// [lx].
+constexpr double lit_tread_lx = 0.1;
+/// Above the line from the lowest to the highest tread, so that no edge hides its tread [m].
+constexpr double above_tread_m = 0.1;
 /// Two luminaires over each route and open area.
 constexpr double so_many = 2;
-/// Points are one place below this [m].
-constexpr double one_point_m = 1e-6;
-const glm::dvec3 up(0, 0, 1);
-
-/// Places as keys: to a micrometre.
-std::array<int64_t, 3> key_of_place(const glm::dvec3& place) {
-  std::array<int64_t, 3> out;
-  for (int i = 0; i < 3; ++i) out[static_cast<size_t>(i)] = std::llround(place[i] / one_point_m);
-  return out;
-}
-
-Terms terms_of(const std::vector<double>& values, double smallest) {
-  auto out = std::make_shared<std::vector<Term>>();
-  for (size_t i = 0; i < values.size(); ++i)
-    if (values[i] > smallest)
-      out->push_back({static_cast<uint32_t>(i), static_cast<float>(values[i])});
-  out->shrink_to_fit();
-  return out;
-}
-
-Terms times(const Terms& terms, const std::vector<double>& factors) {
-  auto out = std::make_shared<std::vector<Term>>();
-  for (const Term& term : *terms) {
-    const double value = static_cast<double>(term.value) * factors[term.option];
-    if (value > no_light_lx) out->push_back({term.option, static_cast<float>(value)});
-  }
-  return out;
-}
-
-/// Adds a row to those that `is_it` names: at the nearest of them to a place, `missing` more than
-/// the layout gives there, or than is asked for. False where there is none.
-bool raise_nearest(LayoutProblem& problem, const std::function<bool(const CoverRow&)>& is_it,
-                   const glm::dvec3& place, double missing, const Layout& layout) {
-  const auto nearest = std::min_element(
-      problem.covers.begin(), problem.covers.end(), [&](const CoverRow& a, const CoverRow& b) {
-        if (is_it(a) != is_it(b)) return is_it(a);
-        return glm::length(a.place - place) < glm::length(b.place - place);
-      });
-  if (nearest == problem.covers.end() || !is_it(*nearest)) return false;
-  double counted = 0;
-  for (const Term& term : *nearest->terms)
-    if (layout[term.option] != 0) counted += static_cast<double>(term.value);
-  CoverRow more = *nearest;
-  more.least = std::max(nearest->least, counted) + missing * (1 + 1e-3);
-  problem.covers.push_back(std::move(more));
-  return true;
-}
-
 bool all_one(const std::vector<double>& factors) {
   return std::all_of(factors.begin(), factors.end(), [](double f) { return f >= 1; });
 }
@@ -87,15 +44,6 @@ bool is_of_luminaires(const std::string& rule) {
       "N2",   "N2m",  "N3",   "N4",   "N5",  "N6",  "I1",  "I1m", "I2",  "I2m"};
   return rules.contains(rule);
 }
-
-struct Demands::Lit {
-  Lit(const SceneDescription& scene, std::unique_ptr<Building> made, std::vector<uint32_t> places)
-      : building(std::move(made)), light(scene, *building, std::move(places)) {}
-
-  std::unique_ptr<Building> building;
-  CodeLight light;
-  std::map<std::array<int64_t, 3>, uint32_t> points;  // that are there, by their places
-};
 
 Demands::Demands() = default;
 Demands::~Demands() = default;
@@ -120,6 +68,7 @@ class Demands::Builder {
     for (const AssessedArea& area : scene_.open_areas) add_open_area(area);
     for (const AssessedArea& area : scene_.task_areas) add_task_area(area);
     for (const EmphasisPoint& point : emphasis_of(scene_)) add_emphasis(point);
+    for (const StairFlight& flight : flights_of(scene_, design_)) add_flight(flight);
     for (const Sign& sign : scene_.signs) add_sign(sign);
   }
 
@@ -139,6 +88,13 @@ class Demands::Builder {
       option.fixed = one.fixed;
       option.position = one.position;
       option.weight = one.fixed ? 0 : weight_of(one);
+      option.barred = one.barred;
+      if (one.type != LuminaireCandidate::existing) option.kind = static_cast<uint32_t>(one.type);
+      if (one.pool) {
+        option.pool = one.pool->number;
+        problem_.pools.resize(std::max<size_t>(problem_.pools.size(), option.pool + 1), 0);
+        problem_.pools[option.pool] = one.pool->size;
+      }
       problem_.options.push_back(option);
     }
   }
@@ -174,11 +130,27 @@ class Demands::Builder {
     return std::string(kind) + " \"" + area.name + "\"";
   }
 
-  /// A luminaire that is there has been paid for.
+  /// A luminaire that is there has been paid for, and one that stays in any case is not counted.
   double weight_of(const LuminaireCandidate& one) const {
+    if (one.moved) return weight_of_move();
+    if (one.pool) return 0;
     const bool there = one.type == LuminaireCandidate::existing;
-    const double cost = there ? 0 : design_.types[one.type].cost;
-    const double watts = there ? 0 : design_.types[one.type].watts;
+    return there ? weight_of(0, 0)
+                 : weight_of(design_.types[one.type].cost, design_.types[one.type].watts);
+  }
+
+  double weight_of_move() const {
+    if (design_.move_cost) return *design_.move_cost;
+    double least = 0;
+    for (const DesignType& type : design_.types) {
+      const double weight = weight_of(type.cost, type.watts);
+      if (weight > 0 && (least == 0 || weight < least)) least = weight;
+    }
+    // Where new ones add nothing either, a luminaire is not moved in vain.
+    return default_move_share * (least > 0 ? least : 1);
+  }
+
+  double weight_of(double cost, double watts) const {
     switch (design_.objective) {
       case DesignObjective::number:
         return 1;
@@ -218,7 +190,7 @@ class Demands::Builder {
       if (is_new) fresh.push_back(place);
       out.push_back(at->second);
     }
-    for (const LitPoint& p : lit.light.lit(fresh, up, floor_plane_m))
+    for (const LitPoint& p : lit.light.lit(fresh, floor_normal, floor_plane_m))
       problem_.points.push_back({terms_of(p.lux, no_light_lx), p.place});
     return out;
   }
@@ -229,7 +201,7 @@ class Demands::Builder {
     if (!out_.furnished_) return out;
     out.furnished = light_at(*out_.furnished_, furnished);
     out.with_both = out.furnished;
-    std::set<std::array<int64_t, 3>> seen;
+    std::set<PlaceKey> seen;
     for (const uint32_t p : out.furnished) seen.insert(key_of_place(problem_.points[p].place));
     for (const uint32_t p : out.bare)
       if (!seen.contains(key_of_place(problem_.points[p].place))) out.with_both.push_back(p);
@@ -242,26 +214,13 @@ class Demands::Builder {
   const Points& reachable(const char* rule, const std::string& subject, const Both& both,
                           double asked_lx) {
     if (both.furnished.empty()) return both.bare;
-    const auto hidden = std::count_if(both.furnished.begin(), both.furnished.end(),
-                                      [&](uint32_t p) { return most_at(p) < asked_lx; });
+    const auto hidden =
+        std::count_if(both.furnished.begin(), both.furnished.end(), [&](uint32_t p) {
+          return most_from(*problem_.points[p].light, problem_.options) < asked_lx;
+        });
     if (hidden == 0) return both.with_both;
     out_.hidden_[{rule, subject}] = static_cast<size_t>(hidden);
     return both.bare;
-  }
-
-  /// Of the best candidate of each place [lx].
-  double most_at(uint32_t point) const {
-    double sum = 0, best = 0;
-    uint32_t place = 0;
-    for (const Term& term : *problem_.points[point].light) {
-      if (candidates_[term.option].place != place) {
-        sum += best;
-        best = 0;
-        place = candidates_[term.option].place;
-      }
-      best = std::max(best, static_cast<double>(term.value));
-    }
-    return sum + best;
   }
 
   Both both_of(const AssessedArea& area, double border_m) {
@@ -286,6 +245,7 @@ class Demands::Builder {
     if (both.bare.empty()) return;
     const double asked = limit_lx * design_.margin;
     const uint32_t group = add_group(kind, rule, subject, asked);
+    if (!factors.empty()) out_.factors_[group] = factors;
     for (const uint32_t p : reachable(rule, subject, both, asked)) {
       const ReceiverPoint& point = problem_.points[p];
       add_cover(group, factors.empty() ? point.light : times(point.light, factors), asked,
@@ -527,6 +487,33 @@ class Demands::Builder {
               asked, point.position);
   }
 
+  /// One luminaire lights the whole flight, where any can; else each tread has one that lights it.
+  /// A flight that no candidate reaches is in no part of the building that is designed.
+  void add_flight(const StairFlight& flight) {
+    if (std::none_of(codes_.begin(), codes_.end(), [](const auto& one) { return one.european(); }))
+      return;
+    const Lit& darker = out_.furnished_ ? *out_.furnished_ : *out_.bare_;
+    const auto treads = darker.light.lit(treads_of(flight), floor_normal, above_tread_m);
+    const bool dark = std::any_of(treads.begin(), treads.end(), [](const LitPoint& tread) {
+      return std::all_of(tread.lux.begin(), tread.lux.end(),
+                         [](double lux) { return lux < lit_tread_lx; });
+    });
+    if (dark) return out_.unlit_flights_.push_back(flight.name);
+    const uint32_t group = add_group(DemandKind::flight, "E12",
+                                     "flight of stairs \"" + flight.name + "\"", lit_tread_lx);
+    std::vector<double> all(candidates_.size(), 1);
+    for (const LitPoint& tread : treads)
+      for (size_t i = 0; i < all.size(); ++i)
+        if (tread.lux[i] < lit_tread_lx) all[i] = 0;
+    const Terms whole = terms_of(all, 0);
+    if (!whole->empty()) return add_cover(group, whole, 1, treads[treads.size() / 2].place);
+    for (const LitPoint& tread : treads) {
+      std::vector<double> one(candidates_.size(), 0);
+      for (size_t i = 0; i < one.size(); ++i) one[i] = tread.lux[i] < lit_tread_lx ? 0 : 1;
+      add_cover(group, terms_of(one, 0), 1, tread.place);
+    }
+  }
+
   void add_sign(const Sign& sign) {
     if (sign.lighting != SignLighting::external) return;
     const std::string subject = "sign \"" + sign.name + "\"";
@@ -578,42 +565,6 @@ Result<std::unique_ptr<Demands>> Demands::make(const SceneDescription& scene,
 bool Demands::is_hidden(const Check& check) const {
   return check.condition.find("with furniture") != std::string::npos &&
          hidden_.contains({check.rule.id, check.subject});
-}
-
-bool Demands::ask_for_more(const Check& check, const Layout& layout) {
-  const auto is_it = [&](const auto& rows) {
-    const ConstraintGroup& group = problem_.groups[rows.group];
-    return group.rule == check.rule.id && group.subject == check.subject;
-  };
-  if (!check.value || !check.limit) return false;
-  bool any = false;
-  if (!check.at_least) {
-    // The largest over the smallest: the ratio is asked for smaller by as much as it is too large.
-    for (SpreadRows& rows : problem_.spreads)
-      if (is_it(rows)) {
-        rows.ratio *= *check.limit / *check.value * (1 - 1e-3);
-        any = true;
-      }
-    return any;
-  }
-  if (!check.worst || !(*check.limit > 0)) return false;
-  return raise_nearest(problem_, is_it, *check.worst, *check.limit - *check.value, layout);
-}
-
-bool Demands::ask_for_more(DemandKind kind, const std::string& rule, const std::string& subject,
-                           const glm::dvec3& place, double missing, const Layout& layout) {
-  const auto is_it = [&](const auto& rows) {
-    const ConstraintGroup& group = problem_.groups[rows.group];
-    return group.kind == kind && group.rule == rule && group.subject == subject;
-  };
-  if (kind != DemandKind::failed) return raise_nearest(problem_, is_it, place, missing, layout);
-  bool any = false;
-  for (FailureRows& rows : problem_.failures)
-    if (is_it(rows)) {
-      rows.least += missing * (1 + 1e-3);
-      any = true;
-    }
-  return any;
 }
 
 }  // namespace luxodus

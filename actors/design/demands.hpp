@@ -4,6 +4,7 @@
 // one thread, which has rows run on others.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -20,6 +21,12 @@ inline constexpr double never_dark_lx = 0.1;
 
 /// Whether a layout of luminaires decides a rule; what others decide stays as the scene has it.
 bool is_of_luminaires(const std::string& rule);
+
+/// What was found between the points of the grid.
+struct BetweenPoints {
+  size_t added = 0;                                        // points where a minimum breaks
+  double least = std::numeric_limits<double>::infinity();  // share of what is planned
+};
 
 class Demands {
  public:
@@ -42,11 +49,17 @@ class Demands {
   using Hidden = std::map<std::pair<std::string, std::string>, size_t>;
   const Hidden& hidden() const { return hidden_; }
 
+  /// Flights of stairs with a tread that no candidate lights: nothing is asked for there.
+  const std::vector<std::string>& unlit_flights() const { return unlit_flights_; }
+
   /// After an assessment has found that a check of a layout fails, though its rows hold: asks for
   /// more where it is worst, by as much as was missing. False where there is nothing to ask for.
   bool ask_for_more(const Check& check, const Layout& layout);
-  /// The same of a minimum that does not hold elsewhere: `missing` at `place`, in its unit. Of a
-  /// demand on failures everywhere.
+  /// Looks between the darkest points of each minimum and those next to them, and asks for the
+  /// minimum where a layout has less than planned there, by more than a hundredth.
+  BetweenPoints look_between(const Layout& layout);
+  /// As ask_for_more of a check, of a minimum that does not hold elsewhere: `missing` at `place`,
+  /// in its unit. Of a demand on failures everywhere.
   bool ask_for_more(DemandKind kind, const std::string& rule, const std::string& subject,
                     const glm::dvec3& place, double missing, const Layout& layout);
 
@@ -55,11 +68,15 @@ class Demands {
   class Builder;  // of the problem
 
   Demands();
+  void look_at(uint32_t group, const std::vector<glm::dvec3>& places, const Layout& layout,
+               BetweenPoints& out);
 
   SceneDescription scene_;  // with all candidates
   std::unique_ptr<Lit> bare_, furnished_;
   LayoutProblem problem_;
+  std::map<uint32_t, std::vector<double>> factors_;  // of the light of candidates, by group
   Hidden hidden_;
+  std::vector<std::string> unlit_flights_;
 };
 
 }  // namespace luxodus

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "actors/design/alternatives.hpp"
@@ -87,10 +88,39 @@ std::shared_ptr<const SceneDescription> variant_of(const SceneDescription& scene
     return std::find(layout.removed.begin(), layout.removed.end(), e.name) != layout.removed.end();
   });
   for (const PlacedLuminaire& one : layout.luminaires) {
-    if (!one.is_new()) continue;
+    if (!one.is_placed()) continue;
     Emitter e = emitter_of(scene, *scene.design, one.candidate);
     e.name = one.name;
-    out->emitters.push_back(std::move(e));
+    const auto there = std::find_if(out->emitters.begin(), out->emitters.end(),
+                                    [&](const Emitter& other) { return other.name == one.name; });
+    if (there != out->emitters.end())
+      *there = std::move(e);
+    else
+      out->emitters.push_back(std::move(e));
+  }
+  return out;
+}
+
+/// Which luminaire of a pool goes where: the two that are nearest to each other, again and again.
+std::vector<PlacedLuminaire> moved_in(std::vector<LuminaireCandidate> leaving,
+                                      std::vector<LuminaireCandidate> places) {
+  std::vector<PlacedLuminaire> out;
+  while (!leaving.empty() && !places.empty()) {
+    double nearest = std::numeric_limits<double>::infinity();
+    size_t from = 0, to = 0;
+    for (size_t i = 0; i < leaving.size(); ++i)
+      for (size_t k = 0; k < places.size(); ++k)
+        if (const double way = glm::length(leaving[i].position - places[k].position);
+            way < nearest) {
+          nearest = way;
+          from = i;
+          to = k;
+        }
+    LuminaireCandidate one = places[to];
+    one.name = leaving[from].name;
+    out.push_back({one, one.name, leaving[from].position});
+    leaving.erase(leaving.begin() + static_cast<std::ptrdiff_t>(from));
+    places.erase(places.begin() + static_cast<std::ptrdiff_t>(to));
   }
   return out;
 }
@@ -100,14 +130,23 @@ PlacedLayout placed(const SceneDescription& scene, const Candidates& candidates,
   PlacedLayout out;
   out.removed = candidates.removed;
   std::vector<LuminaireCandidate> fresh;
+  std::map<uint32_t, std::vector<LuminaireCandidate>> leaving, arriving;  // by pool
   for (size_t i = 0; i < candidates.all.size(); ++i) {
     const LuminaireCandidate& one = candidates.all[i];
-    if (one.type == LuminaireCandidate::existing && layout[i] == 0)
+    if (one.pool && one.moved == (layout[i] != 0))
+      (one.moved ? arriving : leaving)[one.pool->number].push_back(one);
+    else if (one.moved)
+      continue;
+    else if (one.type == LuminaireCandidate::existing && layout[i] == 0)
       out.removed.push_back(one.name);
     else if (one.type == LuminaireCandidate::existing)
       out.luminaires.push_back({one, one.name});
     else if (layout[i] != 0)
       fresh.push_back(one);
+  }
+  for (auto& [pool, places] : arriving) {
+    const auto moved = moved_in(std::move(leaving[pool]), std::move(places));
+    out.luminaires.insert(out.luminaires.end(), moved.begin(), moved.end());
   }
   std::stable_sort(fresh.begin(), fresh.end(), comes_before);
   const std::string prefix = prefix_of_names(scene);
@@ -123,25 +162,7 @@ std::vector<double> tightest_of(const LayoutProblem& problem, const Layout& layo
   const LayoutIndex index(problem);
   LayoutSums sums(index);
   sums.set(layout);
-  std::vector<double> out(problem.groups.size(), no_objective);
-  for (size_t i = 0; i < problem.covers.size(); ++i) {
-    double& least = out[problem.covers[i].group];
-    least = std::min(least, sums.cover(i));
-  }
-  for (const FailureRows& rows : problem.failures)
-    for (const uint32_t p : rows.points) {
-      double largest = 0;
-      for (const Term& term : *problem.points[p].light)
-        if (layout[term.option] != 0) largest = std::max(largest, static_cast<double>(term.value));
-      out[rows.group] = std::min(out[rows.group], (sums.at_point(p) - largest) / rows.least);
-    }
-  for (const SpreadRows& rows : problem.spreads) {
-    double low = no_objective, high = 0;
-    for (const uint32_t p : rows.low) low = std::min(low, sums.at_point(p));
-    for (const uint32_t p : rows.high) high = std::max(high, sums.at_point(p));
-    if (high > 0) out[rows.group] = std::min(out[rows.group], rows.ratio * low / high);
-  }
-  return out;
+  return sums.tightest();
 }
 
 class Designing {
@@ -174,7 +195,11 @@ class Designing {
         break;
       }
       if (auto problem = find_tolerance()) return *problem;
-      if (out_.tolerance->holds()) break;
+      if (out_.tolerance->holds()) {
+        if (!look_between() || last) break;
+        nearest_ = out_;
+        continue;
+      }
       if (!nearest_ || out_.tolerance->least() > nearest_->tolerance->least()) nearest_ = out_;
       if (!last && ask_for_more_off_place()) continue;
       out_ = *std::move(nearest_);
@@ -221,8 +246,10 @@ class Designing {
     out_.places = candidates_.places;
     out_.candidates = candidates_.all.size();
     out_.left_out = candidates_.left_out;
+    out_.unused = candidates_.unused;
     out_.points = demands_->problem().points.size();
     out_.groups = demands_->problem().groups;
+    out_.unlit_flights = demands_->unlit_flights();
     for (const auto& [what, points] : demands_->hidden())
       if (!what.first.empty()) out_.hidden.push_back({what.first, what.second, points});
     return std::nullopt;
@@ -284,6 +311,15 @@ class Designing {
     if (!found) return found.problem();
     out_.tolerance = std::move(found).value();
     return std::nullopt;
+  }
+
+  /// Whether a minimum hides between the points: it is asked for there from now on.
+  bool look_between() {
+    progress_("looking between the points", out_.answer.objective, out_.answer.bound);
+    const BetweenPoints found = demands_->look_between(out_.answer.layout);
+    out_.between.least = found.least;
+    out_.between.added += found.added;
+    return found.added > 0;
   }
 
   /// Moves what was placed; what then fails or holds less off its places stays where it was.
@@ -412,7 +448,7 @@ class Designing {
                                     std::vector<Check>* others) {
     std::set<std::string> ours;
     for (const PlacedLuminaire& one : layout.luminaires)
-      if (one.is_new()) ours.insert("luminaire \"" + one.name + "\"");
+      if (one.is_placed()) ours.insert("luminaire \"" + one.name + "\"");
     std::vector<Check> out;
     if (others != nullptr) others->clear();
     for (const Check& check : assessment.checks) {

@@ -13,6 +13,7 @@
 
 #include "actors/assess/assessment.hpp"
 #include "actors/design/candidates.hpp"
+#include "actors/design/demands.hpp"
 #include "actors/design/place_tolerance.hpp"
 #include "actors/design/placed_layout.hpp"
 #include "actors/design/sign_plan.hpp"
@@ -59,16 +60,19 @@ struct BindingDemand {
 struct DesignResult : PlacedLayout {
   size_t places = 0, candidates = 0;  // of new luminaires; of these and those that are there
   LeftOut left_out;
-  size_t points = 0;  // of calculation
+  std::vector<UnusedType> unused;  // types that last too short
+  size_t points = 0;               // of calculation
   std::vector<HiddenByFurniture> hidden;
-  std::optional<SignPlan> signs;  // where signs were placed
+  std::vector<std::string> unlit_flights;  // of stairs that no candidate lights
+  std::optional<SignPlan> signs;           // where signs were placed
   std::vector<ConstraintGroup> groups;
   std::vector<double> tightest;  // of each group: the least share of what it asks for that is there
   LayoutAnswer answer;
   std::vector<BindingDemand> because;  // what takes luminaires that would not be needed without
   std::optional<PlaceTolerance> tolerance;  // of the layout
-  std::optional<Refined> refined;           // where luminaires were moved
-  Conflict conflict;                        // where no layout exists
+  BetweenPoints between;  // all points that were added, and the least beside those of this layout
+  std::optional<Refined> refined;  // where luminaires were moved
+  Conflict conflict;               // where no layout exists
   Assessment assessment;
   std::vector<Check> others;    // checks that fail and that no luminaire of the layout decides
   bool added_scenario = false;  // the scene has none: the variant has one in emergency operation

@@ -49,8 +49,8 @@ const char* word_of(LayoutEnd end) {
 }
 
 const char* word_of(DemandKind kind) {
-  constexpr std::array<const char*, 9> words{"minimum", "mean", "early",    "spread", "two",
-                                             "failed",  "near", "vertical", "face"};
+  constexpr std::array<const char*, 10> words{"minimum", "mean", "early",    "spread", "two",
+                                              "failed",  "near", "vertical", "face",   "flight"};
   return words[static_cast<size_t>(kind)];
 }
 
@@ -81,9 +81,10 @@ Json luminaires_json_of(const SceneDescription& scene, const DesignResult& resul
     out.push_back({{"name", one.name},
                    {"type", type_of(scene, one)},
                    {"is_new", one.is_new()},
+                   {"moved_from", one.moved_from ? vector_json(*one.moved_from) : Json()},
                    {"position", vector_json(one.candidate.position)},
                    {"mount", one.candidate.aim ? "wall"
-                             : one.is_new()    ? "ceiling"
+                             : one.is_placed() ? "ceiling"
                                                : ""},
                    {"rotation_deg", number_json(one.candidate.rotation_deg)}});
   return out;
@@ -100,6 +101,7 @@ Json types_json(const SceneDescription& scene, const DesignResult& result) {
                    {"count", count},
                    {"cost", number_json(types[i].cost)},
                    {"watts", number_json(types[i].watts)},
+                   {"battery", battery_class(types[i])},
                    {"emergency_lm", number_json(types[i].emitter.emergency_flux /
                                                 types[i].emitter.emergency_ageing)}});
   }
@@ -231,6 +233,9 @@ std::string demand_words(const ConstraintGroup& group) {
     case DemandKind::face:
       what = "at least " + value + " lx on its face";
       break;
+    case DemandKind::flight:
+      what = "a luminaire whose light falls directly on it, " + value + " lx on each tread";
+      break;
   }
   return fmt::format("{}: {}{}", group.subject, what,
                      group.rule.empty() ? "" : " (" + group.rule + ")");
@@ -252,8 +257,11 @@ std::string outcome_words(const SceneDescription& scene, const DesignResult& res
   const auto fresh = std::count_if(result.luminaires.begin(), result.luminaires.end(),
                                    [](const PlacedLuminaire& one) { return one.is_new(); });
   std::string out = fmt::format("{} new luminaire{}", fresh, fresh == 1 ? "" : "s");
-  if (const size_t kept = result.luminaires.size() - static_cast<size_t>(fresh); kept > 0)
+  const auto moved = std::count_if(result.luminaires.begin(), result.luminaires.end(),
+                                   [](const auto& one) { return one.moved_from.has_value(); });
+  if (const size_t kept = result.luminaires.size() - static_cast<size_t>(fresh + moved); kept > 0)
     out += fmt::format(", {} of the scene stay{}", kept, kept == 1 ? "s" : "");
+  if (moved > 0) out += fmt::format(", {} of the scene {} moved", moved, moved == 1 ? "is" : "are");
   if (!result.removed.empty()) out += fmt::format(", {} go", result.removed.size());
   const std::string objective(objective_words[static_cast<size_t>(scene.design->objective)]);
   out += fmt::format("; objective ({}) {}", objective, readable_number(answer.objective, 4));
@@ -341,15 +349,20 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
   for (const std::string& name : layout.removed)
     out += "\n[[change]]\nkind = \"luminaire\"\nof = " + toml_text(name) + "\nremove = true\n";
   for (const PlacedLuminaire& one : layout.luminaires) {
-    if (!one.is_new()) continue;
+    if (!one.is_placed()) continue;
     const glm::dvec3& p = one.candidate.position;
-    out += "\n[[change]]\nkind = \"design_type\"\nof = " + toml_text(type_of(scene, one)) +
-           "\ncopy = " + toml_text(one.name) + "\nposition = [" + toml_metres(p.x) + ", " +
-           toml_metres(p.y) + ", " + toml_metres(p.z) + "]\n";
-    if (one.candidate.aim)
-      out += "facing = [" + shortest_number(one.candidate.aim->x) + ", " +
-             shortest_number(one.candidate.aim->y) + ", " + shortest_number(one.candidate.aim->z) +
-             "]\n";
+    out += one.is_new()
+               ? "\n[[change]]\nkind = \"design_type\"\nof = " + toml_text(type_of(scene, one)) +
+                     "\ncopy = " + toml_text(one.name)
+               : "\n[[change]]\nkind = \"luminaire\"\nof = " + toml_text(one.name);
+    out += "\nposition = [" + toml_metres(p.x) + ", " + toml_metres(p.y) + ", " + toml_metres(p.z) +
+           "]\n";
+    // A type looks down by itself; a luminaire of the scene may be turned.
+    if (one.candidate.aim || !one.is_new()) {
+      const glm::dvec3 aim = one.candidate.aim.value_or(glm::dvec3(0, 0, -1));
+      out += "facing = [" + shortest_number(aim.x) + ", " + shortest_number(aim.y) + ", " +
+             shortest_number(aim.z) + "]\n";
+    }
     if (one.candidate.rotation_deg != 0)
       out += "rotation_deg = " + shortest_number(one.candidate.rotation_deg) + "\n";
   }
@@ -359,27 +372,37 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
 CsvTable schedule_csv(const DesignResult& result) {
   CsvTable table({"name", "state", "type", "file", "x [m]", "y [m]", "z [m]",
                   "height above floor [m]", "mount", "turn [deg]", "emergency flux [lm]",
-                  "maintenance factor [1]", "end of duration factor [1]", "cost", "power [W]"});
+                  "maintenance factor [1]", "end of duration factor [1]", "cost", "power [W]",
+                  "battery", "moved from x [m]", "moved from y [m]", "moved from z [m]"});
   const SceneDescription& scene = *result.variant;
   for (const PlacedLuminaire& one : result.luminaires) {
     const auto at = std::find_if(scene.emitters.begin(), scene.emitters.end(),
                                  [&](const Emitter& e) { return e.name == one.name; });
     const glm::dvec3& p = one.candidate.position;
-    table.cell(one.name).cell(one.is_new() ? "new" : "stays").cell(type_of(scene, one));
+    table.cell(one.name)
+        .cell(one.is_new()     ? "new"
+              : one.moved_from ? "moved"
+                               : "stays")
+        .cell(type_of(scene, one));
     table.cell(at->file).cell(p.x).cell(p.y).cell(p.z);
     if (const auto floor = floor_below(scene, p))
       table.cell(p.z - *floor);
     else
       table.empty_cell();
-    table.cell(one.candidate.aim ? "wall" : one.is_new() ? "ceiling" : "");
+    table.cell(one.candidate.aim ? "wall" : one.is_placed() ? "ceiling" : "");
     table.cell(one.candidate.rotation_deg).cell(at->emergency_flux / at->emergency_ageing);
     table.cell(at->maintenance_factor).cell(at->end_of_duration_factor);
     if (one.is_new()) {
       const DesignType& type = scene.design->types[one.candidate.type];
-      table.cell(type.cost).cell(type.watts);
+      table.cell(type.cost).cell(type.watts).cell(battery_class(type));
     } else {
-      table.empty_cell().empty_cell();
+      table.empty_cell().empty_cell().empty_cell();
     }
+    for (int axis = 0; axis < 3; ++axis)
+      if (one.moved_from)
+        table.cell((*one.moved_from)[axis]);
+      else
+        table.empty_cell();
     table.end_row();
   }
   return table;
@@ -422,6 +445,13 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
   for (const HiddenByFurniture& one : result.hidden)
     out["hidden_by_furniture"].push_back(
         {{"rule", one.rule}, {"subject", one.subject}, {"points", one.points}});
+  out["types_not_placed"] = Json::array();
+  for (const UnusedType& one : result.unused)
+    out["types_not_placed"].push_back({{"name", one.name},
+                                       {"lasts_h", number_json(one.lasts_h)},
+                                       {"asked_h", number_json(one.asked_h)},
+                                       {"rules", one.rules}});
+  out["unlit_flights"] = result.unlit_flights;
   out["luminaires"] = luminaires_json_of(scene, result);
   out["removed"] = result.removed;
   out["types"] = types_json(scene, result);
@@ -436,6 +466,8 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
     out["refined"] = {{"moved", result.refined->moved},
                       {"least_before", number_json(result.refined->before)},
                       {"least_after", number_json(result.refined->after)}};
+  out["between_points"] = {{"added", result.between.added},
+                           {"least", number_json(result.between.least)}};
   if (result.tolerance && result.tolerance->distance_m > 0)
     out["off_place"] = tolerance_json(*result.tolerance);
   if (result.signs) out["signs"] = signs_json(scene, *result.signs);
@@ -456,8 +488,9 @@ Result<void> write_design(const fs::path& folder, const SceneDescription& scene,
   if (auto ok = write_or_remove(folder / "signs.csv", signs); !ok) return ok.problem();
   if (auto ok = remove_page_as_pdf(folder); !ok) return ok.problem();
   if (auto ok = write_json(folder / "design.json", json); !ok) return ok.problem();
-  if (auto ok =
-          write_file_atomically(folder / "design.html", design_page(json, assessed, language));
+  if (auto ok = write_file_atomically(
+          folder / "design.html",
+          design_page(json, assessed, layout_plans(result, version), language));
       !ok)
     return ok.problem();
   if (auto ok = remove_alternatives(folder); !ok) return ok.problem();

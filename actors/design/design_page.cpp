@@ -27,10 +27,12 @@ std::string heading(const Texts& t, const char* key) {
 
 std::string outcome(const Texts& t, const Json& d) {
   const Json& objective = d["objective"];
-  size_t fresh = 0, kept = 0;
-  for (const Json& one : d["luminaires"]) ++(one["is_new"].get<bool>() ? fresh : kept);
+  size_t fresh = 0, kept = 0, moved = 0;
+  for (const Json& one : d["luminaires"])
+    ++(one["is_new"].get<bool>() ? fresh : one["moved_from"].is_null() ? kept : moved);
   std::string words = t.say("design.luminaires", fresh);
   if (kept > 0) words += ", " + t.say("design.kept", kept);
+  if (moved > 0) words += ", " + t.say("design.moved", moved);
   if (const size_t gone = d["removed"].size(); gone > 0) words += ", " + t.say("design.gone", gone);
   const bool optimal = d["outcome"]["end"] == "optimal";
   const std::string proof =
@@ -76,17 +78,27 @@ std::string plans_of(const Texts& t, const Json& a, const Schedule& schedule) {
   return out;
 }
 
+/// What a luminaire of the schedule is.
+std::string kind_of(const Texts& t, const Json& one) {
+  if (one["is_new"].get<bool>()) return text_in(one, "type");
+  const Json& from = one["moved_from"];
+  return from.is_null()
+             ? t("design.stays")
+             : t.say("design.moved_from",
+                     t.place(from[0].get<double>(), from[1].get<double>(), from[2].get<double>()));
+}
+
 std::string schedule_of(const Texts& t, const Json& d) {
   std::string types, rows;
   for (const Json& type : d["types"])
     if (type["count"].get<int64_t>() > 0)
       types += "<tr>" + cell(text_in(type, "name")) + number_cell(t, type["count"]) +
                number_cell(t, type["emergency_lm"], "lm", 4) + number_cell(t, type["cost"], "", 4) +
-               number_cell(t, type["watts"], "W") + "</tr>\n";
+               number_cell(t, type["watts"], "W") +
+               cell(text_in(type, "battery").empty() ? "–" : text_in(type, "battery")) + "</tr>\n";
   for (const Json& one : d["luminaires"]) {
     const Json& p = one["position"];
-    rows += "<tr>" + cell(text_in(one, "name")) +
-            cell(one["is_new"].get<bool>() ? text_in(one, "type") : t("design.stays")) +
+    rows += "<tr>" + cell(text_in(one, "name")) + cell(kind_of(t, one)) +
             fixed_cell(t, p[0].get<double>(), 2) + fixed_cell(t, p[1].get<double>(), 2) +
             fixed_cell(t, p[2].get<double>(), 2) +
             fixed_cell(t, one["rotation_deg"].get<double>(), 0) + "</tr>\n";
@@ -96,8 +108,8 @@ std::string schedule_of(const Texts& t, const Json& d) {
     gone += (gone.empty() ? "" : ", ") + name.get<std::string>();
   return table(t,
                {"column.type", "column.count", "column.emergency_flux", "design.cost",
-                "design.watts"},
-               {40, 12, 18, 15, 15}, types) +
+                "design.watts", "design.battery"},
+               {36, 10, 17, 13, 12, 12}, types) +
          table(t, {"design.name", "column.type", "design.x", "design.y", "design.z", "design.turn"},
                {26, 34, 10, 10, 10, 10}, rows) +
          (gone.empty() ? "" : paragraph(t.say("design.removed", gone)));
@@ -221,6 +233,14 @@ std::string off_place(const Texts& t, const Json& d) {
 std::string settings(const Texts& t, const Json& d) {
   const Json& c = d["candidates"];
   const Json& s = d["settings"];
+  std::string unused;
+  for (const Json& type : d["types_not_placed"])
+    unused += paragraph(t.say("design.not_placed", text_in(type, "name"),
+                              t.number(type["lasts_h"].get<double>(), 3), text_in(type, "rules"),
+                              t.number(type["asked_h"].get<double>(), 3)));
+  std::string unlit;
+  for (const Json& name : d["unlit_flights"])
+    unlit += paragraph(t.say("design.unlit_flight", name.get<std::string>()));
   std::string rules;
   for (const Json& rule : s["rules"])
     rules += (rules.empty() ? "" : ", ") + rule.get<std::string>();
@@ -232,12 +252,14 @@ std::string settings(const Texts& t, const Json& d) {
                          t.word("design.failure", text_in(s, "failure")))) +
          paragraph(t.say("design.candidates", c["places"].get<int64_t>(),
                          c["luminaires"].get<int64_t>(), c["points"].get<int64_t>())) +
-         (left.empty() ? "" : paragraph(t.say("design.left_out", left))) + hidden(t, d);
+         (left.empty() ? "" : paragraph(t.say("design.left_out", left))) + unused + unlit +
+         hidden(t, d);
 }
 
 }  // namespace
 
-std::string design_page(const Json& d, const Json& a, Language language) {
+std::string design_page(const Json& d, const Json& a, const std::vector<LayoutPlan>& plans,
+                        Language language) {
   const Texts t(language);
   const Schedule schedule(a);
   std::string title = text_in(d["scene"], "title");
@@ -245,11 +267,11 @@ std::string design_page(const Json& d, const Json& a, Language language) {
   const std::string body =
       "<header class=\"cover\"><div>" + paragraph(t("design.page"), "kind") + "<h1>" +
       escaped(title) + "</h1></div></header>\n" + outcome(t, d) + notice(t, d.contains("smoke")) +
-      (d.contains("smoke") ? smoke_section(t, d) : "") + heading(t, "heading.plans") +
-      plans_of(t, a, schedule) + heading(t, "heading.schedules") + schedule_of(t, d) +
-      (d.contains("signs") ? signs_of(t, d["signs"]) : "") + heading(t, "design.binding_heading") +
-      binding(t, d) + off_place(t, d) + others(t, d) + heading(t, "design.settings_heading") +
-      settings(t, d);
+      (d.contains("smoke") ? smoke_section(t, d) : "") + side_by_side(t, d, plans) +
+      heading(t, "heading.plans") + plans_of(t, a, schedule) + heading(t, "heading.schedules") +
+      schedule_of(t, d) + (d.contains("signs") ? signs_of(t, d["signs"]) : "") +
+      heading(t, "design.binding_heading") + binding(t, d) + off_place(t, d) + others(t, d) +
+      heading(t, "design.settings_heading") + settings(t, d);
   return html_page({t.code(), title + " – " + t("design.page"), report_style}, body);
 }
 

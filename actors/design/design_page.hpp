@@ -5,11 +5,13 @@
 
 #include <string>
 
+#include "actors/design/side_by_side.hpp"
 #include "actors/output/json_out.hpp"
 #include "actors/report/texts.hpp"
 
 namespace luxodus {
 
-std::string design_page(const Json& design, const Json& assessment, Language language);
+std::string design_page(const Json& design, const Json& assessment,
+                        const std::vector<LayoutPlan>& plans, Language language);
 
 }  // namespace luxodus

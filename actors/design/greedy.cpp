@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <set>
+
+#include "actors/design/preference.hpp"
 
 namespace luxodus {
 
@@ -12,12 +13,6 @@ namespace {
 
 /// Luminaires that are in the way of nothing may still cost nothing: shares are over at least this.
 constexpr double least_weight = 1e-3;
-/// Rows of luminaires that are nearer than this are one [m].
-constexpr double one_row_m = 0.05;
-/// Places brighter than this times what is asked for are bright enough.
-constexpr double bright_enough = 2;
-/// What one row of luminaires less is worth beside a place's brightness.
-constexpr double worth_of_row = 0.02;
 /// Luminaires of a neighbourhood that is emptied.
 constexpr size_t fewest_emptied = 2, most_emptied = 5;
 /// Equal but for rounding.
@@ -27,7 +22,16 @@ constexpr double same = 1e-9;
 class Gains {
  public:
   explicit Gains(const LayoutProblem& problem)
-      : problem_(problem), gain_(problem.options.size(), 0) {}
+      : problem_(problem), gain_(problem.options.size(), 0) {
+    // One that stays costs nothing, and takes the place of one that moves: they count alike.
+    std::vector<double> of_pool(problem.pools.size(), 0);
+    for (const LayoutOption& option : problem.options)
+      if (option.pool != no_pool)
+        of_pool[option.pool] = std::max(of_pool[option.pool], option.weight);
+    for (const LayoutOption& option : problem.options)
+      weight_.push_back(
+          std::max(option.pool == no_pool ? option.weight : of_pool[option.pool], least_weight));
+  }
 
   /// False where nothing is missing.
   bool find(const LayoutSums& sums) {
@@ -54,9 +58,7 @@ class Gains {
     }
     return missing;
   }
-  double of(size_t option) const {
-    return gain_[option] / std::max(problem_.options[option].weight, least_weight);
-  }
+  double of(size_t option) const { return gain_[option] / weight_[option]; }
 
  private:
   static constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
@@ -68,7 +70,7 @@ class Gains {
   }
 
   const LayoutProblem& problem_;
-  std::vector<double> gain_;
+  std::vector<double> gain_, weight_;
 };
 
 std::vector<char> taken_places(const LayoutProblem& problem, const Layout& layout) {
@@ -104,11 +106,41 @@ Layout emptied(const LayoutProblem& problem, const Layout& layout, Random& rando
   return out;
 }
 
-size_t rows_of(const LayoutProblem& problem, const Layout& layout, int axis) {
-  std::set<int64_t> rows;
-  for (size_t i = 0; i < layout.size(); ++i)
-    if (layout[i] != 0) rows.insert(std::llround(problem.options[i].position[axis] / one_row_m));
-  return rows.size();
+/// Movable luminaires that nothing has asked for yet, where they cost least: they stay. False where
+/// there is no place for one.
+bool fill_pools(const LayoutProblem& problem, LayoutSums& sums, std::vector<char>& taken,
+                bool& any) {
+  any = false;
+  for (uint32_t pool = 0; pool < problem.pools.size(); ++pool)
+    while (sums.lack_of(pool) > 0) {
+      std::optional<uint32_t> least;
+      for (uint32_t i = 0; i < problem.options.size(); ++i) {
+        const LayoutOption& option = problem.options[i];
+        if (option.pool != pool || option.barred || taken[option.place] != 0) continue;
+        if (!least || option.weight < problem.options[*least].weight) least = i;
+      }
+      if (!least) return false;
+      sums.add(*least);
+      taken[problem.options[*least].place] = 1;
+      any = true;
+    }
+  return true;
+}
+
+/// Has a luminaire that was moved stay where it is, where everything holds with it there.
+void send_home(const LayoutProblem& problem, LayoutSums& sums, uint32_t moved) {
+  const std::vector<char> taken = taken_places(problem, sums.layout());
+  for (uint32_t i = 0; i < problem.options.size(); ++i) {
+    const LayoutOption& option = problem.options[i];
+    if (option.pool != problem.options[moved].pool || option.barred || taken[option.place] != 0 ||
+        !(option.weight < problem.options[moved].weight))
+      continue;
+    sums.remove(moved);
+    sums.add(i);
+    if (sums.holds()) return;
+    sums.remove(i);
+    sums.add(moved);
+  }
 }
 
 }  // namespace
@@ -124,12 +156,19 @@ std::optional<Layout> completed(const LayoutIndex& index, const Layout& begun, d
   sums.set(start);
   std::vector<char> taken = taken_places(problem, start);
   Gains gains(problem);
-  while (gains.find(sums)) {
+  for (;;) {
+    if (!gains.find(sums)) {
+      bool any = false;
+      if (!fill_pools(problem, sums, taken, any)) return std::nullopt;
+      if (!any) break;
+      continue;
+    }
     double best = 0;
     uint32_t choice = 0;
     for (uint32_t i = 0; i < problem.options.size(); ++i) {
       const LayoutOption& option = problem.options[i];
       if (option.barred || taken[option.place] != 0 || !(gains.of(i) > 0)) continue;
+      if (option.pool != no_pool && sums.lack_of(option.pool) <= 0) continue;
       const double score = gains.of(i) * (noise > 0 ? 1 + noise * random.uniform_double() : 1);
       // In symmetric rooms scores differ by rounding alone: the first is taken.
       if (score <= best * (1 + same)) continue;
@@ -149,22 +188,14 @@ Layout pruned(const LayoutIndex& index, const Layout& layout) {
   sums.set(layout);
   for (const uint32_t option : removable_in(problem, layout)) {
     if (!(problem.options[option].weight > 0)) continue;
+    if (problem.options[option].pool != no_pool) {
+      send_home(problem, sums, option);
+      continue;
+    }
     sums.remove(option);
     if (!sums.holds()) sums.add(option);
   }
   return sums.layout();
-}
-
-double preference(const LayoutProblem& problem, const LayoutSums& sums) {
-  std::vector<double> darkest(problem.groups.size(), bright_enough);
-  for (size_t i = 0; i < problem.covers.size(); ++i) {
-    double& d = darkest[problem.covers[i].group];
-    d = std::min(d, sums.cover(i));
-  }
-  const double light = std::accumulate(darkest.begin(), darkest.end(), 0.0);
-  const size_t rows =
-      std::min(rows_of(problem, sums.layout(), 0), rows_of(problem, sums.layout(), 1));
-  return light - worth_of_row * static_cast<double>(rows);
 }
 
 Layout improved(const LayoutIndex& index, Layout layout, int rounds, uint64_t seed,

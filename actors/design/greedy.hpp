@@ -21,10 +21,6 @@ std::optional<Layout> completed(const LayoutIndex& index, const Layout& begun, d
 /// Takes out what is not needed, the dearest first. Requires: all holds.
 Layout pruned(const LayoutIndex& index, const Layout& layout);
 
-/// What installers and people prefer among layouts of one objective; larger is better: darkest
-/// places that are bright, and luminaires in few rows.
-double preference(const LayoutProblem& problem, const LayoutSums& sums);
-
 /// Empties neighbourhoods and fills them anew, `rounds` times: never a larger objective, and among
 /// equals a larger preference. Ends early at `interrupt` or when `out_of_time` says so.
 /// Requires: all holds.

@@ -36,6 +36,7 @@ GrowingProgram::GrowingProgram(const LayoutProblem& problem, bool feasible_only)
     program_.add_variable(feasible_only || option.fixed ? 0 : option.weight, option.fixed ? 1 : 0,
                           option.barred ? 0 : 1, true);
   add_places();
+  add_pools();
   for (size_t i = 0; i < problem.spreads.size(); ++i)
     darkest_.push_back(program_.add_variable(0, 0, infinite_light, false));
 }
@@ -49,6 +50,19 @@ IntegerProgram GrowingProgram::of_region(uint32_t region) const {
   IntegerProgram out = program_;
   for (size_t i = 0; i < problem_.options.size(); ++i)
     if (problem_.options[i].region != region) out.cost[i] = 0;
+  out.rows.clear();
+  for (size_t i = 0; i < program_.rows.size(); ++i) {
+    const int group = groups_[i];
+    const uint32_t of = group < 0 ? region : problem_.groups[static_cast<size_t>(group)].region;
+    if (of == region || of == no_region) out.rows.push_back(program_.rows[i]);
+  }
+  return out;
+}
+
+IntegerProgram GrowingProgram::around(const Layout& layout, uint32_t region) const {
+  IntegerProgram out = program_;
+  for (size_t i = 0; i < problem_.options.size(); ++i)
+    if (problem_.options[i].region != region) out.low[i] = out.high[i] = layout[i] != 0 ? 1 : 0;
   return out;
 }
 
@@ -112,6 +126,22 @@ void GrowingProgram::add_places() {
     row.low = -infinite_row;
     row.high = 1;
     add_row(std::move(row), of_place);
+  }
+}
+
+/// A luminaire that may move is at one of its places.
+void GrowingProgram::add_pools() {
+  std::vector<LinearRow> of(problem_.pools.size());
+  for (size_t i = 0; i < problem_.options.size(); ++i) {
+    if (problem_.options[i].pool == no_pool) continue;
+    LinearRow& row = of[problem_.options[i].pool];
+    row.column.push_back(static_cast<int>(i));
+    row.value.push_back(1);
+  }
+  for (size_t pool = 0; pool < of.size(); ++pool) {
+    if (of[pool].column.empty()) continue;  // it is in another part
+    of[pool].low = of[pool].high = static_cast<double>(problem_.pools[pool]);
+    add_row(std::move(of[pool]), of_place);
   }
 }
 

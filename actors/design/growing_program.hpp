@@ -24,8 +24,10 @@ class GrowingProgram {
   GrowingProgram(const LayoutProblem& problem, bool feasible_only);
 
   const IntegerProgram& program() const { return program_; }
-  /// The same rows, where only the options of one region cost anything.
+  /// Only the options of one region cost anything, and the rows of others are left out.
   IntegerProgram of_region(uint32_t region) const;
+  /// All options but those of a region are as a layout has them.
+  IntegerProgram around(const Layout& layout, uint32_t region) const;
   /// No layout's options of the region weigh less than this together.
   void add_region_bound(uint32_t region, double least);
   /// Rows that follow from the others; and those of places.
@@ -50,6 +52,7 @@ class GrowingProgram {
 
   void add_row(LinearRow row, int group);
   void add_places();
+  void add_pools();
   void add_cover(const std::vector<Term>& terms, double least, uint32_t but_place, uint32_t group);
   void add_failure(const std::vector<Term>& light, double least, uint32_t group);
   void add_spread(const Violation& v, double more);

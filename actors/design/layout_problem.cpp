@@ -40,11 +40,13 @@ LayoutSums::LayoutSums(const LayoutIndex& index)
       problem_(index.problem()),
       cover_(problem_.covers.size(), 0),
       light_(problem_.points.size(), 0),
+      in_pool_(problem_.pools.size(), 0),
       layout_(problem_.options.size(), 0) {}
 
 void LayoutSums::set(const Layout& layout) {
   std::fill(cover_.begin(), cover_.end(), 0);
   std::fill(light_.begin(), light_.end(), 0);
+  std::fill(in_pool_.begin(), in_pool_.end(), 0);
   std::fill(layout_.begin(), layout_.end(), 0);
   for (uint32_t i = 0; i < layout.size(); ++i)
     if (layout[i] != 0) add(i);
@@ -52,6 +54,7 @@ void LayoutSums::set(const Layout& layout) {
 
 void LayoutSums::change(uint32_t option, int sign) {
   layout_[option] = sign > 0 ? 1 : 0;
+  if (const uint32_t pool = problem_.options[option].pool; pool != no_pool) in_pool_[pool] += sign;
   for (const auto& e : index_.covers(option)) cover_[e.row] += sign * static_cast<double>(e.value);
   for (const auto& e : index_.points(option)) light_[e.row] += sign * static_cast<double>(e.value);
 }
@@ -101,7 +104,34 @@ std::vector<Violation> LayoutSums::violations() const {
   return out;
 }
 
+std::vector<double> LayoutSums::tightest() const {
+  std::vector<double> out(problem_.groups.size(), std::numeric_limits<double>::infinity());
+  const auto offer = [&](uint32_t group, double share) {
+    out[group] = std::min(out[group], share);
+  };
+  for (size_t i = 0; i < cover_.size(); ++i) offer(problem_.covers[i].group, cover_[i]);
+  std::vector<float> largest;
+  std::vector<uint32_t> whose;
+  if (!problem_.failures.empty()) find_largest(largest, whose);
+  for (const FailureRows& rows : problem_.failures)
+    for (const uint32_t p : rows.points)
+      offer(rows.group, (light_[p] - static_cast<double>(largest[p])) / rows.least);
+  for (const SpreadRows& rows : problem_.spreads) {
+    double low = std::numeric_limits<double>::infinity(), high = 0;
+    for (const uint32_t p : rows.low) low = std::min(low, light_[p]);
+    for (const uint32_t p : rows.high) high = std::max(high, light_[p]);
+    if (high > 0) offer(rows.group, rows.ratio * low / high);
+  }
+  return out;
+}
+
+int64_t LayoutSums::lack_of(size_t pool) const {
+  return static_cast<int64_t>(problem_.pools[pool]) - in_pool_[pool];
+}
+
 bool LayoutSums::holds() const {
+  for (size_t pool = 0; pool < in_pool_.size(); ++pool)
+    if (lack_of(pool) != 0) return false;
   return covers_hold() && violations().empty();
 }
 

@@ -23,6 +23,12 @@ using Terms = std::shared_ptr<const std::vector<Term>>;
 /// Of options and constraints that belong to no region.
 inline constexpr uint32_t no_region = static_cast<uint32_t>(-1);
 
+/// Of options that are no luminaires to be moved.
+inline constexpr uint32_t no_pool = static_cast<uint32_t>(-1);
+
+/// Of options that are there already: they are of none of the types that are placed.
+inline constexpr uint32_t no_kind = static_cast<uint32_t>(-1);
+
 /// A luminaire of one type, turned in one way, at one place.
 struct LayoutOption {
   uint32_t place = 0;  // options of one place exclude each other
@@ -33,6 +39,9 @@ struct LayoutOption {
   glm::dvec2 position{0};
   bool never_fails = false;  // no demand on failures takes it away
   bool barred = false;       // chosen in no layout
+  /// Of luminaires that are there, alike, and may move: each option is a place for one of them.
+  uint32_t pool = no_pool;
+  uint32_t kind = no_kind;  // its type
 };
 
 /// No number of a place.
@@ -49,6 +58,7 @@ enum class DemandKind {
   near,      // a luminaire within a distance [m]
   vertical,  // illuminance on the front of equipment [lx]
   face,      // illuminance on the face of a sign [lx]
+  flight,    // a luminaire whose light falls directly on a flight of stairs [lx on each tread]
 };
 
 /// Illuminance that is not to be below a limit while all luminaires work: what is kept with more to
@@ -101,6 +111,7 @@ struct LayoutProblem {
   std::vector<CoverRow> covers;
   std::vector<FailureRows> failures;
   std::vector<SpreadRows> spreads;
+  std::vector<uint32_t> pools;  // how many options of each are chosen, exactly
 
   size_t places() const;
 };
@@ -157,8 +168,13 @@ class LayoutSums {
   double cover(size_t row) const { return cover_[row]; }
   double at_point(size_t point) const { return light_[point]; }
   bool covers_hold() const;
-  /// All that does not hold.
+  /// Of a pool, how many more it has to have in the layout; below 0 where it has too many.
+  int64_t lack_of(size_t pool) const;
+  /// Of each group, the least share of what it asks for that is there; infinite without rows.
+  std::vector<double> tightest() const;
+  /// All sums that do not hold.
   std::vector<Violation> violations() const;
+  /// All sums, and as many of each pool as it has.
   bool holds() const;
 
  private:
@@ -170,6 +186,7 @@ class LayoutSums {
   const LayoutIndex& index_;
   const LayoutProblem& problem_;
   std::vector<double> cover_, light_;
+  std::vector<int64_t> in_pool_;
   Layout layout_;
 };
 

@@ -35,7 +35,7 @@ std::vector<LuminaireCandidate> with_places_off(const Building& building,
       LuminaireCandidate one = chosen[i];
       one.place = i;
       out.push_back(one);
-      if (one.type == LuminaireCandidate::existing) continue;  // it is where it is
+      if (one.type == LuminaireCandidate::existing && !one.moved) continue;  // it is where it is
       for (int d = 0; d < off_directions; ++d) {
         const double azimuth = 2 * std::numbers::pi * d / off_directions;
         const glm::dvec3 way = off_way(chosen[i], azimuth);

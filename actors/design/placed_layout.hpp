@@ -14,6 +14,9 @@ namespace luxodus {
 struct PlacedLuminaire {
   LuminaireCandidate candidate;
   std::string name;
+  std::optional<glm::dvec3> moved_from{};  // of one of the scene
+  /// Whether a layout has it where it is: it is new, or moved.
+  bool is_placed() const { return is_new() || moved_from.has_value(); }
   bool is_new() const { return candidate.type != LuminaireCandidate::existing; }
 };
 

@@ -131,11 +131,12 @@ class Refining {
     }
   }
 
-  /// New luminaires under ceilings, first those that the tightest minima come from.
+  /// New and moved luminaires under ceilings, first those that the tightest minima come from.
   std::vector<size_t> by_weight() const {
     std::vector<size_t> out;
     for (size_t i = 0; i < out_.luminaires.size(); ++i)
-      if (out_.luminaires[i].type != LuminaireCandidate::existing && !out_.luminaires[i].aim)
+      if (const LuminaireCandidate& one = out_.luminaires[i];
+          (one.type != LuminaireCandidate::existing || one.moved) && !one.aim)
         out.push_back(i);
     std::stable_sort(out.begin(), out.end(),
                      [&](size_t a, size_t b) { return weight_[a] > weight_[b]; });

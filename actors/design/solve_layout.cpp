@@ -13,6 +13,7 @@
 #include "actors/design/greedy.hpp"
 #include "actors/design/growing_program.hpp"
 #include "actors/design/mixed_integer_program.hpp"
+#include "actors/design/preference.hpp"
 #include "actors/design/split_problem.hpp"
 #include "runtime/core/clock.hpp"
 
@@ -25,20 +26,23 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double loose_gap = 0.04;
 /// Of the time of the search, what may go into the bounds of regions.
 constexpr double time_for_regions = 0.4;
+/// And into regions that are solved anew around the best layout.
+constexpr double time_for_improving = 0.1;
 /// And how much after it into what binds.
 constexpr double time_for_prices = 0.05;
 /// Rounding of an objective.
 constexpr double rounding = 1e-6;
 
-/// The greatest step that every objective is a multiple of; 0 where there is none.
+/// The greatest step that every objective is a multiple of, in thousandths; 0 where there is none.
 double step_of(const LayoutProblem& problem) {
+  constexpr double parts = 1000;
   int64_t step = 0;
   for (const LayoutOption& option : problem.options) {
-    const double weight = option.fixed ? 0 : option.weight;
-    if (weight != std::floor(weight) || weight > 1e9) return 0;
-    step = std::gcd(step, static_cast<int64_t>(weight));
+    const double weight = parts * (option.fixed ? 0 : option.weight);
+    if (weight > 1e12 || std::abs(weight - std::round(weight)) > rounding) return 0;
+    step = std::gcd(step, std::llround(weight));
   }
-  return static_cast<double>(step);
+  return static_cast<double>(step) / parts;
 }
 
 class Solving {
@@ -145,7 +149,11 @@ class Solving {
   void integer_program() {
     GrowingProgram growing(problem_, false);
     for (const Violation& v : first_rows(problem_)) growing.add(v);
-    bound_regions(growing);
+    if (const auto regions = regions_to_solve(); regions.size() > 1) {
+      bound_regions(growing, regions);
+      improve_regions(growing, regions);
+    }
+    if (ended()) return fill_shares(growing);
     double gap = std::max(loose_gap, settings_.gap);
     LayoutSums sums(index_);
     for (answer_.rounds = 1; answer_.rounds <= limits::row_rounds; ++answer_.rounds) {
@@ -181,13 +189,16 @@ class Solving {
     return step_ > 0 ? std::ceil((bound - rounding) / step_) * step_ : bound;
   }
 
+  std::set<uint32_t> regions_to_solve() const {
+    std::set<uint32_t> out;
+    for (const LayoutOption& option : problem_.options)
+      if (option.region != no_region && !option.fixed) out.insert(option.region);
+    return out;
+  }
+
   /// Each region by itself, the others' luminaires free: whole numbers of each region add up to
   /// more than the whole number of all of them, and each is found sooner.
-  void bound_regions(GrowingProgram& growing) {
-    std::set<uint32_t> regions;
-    for (const LayoutOption& option : problem_.options)
-      if (option.region != no_region && !option.fixed) regions.insert(option.region);
-    if (regions.size() < 2) return;
+  void bound_regions(GrowingProgram& growing, const std::set<uint32_t>& regions) {
     const double until = seconds() + time_for_regions * (settings_.seconds - seconds());
     size_t left = regions.size();
     double sum = 0;
@@ -195,6 +206,7 @@ class Solving {
       const double share = (until - seconds()) / static_cast<double>(left--);
       const double least = rounded_up(bound_of_region(growing, region, share));
       if (least > 0) growing.add_region_bound(region, least);
+      region_bounds_[region] = least;
       sum += least;
       raise_bound(sum);
       tell("regions", 0);
@@ -225,15 +237,65 @@ class Solving {
     return bound;
   }
 
+  /// Each region that weighs more than its bound anew, while the others stay as they are, until
+  /// none gets better: what a room needs has little to do with other rooms.
+  void improve_regions(GrowingProgram& growing, const std::set<uint32_t>& regions) {
+    const double until = seconds() + time_for_improving * (settings_.seconds - seconds());
+    for (bool better = !answer_.layout.empty(); better && !ended();) {
+      better = false;
+      for (const uint32_t region : regions) {
+        if (interrupt_ || seconds() > until) return;
+        if (weight_in(region) <= region_bounds_[region] + rounding) continue;
+        better = improve_region(growing, region, until) || better;
+        tell("regions", 0);
+      }
+    }
+  }
+
+  /// Of the best layout, what a region adds to the objective.
+  double weight_in(uint32_t region) const {
+    double sum = 0;
+    for (size_t i = 0; i < answer_.layout.size(); ++i) {
+      const LayoutOption& option = problem_.options[i];
+      if (answer_.layout[i] != 0 && option.region == region && !option.fixed) sum += option.weight;
+    }
+    return sum;
+  }
+
+  bool improve_region(GrowingProgram& growing, uint32_t region, double until) {
+    LayoutSums sums(index_);
+    const double before = answer_.objective;
+    for (int round = 0; round < limits::row_rounds && !interrupt_; ++round) {
+      const ProgramLimits asked{.seconds = until - seconds(), .cutoff = cutoff()};
+      const ProgramAnswer found =
+          solve_program(growing.around(answer_.layout, region), asked, interrupt_, {});
+      if (found.values.empty()) break;
+      sums.set(growing.layout_of(found.values));
+      const auto broken = sums.violations();
+      if (broken.empty()) offer(sums.layout());
+      if (broken.empty() || found.end == ProgramEnd::stopped || seconds() > until) break;
+      for (const Violation& v : spread_out(problem_, broken, limits::rows_per_round))
+        growing.add(v);
+    }
+    return answer_.objective < before - rounding;
+  }
+
+  /// Whether the layout that is there is good enough, and is known to be.
+  bool ended() {
+    if (answer_.layout.empty()) return false;
+    if (answer_.bound >= answer_.objective - rounding)
+      answer_.end = LayoutEnd::optimal;
+    else if (answer_.gap() <= settings_.gap)
+      answer_.end = LayoutEnd::within_gap;
+    else
+      return false;
+    return true;
+  }
+
   bool ended(const ProgramAnswer& found) {
     const bool stopped = found.end == ProgramEnd::stopped || interrupt_;
-    const bool proven = !answer_.layout.empty() && answer_.bound >= answer_.objective - rounding;
-    const bool near = !answer_.layout.empty() && answer_.gap() <= settings_.gap;
-    if (proven)
-      answer_.end = LayoutEnd::optimal;
-    else if (near)
-      answer_.end = LayoutEnd::within_gap;
-    else if (found.interrupted || interrupt_)
+    if (ended()) return true;
+    if (found.interrupted || interrupt_)
       answer_.end = answer_.layout.empty() ? LayoutEnd::unknown : LayoutEnd::interrupted;
     else if (stopped || out_of_time())
       answer_.end = answer_.layout.empty() ? LayoutEnd::unknown : LayoutEnd::out_of_time;
@@ -262,7 +324,7 @@ class Solving {
   void choose_among_equals() {
     if (answer_.layout.empty() || answer_.end == LayoutEnd::interrupted) return;
     tell("choosing among equals", 0);
-    const Layout liked = better(answer_.layout);
+    const Layout liked = tidied(index_, better(answer_.layout));
     const double objective = objective_of(problem_, liked);
     if (objective <= answer_.objective + rounding) {
       answer_.layout = liked;
@@ -276,6 +338,7 @@ class Solving {
   const SolveProgress progress_;
   LayoutIndex index_;
   double step_;
+  std::map<uint32_t, double> region_bounds_;
   SystemClock clock_;
   Nanoseconds began_;
   LayoutAnswer answer_;

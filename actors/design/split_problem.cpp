@@ -59,9 +59,13 @@ class Splitting {
 
   /// False where a row has no options: no part could hold it.
   bool join_all() {
-    std::map<uint32_t, uint32_t> of_place;
-    for (uint32_t i = 0; i < problem_.options.size(); ++i)
-      joined_.join(i, of_place.try_emplace(problem_.options[i].place, i).first->second);
+    std::map<uint32_t, uint32_t> of_place, of_pool;
+    for (uint32_t i = 0; i < problem_.options.size(); ++i) {
+      const LayoutOption& option = problem_.options[i];
+      joined_.join(i, of_place.try_emplace(option.place, i).first->second);
+      if (option.pool != no_pool)
+        joined_.join(i, of_pool.try_emplace(option.pool, i).first->second);
+    }
     for (const CoverRow& row : problem_.covers) {
       if (row.terms->empty()) return false;
       joined_.join(*row.terms);
@@ -117,6 +121,7 @@ class Splitting {
       if (fresh) {
         parts_.emplace_back();
         parts_.back().problem.groups = problem_.groups;
+        parts_.back().problem.pools.assign(problem_.pools.size(), 0);
         places_.emplace_back();
         points_.emplace_back();
       }
@@ -128,6 +133,7 @@ class Splitting {
       auto& places = places_[at->second];
       option.place =
           places.try_emplace(option.place, static_cast<uint32_t>(places.size())).first->second;
+      if (option.pool != no_pool) part.problem.pools[option.pool] = problem_.pools[option.pool];
       part.problem.options.push_back(option);
     }
   }

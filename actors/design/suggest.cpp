@@ -22,6 +22,7 @@ Result<DesignSettings> settings_of(const SceneDescription& scene) {
   DesignSettings out = *scene.design;
   out.existing = Existing::fixed;
   out.fixed.clear();
+  out.movable.clear();
   out.removable.clear();
   out.removed.clear();
   out.objective = DesignObjective::number;

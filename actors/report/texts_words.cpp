@@ -58,6 +58,7 @@ constexpr ReportText words_rows[] = {
     {"subject.route", {"route", "Rettungsweg", "chemin"}},
     {"subject.open area", {"open area", "offener Bereich", "espace ouvert"}},
     {"subject.task area", {"task area", "Arbeitsbereich", "zone de travail"}},
+    {"subject.flight of stairs", {"flight of stairs", "Treppenlauf", "volée d’escalier"}},
     {"subject.sign", {"sign", "Zeichen", "panneau"}},
     {"subject.luminaire", {"luminaire", "Leuchte", "luminaire"}},
     {"subject.all luminaires", {"all luminaires", "alle Leuchten", "tous les luminaires"}},

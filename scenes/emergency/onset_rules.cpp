@@ -125,7 +125,8 @@ std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice
   const auto add = [&](const char* id, const char* subject, const char* reason) {
     out.push_back(not_assessed(rule_of(id, codes), subject, reason));
   };
-  const auto add_duration = [&](const char* id, double hours) {
+  const auto add_duration = [&](const char* id) {
+    const double hours = rated_duration_h(codes);
     const SupplyHours supply = supply_of(scene);
     const char* const what = "all luminaires and signs";
     if (supply.said > 0 && supply.unsaid == 0) {
@@ -150,7 +151,7 @@ std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice
   const char* const no_onset = "no luminaire says how fast it comes on ('onset')";
   if (!codes.european()) {
     if (unsaid) add("N5", "all luminaires", no_onset);
-    add_duration("N10", us_duration_h);
+    add_duration("N10");
     return out;
   }
   add("E9", all, "a scene says how its light is spread over wavelengths only roughly");
@@ -158,11 +159,11 @@ std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice
   if (unsaid && codes.has(Deviation::de_asr)) add("E10g", "all luminaires", no_onset);
   add("E10", "all signs", "a sign says nothing of how fast it comes on");
   if (codes.has(Deviation::uk_bs_5266))
-    add_duration("E11u", national_duration_h);
+    add_duration("E11u");
   else if (codes.has(Deviation::duration_3h))
-    add_duration("E11n", national_duration_h);
+    add_duration("E11n");
   else
-    add_duration("E11", duration_h);
+    add_duration("E11");
   add("S8", all, "the boxes of the standard are not at hand");
   return out;
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "scenes/emergency/rule_limits.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -71,6 +73,13 @@ const NamedRules& named(Deviation deviation) {
 bool deviates_from(Deviation deviation, RuleSet set) {
   const bool american = deviation == Deviation::us_ibc || deviation == Deviation::us_ibc_i2;
   return american == (set == RuleSet::nfpa101);
+}
+
+double rated_duration_h(const CodeChoice& codes) {
+  if (!codes.european()) return rule_limit::us_duration_h;
+  return codes.has(Deviation::uk_bs_5266) || codes.has(Deviation::duration_3h)
+             ? rule_limit::national_duration_h
+             : rule_limit::duration_h;
 }
 
 Result<std::vector<CodeChoice>> chosen_codes(const std::vector<std::string>& sets_named,

@@ -42,6 +42,9 @@ struct CodeChoice {
   bool has(Deviation deviation) const { return deviations.contains(deviation); }
 };
 
+/// How long emergency lighting has to last by a set with its deviations (E11, E11n, E11u, N10) [h].
+double rated_duration_h(const CodeChoice& codes);
+
 /// Every set that is named, once, in the order of the enumeration.
 /// Errors: no set, an unknown name (all are listed), a deviation from none of the sets.
 Result<std::vector<CodeChoice>> chosen_codes(const std::vector<std::string>& sets,

@@ -49,13 +49,6 @@ DesignType generic_type(const SourcePlace& place) {
   return type;
 }
 
-bool alike(const Emitter& a, const Emitter& b) {
-  return a.web == b.web && a.shape == b.shape && a.size == b.size &&
-         a.distribution == b.distribution && a.cosine_power == b.cosine_power &&
-         a.emergency_flux == b.emergency_flux && a.emergency_ageing == b.emergency_ageing &&
-         a.onset == b.onset && a.duration_s == b.duration_s && a.maintained == b.maintained;
-}
-
 /// The emergency luminaires of the scene that look down, each kind once, by the names of their
 /// files.
 std::vector<DesignType> types_of_scene(const SceneDescription& scene) {
@@ -65,7 +58,7 @@ std::vector<DesignType> types_of_scene(const SceneDescription& scene) {
     if (!(e.emergency_flux > 0) || e.shape == EmitterShape::mesh) continue;
     if (e.frame.axes[2].z < down_cosine) continue;
     if (std::any_of(out.begin(), out.end(),
-                    [&](const DesignType& type) { return alike(type.emitter, e); }))
+                    [&](const DesignType& type) { return same_light(type.emitter, e); }))
       continue;
     DesignType type;
     const std::string file = std::filesystem::path(e.file).stem().string();
@@ -126,6 +119,7 @@ void read_design_type(const toml::Table& table, SceneReading& reading, DesignSet
   type.watts = keys.number("watts");
   type.turns_deg = keys.numbers("turns_deg");
   type.mount = word_of<LuminaireMount>(keys, "mount", luminaire_mount_words);
+  if (keys.has("battery")) type.battery = word_of<Battery>(keys, "battery", battery_words);
   type.aim_deg = keys.number("aim_deg");
   if (keys.clean() && !(type.emitter.emergency_flux > 0))
     keys.problem("the type '" + type.name +
@@ -250,8 +244,8 @@ void read_keep_out(const toml::Table& table, SceneReading& reading, DesignSettin
 void read_named(KeyReader& keys, DesignSettings& design) {
   std::set<std::string> seen;
   for (const auto& [key, list] :
-       {std::pair{"fixed", &design.fixed}, std::pair{"removable", &design.removable},
-        std::pair{"removed", &design.removed}}) {
+       {std::pair{"fixed", &design.fixed}, std::pair{"movable", &design.movable},
+        std::pair{"removable", &design.removable}, std::pair{"removed", &design.removed}}) {
     if (keys.has(key)) *list = keys.texts(key);
     for (const std::string& name : *list) {
       const auto& emitters = keys.reading().scene.emitters;
@@ -263,10 +257,13 @@ void read_named(KeyReader& keys, DesignSettings& design) {
       else if (!(at->emergency_flux > 0))
         keys.problem(key, "'" + std::string(key) + "' names \"" + name +
                               "\", which gives no light in an emergency");
+      else if (list == &design.movable && at->shape == EmitterShape::mesh)
+        keys.problem(key, "'movable' names \"" + name +
+                              "\", an emitter of shape mesh, which stays where its file says");
       if (!seen.insert(name).second)
         keys.problem(key, "\"" + name +
-                              "\" is named twice in 'fixed', 'removable' and 'removed': "
-                              "a luminaire either stays, may go, or goes");
+                              "\" is named twice in 'fixed', 'movable', 'removable' and "
+                              "'removed': a luminaire either stays, may be moved, may go, or goes");
     }
   }
 }
@@ -311,6 +308,7 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
   if (says("mounting_height_m")) design.mounting_height_m = keys.maybe_number("mounting_height_m");
   if (says("mounting_height_m") && says("drop_m"))
     keys.problem("drop_m", "'drop_m' and 'mounting_height_m' exclude each other");
+  if (says("move_cost")) design.move_cost = keys.maybe_number("move_cost");
   if (says("places")) design.places = keys.points("places");
   if (says("existing")) design.existing = word_of<Existing>(keys, "existing", existing_words);
   if (says("place_signs")) design.place_signs = keys.flag("place_signs");
@@ -330,6 +328,7 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
 
 void complete_design(SceneReading& reading, DesignSettings design) {
   SceneDescription& scene = reading.scene;
+  design.flights = reading.flights;
   if (design.types.empty()) design.types = types_of_scene(scene);
   if (design.types.empty()) design.types.push_back(generic_type(design.place));
   if (!design.place_signs) design.place_signs = scene.signs.empty() || !design.sign_types.empty();

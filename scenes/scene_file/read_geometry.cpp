@@ -225,6 +225,25 @@ bool is_there_now(KeyReader& keys, const std::string& shape) {
   return there;
 }
 
+/// Where the flights of stairs are that an object is made of.
+void keep_flights(KeyReader& keys, const std::string& name, const Transform& transform,
+                  std::span<const glm::dvec3> copies) {
+  StairFlight flight;
+  flight.name = name;
+  flight.treads = static_cast<int>(keys.integer("steps"));
+  const double rise = keys.number("rise"), going = keys.number("going");
+  const double middle = keys.number("width") / 2;
+  const auto tread = [&](int number) {
+    return transform.point({(number - 0.5) * going, middle, number * rise});
+  };
+  for (size_t i = 0; i < copies.size(); ++i) {
+    if (i > 0) flight.name = name + ", " + std::to_string(i + 1);
+    flight.lowest = tread(1) + copies[i];
+    flight.highest = tread(flight.treads) + copies[i];
+    keys.reading().flights.push_back(flight);
+  }
+}
+
 }  // namespace
 
 void read_object(const toml::Table& table, SceneReading& reading) {
@@ -251,6 +270,8 @@ void read_object(const toml::Table& table, SceneReading& reading) {
       object.mesh = std::move(shape->mesh);
       apply(transform, object.mesh);
       repeat_mesh(keys, copies, object.mesh);
+      if (kind == "stairs" && keys.clean() && there)
+        keep_flights(keys, object.name, transform, copies);
       reading.scene.degenerate_triangles += clean_mesh(object.mesh);
       if (object.mesh.triangles.empty()) keys.problem("'" + object.name + "' has no area left");
     } else if (!shape.problem().what.empty()) {

@@ -16,6 +16,7 @@
 #include "runtime/toml/findings.hpp"
 #include "runtime/toml/value.hpp"
 #include "scenes/world/description.hpp"
+#include "scenes/world/design.hpp"
 #include "scenes/world/fire_frames.hpp"
 
 namespace luxodus {
@@ -65,6 +66,9 @@ class SceneReading {
     SourcePlace place;
   };
   std::vector<NamedRoute> routes_named;
+
+  /// Of objects, before a design is read.
+  std::vector<StairFlight> flights;
 
   toml::Findings findings;
 

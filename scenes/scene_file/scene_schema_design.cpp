@@ -28,10 +28,16 @@ std::vector<TableSpec> design_schema() {
            {"places", "points", "m", "", "[-1e7, 1e7]",
             "candidate places, listed instead of the grid"},
            {"keep_out", "tables", "", "", "", "where nothing is mounted"},
-           {"existing", "choice", "", "\"fixed\"", "fixed, removable, removed",
+           {"existing", "choice", "", "\"fixed\"", "fixed, removable, removed, movable",
             "what becomes of the emergency luminaires of the scene: they stay, they may go, they "
-            "go"},
+            "go, they stay or are moved"},
            {"fixed", "texts", "", "[]", "", "names of luminaires that stay, whatever `existing`"},
+           {"movable", "texts", "", "[]", "",
+            "names of those that stay where they are or are moved to a place of a new one on their "
+            "storey, likewise"},
+           {"move_cost", "number", "", "", "(0, 1e9]",
+            "of moving one luminaire, in the unit of `objective`; without it a quarter of the "
+            "least that a new luminaire adds"},
            {"removable", "texts", "", "[]", "", "names of those that may go, likewise"},
            {"removed", "texts", "", "[]", "", "names of those that go, likewise"},
            {"place_signs", "flag", "", "", "",
@@ -82,6 +88,10 @@ std::vector<TableSpec> design_schema() {
                {"turns_deg", "numbers", "deg", "", "[-360, 360]",
                 "turns about its aim that are tried, from the direction of the route below (over "
                 "areas from +x); without it 0 and 90 of those whose light has a direction, else 0"},
+               {"battery", "choice", "", "", "self-contained, central",
+                "what supplies it when the mains fail, for its class in schedules (EN 60598-2-22: "
+                "`X 0 60`); a type whose `duration_h` is shorter than the rules ask for is not "
+                "placed"},
                {"mount", "choice", "", "\"ceiling\"", "ceiling, wall, both",
                 "where it hangs: under ceilings, or on walls beside routes and around areas"},
                {"aim_deg", "number", "deg", "90", "[0, 90]",

@@ -15,6 +15,10 @@ namespace luxodus {
 enum class LuminaireMount { ceiling, wall, both };
 inline constexpr std::array<std::string_view, 3> luminaire_mount_words{"ceiling", "wall", "both"};
 
+/// What supplies a luminaire when the mains fail.
+enum class Battery { unsaid, self_contained, central };
+inline constexpr std::array<std::string_view, 3> battery_words{"", "self-contained", "central"};
+
 /// A luminaire that may be placed, at the origin, looking down, unturned. Its emitter has its name.
 struct DesignType {
   std::string name;
@@ -24,10 +28,16 @@ struct DesignType {
   double watts = 0;               // that one takes from the mains [W]
   std::vector<double> turns_deg;  // about its aim, against the way below; empty: by its symmetry
   std::string like;               // the luminaire of the scene whose light it has; "": none
+  Battery battery = Battery::unsaid;
   LuminaireMount mount = LuminaireMount::ceiling;
   double aim_deg = 90;  // of one on a wall: 0 looks straight down, 90 away from the wall
   bool stated = false;  // in the scene; else one that follows from it
 };
+
+/// The class as luminaires are marked by EN 60598-2-22, as far as a scene says it: "X 0 60" of a
+/// self-contained one (Z: central supply) that is non-maintained (1: maintained) and lasts 60 min.
+/// Empty where the battery is not said.
+std::string battery_class(const DesignType& type);
 
 /// A sign that may be placed, at the origin, facing +x. It leads nowhere yet.
 struct DesignSignType {
@@ -48,9 +58,18 @@ struct KeepOut {
   double radius_m = 0.5;
 };
 
-/// What becomes of emergency luminaires and of signs that are there already.
-enum class Existing { fixed, removable, removed };
-inline constexpr std::array<std::string_view, 3> existing_words{"fixed", "removable", "removed"};
+/// What becomes of emergency luminaires and of signs that are there already. Signs are not moved.
+enum class Existing { fixed, removable, removed, movable };
+inline constexpr std::array<std::string_view, 4> existing_words{"fixed", "removable", "removed",
+                                                                "movable"};
+
+/// Stairs between two landings. A straight line from its lowest to its highest tread meets the
+/// middle of each.
+struct StairFlight {
+  std::string name;
+  glm::dvec3 lowest{0}, highest{0};  // middles of these treads [m]
+  int treads = 1;
+};
 
 enum class DesignObjective { number, cost, watts, weighted };
 inline constexpr std::array<std::string_view, 4> objective_words{"number", "cost", "watts",
@@ -59,6 +78,17 @@ inline constexpr std::array<std::string_view, 4> objective_words{"number", "cost
 /// What must still hold when any one luminaire has failed.
 enum class FailureDemand { none, two, full };
 inline constexpr std::array<std::string_view, 3> failure_words{"none", "two", "full"};
+
+/// Of what the lightest new luminaire adds to the objective: what moving one adds.
+inline constexpr double default_move_share = 0.25;
+
+/// Whether two luminaires give the same light in an emergency, for as long and as soon.
+inline bool same_light(const Emitter& a, const Emitter& b) {
+  return a.web == b.web && a.shape == b.shape && a.size == b.size &&
+         a.distribution == b.distribution && a.cosine_power == b.cosine_power &&
+         a.emergency_flux == b.emergency_flux && a.emergency_ageing == b.emergency_ageing &&
+         a.onset == b.onset && a.duration_s == b.duration_s && a.maintained == b.maintained;
+}
 
 struct DesignSettings {
   SourcePlace place;
@@ -74,10 +104,12 @@ struct DesignSettings {
   double wall_height_m = 2.3;               // of luminaires on walls above the floor
   std::vector<glm::dvec3> places;           // listed, instead of the grid
   std::vector<KeepOut> keep_outs;
+  std::vector<StairFlight> flights;  // objects of the scene with shape = "stairs"
 
   // Luminaires that are there
   Existing existing = Existing::fixed;
-  std::vector<std::string> fixed, removable, removed;  // by name, whatever `existing` says
+  std::vector<std::string> fixed, movable, removable, removed;  // by name, whatever `existing`
+  std::optional<double> move_cost;  // in the unit of the objective; not said: a share of a new one
 
   // Signs
   std::optional<bool> place_signs;  // not said: where the scene has no sign, or types are stated

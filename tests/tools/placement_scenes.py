@@ -7,6 +7,7 @@ standard output. SCENE is one of
                             with an opening of 2 m by 4 m in each slab
     five-types FAILURE      the office floor of this source tree, its luminaires gone, five types;
                             FAILURE is a value of 'failure' in [design], such as two or full
+    whole-floor FAILURE     the same with its rooms as open areas, places further apart
     corridor CANDIDATES     a corridor in smoke with three luminaires and 0, 33 or 110 candidates
 """
 import pathlib
@@ -79,6 +80,24 @@ end_of_duration_factor = 0.8
 cost = {cost}
 turns_deg = [0]
 '''
+    return out
+
+
+ROOMS = {  # of the office floor, between their walls [m]
+    "meeting room": (14.1, 0.1, 19.4, 6.9), "archive": (24.1, 0.1, 29.9, 4.8),
+    "office 1": (0.1, 9.2, 4.9, 15.9), "office 2": (5.1, 9.2, 9.9, 15.9),
+    "office 3": (10.1, 9.2, 13.9, 15.9),
+    "print room": (16.1, 9.2, 20.9, 15.9), "training room": (21.1, 11.2, 29.9, 15.9)}
+
+
+def whole_floor(failure):
+    """The office floor with all its rooms to be lit."""
+    out = five_types(failure).replace("spacing_m = 1.6", "spacing_m = 2.3")
+    names = ", ".join(f'"{name}"' for name in ROOMS)
+    out = out.replace('"open plan"]', f'"open plan", {names}]')
+    for name, (x0, y0, x1, y1) in ROOMS.items():
+        outline = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]
+        out += f'[[open_area]]\nname = "{name}"\noutline = {outline}\n'
     return out
 
 
@@ -159,6 +178,8 @@ def main(scene, value):
         return tower(number_of(value), with_stair=True)
     if scene == "five-types":
         return five_types(value)
+    if scene == "whole-floor":
+        return whole_floor(value)
     if scene == "corridor":
         return corridor(number_of(value))
     sys.exit(__doc__)

@@ -3,12 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <string>
 
+#include "actors/design/demands.hpp"
 #include "actors/design/design.hpp"
+#include "actors/design/design_files.hpp"
 #include "tests/kit/described.hpp"
+#include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/design/silent.hpp"
 
 namespace luxodus::test {
@@ -55,6 +59,34 @@ inline DesignResult designed(const std::filesystem::path& file, const DesignOpti
   INFO((result ? "" : result.problem().text()));
   REQUIRE(result);
   return std::move(result).value();
+}
+
+/// The checks that luminaires decide and that fail, of an assessment of the variant on disk.
+inline std::vector<std::string> failing_on_disk(const TemporaryFolder& folder,
+                                                const std::filesystem::path& file,
+                                                const DesignResult& result) {
+  const auto scene = described(file);
+  const std::filesystem::path layout =
+      folder.write("layout.toml", variant_text(*scene, result, result, folder.path()));
+  AssessOptions options;
+  options.threads = 2;
+  options.reality = false;
+  const auto assessed =
+      assess(described(layout), options, nobody, [](const std::string&, double) {});
+  INFO((assessed ? "" : assessed.problem().text()));
+  REQUIRE(assessed);
+  std::vector<std::string> out;
+  for (const Check& check : assessed->checks) {
+    if (check.verdict != CheckVerdict::fail || !is_of_luminaires(check.rule.id)) continue;
+    // Furniture may hide points from all candidates: the result names these, and no others.
+    const bool furnished = check.condition.find("with furniture") != std::string::npos;
+    const bool told =
+        std::any_of(result.hidden.begin(), result.hidden.end(), [&](const HiddenByFurniture& one) {
+          return one.rule == check.rule.id && one.subject == check.subject;
+        });
+    if (!(furnished && told)) out.push_back(check.rule.id + " of " + check.subject);
+  }
+  return out;
 }
 
 }  // namespace luxodus::test

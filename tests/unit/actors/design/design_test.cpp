@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "actors/design/demands.hpp"
 #include "actors/design/design_files.hpp"
 #include "runtime/core/random.hpp"
 #include "tests/kit/described.hpp"
@@ -21,9 +20,8 @@ namespace fs = std::filesystem;
 
 using test::box_room;
 using test::designed;
+using test::failing_on_disk;
 using test::judged_2013;
-using test::nobody;
-using test::silent;
 using test::tried;
 
 std::string problem_of(const std::string& text) {
@@ -31,33 +29,6 @@ std::string problem_of(const std::string& text) {
   const auto result = tried(folder.write("scene.toml", text));
   REQUIRE_FALSE(result);
   return result.problem().text();
-}
-
-/// The checks that luminaires decide and that fail, of an assessment of the variant on disk.
-std::vector<std::string> failing_on_disk(const TemporaryFolder& folder, const fs::path& file,
-                                         const DesignResult& result) {
-  const auto scene = test::described(file);
-  const fs::path layout =
-      folder.write("layout.toml", variant_text(*scene, result, result, folder.path()));
-  AssessOptions options;
-  options.threads = 2;
-  options.reality = false;
-  const auto assessed =
-      assess(test::described(layout), options, nobody, [](const std::string&, double) {});
-  INFO((assessed ? "" : assessed.problem().text()));
-  REQUIRE(assessed);
-  std::vector<std::string> out;
-  for (const Check& check : assessed->checks) {
-    if (check.verdict != CheckVerdict::fail || !is_of_luminaires(check.rule.id)) continue;
-    // Furniture may hide points from all candidates: the result names these, and no others.
-    const bool furnished = check.condition.find("with furniture") != std::string::npos;
-    const bool told =
-        std::any_of(result.hidden.begin(), result.hidden.end(), [&](const HiddenByFurniture& one) {
-          return one.rule == check.rule.id && one.subject == check.subject;
-        });
-    if (!(furnished && told)) out.push_back(check.rule.id + " of " + check.subject);
-  }
-  return out;
 }
 
 /// A room with furniture and perhaps a wall, a route through it and an area, as the seed has it.

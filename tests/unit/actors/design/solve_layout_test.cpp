@@ -196,6 +196,38 @@ TEST_CASE("a barred luminaire is in no layout, whatever it weighs", "[design]") 
   }
 }
 
+TEST_CASE("luminaires that may be moved stay or move, as the best of all subsets has them",
+          "[design][movable]") {
+  int feasible = 0, with_moves = 0;
+  for (uint64_t seed = 40; seed < 52; ++seed) {
+    INFO("seed " << seed);
+    LayoutProblem problem = random_problem(seed, 12, 20);
+    problem.pools = {2};
+    for (const uint32_t i : {0u, 2u, 5u, 7u, 9u, 11u}) {
+      problem.options[i].pool = 0;
+      problem.options[i].weight = i <= 2 ? 0 : 0.25;  // where they are, and elsewhere
+    }
+    const double best = best_of_all_subsets(problem);
+    const LayoutAnswer answer = solved(problem);
+    if (std::isinf(best)) {
+      CHECK(answer.end == LayoutEnd::infeasible);
+      continue;
+    }
+    ++feasible;
+    REQUIRE(answer.layout.size() == 12);
+    CHECK(answer.objective == Approx(best).margin(1e-6));
+    CHECK(answer.bound <= best + 1e-6);
+    const LayoutIndex index(problem);
+    LayoutSums sums(index);
+    sums.set(answer.layout);
+    CHECK(sums.lack_of(0) == 0);
+    CHECK(sums.holds());
+    with_moves += answer.layout[0] + answer.layout[2] < 2 ? 1 : 0;
+  }
+  CHECK(feasible >= 4);
+  CHECK(with_moves >= 2);
+}
+
 TEST_CASE("greedy layouts hold, and pruning takes out what is not needed", "[design]") {
   const LayoutProblem problem = random_problem(3, 16, 40);
   const LayoutIndex index(problem);

@@ -72,6 +72,9 @@ TEST_CASE("contradictory designs are refused with their line", "[format][scene][
     CHECK(told.find(words) != std::string::npos);
   };
   refused("[design]\nfixed = [\"old\"]\nremovable = [\"old\"]\n", "named twice");
+  refused("[design]\nmovable = [\"old\"]\nremoved = [\"old\"]\n", "named twice");
+  refused("[design]\nexisting_signs = \"movable\"\n", "existing_signs");
+  refused("[design]\nmove_cost = 0\n", "move_cost");
   refused("[design]\nfixed = [\"absent\"]\n", "no such luminaire");
   refused("[design]\nover = [\"nowhere\"]\n", "no such route");
   refused("[[design.type]]\nname = \"t\"\nlike = \"absent\"\n", "to be like");

@@ -1,0 +1,72 @@
+// Minima between the points of the grid: where light ends sharply a gap may lie between two of
+// them, and a layout has none there.
+#include <catch2/catch.hpp>
+
+#include "tests/kit/temporary_folder.hpp"
+#include "tests/unit/actors/design/design_scenes.hpp"
+
+namespace luxodus {
+namespace {
+
+/// A corridor under spots of 45 degrees at 2.97 m, which light 2.95 m to each side of them. Points
+/// are 0.25 m apart from `from` on; between the first two places lie 0.1 m without light, from
+/// 5.95 m to 6.05 m.
+std::string corridor_with_gap(double from) {
+  return test::box_room(12, 2, 3) + test::judged_2013 +
+         fmt::format(R"(
+[[emitter]]
+name = "spot"
+shape = "point"
+distribution = "spot"
+spot_inner_deg = 45
+spot_outer_deg = 45
+position = [1, 1, 2.97]
+flux_lm = 300
+emergency = "non-maintained"
+emergency_flux = 300
+maintenance_factor = 1
+end_of_duration_factor = 1
+
+[[route]]
+name = "corridor"
+path = [[{}, 1, 0], [{}, 1, 0]]
+width = 0.3
+
+[design]
+existing = "removed"
+place_signs = false
+failure = "none"
+margin = 1
+place_tolerance_m = 0
+places = [[3, 1, 2.97], [9, 1, 2.97], [6, 1, 2.97]]
+)",
+                     from, from + 10.75);
+}
+
+}  // namespace
+
+TEST_CASE("no minimum hides between the points of the grid", "[design][between]") {
+  const test::TemporaryFolder folder;
+  // Here a point lies in the gap, at 6 m.
+  const auto seen = test::designed(folder.write("seen.toml", corridor_with_gap(0.5)));
+  CHECK(seen.luminaires.size() == 3);
+  CHECK(seen.between.added == 0);
+  // And here the gap is between the points at 5.875 m and 6.125 m.
+  const auto hidden = test::designed(folder.write("hidden.toml", corridor_with_gap(0.625)));
+  CHECK(hidden.between.added > 0);
+  CHECK(hidden.luminaires.size() == 3);
+  CHECK(hidden.between.least >= 1);
+  CHECK(hidden.verifications == 2);
+}
+
+TEST_CASE("where light is smooth nothing is added between the points", "[design][between]") {
+  const test::TemporaryFolder folder;
+  const auto result = test::designed(folder.write(
+      "scene.toml", test::box_room(9, 3, 3) + test::judged_2013 + test::way_along(1, 8, 1.5) +
+                        "[design]\nplace_signs = false\nfailure = \"none\"\n"));
+  CHECK(result.between.added == 0);
+  CHECK(result.between.least > 0.99);
+  CHECK(result.between.least < 5);
+}
+
+}  // namespace luxodus
