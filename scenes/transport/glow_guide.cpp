@@ -4,49 +4,75 @@
 #include <cmath>
 
 #include "scenes/optics/sampling.hpp"
+#include "scenes/transport/emitter_sight.hpp"
 
 namespace luxodus {
 
-void GlowGuide::stand_at(const Vec3& place) {
+namespace {
+
+/// Sine of the angle off an axis, below which directions count as off by that much: densities have
+/// no bound on the axis.
+constexpr Real least_sine = 1e-6_r;
+
+}  // namespace
+
+GlowGuide::GlowGuide(std::vector<Glow> glows) : by_emitter_(std::move(glows)) {
+  for (uint32_t i = 0; i < by_emitter_.size(); ++i)
+    if (by_emitter_[i].share > 0) brightest_.push_back(i);
+  const auto light = [&](uint32_t i) { return by_emitter_[i].power * by_emitter_[i].share; };
+  std::stable_sort(brightest_.begin(), brightest_.end(),
+                   [&](uint32_t a, uint32_t b) { return light(a) > light(b); });
+  brightest_.resize(std::min(brightest_.size(), limits::glows));
+}
+
+void GlowGuide::stand_at(const Vec3& place, const CellSight* seen) {
   cones_.clear();
   aimed_ = 0;
-  if (!aims_) return;
-  double seen = 0;
-  for (const Glow& g : glows_) {
-    const Vec3 way = g.centre - place;
-    const Real square = glm::dot(way, way);
-    const Real reach = g.radius * g.radius;
-    const double light = g.power / static_cast<double>(std::max(square, reach));
-    seen += light;
-    // In the midst of it every turn stays near.
-    if (square <= reach) continue;
-    // 1 - sqrt(1 - s), without cancellation for far spheres.
-    const Real s = reach / square;
-    cones_.push_back({way / std::sqrt(square), s / (1 + std::sqrt(1 - s)), light * g.share});
+  if (!aims_ || empty()) return;
+  double light = 0;
+  if (seen != nullptr) {
+    for (const auto& [emitter, arriving] : seen->bright)
+      light += weigh(by_emitter_[emitter], place, arriving);
+    std::erase_if(cones_, [&](const Cone& c) { return c.share < limits::min_glow_seen * light; });
+  } else {
+    for (const uint32_t emitter : brightest_) light += weigh(by_emitter_[emitter], place, 1);
   }
   for (Cone& cone : cones_) {
-    cone.share *= limits::max_aimed / seen;
+    cone.share *= limits::max_aimed / light;
     aimed_ += cone.share;
   }
 }
 
+double GlowGuide::weigh(const Glow& glow, const Vec3& place, double arriving) {
+  const Vec3 way = glow.centre - place;
+  const Real square = glm::dot(way, way);
+  const Real reach = glow.radius * glow.radius;
+  const double light = arriving * glow.power / static_cast<double>(std::max(square, reach));
+  // In the midst of it every turn stays near.
+  if (square > reach && glow.share > 0)
+    cones_.push_back({way / std::sqrt(square), std::sqrt(reach / square), light * glow.share});
+  return light;
+}
+
+/// A line that passes an emitter in smoke at a distance sees light by one over that: lines are
+/// drawn evenly by distance.
 Vec3 GlowGuide::direction(double choice, Real u, Real v) const {
   double rest = choice;
   size_t i = 0;
   while (i + 1 < cones_.size() && rest >= cones_[i].share) rest -= cones_[i++].share;
-  const Cone& cone = cones_[i];
-  const Real lost = u * cone.one_minus_cosine;  // 1 - cosine
-  const Real sine = std::sqrt(std::max(0.0_r, lost * (2 - lost)));
-  const Real angle = 2 * pi_f * v;
-  return to_world(cone.axis, Vec3(sine * std::cos(angle), sine * std::sin(angle), 1 - lost));
+  const Real aside = u * cones_[i].slope;
+  const SinCos turn = sin_cos_two_pi(v);
+  return to_world(cones_[i].axis, glm::normalize(Vec3(aside * turn.cos, aside * turn.sin, 1)));
 }
 
 double GlowGuide::density(const Vec3& direction, double own) const {
   double sum = (1 - aimed_) * own;
   for (const Cone& cone : cones_) {
-    const Vec3 off = direction - cone.axis;  // its square is 2 (1 - cosine)
-    if (0.5_r * glm::dot(off, off) > cone.one_minus_cosine) continue;
-    sum += cone.share / (2 * static_cast<double>(pi_f * cone.one_minus_cosine));
+    const Real cosine = glm::dot(direction, cone.axis);
+    if (cosine <= 0) continue;
+    const Real sine = std::max(least_sine, glm::length(direction - cosine * cone.axis));
+    if (sine > cosine * cone.slope) continue;
+    sum += cone.share / (2 * static_cast<double>(pi_f * cone.slope * cosine * cosine * sine));
   }
   return sum;
 }
@@ -63,13 +89,6 @@ double power_seen(const CompiledScene& scene, const CompiledEmitter& emitter) {
         emitter.power_w[static_cast<size_t>(b)] * (band.lm_per_w + band.x_per_w + band.z_per_w);
   }
   return power;
-}
-
-void keep_brightest(std::vector<Glow>& glows) {
-  const auto light = [](const Glow& g) { return g.power * g.share; };
-  std::stable_sort(glows.begin(), glows.end(),
-                   [&](const Glow& a, const Glow& b) { return light(a) > light(b); });
-  glows.resize(std::min(glows.size(), limits::glows));
 }
 
 }  // namespace luxodus

@@ -1,11 +1,13 @@
 // Directions towards the glow around emitters in smoke. Near an emitter smoke is bright, and a path
 // that is turned by a phase function or a surface alone seldom goes there, but brings much when it
 // does. So a part of the turns are aimed at spheres around emitters. Whoever turns a path weights
-// both ways by the balance heuristic: `density` is that of aimed turns. Not here: light that
-// emitters send straight (next_event.hpp). One thread or fiber at a time.
+// both ways by the balance heuristic: `density` is that of aimed turns. What is known of emitters
+// at a place (emitter_sight.hpp) says which are worth it there. Not here: light that emitters send
+// straight (next_event.hpp). One thread or fiber at a time.
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "scenes/geometry/real.hpp"
@@ -22,28 +24,34 @@ inline constexpr double max_aimed = 0.5;
 inline constexpr int aimed_events = 8;
 /// Share of an emitter's light: less is left to chance. Aimed at, it gained less than it cost.
 inline constexpr double min_glow = 0.25;
+/// Of the light at a place, what a glow's emitter has at least where that is aimed at.
+inline constexpr double min_glow_seen = 0.01;
 }  // namespace limits
+
+struct CellSight;
 
 /// A sphere around an emitter, and how much it glows.
 struct Glow {
   Vec3 centre{0};
   Real radius = 0;
   double power = 0;  // of the emitter, in all bands, by how they look
-  double share = 0;  // of its light that smoke in the sphere scatters
+  double share = 0;  // of its light that smoke in the sphere scatters; 0: not worth aiming at
 };
 
 class GlowGuide {
  public:
   GlowGuide() = default;
-  explicit GlowGuide(std::vector<Glow> glows) : glows_(std::move(glows)) {}
+  /// Of all emitters, by number; none where there is no smoke.
+  explicit GlowGuide(std::vector<Glow> glows);
 
   /// Nothing glows: every turn is as it was.
-  bool empty() const { return glows_.empty(); }
+  bool empty() const { return brightest_.empty(); }
 
   /// Turns after so many events are left as they are: weights of many aimed ones would multiply.
   void start_event(int event) { aims_ = event < limits::aimed_events; }
-  /// For turns at a place: until the next call.
-  void stand_at(const Vec3& place);
+  /// For turns at a place: until the next call. `seen`: what is known of emitters there; null: they
+  /// are weighed by power and distance, wherever walls are.
+  void stand_at(const Vec3& place, const CellSight* seen);
   /// Share of the turns there that are aimed.
   double aimed() const { return aimed_; }
   /// A direction of an aimed turn, by uniform numbers; `choice` in [0, aimed()).
@@ -54,11 +62,15 @@ class GlowGuide {
  private:
   struct Cone {
     Vec3 axis{0};
-    Real one_minus_cosine = 0;  // of its half angle
-    double share = 0;           // of the turns
+    Real slope = 0;    // tangent of its half angle
+    double share = 0;  // of the turns
   };
+  /// Returns the light of an emitter at the place, of which `arriving` arrives of a watt without
+  /// the inverse square; and aims at its glow by that.
+  double weigh(const Glow& glow, const Vec3& place, double arriving);
 
-  std::vector<Glow> glows_;
+  std::vector<Glow> by_emitter_;
+  std::vector<uint32_t> brightest_;  // numbers of those with the most glow
   std::vector<Cone> cones_;
   double aimed_ = 0;
   bool aims_ = true;
@@ -68,10 +80,8 @@ class GlowGuide {
 Real glow_reach_m(const CompiledScene& scene);
 /// Power of all bands, by how they look.
 double power_seen(const CompiledScene& scene, const CompiledEmitter& emitter);
-/// Leaves limits::glows.
-void keep_brightest(std::vector<Glow>& glows);
 
-/// The glows of a scene: of emitters in smoke, those of the most light. Suspends: where the
+/// The glows of a scene's emitters, by number; none where there is no smoke. Suspends: where the
 /// resolver does.
 template <class Resolver>
 std::vector<Glow> glows_of(const CompiledScene& scene, Resolver& resolver) {
@@ -79,19 +89,19 @@ std::vector<Glow> glows_of(const CompiledScene& scene, Resolver& resolver) {
   if (scene.features.media == MediaNeed::none) return out;
   for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
     const CompiledEmitter& e = scene.emitters[i];
-    if (e.distribution == Distribution::collimated) continue;
     const EmitterBound bound = emitter_bound(scene, i);
-    Glow glow{bound.centre, bound.radius + glow_reach_m(scene), power_seen(scene, e), 0};
+    Glow glow{bound.centre, bound.radius + glow_reach_m(scene), 0, 0};
+    if (e.distribution != Distribution::collimated) glow.power = power_seen(scene, e);
     // Before its face: the face itself may be a boundary of the smoke.
     const Vec3 before = bound.centre - e.axes[2] * (0.5_r * glow.radius);
     double scattering = 0;
     for_each_medium_at(
         scene.media, scene.bands.count() / 2, before, resolver,
         [&](int, int, double sigma, double albedo) { scattering += sigma * albedo; });
-    glow.share = -std::expm1(-scattering * static_cast<double>(glow.radius));
-    if (glow.power > 0 && glow.share > limits::min_glow) out.push_back(glow);
+    const double share = -std::expm1(-scattering * static_cast<double>(glow.radius));
+    if (glow.power > 0 && share > limits::min_glow) glow.share = share;
+    out.push_back(glow);
   }
-  keep_brightest(out);
   return out;
 }
 

@@ -62,7 +62,13 @@ class NextEvent {
         aimed_(aimed) {}
 
   const MediaBands& media() const { return media_; }
-  GlowGuide& guide() { return guide_; }
+  const GlowGuide& guide() const { return guide_; }
+  /// The guide for turns at a place. Suspends: where the resolver does, unless emitters have been
+  /// weighed there before.
+  const GlowGuide& guide_at(const Vec3& place) {
+    if (!guide_.empty()) guide_.stand_at(place, seen_at(place));
+    return guide_;
+  }
 
   /// Before an event of a path. Glows are found at the first: only then may the resolver wait.
   void start_event(int event) {
@@ -113,7 +119,12 @@ class NextEvent {
     const auto is_known = [&](Real t) {
       return known != nullptr && known->knows(s.ray.origin + s.ray.direction * t);
     };
-    if (flight.collided && flight.albedo > 0 && !is_known(flight.t))
+    // A band may be scattered where the hero's is not.
+    const auto scatters = [&] {
+      return std::any_of(passed.begin(), passed.begin() + s.bands.count(),
+                         [](double light) { return light > 0; });
+    };
+    if (flight.collided && scatters() && !is_known(flight.t))
       add_at_collision(s, flight, emitters_near, passed, weight, into);
     if (emitters_near) add_near_emitter(s, is_known, weight, into);
   }
@@ -148,8 +159,10 @@ class NextEvent {
  private:
   /// Weighs emitters as seen from a place. `normal`: of a surface; zero in a medium.
   bool weigh_at(const Vec3& place, const Vec3& normal, const PathBands& bands) {
-    const CellSight* seen = sight_ != nullptr ? &sight_->at(place, resolver_) : nullptr;
-    return choice_.weigh_at(place, normal, chosen_by(bands), seen);
+    return choice_.weigh_at(place, normal, chosen_by(bands), seen_at(place));
+  }
+  const CellSight* seen_at(const Vec3& place) {
+    return sight_ != nullptr ? &sight_->at(place, resolver_) : nullptr;
   }
 
   /// Irradiance [W/m2] of a point of an emitter, normal to the line between, by the path's bands.
@@ -162,8 +175,7 @@ class NextEvent {
   /// Density [1/sr] of turns at a place, where the phase function or the surface alone has `own`.
   double turned_at(const Vec3& place, const Vec3& direction, double own) {
     if (guide_.empty()) return own;
-    guide_.stand_at(place);
-    return guide_.density(direction, own);
+    return guide_at(place).density(direction, own);
   }
 
   /// Emitters are chosen for all bands of a path at once.
@@ -275,7 +287,7 @@ class NextEvent {
     const double drawn = share * line.density(static_cast<double>(t));
     const double sampled = choice_.probability_at(chosen);
     const Real cosine = glm::dot(arriving_.direction, s.ray.direction);
-    if (!guide_.empty()) guide_.stand_at(place);
+    guide_at(place);
     for (size_t i = 0; i < s.bands.count(); ++i) {
       if (!(sigma_[i] > 0)) continue;
       double scattered = 0;  // of each medium here, since each turns a path in its own way

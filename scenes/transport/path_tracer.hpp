@@ -327,7 +327,7 @@ class PathTracer {
     const auto choice = aims() ? random_.uniform_double() : 1.0;
     const Real u = random_.uniform();
     const Real v = random_.uniform();
-    if (aims()) next_event_.guide().stand_at(place);
+    next_event_.guide_at(place);
     const bool aimed = choice < next_event_.guide().aimed();
     const Vec3 direction =
         aimed ? next_event_.guide().direction(choice, u, v) : sample(phase, p.ray.direction, u, v);
@@ -341,7 +341,7 @@ class PathTracer {
   }
 
   /// Whether a part of the turns goes towards glows.
-  bool aims() { return !next_event_.guide().empty(); }
+  bool aims() const { return !next_event_.guide().empty(); }
 
   /// Of a turn whose own density is `p.turn.pdf`: the density of both ways, and the light by it.
   /// Roulette does not ask for that: aimed turns are rare in the other way, not poor.
@@ -427,8 +427,7 @@ class PathTracer {
   /// Draws the direction of a Lambertian reflection anew, where it is an aimed one. False: it goes
   /// below the horizon, where nothing is sent.
   bool aim_reflection(const Vec3& place, const Vec3& normal, Real u, Real v, SurfaceSample& s) {
-    GlowGuide& guide = next_event_.guide();
-    guide.stand_at(place);
+    const GlowGuide& guide = next_event_.guide_at(place);
     const double choice = random_.uniform_double();
     if (choice >= guide.aimed()) return true;
     s.direction = guide.direction(choice, u, v);

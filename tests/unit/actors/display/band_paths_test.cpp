@@ -181,6 +181,34 @@ phase = "hg"
 g = 0.6
 )";
 
+/// Smoke that scatters red light and swallows the rest.
+const std::string red_smoke_room = R"(
+patch_edge_m = 0.5
+[run]
+band_edges_nm = [380, 480, 560, 600, 680, 780]
+voxel_edge_m = 0.5
+[[material]]
+name = "grey"
+reflectance = 0.2
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [4, 3, 2.5]
+material = "grey"
+[[medium]]
+name = "smoke"
+kind = "homogeneous"
+extinction = 0.6
+albedo = [[380, 0], [600, 0], [610, 0.95], [780, 0.95]]
+[[emitter]]
+name = "lamp"
+shape = "rectangle"
+size = [0.6, 0.3]
+position = [1.5, 1.5, 2.4]
+flux_lm = 1000
+)";
+
 /// Light of a band along some rays, by many paths.
 struct BandLight {
   double mean = 0, error = 0;
@@ -281,6 +309,9 @@ TEST_CASE("a path of all bands brings of each what a path of that band brings", 
   const bool gather = GENERATE(false, true);
   SECTION("coloured walls, gloss, glass, soot and brown smoke") {
     check_alike(coloured_room, {0.3f, 0.4f, 1.5f}, {1, 0.4f, -0.2f}, gather);
+  }
+  SECTION("smoke that scatters some bands alone") {
+    check_alike(red_smoke_room, {0.3f, 0.4f, 1.5f}, {1, 0.4f, -0.2f}, gather);
   }
   SECTION("a flame in soot") {
     check_alike(flame_room, {-1.3f, -1.0f, 1.3f}, {1, 0.9f, -0.3f}, gather);

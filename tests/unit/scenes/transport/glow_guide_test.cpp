@@ -7,6 +7,7 @@
 
 #include "runtime/core/random.hpp"
 #include "scenes/optics/sampling.hpp"
+#include "scenes/transport/emitter_sight.hpp"
 
 using namespace luxodus;
 
@@ -27,7 +28,7 @@ TEST_CASE("turns that are partly aimed have a density of one in all", "[transpor
   GlowGuide guide(three_glows());
   // Outside of all spheres, and inside of one.
   for (const Vec3& place : {Vec3(2, 1, 1), Vec3(0.1f, 0.1f, 0.2f)}) {
-    guide.stand_at(place);
+    guide.stand_at(place, nullptr);
     CHECK(guide.aimed() > 0);
     CHECK(guide.aimed() <= limits::max_aimed);
     Random random(1, RandomStream::test);
@@ -44,7 +45,7 @@ TEST_CASE("turns that are partly aimed have a density of one in all", "[transpor
 
 TEST_CASE("directions are aimed as densely as the guide says", "[transport]") {
   GlowGuide guide(three_glows());
-  guide.stand_at(Vec3(2, 1, 1));
+  guide.stand_at(Vec3(2, 1, 1), nullptr);
   Random random(2, RandomStream::test);
   random.start(0);
   // The mean of 1/density over drawn directions is the whole sphere, whatever is drawn; over those
@@ -67,16 +68,53 @@ TEST_CASE("directions are aimed as densely as the guide says", "[transport]") {
 TEST_CASE("a guide without glows leaves every density as it is", "[transport]") {
   GlowGuide guide;
   CHECK(guide.empty());
-  guide.stand_at(Vec3(1, 2, 3));
+  guide.stand_at(Vec3(1, 2, 3), nullptr);
   CHECK(guide.aimed() == 0);
   CHECK(guide.density(Vec3(0, 0, 1), 0.37) == 0.37);
 }
 
-TEST_CASE("only the brightest glows are aimed at where there are many", "[transport]") {
+TEST_CASE("only the brightest glows are aimed at where nothing is known of emitters",
+          "[transport]") {
   std::vector<Glow> glows(limits::glows + 10);
-  for (size_t i = 0; i < glows.size(); ++i) glows[i] = {Vec3(0), 1, static_cast<double>(i), 0.5};
-  keep_brightest(glows);
-  CHECK(glows.size() == limits::glows);
-  CHECK(glows.front().power == static_cast<double>(limits::glows + 9));
-  CHECK(glows.back().power == 10);
+  for (size_t i = 0; i < glows.size(); ++i) {
+    const auto x = static_cast<float>(10 * i);
+    glows[i] = {Vec3(x, 0, 0), 1, static_cast<double>(i), 0.5};
+  }
+  GlowGuide guide(glows);
+  const auto aims_at = [&](size_t i) {
+    const Vec3 place = glows[i].centre + Vec3(0, 2, 0);
+    guide.stand_at(place, nullptr);
+    return guide.density(glm::normalize(Vec3(0.1f, -1, 0)), isotropic) > isotropic;
+  };
+  CHECK_FALSE(aims_at(9));
+  CHECK(aims_at(10));
+  CHECK(aims_at(limits::glows + 9));
+}
+
+TEST_CASE("a glow is aimed at by what arrives of its emitter's light", "[transport]") {
+  GlowGuide guide(three_glows());
+  const Vec3 place(2, 1, 1);
+  const Vec3 first = glm::normalize(Vec3(-2.02f, -1, 2)), second = glm::normalize(Vec3(2, -1, 2));
+  const auto above_isotropic = [&](const Vec3& direction) {
+    return guide.density(direction, isotropic) / isotropic - (1 - guide.aimed());
+  };
+  CellSight seen;
+  seen.bright = {{0, 0.5}, {1, 0.5}};
+  guide.stand_at(place, &seen);
+  CHECK(above_isotropic(first) > 1);
+  CHECK(above_isotropic(second) > 1);
+  // What a wall hides is not aimed at, nor what no ray of the cell has met.
+  seen.bright = {{0, 0.5}, {1, 1e-4}};
+  guide.stand_at(place, &seen);
+  CHECK(above_isotropic(first) > 1);
+  CHECK(above_isotropic(second) == Approx(0).margin(1e-9));
+  // A lamp that does not glow leaves the less for those that do.
+  const double before = guide.aimed();
+  std::vector<Glow> glows = three_glows();
+  glows[2].share = 0;
+  guide = GlowGuide(glows);
+  seen.bright.push_back({2, 5});
+  guide.stand_at(place, &seen);
+  CHECK(guide.aimed() > 0);
+  CHECK(guide.aimed() < before / 2);
 }
