@@ -231,7 +231,8 @@ Command design_command() {
             {.form = Form::name, .otherwise = "those of the scene", .comma_separated = true}},
            {"--smoke-time",
             &o->smoke_time,
-            "Time of judging layouts in smoke, e.g. 2m; what is undecided then is told",
+            "Time of judging layouts in smoke, e.g. 2m; what is undecided then is told. In a scene "
+            "with [time] 60 % of it are for comparing, the rest for how long layouts guide",
             {.form = Form::duration}},
            {"--time", &o->time, "Time of the search, e.g. 30s, 5m", {.form = Form::duration}},
            {"--gap",

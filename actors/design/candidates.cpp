@@ -297,8 +297,9 @@ struct MovableKind {
   double aim_deg() const {
     return std::acos(std::clamp(emitter->frame.axes[2].z, -1.0, 1.0)) * 180 / std::numbers::pi;
   }
-  bool is_on_storey(const glm::dvec3& floor) const {
-    return !floor_z || std::abs(floor.z - *floor_z) < one_storey_m;
+  /// Over no floor the height of luminaires tells storeys apart.
+  bool is_on_storey(double floor, double height) const {
+    return std::abs(floor_z ? floor - *floor_z : height - emitter->frame.origin.z) < one_storey_m;
   }
 };
 
@@ -317,7 +318,7 @@ std::vector<MovableKind> find_pools(const SceneDescription& scene,
              kind.on_wall() == other.on_wall() &&
              std::abs(kind.aim_deg() - other.aim_deg()) < same_aim_deg &&
              floor.has_value() == other.floor_z.has_value() &&
-             (!floor || other.is_on_storey({0, 0, *floor}));
+             other.is_on_storey(floor.value_or(0), e.frame.origin.z);
     });
     if (at == out.end()) at = out.insert(out.end(), kind);
     ++at->pool.size;
@@ -340,7 +341,7 @@ void add_moves(const std::vector<MovableKind>& kinds, const std::vector<Spot>& s
     DesignType type;
     type.emitter = *kind.emitter;
     for (uint32_t s = 0; s < spots.size() && !kind.on_wall(); ++s) {
-      if (!kind.is_on_storey(spots[s].floor)) continue;
+      if (!kind.is_on_storey(spots[s].floor.z, *spots[s].z)) continue;
       one.place = first + s;
       one.position = rounded({spots[s].floor.x, spots[s].floor.y, *spots[s].z});
       one.floor = spots[s].floor;
@@ -351,7 +352,7 @@ void add_moves(const std::vector<MovableKind>& kinds, const std::vector<Spot>& s
     }
     one.rotation_deg = 0;
     for (uint32_t s = 0; s < walls.size() && kind.on_wall(); ++s) {
-      if (!kind.is_on_storey(walls[s].floor)) continue;
+      if (!kind.is_on_storey(walls[s].floor.z, walls[s].position.z)) continue;
       one.place = static_cast<uint32_t>(first + spots.size()) + s;
       one.position = walls[s].position;
       one.floor = walls[s].floor;

@@ -82,12 +82,13 @@ class Demands::Builder {
   };
 
   void add_options() {
+    const double of_move = weight_of_move();
     for (const LuminaireCandidate& one : candidates_) {
       LayoutOption option;
       option.place = one.place;
       option.fixed = one.fixed;
       option.position = one.position;
-      option.weight = one.fixed ? 0 : weight_of(one);
+      option.weight = one.fixed ? 0 : weight_of(one, of_move);
       option.barred = one.barred;
       if (one.type != LuminaireCandidate::existing) option.kind = static_cast<uint32_t>(one.type);
       if (one.pool) {
@@ -131,18 +132,21 @@ class Demands::Builder {
   }
 
   /// A luminaire that is there has been paid for, and one that stays in any case is not counted.
-  double weight_of(const LuminaireCandidate& one) const {
-    if (one.moved) return weight_of_move();
+  double weight_of(const LuminaireCandidate& one, double of_move) const {
+    if (one.moved) return of_move;
     if (one.pool) return 0;
     const bool there = one.type == LuminaireCandidate::existing;
     return there ? weight_of(0, 0)
                  : weight_of(design_.types[one.type].cost, design_.types[one.type].watts);
   }
 
+  /// A share of the lightest luminaire that may be placed.
   double weight_of_move() const {
     if (design_.move_cost) return *design_.move_cost;
     double least = 0;
-    for (const DesignType& type : design_.types) {
+    for (const LuminaireCandidate& one : candidates_) {
+      if (one.type == LuminaireCandidate::existing) continue;
+      const DesignType& type = design_.types[one.type];
       const double weight = weight_of(type.cost, type.watts);
       if (weight > 0 && (least == 0 || weight < least)) least = weight;
     }
@@ -488,15 +492,20 @@ class Demands::Builder {
   }
 
   /// One luminaire lights the whole flight, where any can; else each tread has one that lights it.
-  /// A flight that no candidate reaches is in no part of the building that is designed.
+  /// A flight that no candidate reaches is in no part of the building that is designed. One that is
+  /// barred lights nothing.
   void add_flight(const StairFlight& flight) {
     if (std::none_of(codes_.begin(), codes_.end(), [](const auto& one) { return one.european(); }))
       return;
     const Lit& darker = out_.furnished_ ? *out_.furnished_ : *out_.bare_;
     const auto treads = darker.light.lit(treads_of(flight), floor_normal, above_tread_m);
-    const bool dark = std::any_of(treads.begin(), treads.end(), [](const LitPoint& tread) {
-      return std::all_of(tread.lux.begin(), tread.lux.end(),
-                         [](double lux) { return lux < lit_tread_lx; });
+    const auto is_lit = [&](const LitPoint& tread, size_t by) {
+      return !candidates_[by].barred && tread.lux[by] >= lit_tread_lx;
+    };
+    const bool dark = std::any_of(treads.begin(), treads.end(), [&](const LitPoint& tread) {
+      for (size_t i = 0; i < candidates_.size(); ++i)
+        if (is_lit(tread, i)) return false;
+      return true;
     });
     if (dark) return out_.unlit_flights_.push_back(flight.name);
     const uint32_t group = add_group(DemandKind::flight, "E12",
@@ -504,12 +513,12 @@ class Demands::Builder {
     std::vector<double> all(candidates_.size(), 1);
     for (const LitPoint& tread : treads)
       for (size_t i = 0; i < all.size(); ++i)
-        if (tread.lux[i] < lit_tread_lx) all[i] = 0;
+        if (!is_lit(tread, i)) all[i] = 0;
     const Terms whole = terms_of(all, 0);
     if (!whole->empty()) return add_cover(group, whole, 1, treads[treads.size() / 2].place);
     for (const LitPoint& tread : treads) {
       std::vector<double> one(candidates_.size(), 0);
-      for (size_t i = 0; i < one.size(); ++i) one[i] = tread.lux[i] < lit_tread_lx ? 0 : 1;
+      for (size_t i = 0; i < one.size(); ++i) one[i] = is_lit(tread, i) ? 1 : 0;
       add_cover(group, terms_of(one, 0), 1, tread.place);
     }
   }

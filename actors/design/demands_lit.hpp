@@ -23,7 +23,7 @@ PlaceKey key_of_place(const glm::dvec3& place);
 Terms terms_of(const std::vector<double>& values, double smallest);
 /// Each times the factor of its candidate.
 Terms times(const Terms& terms, const std::vector<double>& factors);
-/// Of the best candidate of each place. Requires: options by place.
+/// Of the best candidate of each place that is not barred. Requires: options by place.
 double most_from(const std::vector<Term>& light, const std::vector<LayoutOption>& options);
 
 /// With furniture or without.

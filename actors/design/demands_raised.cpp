@@ -103,6 +103,7 @@ double most_from(const std::vector<Term>& light, const std::vector<LayoutOption>
   double sum = 0, best = 0;
   uint32_t place = no_place;
   for (const Term& term : light) {
+    if (options[term.option].barred) continue;
     if (options[term.option].place != place) {
       sum += best;
       best = 0;
@@ -171,7 +172,8 @@ void Demands::look_at(uint32_t group, const std::vector<glm::dvec3>& places, con
   const auto factors = factors_.find(group);
   const auto lit = [&](const Lit& in, const std::vector<glm::dvec3>& at) {
     std::vector<Terms> light;
-    for (const LitPoint& p : in.light.lit(at, floor_normal, floor_plane_m)) {
+    constexpr double lifted_already = 0;  // places of rows lie above the floor
+    for (const LitPoint& p : in.light.lit(at, floor_normal, lifted_already)) {
       Terms terms = terms_of(p.lux, no_light_lx);
       light.push_back(factors == factors_.end() ? terms : times(terms, factors->second));
     }

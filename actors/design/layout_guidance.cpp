@@ -25,17 +25,19 @@ struct RouteTables {
   GuidedRoute least, most;
 };
 
+/// By layout, in one scenario.
+using LayoutTables = std::vector<std::vector<RouteTables>>;
+
 class Following {
  public:
-  Following(const GuidanceOptions& options, const std::atomic<bool>& interrupt,
-            const AssessProgress& progress)
-      : options_(options), interrupt_(interrupt), progress_(progress) {}
+  Following(const GuidanceOptions& options, const std::string& scenario,
+            const std::atomic<bool>& interrupt, const AssessProgress& progress)
+      : options_(options), scenario_(scenario), interrupt_(interrupt), progress_(progress) {}
 
   /// Adds a state to the tables of a heat's layouts. Errors: as guidance_of.
-  Result<void> add_state(const Heat& heat, const SceneDescription& then,
-                         std::vector<std::vector<RouteTables>>& tables) {
+  Result<void> add_state(const Heat& heat, const SceneDescription& then, LayoutTables& tables) {
     const SceneDescription scene = at_time(then, *heat.base);
-    const auto scenario = find_scenario(scene, options_.scenario);
+    const auto scenario = find_scenario(scene, scenario_);
     if (!scenario) return scenario.problem();
     const GuidingViews views(scene);
     AssessOptions asked = options_.asked;
@@ -89,9 +91,25 @@ class Following {
   }
 
   const GuidanceOptions& options_;
+  const std::string& scenario_;
   const std::atomic<bool>& interrupt_;
   const AssessProgress& progress_;
 };
+
+std::vector<GuidedUntil> guided_until(const SceneDescription& scene,
+                                      const std::vector<RouteTables>& tables) {
+  const std::vector<double>& heights = scene.assessment.eye_heights_m;
+  std::vector<GuidedUntil> out;
+  for (size_t k = 0; k < tables.size(); ++k)
+    out.push_back({scene.routes[k / heights.size()].name, heights[k % heights.size()],
+                   guided_time(tables[k].least), guided_time(tables[k].most)});
+  return out;
+}
+
+bool is_lost_before(const std::vector<GuidedUntil>& a, const std::vector<GuidedUntil>& b) {
+  const FirstLoss first = first_loss_of(a), second = first_loss_of(b);
+  return std::pair(first.least_s, first.most_s) < std::pair(second.least_s, second.most_s);
+}
 
 }  // namespace
 
@@ -113,24 +131,26 @@ Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<Heat
                                                           const GuidanceOptions& options,
                                                           const std::atomic<bool>& interrupt,
                                                           const AssessProgress& progress) {
-  std::vector<std::vector<RouteTables>> tables(layouts);
+  std::vector<LayoutTables> tables(options.scenarios.size(), LayoutTables(layouts));
   for (const double time : options.times_s) {
     const auto then = options.scene_at(time);
     if (!then) return then.problem();
-    const auto tell = [&](const std::string& what, double share) {
-      progress(fmt::format("{:g} s, {}", time, what), share);
-    };
-    for (const Heat& heat : heats)
-      if (auto ok = Following(options, interrupt, tell).add_state(heat, *then.value(), tables); !ok)
-        return ok.problem();
+    for (size_t s = 0; s < options.scenarios.size(); ++s) {
+      const std::string& scenario = options.scenarios[s];
+      const AssessProgress tell = [&](const std::string& what, double share) {
+        progress(fmt::format("\"{}\", {:g} s, {}", scenario, time, what), share);
+      };
+      Following following(options, scenario, interrupt, tell);
+      for (const Heat& heat : heats)
+        if (auto ok = following.add_state(heat, *then.value(), tables[s]); !ok) return ok.problem();
+    }
   }
   std::vector<std::vector<GuidedUntil>> out(layouts);
-  const SceneDescription& scene = *heats.front().base;
-  const std::vector<double>& heights = scene.assessment.eye_heights_m;
-  for (size_t i = 0; i < layouts; ++i)
-    for (size_t k = 0; k < tables[i].size(); ++k)
-      out[i].push_back({scene.routes[k / heights.size()].name, heights[k % heights.size()],
-                        guided_time(tables[i][k].least), guided_time(tables[i][k].most)});
+  for (const LayoutTables& of_scenario : tables)
+    for (size_t i = 0; i < layouts; ++i) {
+      auto guided = guided_until(*heats.front().base, of_scenario[i]);
+      if (out[i].empty() || is_lost_before(guided, out[i])) out[i] = std::move(guided);
+    }
   return out;
 }
 

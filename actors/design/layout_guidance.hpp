@@ -30,14 +30,15 @@ struct FirstLoss {
 FirstLoss first_loss_of(const std::vector<GuidedUntil>& routes);
 
 struct GuidanceOptions {
-  std::vector<double> times_s;  // ascending; empty: nothing changes in time
-  SceneAtTime scene_at;         // of the scene without any layout
-  std::string scenario;         // by name
+  std::vector<double> times_s;         // ascending; empty: nothing changes in time
+  SceneAtTime scene_at;                // of the scene without any layout
+  std::vector<std::string> scenarios;  // by name
   AssessOptions asked;
   int rounds = 3;
 };
 
-/// Of each layout of the heats, for each route and height of eyes.
+/// Of each layout of the heats, for each route and height of eyes, in the scenario in which it is
+/// lost first. Requires: a scenario.
 /// Errors: as the reader; as HeatState::make and SightsInLights::trace; `interrupt`.
 Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<Heat>& heats,
                                                           size_t layouts,

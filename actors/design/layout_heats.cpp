@@ -27,20 +27,22 @@ Heat heat_of(const std::vector<JudgedLayout>& layouts, std::vector<size_t> membe
   return {std::move(members), first.layout.variant, std::make_unique<LayoutLights>(lights)};
 }
 
-bool pays(const Heat& heat) {
+/// The states of all scenarios are kept at once.
+bool pays(const Heat& heat, size_t scenarios) {
   return heat.lights->can_add() && heat.lights->varying() <= varying_luminaires &&
-         heat.members.size() * views_of(*heat.base) <= limits::heat_views;
+         heat.members.size() * scenarios * views_of(*heat.base) <= limits::heat_views;
 }
 
 /// The layout joins the first heat of its kind where paths can be shared; else it has a new one.
-void join(const std::vector<JudgedLayout>& layouts, size_t layout, std::vector<Heat>& heats) {
+void join(const std::vector<JudgedLayout>& layouts, size_t layout, size_t scenarios,
+          std::vector<Heat>& heats) {
   for (Heat& heat : heats) {
     if (layouts[heat.members.front()].low_signs.size() != layouts[layout].low_signs.size())
       continue;
     std::vector<size_t> members = heat.members;
     members.push_back(layout);
     Heat larger = heat_of(layouts, std::move(members));
-    if (!pays(larger)) continue;
+    if (!pays(larger, scenarios)) continue;
     heat = std::move(larger);
     return;
   }
@@ -61,11 +63,12 @@ Result<std::unique_ptr<HeatState>> HeatState::make(const LayoutLights& lights,
   return out;
 }
 
-std::vector<Heat> heats_of(const std::vector<JudgedLayout>& layouts, bool together) {
+std::vector<Heat> heats_of(const std::vector<JudgedLayout>& layouts, size_t scenarios,
+                           bool together) {
   std::vector<Heat> out;
   for (size_t i = 0; i < layouts.size(); ++i)
     if (together)
-      join(layouts, i, out);
+      join(layouts, i, scenarios, out);
     else
       out.push_back(heat_of(layouts, {i}));
   return out;

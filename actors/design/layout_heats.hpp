@@ -14,8 +14,8 @@ namespace luxodus {
 struct JudgedLayout;
 
 namespace limits {
-/// Pairs of a view and a layout in one heat: each takes some 500 bytes of tallies, and as much for
-/// its verdict.
+/// Pairs of a view and a layout in one heat, in all its scenarios: each takes some 500 bytes of
+/// tallies, and as much for its verdict.
 inline constexpr size_t heat_views = 500'000;
 }  // namespace limits
 
@@ -49,8 +49,9 @@ struct Heat {
 };
 
 /// Which layouts share their paths: those with the same signs, or the same but brighter, whose
-/// light can be added and does not come from too many luminaires. `together`: false for each by
-/// itself.
-std::vector<Heat> heats_of(const std::vector<JudgedLayout>& layouts, bool together);
+/// light can be added and does not come from too many luminaires. `scenarios`: in how many they are
+/// judged. `together`: false for each by itself.
+std::vector<Heat> heats_of(const std::vector<JudgedLayout>& layouts, size_t scenarios,
+                           bool together);
 
 }  // namespace luxodus

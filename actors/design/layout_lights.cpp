@@ -1,28 +1,40 @@
 #include "actors/design/layout_lights.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <optional>
 #include <tuple>
 
 namespace luxodus {
 
 namespace {
 
+/// Where a layout has put a luminaire: position, rotation, aim. None for one that is where the
+/// scene has it.
+using LuminairePose = std::optional<std::array<double, 7>>;
+
 /// What tells luminaires of different layouts apart. Names of new ones say nothing: each layout
 /// counts its own.
-using LuminaireKey =
-    std::tuple<std::string, size_t, double, double, double, double, double, double, double>;
+using LuminaireKey = std::tuple<std::string, size_t, LuminairePose>;
 
 LuminaireKey key_of(const Emitter& emitter, const PlacedLayout& layout) {
   const auto placed =
       std::find_if(layout.luminaires.begin(), layout.luminaires.end(),
-                   [&](const auto& one) { return one.is_new() && one.name == emitter.name; });
+                   [&](const auto& one) { return one.is_placed() && one.name == emitter.name; });
   if (placed == layout.luminaires.end())
-    return {emitter.name, LuminaireCandidate::existing, 0, 0, 0, 0, 0, 0, 0};
+    return {emitter.name, LuminaireCandidate::existing, std::nullopt};
   const LuminaireCandidate& one = placed->candidate;
-  const glm::dvec3 aim = one.aim.value_or(glm::dvec3(0));
-  return {"",    one.type, one.position.x, one.position.y, one.position.z, one.rotation_deg,
-          aim.x, aim.y,    aim.z};
+  const glm::dvec3 p = one.position, aim = one.aim.value_or(glm::dvec3(0));
+  return {placed->is_new() ? "" : emitter.name, one.type,
+          std::array{p.x, p.y, p.z, one.rotation_deg, aim.x, aim.y, aim.z}};
+}
+
+/// No two luminaires of all layouts together have one name.
+std::string name_of(const LuminaireKey& key, size_t number) {
+  const auto& [name, type, pose] = key;
+  if (!pose) return name;
+  return (name.empty() ? "new" : name + ", moved") + " " + std::to_string(number);
 }
 
 const char* const group_of_signs = "signs";
@@ -39,8 +51,7 @@ LayoutLights::LayoutLights(const std::vector<LayoutLight>& layouts) {
       const auto [at, fresh] = known.insert({key, emitters_.size()});
       if (fresh) {
         emitters_.push_back(emitter);
-        if (std::get<size_t>(key) != LuminaireCandidate::existing)
-          emitters_.back().name = "new " + std::to_string(at->second);
+        emitters_.back().name = name_of(key, at->second);
         has_.emplace_back(layouts.size(), false);
       }
       has_[at->second][i] = true;

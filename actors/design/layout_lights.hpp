@@ -18,7 +18,7 @@ struct LayoutLight {
   double sign_factor = 1;  // of the luminance of signs, beside those of the first
 };
 
-/// The luminaires of several layouts, each once.
+/// The luminaires of several layouts, each once at each of its places.
 class LayoutLights {
  public:
   /// Requires: at least one; their variants differ in nothing but emitters and the luminance of

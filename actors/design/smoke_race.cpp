@@ -42,34 +42,42 @@ bool SmokeRace::is_open(const JudgedLayout& one) const {
          });
 }
 
-Result<void> SmokeRace::run() {
+Result<bool> SmokeRace::run() {
   stage_.end = RaceEnd::rounds;
-  for (int round = 0; round < options_.rounds && !stopped_; ++round) {
-    bool any = false;
-    for (size_t h = 0; h < heats_.size() && !stopped_; ++h) {
-      if (round == 0)
-        if (auto ok = open_heat(heats_[h]); !ok) return stopped_ ? Result<void>() : ok.problem();
-      std::vector<bool> asked;
-      for (const size_t i : heats_[h].members) asked.push_back(is_open(stage_.layouts[i]));
-      if (std::find(asked.begin(), asked.end(), true) == asked.end()) continue;
-      any = true;
-      if (auto ok = trace(h, round, asked); !ok) {
-        if (stopped_) break;
-        return ok.problem();
-      }
-      judge(h, round + 1);
+  bool finished = true;
+  for (int round = 0; round < options_.rounds && finished && any_open(); ++round)
+    for (size_t h = 0; h < heats_.size() && finished; ++h) {
+      const auto raced = race(h, round);
+      if (!raced && !stopped_) return raced.problem();
+      finished = raced && raced.value();
     }
-    if (!any) stage_.end = RaceEnd::decided;
-    if (!any) break;
+  if (!any_open()) {
+    stage_.end = RaceEnd::decided;
+    finished = true;
   }
   for (JudgedLayout& one : stage_.layouts) one.is_open = is_open(one);
-  if (!stopped_ && std::none_of(stage_.layouts.begin(), stage_.layouts.end(),
-                                [](const JudgedLayout& one) { return one.is_open; }))
-    stage_.end = RaceEnd::decided;
   for (const States& states : states_)
     for (const auto& state : states) stage_.paths += state->sights().paths();
   for (size_t i = 0; i < stage_.layouts.size(); ++i) compare(i);
-  return {};
+  return finished;
+}
+
+bool SmokeRace::any_open() const {
+  return std::any_of(stage_.layouts.begin(), stage_.layouts.end(),
+                     [&](const JudgedLayout& one) { return is_open(one); });
+}
+
+/// One round of a heat; false where it was stopped before it.
+Result<bool> SmokeRace::race(size_t heat, int round) {
+  if (stopped_) return false;
+  if (round == 0)
+    if (auto ok = open_heat(heats_[heat]); !ok) return ok.problem();
+  std::vector<bool> asked;
+  for (const size_t i : heats_[heat].members) asked.push_back(is_open(stage_.layouts[i]));
+  if (std::find(asked.begin(), asked.end(), true) == asked.end()) return true;
+  if (auto ok = trace(heat, round, asked); !ok) return ok.problem();
+  judge(heat, round + 1);
+  return true;
 }
 
 AssessProgress SmokeRace::tell(const Heat& heat, size_t scenario, int round) const {

@@ -24,19 +24,22 @@ class SmokeRace {
         places_(stage.layouts.size()) {}
 
   /// Judges layouts until `stopped`, or nothing is to be found out, or there are no more rounds.
-  /// Layouts that it did not come to are left at no rounds. Errors: as HeatState::make and
-  /// SightsInLights::trace, but not of who stopped it.
-  Result<void> run();
+  /// Layouts that it did not come to are left at no rounds. False where it was stopped with paths
+  /// left to trace. Errors: as HeatState::make and SightsInLights::trace, but not of who stopped
+  /// it.
+  Result<bool> run();
 
  private:
   /// Of a heat, by scenario.
   using States = std::vector<std::unique_ptr<HeatState>>;
 
+  Result<bool> race(size_t heat, int round);
   Result<void> open_heat(const Heat& heat);
   Result<void> trace(size_t heat, int round, const std::vector<bool>& asked);
   void judge(size_t heat, int rounds);
   void compare(size_t layout);
   bool is_open(const JudgedLayout& one) const;
+  bool any_open() const;
   AssessProgress tell(const Heat& heat, size_t scenario, int round) const;
 
   SmokeStage& stage_;

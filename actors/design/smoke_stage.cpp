@@ -1,7 +1,5 @@
 #include "actors/design/smoke_stage.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "actors/assess/code_light.hpp"
@@ -54,7 +52,8 @@ class Stage {
 
   /// Errors: as SmokeRace::run and guidance_of, but not that time is up or a person interrupts.
   Result<void> run() {
-    const std::vector<Heat> heats = heats_of(stage_.layouts, options_.together);
+    const std::vector<Heat> heats =
+        heats_of(stage_.layouts, stage_.scenarios.size(), options_.together);
     stage_.traces = heats.size();
     if (can_follow(heats)) stage_.times_s = times_of(*heats.front().base->time);
     const bool followed = !stage_.times_s.empty();
@@ -64,11 +63,15 @@ class Stage {
       stops();
       progress_(what);
     };
-    if (auto ok = SmokeRace(stage_, heats, options_, stopped_, tell).run(); !ok)
-      return ok.problem();
-    if (stopped_) stage_.end = why_stopped();
+    const auto finished = SmokeRace(stage_, heats, options_, stopped_, tell).run();
+    if (!finished) return finished.problem();
+    if (!finished.value()) stage_.end = interrupt_ ? RaceEnd::interrupted : RaceEnd::time;
     stage_.seconds = seconds();
-    if (!followed || interrupt_) return {};
+    if (!followed) return {};
+    if (interrupt_ || !any_judged()) {
+      stage_.times_s.clear();
+      return {};
+    }
     seconds_ = options_.seconds;
     stopped_ = false;
     return follow(heats, tell);
@@ -80,7 +83,10 @@ class Stage {
     if (interrupt_ || seconds() > seconds_) stopped_ = true;
   }
 
-  RaceEnd why_stopped() const { return interrupt_ ? RaceEnd::interrupted : RaceEnd::time; }
+  bool any_judged() const {
+    return std::any_of(stage_.layouts.begin(), stage_.layouts.end(),
+                       [](const JudgedLayout& one) { return one.rounds > 0; });
+  }
 
   bool can_follow(const std::vector<Heat>& heats) const {
     const SceneDescription& scene = *heats.front().base;
@@ -88,7 +94,8 @@ class Stage {
            check_guidance(scene).ok();
   }
 
-  /// Of each layout, the guidance of the scenario in which it is lost first.
+  /// Of each layout, its guidance; of none where time is up or a person interrupts. What ended the
+  /// race stays as it is.
   Result<void> follow(const std::vector<Heat>& heats,
                       const std::function<void(const std::string&)>& tell) {
     GuidanceOptions asked;
@@ -97,31 +104,19 @@ class Stage {
     asked.asked.seed = options_.seed;
     asked.asked.threads = options_.threads;
     asked.rounds = options_.rounds;
-    std::vector<std::vector<GuidedUntil>> worst(stage_.layouts.size());
-    for (const std::string& scenario : stage_.scenarios) {
-      asked.scenario = scenario;
-      const auto found = guidance_of(
-          heats, stage_.layouts.size(), asked, stopped_, [&](const std::string& what, double) {
-            tell(fmt::format("following layouts in \"{}\", {}", scenario, what));
-          });
-      if (!found && !stopped_) return found.problem();
-      if (!found) {
-        stage_.times_s.clear();
-        stage_.end = why_stopped();
-        return {};
-      }
-      for (size_t i = 0; i < worst.size(); ++i)
-        if (worst[i].empty() || is_lost_before(found.value()[i], worst[i]))
-          worst[i] = found.value()[i];
+    asked.scenarios = stage_.scenarios;
+    auto found =
+        guidance_of(heats, stage_.layouts.size(), asked, stopped_,
+                    [&](const std::string& what, double) { tell("following layouts in " + what); });
+    if (!found && !stopped_) return found.problem();
+    if (!found) {
+      stage_.times_s.clear();
+      return {};
     }
-    for (size_t i = 0; i < worst.size(); ++i) stage_.layouts[i].guided = std::move(worst[i]);
+    for (size_t i = 0; i < stage_.layouts.size(); ++i)
+      stage_.layouts[i].guided = std::move(found.value()[i]);
     stage_.seconds = seconds();
     return {};
-  }
-
-  static bool is_lost_before(const std::vector<GuidedUntil>& a, const std::vector<GuidedUntil>& b) {
-    const FirstLoss first = first_loss_of(a), second = first_loss_of(b);
-    return std::pair(first.least_s, first.most_s) < std::pair(second.least_s, second.most_s);
   }
 
   SmokeStage& stage_;

@@ -79,15 +79,19 @@ inline constexpr std::array<std::string_view, 4> objective_words{"number", "cost
 enum class FailureDemand { none, two, full };
 inline constexpr std::array<std::string_view, 3> failure_words{"none", "two", "full"};
 
-/// Of what the lightest new luminaire adds to the objective: what moving one adds.
+/// Of what the lightest luminaire that may be placed adds to the objective: what moving one adds.
 inline constexpr double default_move_share = 0.25;
 
-/// Whether two luminaires give the same light in an emergency, for as long and as soon.
+/// Whether two luminaires give the same light in an emergency, for as long and as soon, and have
+/// bodies alike.
 inline bool same_light(const Emitter& a, const Emitter& b) {
   return a.web == b.web && a.shape == b.shape && a.size == b.size &&
          a.distribution == b.distribution && a.cosine_power == b.cosine_power &&
-         a.emergency_flux == b.emergency_flux && a.emergency_ageing == b.emergency_ageing &&
-         a.onset == b.onset && a.duration_s == b.duration_s && a.maintained == b.maintained;
+         a.spot_inner_deg == b.spot_inner_deg && a.spot_outer_deg == b.spot_outer_deg &&
+         a.spectrum.value == b.spectrum.value && a.radiometric == b.radiometric &&
+         a.body_material == b.body_material && a.emergency_flux == b.emergency_flux &&
+         a.emergency_ageing == b.emergency_ageing && a.onset == b.onset &&
+         a.duration_s == b.duration_s && a.maintained == b.maintained;
 }
 
 struct DesignSettings {

@@ -104,4 +104,27 @@ TEST_CASE("a flight that no candidate lights is told, and nothing is asked for t
   CHECK(design_json(*test::described(file), result, "1")["unlit_flights"].size() == 1);
 }
 
+TEST_CASE("a luminaire that may not stay where it is lights no flight", "[design][flights]") {
+  const TemporaryFolder folder;
+  // At 1.9 m it hangs too low (E14).
+  const std::string low = R"(
+[[emitter]]
+name = "low"
+shape = "disc"
+diameter = 0.1
+position = [5, 4.6, 1.9]
+flux_lm = 300
+emergency = "non-maintained"
+emergency_flux = 300
+maintenance_factor = 0.8
+end_of_duration_factor = 0.7
+)";
+  const auto result = test::designed(folder.write(
+      "scene.toml", behind_a_wall(low + stairs(3.6, 2.8),
+                                  "existing = \"movable\"\nplaces = [[2, 1, 3.97], [5, 1, 3.97], "
+                                  "[8, 1, 3.97]]\n")));
+  CHECK(result.unlit_flights == std::vector<std::string>{"stairs"});
+  CHECK(behind(result) == 0);
+}
+
 }  // namespace luxodus

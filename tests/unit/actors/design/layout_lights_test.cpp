@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <optional>
+#include <set>
 
 #include "actors/design/layout_heats.hpp"
 #include "scenes/transport/compile.hpp"
@@ -40,6 +42,32 @@ std::vector<JudgedLayout> three_layouts(const std::shared_ptr<const SceneDescrip
     state->green_cd_m2 *= brighter_signs;
   }
   out.back().layout.variant = bright;
+  return out;
+}
+
+/// Adds the luminaire "old" of the scene to a layout: moved, or where it is.
+void take_old(JudgedLayout& layout, std::optional<double> to_x, const std::string& body = "") {
+  auto variant = std::make_shared<SceneDescription>(*layout.layout.variant);
+  Emitter old = test::corridor_luminaire("old", to_x.value_or(5.5));
+  old.body_material = body;
+  variant->emitters.push_back(old);
+  layout.layout.variant = variant;
+  PlacedLuminaire one;
+  one.name = one.candidate.name = "old";
+  one.candidate.position = old.frame.origin;
+  one.candidate.moved = to_x.has_value();
+  if (to_x) one.moved_from = test::corridor_luminaire("old", 5.5).frame.origin;
+  layout.layout.luminaires.push_back(one);
+}
+
+/// A new luminaire at 3 m in each, and one of the scene that two of them move.
+std::vector<JudgedLayout> moving_layouts(const std::shared_ptr<const SceneDescription>& scene,
+                                         const std::string& body = "") {
+  std::vector<JudgedLayout> out{corridor_layout(scene, "A", {3}), corridor_layout(scene, "B", {3}),
+                                corridor_layout(scene, "C", {3})};
+  take_old(out[0], 13, body);
+  take_old(out[1], 9, body);
+  take_old(out[2], {}, body);
   return out;
 }
 
@@ -98,13 +126,36 @@ TEST_CASE("light is not added of layouts whose luminaires stand in each other's 
   };
   for (JudgedLayout& one : layouts) with_body(one, 0);  // at 3 m, in all layouts
   CHECK(LayoutLights(lights_of(layouts)).can_add());
-  CHECK(heats_of(layouts, true).size() == 1);
+  CHECK(heats_of(layouts, 1, true).size() == 1);
   with_body(layouts[1], 1);  // at 10.5 m, in one
   CHECK_FALSE(LayoutLights(lights_of(layouts)).can_add());
-  const auto heats = heats_of(layouts, true);
+  const auto heats = heats_of(layouts, 1, true);
   REQUIRE(heats.size() == 2);
   CHECK(heats[0].members == std::vector<size_t>{0, 2});
   CHECK(heats[1].members == std::vector<size_t>{1});
+}
+
+TEST_CASE("a luminaire that layouts move is one of its own at each of its places", "[design]") {
+  const auto scene = smoky_corridor();
+  const auto layouts = moving_layouts(scene);
+  const LayoutLights lights(lights_of(layouts));
+  CHECK(lights.emitters() == 4);  // at 3 m, and the old one at 13, 9 and 5.5 m
+  CHECK(lights.varying() == 3);
+  CHECK(lights.can_add());
+  const auto judged = lights.judged(*scene, find_scenario(*scene, "fire").value(), {});
+  REQUIRE(judged.ok());
+  std::set<std::string> names, groups;
+  for (const Emitter& one : judged->scene.emitters) {
+    names.insert(one.name);
+    groups.insert(one.group);
+  }
+  CHECK(names.size() == 4);
+  CHECK(names.contains("old"));
+  CHECK(groups.size() == 4);
+  // A body that moves leaves others' light free where it was.
+  const auto bodies = moving_layouts(scene, "grey50");
+  CHECK_FALSE(LayoutLights(lights_of(bodies)).can_add());
+  CHECK(heats_of(bodies, 1, true).size() == 3);
 }
 
 TEST_CASE("layouts share paths up to so many luminaires that only some of them have", "[design]") {
@@ -116,11 +167,17 @@ TEST_CASE("layouts share paths up to so many luminaires that only some of them h
       places.push_back(0.5 + 0.25 * static_cast<double>(k) + 0.01 * static_cast<double>(i));
     layouts.push_back(corridor_layout(scene, std::string(1, static_cast<char>('A' + i)), places));
   }
-  const auto heats = heats_of(layouts, true);  // 60 of each, 180 of three, 240 of four
+  const auto heats = heats_of(layouts, 1, true);  // 60 of each, 180 of three, 240 of four
   REQUIRE(heats.size() == 2);
   CHECK(heats[0].members == std::vector<size_t>{0, 1, 2});
   CHECK(heats[1].members == std::vector<size_t>{3, 4});
   CHECK(heats[0].lights->varying() == 180);
+}
+
+TEST_CASE("layouts share paths up to so many views in all scenarios together", "[design]") {
+  const auto layouts = three_layouts(smoky_corridor());
+  CHECK(heats_of(layouts, 2, true).size() == 1);
+  CHECK(heats_of(layouts, limits::heat_views, true).size() == 3);
 }
 
 TEST_CASE("layouts with other signs are traced by themselves", "[design]") {
@@ -128,16 +185,17 @@ TEST_CASE("layouts with other signs are traced by themselves", "[design]") {
   auto layouts = three_layouts(scene);
   layouts.push_back(layouts.front());
   layouts.back().low_signs = {{"exit", {}}};
-  const auto heats = heats_of(layouts, true);
+  const auto heats = heats_of(layouts, 1, true);
   REQUIRE(heats.size() == 2);
   CHECK(heats[0].members == std::vector<size_t>{0, 1, 2});
   CHECK(heats[1].members == std::vector<size_t>{3});
-  CHECK(heats_of(layouts, false).size() == 4);
+  CHECK(heats_of(layouts, 1, false).size() == 4);
 }
 
 TEST_CASE("what a sum says of each view of a layout is what its own trace says", "[design]") {
-  const auto layouts = three_layouts(smoky_corridor());
-  const auto together = heats_of(layouts, true), alone = heats_of(layouts, false);
+  const bool moving = GENERATE(false, true);
+  const auto layouts = moving ? moving_layouts(smoky_corridor()) : three_layouts(smoky_corridor());
+  const auto together = heats_of(layouts, 1, true), alone = heats_of(layouts, 1, false);
   REQUIRE(together.size() == 1);
   REQUIRE(alone.size() == 3);
   const auto sums = traced(together.front(), 1);

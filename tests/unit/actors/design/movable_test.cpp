@@ -149,6 +149,70 @@ TEST_CASE("a luminaire moves on its own storey alone", "[design][movable]") {
   CHECK(below >= 10);
 }
 
+TEST_CASE("over no floor, a luminaire moves to places of about its height", "[design][movable]") {
+  const auto bench = [](const char* name, double z) {
+    return fmt::format(
+        "[[task_area]]\nname = \"{}\"\noutline = [[1, 0.5], [11, 0.5], [11, 2.5], [1, 2.5]]\n"
+        "z = {}\nmains_lx = 500\n",
+        name, z);
+  };
+  std::string upper = test::box_room(12, 3, 2.8);
+  upper.replace(upper.find("low = [0, 0, 0]"), 15, "low = [0, 0, 3]");
+  upper.replace(upper.find("2.8]"), 4, "5.8]");
+  upper.replace(upper.find("\"room\""), 6, "\"upper\"");
+  const TemporaryFolder folder;
+  // Task areas are no floors.
+  const auto scene = test::described(folder.write(
+      "scene.toml", test::box_room(12, 3, 2.8) + upper + test::judged_2013 + bench("low", 0.8) +
+                        bench("high", 3.8) + old_one("old", "[6, 1.5, 5.77]") +
+                        "[design]\nexisting = \"movable\"\n"));
+  const auto codes = judged_codes(*scene, {}, {});
+  REQUIRE(codes);
+  const auto found = find_candidates(*scene, *scene->design, codes.value(), scene->scenarios[0], 1);
+  INFO((found ? "" : found.problem().text()));
+  REQUIRE(found);
+  size_t moves = 0;
+  for (const LuminaireCandidate& one : found->all) {
+    if (!one.moved) continue;
+    ++moves;
+    CHECK(one.position.z > 3);
+  }
+  CHECK(moves >= 10);
+}
+
+TEST_CASE("what a move costs is a share of a type that may be placed", "[design][movable]") {
+  const auto type = [](const char* name, const char* hours, int cost) {
+    return old_one(name, "[11, 1.5, 2.97]", fmt::format("duration_h = {}", hours).c_str()) +
+           fmt::format("[[design.type]]\nname = \"{0}, new\"\nlike = \"{0}\"\ncost = {1}\n", name,
+                       cost);
+  };
+  const TemporaryFolder folder;
+  // The cheap one does not last for an hour, as EN 1838 asks for.
+  const auto scene = test::described(folder.write(
+      "scene.toml", test::box_room(12, 3, 3) + test::judged_2013 + test::way_along(1, 11, 1.5) +
+                        old_one("old", "[0.8, 0.8, 2.97]") +
+                        "[design]\nexisting = \"removed\"\nmovable = [\"old\"]\nobjective = "
+                        "\"cost\"\nplace_signs = false\n" +
+                        type("short", "0.5", 1) + type("long", "1", 100)));
+  const auto codes = judged_codes(*scene, {}, {});
+  REQUIRE(codes);
+  const Scenario& doors = scene->scenarios[0];
+  const auto found = find_candidates(*scene, *scene->design, codes.value(), doors, 1);
+  REQUIRE(found);
+  REQUIRE(found->unused.size() == 1);
+  const auto demands = Demands::make(*scene, *scene->design, found->all, codes.value(), doors, 1);
+  INFO((demands ? "" : demands.problem().text()));
+  REQUIRE(demands);
+  const auto& options = demands.value()->problem().options;
+  size_t moves = 0;
+  for (size_t i = 0; i < options.size(); ++i) {
+    if (!found->all[i].moved) continue;
+    ++moves;
+    CHECK(options[i].weight == Approx(0.25 * 100));
+  }
+  CHECK(moves > 0);
+}
+
 TEST_CASE("a luminaire that glares where it is has to move, or is refused", "[design][movable]") {
   // 1.9 m above the floor is too low (E14).
   const std::string low = test::box_room(12, 3, 3) + test::judged_2013 +

@@ -316,6 +316,32 @@ TEST_CASE("where smoke sinks, it is told until when each layout guides", "[desig
   CHECK(page.find("60 s, the last state") != std::string::npos);
 }
 
+TEST_CASE("what ends the following of layouts leaves the end of their race as it was", "[design]") {
+  const std::string text = test::corridor_with(test::even_smoke + "[time]\nto = 30\nstep = 15\n");
+  const test::TemporaryFolder folder;
+  const auto scene = test::described(folder.write("scene.toml", text));
+  std::atomic<bool> interrupt{false};
+  size_t states = 0;
+  SmokeStageOptions asked;
+  asked.scenarios = {"fire"};
+  asked.threads = 2;
+  asked.rounds = 1;
+  asked.scene_at = [&](double) -> Result<std::shared_ptr<const SceneDescription>> {
+    ++states;
+    interrupt = true;
+    return scene;
+  };
+  const auto stage = judge_in_smoke({test::corridor_layout(scene, "A", {3, 8, 13})}, asked,
+                                    interrupt, [](const std::string&) {});
+  INFO((stage ? "" : stage.problem().text()));
+  REQUIRE(stage);
+  REQUIRE(states > 0);
+  CHECK((stage->end == RaceEnd::rounds || stage->end == RaceEnd::decided));
+  CHECK(stage->times_s.empty());
+  REQUIRE_FALSE(stage->layouts.empty());
+  for (const JudgedLayout& one : stage->layouts) CHECK(one.guided.empty());
+}
+
 TEST_CASE("until when all routes guide is told of the one that is lost first", "[design]") {
   const auto guided = [](std::optional<double> least, std::optional<double> most, bool lost) {
     GuidedUntil out;

@@ -1,4 +1,6 @@
 // The [design] table, and variants that place, turn and remove luminaires.
+#include <fmt/format.h>
+
 #include "scenes/world/design.hpp"
 #include "tests/unit/scenes/scene_file/scene_fixture.hpp"
 
@@ -36,6 +38,33 @@ TEST_CASE("a scene without types places what it has, and a generic luminaire whe
   const SceneDescription none = good(folder, "[design]\n");
   REQUIRE(none.design->types.size() == 1);
   CHECK(none.design->types[0].emitter.emergency_flux == near(200 * 0.8 * 0.7));
+}
+
+TEST_CASE("spots of other beams are types of their own", "[format][scene][design]") {
+  const auto spot = [](const char* name, double inner, double outer) {
+    return fmt::format(R"(
+[[emitter]]
+name = "{}"
+shape = "point"
+distribution = "spot"
+spot_inner_deg = {}
+spot_outer_deg = {}
+position = [1, 1, 2.9]
+flux_lm = 300
+emergency = "non-maintained"
+emergency_flux = 300
+maintenance_factor = 1
+end_of_duration_factor = 1
+)",
+                       name, inner, outer);
+  };
+  SceneFolder folder;
+  const auto types = [&](const std::string& text) {
+    return good(folder, text).design->types.size();
+  };
+  CHECK(types(spot("a", 20, 30) + spot("b", 20, 30)) == 1);
+  CHECK(types(spot("a", 20, 30) + spot("b", 20, 40)) == 2);
+  CHECK(types(spot("a", 20, 30) + spot("b", 10, 30)) == 2);
 }
 
 TEST_CASE("a variant places types of the design, and takes luminaires away",
