@@ -76,10 +76,10 @@ for (let round = 0; round < rounds; ++round) {
 }
 each_ms.sort((a, b) => a - b);
 const median = (each_ms[(rounds - 1) >> 1] + each_ms[rounds >> 1]) / 2;
-const processors = rounds === 1 ? `${median.toFixed(0)} ms of processors each` :
-  `${each_ms[0].toFixed(0)} ms of processors each at least, ${median.toFixed(0)} ms in the median ` +
-  `of ${rounds} rounds`;
-console.log(`${fastest.toFixed(1)} pictures a second${rounds === 1 ? '' : ' in the best round'} of ` +
-  `${found.width} x ${found.height} pixels (raster ${found.share.toFixed(2)}), ${processors}`);
+const [ms, median_ms] = [each_ms[0], median].map((x) => x.toFixed(0));
+const [best, in_rounds] = rounds === 1 ? ['', ''] :
+  [' in the best round', ` at least, ${median_ms} ms in the median of ${rounds} rounds`];
+console.log(`${fastest.toFixed(1)} pictures a second${best} of ${found.width} x ${found.height} ` +
+  `pixels (raster ${found.share.toFixed(2)}), ${ms} ms of processors each${in_rounds}`);
 await browser.close();
 server?.close();
