@@ -175,7 +175,8 @@ struct RenderedViews {
 /// scale; up to 8192 pixels an edge); NAME is that of result_names(). A scene without cameras has
 /// no pictures, which is no error. Where it is interrupted, pictures of the paths that all of their
 /// pixels have are there. `after_first` is called once, as soon as there are first pictures or none
-/// are to be awaited, and takes none of their time; not where this fails before.
+/// are to be awaited, and takes none of their time; not where this fails before. Only views that
+/// grow together with the first one (within max_growing_bytes) have theirs by then.
 /// Errors: as check_views; a file that cannot be written; those of `after_first`.
 Result<RenderedViews> render_views(const std::filesystem::path& folder, const LocalRun& run,
                                    const std::string& only_view, const PictureOptions& options,

@@ -483,10 +483,4 @@ Result<Json> finish_report(const std::filesystem::path& folder, const LocalRun& 
   return result;
 }
 
-Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
-                          const RunRecord& record, const ShareDone& progress) {
-  if (auto ok = begin_report(folder, run, record); !ok) return ok.problem();
-  return finish_report(folder, run, record, progress);
-}
-
 }  // namespace luxodus

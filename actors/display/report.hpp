@@ -39,10 +39,6 @@ Result<void> begin_report(const std::filesystem::path& folder, const LocalRun& r
 Result<Json> finish_report(const std::filesystem::path& folder, const LocalRun& run,
                            const RunRecord& record, const ShareDone& progress = {});
 
-/// Both, one after the other.
-Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
-                          const RunRecord& record, const ShareDone& progress = {});
-
 /// For the terminal: the state that was computed; the values asked for, a line each (planes,
 /// probes, groups of surfaces, counting planes, signs by observer); where the light went; the
 /// errors. `verbose`: and how it was computed. Requires: `result` is the run's result_json.

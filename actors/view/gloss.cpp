@@ -38,6 +38,7 @@ std::vector<LiveGloss> gloss_of(const CompiledScene& scene) {
   std::vector<LiveGloss> out;
   for (size_t s = 0; s < scene.surfaces.size(); ++s)
     for (const size_t side : {size_t{0}, size_t{1}}) {
+      if (out.size() == limits::view_gloss) return out;
       const CompiledMaterial& material = scene.materials[scene.surfaces[s].material[side]];
       if (material.kind != MaterialKind::glossy && material.kind != MaterialKind::mirror) continue;
       const std::vector<SurfaceModel>& models = material.by_band;

@@ -9,6 +9,11 @@
 
 namespace luxodus {
 
+namespace limits {
+/// Sides of a live view at most: others look matt. Pages read no more.
+inline constexpr size_t view_gloss = 4096;
+}  // namespace limits
+
 /// One side of a surface of the geometry.
 struct LiveGloss {
   uint32_t surface = 0;
@@ -18,7 +23,8 @@ struct LiveGloss {
   double roughness = 0;              // GGX alpha; 0 of a mirror
 };
 
-/// Glossy sides and mirrors, in the order of surfaces. A reflectance picture counts as white.
+/// The first view_gloss glossy sides and mirrors, in the order of surfaces. A reflectance picture
+/// counts as white.
 std::vector<LiveGloss> gloss_of(const CompiledScene& scene);
 
 }  // namespace luxodus

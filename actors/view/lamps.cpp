@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "scenes/optics/spectrum.hpp"
 #include "scenes/transport/emission.hpp"
@@ -11,30 +14,32 @@ namespace luxodus {
 
 namespace {
 
-/// A photometric file says intensities, which a flat face at grazing angles divides by next to
-/// nothing: nearer to its plane than this cosine it looks as it does there.
-constexpr double least_lamp_cosine = 0.02;
-
 struct Webs {
   const CompiledScene* scene;
   const PhotometricWeb& web(uint32_t i) const { return *scene->webs[i]; }
 };
 
-/// Of a direction in the frame of the table: its pole is the luminaire's local -Z, or a normal.
+bool is_flat(const CompiledEmitter& e) {
+  return e.kind == EmitterKind::rectangle || e.kind == EmitterKind::disc;
+}
+
+/// Of a direction in the frame of the table, whose pole is the luminaire's local -Z or a normal.
+/// The cosine is never 0: middles of cells keep off the plane of the face by half a cell.
 double brightness(const CompiledScene& scene, const CompiledEmitter& e, double polar,
                   double azimuth) {
-  const bool of_luminaire = e.distribution == Distribution::web;
-  const Vec3 pole = of_luminaire ? -e.axes[2] : Vec3(0, 0, 1);
-  const Vec3 x = of_luminaire ? e.axes[0] : Vec3(1, 0, 0);
-  const Vec3 y = of_luminaire ? e.axes[1] : Vec3(0, 1, 0);
-  const auto across = static_cast<Real>(std::sin(polar));
-  const Vec3 direction = pole * static_cast<Real>(std::cos(polar)) +
-                         x * (across * static_cast<Real>(std::cos(azimuth))) +
-                         y * (across * static_cast<Real>(std::sin(azimuth)));
+  const double across = std::sin(polar);
+  const glm::dvec3 direction(across * std::cos(azimuth), across * std::sin(azimuth),
+                             -std::cos(polar));
+  const double cosine = std::abs(direction.z);
+  if (e.distribution == Distribution::web) {
+    // In the luminaire's own frame, so that luminaires turned otherwise share the table.
+    const double density = scene.webs[e.web]->pdf(direction);
+    return is_flat(e) ? density / cosine : density;
+  }
   const Webs webs{&scene};
-  const auto density =
-      static_cast<double>(directional_density(e, {e.origin, pole}, direction, webs));
-  return density / std::max(least_lamp_cosine, std::abs(std::cos(polar)));
+  const auto density = static_cast<double>(
+      directional_density(e, {e.origin, Vec3(0, 0, -1)}, Vec3(direction), webs));
+  return density / cosine;
 }
 
 LampTable table_of(const CompiledScene& scene, const CompiledEmitter& e) {
@@ -54,6 +59,47 @@ LampTable table_of(const CompiledScene& scene, const CompiledEmitter& e) {
   return out;
 }
 
+/// The tables of a scene, each once.
+class LampTables {
+ public:
+  LampTables(const CompiledScene& scene, std::vector<LampTable>& tables)
+      : scene_(scene), tables_(tables) {}
+
+  /// Of an emitter; none where it sends out nothing, or where there is no room for another.
+  std::optional<uint32_t> index_of(const CompiledEmitter& e) {
+    if (e.distribution != Distribution::web) return index_of(table_of(scene_, e));
+    const std::pair key(e.web, is_flat(e));
+    const auto known = of_webs_.find(key);
+    if (known != of_webs_.end()) return known->second;
+    return of_webs_[key] = index_of(table_of(scene_, e));
+  }
+
+ private:
+  std::optional<uint32_t> index_of(LampTable table) {
+    if (!(table.peak > 0 && table.peak <= limits::view_lamp_peak)) return std::nullopt;
+    const auto known = std::find(tables_.begin(), tables_.end(), table);
+    const auto index = static_cast<uint32_t>(known - tables_.begin());
+    if (known == tables_.end()) {
+      if (tables_.size() == limits::view_lamp_tables) return std::nullopt;
+      tables_.push_back(std::move(table));
+    }
+    return index;
+  }
+
+  const CompiledScene& scene_;
+  std::vector<LampTable>& tables_;
+  std::map<std::pair<uint32_t, bool>, std::optional<uint32_t>> of_webs_;
+};
+
+/// What is brighter than pages read looks like the brightest that they read: white.
+std::array<double, 3> readable_colour(std::array<double, 3> rgb) {
+  double most = 0;
+  for (const double c : rgb) most = std::max(most, std::abs(c));
+  if (most > limits::view_lamp_colour)
+    for (double& c : rgb) c *= limits::view_lamp_colour / most;
+  return rgb;
+}
+
 LiveLamp lamp_of(const CompiledScene& scene, const CompiledEmitter& e) {
   LiveLamp out;
   out.group = scene.groups[static_cast<size_t>(e.group)].name;
@@ -70,30 +116,32 @@ LiveLamp lamp_of(const CompiledScene& scene, const CompiledEmitter& e) {
     xyz[1] += exitance * scene.bands[b].lm_per_w;
     xyz[2] += exitance * scene.bands[b].z_per_w;
   }
-  out.colour = linear_srgb_from_xyz(xyz);
+  out.colour = readable_colour(linear_srgb_from_xyz(xyz));
   out.of_luminaire = e.distribution == Distribution::web;
   return out;
 }
 
 bool is_shown(const CompiledEmitter& e) {
+  const double widest = static_cast<double>(std::max({e.size.x, e.size.y, e.size.z}));
   return has_own_face(e) && e.distribution != Distribution::collimated && e.area_m2 > 0 &&
-         e.luminous_flux_lm > 0 && e.corners.size() <= 3 * limits::view_lamp_triangles;
+         e.luminous_flux_lm > 0 && widest <= limits::view_lamp_m &&
+         e.corners.size() <= 3 * limits::view_lamp_triangles;
 }
 
 }  // namespace
 
 LiveLamps lamps_of(const CompiledScene& scene) {
   LiveLamps out;
+  LampTables tables(scene, out.tables);
+  size_t corners = 0;
   for (const CompiledEmitter& e : scene.emitters) {
     if (out.lamps.size() == limits::view_lamps) break;
-    if (!is_shown(e)) continue;
-    LampTable table = table_of(scene, e);
-    if (!(table.peak > 0)) continue;
-    LiveLamp lamp = lamp_of(scene, e);
-    const auto known = std::find(out.tables.begin(), out.tables.end(), table);
-    lamp.table = static_cast<uint32_t>(known - out.tables.begin());
-    if (known == out.tables.end()) out.tables.push_back(std::move(table));
-    out.lamps.push_back(std::move(lamp));
+    if (!is_shown(e) || corners + e.corners.size() > limits::view_lamp_corners) continue;
+    const auto table = tables.index_of(e);
+    if (!table) continue;
+    corners += e.corners.size();
+    out.lamps.push_back(lamp_of(scene, e));
+    out.lamps.back().table = *table;
   }
   return out;
 }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "actors/view/gloss.hpp"
-#include "actors/view/lamps.hpp"
 #include "runtime/core/base64.hpp"
 #include "scenes/optics/spectrum.hpp"
 
@@ -179,9 +177,9 @@ Json lamp_tables_json(const LiveLamps& lamps) {
   return out;
 }
 
-Json gloss_json(const CompiledScene& scene) {
+Json gloss_json(const std::vector<LiveGloss>& all) {
   Json out = Json::array();
-  for (const LiveGloss& gloss : gloss_of(scene))
+  for (const LiveGloss& gloss : all)
     out.push_back({{"surface", gloss.surface},
                    {"back", gloss.back},
                    {"mirrored", rgb_json(gloss.mirrored)},
@@ -209,7 +207,7 @@ std::map<std::string, double> LiveDimming::both() const {
 Json live_scene_json(const SceneDescription& scene, const LiveGeneration& generation,
                      const LiveDimming& dimming, bool editor, bool follows) {
   const CompiledScene& compiled = *generation.scene;
-  const LiveLamps lamps = lamps_of(compiled);
+  const LiveLook& look = *generation.look;
   Json observers = Json::array(), cameras = Json::array();
   for (const Observer& o : scene.observers)
     observers.push_back({{"name", o.name}, {"eye", place(o.eye)}, {"gaze", place(o.gaze)}});
@@ -238,9 +236,9 @@ Json live_scene_json(const SceneDescription& scene, const LiveGeneration& genera
           {"cameras", cameras},
           {"voxels", voxels_json(compiled)},
           {"flames", flames_json(generation)},
-          {"lamps", lamps_json(lamps)},
-          {"lamp_tables", lamp_tables_json(lamps)},
-          {"gloss", gloss_json(compiled)},
+          {"lamps", lamps_json(look.lamps)},
+          {"lamp_tables", lamp_tables_json(look.lamps)},
+          {"gloss", gloss_json(look.gloss)},
           {"editor", editor}};
 }
 

@@ -17,7 +17,7 @@ struct LiveDimming {
 };
 
 /// What a generation is of, without its light. `follows`: to somebody who has the generation
-/// before, and may go on showing light of it.
+/// before, and may go on showing light of it. Requires: it has a look.
 Json live_scene_json(const SceneDescription& scene, const LiveGeneration& generation,
                      const LiveDimming& dimming, bool editor, bool follows);
 Json progress_json(const LiveProgress& progress);

@@ -137,7 +137,7 @@ bool same_but_for_time(SceneEdits a, const SceneEdits& b) {
 void LiveTrace::keep(const SceneEdits& next) {
   if (!same_but_for_time(traced_, next)) return kept_.clear();
   size_t bytes = run_->bytes();
-  kept_.push_front({traced_, std::move(run_), geometry_, smoke_});
+  kept_.push_front({traced_, std::move(run_), geometry_, smoke_, look_});
   size_t stays = 1;
   for (; stays < kept_.size() && stays < limits::kept_states; ++stays) {
     bytes += kept_[stays].run->bytes();
@@ -161,6 +161,7 @@ bool LiveTrace::take_kept(const SceneEdits& edits) {
     geometry_.frame = readdressed(geometry_.frame, generation_ + 1, 0);
   }
   smoke_ = std::move(taken.smoke);
+  look_ = std::move(taken.look);
   if (smoke_.frame) smoke_.frame = readdressed(smoke_.frame, generation_ + 1, 0);
   return true;
 }
@@ -179,7 +180,7 @@ void LiveTrace::begin(const SceneEdits& edits) {
   const auto lights =
       again ? std::vector<ShownLight>(run_->lights().size(), ShownLight::none) : run_->lights();
   audience_.begins({generation_, edits, run_->shared_scene(), geometry_.frame, smoke_.frame, lights,
-                    std::move(triangles_before), smoke_.flames});
+                    std::move(triangles_before), smoke_.flames, look_});
 }
 
 bool LiveTrace::begin_anew(const SceneEdits& edits,
@@ -208,6 +209,7 @@ bool LiveTrace::begin_anew(const SceneEdits& edits,
   if (run_) keep(edits);
   if (other) geometry_ = *std::move(other);
   if (!same_air || !run->same_geometry()) smoke_ = smoke_of(run->scene(), run->index(), generation);
+  look_ = std::make_shared<const LiveLook>(look_of(run->scene()));
   run_ = std::move(run);
   return true;
 }

@@ -12,6 +12,7 @@
 #include "actors/run/open_scene.hpp"
 #include "actors/view/frames.hpp"
 #include "actors/view/live_scene.hpp"
+#include "actors/view/look.hpp"
 #include "scenes/world/timed_scenes.hpp"
 
 namespace luxodus {
@@ -53,6 +54,7 @@ struct LiveGeneration {
   std::shared_ptr<const std::vector<uint32_t>> triangles_before = nullptr;
   /// Flames that are shown apart from voxels; null where no medium is.
   std::shared_ptr<const std::vector<LiveFlame>> flames = nullptr;
+  std::shared_ptr<const LiveLook> look = nullptr;  // made once: it takes longer than telling it
 };
 
 /// Who is told. Called on the tracing thread.
@@ -137,6 +139,7 @@ class LiveTrace {
   SceneEdits traced_;
   LiveGeometry geometry_;
   LiveSmoke smoke_;
+  std::shared_ptr<const LiveLook> look_;
   std::unique_ptr<LiveRun> run_;
   /// States of other times, the last shown first.
   struct Kept {
@@ -144,6 +147,7 @@ class LiveTrace {
     std::unique_ptr<LiveRun> run;
     LiveGeometry geometry;
     LiveSmoke smoke;
+    std::shared_ptr<const LiveLook> look;
   };
   std::deque<Kept> kept_;
   bool refined_ = false;

@@ -168,9 +168,9 @@ test('a flame has the shape of its cells, and nothing glows around it', async ()
 
 /**
  * Luminances of a room in clear air whose surfaces all send out 1 cd/m2, at places of a view; lamps
- * are seen, signs are not. `gloss`: of the floor.
+ * are seen, signs are not. `gloss`: of the floor; `lamps`: instead of those of the room.
  */
-const seenInGrey = (gloss, places) => page.evaluate(async ([of, at]) => {
+const seenInGrey = (gloss, places, lamps = null) => page.evaluate(async ([of, at, others]) => {
   const { page: p } = window.luxodus;
   const { surfaces, air } = p.live.shown;
   surfaces.sum.fill(1);
@@ -181,6 +181,10 @@ const seenInGrey = (gloss, places) => page.evaluate(async ([of, at]) => {
   p.walk.jump({ eye: [0.5, 3, 1.5], gaze: [1, 0, -0.23], fov: 80 });
   p.walk.show();
   p.picture.gloss.kinds(of);
+  if (others) {
+    p.picture.lamps.build(others.lamps, others.tables);
+    p.picture.lamps.shine(() => 1);
+  }
   p.light.awaited = { now: false, soon: false };
   p.picture.surfaces.shine(surfaces);
   p.picture.again();
@@ -192,11 +196,12 @@ const seenInGrey = (gloss, places) => page.evaluate(async ([of, at]) => {
   for (const sum of [surfaces, air]) sum.stained(true);
   p.live.settle();
   p.picture.gloss.kinds(p.live.scene.gloss);
+  if (others) p.picture.lamps.build(p.live.scene.lamps, p.live.scene.lampTables);
   p.picture.smoke.present = present;
   p.picture.signs.object.visible = p.walk.solid = true;
   p.light.changed();
   return found;
-}, [gloss, places]);
+}, [gloss, places, lamps]);
 
 test('a lamp is seen where it hangs, and where a floor mirrors it', async () => {
   const lamp = [5.2, 3, 2.9];
@@ -219,6 +224,29 @@ test('a lamp is seen where it hangs, and where a floor mirrors it', async () => 
   assert.ok(rough[1] < 0.7 * sharp[1] && rough[1] > 2, `${rough}`);
   assert.ok(rough[3] > rough[2] && rough[2] >= 0.75, `${rough}`);
   assert.ok(Math.abs(rough[4] - 0.8) < 0.08, `${rough}`);
+});
+
+test('a round luminaire is brighter where it is inclined to the eye', async () => {
+  const eye = [0.5, 3, 1.5];
+  const centre = [4, 3, 0.8];
+  /** So far around the sphere from the point that faces the eye, and the cosine there. */
+  const inclined = (angle) => {
+    const along = [0, 1, 2].map((k) => (eye[k] - centre[k]) / Math.hypot(3.5, 0.7));
+    const normal = along.map((x, k) => Math.cos(angle) * x + (k === 1 ? Math.sin(angle) : 0));
+    const place = normal.map((x, k) => centre[k] + 0.5 * x);
+    const to = eye.map((x, k) => x - place[k]);
+    const cosine = to.reduce((sum, x, k) => sum + x * normal[k], 0) / Math.hypot(...to);
+    return { place, cosine };
+  };
+  const points = [0, 0.4, 0.75].map(inclined);
+  const sphere = { group: 'lamp', shape: 'sphere', position: centre, size: [1, 1, 1], corners: [],
+    axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], colour: [50, 50, 50], table: 0, ofLuminaire: true };
+  const tables = [{ peak: 1, polar: 2, azimuth: 1, values: [65535, 65535] }];
+  const seen = await seenInGrey([], points.map(({ place }) => place), { lamps: [sphere], tables });
+  points.forEach(({ cosine }, i) => {
+    const expected = 1 + 50 / cosine;
+    assert.ok(Math.abs(seen[i] / expected - 1) < 0.08, `${seen[i]}, not ${expected}`);
+  });
 });
 
 test('smoke on the way to a floor and from there dims what it mirrors', async () => {

@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { facesOf } from '../../../actors/view/page/src/draw/lamp_faces.js';
-import { levelIn, levelsOf, mirrored, seenOf } from '../../../actors/view/page/src/draw/levels.js';
+import { isSameGloss, levelIn, levelsOf, mirrored, seenOf }
+  from '../../../actors/view/page/src/draw/levels.js';
 import { Building } from '../../../actors/view/page/src/walk/building.js';
 import { cross, dot, length, subtract } from '../../../actors/view/page/src/walk/vectors.js';
 
@@ -28,6 +29,19 @@ test('a glossy floor is a level, a glossy wall and a matt floor are none', () =>
   assert.equal(level.height, 0.5);
   assert.equal(level.patches.reduce((sum, { area }) => sum + area, 0), 16);
   assert.deepEqual([...level.parts.values()].map((corners) => corners.length), [18]);
+});
+
+test('gloss is the same where each side is, and where there was some before', () => {
+  const sides = () => [gloss(0), gloss(3, true)];
+  assert.ok(isSameGloss(sides(), sides()));
+  assert.ok(isSameGloss([], []));
+  assert.ok(!isSameGloss([], undefined));
+  assert.ok(!isSameGloss(sides(), sides().slice(1)));
+  for (const change of [{ surface: 4 }, { back: false }, { spread: 0.4 }, { roughness: 0.2 },
+    { mirrored: [0.1, 0.1, 0.2] }]) {
+    const [first, second] = sides();
+    assert.ok(!isSameGloss(sides(), [first, { ...second, ...change }]));
+  }
 });
 
 test('of a floor the side that faces up counts', () => {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "actors/display/report.hpp"
 #include "actors/run/local_run.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
@@ -33,6 +34,13 @@ inline std::unique_ptr<LocalRun> traced(const std::string& toml, int64_t particl
   stop.particles = particles;
   run->run(stop, std::atomic<bool>{false}, [](const Progress&) {});
   return run;
+}
+
+/// The report of a run, begun and finished.
+inline Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
+                                 const RunRecord& record) {
+  if (auto ok = begin_report(folder, run, record); !ok) return ok.problem();
+  return finish_report(folder, run, record);
 }
 
 inline std::string file_text(const std::filesystem::path& path) {

@@ -2,7 +2,7 @@
 // a time, that which fills most of the view; all light of others stays spread evenly, as on plans.
 import * as THREE from 'three';
 import { behindFragment, glossFragment, glossVertex } from './gloss_glsl.js';
-import { levelIn, levelsOf, mirrored } from './levels.js';
+import { isSameGloss, levelIn, levelsOf, mirrored } from './levels.js';
 import { smokePaces } from './smoke.js';
 import { drawnAfter } from './surfaces.js';
 
@@ -49,10 +49,11 @@ export class Gloss {
     };
   }
 
-  /** Which sides of which surfaces are glossy. */
+  /** Which sides of which surfaces are glossy. Moved lamps and dimmed ones leave them as they are. */
   kinds(gloss) {
+    const same = isSameGloss(gloss, this.all);
     this.all = gloss;
-    this.lay();
+    if (!same) this.lay();
   }
 
   /** `building`: the triangles, as they are walked through. */

@@ -12,23 +12,26 @@ void main() {
 }`;
 
 // A table has the density of light by direction [1/sr] by the cosine to its axis: flux by area
-// times that is luminance.
+// times that is luminance. Of what is curved and shines as a luminaire it has the density alone, and
+// each point has its own cosine. Faces are made of too few triangles to tell small ones.
 export const lampFragment = `${common}
 in vec3 place, axis;
 uniform sampler2D table;
 uniform mat3 frame;
-uniform bool ofLuminaire;
+uniform bool ofLuminaire, byOwnCosine;
 uniform vec3 light, cameraPosition;
 uniform float cut, above;
 out vec4 colour;
-const float pi = 3.14159265;
+const float pi = 3.14159265, leastCosine = 0.05;
 void main() {
   if (place.z > cut || place.z < above) discard;
   vec3 to = normalize(cameraPosition - place);
   vec3 local = ofLuminaire ? to * frame : vec3(0.0, 0.0, -dot(normalize(axis), to));
   float polar = acos(clamp(-local.z, -1.0, 1.0)) / pi;
   float azimuth = abs(local.x) + abs(local.y) > 1e-6 ? atan(local.y, local.x) / (2.0 * pi) : 0.0;
-  colour = vec4(clamp(light * texture(table, vec2(azimuth, polar)).r, 0.0, ${brightest}), 1.0);
+  float value = texture(table, vec2(azimuth, polar)).r;
+  if (byOwnCosine) value /= max(leastCosine, dot(normalize(axis), to));
+  colour = vec4(clamp(light * value, 0.0, ${brightest}), 1.0);
 }`;
 
 // The picture behind the mirror, with the smoke between the mirror and what is seen in it. Where

@@ -53,6 +53,7 @@ export class Lamps {
         table: { value: this.tables[lamp.table] },
         frame: { value: new THREE.Matrix3().fromArray(lamp.axes.flat()) },
         ofLuminaire: { value: lamp.ofLuminaire },
+        byOwnCosine: { value: lamp.ofLuminaire && !isFlat(lamp) },
         light: { value: new THREE.Vector3() },
       },
     });

@@ -23,6 +23,14 @@ function isInside(middle, building) {
   return over !== null && building.normal(over.triangle)[2] > 0;
 }
 
+/** Whether two lists of glossy sides say the same. */
+export function isSameGloss(one, other) {
+  const sameSide = (a, b) => a.surface === b.surface && a.back === b.back &&
+    a.spread === b.spread && a.roughness === b.roughness &&
+    a.mirrored.every((share, k) => share === b.mirrored[k]);
+  return other?.length === one.length && one.every((side, i) => sameSide(side, other[i]));
+}
+
 /**
  * The glossy floors of a building by their height: `parts`, the corners of each kind of gloss;
  * `patches`, a middle and an area for each triangle.
