@@ -182,6 +182,7 @@ class FireReader {
     start();
     uint64_t all = 0, done = 0;
     for (const Frame& frame : smoke_.frames) all += frame.bytes;
+    if (options_.reading != nullptr) options_.reading->know();
     ReadingPart part(options_.reading, all);
     for (size_t mesh = 0; mesh < fire_.meshes.size(); ++mesh) {
       if (auto ok = read_mesh(mesh); !ok) return ok.problem();
