@@ -246,11 +246,13 @@ class FireReader {
           wanted += (wanted.empty() ? "" : ", no ") + std::string(source_words(c.source));
       return wrong(fmt::format(
           "this case has no {} with a whole frame of all its {} meshes{}: wait for it where it "
-          "still "
-          "runs, or add &SLCF XB=..., QUANTITY='EXTINCTION COEFFICIENT', CELL_CENTERED=T / to its "
-          "input file, with an XB that holds all meshes",
+          "still runs{}",
           wanted, fire_.meshes.size(),
-          fire_.unread.empty() ? "" : "; " + fire_.unread + " are not read"));
+          fire_.unread.empty() ? "" : "; " + fire_.unread + " are not read",
+          allowed(FireSource::cell_extinction)
+              ? ", or add &SLCF XB=..., QUANTITY='EXTINCTION COEFFICIENT', CELL_CENTERED=T / to "
+                "its input file, with an XB that holds all meshes"
+              : ""));
     }
     smoke_ = std::move(*nearest);
     out_.time_s = smoke_.time_s;
