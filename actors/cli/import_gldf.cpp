@@ -92,6 +92,8 @@ struct WrittenBody {
 /// Errors: a file that cannot be written. A model that cannot be read is said in its place.
 Result<std::vector<WrittenBody>> write_bodies(const GldfProduct& product, const fs::path& folder) {
   ReadingShare share;
+  for (const GldfModel& model : product.models)
+    if (model.fault.empty()) foresee_body(model.shape, share);
   const WaitingLine waiting("reading the models of " + product.file, &share);
   std::vector<WrittenBody> out;
   std::set<std::string> taken;
@@ -125,8 +127,7 @@ std::string model_text(const WrittenBody& body, const L3dModel& model, const std
         "\n# It reaches {:.3g} m below its luminous opening and hides light there, which the\n"
         "# intensities of the file lack already: leave it out where that counts.",
         place.below_m);
-  constexpr double level = -0.9998;  // within a degree of straight down
-  if (place.down.z > level)
+  if (place.down.z >= straight_down)
     out += fmt::format(
         "\n# Its luminous opening shines along [{:.3g}, {:.3g}, {:.3g}]; the luminaire does not "
         "yet.",

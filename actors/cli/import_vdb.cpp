@@ -103,7 +103,7 @@ Command import_vdb_command() {
            {"--grid", &o->grid, "Grid of the smoke", {.otherwise = "density, or the only one"}},
            {"--extinction-per-unit",
             &o->extinction_per_unit,
-            "Extinction of a value of 1, in 1/m; mandatory with --out",
+            "Extinction of a value of 1 at 633 nm, in 1/m; mandatory with --out",
             {.otherwise = "none", .range = Range{0, 1e9}}},
            {"--units",
             &o->units,

@@ -51,6 +51,7 @@ bool ProgressLine::is_worth_a_line(bool last, std::optional<double> share) {
   constexpr double soonest_s = 30, unknown_s = 300;
   const double waited = now_s() - logged_s_;
   const int tenths = share ? static_cast<int>(10 * *share) : 0;
+  tenths_ = std::min(tenths_, tenths);  // the work may turn out to be more
   const bool due = last ? shown_ || waited >= soonest_s
                         : waited >= (share ? soonest_s : unknown_s) && (!share || tenths > tenths_);
   if (!due) return false;
@@ -115,10 +116,13 @@ void WaitingLine::tell() {
     const std::string since = time_text(now_s() - began_s);
     const auto share = share_ == nullptr ? std::nullopt : share_->share();
     // All bytes are read, and something else goes on: nobody knows for how long.
-    if (share && *share < 1)
+    if (!share || *share >= 1)
+      line_.put(since, false);
+    else if (share_->all_known())
       line_.show_share(*share, ", " + since);
     else
-      line_.put(since, false);
+      line_.put(fmt::format("{:.0f} % of what is known so far, {}", 100 * *share, since), false,
+                share);
   }
 }
 

@@ -43,7 +43,7 @@ class ProgressLine {
 class WaitingLine {
  public:
   /// `what`: "reading office.toml". `share`, which outlives this: what is known of the bytes; the
-  /// line then has the share, and an estimate of the time that is left.
+  /// line then has the share, and an estimate of the time that is left where all files are known.
   explicit WaitingLine(const std::string& what, const ReadingShare* share = nullptr);
   ~WaitingLine();
   WaitingLine(const WaitingLine&) = delete;

@@ -10,6 +10,7 @@
 #include "actors/import/answer_folder.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 #include "scenes/geometry/import.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
 
@@ -42,6 +43,10 @@ const L3dOpening* opening_of(const L3dModel& model, const std::string& name) {
 
 }  // namespace
 
+void foresee_body(const L3dModel& model, ReadingShare& reading) {
+  for (const L3dShape& shape : model.shapes) reading.foresee(shape.obj.size());
+}
+
 Result<Mesh> luminaire_body(const L3dModel& model, ReadingShare* reading) {
   const AnswerFolder folder;
   if (folder.path().empty()) {
@@ -51,7 +56,12 @@ Result<Mesh> luminaire_body(const L3dModel& model, ReadingShare* reading) {
   std::vector<Mesh> shapes;
   for (const L3dShape& shape : model.shapes) {
     auto mesh = shape_mesh(shape, folder.path() / fmt::format("{}.obj", shapes.size()), reading);
-    if (!mesh) return mesh.problem();
+    if (!mesh) {
+      // Those after it are not read any more.
+      for (size_t i = shapes.size() + 1; i < model.shapes.size(); ++i)
+        ReadingPart(reading, model.shapes[i].obj.size());
+      return mesh.problem();
+    }
     shapes.push_back(std::move(mesh).value());
   }
   Mesh body;
@@ -76,11 +86,11 @@ BodyPlace body_place(const L3dModel& model, const Mesh& body, const std::string&
   BodyPlace place;
   place.offset_m = -at->centre_m;
   place.down = at->down;
-  if (reach <= largest_lift_m) {
-    place.offset_m.z = gap_m - low;
+  if (at->down.z < straight_down && reach <= largest_lift_m) {
+    place.offset_m.z = std::max(-at->centre_m.z, gap_m - low);
   } else {
     place.offset_m -= gap_m * at->down;  // off the face that shines
-    place.below_m = reach;
+    place.below_m = std::max(0.0, reach);
   }
   return place;
 }

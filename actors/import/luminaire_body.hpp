@@ -19,10 +19,16 @@ namespace limits {
 inline constexpr size_t luminaire_body_triangles = 200'000;
 }  // namespace limits
 
+/// The files of a body that luminaire_body() is to read later.
+void foresee_body(const L3dModel& model, ReadingShare& reading);
+
 /// The body in the model's metres, z up. `reading`, where given, hears how far it is.
 /// Errors: a shape that cannot be read, by its name; more triangles than the limit; a place for the
 /// shapes' files cannot be had.
 Result<Mesh> luminaire_body(const L3dModel& model, ReadingShare* reading = nullptr);
+
+/// z of directions that are straight down, to within a degree, are below this.
+inline constexpr double straight_down = -0.9998;
 
 /// How far the body is moved, so that the middle of its luminous opening lies at the origin, and
 /// whether it then hides light that goes down from there.
@@ -33,8 +39,9 @@ struct BodyPlace {
 };
 
 /// `opening`: its name in the model; where there is none of it, the one there is, else the lowest
-/// point below the model's own origin. What reaches down by less than 0.1 m, as frames do, is
-/// raised to a millimetre above the opening, since intensities hold its shadow already.
+/// point below the model's own origin. What reaches below an opening that shines straight down by
+/// less than 0.1 m, as frames do, is raised to a millimetre above it, since intensities hold its
+/// shadow already; nothing is lowered. Of other openings the body is a millimetre behind them.
 BodyPlace body_place(const L3dModel& model, const Mesh& body, const std::string& opening);
 
 /// Writes it as an OBJ file in metres, z up. Errors: as write_file_atomically.

@@ -23,11 +23,15 @@ std::vector<std::byte> nrrd_of(const VdbSmoke& smoke, const SmokeOrigin& origin)
   // The origin of NRRD is the middle of its first cell.
   const glm::dvec3 first = smoke.origin * origin.metres_per_unit + 0.5 * edge;
   const std::string head = fmt::format(
-      "NRRD0005\n# Made by luxodus import vdb\ntype: float\ndimension: 3\nsizes: {} {} {}\n"
+      "NRRD0005\n# Made by luxodus import vdb: grid {} of {},\n"
+      "# with an extinction of {:g} 1/m for a value of 1.\n"
+      "type: float\ndimension: 3\nsizes: {} {} {}\n"
       "space dimension: 3\nspace directions: ({:.17g},0,0) (0,{:.17g},0) (0,0,{:.17g})\n"
       "space origin: ({:.17g},{:.17g},{:.17g})\nendian: little\nencoding: raw\n"
       "field:=extinction\n\n",
-      smoke.nx, smoke.ny, smoke.nz, edge.x, edge.y, edge.z, first.x, first.y, first.z);
+      as_name(origin.grid, "without a name"), as_name(origin.file, "a file"),
+      origin.extinction_per_unit, smoke.nx, smoke.ny, smoke.nz, edge.x, edge.y, edge.z, first.x,
+      first.y, first.z);
   std::vector<std::byte> out(head.size() + smoke.values.size() * sizeof(float));
   std::memcpy(out.data(), head.data(), head.size());
   std::byte* at = out.data() + head.size();
@@ -40,25 +44,22 @@ std::vector<std::byte> nrrd_of(const VdbSmoke& smoke, const SmokeOrigin& origin)
   return out;
 }
 
-std::string medium_text(const SmokeOrigin& origin) {
-  return fmt::format(
-      R"(# Grid {} of {}, with an extinction of {:g} 1/m for a value of 1.
-# Made by `luxodus import vdb`, and yours from now on: name this file in the 'include' of a scene.
-# smoke.nrrd beside it is written anew by every import.
+/// The same after every import: it is kept by the next one.
+constexpr std::string_view medium_text =
+    R"(# Made by `luxodus import vdb`, and yours from now on: name it in the 'include' of a scene.
+# smoke.nrrd beside it is written anew by every import; its head says of which grid it is.
 [[medium]]
 name = "smoke"
 kind = "data_set"
 file = "smoke.nrrd"
 quantity = "extinction"
+wavelength_nm = 633
 # The file does not know how the smoke scatters: these are usual values of flaming fires.
 albedo = 0.2
 phase = "hg"
 g = 0.6
 angstrom = 1
-)",
-      as_name(origin.grid, "without a name"), as_name(origin.file, "a file"),
-      origin.extinction_per_unit);
-}
+)";
 
 }  // namespace
 
@@ -76,7 +77,7 @@ Result<bool> write_smoke(const VdbSmoke& smoke, const SmokeOrigin& origin, const
   const auto bytes = nrrd_of(smoke, origin);
   if (auto ok = write_file_atomically(folder.value() / "smoke.nrrd", std::span(bytes)); !ok)
     return ok.problem();
-  return write_unless_there(folder.value() / "smoke.toml", medium_text(origin));
+  return write_unless_there(folder.value() / "smoke.toml", std::string(medium_text));
 }
 
 }  // namespace luxodus

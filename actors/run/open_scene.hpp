@@ -34,7 +34,8 @@ SceneAtTime reader_at_times(const std::filesystem::path& file, FireFrames frames
                             const std::string& changes = {});
 
 /// A scene with fire simulations as verdicts are of it: at their frames, not between two. The last
-/// few states are kept. Any thread.
+/// few states are kept. The file is read at the first verdict: where it was changed since the scene
+/// was opened, verdicts are of what it says then. Any thread.
 class FrameScenes {
  public:
   /// Of the scene that `file` is at `at_s`, as open_scene takes them. Null where it has no

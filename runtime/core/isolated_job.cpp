@@ -32,10 +32,12 @@ namespace luxodus {
 
 namespace {
 
+constexpr char own_program[] = "/proc/self/exe";
 constexpr char verb[] = "--isolated-job";
 constexpr uint64_t mark = 0x31424F4A'5855'4CULL;  // "LUXJOB1"
 constexpr uint32_t waits = 10;                    // times as long as it computes, at most
 constexpr int out_of_memory = 3, has_thrown = 4;  // exit codes of the other process
+constexpr int not_begun = 127;                    // of one whose libraries are not found: ld.so(8)
 #ifdef LUX_UNDER_SANITIZERS
 constexpr bool limits_memory = false;
 constexpr uint32_t slower = 20;  // than a release build, at most
@@ -113,8 +115,11 @@ void wait_and_tell(pid_t process, int question, off_t share_place,
   const FileDescriptor watched(static_cast<int>(::syscall(SYS_pidfd_open, process, 0)));
   if (!watched.valid()) return;
   pollfd end{watched.number(), POLLIN, 0};
-  while (::poll(&end, 1, pause_ms) == 0)
+  for (int ended = 0; ended == 0 || (ended < 0 && errno == EINTR);) {
+    ended = ::poll(&end, 1, pause_ms);
+    if (ended != 0) continue;
     if (const auto share = share_at(question, share_place)) told(*share);
+  }
 }
 
 /// In a job: the place of its share in descriptor 0; elsewhere -1.
@@ -126,7 +131,7 @@ off_t& share_place_of_job() {
 /// The words that begin the other process: the running program, also where its file was replaced or
 /// removed since, unless begin_isolated_jobs_by() said others.
 std::vector<std::string>& begun_by() {
-  static std::vector<std::string> words{"/proc/self/exe"};
+  static std::vector<std::string> words{own_program};
   return words;
 }
 
@@ -172,6 +177,11 @@ std::string told(uint64_t bytes) {
   return std::to_string(bytes >> 20) + " MiB of memory";
 }
 
+/// "luxodus_vdb", or what the running program is to its user.
+std::string name_of(const std::vector<std::string>& words) {
+  return words[0] == own_program ? "this program" : words[0].substr(words[0].rfind('/') + 1);
+}
+
 /// How the other process ended, where not well.
 std::optional<Problem> end_of(int status, const IsolatedLimits& most) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
@@ -190,11 +200,12 @@ std::optional<Problem> end_of(int status, const IsolatedLimits& most) {
   return problem("reading it failed without a reason: it is damaged; write it anew");
 }
 
-/// `words` begin the program that does the job.
+/// `words` begin the program that does the job; `remedy` follows where its libraries are missing.
 Result<PlainReader> ask_process(const std::vector<std::string>& words, const char* job,
                                 const std::function<void(PlainWriter& question)>& ask,
                                 const IsolatedLimits& most,
-                                const std::function<void(double)>& told_share) {
+                                const std::function<void(double)>& told_share,
+                                const std::string& remedy = {}) {
   FileDescriptor question = memory_file(), answer = memory_file();
   if (!question.valid() || !answer.valid())
     return problem("no process can be begun to read it: " + of_system(errno));
@@ -214,6 +225,8 @@ Result<PlainReader> ask_process(const std::vector<std::string>& words, const cha
   int status = 0;
   while (::waitpid(process, &status, 0) < 0)
     if (errno != EINTR) return problem("the process that reads it was lost: " + of_system(errno));
+  if (WIFEXITED(status) && WEXITSTATUS(status) == not_begun)
+    return problem(name_of(words) + " cannot be begun: its libraries are missing" + remedy);
   if (auto bad = end_of(status, most)) return *bad;
   if (const auto share = share_at(question.number(), share_place); told_share && share)
     told_share(*share);
@@ -238,8 +251,8 @@ Result<PlainReader> IsolatedJob::run(const std::function<void(PlainWriter& quest
 
 Result<PlainReader> ask_program(const std::string& program, const char* job,
                                 const std::function<void(PlainWriter& question)>& ask,
-                                const IsolatedLimits& most) {
-  return ask_process({program}, job, ask, most, {});
+                                const IsolatedLimits& most, const std::string& packages) {
+  return ask_process({program}, job, ask, most, {}, " (apt-get install " + packages + ")");
 }
 
 void begin_isolated_jobs_by(std::vector<std::string> words) {

@@ -1,8 +1,10 @@
 // Work on bytes that nobody vouches for, by code of others (Assimp, librsvg), in a process of its
 // own with limits on memory and time: what such code does with a damaged file, be it a crash, a
-// loop or all the memory there is, becomes one Problem here. The process is this program again,
-// begun anew (posix_spawn, not fork: other threads may hold locks), which finds the job by its name
-// in main(). It is no defence against code that breaks out on purpose: it may read what we may.
+// loop or all the memory there is, becomes one Problem here. The process is this program again, or
+// by ask_program() another one, begun anew (posix_spawn, not fork: other threads may hold locks),
+// which finds the job by its name in main(). Beside its answer a job writes its share of the work
+// back, behind the question. It is no defence against code that breaks out on purpose: it may read
+// what we may.
 //
 //   this process                        the other one
 //   question -> memory file ----------> 0
@@ -57,10 +59,11 @@ class IsolatedJob {
 };
 
 /// The same by another program, whose main() serves the job of this name: for what needs libraries
-/// that this program is not linked with.
+/// that this program is not linked with. `packages` have those libraries.
+/// Errors: as of IsolatedJob::run; libraries that are missing.
 Result<PlainReader> ask_program(const std::string& program, const char* job,
                                 const std::function<void(PlainWriter& question)>& ask,
-                                const IsolatedLimits& limits);
+                                const IsolatedLimits& limits, const std::string& packages);
 
 /// In a job that has found how much there is to do: so much more than it was given. Elsewhere it
 /// does nothing.

@@ -11,8 +11,29 @@ namespace luxodus {
 
 class ReadingShare {
  public:
-  /// So much more is to be read.
-  void expect(uint64_t bytes) { expected_ += bytes; }
+  /// So much is to be read of files that are known before their own reading begins: what is
+  /// expected later is of it.
+  void foresee(uint64_t bytes) {
+    expected_ += bytes;
+    foreseen_ += bytes;
+  }
+  /// A file is to be read whose bytes are not known before its own reading begins.
+  void foresee_unknown() { ++unknown_; }
+  /// The bytes of such a file are known now.
+  void know() {
+    uint64_t before = unknown_;
+    while (before > 0 && !unknown_.compare_exchange_weak(before, before - 1)) {
+    }
+  }
+  /// Whether no file is to be read beyond what is expected, as far as anybody foresees.
+  bool all_known() const { return unknown_ == 0; }
+  /// So much is to be read now: of what was foreseen, and more where that is less.
+  void expect(uint64_t bytes) {
+    uint64_t before = foreseen_;
+    while (!foreseen_.compare_exchange_weak(before, before - std::min(before, bytes))) {
+    }
+    expected_ += bytes - std::min(before, bytes);
+  }
   /// So much of it has been read.
   void add(uint64_t bytes) { read_ += bytes; }
   /// From 0 to 1; nothing where nothing is expected.
@@ -24,6 +45,8 @@ class ReadingShare {
 
  private:
   std::atomic<uint64_t> expected_ = 0, read_ = 0;
+  std::atomic<uint64_t> foreseen_ = 0;  // of what is expected, what no reading has begun with
+  std::atomic<uint64_t> unknown_ = 0;   // files
 };
 
 /// One file of those that are read: expected when this is made, read as it is told, and all of it

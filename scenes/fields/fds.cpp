@@ -182,6 +182,7 @@ class FireReader {
     start();
     uint64_t all = 0, done = 0;
     for (const Frame& frame : smoke_.frames) all += frame.bytes;
+    if (options_.reading != nullptr) options_.reading->know();
     ReadingPart part(options_.reading, all);
     for (size_t mesh = 0; mesh < fire_.meshes.size(); ++mesh) {
       if (auto ok = read_mesh(mesh); !ok) return ok.problem();
@@ -245,11 +246,13 @@ class FireReader {
           wanted += (wanted.empty() ? "" : ", no ") + std::string(source_words(c.source));
       return wrong(fmt::format(
           "this case has no {} with a whole frame of all its {} meshes{}: wait for it where it "
-          "still "
-          "runs, or add &SLCF XB=..., QUANTITY='EXTINCTION COEFFICIENT', CELL_CENTERED=T / to its "
-          "input file, with an XB that holds all meshes",
+          "still runs{}",
           wanted, fire_.meshes.size(),
-          fire_.unread.empty() ? "" : "; " + fire_.unread + " are not read"));
+          fire_.unread.empty() ? "" : "; " + fire_.unread + " are not read",
+          allowed(FireSource::cell_extinction)
+              ? ", or add &SLCF XB=..., QUANTITY='EXTINCTION COEFFICIENT', CELL_CENTERED=T / to "
+                "its input file, with an XB that holds all meshes"
+              : ""));
     }
     smoke_ = std::move(*nearest);
     out_.time_s = smoke_.time_s;

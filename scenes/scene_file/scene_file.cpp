@@ -4,12 +4,15 @@
 #include "scenes/scene_file/scene_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "runtime/toml/document.hpp"
 #include "runtime/toml/text_scan.hpp"
+#include "scenes/geometry/mesh_text.hpp"
 #include "scenes/scene_file/scene_readers.hpp"
 #include "scenes/world/design.hpp"
 
@@ -173,6 +176,34 @@ void read_all(const Documents& documents, std::string_view key, Reader reader,
   }
 }
 
+/// A large file that a table names, as its reader will expect it. What is wrong with it is said
+/// when it is read.
+void foresee(const toml::Table& table, ReadingShare& share) {
+  const toml::Value* kind = table.find("kind");
+  if (kind != nullptr && kind->as_text() != nullptr && *kind->as_text() == "fds")
+    return share.foresee_unknown();
+  const toml::Value* file = table.find("file");
+  if (file == nullptr || file->as_text() == nullptr) return;
+  const fs::path path = fs::path(file->place().file).parent_path() / *file->as_text();
+  const std::string ending = mesh_ending(path.string());
+  constexpr std::array large{".obj", ".gltf", ".glb", ".dxf"};
+  std::error_code unknown;
+  if (std::find(large.begin(), large.end(), ending) == large.end() ||
+      !fs::is_regular_file(path, unknown))
+    return;
+  const uint64_t bytes = fs::file_size(path, unknown);
+  if (!unknown) share.foresee(bytes);
+}
+
+void foresee_files(const Documents& documents, ReadingShare* share) {
+  if (share == nullptr) return;
+  for (const auto& d : documents)
+    for (const char* key : {"import", "emitter", "medium", "backdrop"})
+      if (const toml::Value* tables = d->document.top.find(key); tables && tables->as_list())
+        for (const toml::Value& value : *tables->as_list())
+          if (const toml::Table* table = value.as_table()) foresee(*table, *share);
+}
+
 void read_designs(const Documents& documents, SceneReading& reading) {
   DesignSettings design;
   design.place = {reading.scene.file, 1};
@@ -211,6 +242,7 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
   loader.load(path, {path.string(), 1});
   if (!changes.empty()) loader.change(changes);
   const Documents& documents = loader.documents;
+  foresee_files(documents, share);
   read_head(documents, path, reading);
   read_all(documents, "material", read_material, reading);
   reading.resolve_backs();

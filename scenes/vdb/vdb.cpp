@@ -38,7 +38,8 @@ Result<PlainReader> asked(const vdb::Question& question, const fs::path& program
                                   "alone",
                                   bytes, limits::vdb_bytes));
   auto in = ask_program(
-      program.string(), vdb::job, [&](PlainWriter& out) { put(out, question); }, vdb_limits(bytes));
+      program.string(), vdb::job, [&](PlainWriter& out) { put(out, question); }, vdb_limits(bytes),
+      "libopenvdb10.0");
   if (!in) return problem_in(question.file, in.problem().what);
   uint8_t good = 0;
   std::string why;

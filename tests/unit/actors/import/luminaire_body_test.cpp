@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "runtime/core/reading_share.hpp"
 #include "scenes/geometry/import.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
 #include "tests/kit/small_l3d.hpp"
@@ -66,6 +67,31 @@ TEST_CASE("a body that reaches far below its opening stands as the model says, a
   CHECK(bounds_of(body).low.z + place.offset_m.z == Approx(-3 + 0.001));
 }
 
+TEST_CASE("a body whose opening shines up stays behind it", "[import][l3d]") {
+  L3dModel model = l3d_model({});
+  const Mesh body = body_of(model);
+  const double high = bounds_of(body).high.z;
+  model.openings[0].down = {0, 0, 1};
+  model.openings[0].centre_m.z = high;  // in the upper face
+  const BodyPlace up = body_place(model, body, "leo");
+  CHECK(high + up.offset_m.z == Approx(-0.001));
+  CHECK(up.below_m == Approx(0.04));
+  model.openings[0].down = {1, 0, 0};
+  model.openings[0].centre_m = {bounds_of(body).high.x, 0, bounds_of(body).low.z};
+  const BodyPlace aside = body_place(model, body, "leo");
+  CHECK(bounds_of(body).high.x + aside.offset_m.x == Approx(-0.001));
+  CHECK(aside.below_m == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("a body above its opening is not lowered to it", "[import][l3d]") {
+  L3dModel model = l3d_model({});
+  const Mesh body = body_of(model);
+  model.openings[0].centre_m.z = bounds_of(body).low.z - 0.05;
+  const BodyPlace place = body_place(model, body, "leo");
+  CHECK(bounds_of(body).low.z + place.offset_m.z == Approx(0.05));
+  CHECK(place.below_m == 0);
+}
+
 TEST_CASE("a model without openings hangs by its own origin", "[import][l3d]") {
   L3dModel model = l3d_model({});
   model.openings.clear();
@@ -73,6 +99,24 @@ TEST_CASE("a model without openings hangs by its own origin", "[import][l3d]") {
   const BodyPlace place = body_place(model, body, "leo");
   CHECK((place.offset_m.x == 0 && place.offset_m.y == 0));
   CHECK(bounds_of(body).low.z + place.offset_m.z == Approx(0.001));
+}
+
+TEST_CASE("the shapes of bodies are read as they were foreseen, also after one that is no mesh",
+          "[import][l3d]") {
+  L3dModel model = l3d_model({});
+  model.shapes.push_back(model.shapes.front());
+  model.shapes[0].obj = "hello\n";
+  const L3dModel sound = l3d_model({});
+  ReadingShare share;
+  foresee_body(model, share);
+  foresee_body(sound, share);
+  CHECK(share.share() == std::optional(0.0));
+  CHECK_FALSE(luminaire_body(model, &share).ok());
+  const auto first = static_cast<double>(model.shapes[0].obj.size() + model.shapes[1].obj.size());
+  const auto second = static_cast<double>(sound.shapes[0].obj.size());
+  CHECK(share.share() == std::optional(first / (first + second)));
+  CHECK(luminaire_body(sound, &share).ok());
+  CHECK(share.share() == std::optional(1.0));
 }
 
 TEST_CASE("a shape that is no mesh is said by its name, and too many triangles are refused",

@@ -162,6 +162,36 @@ TEST_CASE("a share of reading is that of all bytes, and each counts once", "[run
   ReadingPart(nullptr, 5).at(5);
 }
 
+TEST_CASE("files that are foreseen are expected before the first of them is read", "[runtime]") {
+  ReadingShare share;
+  share.foresee(300);
+  share.foresee(100);
+  CHECK(share.share() == std::optional(0.0));
+  { const ReadingPart first(&share, 300); }
+  CHECK(share.share() == std::optional(0.75));
+  {
+    ReadingPart second(&share, 100);
+    CHECK(share.share() == std::optional(0.75));
+    second.at(50);
+    CHECK(share.share() == std::optional(0.875));
+  }
+  CHECK(share.share() == std::optional(1.0));
+  const ReadingPart unforeseen(&share, 400);
+  CHECK(share.share() == std::optional(0.5));
+}
+
+TEST_CASE("a file of unknown length is known when its own reading begins", "[runtime]") {
+  ReadingShare share;
+  CHECK(share.all_known());
+  share.foresee_unknown();
+  share.foresee_unknown();
+  share.know();
+  CHECK_FALSE(share.all_known());
+  share.know();
+  share.know();  // of one that nobody foresaw
+  CHECK(share.all_known());
+}
+
 TEST_CASE("more memory is allowed in a job only", "[runtime][isolated]") {
   rlimit before{}, after{};
   REQUIRE(::getrlimit(RLIMIT_CPU, &before) == 0);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/core/reading_share.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
 #include "tests/unit/scenes/scene_file/scene_fixture.hpp"
 
@@ -272,6 +273,32 @@ material = "grey20"
   CHECK(area_of(named(s.objects, "lawn").mesh) == near(12));
   CHECK(bounds_of(named(s.objects, "lawn").mesh).low.z == -0.5);
   CHECK(signed_volume_of(named(s.objects, "pier").mesh) == near(0.12));
+}
+
+TEST_CASE(
+    "all meshes are expected before the first is read, and a simulation's bytes are not known",
+    "[scene]") {
+  SceneFolder f;
+  const auto import = [](const std::string& name, const std::string& units) {
+    return "[[import]]\nname = \"" + name + "\"\nfile = \"cube.obj\"\nunits = \"" + units +
+           "\"\nup = \"z\"\nmaterial = \"white70\"\n";
+  };
+  const auto told = [&](const std::string& text, ReadingShare& share) {
+    return read_scene(f.put("scene.toml", text), std::nullopt, {}, FireFrames::between, &share);
+  };
+  ReadingShare both;
+  const ReadScene read = told(import("a", "m") + import("b", "m"), both);
+  INFO(all_problems(read));
+  CHECK(read.problems.empty());
+  CHECK(both.share() == std::optional(1.0));
+  CHECK(both.all_known());
+  // The second of the two is not read, for its wrong unit: the first alone is half of the bytes.
+  ReadingShare half;
+  CHECK_FALSE(told(import("a", "m") + import("b", "parsec"), half).problems.empty());
+  CHECK(half.share() == std::optional(0.5));
+  ReadingShare fire;
+  CHECK_FALSE(told(import("a", "m") + "[[medium]]\nkind = \"fds\"\n", fire).problems.empty());
+  CHECK_FALSE(fire.all_known());
 }
 
 TEST_CASE("an imported file becomes objects by part, with materials from the table",
