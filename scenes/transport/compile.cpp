@@ -222,7 +222,8 @@ void choose_features(CompiledScene& scene) {
 }
 
 /// Of a sum of squared errors over all mixtures, paths make the least that choose an emitter by its
-/// light times the root mean square of its factors.
+/// light times the root mean square of its factors. One without a factor is never chosen: what is
+/// scored beside mixtures lacks it, so whoever mixes gives each group a factor somewhere.
 void mix_groups(CompiledScene& scene, const std::vector<GroupMixture>& mixtures) {
   if (mixtures.empty()) return;
   std::vector<double> squares(scene.groups.size(), 0.0);
