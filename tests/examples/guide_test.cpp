@@ -160,7 +160,7 @@ TEST_CASE("the guide's store room gets the layout that it tells, and every comma
           "[program][guide]") {
   const std::string text = slurp(source / "docs/guide/placement.md");
   const std::vector<std::string> blocks = toml_blocks(text);
-  REQUIRE(blocks.size() == 3);
+  REQUIRE(blocks.size() == 4);
   const TemporaryFolder folder;
   std::ofstream(folder / "store.toml") << blocks[0];
   const std::string layout = (folder / "out").string();
@@ -196,6 +196,10 @@ TEST_CASE("the guide's office floor gets a layout that passes what luminaires de
   REQUIRE(scene.find(spacing) != std::string::npos);
   scene.insert(scene.find(spacing), "failure = \"none\"\n");
   std::ofstream(project / "placement.toml") << scene;
+  std::ofstream(project / "twenty.toml") << toml_blocks(text).at(2);
+  const Outcome twenty = run_luxodus(folder, "check " + (project / "twenty.toml").string());
+  INFO(twenty.out << twenty.err);
+  CHECK(twenty.code == 0);
   const Outcome run = run_luxodus(folder, "design " + (project / "placement.toml").string() +
                                               " --out " + (folder / "layout").string());
   INFO(run.out << run.err);
@@ -245,7 +249,7 @@ TEST_CASE("the guide's imported room gets the luminaires and the sign that it te
     return;
   }
   const std::string text = slurp(source / "docs/guide/placement.md");
-  std::ofstream(folder / "house/scene.toml", std::ios::app) << toml_blocks(text).at(2);
+  std::ofstream(folder / "house/scene.toml", std::ios::app) << toml_blocks(text).at(3);
   const Outcome run =
       run_luxodus(folder, "design " + house + "/scene.toml --out " + (folder / "out").string());
   INFO(run.out << run.err);
