@@ -23,17 +23,6 @@ size_t Outbox::memory_bytes(size_t messages, size_t chunk_bytes) {
   return messages * (sizeof(Slot) + usual_head_bytes + 2 * sizeof(size_t)) + chunk_bytes;
 }
 
-bool Outbox::holds(NodeId destination, const MessageId& id, std::span<const std::byte> head,
-                   const SharedBytes& payload) const {
-  return std::any_of(waiting_.begin(), waiting_.end(), [&](size_t at) {
-    const Slot& s = slots_[at];
-    return s.id == id && s.destination == destination &&
-           s.payload.bytes.data() == payload.bytes.data() &&
-           s.payload.bytes.size() == payload.bytes.size() &&
-           std::equal(s.head.begin(), s.head.end(), head.begin(), head.end());
-  });
-}
-
 void Outbox::add(NodeId destination, const MessageId& id, ActorPair actors,
                  std::span<const std::byte> head, SharedBytes payload) {
   const size_t at = free_.back();

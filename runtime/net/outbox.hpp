@@ -29,9 +29,6 @@ class Outbox {
   bool full() const { return waiting_.size() == slots_.size(); }
   size_t size() const { return waiting_.size(); }
 
-  /// Whether this very message waits already: the one that was to be sent before it was said again.
-  bool holds(NodeId destination, const MessageId& id, std::span<const std::byte> head,
-             const SharedBytes& payload) const;
   /// Requires: not full. The head is copied, the payload lent.
   void add(NodeId destination, const MessageId& id, ActorPair actors,
            std::span<const std::byte> head, SharedBytes payload);

@@ -50,27 +50,6 @@ TEST_CASE("a node that has sent is due at once, and not with its next beat", "[r
   CHECK(pair[0].network.next_deadline() > 0);
 }
 
-TEST_CASE("what is said again while it still waits here is sent once", "[runtime][network]") {
-  Cluster pair(2, ring(2));
-  pair.bring_up();
-  const MessageId id = pair[0].network.next_id();
-  const auto ask = [&](uint64_t object, const MessageId& as) {
-    REQUIRE(pair[0].network.send(b, as, FetchObject{{object}, 1000, 1}) == SendOutcome::taken);
-  };
-  const auto taken = [&] {
-    pair.turn();
-    return pair[1].handler.taken.size();
-  };
-  for (int times = 0; times < 3; ++times) ask(42, id);
-  CHECK(taken() == 1);
-  ask(42, id);  // that one may have been lost on its way
-  CHECK(taken() == 2);
-  ask(42, id);
-  ask(43, id);  // another answer to the same question
-  ask(42, pair[0].network.next_id());
-  CHECK(taken() == 5);
-}
-
 TEST_CASE("a reply of many chunks arrives whole, and its bytes are given back",
           "[runtime][network]") {
   Cluster pair(2, ring(2));
