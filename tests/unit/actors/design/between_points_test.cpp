@@ -12,21 +12,8 @@ namespace {
 /// are 0.25 m apart from `from` on; between the first two places lie 0.1 m without light, from
 /// 5.95 m to 6.05 m.
 std::string corridor_with_gap(double from) {
-  return test::box_room(12, 2, 3) + test::judged_2013 +
+  return test::box_room(12, 2, 3) + test::judged_2013 + test::spot_of_45_deg +
          fmt::format(R"(
-[[emitter]]
-name = "spot"
-shape = "point"
-distribution = "spot"
-spot_inner_deg = 45
-spot_outer_deg = 45
-position = [1, 1, 2.97]
-flux_lm = 300
-emergency = "non-maintained"
-emergency_flux = 300
-maintenance_factor = 1
-end_of_duration_factor = 1
-
 [[route]]
 name = "corridor"
 path = [[{}, 1, 0], [{}, 1, 0]]

@@ -39,6 +39,22 @@ name = "failed"
 operation = "emergency"
 )";
 
+/// A luminaire 2.97 m above the floor: what lies within its cone is lit, all else is dark.
+inline const std::string spot_of_45_deg = R"(
+[[emitter]]
+name = "spot"
+shape = "point"
+distribution = "spot"
+spot_inner_deg = 45
+spot_outer_deg = 45
+position = [1, 1, 2.97]
+flux_lm = 300
+emergency = "non-maintained"
+emergency_flux = 300
+maintenance_factor = 1
+end_of_duration_factor = 1
+)";
+
 /// `path`: points as the scene file writes them, without the outer brackets.
 inline std::string route(const std::string& name, const std::string& path, double width = 1) {
   return fmt::format("[[route]]\nname = \"{}\"\npath = [{}]\nwidth = {}\n", name, path, width);

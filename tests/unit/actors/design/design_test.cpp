@@ -90,21 +90,8 @@ void check_random_rooms(uint64_t first, uint64_t count) {
 
 /// A corridor whose luminaires are spots: what lies within a cone is lit, all else is dark.
 std::string spot_corridor(double length) {
-  return box_room(length, 2, 3) + judged_2013 +
+  return box_room(length, 2, 3) + judged_2013 + test::spot_of_45_deg +
          fmt::format(R"(
-[[emitter]]
-name = "spot"
-shape = "point"
-distribution = "spot"
-spot_inner_deg = 45
-spot_outer_deg = 45
-position = [1, 1, 2.97]
-flux_lm = 300
-emergency = "non-maintained"
-emergency_flux = 300
-maintenance_factor = 1
-end_of_duration_factor = 1
-
 [[route]]
 name = "corridor"
 path = [[0.5, 1, 0], [{}, 1, 0]]

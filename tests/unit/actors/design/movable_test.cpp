@@ -38,6 +38,25 @@ std::string crowded(const std::string& settings) {
          "[design]\nplace_signs = false\nfailure = \"none\"\n" + settings;
 }
 
+/// Two rooms, one above the other.
+std::string two_storeys() {
+  std::string upper = test::box_room(12, 3, 2.8);
+  upper.replace(upper.find("low = [0, 0, 0]"), 15, "low = [0, 0, 3]");
+  upper.replace(upper.find("2.8]"), 4, "5.8]");
+  upper.replace(upper.find("\"room\""), 6, "\"upper\"");
+  return test::box_room(12, 3, 2.8) + upper;
+}
+
+std::vector<LuminaireCandidate> candidates_in(const fs::path& file) {
+  const auto scene = test::described(file);
+  const auto codes = judged_codes(*scene, {}, {});
+  REQUIRE(codes);
+  const auto found = find_candidates(*scene, *scene->design, codes.value(), scene->scenarios[0], 1);
+  INFO((found ? "" : found.problem().text()));
+  REQUIRE(found);
+  return found->all;
+}
+
 size_t new_ones(const DesignResult& result) {
   return static_cast<size_t>(std::count_if(result.luminaires.begin(), result.luminaires.end(),
                                            [](const PlacedLuminaire& o) { return o.is_new(); }));
@@ -102,18 +121,13 @@ TEST_CASE("what moving costs decides between moving and a new luminaire", "[desi
 
 TEST_CASE("a luminaire on a wall moves to walls, tilted as it was", "[design][movable]") {
   const TemporaryFolder folder;
-  const auto scene = test::described(folder.write(
+  const auto candidates = candidates_in(folder.write(
       "scene.toml", test::box_room(12, 3, 3) + test::judged_2013 + test::way_along(1, 11, 1.5) +
                         old_one("bulkhead", "[6, 0.05, 2.3]", "direction = [0, 1, -1]") +
                         "[design]\nexisting = \"movable\"\nspacing_m = 2\n[[design.type]]\nname "
                         "= \"down\"\nlike = \"bulkhead\"\n"));
-  const auto codes = judged_codes(*scene, {}, {});
-  REQUIRE(codes);
-  const auto found = find_candidates(*scene, *scene->design, codes.value(), scene->scenarios[0], 1);
-  INFO((found ? "" : found.problem().text()));
-  REQUIRE(found);
   size_t moves = 0;
-  for (const LuminaireCandidate& one : found->all) {
+  for (const LuminaireCandidate& one : candidates) {
     if (!one.moved) continue;
     ++moves;
     REQUIRE(one.aim);
@@ -124,23 +138,13 @@ TEST_CASE("a luminaire on a wall moves to walls, tilted as it was", "[design][mo
 }
 
 TEST_CASE("a luminaire moves on its own storey alone", "[design][movable]") {
-  std::string upper = test::box_room(12, 3, 2.8);
-  upper.replace(upper.find("low = [0, 0, 0]"), 15, "low = [0, 0, 3]");
-  upper.replace(upper.find("2.8]"), 4, "5.8]");
-  upper.replace(upper.find("\"room\""), 6, "\"upper\"");
   const TemporaryFolder folder;
-  const auto scene = test::described(folder.write(
-      "scene.toml", test::box_room(12, 3, 2.8) + upper + test::judged_2013 +
-                        test::way_along(1, 11, 1.5) +
+  const auto candidates = candidates_in(folder.write(
+      "scene.toml", two_storeys() + test::judged_2013 + test::way_along(1, 11, 1.5) +
                         test::route("above", "[1, 1.5, 3], [11, 1.5, 3]") +
                         old_one("old", "[6, 1.5, 5.77]") + "[design]\nexisting = \"movable\"\n"));
-  const auto codes = judged_codes(*scene, {}, {});
-  REQUIRE(codes);
-  const auto found = find_candidates(*scene, *scene->design, codes.value(), scene->scenarios[0], 1);
-  INFO((found ? "" : found.problem().text()));
-  REQUIRE(found);
   size_t above = 0, below = 0;
-  for (const LuminaireCandidate& one : found->all) {
+  for (const LuminaireCandidate& one : candidates) {
     if (one.moved) CHECK(one.position.z > 3);
     above += one.moved ? 1 : 0;
     below += one.position.z < 3 ? 1 : 0;  // of new ones
@@ -156,23 +160,13 @@ TEST_CASE("over no floor, a luminaire moves to places of about its height", "[de
         "z = {}\nmains_lx = 500\n",
         name, z);
   };
-  std::string upper = test::box_room(12, 3, 2.8);
-  upper.replace(upper.find("low = [0, 0, 0]"), 15, "low = [0, 0, 3]");
-  upper.replace(upper.find("2.8]"), 4, "5.8]");
-  upper.replace(upper.find("\"room\""), 6, "\"upper\"");
   const TemporaryFolder folder;
   // Task areas are no floors.
-  const auto scene = test::described(folder.write(
-      "scene.toml", test::box_room(12, 3, 2.8) + upper + test::judged_2013 + bench("low", 0.8) +
-                        bench("high", 3.8) + old_one("old", "[6, 1.5, 5.77]") +
-                        "[design]\nexisting = \"movable\"\n"));
-  const auto codes = judged_codes(*scene, {}, {});
-  REQUIRE(codes);
-  const auto found = find_candidates(*scene, *scene->design, codes.value(), scene->scenarios[0], 1);
-  INFO((found ? "" : found.problem().text()));
-  REQUIRE(found);
+  const auto candidates = candidates_in(folder.write(
+      "scene.toml", two_storeys() + test::judged_2013 + bench("low", 0.8) + bench("high", 3.8) +
+                        old_one("old", "[6, 1.5, 5.77]") + "[design]\nexisting = \"movable\"\n"));
   size_t moves = 0;
-  for (const LuminaireCandidate& one : found->all) {
+  for (const LuminaireCandidate& one : candidates) {
     if (!one.moved) continue;
     ++moves;
     CHECK(one.position.z > 3);

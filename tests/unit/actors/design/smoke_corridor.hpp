@@ -11,9 +11,7 @@
 
 namespace luxodus::test {
 
-/// With a sign at its end that leads along the route; `smoke`: tables of media and of time.
-inline std::string corridor_with(const std::string& smoke) {
-  return R"(
+inline const std::string corridor_room = R"(
 [[object]]
 name = "corridor"
 shape = "room"
@@ -35,8 +33,16 @@ width = 1.6
 [[scenario]]
 name = "fire"
 operation = "emergency"
-)" + exit_sign_at("[15.95, 0, 2.2]") +
-         "lighting = \"internal\"\n[[sign.leads_to]]\nroute = \"way\"\narrow = \"ahead\"\n" + smoke;
+
+)";
+/// At the end of the corridor.
+inline const std::string corridor_sign =
+    exit_sign_at("[15.95, 0, 2.2]") + "lighting = \"internal\"\n";
+
+/// With a sign that leads along the route; `smoke`: tables of media and of time.
+inline std::string corridor_with(const std::string& smoke) {
+  return corridor_room + corridor_sign + "[[sign.leads_to]]\nroute = \"way\"\narrow = \"ahead\"\n" +
+         smoke;
 }
 
 inline const std::string even_smoke =

@@ -22,42 +22,13 @@ using test::silent;
 namespace fs = std::filesystem;
 
 /// A corridor in smoke with a sign at its end, and places for luminaires of 200 lm.
-const std::string smoky = R"(
-[[object]]
-name = "corridor"
-shape = "room"
-low = [0, -2, 0]
-high = [16, 2, 3]
-material = "grey50"
-
-[[medium]]
-name = "smoke"
-kind = "homogeneous"
-extinction = 0.4
-albedo = 0.6
-
-[assessment]
-irritant_smoke = false
-spacing_m = 2
-eye_heights_m = [1.65]
-rules = ["en1838-2013"]
-
-[[route]]
-name = "way"
-path = [[1, 0, 0], [15, 0, 0]]
-width = 1.6
-
-[[scenario]]
-name = "fire"
-operation = "emergency"
-
+const std::string smoky = test::corridor_room + test::even_smoke + R"(
 [design]
 spacing_m = 1.5
 failure = "none"
 in_smoke = ["fire"]
 alternatives = 2
-)" + test::exit_sign_at("[15.95, 0, 2.2]") +
-                          "lighting = \"internal\"\n";
+)" + test::corridor_sign;
 
 /// Judged, so far, as read from between these shares.
 JudgedLayout judged_as(const std::string& name, double objective, double least, double most,
@@ -365,10 +336,7 @@ TEST_CASE("what cannot be judged in smoke is refused before the search", "[desig
     CHECK(result.problem().text().find(words) != std::string::npos);
   };
   refused(test::replaced(smoky, "in_smoke = [\"fire\"]", "in_smoke = [\"storm\"]"), "storm");
-  std::string clear = smoky;
-  const size_t medium = clear.find("[[medium]]"), next = clear.find("[assessment]");
-  clear.erase(medium, next - medium);
-  refused(clear, "has no smoke");
+  refused(test::replaced(smoky, test::even_smoke, ""), "has no smoke");
   std::string unsigned_room = smoky;
   unsigned_room.erase(unsigned_room.find("[[sign]]"));
   refused(unsigned_room, "add [[route]] and [[sign]]");
