@@ -2,6 +2,7 @@
 // eye. They are added to what lies behind them, as those of signs are.
 import * as THREE from 'three';
 import { toHalf } from '../protocol/half.js';
+import { addedLight } from './added_light.js';
 import { lampFragment, lampVertex } from './gloss_glsl.js';
 import { facesOf, isFlat } from './lamp_faces.js';
 import { drawnAfter } from './surfaces.js';
@@ -37,17 +38,10 @@ export class Lamps {
 
   add(lamp) {
     const material = new THREE.RawShaderMaterial({
-      glslVersion: THREE.GLSL3,
+      ...addedLight,
       vertexShader: lampVertex,
       fragmentShader: lampFragment,
       side: isFlat(lamp) ? THREE.DoubleSide : THREE.FrontSide,
-      blending: THREE.CustomBlending,
-      blendSrc: THREE.OneFactor,
-      blendDst: THREE.OneFactor,
-      depthWrite: false,
-      polygonOffset: true,
-      polygonOffsetFactor: -1,
-      polygonOffsetUnits: -4,
       uniforms: {
         ...this.shared,
         table: { value: this.tables[lamp.table] },

@@ -2,6 +2,7 @@
 // the wall's triangles already send back.
 import * as THREE from 'three';
 import { add, cross, scale, unit } from '../walk/vectors.js';
+import { addedLight } from './added_light.js';
 import { signFragment, signVertex } from './glsl.js';
 import { drawnAfter } from './surfaces.js';
 
@@ -68,16 +69,9 @@ export class Signs {
 
   addFaces(sign) {
     const material = new THREE.RawShaderMaterial({
-      glslVersion: THREE.GLSL3,
+      ...addedLight,
       vertexShader: signVertex,
       fragmentShader: signFragment,
-      blending: THREE.CustomBlending,
-      blendSrc: THREE.OneFactor,
-      blendDst: THREE.OneFactor,
-      depthWrite: false,
-      polygonOffset: true,
-      polygonOffsetFactor: -1,
-      polygonOffsetUnits: -4,
       uniforms: {
         shares: { value: sharesOf(sign) },
         white: { value: new THREE.Vector3() },
