@@ -14,6 +14,11 @@ namespace luxodus {
 namespace {
 /// At some 20 ns a bin this is half a turn of fibers.
 constexpr int64_t bins_of_a_step = 16384;
+
+/// No question rests for longer than it takes to give a coordinator up.
+RetryTimer retry_timer(const TracerConfig& config) {
+  return {config.answer_patience, config.lost};
+}
 }  // namespace
 
 Tracer::Tracer(const TracerConfig& config, const ShardPlan& shards, Scheduler& scheduler,
@@ -22,7 +27,10 @@ Tracer::Tracer(const TracerConfig& config, const ShardPlan& shards, Scheduler& s
       config_(config),
       clock_(scheduler.clock()),
       network_(network),
-      slices_(shards, sender, address()),
+      slices_(shards, sender, address(), retry_timer(config)),
+      lease_timer_(retry_timer(config)),
+      flush_timer_(lease_timer_),
+      state_timer_(lease_timer_),
       began_(clock_.now()) {
   counters_.led_by = coordinator().node.value;
 }
@@ -74,7 +82,7 @@ void Tracer::want_leases(size_t count) {
 void Tracer::ask() {
   if (asking_ || over_ || draining_ || round_empty_ || wanted_ == 0) return;
   if (scheduler().rarely(Buggify::Site::small_wish)) wanted_ = 1;
-  asking_ = Question{sender().next_id(), RequestLease{static_cast<uint32_t>(wanted_)}, {}};
+  asking_ = question(lease_timer_, RequestLease{static_cast<uint32_t>(wanted_)});
   wanted_ = 0;
   put(*asking_);
 }
@@ -90,11 +98,12 @@ void Tracer::on(const Letter<LeaseGranted>& granted) {
   const LeaseGranted& grant = granted.body;
   const uint32_t asked_for = std::get<RequestLease>(asking_->message).batches;
   asking_.reset();
+  lease_timer_.answered(clock_.now());
   if (asked_for == 0) {
-    returned_ = clock_.now();
+    returned_ = true;
     return work_->drop_all();
   }
-  returned_.reset();
+  returned_ = false;
   const uint32_t last_round = std::exchange(round_, grant.round);
   lease_time_ = milliseconds(grant.duration_ms);
   counters_.leases += grant.batches;
@@ -114,7 +123,6 @@ void Tracer::on(const Letter<LeaseGranted>& granted) {
     return;
   }
   round_empty_ = true;
-  emptied_ = clock_.now();
   flush_when_idle();
 }
 
@@ -137,7 +145,7 @@ void Tracer::begin_state(ObjectId state) {
 }
 
 void Tracer::ask_state(ObjectId state) {
-  learning_ = Question{sender().next_id(), AskState{state}, {}};
+  learning_ = question(state_timer_, AskState{state});
   put(*learning_);
 }
 
@@ -145,6 +153,7 @@ void Tracer::ask_state(ObjectId state) {
 void Tracer::on(const Letter<StateTold>& told) {
   if (!hears(told.from) || !learning_ || learning_->id != told.id) return;
   learning_.reset();
+  state_timer_.answered(clock_.now());
   const std::span<const std::byte> bytes = told.payload.bytes();
   if (bytes.empty()) return cannot_enter(problem("nobody knows it any more"));
   if (const auto learnt = work_->learn(told.body.state, bytes); !learnt)
@@ -214,9 +223,8 @@ void Tracer::return_leases() {
   if (packing_ || flushing_ || !done_.empty()) return flush();
   if (asking_) return;
   // Said now and then, too, while there is nothing to return: whoever begins anew does not know it.
-  if (work_->at_hand() == 0 && returned_ && clock_.now() - *returned_ < config_.answer_patience)
-    return;
-  asking_ = Question{sender().next_id(), RequestLease{0}, {}};
+  if (work_->at_hand() == 0 && returned_ && !lease_timer_.has_rested(clock_.now())) return;
+  asking_ = question(lease_timer_, RequestLease{0});
   put(*asking_);
 }
 
@@ -269,8 +277,8 @@ void Tracer::on(const PackFlush& pack) {
   const uint64_t hash = XXH3_64bits(payload.data(), payload.size());  // as Hasher, in no memory
   packing_ = false;
   if (over_) return;
-  flushing_ = Question{
-      sender().next_id(), Flush{round_, hash, std::move(packed_leases_), {}}, {payload, encoder_}};
+  flushing_ = question(flush_timer_, Flush{round_, hash, std::move(packed_leases_), {}},
+                       {payload, encoder_});
   if (config_.trace != nullptr)
     config_.trace->begin(TraceKind::flush, trace_id(flushing_->id), payload.size());
   ++counters_.flushes;
@@ -314,7 +322,7 @@ void Tracer::put_when_placed(const MessageId& flush) {
 }
 
 void Tracer::on(const Letter<SliceHeld>& held) {
-  slices_.on(held);
+  slices_.on(held, clock_.now());
   put_when_placed(held.id);
 }
 
@@ -358,6 +366,7 @@ void Tracer::forget_flush() {
 
 void Tracer::flush_answered(const MessageId& answered, bool taken) {
   if (!flushing_ || flushing_->id != answered) return;
+  flush_timer_.answered(clock_.now());
   const Nanoseconds answer_took = clock_.now() - flushing_->asked;
   flush_cost_ = packing_took_ + answer_took;
   if (config_.trace != nullptr) config_.trace->end(TraceKind::flush, trace_id(answered), taken);
@@ -451,10 +460,12 @@ void Tracer::tell_end(NodeId neighbour) {
 
 void Tracer::watch_coordinator(Nanoseconds now) {
   if (ended_ || tell_) return;
-  if (network_.reaches(coordinator().node))
+  if (!network_.reaches(coordinator().node)) {
+    if (!unreachable_since_) unreachable_since_ = now;
+  } else if (unreachable_since_) {
     unreachable_since_.reset();
-  else if (!unreachable_since_)
-    unreachable_since_ = now;
+    if (round_empty_ && !over_) begin_round();  // it may have begun anew, and know of nobody
+  }
   const auto give_up = [&](const char* what, Nanoseconds after, const char* key) {
     if (rumour_) return end(std::nullopt);
     end(problem(fmt::format("{} for {:g} s ({})", what, seconds_in(after), key)));
@@ -487,7 +498,7 @@ bool Tracer::join_another() {
   counters_.led_by = coordinator().node.value;
   unreachable_since_.reset();
   asking_.reset();
-  returned_.reset();
+  returned_ = false;
   known_here_ = false;
   round_empty_ = false;
   work_->drop_all();
@@ -506,11 +517,17 @@ void Tracer::take_leave() {
 
 // ---- questions and answers -------------------------------------------------------------------
 
+Tracer::Question Tracer::question(RetryTimer& timer, Message message, SharedBytes payload) {
+  timer.forget();  // the last one of its kind may have been given up
+  return {sender().next_id(), &timer, std::move(message), std::move(payload)};
+}
+
 void Tracer::put(Question& question) {
   const SendOutcome outcome =
       sender().send(address(), coordinator(), question.id, question.message, question.payload);
   question.asked = clock_.now();
   question.left = outcome == SendOutcome::taken;
+  if (question.left) question.timer->asked(question.asked);
   if (question.left || retries_soon_) return;
   retries_soon_ = true;
   scheduler().timers().set(question.asked + retry_after, own_task([this] { retry(); }));
@@ -532,13 +549,13 @@ void Tracer::set_timer() {
 void Tracer::on_timer() {
   const Nanoseconds now = clock_.now();
   for (std::optional<Question>* question : {&asking_, &flushing_, &learning_}) {
-    if (!*question || now - (*question)->asked < config_.answer_patience) continue;
+    if (!*question || !(*question)->timer->is_due(now)) continue;
     ++counters_.asked_again;
     question == &flushing_ ? put_flush() : put(**question);
   }
-  if (flushing_) slices_.ask_again(now, config_.answer_patience);
+  if (flushing_) slices_.ask_again(now);
   if (rested(now) || flush_due_) flush();
-  if (round_empty_ && !over_ && now - emptied_ >= config_.answer_patience) begin_round();
+  if (round_empty_ && !over_ && lease_timer_.has_rested(now)) begin_round();
   watch_coordinator(now);
   take_leave();
   set_timer();

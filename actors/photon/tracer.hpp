@@ -15,6 +15,7 @@
 #include "actors/run/leased_work.hpp"
 #include "actors/tally/slice_sender.hpp"
 #include "runtime/messaging/node_actor.hpp"
+#include "runtime/messaging/retry_timer.hpp"
 #include "runtime/observe/node_trace.hpp"
 
 namespace luxodus {
@@ -24,7 +25,8 @@ struct TracerConfig {
   /// By whom it may be led: first its own coordinator; where that is lost, the first of them that
   /// there is a way to. Last the one that leads the run. At least one.
   std::vector<Address> coordinators;
-  Nanoseconds answer_patience = seconds(2);  // then a question is asked again
+  /// Then a question is asked again, and later where answers take long: see RetryTimer.
+  Nanoseconds answer_patience = seconds(2);
   /// Merged batches rest here for so long at least, unless there is no more to do.
   Nanoseconds flush_every = seconds(5);
   /// Until the coordinator is heard for the first time, and then without a way to it: after that it
@@ -131,6 +133,7 @@ class Tracer final
  private:
   struct Question {
     MessageId id;
+    RetryTimer* timer;  // of its kind
     Message message;
     SharedBytes payload;  // of a flush
     Nanoseconds asked = 0;
@@ -146,6 +149,7 @@ class Tracer final
   void put_flush();
   void put_when_placed(const MessageId& flush);
   bool hears(Address from);
+  Question question(RetryTimer& timer, Message message, SharedBytes payload = {});
   void put(Question& question);
   void retry();
   void set_timer();
@@ -188,6 +192,7 @@ class Tracer final
   std::optional<Question> asking_;    // for leases
   std::optional<Question> flushing_;  // one at a time; put when all its slices are held
   std::optional<Question> learning_;  // what a state of the scene is made from
+  RetryTimer lease_timer_, flush_timer_, state_timer_;
   std::optional<ObjectId> entering_;  // batches of it are lent, and nothing is merged until it is
   std::vector<uint64_t> done_;        // merged, in no flush yet
   std::vector<uint64_t> packed_leases_;
@@ -206,12 +211,11 @@ class Tracer final
     Nanoseconds since;
   };
   std::vector<InVain> in_vain_;
-  std::optional<Nanoseconds> returned_;  // when the coordinator last heard that all are returned
-  bool retries_soon_ = false;            // a timer puts again what has not left
+  bool returned_ = false;      // the coordinator has heard that all are returned
+  bool retries_soon_ = false;  // a timer puts again what has not left
   size_t wanted_ = 0;
   uint32_t round_ = 0;        // of the last grant: a round begins when all before is counted
   bool round_empty_ = false;  // the controller had none: flush, and wait for the next round
-  Nanoseconds emptied_ = 0;
   // working --the run's end is heard of--> over --let go, or the controller is lost--> ended
   bool over_ = false;
   bool ended_ = false;

@@ -16,7 +16,8 @@ DisplayActor::DisplayActor(const DisplayConfig& config, DisplayWork& work, Block
       work_(work),
       calls_(calls),
       clock_(scheduler.clock()),
-      network_(network) {}
+      network_(network),
+      timer_(config.answer_patience, config.lost) {}
 
 void DisplayActor::add_metrics(Metrics& metrics) const {
   const Counters& c = counters_;
@@ -57,7 +58,7 @@ void DisplayActor::look() {
   if (state_.done) return;
   watch_coordinator();
   if (state_.question) {
-    if (clock_.now() - state_.question->asked < config_.answer_patience) return;
+    if (!timer_.is_due(clock_.now())) return;
     ++counters_.asked_again;
     return put();
   }
@@ -82,6 +83,7 @@ void DisplayActor::watch_coordinator() {
 void DisplayActor::ask() {
   ++show_;
   state_.copy.emplace(work_.fresh_run());
+  timer_.forget();
   state_.question = Question{sender().next_id()};
   put();
 }
@@ -90,11 +92,12 @@ void DisplayActor::put() {
   Question& question = *state_.question;
   const SendOutcome outcome = sender().send(address(), config_.coordinator, question.id,
                                             ShowTotals{show_, state_.copy->next()});
-  question.asked = clock_.now();
+  const Nanoseconds now = clock_.now();
   question.left = outcome == SendOutcome::taken;
+  if (question.left) timer_.asked(now);
   if (question.left || state_.retries_soon) return;
   state_.retries_soon = true;
-  scheduler().timers().set(question.asked + retry_after, own_task([this] { retry(); }));
+  scheduler().timers().set(now + retry_after, own_task([this] { retry(); }));
 }
 
 void DisplayActor::retry() {
@@ -105,6 +108,7 @@ void DisplayActor::retry() {
 void DisplayActor::on(const Letter<TotalsShown>& shown) {
   if (shown.from != config_.coordinator) return;
   if (!state_.question || state_.question->id != shown.id) return;  // an answer that came twice
+  timer_.answered(clock_.now());
   if (shown.body.pieces == 0) return ask();  // the coordinator has begun anew
   counters_.copied_bytes += shown.payload.bytes().size();
   if (auto taken = state_.copy->take(shown.body, shown.payload.bytes()); !taken)

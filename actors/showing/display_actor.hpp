@@ -17,6 +17,7 @@
 #include "actors/showing/totals_snapshot.hpp"
 #include "runtime/actor/blocking_calls.hpp"
 #include "runtime/messaging/node_actor.hpp"
+#include "runtime/messaging/retry_timer.hpp"
 
 namespace luxodus {
 
@@ -24,7 +25,8 @@ struct DisplayConfig {
   NodeId self;
   Address coordinator;
   Nanoseconds look_every = milliseconds(250);
-  Nanoseconds answer_patience = seconds(2);  // then a question is asked again
+  /// Then a question is asked again, and later where answers take long: see RetryTimer.
+  Nanoseconds answer_patience = seconds(2);
   Nanoseconds lost = seconds(30);  // without a way to the coordinator for so long it is given up
 };
 
@@ -66,7 +68,6 @@ class DisplayActor final
  private:
   struct Question {
     MessageId id;
-    Nanoseconds asked = 0;
     bool left = false;  // this node
   };
   /// All that a new life forgets.
@@ -104,6 +105,7 @@ class DisplayActor final
   const Clock& clock_;
   Network& network_;  // who is within reach
   State state_;
+  RetryTimer timer_;   // of the question
   uint32_t show_ = 0;  // the last that was asked for, of all lives
   // Of the call under way, which may be an earlier life's.
   bool calling_ = false;

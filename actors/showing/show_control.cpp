@@ -51,13 +51,16 @@ void ShowControl::answer(Address to, const MessageId& question, const ShowTotals
   sender_.send(self_, to, question, shown, snapshot_->bytes(asked.piece));
 }
 
-void ShowControl::tell_end(const RunEnded& ended) {
-  if (!any() || saved_) return;
-  sender_.send(self_, {*display_, ActorName::display}, sender_.next_id(), ended);
+void ShowControl::tell_end(const RunEnded& ended, Nanoseconds now) {
+  if (!any() || saved_ || !(telling_.is_due(now) || telling_.has_rested(now))) return;
+  const Address display{*display_, ActorName::display};
+  if (sender_.send(self_, display, sender_.next_id(), ended) == SendOutcome::taken)
+    telling_.asked(now);
 }
 
 void ShowControl::end_life(NodeId node) {
   if (display_ != node) return;
+  telling_.forget();
   saved_ = false;
   wanted_.reset();
   shown_.reset();

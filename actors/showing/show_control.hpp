@@ -10,6 +10,7 @@
 
 #include "actors/showing/totals_snapshot.hpp"
 #include "runtime/messaging/actor_system.hpp"
+#include "runtime/messaging/retry_timer.hpp"
 
 namespace luxodus {
 
@@ -36,8 +37,11 @@ class ShowControl {
   void pack(const LocalRun& run, double seconds);
   /// Answers who waits; `over`: the run is, for this reason.
   void packed(bool over, StopReason reason);
-  /// Says that the run is over, or that it failed and leaves nothing.
-  void tell_end(const RunEnded& ended);
+  /// Says that the run is over, or that it failed and leaves nothing; but not while the display may
+  /// yet answer the last word of it.
+  void tell_end(const RunEnded& ended, Nanoseconds now);
+  /// The display has said something.
+  void heard(Nanoseconds now) { telling_.answered(now); }
   /// A node has begun anew: what a display there had said holds no more.
   void end_life(NodeId node);
   /// The flux is on the disk.
@@ -62,6 +66,7 @@ class ShowControl {
   StopReason reason_ = StopReason::particles;
   bool packing_ = false;  // what is packed belongs to another thread
   bool saved_ = false;
+  RetryTimer telling_{milliseconds(125), seconds(30)};  // it of the end
 };
 
 }  // namespace luxodus

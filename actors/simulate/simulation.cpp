@@ -128,6 +128,7 @@ class Simulation {
   std::unique_ptr<SimWorld> world_;
   std::optional<StopReason> reason_;
   Nanoseconds let_go_ = never;       // when the controller let all nodes go
+  Nanoseconds fresh_ = 0;            // and for how long what they had said was taken to hold
   std::vector<Nanoseconds> begins_;  // of each node's present life
 };
 
@@ -217,16 +218,16 @@ void Simulation::note_last(const SimController& controller) {
   report_.took = controller.coordinator().took();
   if (!controller.coordinator().ended()) return;
   reason_ = controller.coordinator().reason();
-  let_go_ = std::min(let_go_, world_->now());
+  if (let_go_ != never) return;
+  let_go_ = world_->now();
+  fresh_ = controller.coordinator().word_is_fresh();
 }
 
 /// A worker has heard of the end, however it was parted from the others. Who begins anew when all
 /// have been let go finds nobody who could tell it; nor may who does so shortly before, when what
 /// its former life said is still fresh.
 void Simulation::note_left(NodeId node, const CheckedNode& left) {
-  if (let_go_ != never &&
-      begins_[node.value] >= let_go_ - Coordinator::word_is_fresh(CoordinatorConfig{}))
-    return;
+  if (let_go_ != never && begins_[node.value] >= let_go_ - fresh_) return;
   if (auto why = left.regret(); !why.empty())
     report_.failure = fmt::format("{} has left with \"{}\"", setup_.name_of(node), why);
 }

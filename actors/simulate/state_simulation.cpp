@@ -196,6 +196,7 @@ class StateSimulation {
   std::unique_ptr<SimWorld> world_;
   bool ended_ = false;
   Nanoseconds let_go_ = never;       // when all nodes were
+  Nanoseconds fresh_ = 0;            // and for how long what they had said was taken to hold
   std::vector<Nanoseconds> begins_;  // of each node's present life
 };
 
@@ -229,9 +230,7 @@ std::unique_ptr<SimNode> StateSimulation::make(NodeId node, uint32_t life) {
 
 /// As for a run: who begins anew when all have been let go finds nobody who could tell it.
 void StateSimulation::note_left(NodeId node, const CheckedNode& left) {
-  if (let_go_ != never &&
-      begins_[node.value] >= let_go_ - Coordinator::word_is_fresh(CoordinatorConfig{}))
-    return;
+  if (let_go_ != never && begins_[node.value] >= let_go_ - fresh_) return;
   if (auto why = left.regret(); !why.empty())
     report_.failure = fmt::format("{} has left with \"{}\"", setup_.name_of(node), why);
 }
@@ -252,7 +251,9 @@ void StateSimulation::look_at_last() {
   report_.leases_fenced = c.fenced;
   report_.flushes_refused = c.flushes_refused;
   ended_ = ended_ || coordinator.ended();
-  if (coordinator.ended()) let_go_ = std::min(let_go_, world_->now());
+  if (!coordinator.ended() || let_go_ != never) return;
+  let_go_ = world_->now();
+  fresh_ = coordinator.word_is_fresh();
 }
 
 SimReport StateSimulation::run() {

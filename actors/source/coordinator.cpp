@@ -26,10 +26,11 @@ Coordinator::Coordinator(const CoordinatorConfig& config, const CompiledScene& s
       book_(std::move(book)),
       clock_(scheduler.clock()) {
   for (const NodeId worker : config_.workers) {
-    peers_[worker];
+    peers_.emplace(worker, config_);
     tracers_ += tracers_of(worker);
   }
-  for (const NodeId orphan : config_.orphans) peers_[orphan].expected = false;
+  for (const NodeId orphan : config_.orphans)
+    peers_.try_emplace(orphan, config_).first->second.expected = false;
   untold_.reserve(peers_.size());
   uncounted_.reserve(2 * peers_.size());
 }
@@ -95,7 +96,7 @@ void Coordinator::fence(const std::vector<Lease>& leases, const char* why) {
     log_warning("lease=fenced lease={} node={} batch={} text=\"{}: lent again\"", lease.id,
                 lease.node.value, lease.batch, why);
   tell_fenced(leases);
-  if (!leases.empty()) offer_again();
+  if (!leases.empty()) offer_batches();
 }
 
 /// Each node is told in as few messages as hold them: hundreds of leases may be fenced at once, and
@@ -114,13 +115,26 @@ void Coordinator::tell_fenced(const std::vector<Lease>& leases) {
     if (!fenced.leases.empty()) send(node, sender().next_id(), fenced);
 }
 
-/// Who was told that there is no more in this round would ask again when its patience is over. That
-/// is too late for batches that have just come back.
-void Coordinator::offer_again() {
-  if (!begun_ || over_ || book_.waiting() == 0) return;
-  const RoundOpened more{round(), static_cast<uint64_t>(book_.end()), state()};
-  for (const auto& [worker, last] : last_grant_)
-    if (std::get<LeaseGranted>(last.answer).batches == 0) send(worker, sender().next_id(), more);
+/// Who was told that there is no more would ask again when its patience is over. That is too late
+/// for batches that have come since. As many are told as there are batches, each once until it has
+/// asked: were all told, all but these would ask in vain. If one of them does not come, the next
+/// look tells others.
+void Coordinator::offer_batches() {
+  if (!begun_ || over_) return;
+  int64_t batches = book_.waiting();
+  for (auto& [worker, last] : last_grant_) {
+    if (batches == 0) return;
+    if (last.offered || std::get<LeaseGranted>(last.answer).batches > 0) continue;
+    if (!peers_.at(worker).traces() || !network_.reaches(worker)) continue;
+    if (send_opened(worker) != SendOutcome::taken) continue;
+    last.offered = true;
+    --batches;
+  }
+}
+
+SendOutcome Coordinator::send_opened(NodeId worker) {
+  return send(worker, sender().next_id(),
+              RoundOpened{round(), static_cast<uint64_t>(book_.end()), state()});
 }
 
 void Coordinator::add_metrics(Metrics& metrics) const {
@@ -192,11 +206,13 @@ void Coordinator::on(const Letter<RequestLease>& request) {
   const uint32_t batches = request.body.batches;
   if (over_ && batches > 0) return answer_with_end(request);
   if (over_) {
-    peers_[worker].told = clock_.now();
+    Peer& peer = peers_.at(worker);
+    peer.told = clock_.now();
+    peer.telling.answered(*peer.told);
     return farewell_heard();
   }
   if (last.question != request.id) {
-    Peer& peer = peers_[worker];
+    Peer& peer = peers_.at(worker);
     peer.left = false;
     peer.idle = batches == 0;
     last = {request.id, grant_of(worker, lend(worker, batches))};
@@ -211,7 +227,7 @@ void Coordinator::on(const Letter<EnterPhase>& leave) {
   if (leave.body.phase != EndPhase::leave || !meet(leave.from, leave.id.incarnation)) return;
   Answered& last = last_grant_[worker];
   if (is_older(leave.id, last.question)) return;
-  peers_[worker].left = true;
+  peers_.at(worker).left = true;
   if (over_) return farewell_heard();
   if (last.question != leave.id) last = {leave.id, grant_of(worker, lend(worker, 0))};
   answer(leave, last.answer);
@@ -240,7 +256,7 @@ void Coordinator::on(const Letter<LeasesFenced>& given_back) {
         "lease=given_back lease={} node={} batch={} text=\"{} cannot have an object that it needs: "
         "lent to others\"",
         lease.id, worker.value, lease.batch, name_of(worker));
-  offer_again();
+  offer_batches();
 }
 
 // ---- the end ---------------------------------------------------------------------------------
@@ -265,16 +281,20 @@ void Coordinator::end_work() {
 void Coordinator::tell_end() {
   if (keeps_end_to_itself()) return;
   before_end_is_told();
-  for (const auto& [worker, peer] : peers_)
-    if (is_told(peer) && std::count(untold_.begin(), untold_.end(), worker) == 0)
+  for (const auto& [worker, peer] : peers_) {
+    const bool due = peer.telling.is_due(clock_.now()) || peer.telling.has_rested(clock_.now());
+    if (due && is_told(peer) && std::count(untold_.begin(), untold_.end(), worker) == 0)
       untold_.push_back(worker);
+  }
   tell_untold();
 }
 
 /// Until the network has taken the word for each.
 void Coordinator::tell_untold() {
   std::erase_if(untold_, [&](NodeId worker) {
-    return send(worker, sender().next_id(), end_word()) != SendOutcome::full;
+    const SendOutcome outcome = send(worker, sender().next_id(), end_word());
+    if (outcome == SendOutcome::taken) peers_.at(worker).telling.asked(clock_.now());
+    return outcome != SendOutcome::full;
   });
   if (untold_.empty() || telling_) return;
   telling_ = true;
@@ -307,7 +327,18 @@ bool Coordinator::is_lost(const Peer& peer) const {
 bool Coordinator::knows_end(NodeId worker, const Peer& peer) const {
   if (peer.left || !is_told(peer)) return true;
   if (!network_.reaches(worker)) return hurries() || (!peer.here && is_lost(peer));
-  return peer.told && clock_.now() - *peer.told <= word_is_fresh(config_);
+  return peer.told && clock_.now() - *peer.told <= is_fresh_for(peer);
+}
+
+/// Until it has been told anew three times.
+Nanoseconds Coordinator::is_fresh_for(const Peer& peer) const {
+  return 3 * std::max(config_.look_every, peer.telling.rest());
+}
+
+Nanoseconds Coordinator::word_is_fresh() const {
+  Nanoseconds longest = 0;
+  for (const auto& [worker, peer] : peers_) longest = std::max(longest, is_fresh_for(peer));
+  return longest;
 }
 
 bool Coordinator::all_know_end() const {
@@ -356,7 +387,9 @@ void Coordinator::set_timer() {
 void Coordinator::look() {
   const Nanoseconds now = clock_.now();
   watch_workers(now);
-  over_ ? wait_for_farewells(now) : look_at_work(now);
+  if (over_) return wait_for_farewells(now);
+  look_at_work(now);
+  offer_batches();
 }
 
 /// What finds no room or no way is asked for again by the worker, or said again by look().

@@ -15,6 +15,7 @@
 #include "actors/tally/flush_codec.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/messaging/node_actor.hpp"
+#include "runtime/messaging/retry_timer.hpp"
 #include "runtime/observe/metrics.hpp"
 #include "scenes/transport/compiled_scene.hpp"
 
@@ -88,10 +89,8 @@ class Coordinator
 
   /// All is over, every worker has heard so, or is lost, and has been let go.
   bool ended() const;
-  /// For so long a worker is taken to know of the end that has said so.
-  static constexpr Nanoseconds word_is_fresh(const CoordinatorConfig& config) {
-    return 3 * config.look_every;  // at each of which all are asked anew
-  }
+  /// For how long a worker, at most, is taken to know of the end that has said so.
+  Nanoseconds word_is_fresh() const;
   /// How long ago the run was over.
   Nanoseconds over_for() const { return over_ ? clock_.now() - over_since_ : 0; }
   /// A flush is being kept, or the totals hold a part of it.
@@ -124,12 +123,15 @@ class Coordinator
 
   /// What is known of a worker.
   struct Peer {
+    explicit Peer(const CoordinatorConfig& config) : telling(config.look_every / 2, config.lost) {}
+
     bool expected = true;  // else it may come when another coordinator is lost
     bool here = false;     // it was heard of, and has not been lost since
     Incarnation life;      // of which leases stand
     std::vector<Incarnation> former;
     std::optional<Nanoseconds> unreachable_since;
-    std::optional<Nanoseconds> told;  // when it last said that it has heard of the end
+    RetryTimer telling;               // it of the end
+    std::optional<Nanoseconds> told;  // when it last said that it has heard so
     bool left = false;                // it has joined another coordinator, or ended
     bool idle = false;                // it has returned its leases: nobody below it traces
     bool gone = false;                // it was let go
@@ -187,7 +189,8 @@ class Coordinator
   /// Fences leases that were taken out of the book, and offers their batches to others.
   void fence(const std::vector<Lease>& leases, const char* why);
   void tell_fenced(const std::vector<Lease>& leases);
-  void offer_again();
+  void offer_batches();
+  SendOutcome send_opened(NodeId worker);
   void go_on_counting();
   void look_soon();
   /// Lets others have their turn. A node that is to end goes on: what is begun is whole in the end.
@@ -235,6 +238,7 @@ class Coordinator
   void tell_untold();
   bool knows_end(NodeId worker, const Peer& peer) const;
   bool is_told(const Peer& peer) const;
+  Nanoseconds is_fresh_for(const Peer& peer) const;
   bool is_lost(const Peer& peer) const;
   void answer_with_end(const Letter<RequestLease>& request);
 
@@ -247,6 +251,7 @@ class Coordinator
   struct Answered {
     MessageId question;
     Message answer;
+    bool offered = false;  // more was offered since, after an answer without batches
   };
   std::map<NodeId, Answered> last_grant_, last_flush_;
   /// Flushes not counted yet. They are counted on the actor's fiber, in steps: a million bins take

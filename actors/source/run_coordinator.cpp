@@ -182,12 +182,9 @@ void RunCoordinator::add_metrics(Metrics& metrics) const {
 void RunCoordinator::open_round() {
   const int64_t planned =
       stop_.next_wait(book_.committed(), run_.scene().batch_particles, run_.plan());
-  const int64_t end = std::max(planned, book_.lent_end());  // of an earlier run, that lacks some
-  book_.open_until(end);
+  book_.open_until(std::max(planned, book_.lent_end()));  // an earlier run may lack some
   ++counters_.round;
-  for (const auto& [worker, peer] : peers_)
-    if (peer.here || peer.expected)
-      send(worker, sender().next_id(), RoundOpened{round(), static_cast<uint64_t>(end), state()});
+  offer_batches();
 }
 
 /// Ends the round when everything of it is counted, and lets somebody look at the totals where that

@@ -83,7 +83,7 @@ class RunCoordinator final : public Coordinator {
   bool tells_all() const override { return done_before_; }
   void wait_for_farewells(Nanoseconds now) override;
   void farewell_heard() override { let_go_when_told(); }
-  void before_end_is_told() override { shows_.tell_end(end_word()); }
+  void before_end_is_told() override { shows_.tell_end(end_word(), clock().now()); }
 
   void begin();
   void await_workers(Nanoseconds now);

@@ -34,6 +34,7 @@ void RunCoordinator::show_last_totals() {
 void RunCoordinator::meet_display(Incarnation life) {
   if (display_life_ && *display_life_ != life) shows_.end_life(shows_.node());
   display_life_ = life;
+  shows_.heard(clock().now());
 }
 
 void RunCoordinator::on(const Letter<ShowTotals>& show) {

@@ -59,7 +59,7 @@ void StateCoordinator::begin(Work& work) {
   work_ = &work;
   all_given_ = false;
   fill_book();
-  offer_again();
+  offer_batches();
   end_when_done();
 }
 
@@ -137,7 +137,6 @@ void StateCoordinator::look_at_work(Nanoseconds now) {
   if (work_ == nullptr) return;
   take_back_lost();
   fill_book();
-  offer_again();
   end_when_done();
 }
 

@@ -62,7 +62,7 @@ void SubCoordinator::remove(std::set<int64_t> batches) {
 }
 
 void SubCoordinator::look_again() {
-  offer_again();
+  offer_batches();
   go_on_counting();
   want_more();
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <set>
 #include <utility>
 
 #include "actors/tally/flush_codec.hpp"
@@ -10,17 +11,18 @@ namespace luxodus {
 
 namespace {
 /// Until a question is sent again: a shard may be adding a part of a million bins, in turns.
-constexpr Nanoseconds patience = seconds(1);
+constexpr Nanoseconds patience = seconds(1), longest_patience = seconds(60);
+/// Decisions under way to a shard: half of what its mailbox holds.
+constexpr size_t max_open = 32;
 }  // namespace
 
 ShardControl::ShardControl(const ShardPlan& plan, Totals& totals, const Clock& clock,
                            Sender& sender, Address self)
     : plan_(plan), totals_(totals), clock_(clock), sender_(sender), self_(self) {
   for (size_t i = 0; i < plan_.owners.size(); ++i) {
-    Shard& shard = shards_.emplace_back();
-    shard.owner = plan_.owners[i];
-    shard.bins = plan_.range(i + 1, totals.layout().totals());
-    shard.next = shard.bins.end;
+    const BinRange bins = plan_.range(i + 1, totals.layout().totals());
+    const RetryTimer timer(patience, longest_patience);
+    shards_.push_back({plan_.owners[i], bins, {}, timer, {}, bins.end});
   }
 }
 
@@ -39,10 +41,9 @@ void ShardControl::end_life(NodeId worker, Incarnation life) {
 }
 
 void ShardControl::decide(size_t index, const FlushDecided& decision) {
-  Shard& shard = shards_[index];
   ++counters_.decisions;
-  shard.decisions.push_back(decision);
-  if (shard.decisions.size() == 1) ask(shard);
+  shards_[index].decisions.push_back({decision, std::nullopt});
+  ask_decisions(shards_[index]);
 }
 
 bool ShardControl::settled() const {
@@ -50,11 +51,30 @@ bool ShardControl::settled() const {
                      [](const Shard& shard) { return shard.decisions.empty(); });
 }
 
-void ShardControl::settle(Shard& shard, const FlushSettled& answer) {
-  if (!answer.whole && !fault_)
+/// The first ones, of each node the first.
+void ShardControl::ask_decisions(Shard& shard) {
+  std::set<NodeId> nodes;
+  for (Decision& decision : shard.decisions) {
+    if (nodes.size() == max_open) return;
+    if (!nodes.insert(decision.what.flush.node).second || decision.asked) continue;
+    decision.asked = Question{sender_.next_id(), shard.timer};
+    put(shard, *decision.asked, decision.what);
+  }
+}
+
+void ShardControl::on(const Letter<FlushSettled>& settled) {
+  Shard* const shard = shard_of(settled.from.node);
+  if (shard == nullptr) return;
+  const auto at = std::find_if(
+      shard->decisions.begin(), shard->decisions.end(),
+      [&](const Decision& decision) { return decision.asked && decision.asked->id == settled.id; });
+  if (at == shard->decisions.end()) return;
+  if (!settled.body.whole)
     fault_ = "a shard of the totals lacks a slice of a flush that was counted";
-  shard.decisions.pop_front();
-  if (!shard.decisions.empty() || shard.next < shard.bins.end) ask(shard);
+  shard->timer = at->asked->timer;
+  shard->timer.answered(clock_.now());
+  shard->decisions.erase(at);
+  ask_decisions(*shard);
 }
 
 // ---- totals -----------------------------------------------------------------------------------
@@ -65,9 +85,19 @@ void ShardControl::gather(std::function<void()> done) {
   done_ = std::move(done);
   for (Shard& shard : shards_) {
     shard.next = shard.bins.first;
-    if (waits(shard)) ask(shard);
+    ask_totals(shard);
   }
   end_gather();
+}
+
+AskTotals ShardControl::next_totals(const Shard& shard) const {
+  return {gather_, static_cast<uint64_t>(shard.next)};
+}
+
+void ShardControl::ask_totals(Shard& shard) {
+  if (shard.next == shard.bins.end) return;
+  shard.asked = Question{sender_.next_id(), shard.timer};
+  put(shard, *shard.asked, next_totals(shard));
 }
 
 void ShardControl::add(Shard& shard, const TotalsTold& told, std::span<const std::byte> payload) {
@@ -82,7 +112,17 @@ void ShardControl::add(Shard& shard, const TotalsTold& told, std::span<const std
   counters_.gathered_bytes += payload.size();
   gain->add_to(totals_);
   shard.next = next;
-  if (waits(shard)) ask(shard);
+}
+
+void ShardControl::on(const Letter<TotalsTold>& told) {
+  Shard* const shard = shard_of(told.from.node);
+  if (shard == nullptr || !shard->asked || shard->asked->id != told.id) return;
+  shard->timer = shard->asked->timer;
+  shard->timer.answered(clock_.now());
+  shard->asked.reset();
+  add(*shard, told.body, told.payload.bytes());
+  if (fault_) return;
+  ask_totals(*shard);
   end_gather();
 }
 
@@ -93,48 +133,31 @@ void ShardControl::end_gather() {
 
 // ---- questions and answers --------------------------------------------------------------------
 
-bool ShardControl::waits(const Shard& shard) const {
-  return !shard.decisions.empty() || shard.next < shard.bins.end;
+/// What finds no room is put again at the next look.
+void ShardControl::put(const Shard& shard, Question& question, const Message& message) {
+  const SendOutcome outcome =
+      sender_.send(self_, {shard.owner, ActorName::tally_shard}, question.id, message);
+  if (outcome == SendOutcome::taken) question.timer.asked(clock_.now());
 }
 
-/// The next question: decisions come first, whatever is gathered.
-void ShardControl::ask(Shard& shard) {
-  shard.question = sender_.next_id();
-  put(shard);
-}
-
-void ShardControl::put(Shard& shard) {
-  shard.asked = clock_.now();
-  const Message message = shard.decisions.empty()
-                              ? Message(AskTotals{gather_, static_cast<uint64_t>(shard.next)})
-                              : Message(shard.decisions.front());
-  sender_.send(self_, {shard.owner, ActorName::tally_shard}, shard.question, message);
+void ShardControl::put_again(const Shard& shard, Question& question, const Message& message) {
+  if (question.timer.is_open() && !question.timer.is_due(clock_.now())) return;
+  ++counters_.asked_again;
+  put(shard, question, message);
 }
 
 void ShardControl::look() {
   for (Shard& shard : shards_) {
-    if (!waits(shard) || clock_.now() - shard.asked < patience) continue;
-    ++counters_.asked_again;
-    put(shard);
+    for (Decision& decision : shard.decisions)
+      if (decision.asked) put_again(shard, *decision.asked, decision.what);
+    if (shard.asked) put_again(shard, *shard.asked, next_totals(shard));
   }
 }
 
-/// The shard that waits for the answer to this question; null where it is old, and was answered.
-ShardControl::Shard* ShardControl::asked(NodeId owner, const MessageId& question) {
+/// Null where it is nobody's, or nothing more is wanted of any.
+ShardControl::Shard* ShardControl::shard_of(NodeId owner) {
   const size_t index = plan_.shard_of(owner);
-  if (index == 0 || fault_) return nullptr;
-  Shard& shard = shards_[index - 1];
-  return waits(shard) && question == shard.question ? &shard : nullptr;
-}
-
-void ShardControl::on(const Letter<FlushSettled>& settled) {
-  Shard* const shard = asked(settled.from.node, settled.id);
-  if (shard != nullptr && !shard->decisions.empty()) settle(*shard, settled.body);
-}
-
-void ShardControl::on(const Letter<TotalsTold>& told) {
-  Shard* const shard = asked(told.from.node, told.id);
-  if (shard != nullptr && shard->decisions.empty()) add(*shard, told.body, told.payload.bytes());
+  return index == 0 || fault_ ? nullptr : &shards_[index - 1];
 }
 
 }  // namespace luxodus

@@ -1,10 +1,12 @@
 // The controller's side of shards: tells every shard what became of each flush, until the shard has
-// answered, and brings the shards' totals here when they are asked for. Decisions go to a shard one
-// by one and in their order; a shard whose range is no longer whole is a fault, and ends the run.
+// answered, and brings the shards' totals here when they are asked for. Decisions about one node
+// go to a shard one by one and in their order; those about different nodes, a few at a time: a slow
+// network would else make a round wait for as many answers as nodes flush. A shard whose range is
+// no longer whole is a fault, and ends the run.
 // What if a message is lost, late, or comes twice? A decision or a question is sent again until its
-// answer comes, under the same id; an answer to anything but what was asked last is old, and passed
-// over; the shard does not do twice what it is told twice. A piece of the totals is added when its
-// answer comes for the first time, since the next question then has another id.
+// answer comes, under the same id; an answer to anything that is not asked is old, and passed over;
+// the shard does not do twice what it is told twice. A piece of the totals is added when its answer
+// comes for the first time, since the next question then has another id.
 // Thread rule: the node's thread. Answers add totals, so they may not be handled on a fiber.
 #pragma once
 
@@ -17,6 +19,7 @@
 #include "actors/tally/shard_plan.hpp"
 #include "runtime/core/clock.hpp"
 #include "runtime/messaging/actor_system.hpp"
+#include "runtime/messaging/retry_timer.hpp"
 
 namespace luxodus {
 
@@ -60,22 +63,32 @@ class ShardControl {
   const Counters& counters() const { return counters_; }
 
  private:
+  /// Something that a shard is to answer.
+  struct Question {
+    MessageId id;
+    RetryTimer timer;  // open once the network has taken the question
+  };
+  struct Decision {
+    FlushDecided what;
+    std::optional<Question> asked;
+  };
   struct Shard {
     NodeId owner;
     BinRange bins;
-    std::deque<FlushDecided> decisions;  // the first has been sent
-    MessageId question;                  // the decision's, or that for totals
-    Nanoseconds asked = 0;
-    int64_t next = 0;  // bin to ask for, in a gather
+    std::deque<Decision> decisions;  // not answered yet
+    RetryTimer timer;                // with what the last answer took
+    std::optional<Question> asked;   // for totals, in a gather
+    int64_t next = 0;                // bin to ask for
   };
 
   void decide(size_t shard, const FlushDecided& decision);
-  void ask(Shard& shard);
-  void put(Shard& shard);
-  Shard* asked(NodeId owner, const MessageId& question);
-  void settle(Shard& shard, const FlushSettled& answer);
+  void ask_decisions(Shard& shard);
+  void ask_totals(Shard& shard);
+  void put(const Shard& shard, Question& question, const Message& message);
+  void put_again(const Shard& shard, Question& question, const Message& message);
+  AskTotals next_totals(const Shard& shard) const;
+  Shard* shard_of(NodeId owner);
   void add(Shard& shard, const TotalsTold& told, std::span<const std::byte> payload);
-  bool waits(const Shard& shard) const;
   void end_gather();
 
   const ShardPlan plan_;

@@ -30,7 +30,8 @@ size_t SliceSender::memory_bytes() const {
 void SliceSender::send(const MessageId& flush, Nanoseconds now) {
   flush_ = flush;
   refused_ = false;
-  sent_ = now;
+  timer_.forget();
+  timer_.asked(now);
   for (Slice& slice : slices_) {
     const auto& bytes = slice.encoder->bytes();
     slice.hash = XXH3_64bits(bytes.data(), bytes.size());  // as Hasher, in no memory
@@ -57,9 +58,9 @@ std::vector<uint64_t> SliceSender::hashes() const {
   return hashes;
 }
 
-void SliceSender::ask_again(Nanoseconds now, Nanoseconds patience) {
-  if (placed() || now - sent_ < patience) return;
-  sent_ = now;
+void SliceSender::ask_again(Nanoseconds now) {
+  if (placed() || !timer_.is_due(now)) return;
+  timer_.asked(now);
   for (size_t slice = 0; slice < slices(); ++slice)
     if (!slices_[slice].held) put(slice);
 }
@@ -70,8 +71,11 @@ SliceSender::Slice* SliceSender::asked(NodeId owner, const MessageId& flush) {
   return shard == 0 || flush != flush_ ? nullptr : &slices_[shard - 1];
 }
 
-void SliceSender::on(const Letter<SliceHeld>& held) {
-  if (Slice* const slice = asked(held.from.node, held.id)) slice->held = true;
+void SliceSender::on(const Letter<SliceHeld>& held, Nanoseconds now) {
+  Slice* const slice = asked(held.from.node, held.id);
+  if (slice == nullptr) return;
+  slice->held = true;
+  if (placed()) timer_.answered(now);
 }
 
 void SliceSender::on(const Letter<FlushRefused>& refused) {

@@ -11,14 +11,15 @@
 #include "actors/tally/flush_codec.hpp"
 #include "actors/tally/shard_plan.hpp"
 #include "runtime/messaging/actor_system.hpp"
+#include "runtime/messaging/retry_timer.hpp"
 
 namespace luxodus {
 
 class SliceSender {
  public:
   /// `self` is the tracer that it sends for. Requires: `sender` outlives it.
-  SliceSender(const ShardPlan& plan, Sender& sender, Address self)
-      : plan_(plan), sender_(sender), self_(self) {}
+  SliceSender(const ShardPlan& plan, Sender& sender, Address self, const RetryTimer& timer)
+      : plan_(plan), sender_(sender), self_(self), timer_(timer) {}
 
   /// Takes room for flushes of so many source groups and totals each.
   void make_room(int groups, int64_t totals);
@@ -38,10 +39,10 @@ class SliceSender {
   bool placed() const;
   /// Of all slices; none where one was refused, so that the controller refuses the flush.
   std::vector<uint64_t> hashes() const;
-  /// Sends again what got no answer for so long.
-  void ask_again(Nanoseconds now, Nanoseconds patience);
+  /// Sends again what has had no answer for too long.
+  void ask_again(Nanoseconds now);
   /// Answers of shards to the slices of a flush.
-  void on(const Letter<SliceHeld>& held);
+  void on(const Letter<SliceHeld>& held, Nanoseconds now);
   void on(const Letter<FlushRefused>& refused);
 
  private:
@@ -60,7 +61,7 @@ class SliceSender {
   std::vector<Slice> slices_;
   MessageId flush_;
   bool refused_ = false;
-  Nanoseconds sent_ = 0;
+  RetryTimer timer_;
 };
 
 }  // namespace luxodus

@@ -110,11 +110,18 @@ TEST_CASE("while totals are packed no piece of an earlier show is told", "[showi
 TEST_CASE("the end is told until the flux is on a disk, and again to a display that begins anew",
           "[showing]") {
   Desk desk;
+  Nanoseconds now = 0;
   const auto told = [&] {
     const size_t before = desk.sender.sent.size();
-    desk.control.tell_end({3, ""});
+    desk.control.tell_end({3, ""}, now);
     return desk.sender.sent.size() > before;
   };
+  CHECK(told());
+  CHECK_FALSE(told());  // the display may yet answer
+  now += seconds(1);
+  CHECK(told());
+  desk.control.heard(now);
+  now += seconds(8);
   CHECK(told());
   desk.control.saved();
   CHECK(desk.control.is_saved());
@@ -129,7 +136,7 @@ TEST_CASE("the end is told until the flux is on a disk, and again to a display t
 TEST_CASE("a run without a display has nobody to tell", "[showing]") {
   Desk desk;
   ShowControl none(std::nullopt, desk.run, desk.sender, {{9}, ActorName::coordinator});
-  none.tell_end({3, ""});
+  none.tell_end({3, ""}, 0);
   none.end_life(display_node);
   CHECK(desk.sender.sent.empty());
   CHECK_FALSE(none.any());

@@ -125,6 +125,28 @@ TEST_CASE("nothing is asked for above before all who are led have come, or half 
   }
 }
 
+TEST_CASE("batches that come are offered to as many as can have one, and each is told once",
+          "[sub-coordinator]") {
+  Stage stage;
+  stage.bring_both();
+  const auto told = [&](NodeId node) { return stage.sender.told<RoundOpened>(node).size(); };
+  stage.coordinator.add(901, 30);
+  stage.coordinator.look_again();
+  stage.coordinator.look_again();
+  CHECK(told(left) == 1);
+  CHECK(told(right) == 1);  // the second time: the first may not come
+  stage.coordinator.look_again();
+  CHECK(told(left) + told(right) == 2);
+  SECTION("who has asked in vain is told of the next") {
+    CHECK(stage.ask(right, 1).batches == 1);
+    CHECK(stage.ask(left, 1).batches == 0);
+    stage.coordinator.add(902, 31);
+    stage.coordinator.look_again();
+    CHECK(told(left) == 2);
+    CHECK(told(right) == 1);  // it has one
+  }
+}
+
 TEST_CASE("batches are lent on, and named upwards under the leases that they came with",
           "[sub-coordinator]") {
   Stage stage;
@@ -330,4 +352,19 @@ TEST_CASE("the end is told until all have heard it, and then they are let go",
   stage.coordinator.let_go();
   CHECK(stage.sender.told<EnterPhase>(right).size() == 1);
   CHECK(stage.coordinator.gone());
+}
+
+TEST_CASE("the end is told again as soon as it was answered, and ever more seldom where it was not",
+          "[sub-coordinator]") {
+  Stage stage;
+  stage.bring_both();
+  stage.coordinator.end("");
+  const auto told = [&](NodeId node) { return stage.sender.told<RunEnded>(node).size(); };
+  REQUIRE(told(left) == 1);
+  for (int look = 0; look < 28; ++look) {
+    stage.say(right, RequestLease{0});
+    stage.run(milliseconds(250));
+  }
+  CHECK(told(left) == 6);  // after 0.25, 0.5, 1, 2 and 4 s
+  CHECK(told(right) > 20);
 }

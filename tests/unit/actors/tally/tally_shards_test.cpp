@@ -68,13 +68,20 @@ struct Stage : Sender {
     return SendOutcome::taken;
   }
 
+  template <class Receiver, class Body>
+  void hand_letter(Receiver& receiver, const Letter<Body>& letter) {
+    if constexpr (std::is_same_v<Body, SliceHeld>)
+      receiver.on(letter, node.clock.now());
+    else
+      receiver.on(letter);
+  }
   /// Calls the handler of one who is no actor by himself, if he has one for the message.
   template <class... Kinds, class Receiver>
   void hand_to(Receiver& receiver, const Mail& sent) {
     const auto hand = [&](const auto* body) {
       if (body != nullptr)
-        receiver.on(Letter<std::decay_t<decltype(*body)>>{sent.from, sent.id, *body,
-                                                          Payload(bytes_of(sent))});
+        hand_letter(receiver, Letter<std::decay_t<decltype(*body)>>{sent.from, sent.id, *body,
+                                                                    Payload(bytes_of(sent))});
     };
     (hand(std::get_if<Kinds>(&sent.message)), ...);
   }
@@ -109,7 +116,8 @@ struct Stage : Sender {
   SliceSender& pack(NodeId worker, const MessageId& id, uint64_t seed, bool counts) {
     auto& sender = senders[worker];
     if (!sender) {
-      sender = std::make_unique<SliceSender>(plan, *this, tracer_of(worker));
+      sender = std::make_unique<SliceSender>(plan, *this, tracer_of(worker),
+                                             RetryTimer(seconds(1), seconds(8)));
       sender->make_room(shard_groups, bins);
     }
     Totals own(layout, shard_groups, {});
@@ -259,7 +267,7 @@ TEST_CASE("a life has one slice at a shard: the next waits until the first is de
   CHECK_FALSE(sender.placed());
   stage.wire = decision;
   stage.pass();
-  sender.ask_again(seconds(100), seconds(1));
+  sender.ask_again(seconds(100));
   stage.pass();
   REQUIRE(sender.placed());
   stage.take(flush_of(worker, 2), sender.hashes());
@@ -331,6 +339,36 @@ TEST_CASE("a sender whose slice was refused tells the controller of no slices", 
   CHECK(sender.hashes().empty());
 }
 
+TEST_CASE("decisions about several nodes are under way at once, about each node one", "[shards]") {
+  constexpr NodeId other{3};
+  Stage stage(std::vector<NodeId>{{2}});
+  stage.control.refuse(flush_of(worker, 1));
+  stage.control.refuse(flush_of(worker, 2));
+  stage.control.refuse(flush_of(other, 1));
+  const auto under_way = [&] {
+    std::vector<MessageId> flushes;
+    for (const Mail& sent : stage.wire)
+      if (const auto* decided = std::get_if<FlushDecided>(&sent.message))
+        flushes.push_back(decided->flush);
+    return flushes;
+  };
+  REQUIRE(under_way() == std::vector<MessageId>{flush_of(worker, 1), flush_of(other, 1)});
+  // The second is answered first: the first stays, and what waits for it.
+  std::swap(stage.wire[0], stage.wire[1]);
+  const auto deliver_next = [&] {
+    const Mail next = stage.wire.front();
+    stage.wire.pop_front();
+    stage.deliver(next);
+  };
+  deliver_next();  // the decision
+  std::swap(stage.wire[0], stage.wire[1]);
+  deliver_next();  // its answer
+  CHECK(under_way() == std::vector<MessageId>{flush_of(worker, 1)});
+  stage.pass();
+  CHECK(stage.control.settled());
+  CHECK_FALSE(stage.control.fault());
+}
+
 TEST_CASE("a shard that lacks a slice of a flush that was taken is a fault", "[shards]") {
   Stage stage(std::vector<NodeId>{{2}});
   stage.control.take(flush_of(worker, 1), {1});
@@ -384,8 +422,7 @@ TEST_CASE("shards of a wire that loses, repeats and delays have counted what was
       if (step % 20 == 0) {
         stage.node.advance(seconds(2));
         stage.control.look();
-        for (auto& [w, sender] : stage.senders)
-          sender->ask_again(stage.node.clock.now(), seconds(1));
+        for (auto& [w, sender] : stage.senders) sender->ask_again(stage.node.clock.now());
       }
     }
     REQUIRE(stage.control.settled());

@@ -1,0 +1,62 @@
+// When a question that has had no answer is asked again. Whoever asks at a fixed pace fills a slow
+// network with copies of what already waits in it, so that answers come later still. This timer
+// follows the network as TCP's does (RFC 6298, https://www.rfc-editor.org/rfc/rfc6298): the first
+// wait is twice as long as the last answer took, and each copy doubles it.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "runtime/core/clock.hpp"
+
+namespace luxodus {
+
+/// Of one kind of question, of which one is asked at a time.
+class RetryTimer {
+ public:
+  /// All waits lie between these.
+  RetryTimer(Nanoseconds least, Nanoseconds most)
+      : least_(least), most_(std::max(least, most)), first_wait_(least) {}
+
+  /// The question is on its way, for the first time or again.
+  void asked(Nanoseconds now) {
+    wait_ = begun_ ? std::min(2 * wait_, most_) : first_wait_;
+    if (!begun_) begun_ = now;
+    asked_ = now;
+  }
+  /// What an answer takes is counted from when it was first asked for: which copy was answered
+  /// nobody knows.
+  void answered(Nanoseconds now) {
+    if (!begun_) return;
+    took_ = now - *begun_;
+    first_wait_ = std::clamp(2 * took_, least_, most_);
+    begun_.reset();
+    answered_ = now;
+  }
+  /// Nobody wants the answer any more.
+  void forget() { begun_.reset(); }
+
+  bool is_due(Nanoseconds now) const { return begun_ && now - asked_ >= wait_; }
+  bool is_open() const { return begun_.has_value(); }  // asked, and not answered
+  /// How long the next question will wait before it is asked again.
+  Nanoseconds first_wait() const { return first_wait_; }
+  /// How long to leave the network to others after an answer, where the next question can wait:
+  /// then what a thousand nodes ask in vain takes a ninth of what a slow network carries.
+  Nanoseconds rest() const { return std::clamp(8 * took_, least_, most_); }
+  /// Nothing is asked, and that long ago was the last answer.
+  bool has_rested(Nanoseconds now) const {
+    return !begun_ && (!answered_ || now - *answered_ >= rest());
+  }
+  Nanoseconds took() const { return took_; }  // until the last answer; 0: there was none
+
+ private:
+  Nanoseconds least_, most_;
+  Nanoseconds first_wait_;
+  Nanoseconds took_ = 0;
+  std::optional<Nanoseconds> begun_;     // asking
+  std::optional<Nanoseconds> answered_;  // for the last time
+  Nanoseconds asked_ = 0;
+  Nanoseconds wait_ = 0;
+};
+
+}  // namespace luxodus
