@@ -24,11 +24,12 @@ class RetryTimer {
     if (!begun_) begun_ = now;
     asked_ = now;
   }
-  /// What an answer takes is counted from when it was first asked for: which copy was answered
-  /// nobody knows.
+  /// Which copy was answered nobody knows: an answer takes as long as was thought, where that fits
+  /// one of them. Were it counted from the first, a first one that is lost each time would double
+  /// all waits; from the last, waits would be too short for a slow network.
   void answered(Nanoseconds now) {
     if (!begun_) return;
-    took_ = now - *begun_;
+    took_ = std::clamp(took_, now - asked_, now - *begun_);
     first_wait_ = std::clamp(2 * took_, least_, most_);
     begun_.reset();
     answered_ = now;
@@ -47,7 +48,8 @@ class RetryTimer {
   bool has_rested(Nanoseconds now) const {
     return !begun_ && (!answered_ || now - *answered_ >= rest());
   }
-  Nanoseconds took() const { return took_; }  // until the last answer; 0: there was none
+  /// How long an answer takes, as far as is known; 0: there was none.
+  Nanoseconds took() const { return took_; }
 
  private:
   Nanoseconds least_, most_;
