@@ -13,12 +13,6 @@
 
 namespace luxodus {
 
-namespace limits {
-/// Rounds of rows. Each adds rows that no earlier one had, so they end by themselves; this ends a
-/// mistake.
-inline constexpr int row_rounds = 500;
-}  // namespace limits
-
 struct SolveSettings {
   double seconds = 120;
   double gap = 0;  // ends within this share of the best possible
@@ -48,6 +42,7 @@ struct LayoutAnswer {
   double seconds = 0;
   size_t rows = 0;  // of the last program
   int rounds = 0;
+  size_t joined_regions = 0;           // that were bounded together with others
   std::vector<double> share_of_group;  // of the bound of the program without whole numbers
 
   /// Of the objective that the bound leaves open; 0 of an optimal one.
