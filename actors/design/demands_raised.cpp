@@ -172,7 +172,6 @@ void Demands::look_at(uint32_t group, const std::vector<glm::dvec3>& places, con
   const auto factors = factors_.find(group);
   const auto lit = [&](const Lit& in, const std::vector<glm::dvec3>& at) {
     std::vector<Terms> light;
-    constexpr double lifted_already = 0;  // places of rows lie above the floor
     for (const LitPoint& p : in.light.lit(at, floor_normal, lifted_already)) {
       Terms terms = terms_of(p.lux, no_light_lx);
       light.push_back(factors == factors_.end() ? terms : times(terms, factors->second));

@@ -56,9 +56,11 @@ class Solving {
   /// A layout at once, where greedy choice finds one. What follows takes longer.
   bool find_first() {
     tell("greedy", 0);
-    if (!settings_.start.empty()) offer(pruned(index_, settings_.start));
     Random random(settings_.seed, RandomStream::layout);
     random.start(0);
+    if (!settings_.start.empty())
+      if (const auto whole = completed(index_, settings_.start, 0, random))
+        offer(pruned(index_, *whole));
     if (const auto first = completed(index_, {}, 0, random)) {
       const Layout layout = pruned(index_, *first);
       offer(layout);

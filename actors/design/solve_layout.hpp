@@ -18,7 +18,7 @@ struct SolveSettings {
   double gap = 0;  // ends within this share of the best possible
   uint64_t seed = 1;
   int greedy_rounds = 200;  // of neighbourhoods that are filled anew, before and after the program
-  Layout start = {};        // one that holds, if any is known: it is improved before the program
+  Layout start = {};        // any that is known: it is made to hold and improved first
 };
 
 /// How the search ended.
