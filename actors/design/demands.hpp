@@ -77,8 +77,10 @@ class Demands {
   /// more where it is worst, by as much as was missing. False where there is nothing to ask for.
   bool ask_for_more(const Check& check, const Layout& layout);
   /// Looks between the darkest points of each minimum and those next to them, and asks for the
-  /// minimum where a layout has less than planned there, by more than a hundredth.
-  BetweenPoints look_between(const Layout& layout);
+  /// minimum where a layout has less than planned there, by more than a hundredth. Where no
+  /// candidate reaches is a body, or behind one; `all`: the demands of all candidates, where these
+  /// are made of a layout's own.
+  BetweenPoints look_between(const Layout& layout, const Demands* all = nullptr);
   /// Asks at points for as much of the least light that each candidate gives from the places where
   /// it may be mounted. Every layout whose minima hold off its places keeps these rows. Returns how
   /// many of them a layout breaks; no row where nothing is known of a demand, or it is none at
@@ -98,7 +100,9 @@ class Demands {
 
   Demands();
   void look_at(uint32_t group, const std::vector<glm::dvec3>& places, const Layout& layout,
-               BetweenPoints& out);
+               const Demands& all, BetweenPoints& out);
+  /// What all candidates together give at a place of a row [lx].
+  double most_at(const glm::dvec3& place, bool furnished) const;
   bool add_off_place(const PointOffPlace& point, Terms light, const Layout& layout);
 
   SceneDescription scene_;  // with all candidates

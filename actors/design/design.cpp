@@ -335,7 +335,7 @@ class Designing {
     asked.seconds = options_.seconds;
     asked.threads = options_.threads;
     auto refined = refine_layout(
-        switched_, *switched_.design, chosen_candidates(), demands_->hidden(), asked, interrupt_,
+        switched_, *switched_.design, chosen_candidates(), *demands_, asked, interrupt_,
         [&](double) { progress_("moving luminaires", out_.answer.objective, out_.answer.bound); });
     if (!refined) return refined.problem();
     if (refined->moved == 0) return std::nullopt;
@@ -362,6 +362,8 @@ class Designing {
     out_.assessment = std::move(assessed).value();
     out_.tolerance = std::move(tolerance);
     const LayoutProblem& problem = refined->demands->problem();
+    out_.between.least =
+        refined->demands->look_between(Layout(problem.options.size(), 1), demands_.get()).least;
     if (problem.groups.size() == out_.groups.size())
       out_.tightest = tightest_of(problem, Layout(problem.options.size(), 1));
     out_.refined = Refined{refined->moved, refined->before, refined->after};
