@@ -429,7 +429,11 @@ class Designing {
                            : std::max(moment, options_.seconds - (seconds() - solving_since_));
     settings.gap = options_.gap;
     settings.seed = options_.seed;
-    if (out_.verifications > 1) settings.start = out_.answer.layout;
+    if (out_.verifications > 1) {
+      // More is asked for now.
+      settings.start = out_.answer.layout;
+      settings.known_regions = out_.answer.regions;
+    }
     if (out_.verifications == 1) solving_since_ = out_.prepared_seconds = seconds();
     out_.answer = solve_layout(demands_->problem(), settings, interrupt_, progress_);
     if (out_.answer.end == LayoutEnd::infeasible) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -118,6 +119,12 @@ struct LayoutProblem {
 
 /// Whether each option is chosen.
 using Layout = std::vector<char>;
+
+/// Regions that are bounded together: no layout's options of them weigh less.
+struct RegionBound {
+  std::set<uint32_t> regions;
+  double least = 0;
+};
 
 double objective_of(const LayoutProblem& problem, const Layout& layout);
 

@@ -1,6 +1,8 @@
 #include "actors/design/region_bounds.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
 
 #include "runtime/core/clock.hpp"
 
@@ -45,8 +47,8 @@ std::map<std::pair<uint32_t, uint32_t>, double> light_between_regions(
 }
 
 RegionBounds::RegionBounds(const LayoutProblem& problem, const LayoutIndex& index,
-                           const AttainableSums& sums, GrowingProgram& growing,
-                           const std::atomic<bool>& interrupt)
+                           const AttainableSums& sums, const std::vector<RegionBound>& known,
+                           GrowingProgram& growing, const std::atomic<bool>& interrupt)
     : problem_(problem),
       index_(index),
       sums_(sums),
@@ -56,31 +58,47 @@ RegionBounds::RegionBounds(const LayoutProblem& problem, const LayoutIndex& inde
   std::set<uint32_t> regions;
   for (const LayoutOption& option : problem.options)
     if (option.region != no_region && !option.fixed) regions.insert(option.region);
+  for (const RegionBound& one : known) {
+    if (!std::includes(regions.begin(), regions.end(), one.regions.begin(), one.regions.end()))
+      continue;
+    for (const uint32_t region : one.regions) regions.erase(region);
+    growing_.add_region_bound(one.regions, one.least);
+    bounds_.push_back(one);
+  }
   for (const uint32_t region : regions) bounds_.push_back({{region}, 0});
 }
 
-void RegionBounds::bound_each(double seconds, const Raised& raised) {
+void RegionBounds::bound_each(const Layout& layout, double seconds, const Raised& raised) {
   const TimeLeft time(seconds);
-  size_t left = bounds_.size();
-  for (RegionBound& bound : bounds_) {
-    bound.least =
-        bound_of(bound.regions, time.seconds() / static_cast<double>(left--), std::nullopt);
-    growing_.add_region_bound(bound.regions, bound.least);
-    raised(sum());
+  if (!raised(sum())) return;
+  std::vector<size_t> asked = smallest_first();
+  std::erase_if(asked, [&](size_t i) { return !layout.empty() && !is_loose(layout, bounds_[i]); });
+  while (!asked.empty() && time.seconds() > 0 && !interrupt_) {
+    // Those that took more than their share are gone on with in what others left of theirs.
+    std::vector<size_t> unfinished;
+    size_t left = asked.size();
+    for (const size_t i : asked) {
+      RegionBound& bound = bounds_[i];
+      const Found found =
+          bound_of(bound.regions, layout, time.seconds() / static_cast<double>(left--));
+      if (!found.finished) unfinished.push_back(i);
+      if (found.least <= bound.least) continue;
+      bound.least = found.least;
+      growing_.add_region_bound(bound.regions, bound.least);
+      if (!raised(sum())) return;
+    }
+    asked = std::move(unfinished);
   }
 }
 
-bool RegionBounds::join(const Layout& layout, double wanted_below, double seconds,
-                        const Raised& raised) {
+bool RegionBounds::join(const Layout& layout, double seconds, const Raised& raised) {
   const TimeLeft time(seconds);
   for (const auto& [a, b] : pairs_to_try(layout)) {
     if (interrupt_ || time.seconds() <= 0) return false;
     RegionBound both = bounds_[a];
     both.regions.insert(bounds_[b].regions.begin(), bounds_[b].regions.end());
     const double apart = bounds_[a].least + bounds_[b].least;
-    // What the others weigh at least is left to none of these.
-    both.least =
-        bound_of(both.regions, time_for_pair * time.seconds(), wanted_below - (sum() - apart));
+    both.least = bound_of(both.regions, layout, time_for_pair * time.seconds()).least;
     if (both.least <= apart + weight_rounding) {
       tried_.insert(both.regions);
       continue;
@@ -114,6 +132,18 @@ double RegionBounds::sum() const {
   return out;
 }
 
+std::vector<size_t> RegionBounds::smallest_first() const {
+  std::vector<size_t> options(bounds_.size(), 0), out(bounds_.size());
+  for (size_t i = 0; i < bounds_.size(); ++i)
+    options[i] = static_cast<size_t>(std::count_if(
+        problem_.options.begin(), problem_.options.end(),
+        [&](const LayoutOption& one) { return bounds_[i].regions.contains(one.region); }));
+  std::iota(out.begin(), out.end(), size_t{0});
+  std::stable_sort(out.begin(), out.end(),
+                   [&](size_t a, size_t b) { return options[a] < options[b]; });
+  return out;
+}
+
 double RegionBounds::light_between(const RegionBound& a, const RegionBound& b) const {
   double out = 0;
   for (const uint32_t i : a.regions)
@@ -139,22 +169,25 @@ std::vector<std::pair<size_t, size_t>> RegionBounds::pairs_to_try(const Layout& 
   return out;
 }
 
-double RegionBounds::bound_of(const std::set<uint32_t>& regions, double seconds,
-                              std::optional<double> wanted_below) {
+/// A layout has no better one where these regions weigh as much in it as they do at least: whether
+/// they can weigh less is all that is asked.
+RegionBounds::Found RegionBounds::bound_of(const std::set<uint32_t>& regions, const Layout& layout,
+                                           double seconds) {
   const TimeLeft time(seconds);
   std::optional<double> cutoff;
-  if (wanted_below) cutoff = sums_.just_below(*wanted_below);
+  if (!layout.empty()) cutoff = sums_.just_below(weight_of(layout, {regions, 0}));
   LayoutSums sums(index_);
-  double bound = 0;
+  Found out;
   for (int round = 0; round < limits::row_rounds && !interrupt_; ++round) {
     const ProgramLimits asked{.seconds = time.seconds(), .cutoff = cutoff};
     const ProgramAnswer found = solve_program(growing_.of_regions(regions), asked, interrupt_, {});
     if (found.end == ProgramEnd::infeasible) {
-      // No layout weighs so little here. Without any layout the whole program says so.
-      if (cutoff) bound = std::max(bound, sums_.from(*cutoff));
+      // Without any layout the whole program says so.
+      if (cutoff) out.least = std::max(out.least, sums_.from(*cutoff));
+      out.finished = true;
       break;
     }
-    bound = std::max(bound, sums_.from(found.bound));
+    out.least = std::max(out.least, sums_.from(found.bound));
     if (found.end == ProgramEnd::stopped || found.values.empty()) break;
     sums.set(growing_.layout_of(found.values));
     auto broken = sums.violations();
@@ -162,10 +195,11 @@ double RegionBounds::bound_of(const std::set<uint32_t>& regions, double seconds,
       const uint32_t of = problem_.groups[group_of(problem_, v)].region;
       return of != no_region && !regions.contains(of);
     });
-    if (broken.empty() || time.seconds() <= 0) break;
+    out.finished = broken.empty();
+    if (out.finished || time.seconds() <= 0) break;
     for (const Violation& v : spread_out(problem_, broken, limits::rows_per_round)) growing_.add(v);
   }
-  return bound;
+  return out;
 }
 
 }  // namespace luxodus

@@ -8,7 +8,6 @@
 #include <atomic>
 #include <functional>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -18,32 +17,28 @@
 
 namespace luxodus {
 
-/// Regions that are bounded together: no layout's options of them weigh less.
-struct RegionBound {
-  std::set<uint32_t> regions;
-  double least = 0;
-};
-
 /// How much two regions have to do with each other: the shares of what the rows of one ask for that
 /// options of the other may give. By pairs, the smaller number first.
 std::map<std::pair<uint32_t, uint32_t>, double> light_between_regions(const LayoutProblem& problem);
 
 class RegionBounds {
  public:
-  /// Adds to `growing` the rows that solutions break, and what regions weigh at least.
-  /// Requires: all outlive this.
+  /// Adds to `growing` the rows that solutions break, and what regions weigh at least. `known`: of
+  /// the same problem, or of one that asks for less; also of regions that are not in this one.
+  /// Requires: all outlive this, but for `known`.
   RegionBounds(const LayoutProblem& problem, const LayoutIndex& index, const AttainableSums& sums,
-               GrowingProgram& growing, const std::atomic<bool>& interrupt);
+               const std::vector<RegionBound>& known, GrowingProgram& growing,
+               const std::atomic<bool>& interrupt);
 
-  /// Called with a larger sum of all bounds, whenever there is one.
-  using Raised = std::function<void(double sum)>;
+  /// Called with the sum of all bounds, whenever it may be larger. False: it is large enough.
+  using Raised = std::function<bool(double sum)>;
 
-  /// Each region by itself, in a time.
-  void bound_each(double seconds, const Raised& raised);
+  /// Each region by itself, in a time; where a layout is there, those that it has more in than is
+  /// known to be needed.
+  void bound_each(const Layout& layout, double seconds, const Raised& raised);
   /// Joins regions that the layout has more in than they weigh at least with one that lights them,
   /// the first where that raises the sum. False where none does, or the time was too short.
-  /// `wanted_below`: the objective, without what is fixed, that layouts have to be below.
-  bool join(const Layout& layout, double wanted_below, double seconds, const Raised& raised);
+  bool join(const Layout& layout, double seconds, const Raised& raised);
 
   /// All regions, each in one of them.
   const std::vector<RegionBound>& bounds() const { return bounds_; }
@@ -53,11 +48,16 @@ class RegionBounds {
 
  private:
   double sum() const;
+  /// By number of options: what small ones leave of their time is for the large ones.
+  std::vector<size_t> smallest_first() const;
   double light_between(const RegionBound& a, const RegionBound& b) const;
   /// Pairs of which one is loose, those first that light each other most.
   std::vector<std::pair<size_t, size_t>> pairs_to_try(const Layout& layout) const;
-  double bound_of(const std::set<uint32_t>& regions, double seconds,
-                  std::optional<double> wanted_below);
+  struct Found {
+    double least = 0;
+    bool finished = false;  // no more time would tell more
+  };
+  Found bound_of(const std::set<uint32_t>& regions, const Layout& layout, double seconds);
 
   const LayoutProblem& problem_;
   const LayoutIndex& index_;

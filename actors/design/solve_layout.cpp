@@ -26,7 +26,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Early rounds need no proof: their rows are not all there yet.
 constexpr double loose_gap = 0.04;
 /// Of the time of the search, what may go into the bounds of regions.
-constexpr double time_for_regions = 0.4;
+constexpr double time_for_regions = 0.6;
 /// And into regions that are solved anew around the best layout, each time.
 constexpr double time_for_improving = 0.1;
 /// And into the bounds of regions that are taken together.
@@ -181,22 +181,20 @@ class Solving {
 
   /// Regions by themselves, then together where that leaves more open than is wanted.
   void bound_regions(GrowingProgram& growing) {
-    RegionBounds regions(problem_, index_, sums_, growing, interrupt_);
-    if (regions.bounds().size() < 2) return;
+    RegionBounds regions(problem_, index_, sums_, settings_.known_regions, growing, interrupt_);
+    if (regions.bounds().size() < 2 && settings_.known_regions.empty()) return;
     const auto raised = [&](double sum) {
       raise_bound(sum);
       tell("regions", 0);
+      return !ended();
     };
-    regions.bound_each(time_for_regions * seconds_left(), raised);
+    regions.bound_each(answer_.layout, time_for_regions * seconds_left(), raised);
     improve_regions(growing, regions);
     const double until = seconds() + time_for_joining * seconds_left();
-    while (!answer_.layout.empty() && !ended() && !interrupt_ && seconds() < until) {
-      if (!regions.join(answer_.layout, answer_.objective - fixed_weight(), until - seconds(),
-                        raised))
-        return;
-      ++answer_.joined_regions;
+    while (!answer_.layout.empty() && !ended() && !interrupt_ && seconds() < until &&
+           regions.join(answer_.layout, until - seconds(), raised))
       improve_regions(growing, regions);
-    }
+    answer_.regions = regions.bounds();
   }
 
   /// Regions that weigh more than their bound anew, while the others stay as they are, until none
@@ -375,7 +373,7 @@ LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<Problem
     if (!known) out.first_seconds = seconds();
     out.rows += answer.rows;
     out.rounds = std::max(out.rounds, answer.rounds);
-    out.joined_regions += answer.joined_regions;
+    out.regions.insert(out.regions.end(), answer.regions.begin(), answer.regions.end());
     for (size_t g = 0; g < answer.share_of_group.size(); ++g)
       out.share_of_group[g] += answer.share_of_group[g];
     if (out.end == LayoutEnd::infeasible) break;  // nothing is left to find

@@ -19,6 +19,8 @@ struct SolveSettings {
   uint64_t seed = 1;
   int greedy_rounds = 200;  // of neighbourhoods that are filled anew, before and after the program
   Layout start = {};        // any that is known: it is made to hold and improved first
+  /// Of the same problem, or of one that asks for less.
+  std::vector<RegionBound> known_regions = {};
 };
 
 /// How the search ended.
@@ -42,7 +44,7 @@ struct LayoutAnswer {
   double seconds = 0;
   size_t rows = 0;  // of the last program
   int rounds = 0;
-  size_t joined_regions = 0;           // that were bounded together with others
+  std::vector<RegionBound> regions;    // what they weigh at least
   std::vector<double> share_of_group;  // of the bound of the program without whole numbers
 
   /// Of the objective that the bound leaves open; 0 of an optimal one.
