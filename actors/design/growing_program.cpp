@@ -84,6 +84,10 @@ void GrowingProgram::add_region_bound(const std::set<uint32_t>& regions, double 
   add_row(std::move(row), of_bound);
 }
 
+bool GrowingProgram::has(const Violation& v) const {
+  return known_.contains(v.kind == Violation::Kind::failure ? whole_key(v) : key_of(v));
+}
+
 bool GrowingProgram::add(const Violation& v) {
   const bool fresh = known_.insert(key_of(v)).second;
   const double more = fresh ? 1 : 1 + raised_again;

@@ -39,6 +39,8 @@ class GrowingProgram {
   /// Groups of the rows, as numbers of the problem; below 0: of none.
   const std::vector<int>& groups() const { return groups_; }
 
+  /// Whether the row, or of failures that of all of them at its point, is there.
+  bool has(const Violation& v) const;
   /// False where the row is there already: then it is asked for by a little more.
   bool add(const Violation& v);
 

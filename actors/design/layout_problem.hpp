@@ -179,8 +179,8 @@ class LayoutSums {
   int64_t lack_of(size_t pool) const;
   /// Of each group, the least share of what it asks for that is there; infinite without rows.
   std::vector<double> tightest() const;
-  /// All sums that do not hold.
-  std::vector<Violation> violations() const;
+  /// All sums that do not hold; or of which less than `below` of what is asked for is there.
+  std::vector<Violation> violations(double below = 1 - sum_tolerance) const;
   /// All sums, and as many of each pool as it has.
   bool holds() const;
 

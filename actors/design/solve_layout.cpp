@@ -33,6 +33,9 @@ constexpr double time_for_improving = 0.1;
 constexpr double time_for_joining = 0.5;
 /// And how much after it into what binds.
 constexpr double time_for_prices = 0.05;
+/// A row binds where a layout has less than this share of what it asks for; so many rows at most.
+constexpr double little_to_spare = 1.5;
+constexpr size_t tight_rows = 600;
 /// Rounding of an objective.
 constexpr double rounding = 1e-6;
 
@@ -149,6 +152,10 @@ class Solving {
     for (const Violation& v : first_rows(problem_)) growing.add(v);
     bound_regions(growing);
     if (ended()) return fill_shares(growing);
+    if (interrupted_) {
+      answer_.end = answer_.layout.empty() ? LayoutEnd::unknown : LayoutEnd::interrupted;
+      return fill_shares(growing);
+    }
     double gap = std::max(loose_gap, settings_.gap);
     LayoutSums sums(index_);
     for (answer_.rounds = 1; answer_.rounds <= limits::row_rounds; ++answer_.rounds) {
@@ -189,11 +196,13 @@ class Solving {
       return !ended();
     };
     regions.bound_each(answer_.layout, time_for_regions * seconds_left(), raised);
+    interrupted_ = regions.interrupted();
     improve_regions(growing, regions);
     const double until = seconds() + time_for_joining * seconds_left();
-    while (!answer_.layout.empty() && !ended() && !interrupt_ && seconds() < until &&
-           regions.join(answer_.layout, until - seconds(), raised))
+    while (!answer_.layout.empty() && !ended() && !interrupt_ && !interrupted_ &&
+           seconds() < until && regions.join(answer_.layout, until - seconds(), raised))
       improve_regions(growing, regions);
+    interrupted_ = interrupted_ || regions.interrupted();
     answer_.regions = regions.bounds();
   }
 
@@ -204,7 +213,7 @@ class Solving {
     for (bool better = !answer_.layout.empty(); better && !ended();) {
       better = false;
       for (const RegionBound& one : regions.bounds()) {
-        if (interrupt_ || seconds() > until) return;
+        if (interrupt_ || interrupted_ || seconds() > until) return;
         if (!regions.is_loose(answer_.layout, one)) continue;
         better = improve_region(growing, one.regions, until) || better;
         tell("regions", 0);
@@ -219,6 +228,7 @@ class Solving {
       const ProgramLimits asked{.seconds = until - seconds(), .cutoff = cutoff()};
       const ProgramAnswer found =
           solve_program(growing.around(answer_.layout, regions), asked, interrupt_, {});
+      interrupted_ = interrupted_ || (found.interrupted && seconds() < until);
       if (found.values.empty()) break;
       sums.set(growing.layout_of(found.values));
       const auto broken = sums.violations();
@@ -260,8 +270,19 @@ class Solving {
     return true;
   }
 
+  /// A search that ends early has asked for few rows: those too bind that its layout has little to
+  /// spare of.
+  void add_tight_rows(GrowingProgram& growing) const {
+    if (answer_.layout.empty()) return;
+    LayoutSums sums(index_);
+    sums.set(answer_.layout);
+    for (const Violation& v : spread_out(problem_, sums.violations(little_to_spare), tight_rows))
+      if (!growing.has(v)) growing.add(v);
+  }
+
   /// Of the program without whole numbers: what each group's rows add to its objective.
-  void fill_shares(const GrowingProgram& growing) {
+  void fill_shares(GrowingProgram& growing) {
+    add_tight_rows(growing);
     answer_.share_of_group.assign(problem_.groups.size(), 0);
     IntegerProgram program = growing.program();
     for (size_t i = 0; i < program.rows.size(); ++i)
@@ -297,6 +318,7 @@ class Solving {
   SystemClock clock_;
   Nanoseconds began_;
   double solved_objective_ = 0, solved_bound_ = 0;
+  bool interrupted_ = false;  // Ctrl-C came while the solver listened to it
   LayoutAnswer answer_;
 };
 
