@@ -35,6 +35,20 @@ bool all_one(const std::vector<double>& factors) {
   return std::all_of(factors.begin(), factors.end(), [](double f) { return f >= 1; });
 }
 
+/// A number for each candidate; types and turns that hang in the same place have the same, as what
+/// hides one of them hides all. Those that share a place of the problem need not.
+std::vector<uint32_t> hanging_places(const std::vector<LuminaireCandidate>& candidates) {
+  std::vector<uint32_t> out;
+  uint32_t number = 0;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    if (i > 0 && (candidates[i].place != candidates[i - 1].place ||
+                  candidates[i].position != candidates[i - 1].position))
+      ++number;
+    out.push_back(number);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool is_of_luminaires(const std::string& rule) {
@@ -556,8 +570,7 @@ Result<std::unique_ptr<Demands>> Demands::make(const SceneDescription& scene,
                                                const Scenario& doors, int threads) {
   std::unique_ptr<Demands> out(new Demands);
   out->scene_ = scene_of(scene, design, candidates);
-  std::vector<uint32_t> places;
-  for (const LuminaireCandidate& one : candidates) places.push_back(one.place);
+  const std::vector<uint32_t> places = hanging_places(candidates);
   const bool has_furniture = std::any_of(scene.objects.begin(), scene.objects.end(), is_furniture);
   for (const bool furnished : {false, true}) {
     if (furnished && !has_furniture) break;

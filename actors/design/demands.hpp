@@ -28,6 +28,27 @@ struct BetweenPoints {
   double least = std::numeric_limits<double>::infinity();  // share of what is planned
 };
 
+/// A point where a minimum does not hold with luminaires off their places.
+struct PointOffPlace {
+  DemandKind kind = DemandKind::minimum;
+  std::string rule, subject;
+  glm::dvec3 place{0};
+  double least = 0;  // what is asked for there [lx]
+};
+
+/// In which luminaires are mounted off their places. Keeps references.
+struct OffPlaceScene {
+  const SceneDescription& scene;  // as for Demands::make
+  const DesignSettings& design;
+  const Scenario& doors;
+  int threads = 1;
+};
+
+namespace limits {
+/// Candidates whose light off their places is computed for one question; each has nine places.
+inline constexpr size_t displaced_candidates = 4'000;
+}  // namespace limits
+
 class Demands {
  public:
   /// `scene`: as the circuits of the judged state leave it (as_switched).
@@ -56,20 +77,33 @@ class Demands {
   /// more where it is worst, by as much as was missing. False where there is nothing to ask for.
   bool ask_for_more(const Check& check, const Layout& layout);
   /// Looks between the darkest points of each minimum and those next to them, and asks for the
-  /// minimum where a layout has less than planned there, by more than a hundredth.
-  BetweenPoints look_between(const Layout& layout);
+  /// minimum where a layout has less than planned there, by more than a hundredth. Where no
+  /// candidate reaches is a body, or behind one; `all`: the demands of all candidates, where these
+  /// are made of a layout's own.
+  BetweenPoints look_between(const Layout& layout, const Demands* all = nullptr);
+  /// Asks at points for as much of the least light that each candidate gives from the places where
+  /// it may be mounted. Every layout whose minima hold off its places keeps these rows. Returns how
+  /// many of them a layout breaks; no row where nothing is known of a demand, or it is none at
+  /// points. `candidates`: those that this was made of. Errors: as compile_scene.
+  Result<size_t> ask_off_place(const OffPlaceScene& of,
+                               const std::vector<LuminaireCandidate>& candidates,
+                               const std::vector<PointOffPlace>& points, const Layout& layout);
   /// As ask_for_more of a check, of a minimum that does not hold elsewhere: `missing` at `place`,
   /// in its unit. Of a demand on failures everywhere.
   bool ask_for_more(DemandKind kind, const std::string& rule, const std::string& subject,
                     const glm::dvec3& place, double missing, const Layout& layout);
 
  private:
-  struct Lit;     // a building, with furniture or without
-  class Builder;  // of the problem
+  struct Lit;       // a building, with furniture or without
+  class Builder;    // of the problem
+  class Displaced;  // candidates off their places
 
   Demands();
   void look_at(uint32_t group, const std::vector<glm::dvec3>& places, const Layout& layout,
-               BetweenPoints& out);
+               const Demands& all, BetweenPoints& out);
+  /// What all candidates together give at a place of a row [lx].
+  double most_at(const glm::dvec3& place, bool furnished) const;
+  bool add_off_place(const PointOffPlace& point, Terms light, const Layout& layout);
 
   SceneDescription scene_;  // with all candidates
   std::unique_ptr<Lit> bare_, furnished_;

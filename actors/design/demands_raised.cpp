@@ -150,7 +150,7 @@ bool Demands::ask_for_more(DemandKind kind, const std::string& rule, const std::
   return any;
 }
 
-BetweenPoints Demands::look_between(const Layout& layout) {
+BetweenPoints Demands::look_between(const Layout& layout, const Demands* all) {
   std::vector<std::vector<std::pair<double, glm::dvec3>>> of_group(problem_.groups.size());
   for (const CoverRow& row : problem_.covers) {
     const DemandKind kind = problem_.groups[row.group].kind;
@@ -161,18 +161,23 @@ BetweenPoints Demands::look_between(const Layout& layout) {
   for (uint32_t group = 0; group < of_group.size(); ++group) {
     if (of_group[group].empty()) continue;
     const auto places = between_darkest(std::move(of_group[group]));
-    if (!places.empty()) look_at(group, places, layout, out);
+    if (!places.empty()) look_at(group, places, layout, all == nullptr ? *this : *all, out);
   }
   return out;
 }
 
+double Demands::most_at(const glm::dvec3& place, bool furnished) const {
+  const Lit& in = furnished && furnished_ ? *furnished_ : *bare_;
+  const auto lux = in.light.lit({place}, floor_normal, lifted_already).front().lux;
+  return most_from(*terms_of(lux, no_light_lx), problem_.options);
+}
+
 void Demands::look_at(uint32_t group, const std::vector<glm::dvec3>& places, const Layout& layout,
-                      BetweenPoints& out) {
+                      const Demands& all, BetweenPoints& out) {
   const double asked = problem_.groups[group].asked;
   const auto factors = factors_.find(group);
   const auto lit = [&](const Lit& in, const std::vector<glm::dvec3>& at) {
     std::vector<Terms> light;
-    constexpr double lifted_already = 0;  // places of rows lie above the floor
     for (const LitPoint& p : in.light.lit(at, floor_normal, lifted_already)) {
       Terms terms = terms_of(p.lux, no_light_lx);
       light.push_back(factors == factors_.end() ? terms : times(terms, factors->second));
@@ -184,9 +189,13 @@ void Demands::look_at(uint32_t group, const std::vector<glm::dvec3>& places, con
   const bool past_furniture = furnished_ && !hidden_.contains({of.rule, of.subject});
   std::vector<Terms> light = lit(past_furniture ? *furnished_ : *bare_, places);
   for (size_t i = 0; i < places.size(); ++i) {
-    if (past_furniture && most_from(*light[i], problem_.options) < asked)
-      light[i] = lit(*bare_, {places[i]}).front();
-    if (most_from(*light[i], problem_.options) < asked) continue;  // in a body
+    const auto reached = [&](bool furnished) {
+      return most_from(*light[i], problem_.options) >= asked ||
+             (&all != this && all.most_at(places[i], furnished) >= asked);
+    };
+    const bool past = past_furniture && reached(true);
+    if (past_furniture && !past) light[i] = lit(*bare_, {places[i]}).front();
+    if (!past && !reached(false)) continue;  // in a body
     const double share = sum_over(*light[i], layout) / asked;
     out.least = std::min(out.least, share);
     if (share >= 1 - between_tolerance) continue;

@@ -201,7 +201,11 @@ class Designing {
         continue;
       }
       if (!nearest_ || out_.tolerance->least() > nearest_->tolerance->least()) nearest_ = out_;
-      if (!last && ask_for_more_off_place()) continue;
+      if (!last) {
+        const auto asked = ask_for_more_off_place();
+        if (!asked) return asked.problem();
+        if (asked.value()) continue;
+      }
       out_ = *std::move(nearest_);
       break;
     }
@@ -319,6 +323,7 @@ class Designing {
     const BetweenPoints found = demands_->look_between(out_.answer.layout);
     out_.between.least = found.least;
     out_.between.added += found.added;
+    if (found.added > 0) rows_of_all_ = false;  // less is let be by a hundredth
     return found.added > 0;
   }
 
@@ -330,7 +335,7 @@ class Designing {
     asked.seconds = options_.seconds;
     asked.threads = options_.threads;
     auto refined = refine_layout(
-        switched_, *switched_.design, chosen_candidates(), demands_->hidden(), asked, interrupt_,
+        switched_, *switched_.design, chosen_candidates(), *demands_, asked, interrupt_,
         [&](double) { progress_("moving luminaires", out_.answer.objective, out_.answer.bound); });
     if (!refined) return refined.problem();
     if (refined->moved == 0) return std::nullopt;
@@ -357,6 +362,8 @@ class Designing {
     out_.assessment = std::move(assessed).value();
     out_.tolerance = std::move(tolerance);
     const LayoutProblem& problem = refined->demands->problem();
+    out_.between.least =
+        refined->demands->look_between(Layout(problem.options.size(), 1), demands_.get()).least;
     if (problem.groups.size() == out_.groups.size())
       out_.tightest = tightest_of(problem, Layout(problem.options.size(), 1));
     out_.refined = Refined{refined->moved, refined->before, refined->after};
@@ -364,13 +371,15 @@ class Designing {
   }
 
   /// Rows that were raised for one layout may exclude others that pass, or hold off their places,
-  /// with less: the bound is that of the first search.
+  /// with less: the bound is the largest of searches without such rows.
   void keep_bound() {
     LayoutAnswer& answer = out_.answer;
-    if (!first_bound_) first_bound_ = answer.bound;
-    if (answer.bound <= *first_bound_) return;
-    answer.bound = *first_bound_;
-    if (answer.end == LayoutEnd::optimal && answer.gap() > 0) answer.end = LayoutEnd::within_gap;
+    if (rows_of_all_) known_bound_ = std::max(known_bound_, answer.bound);
+    answer.bound = std::min(known_bound_, answer.objective);
+    if (answer.gap() == 0)
+      answer.end = LayoutEnd::optimal;
+    else if (answer.gap() <= options_.gap || answer.end == LayoutEnd::optimal)
+      answer.end = LayoutEnd::within_gap;
   }
 
   std::vector<LuminaireCandidate> chosen_candidates() const {
@@ -395,13 +404,19 @@ class Designing {
   }
 
   /// False where nothing can be asked for, or no layout gives more: then what is there is told.
-  bool ask_for_more_off_place() {
+  Result<bool> ask_for_more_off_place() {
+    const auto broken = demands_->ask_off_place(
+        {switched_, *switched_.design, scenario_, options_.threads}, candidates_.all,
+        broken_points(*out_.tolerance), out_.answer.layout);
+    if (!broken) return broken.problem();
+    if (broken.value() > 0) return true;
     bool any = false;
     for (const ShareOffPlace& one : out_.tolerance->demands)
       if (one.missing > 0)
         any = demands_->ask_for_more(one.kind, one.rule, one.subject, one.place, one.missing,
                                      out_.answer.layout) ||
               any;
+    if (any) rows_of_all_ = false;
     return any;
   }
 
@@ -414,6 +429,11 @@ class Designing {
                            : std::max(moment, options_.seconds - (seconds() - solving_since_));
     settings.gap = options_.gap;
     settings.seed = options_.seed;
+    if (out_.verifications > 1) {
+      // More is asked for now.
+      settings.start = out_.answer.layout;
+      settings.known_regions = out_.answer.regions;
+    }
     if (out_.verifications == 1) solving_since_ = out_.prepared_seconds = seconds();
     out_.answer = solve_layout(demands_->problem(), settings, interrupt_, progress_);
     if (out_.answer.end == LayoutEnd::infeasible) {
@@ -525,6 +545,7 @@ class Designing {
     bool any = false;
     for (const Check& check : failing)
       any = demands_->ask_for_more(check, out_.answer.layout) || any;
+    if (any) rows_of_all_ = false;
     return any;
   }
 
@@ -551,7 +572,8 @@ class Designing {
   DesignResult out_;
   /// The layout that passes the rules and holds best off its places, while none holds there.
   std::optional<DesignResult> nearest_;
-  std::optional<double> first_bound_;
+  bool rows_of_all_ = true;  // every layout that passes keeps all rows that were added
+  double known_bound_ = 0;
 };
 
 }  // namespace

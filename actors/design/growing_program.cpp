@@ -46,36 +46,46 @@ GrowingProgram::RowKey GrowingProgram::key_of(const Violation& v) {
           v.kind == Violation::Kind::spread ? v.brightest : v.place};
 }
 
-IntegerProgram GrowingProgram::of_region(uint32_t region) const {
+IntegerProgram GrowingProgram::of_regions(const std::set<uint32_t>& regions) const {
   IntegerProgram out = program_;
   for (size_t i = 0; i < problem_.options.size(); ++i)
-    if (problem_.options[i].region != region) out.cost[i] = 0;
+    if (!regions.contains(problem_.options[i].region)) out.cost[i] = 0;
   out.rows.clear();
   for (size_t i = 0; i < program_.rows.size(); ++i) {
     const int group = groups_[i];
-    const uint32_t of = group < 0 ? region : problem_.groups[static_cast<size_t>(group)].region;
-    if (of == region || of == no_region) out.rows.push_back(program_.rows[i]);
+    if (group >= 0) {
+      const uint32_t of = problem_.groups[static_cast<size_t>(group)].region;
+      if (of != no_region && !regions.contains(of)) continue;
+    }
+    out.rows.push_back(program_.rows[i]);
   }
   return out;
 }
 
-IntegerProgram GrowingProgram::around(const Layout& layout, uint32_t region) const {
+IntegerProgram GrowingProgram::around(const Layout& layout,
+                                      const std::set<uint32_t>& regions) const {
   IntegerProgram out = program_;
   for (size_t i = 0; i < problem_.options.size(); ++i)
-    if (problem_.options[i].region != region) out.low[i] = out.high[i] = layout[i] != 0 ? 1 : 0;
+    if (!regions.contains(problem_.options[i].region))
+      out.low[i] = out.high[i] = layout[i] != 0 ? 1 : 0;
   return out;
 }
 
-void GrowingProgram::add_region_bound(uint32_t region, double least) {
+void GrowingProgram::add_region_bound(const std::set<uint32_t>& regions, double least) {
+  if (!(least > 0)) return;
   LinearRow row;
   for (size_t i = 0; i < problem_.options.size(); ++i) {
-    if (problem_.options[i].region != region || !(program_.cost[i] > 0)) continue;
+    if (!regions.contains(problem_.options[i].region) || !(program_.cost[i] > 0)) continue;
     row.column.push_back(static_cast<int>(i));
     row.value.push_back(program_.cost[i]);
   }
   row.low = least;
   row.high = infinite_row;
   add_row(std::move(row), of_bound);
+}
+
+bool GrowingProgram::has(const Violation& v) const {
+  return known_.contains(v.kind == Violation::Kind::failure ? whole_key(v) : key_of(v));
 }
 
 bool GrowingProgram::add(const Violation& v) {

@@ -16,6 +16,8 @@ namespace luxodus {
 namespace limits {
 /// Rows that one round adds.
 inline constexpr size_t rows_per_round = 80;
+/// Rounds. Each adds rows that no earlier one had, so they end by themselves; this ends a mistake.
+inline constexpr int row_rounds = 500;
 }  // namespace limits
 
 class GrowingProgram {
@@ -24,12 +26,12 @@ class GrowingProgram {
   GrowingProgram(const LayoutProblem& problem, bool feasible_only);
 
   const IntegerProgram& program() const { return program_; }
-  /// Only the options of one region cost anything, and the rows of others are left out.
-  IntegerProgram of_region(uint32_t region) const;
-  /// All options but those of a region are as a layout has them.
-  IntegerProgram around(const Layout& layout, uint32_t region) const;
-  /// No layout's options of the region weigh less than this together.
-  void add_region_bound(uint32_t region, double least);
+  /// Only the options of some regions cost anything, and the rows of others are left out.
+  IntegerProgram of_regions(const std::set<uint32_t>& regions) const;
+  /// All options but those of some regions are as a layout has them.
+  IntegerProgram around(const Layout& layout, const std::set<uint32_t>& regions) const;
+  /// No layout's options of the regions weigh less than this together.
+  void add_region_bound(const std::set<uint32_t>& regions, double least);
   /// Rows that follow from the others; and those of places.
   static constexpr int of_bound = -2, of_place = -1;
 
@@ -37,6 +39,8 @@ class GrowingProgram {
   /// Groups of the rows, as numbers of the problem; below 0: of none.
   const std::vector<int>& groups() const { return groups_; }
 
+  /// Whether the row, or of failures that of all of them at its point, is there.
+  bool has(const Violation& v) const;
   /// False where the row is there already: then it is asked for by a little more.
   bool add(const Violation& v);
 

@@ -77,11 +77,11 @@ void LayoutSums::find_largest(std::vector<float>& largest, std::vector<uint32_t>
   }
 }
 
-std::vector<Violation> LayoutSums::violations() const {
+std::vector<Violation> LayoutSums::violations(double below) const {
   std::vector<Violation> out;
   using Kind = Violation::Kind;
   for (uint32_t i = 0; i < cover_.size(); ++i)
-    if (cover_[i] < 1 - sum_tolerance) out.push_back({Kind::cover, i, 0, 0, 0, cover_[i]});
+    if (cover_[i] < below) out.push_back({Kind::cover, i, 0, 0, 0, cover_[i]});
   std::vector<float> largest;
   std::vector<uint32_t> whose;
   if (!problem_.failures.empty()) find_largest(largest, whose);
@@ -89,7 +89,7 @@ std::vector<Violation> LayoutSums::violations() const {
     const FailureRows& rows = problem_.failures[i];
     for (const uint32_t p : rows.points) {
       const double share = (light_[p] - static_cast<double>(largest[p])) / rows.least;
-      if (share < 1 - sum_tolerance) out.push_back({Kind::failure, i, p, whose[p], 0, share});
+      if (share < below) out.push_back({Kind::failure, i, p, whose[p], 0, share});
     }
   }
   for (uint32_t i = 0; i < problem_.spreads.size(); ++i) {
@@ -98,8 +98,9 @@ std::vector<Violation> LayoutSums::violations() const {
     const auto darker = [&](uint32_t a, uint32_t b) { return light_[a] < light_[b]; };
     const uint32_t low = *std::min_element(rows.low.begin(), rows.low.end(), darker);
     const uint32_t high = *std::max_element(rows.high.begin(), rows.high.end(), darker);
-    if (light_[high] <= rows.ratio * light_[low] * (1 + sum_tolerance)) continue;
-    out.push_back({Kind::spread, i, low, 0, high, rows.ratio * light_[low] / light_[high]});
+    if (!(light_[high] > 0)) continue;
+    const double share = rows.ratio * light_[low] / light_[high];
+    if (share < below) out.push_back({Kind::spread, i, low, 0, high, share});
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -119,6 +120,12 @@ struct LayoutProblem {
 /// Whether each option is chosen.
 using Layout = std::vector<char>;
 
+/// Regions that are bounded together: no layout's options of them weigh less.
+struct RegionBound {
+  std::set<uint32_t> regions;
+  double least = 0;
+};
+
 double objective_of(const LayoutProblem& problem, const Layout& layout);
 
 /// Sums may be below what is asked for by this share of it: rounding.
@@ -172,8 +179,8 @@ class LayoutSums {
   int64_t lack_of(size_t pool) const;
   /// Of each group, the least share of what it asks for that is there; infinite without rows.
   std::vector<double> tightest() const;
-  /// All sums that do not hold.
-  std::vector<Violation> violations() const;
+  /// All sums that do not hold; or of which less than `below` of what is asked for is there.
+  std::vector<Violation> violations(double below = 1 - sum_tolerance) const;
   /// All sums, and as many of each pool as it has.
   bool holds() const;
 

@@ -14,6 +14,9 @@ namespace {
 
 /// Directions in which a luminaire is off.
 constexpr int off_directions = 8;
+/// Points of a demand that are asked for at once, and how far they are from each other [m].
+constexpr size_t asked_at_once = 40;
+constexpr double broken_apart_m = 0.5;
 /// A share that is this near to 1 holds: rounding.
 constexpr double share_rounding = 1e-6;
 
@@ -83,15 +86,14 @@ class LeastLight {
 class Tightest {
  public:
   void offer(const ConstraintGroup& group, double share, double least, const glm::dvec3& place) {
-    ShareOffPlace one{group.kind, group.rule, group.subject,
-                      share,      place,      share < 1 - share_rounding ? (1 - share) * least : 0};
-    const auto at = std::find_if(all_.begin(), all_.end(), [&](const ShareOffPlace& other) {
-      return other.kind == one.kind && other.rule == one.rule && other.subject == one.subject;
-    });
-    if (at == all_.end())
-      all_.push_back(std::move(one));
-    else if (share < at->share)
-      *at = std::move(one);
+    ShareOffPlace& one = of(group);
+    const bool breaks = share < 1 - share_rounding;
+    if (breaks) one.broken.emplace_back(share, place);
+    if (share >= one.share) return;
+    one.share = share;
+    one.place = place;
+    one.least = least;
+    one.missing = breaks ? (1 - share) * least : 0;
   }
   std::vector<ShareOffPlace> take() {
     std::stable_sort(all_.begin(), all_.end(), [](const ShareOffPlace& a, const ShareOffPlace& b) {
@@ -101,10 +103,46 @@ class Tightest {
   }
 
  private:
+  ShareOffPlace& of(const ConstraintGroup& group) {
+    for (ShareOffPlace& one : all_)
+      if (one.kind == group.kind && one.rule == group.rule && one.subject == group.subject)
+        return one;
+    return all_.emplace_back(ShareOffPlace{group.kind, group.rule, group.subject,
+                                           std::numeric_limits<double>::infinity()});
+  }
+
   std::vector<ShareOffPlace> all_;
 };
 
 }  // namespace
+
+Result<std::vector<LuminaireCandidate>> displaced_copies(
+    const OffPlaceScene& of, const std::vector<LuminaireCandidate>& candidates) {
+  const SceneDescription lit = scene_of(of.scene, of.design, candidates);
+  const auto building =
+      Building::make(code_scene(lit, true), code_scenario(lit, of.doors), of.threads);
+  if (!building) return building.problem();
+  return with_places_off(*building.value(), candidates, of.design.place_tolerance_m);
+}
+
+std::vector<PointOffPlace> broken_points(const PlaceTolerance& tolerance) {
+  std::vector<PointOffPlace> out;
+  for (const ShareOffPlace& one : tolerance.demands) {
+    auto worst_first = one.broken;
+    std::stable_sort(worst_first.begin(), worst_first.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    const size_t before = out.size();
+    for (const auto& [share, place] : worst_first) {
+      if (out.size() >= before + asked_at_once) break;
+      const bool near = std::any_of(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(),
+                                    [&](const PointOffPlace& other) {
+                                      return glm::length(other.place - place) < broken_apart_m;
+                                    });
+      if (!near) out.push_back({one.kind, one.rule, one.subject, place, one.least});
+    }
+  }
+  return out;
+}
 
 Result<PlaceTolerance> tolerance_of(const SceneDescription& scene, const DesignSettings& design,
                                     const std::vector<LuminaireCandidate>& chosen,
@@ -112,15 +150,12 @@ Result<PlaceTolerance> tolerance_of(const SceneDescription& scene, const DesignS
                                     int threads) {
   PlaceTolerance out;
   out.distance_m = design.place_tolerance_m;
-  const SceneDescription lit = scene_of(scene, design, chosen);
-  const auto building = Building::make(code_scene(lit, true), code_scenario(lit, doors), threads);
-  if (!building) return building.problem();
+  const auto copies = displaced_copies({scene, design, doors, threads}, chosen);
+  if (!copies) return copies.problem();
   // The limits of the rules themselves: the margin is there for this, among other things.
   DesignSettings bare_limits = design;
   bare_limits.margin = 1;
-  const auto demands = Demands::make(
-      scene, bare_limits, with_places_off(*building.value(), chosen, design.place_tolerance_m),
-      codes, doors, threads);
+  const auto demands = Demands::make(scene, bare_limits, copies.value(), codes, doors, threads);
   if (!demands) return demands.problem();
   const LayoutProblem& problem = demands.value()->problem();
   const LeastLight least(problem);

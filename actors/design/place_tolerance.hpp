@@ -18,6 +18,9 @@ struct ShareOffPlace {
   double share = 0;  // of the minimum of the rule, without the planning margin
   glm::dvec3 place{0};
   double missing = 0;  // to that minimum, in the unit of the demand; 0 where it holds
+  double least = 0;    // what is asked for, in the unit of the demand
+  std::vector<std::pair<double, glm::dvec3>>
+      broken{};  // all places where it does not hold, with their shares
 };
 
 struct PlaceTolerance {
@@ -27,6 +30,16 @@ struct PlaceTolerance {
   double least() const { return demands.empty() ? 1 : demands.front().share; }
   bool holds() const { return demands.empty() || !(demands.front().missing > 0); }
 };
+
+/// Each candidate where it is planned and where it may be instead, one after another; their `place`
+/// is its number. Places that lie in bodies, or behind what is in between, are none.
+/// Errors: as compile_scene.
+Result<std::vector<LuminaireCandidate>> displaced_copies(
+    const OffPlaceScene& of, const std::vector<LuminaireCandidate>& candidates);
+
+/// The points at which to ask for more: of each demand that does not hold its worst, apart from
+/// each other.
+std::vector<PointOffPlace> broken_points(const PlaceTolerance& tolerance);
 
 /// `chosen`: the candidates of a layout. Places that lie in bodies, or behind what is in between,
 /// are none that a luminaire is mounted at.

@@ -36,12 +36,12 @@ struct Judged {
 class Refining {
  public:
   Refining(const SceneDescription& scene, const DesignSettings& design,
-           const std::vector<LuminaireCandidate>& chosen, const Demands::Hidden& hidden,
+           const std::vector<LuminaireCandidate>& chosen, const Demands& all,
            const RefineOptions& options, const std::atomic<bool>& interrupt,
            const std::function<void(double)>& progress)
       : scene_(scene),
         design_(design),
-        hidden_(hidden),
+        all_(all),
         options_(options),
         interrupt_(interrupt),
         progress_(progress),
@@ -90,8 +90,8 @@ class Refining {
       return out;
     }
     for (const auto& [what, points] : demands.value()->hidden()) {
-      const auto at = hidden_.find(what);
-      if (at == hidden_.end() || points > at->second) return out;
+      const auto at = all_.hidden().find(what);
+      if (at == all_.hidden().end() || points > at->second) return out;
     }
     const LayoutProblem& problem = demands.value()->problem();
     const LayoutIndex index(problem);
@@ -115,8 +115,16 @@ class Refining {
         sum += std::exp(-sharpness * (sums.cover(row) - out.least));
     if (!(sum > 0)) return {};  // no minimum is asked for
     out.smooth = out.least - std::log(sum) / sharpness;
-    if (out_.evaluations == 1) weigh(problem, sums, out.least);
+    if (out_.evaluations == 1)
+      weigh(problem, sums, out.least);
+    else if (out.smooth >= best_.smooth + least_gain && has_gap(*demands.value()))
+      return {};
     return out;
+  }
+
+  /// Whether a minimum hides between the points. Looked at where a position would be taken alone.
+  bool has_gap(Demands& demands) const {
+    return demands.look_between(Layout(demands.problem().options.size(), 1), &all_).added > 0;
   }
 
   /// How much each luminaire gives where minima are tightest.
@@ -201,7 +209,7 @@ class Refining {
 
   const SceneDescription& scene_;
   const DesignSettings& design_;
-  const Demands::Hidden& hidden_;
+  const Demands& all_;
   const RefineOptions& options_;
   const std::atomic<bool>& interrupt_;
   const std::function<void(double)>& progress_;
@@ -220,11 +228,10 @@ class Refining {
 }  // namespace
 
 Result<Refinement> refine_layout(const SceneDescription& scene, const DesignSettings& design,
-                                 const std::vector<LuminaireCandidate>& chosen,
-                                 const Demands::Hidden& hidden, const RefineOptions& options,
-                                 const std::atomic<bool>& interrupt,
+                                 const std::vector<LuminaireCandidate>& chosen, const Demands& all,
+                                 const RefineOptions& options, const std::atomic<bool>& interrupt,
                                  const std::function<void(double)>& progress) {
-  return Refining(scene, design, chosen, hidden, options, interrupt, progress).run();
+  return Refining(scene, design, chosen, all, options, interrupt, progress).run();
 }
 
 }  // namespace luxodus

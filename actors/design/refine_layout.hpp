@@ -28,12 +28,12 @@ struct Refinement {
   std::unique_ptr<Demands> demands;  // of the moved ones; each is an option
 };
 
-/// `chosen`: the candidates of a layout. `hidden`: what furniture hides from all candidates; no
-/// move may hide more. Existing luminaires stay. Errors: as compile_scene.
+/// `chosen`: the candidates of a layout; `all`: the demands of all candidates. What furniture hides
+/// from all of these may be hidden: no move may hide more, and none leaves a gap between the points
+/// that they reach. Existing luminaires stay. Errors: as compile_scene.
 Result<Refinement> refine_layout(const SceneDescription& scene, const DesignSettings& design,
-                                 const std::vector<LuminaireCandidate>& chosen,
-                                 const Demands::Hidden& hidden, const RefineOptions& options,
-                                 const std::atomic<bool>& interrupt,
+                                 const std::vector<LuminaireCandidate>& chosen, const Demands& all,
+                                 const RefineOptions& options, const std::atomic<bool>& interrupt,
                                  const std::function<void(double least)>& progress);
 
 }  // namespace luxodus

@@ -14,6 +14,7 @@
 #include "actors/design/growing_program.hpp"
 #include "actors/design/mixed_integer_program.hpp"
 #include "actors/design/preference.hpp"
+#include "actors/design/region_bounds.hpp"
 #include "actors/design/split_problem.hpp"
 #include "runtime/core/clock.hpp"
 
@@ -25,25 +26,18 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Early rounds need no proof: their rows are not all there yet.
 constexpr double loose_gap = 0.04;
 /// Of the time of the search, what may go into the bounds of regions.
-constexpr double time_for_regions = 0.4;
-/// And into regions that are solved anew around the best layout.
+constexpr double time_for_regions = 0.6;
+/// And into regions that are solved anew around the best layout, each time.
 constexpr double time_for_improving = 0.1;
+/// And into the bounds of regions that are taken together.
+constexpr double time_for_joining = 0.5;
 /// And how much after it into what binds.
 constexpr double time_for_prices = 0.05;
+/// A row binds where a layout has less than this share of what it asks for; so many rows at most.
+constexpr double little_to_spare = 1.5;
+constexpr size_t tight_rows = 600;
 /// Rounding of an objective.
 constexpr double rounding = 1e-6;
-
-/// The greatest step that every objective is a multiple of, in thousandths; 0 where there is none.
-double step_of(const LayoutProblem& problem) {
-  constexpr double parts = 1000;
-  int64_t step = 0;
-  for (const LayoutOption& option : problem.options) {
-    const double weight = parts * (option.fixed ? 0 : option.weight);
-    if (weight > 1e12 || std::abs(weight - std::round(weight)) > rounding) return 0;
-    step = std::gcd(step, std::llround(weight));
-  }
-  return static_cast<double>(step) / parts;
-}
 
 class Solving {
  public:
@@ -54,7 +48,7 @@ class Solving {
         interrupt_(interrupt),
         progress_(progress),
         index_(problem),
-        step_(step_of(problem)),
+        sums_(problem),
         began_(clock_.now()) {}
 
   LayoutAnswer run() {
@@ -65,9 +59,11 @@ class Solving {
   /// A layout at once, where greedy choice finds one. What follows takes longer.
   bool find_first() {
     tell("greedy", 0);
-    if (!settings_.start.empty()) offer(pruned(index_, settings_.start));
     Random random(settings_.seed, RandomStream::layout);
     random.start(0);
+    if (!settings_.start.empty())
+      if (const auto whole = completed(index_, settings_.start, 0, random))
+        offer(pruned(index_, *whole));
     if (const auto first = completed(index_, {}, 0, random)) {
       const Layout layout = pruned(index_, *first);
       offer(layout);
@@ -75,6 +71,12 @@ class Solving {
       answer_.greedy_objective = objective_of(problem_, layout);
     }
     return !answer_.layout.empty();
+  }
+
+  /// Of parts of the same problem that have been solved: the gap that ends this is of all of them.
+  void goes_on_from(const LayoutAnswer& solved) {
+    solved_objective_ = solved.objective;
+    solved_bound_ = solved.bound;
   }
 
   /// The search, within a time from now on.
@@ -90,6 +92,7 @@ class Solving {
 
  private:
   double seconds() const { return 1e-9 * static_cast<double>(clock_.now() - began_); }
+  double seconds_left() const { return settings_.seconds - seconds(); }
   bool out_of_time() const { return seconds() > settings_.seconds; }
   void tell(const char* what, double bound) const {
     progress_(what, answer_.layout.empty() ? infinite : answer_.objective,
@@ -111,7 +114,7 @@ class Solving {
   }
 
   void raise_bound(double bound) {
-    bound = rounded_up(bound) + fixed_weight();
+    bound = sums_.from(bound) + fixed_weight();
     answer_.bound = std::max(answer_.bound, bound);
     if (!answer_.layout.empty()) answer_.bound = std::min(answer_.bound, answer_.objective);
   }
@@ -133,9 +136,7 @@ class Solving {
   /// The greatest objective that is still wanted; none where there is no layout yet.
   std::optional<double> cutoff() const {
     if (answer_.layout.empty()) return std::nullopt;
-    const double of_program = answer_.objective - fixed_weight();
-    const double less = step_ > 0 ? step_ * (1 - 1e-3) : std::max(of_program * rounding, 1e-9);
-    return of_program - less;
+    return sums_.just_below(answer_.objective - fixed_weight());
   }
 
   ProgramAnswer solve(const GrowingProgram& growing, double gap) {
@@ -149,11 +150,12 @@ class Solving {
   void integer_program() {
     GrowingProgram growing(problem_, false);
     for (const Violation& v : first_rows(problem_)) growing.add(v);
-    if (const auto regions = regions_to_solve(); regions.size() > 1) {
-      bound_regions(growing, regions);
-      improve_regions(growing, regions);
-    }
+    bound_regions(growing);
     if (ended()) return fill_shares(growing);
+    if (interrupted_) {
+      answer_.end = answer_.layout.empty() ? LayoutEnd::unknown : LayoutEnd::interrupted;
+      return fill_shares(growing);
+    }
     double gap = std::max(loose_gap, settings_.gap);
     LayoutSums sums(index_);
     for (answer_.rounds = 1; answer_.rounds <= limits::row_rounds; ++answer_.rounds) {
@@ -184,91 +186,49 @@ class Solving {
     fill_shares(growing);
   }
 
-  double rounded_up(double bound) const {
-    // Objectives are multiples of a step: the next one is the bound.
-    return step_ > 0 ? std::ceil((bound - rounding) / step_) * step_ : bound;
-  }
-
-  std::set<uint32_t> regions_to_solve() const {
-    std::set<uint32_t> out;
-    for (const LayoutOption& option : problem_.options)
-      if (option.region != no_region && !option.fixed) out.insert(option.region);
-    return out;
-  }
-
-  /// Each region by itself, the others' luminaires free: whole numbers of each region add up to
-  /// more than the whole number of all of them, and each is found sooner.
-  void bound_regions(GrowingProgram& growing, const std::set<uint32_t>& regions) {
-    const double until = seconds() + time_for_regions * (settings_.seconds - seconds());
-    size_t left = regions.size();
-    double sum = 0;
-    for (const uint32_t region : regions) {
-      const double share = (until - seconds()) / static_cast<double>(left--);
-      const double least = rounded_up(bound_of_region(growing, region, share));
-      if (least > 0) growing.add_region_bound(region, least);
-      region_bounds_[region] = least;
-      sum += least;
+  /// Regions by themselves, then together where that leaves more open than is wanted.
+  void bound_regions(GrowingProgram& growing) {
+    RegionBounds regions(problem_, index_, sums_, settings_.known_regions, growing, interrupt_);
+    if (regions.bounds().size() < 2 && settings_.known_regions.empty()) return;
+    const auto raised = [&](double sum) {
       raise_bound(sum);
       tell("regions", 0);
-    }
+      return !ended();
+    };
+    regions.bound_each(answer_.layout, time_for_regions * seconds_left(), raised);
+    interrupted_ = regions.interrupted();
+    improve_regions(growing, regions);
+    const double until = seconds() + time_for_joining * seconds_left();
+    while (!answer_.layout.empty() && !ended() && !interrupt_ && !interrupted_ &&
+           seconds() < until && regions.join(answer_.layout, until - seconds(), raised))
+      improve_regions(growing, regions);
+    interrupted_ = interrupted_ || regions.interrupted();
+    answer_.regions = regions.bounds();
   }
 
-  double bound_of_region(GrowingProgram& growing, uint32_t region, double seconds_left) {
-    const double until = seconds() + seconds_left;
-    LayoutSums sums(index_);
-    double bound = 0;
-    for (int round = 0; round < limits::row_rounds && !interrupt_; ++round) {
-      const ProgramAnswer found =
-          solve_program(growing.of_region(region), {.seconds = until - seconds()}, interrupt_, {});
-      // Without any layout the whole program says so.
-      if (found.end == ProgramEnd::infeasible) return bound;
-      bound = std::max(bound, found.bound);
-      if (found.end == ProgramEnd::stopped || found.values.empty()) return bound;
-      sums.set(growing.layout_of(found.values));
-      auto broken = sums.violations();
-      std::erase_if(broken, [&](const Violation& v) {
-        const uint32_t of = problem_.groups[group_of(problem_, v)].region;
-        return of != region && of != no_region;
-      });
-      if (broken.empty() || seconds() > until) return bound;
-      for (const Violation& v : spread_out(problem_, broken, limits::rows_per_round))
-        growing.add(v);
-    }
-    return bound;
-  }
-
-  /// Each region that weighs more than its bound anew, while the others stay as they are, until
-  /// none gets better: what a room needs has little to do with other rooms.
-  void improve_regions(GrowingProgram& growing, const std::set<uint32_t>& regions) {
-    const double until = seconds() + time_for_improving * (settings_.seconds - seconds());
+  /// Regions that weigh more than their bound anew, while the others stay as they are, until none
+  /// gets better: what a room needs has little to do with other rooms.
+  void improve_regions(GrowingProgram& growing, const RegionBounds& regions) {
+    const double until = seconds() + time_for_improving * seconds_left();
     for (bool better = !answer_.layout.empty(); better && !ended();) {
       better = false;
-      for (const uint32_t region : regions) {
-        if (interrupt_ || seconds() > until) return;
-        if (weight_in(region) <= region_bounds_[region] + rounding) continue;
-        better = improve_region(growing, region, until) || better;
+      for (const RegionBound& one : regions.bounds()) {
+        if (interrupt_ || interrupted_ || seconds() > until) return;
+        if (!regions.is_loose(answer_.layout, one)) continue;
+        better = improve_region(growing, one.regions, until) || better;
         tell("regions", 0);
       }
     }
   }
 
-  /// Of the best layout, what a region adds to the objective.
-  double weight_in(uint32_t region) const {
-    double sum = 0;
-    for (size_t i = 0; i < answer_.layout.size(); ++i) {
-      const LayoutOption& option = problem_.options[i];
-      if (answer_.layout[i] != 0 && option.region == region && !option.fixed) sum += option.weight;
-    }
-    return sum;
-  }
-
-  bool improve_region(GrowingProgram& growing, uint32_t region, double until) {
+  bool improve_region(GrowingProgram& growing, const std::set<uint32_t>& regions, double until) {
     LayoutSums sums(index_);
     const double before = answer_.objective;
     for (int round = 0; round < limits::row_rounds && !interrupt_; ++round) {
       const ProgramLimits asked{.seconds = until - seconds(), .cutoff = cutoff()};
       const ProgramAnswer found =
-          solve_program(growing.around(answer_.layout, region), asked, interrupt_, {});
+          solve_program(growing.around(answer_.layout, regions), asked, interrupt_, {});
+      interrupted_ = interrupted_ || (found.interrupted && seconds() < until);
       if (found.values.empty()) break;
       sums.set(growing.layout_of(found.values));
       const auto broken = sums.violations();
@@ -280,12 +240,18 @@ class Solving {
     return answer_.objective < before - rounding;
   }
 
+  /// Of this part and those that have been solved before.
+  double gap_of_all() const {
+    const double all = solved_objective_ + answer_.objective;
+    return all > 0 ? (all - solved_bound_ - answer_.bound) / all : 0;
+  }
+
   /// Whether the layout that is there is good enough, and is known to be.
   bool ended() {
     if (answer_.layout.empty()) return false;
     if (answer_.bound >= answer_.objective - rounding)
       answer_.end = LayoutEnd::optimal;
-    else if (answer_.gap() <= settings_.gap)
+    else if (gap_of_all() <= settings_.gap)
       answer_.end = LayoutEnd::within_gap;
     else
       return false;
@@ -304,8 +270,19 @@ class Solving {
     return true;
   }
 
+  /// A search that ends early has asked for few rows: those too bind that its layout has little to
+  /// spare of.
+  void add_tight_rows(GrowingProgram& growing) const {
+    if (answer_.layout.empty()) return;
+    LayoutSums sums(index_);
+    sums.set(answer_.layout);
+    for (const Violation& v : spread_out(problem_, sums.violations(little_to_spare), tight_rows))
+      if (!growing.has(v)) growing.add(v);
+  }
+
   /// Of the program without whole numbers: what each group's rows add to its objective.
-  void fill_shares(const GrowingProgram& growing) {
+  void fill_shares(GrowingProgram& growing) {
+    add_tight_rows(growing);
     answer_.share_of_group.assign(problem_.groups.size(), 0);
     IntegerProgram program = growing.program();
     for (size_t i = 0; i < program.rows.size(); ++i)
@@ -337,10 +314,11 @@ class Solving {
   const std::atomic<bool>& interrupt_;
   const SolveProgress progress_;
   LayoutIndex index_;
-  double step_;
-  std::map<uint32_t, double> region_bounds_;
+  const AttainableSums sums_;
   SystemClock clock_;
   Nanoseconds began_;
+  double solved_objective_ = 0, solved_bound_ = 0;
+  bool interrupted_ = false;  // Ctrl-C came while the solver listened to it
   LayoutAnswer answer_;
 };
 
@@ -359,6 +337,16 @@ LayoutEnd worse(LayoutEnd a, LayoutEnd b) {
                              LayoutEnd::interrupted, LayoutEnd::unknown,    LayoutEnd::infeasible};
   const auto place = [&](LayoutEnd end) { return std::find(order.begin(), order.end(), end); };
   return place(a) < place(b) ? b : a;
+}
+
+/// What small parts leave of their share of the time is for the larger ones, which need it.
+std::vector<size_t> smallest_first(const std::vector<ProblemPart>& parts) {
+  std::vector<size_t> out(parts.size());
+  std::iota(out.begin(), out.end(), size_t{0});
+  std::stable_sort(out.begin(), out.end(), [&](size_t a, size_t b) {
+    return parts[a].options.size() < parts[b].options.size();
+  });
+  return out;
 }
 
 /// Parts that have nothing to do with each other, one after another: their answers add up.
@@ -390,9 +378,11 @@ LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<Problem
     known = solving.back()->find_first() && known;
   }
   if (known) out.first_seconds = seconds();
-  for (size_t i = 0; i < parts.size(); ++i) {
+  size_t left = parts.size();
+  for (const size_t i : smallest_first(parts)) {
+    solving[i]->goes_on_from(out);
     const LayoutAnswer answer = solving[i]->finish(std::max(0.0, settings.seconds - seconds()) /
-                                                   static_cast<double>(parts.size() - i));
+                                                   static_cast<double>(left--));
     solving[i].reset();
     out.end = worse(out.end, answer.end);
     all = all && !answer.layout.empty();
@@ -405,6 +395,7 @@ LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<Problem
     if (!known) out.first_seconds = seconds();
     out.rows += answer.rows;
     out.rounds = std::max(out.rounds, answer.rounds);
+    out.regions.insert(out.regions.end(), answer.regions.begin(), answer.regions.end());
     for (size_t g = 0; g < answer.share_of_group.size(); ++g)
       out.share_of_group[g] += answer.share_of_group[g];
     if (out.end == LayoutEnd::infeasible) break;  // nothing is left to find

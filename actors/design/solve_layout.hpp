@@ -13,18 +13,14 @@
 
 namespace luxodus {
 
-namespace limits {
-/// Rounds of rows. Each adds rows that no earlier one had, so they end by themselves; this ends a
-/// mistake.
-inline constexpr int row_rounds = 500;
-}  // namespace limits
-
 struct SolveSettings {
   double seconds = 120;
   double gap = 0;  // ends within this share of the best possible
   uint64_t seed = 1;
   int greedy_rounds = 200;  // of neighbourhoods that are filled anew, before and after the program
-  Layout start = {};        // one that holds, if any is known: it is improved before the program
+  Layout start = {};        // any that is known: it is made to hold and improved first
+  /// Of the same problem, or of one that asks for less.
+  std::vector<RegionBound> known_regions = {};
 };
 
 /// How the search ended.
@@ -48,6 +44,7 @@ struct LayoutAnswer {
   double seconds = 0;
   size_t rows = 0;  // of the last program
   int rounds = 0;
+  std::vector<RegionBound> regions;    // what they weigh at least
   std::vector<double> share_of_group;  // of the bound of the program without whole numbers
 
   /// Of the objective that the bound leaves open; 0 of an optimal one.

@@ -56,4 +56,29 @@ TEST_CASE("where light is smooth nothing is added between the points", "[design]
   CHECK(result.between.least < 5);
 }
 
+TEST_CASE("moving luminaires opens no gap between the points", "[design][between][refine]") {
+  // Spots at 3.06 m and 8.94 m light all of the way. Its ends and the points at 5.875 m and 6.125 m
+  // would be brightest under spots at 3 m and 9 m, which leave 0.1 m in the middle dark.
+  const test::TemporaryFolder folder;
+  DesignOptions options;
+  options.refine = true;
+  const auto result = test::designed(
+      folder.write("scene.toml", test::box_room(12, 2, 3) + test::judged_2013 +
+                                     test::spot_of_45_deg +
+                                     test::route("corridor", "[0.125, 1, 0], [11.875, 1, 0]", 0.3) +
+                                     "[design]\nexisting = \"removed\"\nplace_signs = false\n"
+                                     "failure = \"none\"\nmargin = 1\nplace_tolerance_m = 0\n"
+                                     "places = [[3.06, 1, 2.97], [8.94, 1, 2.97]]\n"
+                                     "spacing_m = 0.5\n"),
+      options);
+  REQUIRE(result.luminaires.size() == 2);
+  REQUIRE(result.refined);
+  constexpr double lit_m = 2.95;  // to each side of a spot
+  double nearest = lit_m;
+  for (const PlacedLuminaire& one : result.luminaires)
+    nearest = std::min(nearest, std::abs(one.candidate.position.x - 6));
+  CHECK(nearest < lit_m);
+  CHECK(result.between.least > 0.99);
+}
+
 }  // namespace luxodus
