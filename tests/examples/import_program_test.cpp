@@ -108,15 +108,6 @@ TEST_CASE("a luminaire's model becomes its body, and hides none of its light",
   CHECK_THAT(slurp(folder / "plain/luminaires.toml"), Contains("# Its model body.l3d is left out"));
 }
 
-TEST_CASE("what is no OpenVDB file is refused by its name", "[program][import]") {
-  const TemporaryFolder folder;
-  folder.write("smoke.vdb", "no grids");
-  const Outcome refused = run_luxodus(folder, "import vdb " + within(folder, "smoke.vdb"));
-  CHECK(refused.code == 2);
-  CHECK_THAT(refused.err, Contains("smoke.vdb: "));
-  CHECK_FALSE(fs::exists(folder / "smoke"));
-}
-
 TEST_CASE("light is traced in an imported model, and its results are by GlobalId",
           "[program][import]") {
   if (!shapes_can_be_computed()) return;
