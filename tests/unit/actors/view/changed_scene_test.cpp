@@ -67,7 +67,7 @@ TEST_CASE("a state at another time is not taken from edited files", "[view][chan
   CHECK_THAT(at(60).problem().what, Contains("the scene has changed on disk"));
 }
 
-TEST_CASE("verdicts at frames are not of an edited scene; a simulation may go on",
+TEST_CASE("verdicts at frames are not of an edited scene, though a simulation may go on",
           "[view][changed][fds]") {
   const TemporaryFolder folder;
   const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {6, 4, 3});
