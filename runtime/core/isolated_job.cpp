@@ -329,6 +329,9 @@ std::optional<int> serve_isolated_job(int argc, char** argv) {
   PlainReader question(FileDescriptor(::fcntl(0, F_DUPFD_CLOEXEC, 3)));
   IsolatedLimits most;
   if (job == nullptr) return no_such_job;
+  // What libraries print is no part of the answer.
+  const FileDescriptor answer_place(::fcntl(1, F_DUPFD_CLOEXEC, 3));
+  (void)::dup2(2, 1);
   if (!question.get(most)) return has_thrown;
   limit_this_process(most);
   struct stat question_file {};
@@ -336,7 +339,7 @@ std::optional<int> serve_isolated_job(int argc, char** argv) {
     share_place_of_job() = question_file.st_size - static_cast<off_t>(sizeof(double));
   int code = 0;
   try {
-    PlainWriter answer(1);
+    PlainWriter answer(answer_place.number());
     answer.put(mark);
     job->work_(question, answer);
     if (!answer.flush()) code = has_thrown;

@@ -9,6 +9,7 @@
 //   this process                        the other one
 //   question -> memory file ----------> 0
 //   answer   <- memory file <---------- 1   limits set first; ends when its parent does
+//                                           what it prints goes elsewhere
 //
 // Any thread may run a job. Jobs are made before main() begins, as globals: the one exception to
 // "main wires everything", because test programs link different rooms, and each only its jobs.

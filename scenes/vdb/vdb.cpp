@@ -20,9 +20,9 @@ constexpr char remedy[] =
 
 /// The largest box of cells twice, where y is up, and on its way here; the tree of a grid, which
 /// Blosc may have packed to a quarter; the library itself.
-IsolatedLimits vdb_limits(uint64_t bytes, std::optional<uint32_t> processor_s) {
-  return {(uint64_t{3} << 30) + 4 * bytes,
-          processor_s.value_or(30 + static_cast<uint32_t>(bytes >> 22))};
+IsolatedLimits vdb_limits(uint64_t bytes, const VdbProgram& program) {
+  return {program.memory_bytes.value_or((uint64_t{3} << 30) + 4 * bytes),
+          program.processor_s.value_or(30 + static_cast<uint32_t>(bytes >> 22))};
 }
 
 Problem unsound(const fs::path& file) {
@@ -55,7 +55,7 @@ Result<PlainReader> asked(const vdb::Question& question, const VdbProgram& progr
   if (!bytes) return bytes.problem();
   auto in = ask_program(
       {program.path.string(), "libopenvdb10.0", remedy}, vdb::job,
-      [&](PlainWriter& out) { put(out, question); }, vdb_limits(bytes.value(), program.processor_s),
+      [&](PlainWriter& out) { put(out, question); }, vdb_limits(bytes.value(), program),
       program.told);
   if (!in && !in.problem().where.file.empty()) return in.problem();  // of the program
   if (!in) return problem_in(question.file, in.problem().what);

@@ -43,10 +43,11 @@ struct VdbSmoke {
 
 /// Who reads.
 struct VdbProgram {
-  std::filesystem::path path;  // luxodus_vdb, of the same build
-  /// Longest that it may compute for a question; otherwise what the size of the file allows.
-  std::optional<uint32_t> processor_s;
-  std::function<void(double share)> told;  // how far it is, where somebody wants to hear
+  std::filesystem::path path;                   // luxodus_vdb, of the same build
+  std::function<void(double share)> told = {};  // how far it is, where somebody wants to hear
+  /// What it may take for a question; otherwise what the size of the file allows.
+  std::optional<uint32_t> processor_s = {};
+  std::optional<uint64_t> memory_bytes = {};
 };
 
 /// The grids of a file.

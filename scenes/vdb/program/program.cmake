@@ -38,7 +38,8 @@ add_library(lux_openvdb INTERFACE)
 target_include_directories(lux_openvdb SYSTEM INTERFACE ${OPENVDB_INCLUDE_DIR})
 target_link_libraries(lux_openvdb INTERFACE ${OPENVDB_LIBRARY} TBB::tbb Imath::Imath)
 # Alone, since the library's headers take half a minute and half a gigabyte to compile.
-add_library(lux_vdb_job OBJECT ${PROJECT_SOURCE_DIR}/scenes/vdb/program/read_grids.cpp)
+add_library(lux_vdb_job OBJECT ${PROJECT_SOURCE_DIR}/scenes/vdb/program/file_watch.cpp
+  ${PROJECT_SOURCE_DIR}/scenes/vdb/program/read_grids.cpp)
 # Its types are known to the library by their names, which hidden visibility would take away.
 target_compile_options(lux_vdb_job PRIVATE -fPIE "${LUX_HARDENING}")
 target_compile_definitions(lux_vdb_job PRIVATE LUX_VDB_BUILD="${LUX_VDB_BUILD}")

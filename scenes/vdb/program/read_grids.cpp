@@ -15,6 +15,7 @@
 
 #include "runtime/core/isolated_job.hpp"
 #include "runtime/core/printable.hpp"
+#include "scenes/vdb/program/file_watch.hpp"
 #include "scenes/vdb/vdb_answer.hpp"
 
 namespace luxodus::vdb {
@@ -113,6 +114,27 @@ void check_head(const GridBase& head) {
   if (low && high) checked_box({openvdb::Coord(low->value()), openvdb::Coord(high->value())});
 }
 
+/// Of the work of reading a grid, what reading the file is; the rest is taking its cells.
+constexpr double read_share = 0.5;
+
+/// The cells of a part of the box, which has all of its x and y, to their place in all of them.
+void copy_cells(const FloatGrid& grid, const openvdb::CoordBBox& box,
+                const openvdb::CoordBBox& part, VdbSmoke& smoke) {
+  const size_t begin = smoke.nx * smoke.ny * static_cast<size_t>(part.min().z() - box.min().z());
+  const size_t end = begin + smoke.nx * smoke.ny * static_cast<size_t>(part.dim().z());
+  openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(part, &smoke.values[begin]);
+  openvdb::tools::copyToDense(grid, dense, true);
+  for (size_t i = begin; i < end; ++i) {
+    if (smoke.values[i] >= 0 && std::isfinite(smoke.values[i])) continue;
+    const auto x = static_cast<int64_t>(i % smoke.nx),
+               y = static_cast<int64_t>(i / smoke.nx % smoke.ny),
+               z = static_cast<int64_t>(i / smoke.nx / smoke.ny);
+    throw std::runtime_error("the value at index (" + std::to_string(box.min().x() + x) + ", " +
+                             std::to_string(box.min().y() + y) + ", " +
+                             std::to_string(box.min().z() + z) + ") is negative or no number");
+  }
+}
+
 /// Cells in the file's own axes, x fastest.
 VdbSmoke cells_of(const FloatGrid& grid, const Place& place) {
   const openvdb::CoordBBox box = box_of(grid);
@@ -122,16 +144,13 @@ VdbSmoke cells_of(const FloatGrid& grid, const Place& place) {
   smoke.ny = static_cast<uint64_t>(dim.y());
   smoke.nz = static_cast<uint64_t>(dim.z());
   smoke.values.resize(smoke.nx * smoke.ny * smoke.nz);
-  openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(box, smoke.values.data());
-  openvdb::tools::copyToDense(grid, dense, true);
-  for (size_t i = 0; i < smoke.values.size(); ++i) {
-    if (smoke.values[i] >= 0 && std::isfinite(smoke.values[i])) continue;
-    const auto x = static_cast<int64_t>(i % smoke.nx),
-               y = static_cast<int64_t>(i / smoke.nx % smoke.ny),
-               z = static_cast<int64_t>(i / smoke.nx / smoke.ny);
-    throw std::runtime_error("the value at index (" + std::to_string(box.min().x() + x) + ", " +
-                             std::to_string(box.min().y() + y) + ", " +
-                             std::to_string(box.min().z() + z) + ") is negative or no number");
+  constexpr int slab = 64;  // cells: of nodes none is cut, and not all is done at once
+  for (int z = box.min().z(); z <= box.max().z(); z += slab) {
+    openvdb::CoordBBox part = box;
+    part.min().z() = z;
+    part.max().z() = std::min(z + slab - 1, box.max().z());
+    copy_cells(grid, box, part, smoke);
+    tell_share(read_share + (1 - read_share) * (part.max().z() - box.min().z() + 1) / dim.z());
   }
   for (int axis = 0; axis < 3; ++axis) {
     const double edge = place.spacing[axis];
@@ -169,7 +188,10 @@ void answer_grid(openvdb::io::File& file, const Question& question, PlainWriter&
                              (names.empty() ? "" : "; there are " + names));
   }
   check_head(*file.readGridMetadata(question.grid));
-  const auto grid = openvdb::gridPtrCast<FloatGrid>(file.readGrid(question.grid));
+  const auto grid = [&] {
+    const FileWatch watch(question.file, read_share);
+    return openvdb::gridPtrCast<FloatGrid>(file.readGrid(question.grid));
+  }();
   if (!grid) throw std::runtime_error("its values are no floats");
   if (grid->background() != 0)
     throw std::runtime_error("the value outside of its cells (background) is " +

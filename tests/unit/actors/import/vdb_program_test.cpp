@@ -12,7 +12,7 @@ using Catch::Contains;
 namespace {
 
 Problem said_with_program(const TemporaryFolder& folder, const std::filesystem::path& program) {
-  const auto grids = list_vdb(folder.write("smoke.vdb", "grids"), {program, {}, {}});
+  const auto grids = list_vdb(folder.write("smoke.vdb", "grids"), {program});
   REQUIRE_FALSE(grids.ok());
   return grids.problem();
 }

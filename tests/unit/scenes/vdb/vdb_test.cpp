@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <limits>
+#include <vector>
 
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/scenes/vdb/vdb_kit.hpp"
@@ -18,7 +19,7 @@ using openvdb::Coord;
 
 namespace {
 
-const VdbProgram vdb_program{LUX_VDB_PROGRAM, {}, {}};
+const VdbProgram vdb_program{LUX_VDB_PROGRAM};
 
 std::string vdb_refusal(const openvdb::GridPtrVec& grids, const std::string& name = "density") {
   const TemporaryFolder folder;
@@ -72,6 +73,18 @@ TEST_CASE("cells of a block that is stored as one value are all there", "[vdb]")
   const auto smoke = read_vdb(written_grids(folder, {grid}), "density", UpAxis::z, vdb_program);
   REQUIRE(smoke.ok());
   CHECK(smoke->values == std::vector<float>(4096, 0.5F));
+}
+
+TEST_CASE("who waits for a grid hears how far reading it is, up to its end", "[vdb]") {
+  auto grid = fog();
+  grid->fill(openvdb::CoordBBox(Coord(0), Coord(7, 7, 200)), 0.5F);
+  const TemporaryFolder folder;
+  std::vector<double> heard;
+  const VdbProgram telling{vdb_program.path, [&](double share) { heard.push_back(share); }};
+  REQUIRE(read_vdb(written_grids(folder, {grid}), "density", UpAxis::z, telling).ok());
+  REQUIRE_FALSE(heard.empty());
+  CHECK(std::is_sorted(heard.begin(), heard.end()));
+  CHECK(heard.back() == 1);
 }
 
 TEST_CASE("the grids of a file are listed, with those that cannot be read and why", "[vdb]") {
@@ -130,7 +143,7 @@ TEST_CASE("no file, another file and no program are errors that name the file", 
   REQUIRE_FALSE(other.ok());
   CHECK(other.problem().where.file == (folder / "a.vdb").string());
   CHECK_THAT(list_vdb(folder / "b.vdb", vdb_program).problem().what, Contains("no such file"));
-  const auto none = list_vdb(folder / "a.vdb", {folder / "luxodus_vdb", {}, {}});
+  const auto none = list_vdb(folder / "a.vdb", {folder / "luxodus_vdb"});
   REQUIRE_FALSE(none.ok());
   CHECK_THAT(none.problem().what, Contains("apt-get install libopenvdb-dev"));
 }
