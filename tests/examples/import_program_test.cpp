@@ -100,6 +100,18 @@ TEST_CASE("a luminaire's model becomes its body, and hides none of its light",
   // All of it shines down, past the body, which is above the opening by a millimetre.
   CHECK_THAT(run.out, Contains("100 % escaped"));
 
+  luxodus::test::SmallL3d coloured;
+  coloured.obj = luxodus::test::coloured_box_obj("paint box.mtl");
+  coloured.library = "newmtl red\nKd 1 0.1 0.05\nnewmtl white\nKd 1 1 1\n";
+  folder.write("lamp.gldf", small_container("Lamp", coloured.bytes()));
+  REQUIRE(run_luxodus(folder, import + within(folder, "red")).code == 0);
+  CHECK_THAT(slurp(folder / "red/luminaires.toml"), Contains("file_colours = true"));
+  CHECK_THAT(slurp(folder / "red/body.mtl"),
+             Contains("Kd 0.9 0.1 0.05") && Contains("Kd 0.9 0.9 0.9"));
+  const Outcome checked = run_luxodus(folder, "check " + within(folder, "red/luminaires.toml"));
+  INFO(checked.err);
+  CHECK(checked.code == 0);
+
   folder.write("lamp.gldf", small_container("Lamp", "no model"));
   const Outcome without = run_luxodus(folder, import + within(folder, "plain"));
   REQUIRE(without.code == 0);
