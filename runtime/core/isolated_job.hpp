@@ -91,7 +91,7 @@ void begin_isolated_jobs_by(std::vector<std::string> words);
 /// As long as one lives, jobs are done by copies of this process (fork), also those of other
 /// programs, which it has to have as its own: a process is begun in milliseconds, whatever its
 /// libraries take to load. Limits and ends of jobs are the same. For tests of many files.
-/// Requires: no other thread.
+/// Requires: no other thread that holds a lock.
 class ForkedJobs {
  public:
   ForkedJobs();

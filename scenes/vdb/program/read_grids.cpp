@@ -24,9 +24,14 @@ namespace {
 using openvdb::FloatGrid;
 using openvdb::GridBase;
 
-std::string sizes_text(const openvdb::Coord& dim) {
-  return std::to_string(dim.x()) + " x " + std::to_string(dim.y()) + " x " +
-         std::to_string(dim.z());
+/// Cells along an axis: corners may be as far apart as indices go.
+int64_t cells_along(const openvdb::CoordBBox& box, int axis) {
+  return int64_t{box.max()[axis]} - int64_t{box.min()[axis]} + 1;
+}
+
+std::string sizes_text(const openvdb::CoordBBox& box) {
+  return std::to_string(cells_along(box, 0)) + " x " + std::to_string(cells_along(box, 1)) + " x " +
+         std::to_string(cells_along(box, 2));
 }
 
 /// Edges of a cell and the place of index 0, where the axes of the grid are those of the file's
@@ -91,12 +96,10 @@ void answer_list(openvdb::io::File& file, PlainWriter& out) {
 /// read.
 openvdb::CoordBBox checked_box(const openvdb::CoordBBox& box) {
   if (box.empty()) throw std::runtime_error("the grid has no values");
-  const openvdb::Coord low = box.min(), high = box.max();
   double cells = 1;
-  for (int axis = 0; axis < 3; ++axis)
-    cells *= static_cast<double>(high[axis]) - static_cast<double>(low[axis]) + 1;
+  for (int axis = 0; axis < 3; ++axis) cells *= static_cast<double>(cells_along(box, axis));
   if (!(cells <= static_cast<double>(limits::vdb_cells)))
-    throw std::runtime_error("the box around its values has " + sizes_text(box.dim()) +
+    throw std::runtime_error("the box around its values has " + sizes_text(box) +
                              " cells, the most are " + std::to_string(limits::vdb_cells) +
                              ": crop the grid, or resample it to larger cells");
   return box;
@@ -144,11 +147,11 @@ VdbSmoke cells_of(const FloatGrid& grid, const Place& place) {
   smoke.ny = static_cast<uint64_t>(dim.y());
   smoke.nz = static_cast<uint64_t>(dim.z());
   smoke.values.resize(smoke.nx * smoke.ny * smoke.nz);
-  constexpr int slab = 64;  // cells: of nodes none is cut, and not all is done at once
-  for (int z = box.min().z(); z <= box.max().z(); z += slab) {
+  constexpr int64_t slab = 64;  // cells: of nodes none is cut, and not all is done at once
+  for (int64_t z = box.min().z(); z <= box.max().z(); z += slab) {
     openvdb::CoordBBox part = box;
-    part.min().z() = z;
-    part.max().z() = std::min(z + slab - 1, box.max().z());
+    part.min().z() = static_cast<int>(z);
+    part.max().z() = static_cast<int>(std::min<int64_t>(z + slab - 1, box.max().z()));
     copy_cells(grid, box, part, smoke);
     tell_share(read_share + (1 - read_share) * (part.max().z() - box.min().z() + 1) / dim.z());
   }

@@ -130,6 +130,10 @@ TEST_CASE("what is no smoke in even cells is refused, and says what to do", "[vd
   grid->getAccessor().setValue(Coord(1'000'000, 0, 0), 1.0F);
   grid->getAccessor().setValue(Coord(0, 1000, 0), 1.0F);
   CHECK_THAT(vdb_refusal({grid}), Contains("crop the grid"));
+  grid = fog();
+  grid->getAccessor().setValue(Coord(-2'000'000'000, 0, 5), 1.0F);
+  grid->getAccessor().setValue(Coord(2'000'000'000, 0, 5), 1.0F);
+  CHECK_THAT(vdb_refusal({grid}), Contains("has 4000000001 x 3 x 3 cells"));
   for (const float wrong : {-1.0F, std::numeric_limits<float>::quiet_NaN()}) {
     grid = fog();
     grid->getAccessor().setValue(Coord(3, 0, 5), wrong);
