@@ -170,8 +170,8 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
   ProgressLine line("assess");
   std::optional<Estimate> estimate;  // of all times
   auto assessed = assess_states(
-      {job.scene, job.times, reader_at_times(job.scene_file, FireFrames::nearest)}, job.options,
-      interrupt_flag(),
+      {job.scene, job.times, reader_at_times(*job.scene, job.scene_file, FireFrames::nearest)},
+      job.options, interrupt_flag(),
       [&](const std::string& what, double share) {
         line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
       },

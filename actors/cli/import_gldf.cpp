@@ -85,7 +85,7 @@ void list_contents(const GldfProduct& product) {
 struct WrittenBody {
   std::string file;   // within the folder
   std::string fault;  // why it is not there; "" where it is
-  Mesh mesh;
+  LuminaireBody body;
 };
 
 /// Writes the bodies of the product's models.
@@ -106,12 +106,12 @@ Result<std::vector<WrittenBody>> write_bodies(const GldfProduct& product, const 
       body.fault = mesh.problem().what;
       continue;
     }
-    body.mesh = std::move(mesh).value();
+    body.body = std::move(mesh).value();
     const std::string wish = as_name(fs::path(model.file).stem().string(), "body");
     body.file = wish + ".obj";
     for (int i = 2; !taken.insert(body.file).second; ++i)
       body.file = fmt::format("{} {}.obj", wish, i);
-    if (auto ok = write_body(body.mesh, folder / body.file); !ok) return ok.problem();
+    if (auto ok = write_body(body.body, folder / body.file); !ok) return ok.problem();
   }
   return out;
 }
@@ -119,7 +119,7 @@ Result<std::vector<WrittenBody>> write_bodies(const GldfProduct& product, const 
 /// A model as an import that has its luminous opening where the luminaire is.
 std::string model_text(const WrittenBody& body, const L3dModel& model, const std::string& opening,
                        const std::string& name, double x) {
-  const BodyPlace place = body_place(model, body.mesh, opening);
+  const BodyPlace place = body_place(model, body.body.mesh, opening);
   const glm::dvec3 at = place.offset_m + glm::dvec3(x, 0, 3);
   std::string out;
   if (place.below_m > 0)
@@ -134,9 +134,10 @@ std::string model_text(const WrittenBody& body, const L3dModel& model, const std
         place.down.x, place.down.y, place.down.z);
   return out + fmt::format(
                    "\n[[import]]\nname = {}\nfile = {}\nunits = \"m\"\nup = \"z\"\n"
-                   "material = \"white70\"\none_patch = true\n"
-                   "translate = [{:.6g}, {:.6g}, {:.6g}]\n",
-                   toml_text(name + " housing"), toml_text(body.file), at.x, at.y, at.z);
+                   "{}\none_patch = true\ntranslate = [{:.6g}, {:.6g}, {:.6g}]\n",
+                   toml_text(name + " housing"), toml_text(body.file),
+                   body.body.is_coloured() ? "file_colours = true" : "material = \"white70\"", at.x,
+                   at.y, at.z);
 }
 
 /// The housing as an object that stands on the luminous opening, a millimetre above it, so that it
@@ -224,8 +225,9 @@ std::string luminaires_text(const GldfProduct& product, const std::vector<Writte
 
 Result<ExitCode> import_gldf(const ImportGldfOptions& options) {
   const auto product = [&] {
-    const WaitingLine waiting("reading " + options.file);
-    return read_gldf(options.file, GldfModels::read);
+    ReadingShare share;
+    const WaitingLine waiting("reading " + options.file, &share);
+    return read_gldf(options.file, GldfModels::read, &share);
   }();
   if (!product) return product.problem();
   list_contents(product.value());

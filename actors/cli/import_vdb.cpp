@@ -10,6 +10,7 @@
 #include "actors/cli/progress_line.hpp"
 #include "actors/import/write_smoke.hpp"
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 #include "scenes/geometry/transform.hpp"
 #include "scenes/vdb/vdb.hpp"
 
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 struct ImportVdbOptions {
   std::string file, out, grid;
   double extinction_per_unit = 0;
+  uint32_t seconds = 0;  // 0: by the size of the file
   std::string units = "m", up = "z";
 };
 
@@ -57,7 +59,9 @@ Result<std::string> chosen_grid(const ImportVdbOptions& options,
 }
 
 Result<ExitCode> import_vdb(const ImportVdbOptions& options) {
-  const auto grids = list_vdb(options.file, vdb_program());
+  VdbProgram program{vdb_program()};
+  if (options.seconds > 0) program.processor_s = options.seconds;
+  const auto grids = list_vdb(options.file, program);
   if (!grids) return grids.problem();
   list_grids(grids.value());
   if (options.out.empty()) return ExitCode::success;
@@ -68,13 +72,21 @@ Result<ExitCode> import_vdb(const ImportVdbOptions& options) {
   const auto grid = chosen_grid(options, grids.value());
   if (!grid) return grid.problem();
   const auto smoke = [&] {
-    const WaitingLine waiting("reading " + options.file);
-    return read_vdb(options.file, grid.value(), up_axis_named(options.up).value(), vdb_program());
+    std::error_code unknown;
+    ReadingShare share;
+    ReadingPart part(&share, fs::file_size(options.file, unknown));
+    VdbProgram telling = program;
+    telling.told = [&](double read) { part.at_share(read); };
+    const WaitingLine waiting("reading " + options.file, &share);
+    return read_vdb(options.file, grid.value(), up_axis_named(options.up).value(), telling);
   }();
   if (!smoke) return smoke.problem();
   const SmokeOrigin origin{options.file, grid.value(), options.extinction_per_unit,
                            metres_per_unit(options.units).value()};
-  const auto kept = write_smoke(smoke.value(), origin, options.out);
+  const auto kept = [&] {
+    const WaitingLine waiting("writing " + (fs::path(options.out) / "smoke.nrrd").string());
+    return write_smoke(smoke.value(), origin, options.out);
+  }();
   if (!kept) return kept.problem();
   const glm::dvec3 size =
       smoke->spacing * glm::dvec3(smoke->nx, smoke->ny, smoke->nz) * origin.metres_per_unit;
@@ -112,7 +124,11 @@ Command import_vdb_command() {
            {"--up",
             &o->up,
             "Axis that points up in the file; y in Houdini",
-            {.choices = {"y", "z"}}}},
+            {.choices = {"y", "z"}}},
+           {"--seconds",
+            &o->seconds,
+            "Longest that reading may take, in seconds of a processor",
+            {.otherwise = "30, and 1 more for each 4 MiB of the file", .range = Range{1, 86400}}}},
       .notes =
           "Float grids that are fog volumes are read; level sets, turned axes, and boxes of more "
           "than 134 million cells are refused. Of several frames each is imported to a folder of "

@@ -27,7 +27,7 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
 SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene,
                             FireFrames frames) {
   if (!scene.time || scene.packed) return {};
-  return reader_at_times(file, frames);
+  return reader_at_times(scene, file, frames);
 }
 
 Option times_option(std::vector<std::string>& at) {

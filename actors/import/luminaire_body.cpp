@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <iterator>
+#include <map>
 #include <vector>
 
 #include "actors/import/answer_folder.hpp"
@@ -19,18 +20,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The triangles of a shape, in metres.
-Result<Mesh> shape_mesh(const L3dShape& shape, const fs::path& file, ReadingShare* reading) {
+/// Adds triangles of one colour.
+void add(LuminaireBody& body, const Mesh& mesh, const std::optional<glm::dvec3>& colour) {
+  if (body.colours.empty() || body.colours.back().value != colour)
+    body.colours.push_back({colour, body.mesh.triangles.size()});
+  append(body.mesh, mesh);
+}
+
+/// The triangles of a shape, in metres, with its files in a folder of their own.
+Result<LuminaireBody> shape_body(const L3dShape& shape, const fs::path& folder,
+                                 ReadingShare* reading) {
   const std::string who = "the shape \"" + excerpt(shape.name) + "\" of its model: ";
+  const fs::path file = folder / "shape.obj";
+  std::error_code failed;
+  if (!fs::create_directory(folder, failed))
+    return problem(who + "no folder can be made: " + failed.message());
   if (auto ok = write_file_atomically(file, std::string_view(shape.obj)); !ok) return ok.problem();
+  if (!shape.colours.empty())
+    if (auto ok = write_file_atomically(folder / l3d_library, std::string_view(shape.colours)); !ok)
+      return ok.problem();
   const auto parts = import_mesh(file.string(), shape.metres_per_unit, UpAxis::z, nullptr, reading);
   if (!parts) return problem(who + parts.problem().what);  // the file is ours, for a moment
-  Mesh mesh;
+  LuminaireBody body;
   for (ImportedPart part : parts.value()) {
     part.mesh.texture_uv.clear();
-    append(mesh, part.mesh);
+    add(body, part.mesh, shape.colours.empty() ? std::nullopt : part.base_colour);
   }
-  return mesh;
+  return body;
 }
 
 /// The opening of this name, or the only one.
@@ -41,40 +57,51 @@ const L3dOpening* opening_of(const L3dModel& model, const std::string& name) {
   return model.openings.size() == 1 ? &model.openings.front() : nullptr;
 }
 
+/// A colour as a line of a material library.
+std::string paint_words(const std::optional<glm::dvec3>& colour) {
+  constexpr double largest = 0.9, otherwise = 0.7;
+  const glm::dvec3 c = glm::min(colour.value_or(glm::dvec3(otherwise)), glm::dvec3(largest));
+  return fmt::format("Kd {:.4g} {:.4g} {:.4g}", c.r, c.g, c.b);
+}
+
 }  // namespace
 
 void foresee_body(const L3dModel& model, ReadingShare& reading) {
   for (const L3dShape& shape : model.shapes) reading.foresee(shape.obj.size());
 }
 
-Result<Mesh> luminaire_body(const L3dModel& model, ReadingShare* reading) {
+Result<LuminaireBody> luminaire_body(const L3dModel& model, ReadingShare* reading) {
   const AnswerFolder folder;
   if (folder.path().empty()) {
     std::error_code failed;
     return system_problem(fs::temp_directory_path(failed).string(), "no folder can be made", errno);
   }
-  std::vector<Mesh> shapes;
+  std::vector<LuminaireBody> shapes;
   for (const L3dShape& shape : model.shapes) {
-    auto mesh = shape_mesh(shape, folder.path() / fmt::format("{}.obj", shapes.size()), reading);
-    if (!mesh) {
+    auto body = shape_body(shape, folder.path() / std::to_string(shapes.size()), reading);
+    if (!body) {
       // Those after it are not read any more.
       for (size_t i = shapes.size() + 1; i < model.shapes.size(); ++i)
         ReadingPart(reading, model.shapes[i].obj.size());
-      return mesh.problem();
+      return body.problem();
     }
-    shapes.push_back(std::move(mesh).value());
+    shapes.push_back(std::move(body).value());
   }
-  Mesh body;
+  LuminaireBody out;
   for (const L3dPart& part : model.parts) {
-    const Mesh& shape = shapes[part.shape];
-    if (body.triangles.size() + shape.triangles.size() > limits::luminaire_body_triangles)
+    const LuminaireBody& shape = shapes[part.shape];
+    if (out.mesh.triangles.size() + shape.mesh.triangles.size() > limits::luminaire_body_triangles)
       return problem(
           fmt::format("its model has more than {} triangles", limits::luminaire_body_triangles));
-    Mesh placed = shape;
+    const size_t before = out.mesh.triangles.size();
+    Mesh placed = shape.mesh;
     apply(part.place, placed);
-    append(body, placed);
+    append(out.mesh, placed);
+    for (const LuminaireBody::Colour& colour : shape.colours)
+      if (out.colours.empty() || out.colours.back().value != colour.value)
+        out.colours.push_back({colour.value, before + colour.first_triangle});
   }
-  return body;
+  return out;
 }
 
 BodyPlace body_place(const L3dModel& model, const Mesh& body, const std::string& opening) {
@@ -95,13 +122,37 @@ BodyPlace body_place(const L3dModel& model, const Mesh& body, const std::string&
   return place;
 }
 
-Result<void> write_body(const Mesh& body, const fs::path& file) {
-  std::string text = "# Made by `luxodus import gldf`: metres, z up.\no body\n";
+bool LuminaireBody::is_coloured() const {
+  return std::any_of(colours.begin(), colours.end(), [](const Colour& c) { return c.value; });
+}
+
+Result<void> write_body(const LuminaireBody& body, const fs::path& file) {
+  const bool coloured = body.is_coloured();
+  const std::string library = file.stem().string() + ".mtl";
+  std::string text = "# Made by `luxodus import gldf`: metres, z up.\n";
+  if (coloured) text += "mtllib " + library + "\n";
+  text += "o body\n";
   const auto out = std::back_inserter(text);
-  for (const glm::dvec3& p : body.positions)
+  for (const glm::dvec3& p : body.mesh.positions)
     fmt::format_to(out, "v {:.7g} {:.7g} {:.7g}\n", p.x, p.y, p.z);
-  for (const glm::uvec3& t : body.triangles)
+  std::map<std::string, size_t> materials;  // number of each, by its words
+  auto next = body.colours.begin();
+  for (size_t i = 0; i < body.mesh.triangles.size(); ++i) {
+    for (; coloured && next != body.colours.end() && next->first_triangle == i; ++next) {
+      const auto known = materials.try_emplace(paint_words(next->value), materials.size() + 1);
+      fmt::format_to(out, "usemtl colour {}\n", known.first->second);
+    }
+    const glm::uvec3& t = body.mesh.triangles[i];
     fmt::format_to(out, "f {} {} {}\n", t.x + 1, t.y + 1, t.z + 1);
+  }
+  if (coloured) {
+    std::string paints = "# Made by `luxodus import gldf`, of the model's colours.\n";
+    for (const auto& [words, number] : materials)
+      paints += fmt::format("newmtl colour {}\n{}\n", number, words);
+    if (auto ok = write_file_atomically(file.parent_path() / library, std::string_view(paints));
+        !ok)
+      return ok.problem();
+  }
   return write_file_atomically(file, std::string_view(text));
 }
 

@@ -22,10 +22,23 @@ inline constexpr size_t luminaire_body_triangles = 200'000;
 /// The files of a body that luminaire_body() is to read later.
 void foresee_body(const L3dModel& model, ReadingShare& reading);
 
+struct LuminaireBody {
+  Mesh mesh;  // metres, z up
+  /// Diffuse colours of the model as linear RGB, each of all triangles up to the next.
+  struct Colour {
+    std::optional<glm::dvec3> value;  // none where the model says none
+    size_t first_triangle = 0;
+  };
+  std::vector<Colour> colours;
+
+  /// Whether the model says any.
+  bool is_coloured() const;
+};
+
 /// The body in the model's metres, z up. `reading`, where given, hears how far it is.
 /// Errors: a shape that cannot be read, by its name; more triangles than the limit; a place for the
 /// shapes' files cannot be had.
-Result<Mesh> luminaire_body(const L3dModel& model, ReadingShare* reading = nullptr);
+Result<LuminaireBody> luminaire_body(const L3dModel& model, ReadingShare* reading = nullptr);
 
 /// z of directions that are straight down, to within a degree, are below this.
 inline constexpr double straight_down = -0.9998;
@@ -44,7 +57,9 @@ struct BodyPlace {
 /// shadow already; nothing is lowered. Of other openings the body is a millimetre behind them.
 BodyPlace body_place(const L3dModel& model, const Mesh& body, const std::string& opening);
 
-/// Writes it as an OBJ file in metres, z up. Errors: as write_file_atomically.
-Result<void> write_body(const Mesh& body, const std::filesystem::path& file);
+/// Writes it as an OBJ file in metres, z up; of a coloured body with its material library beside
+/// it, FILE.mtl. No colour reflects more than 0.9, as no paint does; what has none is grey of 0.7.
+/// Errors: as write_file_atomically.
+Result<void> write_body(const LuminaireBody& body, const std::filesystem::path& file);
 
 }  // namespace luxodus

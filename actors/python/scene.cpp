@@ -93,7 +93,7 @@ OpenScene OpenScene::load(const fs::path& file, const py::list& changes,
 }
 
 SceneAtTime OpenScene::reader() const {
-  return reader_at_times(file_, FireFrames::nearest, changes_);
+  return reader_at_times(*description_, file_, FireFrames::nearest, changes_);
 }
 
 std::shared_ptr<const SceneDescription> OpenScene::at_frames() const {

@@ -5,6 +5,7 @@
 #include "scenes/pack/scene_pack.hpp"
 #include "scenes/scene_file/scene_file.hpp"
 #include "scenes/transport/compile.hpp"
+#include "scenes/world/files_as_read.hpp"
 
 namespace luxodus {
 
@@ -26,6 +27,22 @@ OpenedScene open_pack(const std::filesystem::path& file, bool other_time, bool c
   return out;
 }
 
+using ReadState = Result<std::shared_ptr<const SceneDescription>>;
+
+/// The scene at a time, from files that are as they were: `files`, null where nobody knows.
+ReadState opened_as(const FilesAsRead* files, const std::filesystem::path& file,
+                    std::optional<double> at_s, const std::string& changes, FireFrames frames) {
+  OpenedScene opened = open_scene(file, at_s, changes, frames);
+  if (!opened.scene) {
+    // What is wrong with an edited file is not what the one who asks needs to know first.
+    const auto changed = files != nullptr ? files->change_on_disk() : std::nullopt;
+    return changed ? *changed : opened.problems.list().front();
+  }
+  if (files != nullptr && opened.scene->files)
+    if (const auto changed = files->change_in(*opened.scene->files)) return *changed;
+  return std::move(opened.scene);
+}
+
 }  // namespace
 
 OpenedScene open_scene(const std::filesystem::path& file, std::optional<double> at_s,
@@ -38,12 +55,10 @@ OpenedScene open_scene(const std::filesystem::path& file, std::optional<double> 
   return out;
 }
 
-SceneAtTime reader_at_times(const std::filesystem::path& file, FireFrames frames,
-                            const std::string& changes) {
-  return [file, frames, changes](double at_s) -> Result<std::shared_ptr<const SceneDescription>> {
-    OpenedScene opened = open_scene(file, at_s, changes, frames);
-    if (!opened.scene) return opened.problems.list().front();
-    return std::move(opened.scene);
+SceneAtTime reader_at_times(const SceneDescription& scene, const std::filesystem::path& file,
+                            FireFrames frames, const std::string& changes) {
+  return [files = scene.files, file, frames, changes](double at_s) {
+    return opened_as(files.get(), file, at_s, changes, frames);
   };
 }
 
@@ -53,15 +68,16 @@ std::shared_ptr<FrameScenes> FrameScenes::of(const SceneDescription& scene,
   const bool has_simulation = std::any_of(scene.media.begin(), scene.media.end(),
                                           [](const Medium& m) { return m.simulation; });
   if (scene.packed || !has_simulation) return nullptr;
-  return std::shared_ptr<FrameScenes>(new FrameScenes(file, at_s));
+  return std::shared_ptr<FrameScenes>(new FrameScenes(scene.files, file, at_s));
 }
 
 Result<std::shared_ptr<const SceneDescription>> FrameScenes::at(std::optional<double> at_s) {
   const std::lock_guard lock(mutex_);
   if (!scenes_) {
-    OpenedScene first = open_scene(file_, at_s_, {}, FireFrames::nearest);
-    if (!first.scene) return first.problems.list().front();
-    scenes_.emplace(std::move(first.scene), reader_at_times(file_, FireFrames::nearest));
+    auto first = opened_as(files_.get(), file_, at_s_, {}, FireFrames::nearest);
+    if (!first) return first.problem();
+    const SceneAtTime others = reader_at_times(*first.value(), file_, FireFrames::nearest);
+    scenes_.emplace(std::move(first).value(), others);
   }
   return scenes_->at(at_s);
 }

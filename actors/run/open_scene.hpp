@@ -29,13 +29,13 @@ OpenedScene open_scene(const std::filesystem::path& file, std::optional<double> 
                        const std::string& changes = {}, FireFrames frames = FireFrames::between,
                        ReadingShare* share = nullptr);
 
-/// Reads a scene file with these changes at other times. Errors: the first of its problems.
-SceneAtTime reader_at_times(const std::filesystem::path& file, FireFrames frames,
-                            const std::string& changes = {});
+/// Reads a scene that was read from this file, with these changes, at other times.
+/// Errors: the first of its problems; files that are others than when `scene` was read.
+SceneAtTime reader_at_times(const SceneDescription& scene, const std::filesystem::path& file,
+                            FireFrames frames, const std::string& changes = {});
 
 /// A scene with fire simulations as verdicts are of it: at their frames, not between two. The last
-/// few states are kept. The file is read at the first verdict: where it was changed since the scene
-/// was opened, verdicts are of what it says then. Any thread.
+/// few states are kept. The file is read at the first verdict. Any thread.
 class FrameScenes {
  public:
   /// Of the scene that `file` is at `at_s`, as open_scene takes them. Null where it has no
@@ -44,13 +44,16 @@ class FrameScenes {
                                          const std::filesystem::path& file,
                                          std::optional<double> at_s);
 
-  /// As the scene stands where no time is said. Errors: the first of its problems.
+  /// As the scene stands where no time is said. Errors: the first of its problems; files that are
+  /// others than when the scene was read.
   Result<std::shared_ptr<const SceneDescription>> at(std::optional<double> at_s);
 
  private:
-  FrameScenes(std::filesystem::path file, std::optional<double> at_s)
-      : file_(std::move(file)), at_s_(at_s) {}
+  FrameScenes(std::shared_ptr<const FilesAsRead> files, std::filesystem::path file,
+              std::optional<double> at_s)
+      : files_(std::move(files)), file_(std::move(file)), at_s_(at_s) {}
 
+  const std::shared_ptr<const FilesAsRead> files_;
   const std::filesystem::path file_;
   const std::optional<double> at_s_;
   std::mutex mutex_;

@@ -12,6 +12,7 @@
 #include "runtime/core/output_text.hpp"
 #include "scenes/geometry/transform.hpp"
 #include "scenes/scene_file/scene_file.hpp"
+#include "scenes/world/files_as_read.hpp"
 
 namespace luxodus {
 
@@ -87,7 +88,7 @@ ViewHub::ViewHub(std::shared_ptr<const SceneDescription> scene, const HubOptions
   if (scene_->time && options_.live.scene_at) edits_.at_s = scene_->at_s;
   trace_.reset(new LiveTrace(scene_, options_.live, edits_, *this));
   pictures_ = std::make_unique<ViewPictures>(
-      options_.live, [this](std::optional<double> at_s) { return trace_->scene_at(at_s); },
+      options_.live, [this](std::optional<double> at_s) { return scene_as_opened(at_s); },
       [this](uint64_t number, const Json& message) {
         post_([this, number, text = text_of(message)] {
           if (Viewer* const viewer = viewer_of(number)) viewer->send_text(text);
@@ -403,6 +404,9 @@ void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
   if (!is_plain_name(edit.name))
     return refuse(viewer, "a name is made of letters, digits, spaces, _ and -");
   const auto file = options_.save_folder / (edit.name + ".toml");
+  // A variant includes the file as it is now.
+  if (const auto changed = scene_->files ? scene_->files->change_on_disk() : std::nullopt)
+    return refuse(viewer, changed->text());
   std::error_code ignored;
   if (std::filesystem::exists(file, ignored))
     return refuse(viewer, file.string() + " is there already: take another name");
@@ -475,14 +479,28 @@ void ViewHub::answer_next() {
       });
 }
 
+Result<std::shared_ptr<const SceneDescription>> ViewHub::scene_as_opened(
+    std::optional<double> at_s) const {
+  // What is asked of a scene that somebody has edited meanwhile is asked of the edited one.
+  const auto changed = scene_->files ? scene_->files->change_on_disk() : std::nullopt;
+  if (changed) return *changed;
+  return trace_->scene_at(at_s);
+}
+
 Json ViewHub::answer_to(const Question& question, const SceneEdits& edits,
                         const std::map<std::string, double>& factors) const {
-  const auto scene = trace_->scene_at(edits.at_s);
-  if (!scene) return {{"type", "refused"}, {"why", scene.problem().text()}};
-  if (const auto* const ask = std::get_if<SuggestAsk>(&question))
-    return suggestion(*scene.value(), edits, ask->free, options_.live, ends_);
+  const auto* const suggest = std::get_if<SuggestAsk>(&question);
+  const auto refused = [&](const Problem& why) {
+    Json out = {{"type", "refused"}, {"why", why.text()}};
+    if (suggest != nullptr) out["suggestion"] = true;
+    return out;
+  };
+  const auto scene = scene_as_opened(edits.at_s);
+  if (!scene) return refused(scene.problem());
+  if (suggest != nullptr)
+    return suggestion(*scene.value(), edits, suggest->free, options_.live, ends_);
   const auto judged = options_.live.judged ? options_.live.judged->at(edits.at_s) : scene;
-  if (!judged) return {{"type", "refused"}, {"why", judged.problem().text()}};
+  if (!judged) return refused(judged.problem());
   return sign_verdicts(*judged.value(), edits, factors, std::get<JudgeAsk>(question).sign,
                        options_.live, ends_);
 }

@@ -88,6 +88,9 @@ class ViewHub final : private LiveAudience {
   void put(Viewer& viewer, Question question);
   /// Begins with the next question that somebody waits for, where none is being answered.
   void answer_next();
+  /// The scene at a time, for answers and pictures. Errors: files that are others than when the
+  /// view was opened; as LiveTrace::scene_at.
+  Result<std::shared_ptr<const SceneDescription>> scene_as_opened(std::optional<double> at_s) const;
   Json answer_to(const Question& question, const SceneEdits& edits,
                  const std::map<std::string, double>& factors) const;
   void make_editor(Viewer* viewer);

@@ -36,8 +36,9 @@ constexpr char own_program[] = "/proc/self/exe";
 constexpr char verb[] = "--isolated-job";
 constexpr uint64_t mark = 0x31424F4A'5855'4CULL;  // "LUXJOB1"
 constexpr uint32_t waits = 10;                    // times as long as it computes, at most
-constexpr int out_of_memory = 3, has_thrown = 4;  // exit codes of the other process
-constexpr int not_begun = 127;                    // of one whose libraries are not found: ld.so(8)
+// Exit codes of the other process.
+constexpr int out_of_memory = 3, no_such_job = 4, has_thrown = 5;
+constexpr int not_begun = 127;  // of one whose libraries are not found: ld.so(8)
 #ifdef LUX_UNDER_SANITIZERS
 constexpr bool limits_memory = false;
 constexpr uint32_t slower = 20;  // than a release build, at most
@@ -177,9 +178,31 @@ std::string told(uint64_t bytes) {
   return std::to_string(bytes >> 20) + " MiB of memory";
 }
 
-/// "luxodus_vdb", or what the running program is to its user.
-std::string name_of(const std::vector<std::string>& words) {
-  return words[0] == own_program ? "this program" : words[0].substr(words[0].rfind('/') + 1);
+/// Whether jobs are done by copies of this process.
+bool& forking() {
+  static bool forks = false;
+  return forks;
+}
+
+/// Does the job as a process of its own would: with its descriptors, and with the signals that a
+/// new process has.
+[[noreturn]] void be_the_other_process(int question, int answer, const char* name) {
+  constexpr int not_served = 1;
+  for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
+  if (::dup2(question, 0) < 0 || ::dup2(answer, 1) < 0) ::_exit(not_served);
+  if (limits_memory) (void)!::freopen("/dev/null", "w", stderr);
+  std::string words[] = {own_program, verb, name};
+  char* argv[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+  ::_exit(serve_isolated_job(3, argv).value_or(not_served));
+}
+
+/// 0 or an errno.
+int begin_process(pid_t& process, int question, int answer, const std::vector<std::string>& words,
+                  const char* name) {
+  if (!forking()) return Orders(question, answer).spawn(process, words, name);
+  process = ::fork();
+  if (process == 0) be_the_other_process(question, answer, name);
+  return process < 0 ? errno : 0;
 }
 
 /// How the other process ended, where not well.
@@ -200,12 +223,26 @@ std::optional<Problem> end_of(int status, const IsolatedLimits& most) {
   return problem("reading it failed without a reason: it is damaged; write it anew");
 }
 
-/// `words` begin the program that does the job; `remedy` follows where its libraries are missing.
+/// What the program of another file, begun instead of this one, has to be told of.
+std::optional<Problem> fault_of_program(int status, const OtherProgram& other) {
+  const std::string name = other.path.substr(other.path.rfind('/') + 1);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == not_begun)
+    return problem_in(other.path, name +
+                                      " cannot be begun: its libraries are missing (apt-get "
+                                      "install " +
+                                      other.packages + ")");
+  if (WIFEXITED(status) && WEXITSTATUS(status) == no_such_job)
+    return problem_in(other.path,
+                      name + " is of another build than this program: " + other.renewal);
+  return std::nullopt;
+}
+
+/// `words` begin the program that does the job; `other`, where it is not this one.
 Result<PlainReader> ask_process(const std::vector<std::string>& words, const char* job,
                                 const std::function<void(PlainWriter& question)>& ask,
                                 const IsolatedLimits& most,
                                 const std::function<void(double)>& told_share,
-                                const std::string& remedy = {}) {
+                                const OtherProgram* other = nullptr) {
   FileDescriptor question = memory_file(), answer = memory_file();
   if (!question.valid() || !answer.valid())
     return problem("no process can be begun to read it: " + of_system(errno));
@@ -218,22 +255,24 @@ Result<PlainReader> ask_process(const std::vector<std::string>& words, const cha
   if (!asked || ::lseek(question.number(), 0, SEEK_SET) != 0)
     return problem("no process can be begun to read it: " + of_system(errno));
   pid_t process = 0;
-  if (const int error = Orders(question.number(), answer.number()).spawn(process, words, job);
+  if (const int error = begin_process(process, question.number(), answer.number(), words, job);
       error)
     return problem("no process can be begun to read it: " + of_system(error));
   if (told_share) wait_and_tell(process, question.number(), share_place, told_share);
   int status = 0;
   while (::waitpid(process, &status, 0) < 0)
     if (errno != EINTR) return problem("the process that reads it was lost: " + of_system(errno));
-  if (WIFEXITED(status) && WEXITSTATUS(status) == not_begun)
-    return problem(name_of(words) + " cannot be begun: its libraries are missing" + remedy);
+  if (other != nullptr)
+    if (auto bad = fault_of_program(status, *other)) return *bad;
   if (auto bad = end_of(status, most)) return *bad;
   if (const auto share = share_at(question.number(), share_place); told_share && share)
     told_share(*share);
   PlainReader reader(std::move(answer));
   uint64_t first = 0;
-  if (!reader.get(first) || first != mark)
+  if (!reader.get(first) || first != mark) {
+    if (other != nullptr) return problem_in(other->path, "gives no answer: " + other->renewal);
     return problem("this program reads such files in a process of its own, and cannot begin one");
+  }
   return reader;
 }
 
@@ -249,10 +288,19 @@ Result<PlainReader> IsolatedJob::run(const std::function<void(PlainWriter& quest
   return ask_process(begun_by(), name_, ask, most, told_share);
 }
 
-Result<PlainReader> ask_program(const std::string& program, const char* job,
+Result<PlainReader> ask_program(const OtherProgram& program, const char* job,
                                 const std::function<void(PlainWriter& question)>& ask,
-                                const IsolatedLimits& most, const std::string& packages) {
-  return ask_process({program}, job, ask, most, {}, " (apt-get install " + packages + ")");
+                                const IsolatedLimits& most,
+                                const std::function<void(double)>& told_share) {
+  return ask_process({program.path}, job, ask, most, told_share, &program);
+}
+
+ForkedJobs::ForkedJobs() {
+  forking() = true;
+}
+
+ForkedJobs::~ForkedJobs() {
+  forking() = false;
 }
 
 void begin_isolated_jobs_by(std::vector<std::string> words) {
@@ -280,14 +328,18 @@ std::optional<int> serve_isolated_job(int argc, char** argv) {
   while (job != nullptr && std::strcmp(job->name_, argv[2]) != 0) job = job->next_;
   PlainReader question(FileDescriptor(::fcntl(0, F_DUPFD_CLOEXEC, 3)));
   IsolatedLimits most;
-  if (job == nullptr || !question.get(most)) return has_thrown;
+  if (job == nullptr) return no_such_job;
+  // What libraries print is no part of the answer.
+  const FileDescriptor answer_place(::fcntl(1, F_DUPFD_CLOEXEC, 3));
+  (void)::dup2(2, 1);
+  if (!question.get(most)) return has_thrown;
   limit_this_process(most);
   struct stat question_file {};
   if (::fstat(0, &question_file) == 0)
     share_place_of_job() = question_file.st_size - static_cast<off_t>(sizeof(double));
   int code = 0;
   try {
-    PlainWriter answer(1);
+    PlainWriter answer(answer_place.number());
     answer.put(mark);
     job->work_(question, answer);
     if (!answer.flush()) code = has_thrown;

@@ -9,6 +9,7 @@
 //   this process                        the other one
 //   question -> memory file ----------> 0
 //   answer   <- memory file <---------- 1   limits set first; ends when its parent does
+//                                           what it prints goes elsewhere
 //
 // Any thread may run a job. Jobs are made before main() begins, as globals: the one exception to
 // "main wires everything", because test programs link different rooms, and each only its jobs.
@@ -58,12 +59,22 @@ class IsolatedJob {
   const IsolatedJob* next_;  // of all jobs
 };
 
-/// The same by another program, whose main() serves the job of this name: for what needs libraries
-/// that this program is not linked with. `packages` have those libraries.
-/// Errors: as of IsolatedJob::run; libraries that are missing.
-Result<PlainReader> ask_program(const std::string& program, const char* job,
+/// A program other than this one, whose main() serves jobs: for what needs libraries that this
+/// program is not linked with.
+struct OtherProgram {
+  std::string path;
+  std::string packages;  // have its libraries
+  std::string renewal;   // what to do where it is of another build: "build it again"
+};
+
+/// IsolatedJob::run by another program. The name of the job tells the builds that understand each
+/// other: where it is not served, that program is of another build.
+/// Errors: as of IsolatedJob::run; libraries that are missing, and another build, both at the path
+/// of the program.
+Result<PlainReader> ask_program(const OtherProgram& program, const char* job,
                                 const std::function<void(PlainWriter& question)>& ask,
-                                const IsolatedLimits& limits, const std::string& packages);
+                                const IsolatedLimits& limits,
+                                const std::function<void(double share)>& told = {});
 
 /// In a job that has found how much there is to do: so much more than it was given. Elsewhere it
 /// does nothing.
@@ -76,6 +87,17 @@ void tell_share(double share);
 /// call serve_isolated_job: a library does, which is not the running program. Once, before any job.
 /// Requires: a program at least.
 void begin_isolated_jobs_by(std::vector<std::string> words);
+
+/// As long as one lives, jobs are done by copies of this process (fork), also those of other
+/// programs, which it has to have as its own: a process is begun in milliseconds, whatever its
+/// libraries take to load. Limits and ends of jobs are the same. For tests of many files.
+/// Requires: no other thread that holds a lock.
+class ForkedJobs {
+ public:
+  ForkedJobs();
+  ~ForkedJobs();
+  ForkedJobs(const ForkedJobs&) = delete;
+};
 
 /// To be called first in main(): where this process was begun for a job, does it and gives the exit
 /// code; otherwise nothing.

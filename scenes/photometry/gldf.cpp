@@ -11,6 +11,7 @@
 
 #include "runtime/core/isolated_job.hpp"
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "scenes/photometry/gldf_archive.hpp"
 #include "scenes/photometry/gldf_product.hpp"
@@ -63,8 +64,30 @@ std::optional<size_t> entry_of(const std::vector<std::string>& names, const std:
   });
 }
 
+/// How much of a container is unpacked, told to whoever waits for this process.
+class Unpacking {
+ public:
+  /// All files of photometry, and where they are read of models, are to be taken.
+  Unpacking(const GldfArchive& archive, GldfModels models) : archive_(archive) {
+    const auto& names = archive.names();
+    for (size_t i = 0; i < names.size(); ++i)
+      if (lower(names[i]).starts_with("ldc/") ||
+          (models == GldfModels::read && lower(names[i]).starts_with("geo/")))
+        all_ += static_cast<double>(archive.packed_bytes(i));
+  }
+  void took(size_t entry) {
+    done_ += static_cast<double>(archive_.packed_bytes(entry));
+    if (all_ > 0) tell_share(std::min(1.0, done_ / all_));
+  }
+
+ private:
+  const GldfArchive& archive_;
+  double all_ = 0, done_ = 0;  // bytes
+};
+
 /// Unpacks the photometric file of each light; a fault where it is not there.
-Result<void> take_photometry(const GldfArchive& archive, GldfProduct& product) {
+Result<void> take_photometry(const GldfArchive& archive, GldfProduct& product,
+                             Unpacking& unpacking) {
   uint64_t all = 0;
   for (GldfLight& light : product.lights) {
     if (!light.fault.empty()) continue;
@@ -79,6 +102,7 @@ Result<void> take_photometry(const GldfArchive& archive, GldfProduct& product) {
     }
     auto bytes = archive.read(*entry, limits::gldf_file_bytes);
     if (!bytes) return bytes.problem();
+    unpacking.took(*entry);
     all += bytes->size();
     if (all > limits::gldf_all_bytes)
       return problem_in(product.file, fmt::format("its photometric files are larger than {} bytes "
@@ -90,7 +114,7 @@ Result<void> take_photometry(const GldfArchive& archive, GldfProduct& product) {
 }
 
 /// Reads each model; a fault where that is not possible.
-void take_models(const GldfArchive& archive, GldfProduct& product) {
+void take_models(const GldfArchive& archive, GldfProduct& product, Unpacking& unpacking) {
   uint64_t left = limits::l3d_all_bytes;
   for (GldfModel& model : product.models) {
     if (!model.fault.empty()) continue;
@@ -101,12 +125,13 @@ void take_models(const GldfArchive& archive, GldfProduct& product) {
     }
     const auto bytes = archive.read(*entry, limits::gldf_file_bytes);
     auto shape = bytes ? l3d_of(bytes.value(), product.file, left) : bytes.problem();
+    unpacking.took(*entry);
     if (!shape) {
       model.fault = shape.problem().what;
       continue;
     }
     model.shape = std::move(shape).value();
-    for (const L3dShape& one : model.shape.shapes) left -= one.obj.size();
+    for (const L3dShape& one : model.shape.shapes) left -= one.obj.size() + one.colours.size();
   }
 }
 
@@ -197,6 +222,7 @@ void put(PlainWriter& out, const GldfModel& model) {
   put_list(out, model.shape.shapes, [&](const L3dShape& shape) {
     out.put(shape.name);
     out.put(shape.obj);
+    out.put(shape.colours);
     out.put(shape.metres_per_unit);
   });
   put_list(out, model.shape.parts, [&](const L3dPart& part) {
@@ -213,8 +239,8 @@ void put(PlainWriter& out, const GldfModel& model) {
 
 bool get(PlainReader& in, GldfModel& model) {
   const auto get_shape = [&](L3dShape& shape) {
-    return in.get(shape.name) && in.get(shape.obj) && in.get(shape.metres_per_unit) &&
-           shape.metres_per_unit > 0 && shape.metres_per_unit <= 1;
+    return in.get(shape.name) && in.get(shape.obj) && in.get(shape.colours) &&
+           in.get(shape.metres_per_unit) && shape.metres_per_unit > 0 && shape.metres_per_unit <= 1;
   };
   const auto get_part = [&](L3dPart& part) {
     uint64_t shape = 0;
@@ -359,20 +385,24 @@ Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file, Gld
   if (!xml) return xml.problem();
   auto product = gldf_product_of(xml.value(), file);
   if (!product) return product;
-  if (auto taken = take_photometry(archive.value(), product.value()); !taken)
+  Unpacking unpacking(archive.value(), models);
+  if (auto taken = take_photometry(archive.value(), product.value(), unpacking); !taken)
     return taken.problem();
-  if (models == GldfModels::read) take_models(archive.value(), product.value());
+  if (models == GldfModels::read) take_models(archive.value(), product.value(), unpacking);
   return product;
 }
 
-Result<GldfProduct> read_gldf(const fs::path& path, GldfModels models) {
+Result<GldfProduct> read_gldf(const fs::path& path, GldfModels models, ReadingShare* reading) {
   const std::string name = path.string();
+  std::error_code unknown;
+  const uint64_t size = fs::file_size(path, unknown);
+  ReadingPart part(reading, unknown ? 0 : size);
   auto in = gldf_job.run(
       [&](PlainWriter& question) {
         question.put(name);
         question.put(models);
       },
-      gldf_limits);
+      gldf_limits, [&](double share) { part.at_share(share); });
   if (!in) return problem_in(name, in.problem().what);
   const Problem damaged = problem_in(name, "cannot be read: the reader gave no sound answer");
   uint8_t good = 0;

@@ -19,6 +19,8 @@
 
 namespace luxodus {
 
+class ReadingShare;
+
 namespace limits {
 /// Of a container [bytes]: pictures and documents of a product take a few MiB.
 inline constexpr uint64_t gldf_bytes = uint64_t{64} << 20;
@@ -93,12 +95,13 @@ struct GldfProduct {
 /// Whether models are read: scenes need none.
 enum class GldfModels { left, read };
 
-/// Reads a container, in a process of its own.
+/// Reads a container, in a process of its own. `reading`, where given, hears how far it is.
 /// Errors: it cannot be read, is no ZIP, holds no `product.xml`, another version than 1.0, a
 /// document type (entities), names that lead out of it, or more than the limits. A model that
 /// cannot be read is a fault of that model alone.
 Result<GldfProduct> read_gldf(const std::filesystem::path& path,
-                              GldfModels models = GldfModels::left);
+                              GldfModels models = GldfModels::left,
+                              ReadingShare* reading = nullptr);
 
 /// The same of its bytes, in this process. `file` names it in messages.
 Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file,

@@ -64,6 +64,13 @@ Result<GldfArchive> GldfArchive::open(std::string_view bytes, const std::string&
   return archive;
 }
 
+uint64_t GldfArchive::packed_bytes(size_t entry) const {
+  zip_stat_t said;
+  zip_stat_init(&said);
+  if (zip_stat_index(zip_.get(), entry, 0, &said) != 0) return 0;
+  return (said.valid & ZIP_STAT_COMP_SIZE) != 0 ? said.comp_size : 0;
+}
+
 Result<std::string> GldfArchive::read(size_t entry, uint64_t max_bytes) const {
   const std::string name = excerpt(names_[entry]);
   std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> opened(zip_fopen_index(zip_.get(), entry, 0),

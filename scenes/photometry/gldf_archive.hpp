@@ -24,6 +24,9 @@ class GldfArchive {
   /// In the archive's order, as UTF-8.
   const std::vector<std::string>& names() const { return names_; }
 
+  /// What an entry takes in the archive, as the archive says; 0 where it does not.
+  uint64_t packed_bytes(size_t entry) const;
+
   /// Unpacks an entry. A declared size is not believed: it stops at `max_bytes`.
   /// Errors: more bytes, encrypted, packed by a method that is not known, damaged.
   Result<std::string> read(size_t entry, uint64_t max_bytes) const;

@@ -53,6 +53,58 @@ Transform turned(const glm::dvec3& degrees) {
   return about({0, 0, 1}, degrees.z) * about({1, 0, 0}, degrees.x) * about({0, 1, 0}, degrees.y);
 }
 
+/// Calls `each` with the first word of every line and what follows it.
+template <class Each>
+void for_lines(std::string_view text, Each&& each) {
+  constexpr std::string_view blanks = " \t\r";
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    line = line.substr(0, line.find_last_not_of(blanks) + 1);
+    const size_t word = std::min(line.find_first_of(blanks), line.size());
+    std::string_view rest = line.substr(word);
+    rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+    each(line.substr(0, word), rest);
+  }
+}
+
+/// The name of the material library that an OBJ names first, within its text; "" for none.
+std::string_view library_of(std::string_view obj) {
+  std::string_view out;
+  for_lines(obj, [&](std::string_view word, std::string_view rest) {
+    if (out.empty() && word == "mtllib") out = rest;
+  });
+  return out;
+}
+
+/// Three numbers from 0 to 1, with blanks between them.
+bool is_colour(std::string_view text) {
+  int count = 0;
+  while (!text.empty()) {
+    const size_t end = std::min(text.find_first_of(" \t"), text.size());
+    const auto number = decimal(text.substr(0, end), false);
+    if (!number || !(*number >= 0 && *number <= 1)) return false;
+    ++count;
+    text.remove_prefix(end);
+    text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  }
+  return count == 3;
+}
+
+/// Names and diffuse colours of a material library; nothing else of it, such as its textures.
+std::string colours_in(std::string_view library) {
+  std::string out;
+  bool named = false;
+  for_lines(library, [&](std::string_view word, std::string_view rest) {
+    if (word == "newmtl" && !rest.empty()) named = true;
+    if ((word == "newmtl" && !rest.empty()) || (named && word == "Kd" && is_colour(rest)))
+      out += fmt::format("{} {}\n", word, rest);
+  });
+  return out;
+}
+
 class L3dReader {
  public:
   L3dReader(const GldfArchive& archive, const std::string& file, uint64_t max_bytes)
@@ -154,21 +206,43 @@ class L3dReader {
       fail("the shape \"" + excerpt(id) + "\" has the unit \"" + excerpt(unit) +
            "\"; m, dm, cm, mm, yard, foot and inch are read");
     out.metres_per_unit = metres.value_or(1);
-    const auto& names = archive_.names();
-    const auto entry = std::find(names.begin(), names.end(), out.name);
-    if (entry == names.end()) {
+    const auto entry = entry_of(out.name);
+    if (!entry) {
       fail("the shape \"" + excerpt(out.name) + "\" is not in it");
       return 0;
     }
-    auto bytes = archive_.read(static_cast<size_t>(entry - names.begin()), left_bytes_);
+    auto bytes = archive_.read(*entry, left_bytes_);
     if (!bytes) {
       fail(bytes.problem().what);
       return 0;
     }
     left_bytes_ -= bytes->size();
     out.obj = std::move(bytes).value();
+    add_colours(id, out);
     model_.shapes.push_back(std::move(out));
     return it->second;
+  }
+
+  std::optional<size_t> entry_of(const std::string& name) const {
+    const auto& names = archive_.names();
+    const auto entry = std::find(names.begin(), names.end(), name);
+    if (entry == names.end()) return std::nullopt;
+    return static_cast<size_t>(entry - names.begin());
+  }
+
+  /// Colours are worth having, but a body without them is one, too: what is wrong with a library
+  /// leaves its colours out.
+  void add_colours(const std::string& id, L3dShape& shape) {
+    const std::string_view name = library_of(shape.obj);
+    const auto entry = name.empty() ? std::nullopt : entry_of(id + "/" + std::string(name));
+    if (!entry) return;
+    const auto library = archive_.read(*entry, std::min(limits::l3d_library_bytes, left_bytes_));
+    if (!library) return;
+    shape.colours = colours_in(library.value());
+    if (shape.colours.empty()) return;
+    left_bytes_ -= shape.colours.size();
+    shape.obj.replace(static_cast<size_t>(name.data() - shape.obj.data()), name.size(),
+                      l3d_library);
   }
 
   const GldfArchive& archive_;

@@ -1,8 +1,9 @@
 // Shapes of luminaires (L3D, versions 0.9 to 0.11): a ZIP with `structure.xml`, which places parts
-// and luminous openings, and a Wavefront OBJ file for each shape, which is handed on as it is.
-// Colours, textures, sensors, connectors and assignments of luminous faces are not read. Joints
-// stand as `DefaultRotation` says. Called in the process that reads a container (gldf.hpp), which
-// has limits on memory and time. Plain values; any thread.
+// and luminous openings, and a Wavefront OBJ file for each shape, which is handed on with the
+// names and diffuse colours of its material library (MTL). Textures, sensors, connectors and
+// assignments of luminous faces are not read. Joints stand as `DefaultRotation` says. Called in the
+// process that reads a container (gldf.hpp), which has limits on memory and time. Plain values; any
+// thread.
 #pragma once
 
 #include <cstddef>
@@ -21,6 +22,8 @@ namespace limits {
 /// Of `structure.xml`, and of all shapes of a container's models, unpacked [bytes].
 inline constexpr uint64_t l3d_xml_bytes = uint64_t{1} << 20;
 inline constexpr uint64_t l3d_all_bytes = uint64_t{128} << 20;
+/// Of the material library of a shape [bytes].
+inline constexpr uint64_t l3d_library_bytes = uint64_t{1} << 20;
 /// Of parts, of luminous openings, and of parts that hang on each other by joints.
 inline constexpr size_t l3d_parts = 1000;
 inline constexpr size_t l3d_openings = 1000;
@@ -29,9 +32,15 @@ inline constexpr int l3d_depth = 32;
 inline constexpr double l3d_farthest_m = 100;
 }  // namespace limits
 
+/// What a shape calls its material library, once read.
+inline constexpr const char* l3d_library = "colours.mtl";
+
 struct L3dShape {
   std::string name;  // of its file in the model: "geom_1/housing.obj"
   std::string obj;
+  /// Its material library, which `obj` then calls colours.mtl, with "newmtl NAME" and "Kd R G B"
+  /// alone; "" where there is none.
+  std::string colours;
   double metres_per_unit = 1;
 };
 

@@ -3,6 +3,8 @@
 // ends a file.
 #include "scenes/scene_file/scene_file.hpp"
 
+#include <xxhash.h>
+
 #include <algorithm>
 #include <array>
 #include <sstream>
@@ -94,7 +96,10 @@ class Loader {
       return std::nullopt;
     }
     auto text = read_regular_file(path, scene_limits::file_bytes);
-    if (text) return std::move(text).value();
+    if (text) {
+      reading_.files.add(path.string(), XXH3_64bits(text->data(), text->size()));
+      return std::move(text).value();
+    }
     reading_.problem(text.problem());
     return std::nullopt;
   }
@@ -286,6 +291,7 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
   ReadScene out;
   for (Problem& renamed : reading.findings.take_warnings())
     reading.scene.warnings.push_back(std::move(renamed));
+  reading.scene.files = std::make_shared<const FilesAsRead>(std::move(reading.files));
   if (!reading.findings.any_problem()) out.scene = std::move(reading.scene);
   out.problems = reading.findings.take_problems();
   return out;

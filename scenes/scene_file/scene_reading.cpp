@@ -106,15 +106,19 @@ std::optional<Problem> SceneReading::hash_file(const std::filesystem::path& path
   if (!hashed_.insert(path.lexically_normal().string()).second) return std::nullopt;
   auto file = open_regular_file(path);
   if (!file) return file.problem();
-  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
-                                                                       &XXH3_freeState);
+  using State = std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)>;
+  const State state(XXH3_createState(), &XXH3_freeState);
+  const State own(XXH3_createState(), &XXH3_freeState);  // of this file alone
   XXH3_64bits_reset_withSeed(state.get(), scene.content_hash);
+  XXH3_64bits_reset(own.get());
   std::array<char, 65536> part;
   ssize_t n = 0;
   while ((n = ::read(file->descriptor.number(), part.data(), part.size())) > 0)
-    XXH3_64bits_update(state.get(), part.data(), static_cast<size_t>(n));
+    for (const auto& each : {state.get(), own.get()})
+      XXH3_64bits_update(each, part.data(), static_cast<size_t>(n));
   if (n < 0) return problem_in(path, "this file cannot be read");
   scene.content_hash = XXH3_64bits_digest(state.get());
+  files.add(path.string(), XXH3_64bits_digest(own.get()));
   return std::nullopt;
 }
 

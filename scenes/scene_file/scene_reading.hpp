@@ -17,6 +17,7 @@
 #include "runtime/toml/value.hpp"
 #include "scenes/world/description.hpp"
 #include "scenes/world/design.hpp"
+#include "scenes/world/files_as_read.hpp"
 #include "scenes/world/fire_frames.hpp"
 
 namespace luxodus {
@@ -103,10 +104,12 @@ class SceneReading {
   /// Default of an object's patch edge [m].
   double patch_edge_m = 0.5;
 
-  /// Takes the file's bytes into the content hash (once per file).
+  /// Takes the file's bytes into the content hash, and the file among those that were read (once
+  /// per file).
   /// Errors: a file that cannot be read.
   std::optional<Problem> hash_file(const std::filesystem::path& path);
   void hash_bytes(std::string_view bytes);
+  FilesAsRead files;
 
   /// What several luminaires or signs have in common, by kind and name; of the documents, which
   /// outlive the reading.

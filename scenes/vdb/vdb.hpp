@@ -6,7 +6,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,16 +41,24 @@ struct VdbSmoke {
   std::vector<float> values;
 };
 
-/// The grids of a file. `program`: luxodus_vdb.
-/// Errors: no such program, no OpenVDB file, damaged, more than the limits.
-Result<std::vector<VdbGrid>> list_vdb(const std::filesystem::path& file,
-                                      const std::filesystem::path& program);
+/// Who reads.
+struct VdbProgram {
+  std::filesystem::path path;                   // luxodus_vdb, of the same build
+  std::function<void(double share)> told = {};  // how far it is, where somebody wants to hear
+  /// What it may take for a question; otherwise what the size of the file allows.
+  std::optional<uint32_t> processor_s = {};
+  std::optional<uint64_t> memory_bytes = {};
+};
+
+/// The grids of a file.
+/// Errors: no such program, one of another build, no OpenVDB file, damaged, more than the limits.
+Result<std::vector<VdbGrid>> list_vdb(const std::filesystem::path& file, const VdbProgram& program);
 
 /// The grid of this name. `up`: the file's upward axis.
 /// Errors: as list_vdb; no such grid, and those there are; values that are no floats; a level set;
 /// axes that are turned, mirrored or bent; a background that is not 0; no values; more cells than
 /// the limit; a value that is negative or no number, with its index.
 Result<VdbSmoke> read_vdb(const std::filesystem::path& file, const std::string& grid, UpAxis up,
-                          const std::filesystem::path& program);
+                          const VdbProgram& program);
 
 }  // namespace luxodus

@@ -8,7 +8,8 @@
 
 namespace luxodus::vdb {
 
-inline constexpr const char* job = "vdb";
+/// Builds of the same sources of this exchange (program.cmake) have the same name for it.
+inline constexpr const char* job = "vdb " LUX_VDB_BUILD;
 
 /// `grid`: "" asks for the list.
 struct Question {

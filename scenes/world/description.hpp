@@ -403,6 +403,9 @@ struct PackedScene;
 /// What `luxodus design` may place: see design.hpp.
 struct DesignSettings;
 
+/// See files_as_read.hpp.
+class FilesAsRead;
+
 struct SceneDescription {
   std::string name;
   std::string title;
@@ -433,6 +436,7 @@ struct SceneDescription {
   std::vector<Side> open_sides;                  // through which light is meant to leave
   std::vector<Scenario> scenarios;               // empty: mains, as written
   uint64_t content_hash = 0;                     // of every file read
+  std::shared_ptr<const FilesAsRead> files;      // null in a pack, and in scenes made by programs
   int64_t degenerate_triangles = 0;              // dropped on reading
   std::vector<Problem> warnings;                 // said by `check`, not fatal
   std::vector<Problem> notes;  // said by `check`: what a reader of the results should know

@@ -100,21 +100,24 @@ TEST_CASE("a luminaire's model becomes its body, and hides none of its light",
   // All of it shines down, past the body, which is above the opening by a millimetre.
   CHECK_THAT(run.out, Contains("100 % escaped"));
 
+  luxodus::test::SmallL3d coloured;
+  coloured.obj = luxodus::test::coloured_box_obj("paint box.mtl");
+  coloured.library = "newmtl red\nKd 1 0.1 0.05\nnewmtl white\nKd 1 1 1\n";
+  folder.write("lamp.gldf", small_container("Lamp", coloured.bytes()));
+  REQUIRE(run_luxodus(folder, import + within(folder, "red")).code == 0);
+  CHECK_THAT(slurp(folder / "red/luminaires.toml"), Contains("file_colours = true"));
+  CHECK_THAT(slurp(folder / "red/body.mtl"),
+             Contains("Kd 0.9 0.1 0.05") && Contains("Kd 0.9 0.9 0.9"));
+  const Outcome checked = run_luxodus(folder, "check " + within(folder, "red/luminaires.toml"));
+  INFO(checked.err);
+  CHECK(checked.code == 0);
+
   folder.write("lamp.gldf", small_container("Lamp", "no model"));
   const Outcome without = run_luxodus(folder, import + within(folder, "plain"));
   REQUIRE(without.code == 0);
   CHECK_THAT(without.out, Contains("\"body.l3d\" is not read: this is no L3D model"));
   CHECK_THAT(without.out, Contains("left out: the model \"body.l3d\""));
   CHECK_THAT(slurp(folder / "plain/luminaires.toml"), Contains("# Its model body.l3d is left out"));
-}
-
-TEST_CASE("what is no OpenVDB file is refused by its name", "[program][import]") {
-  const TemporaryFolder folder;
-  folder.write("smoke.vdb", "no grids");
-  const Outcome refused = run_luxodus(folder, "import vdb " + within(folder, "smoke.vdb"));
-  CHECK(refused.code == 2);
-  CHECK_THAT(refused.err, Contains("smoke.vdb: "));
-  CHECK_FALSE(fs::exists(folder / "smoke"));
 }
 
 TEST_CASE("light is traced in an imported model, and its results are by GlobalId",

@@ -13,12 +13,22 @@ inline const std::string box_obj =
     "v 0 0 0\nv 200 0 0\nv 200 100 0\nv 0 100 0\nv 0 0 40\nv 200 0 40\nv 200 100 40\nv 0 100 40\n"
     "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
+/// The same box, three sides of the material "white", and three of "red".
+inline std::string coloured_box_obj(const std::string& library) {
+  std::string out = box_obj;
+  out.replace(out.find("absent.mtl"), 10, library);
+  out.insert(out.find("f 2 3 7 6"), "usemtl red\n");
+  return out.insert(out.find("f 1 4 3 2"), "usemtl white\n");
+}
+
 struct SmallL3d {
   std::string units = "mm";
   std::string position = R"(<Position x="-0.1" y="-0.05" z="0.5"/>)";
   std::string rotation = R"(<Rotation x="0" y="0" z="0"/>)";
   std::string reference = "box";
   std::string joints;  // below the part
+  std::string obj = box_obj;
+  std::string library;  // of materials, as paint box.mtl; "": none is there
   std::string before = R"(<?xml version="1.0" encoding="utf-8"?>)";
 
   std::string xml() const {
@@ -31,7 +41,10 @@ struct SmallL3d {
            R"(<Rectangle sizeX="0.2" sizeY="0.1"/></LightEmittingObject></LightEmittingObjects>)"
            "</Geometry></Structure></Luminaire>";
   }
-  std::string bytes() const { return zip_of({{"structure.xml", xml()}, {"box/box.obj", box_obj}}); }
+  std::string bytes() const {
+    if (library.empty()) return zip_of({{"structure.xml", xml()}, {"box/box.obj", obj}});
+    return zip_of({{"structure.xml", xml()}, {"box/box.obj", obj}, {"box/paint box.mtl", library}});
+  }
 };
 
 /// A joint at (0, 0, 0.1), turned about z by 90 degrees as it stands, with a part of the same box.

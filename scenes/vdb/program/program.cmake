@@ -5,6 +5,19 @@ if(NOT LUX_VDB MATCHES "^(AUTO|ON|OFF)$")
   message(FATAL_ERROR "LUX_VDB is AUTO, ON or OFF, not \"${LUX_VDB}\"")
 endif()
 set(LUX_HAS_VDB OFF)
+# What luxodus and luxodus_vdb have in common: one that was not built anew with the other is told by
+# its name for the job (vdb_answer.hpp).
+file(GLOB exchanged CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/vdb/*.[ch]pp
+  ${PROJECT_SOURCE_DIR}/scenes/vdb/program/*.cpp ${PROJECT_SOURCE_DIR}/runtime/core/isolated_job.*
+  ${PROJECT_SOURCE_DIR}/runtime/core/plain_stream.*)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${exchanged})
+set(LUX_VDB_BUILD "")
+foreach(source ${exchanged})
+  file(SHA256 ${source} hash)
+  string(SHA256 LUX_VDB_BUILD "${LUX_VDB_BUILD}${hash}")
+endforeach()
+string(SUBSTRING "${LUX_VDB_BUILD}" 0 16 LUX_VDB_BUILD)
+target_compile_definitions(lux_scenes_vdb PRIVATE LUX_VDB_BUILD="${LUX_VDB_BUILD}")
 if(LUX_VDB STREQUAL "OFF")
   return()
 endif()
@@ -25,8 +38,15 @@ add_library(lux_openvdb INTERFACE)
 target_include_directories(lux_openvdb SYSTEM INTERFACE ${OPENVDB_INCLUDE_DIR})
 target_link_libraries(lux_openvdb INTERFACE ${OPENVDB_LIBRARY} TBB::tbb Imath::Imath)
 # Alone, since the library's headers take half a minute and half a gigabyte to compile.
-add_executable(luxodus_vdb ${PROJECT_SOURCE_DIR}/scenes/vdb/program/vdb_program.cpp)
+add_library(lux_vdb_job OBJECT ${PROJECT_SOURCE_DIR}/scenes/vdb/program/file_watch.cpp
+  ${PROJECT_SOURCE_DIR}/scenes/vdb/program/read_grids.cpp)
 # Its types are known to the library by their names, which hidden visibility would take away.
+target_compile_options(lux_vdb_job PRIVATE -fPIE "${LUX_HARDENING}")
+target_compile_definitions(lux_vdb_job PRIVATE LUX_VDB_BUILD="${LUX_VDB_BUILD}")
+lux_optimise_less(lux_vdb_job)
+target_link_libraries(lux_vdb_job PUBLIC lux_scenes_vdb lux_openvdb)
+add_executable(luxodus_vdb ${PROJECT_SOURCE_DIR}/scenes/vdb/program/vdb_program.cpp
+  $<TARGET_OBJECTS:lux_vdb_job>)
 target_compile_options(luxodus_vdb PRIVATE -fPIE "${LUX_HARDENING}")
 target_link_options(luxodus_vdb PRIVATE
   -pie "$<$<BOOL:${LUX_HARDENED}>:LINKER:-z,relro,-z,now,-z,noexecstack>")

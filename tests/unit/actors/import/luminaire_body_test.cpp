@@ -24,7 +24,19 @@ L3dModel l3d_model(const SmallL3d& small) {
 Mesh body_of(const L3dModel& model) {
   auto body = luminaire_body(model);
   if (!body) FAIL(body.problem().text());
-  return std::move(body).value();
+  return std::move(body).value().mesh;
+}
+
+/// A model of a box that is half red and half white, and one without any colour.
+L3dModel partly_coloured() {
+  SmallL3d small;
+  small.joints = joint_with("");
+  L3dModel model = l3d_model(small);
+  model.shapes.push_back(model.shapes[0]);
+  model.parts.at(1).shape = 1;
+  model.shapes[0].obj = coloured_box_obj(l3d_library);
+  model.shapes[0].colours = "newmtl red\nKd 1 0.1 0.05\nnewmtl white\nKd 0.8 0.8 0.8\n";
+  return model;
 }
 
 }  // namespace
@@ -33,15 +45,40 @@ TEST_CASE("a body has the volume of its parts, in metres, and comes back from it
           "[import][l3d]") {
   SmallL3d small;
   small.joints = joint_with("");
-  const Mesh body = body_of(l3d_model(small));
-  CHECK(body.triangles.size() == 24);
-  CHECK(signed_volume_of(body) == Approx(2 * 0.2 * 0.1 * 0.04).epsilon(1e-6));
+  const auto body = luminaire_body(l3d_model(small));
+  REQUIRE(body.ok());
+  CHECK(body->mesh.triangles.size() == 24);
+  CHECK(signed_volume_of(body->mesh) == Approx(2 * 0.2 * 0.1 * 0.04).epsilon(1e-6));
+  CHECK_FALSE(body->is_coloured());
   const TemporaryFolder folder;
-  REQUIRE(write_body(body, folder / "body.obj").ok());
+  REQUIRE(write_body(body.value(), folder / "body.obj").ok());
   const auto back = import_mesh((folder / "body.obj").string(), 1, UpAxis::z);
   REQUIRE(back.ok());
   REQUIRE(back->size() == 1);
+  CHECK(folder.entries() == 1);
   CHECK(signed_volume_of(back->front().mesh) == Approx(2 * 0.2 * 0.1 * 0.04).epsilon(1e-5));
+}
+
+TEST_CASE("colours of a model come back from the files of its body, none above that of paint",
+          "[import][l3d]") {
+  const auto body = luminaire_body(partly_coloured());
+  if (!body) FAIL(body.problem().text());
+  CHECK(body->is_coloured());
+  const TemporaryFolder folder;
+  REQUIRE(write_body(body.value(), folder / "body.obj").ok());
+  CHECK(folder.entries() == 2);
+  const auto back = import_mesh((folder / "body.obj").string(), 1, UpAxis::z);
+  if (!back) FAIL(back.problem().text());
+  const auto triangles_of = [&](const glm::dvec3& colour) {
+    size_t out = 0;
+    for (const ImportedPart& part : back.value())
+      if (part.base_colour && glm::length(*part.base_colour - colour) < 1e-6)
+        out += part.mesh.triangles.size();
+    return out;
+  };
+  CHECK(triangles_of({0.9, 0.1, 0.05}) == 6);
+  CHECK(triangles_of(glm::dvec3(0.8)) == 6);
+  CHECK(triangles_of(glm::dvec3(0.7)) == 12);
 }
 
 TEST_CASE("a body stands a millimetre above its opening, with the opening in its middle",

@@ -11,10 +11,10 @@ using Catch::Contains;
 
 namespace {
 
-std::string said_with_program(const TemporaryFolder& folder, const std::filesystem::path& program) {
-  const auto grids = list_vdb(folder.write("smoke.vdb", "grids"), program);
+Problem said_with_program(const TemporaryFolder& folder, const std::filesystem::path& program) {
+  const auto grids = list_vdb(folder.write("smoke.vdb", "grids"), {program});
   REQUIRE_FALSE(grids.ok());
-  return grids.problem().what;
+  return grids.problem();
 }
 
 }  // namespace
@@ -22,11 +22,31 @@ std::string said_with_program(const TemporaryFolder& folder, const std::filesyst
 TEST_CASE("a missing luxodus_vdb and missing libraries are no fault of the file", "[import][vdb]") {
   namespace fs = std::filesystem;
   const TemporaryFolder folder;
-  CHECK_THAT(said_with_program(folder, folder / "absent"),
+  CHECK_THAT(said_with_program(folder, folder / "absent").what,
              Contains("by the program luxodus_vdb, which is not there"));
   // As the loader of libraries ends a program.
   const fs::path program = folder.write("luxodus_vdb", "#!/bin/sh\nexit 127\n");
   fs::permissions(program, fs::perms::owner_all);
-  CHECK(said_with_program(folder, program) ==
+  const Problem missing = said_with_program(folder, program);
+  CHECK(missing.where.file == program.string());
+  CHECK(missing.what ==
         "luxodus_vdb cannot be begun: its libraries are missing (apt-get install libopenvdb10.0)");
+}
+
+TEST_CASE("a luxodus_vdb of another build is told by its name, and what to do", "[import][vdb]") {
+  const TemporaryFolder folder;
+  // This test program serves jobs, but none of this name: as a luxodus_vdb of other sources does.
+  const std::filesystem::path program = folder / "luxodus_vdb";
+  std::filesystem::create_symlink(std::filesystem::read_symlink("/proc/self/exe"), program);
+  const Problem stale = said_with_program(folder, program);
+  CHECK(stale.where.file == program.string());
+  CHECK_THAT(stale.what,
+             Contains("luxodus_vdb is of another build than this program: build both "));
+}
+
+TEST_CASE("a luxodus_vdb that is no such program is told by its name", "[import][vdb]") {
+  const TemporaryFolder folder;
+  const Problem silent = said_with_program(folder, "/bin/true");
+  CHECK(silent.where.file == "/bin/true");
+  CHECK_THAT(silent.what, Contains("gives no answer: build both "));
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <numeric>
@@ -19,7 +20,18 @@ using namespace luxodus;
 namespace {
 
 /// What the other process is to do with its question.
-enum class ChildTask { answer, crash, take_memory, loop, throw_up, write_much, lie, tell, count };
+enum class ChildTask {
+  answer,
+  crash,
+  take_memory,
+  loop,
+  throw_up,
+  write_much,
+  lie,
+  tell,
+  print,
+  count
+};
 
 volatile uint64_t spun = 0;
 
@@ -45,6 +57,10 @@ void work(PlainReader& question, PlainWriter& answer) {
     case ChildTask::lie:
       answer.put(uint64_t{1} << 60);  // numbers that do not follow
       return;
+    case ChildTask::print:
+      std::puts("a library prints this");
+      std::fflush(stdout);
+      break;
     case ChildTask::tell:
       tell_share(0.25);
       tell_share(0.5);
@@ -92,6 +108,42 @@ TEST_CASE("a job in a process of its own gets its question and gives its answer"
   CHECK(sum == uint64_t{99'999} * 50'000);
   CHECK(answer->left() == 0);
   CHECK_FALSE(answer->get(sum));
+}
+
+TEST_CASE("what the code of a job prints is no part of its answer", "[runtime][isolated]") {
+  auto answer = run(ChildTask::print);
+  INFO((answer.ok() ? std::string() : answer.problem().what));
+  REQUIRE(answer.ok());
+  std::string text;
+  CHECK(answer->get(text));
+  CHECK(text == "text!");
+}
+
+TEST_CASE("copies of this process do jobs as processes of their own do, with the same ends",
+          "[runtime][isolated]") {
+  const ForkedJobs here;
+  auto answer = run(ChildTask::answer, {1, 2, 3});
+  REQUIRE(answer.ok());
+  std::string text;
+  uint64_t sum = 0;
+  CHECK((answer->get(text) && answer->get(sum)));
+  CHECK((text == "text!" && sum == 6));
+  CHECK(failure(ChildTask::crash).find("crash (Segmentation fault)") != std::string::npos);
+  CHECK(failure(ChildTask::throw_up).find("without a reason") != std::string::npos);
+  const OtherProgram other{"/bin/absent", "", ""};
+  CHECK(ask_program(
+            other, "test",
+            [](PlainWriter& out) {
+              out.put(ChildTask::answer);
+              out.put(std::string("text"));
+              out.put(std::vector<uint32_t>{});
+            },
+            little)
+            .ok());
+  const auto strange = ask_program(
+      other, "no such job", [](PlainWriter&) {}, little);
+  REQUIRE_FALSE(strange.ok());
+  CHECK(strange.problem().what.find("of another build") != std::string::npos);
 }
 
 TEST_CASE("a crash, a loop and a flood of a job are problems of their own words",

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "runtime/core/reading_share.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/kit/zip_kit.hpp"
@@ -255,6 +256,9 @@ TEST_CASE("another process reads a container from the disk with the same result"
   CHECK(read->variants[0].durations.size() == 2);
   REQUIRE(read->photometry.size() == 1);
   CHECK(read->photometry[0].bytes == gldf_lamp);
+  ReadingShare share;
+  CHECK(read_gldf(path, GldfModels::read, &share).ok());
+  CHECK(share.share() == std::optional(1.0));
   const auto refused = read_gldf(folder.write("b.gldf", "hello"));
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.problem().where.file == (folder / "b.gldf").string());

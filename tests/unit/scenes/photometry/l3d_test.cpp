@@ -222,6 +222,33 @@ TEST_CASE("a model of others is read", "[photometry][l3d]") {
   CHECK(model.shape.shapes.at(0).metres_per_unit == 0.001);
 }
 
+TEST_CASE("of a material library names and diffuse colours are kept, and nothing else",
+          "[photometry][l3d]") {
+  SmallL3d small;
+  small.obj = coloured_box_obj("paint box.mtl");
+  small.library =
+      "# paint\nKd 1 1 1\nnewmtl red\r\n  Kd 1 0.1 0.05\nKs 1 1 1\nmap_Kd /etc/passwd\n"
+      "newmtl odd\nKd 2 0 0\nKd 0 nan 0\nKd 1 1\nKd 1 1 1 1\nnewmtl\nmtllib other.mtl\n";
+  const L3dModel model = read_model(small);
+  CHECK(model.shapes[0].colours == "newmtl red\nKd 1 0.1 0.05\nnewmtl odd\n");
+  CHECK(model.shapes[0].obj == coloured_box_obj(l3d_library));
+}
+
+TEST_CASE("a library that is not there, lies elsewhere or is too large leaves its colours out",
+          "[photometry][l3d]") {
+  SmallL3d small;
+  small.library = "newmtl red\nKd 1 0.1 0.05\n";
+  for (const std::string name : {"absent.mtl", "../box/paint box.mtl", "box.obj", ""}) {
+    small.obj = coloured_box_obj(name);
+    const L3dModel model = read_model(small);
+    CHECK(model.shapes[0].colours.empty());
+    CHECK(model.shapes[0].obj == small.obj);
+  }
+  small.obj = coloured_box_obj("paint box.mtl");
+  small.library.resize(limits::l3d_library_bytes + 1, ' ');
+  CHECK(read_model(small).shapes[0].colours.empty());
+}
+
 TEST_CASE("harmed models are read or refused with one sentence", "[photometry][l3d]") {
   const char* seed_text = std::getenv("LUXODUS_SEED");
   const uint64_t seed = seed_text != nullptr ? std::strtoull(seed_text, nullptr, 0) : 1;
@@ -232,6 +259,8 @@ TEST_CASE("harmed models are read or refused with one sentence", "[photometry][l
   random.start(1);
   SmallL3d small;
   small.joints = joint_with("");
+  small.obj = coloured_box_obj("paint box.mtl");
+  small.library = "newmtl red\nKd 1 0.1 0.05\nmap_Kd red.png\n";
   const auto bytes_of = [](const std::string& text) {
     const auto* from = reinterpret_cast<const std::byte*>(text.data());
     return Bytes(from, from + text.size());

@@ -11,7 +11,7 @@ namespace {
 std::string container(bool says_emergency) {
   const std::string emergency =
       says_emergency ? "<EmergencyRatedLuminousFlux>200</EmergencyRatedLuminousFlux>" : "";
-  const std::string lamp =
+  const std::string small_lamp =
       "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 -1 1 3 1 1 2 -0.2 -0.2 0\n1 1 10\n0 45 90\n0\n"
       "300 200 0\n";
   const std::string xml =
@@ -25,7 +25,7 @@ std::string container(bool says_emergency) {
       R"(<ProductMetaData><Name><Locale language="en">Lamp</Locale></Name></ProductMetaData>)"
       R"(<Variants><Variant id="v"><Geometry><EmitterReference emitterId="e"/></Geometry>)"
       R"(</Variant></Variants></ProductDefinitions></Root>)";
-  return test::zip_of({{"product.xml", xml}, {"ldc/lamp.ies", lamp}});
+  return test::zip_of({{"product.xml", xml}, {"ldc/lamp.ies", small_lamp}});
 }
 
 const std::string contained =
