@@ -13,7 +13,7 @@ namespace {
 
 struct Options {
   int repeats = 9;
-  double share = 1;   // of the particles and paths of images, bias and allocation
+  double share = 1;   // of the particles and paths of images, bias, views and allocation
   std::string scene;  // of merit and bias: those that begin so
   std::string pack;   // of residency
 };
@@ -40,6 +40,7 @@ constexpr Table tables[] = {
     {"images", [](const Options& o) { luxodus::bench::print_images(o.share); }},
     {"bias", [](const Options& o) { luxodus::bench::print_bias(o.share, o.scene); }},
     {"choice", [](const Options& o) { luxodus::bench::print_choice(o.share); }},
+    {"views", [](const Options& o) { luxodus::bench::print_views(o.share); }},
     {"colours", [](const Options& o) { luxodus::bench::print_colours(o.share); }},
     {"rooms", [](const Options& o) { luxodus::bench::print_rooms(o.share); }},
     {"features", [](const Options& o) { luxodus::bench::print_features(o.repeats); }},

@@ -48,6 +48,8 @@ void print_colours(double share);
 /// What paths gain that choose emitters by what cells of space have learned; of a share of the
 /// particles and paths.
 void print_choice(double share);
+/// Time and variance of a path of pictures, by view; of a share of the particles and paths.
+void print_views(double share);
 /// Processor seconds that pictures of a furnished room take to an error of 10 %, in clear air and
 /// in smoke; with a share of the particles and of the long picture's paths.
 void print_rooms(double share);
