@@ -15,6 +15,7 @@
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/first_hit.hpp"
+#include "scenes/transport/flame_boxes.hpp"
 #include "scenes/transport/group_light.hpp"
 #include "scenes/transport/known_radiance.hpp"
 #include "scenes/transport/next_event.hpp"
@@ -47,7 +48,8 @@ class PathTracer {
         random_(seed, stream),
         next_event_(scene, resolver, random_, stream == RandomStream::picture, sight),
         models_(static_cast<size_t>(scene.bands.count())),
-        straight_(scene.groups.size(), static_cast<size_t>(scene.bands.count())) {
+        straight_(scene.groups.size(), static_cast<size_t>(scene.bands.count())),
+        flames_(flame_boxes(scene)) {
     // A picture shows colours, an estimate of luminance needs few.
     const double colour = stream == RandomStream::picture ? 1.0 : 0.05;
     double total = 0;
@@ -571,9 +573,7 @@ class PathTracer {
         met = add_flames(p.ray, length, p.bands.band(i), -1, p.weight * p.bands.light(i), p.into);
       return;
     }
-    for (uint32_t i = 0; i < scene_.emitters.size(); ++i) {
-      if (scene_.emitters[i].kind == EmitterKind::volume) add_flame_hit(p, i, length);
-    }
+    for (const FlameBox& flame : flames_) add_flame_hit(p, flame, length);
   }
 
   /// A place of the line in proportion to the light that it sends back along it.
@@ -618,7 +618,8 @@ class PathTracer {
     return chosen;
   }
 
-  void add_flame_hit(const Path& p, uint32_t emitter, Real length) {
+  void add_flame_hit(const Path& p, const FlameBox& box, Real length) {
+    const uint32_t emitter = box.emitter;
     const CompiledEmitter& flame = scene_.emitters[emitter];
     const auto power = [&](size_t i) {
       return flame.power_w[static_cast<size_t>(p.bands.band(i))];
@@ -626,6 +627,7 @@ class PathTracer {
     const size_t hero = p.bands.hero_place();
     if (!p.bands.many() && !(power(hero) > 0)) return;
     const double u = random_.uniform_double();
+    if (!box.may_meet(p.ray, length)) return;
     const FlamePlace place = place_in_flame(p, p.bands.hero(), flame, length, u);
     if (place.missed) return;
     for (size_t i = 0; i < p.bands.count(); ++i) {
@@ -675,6 +677,7 @@ class PathTracer {
   std::vector<SurfaceModel> models_;  // of the path's bands, at the last surface
   BandValues passed_, drawn_, through_;
   GroupLight straight_;
+  std::vector<FlameBox> flames_;
   KnownEnd end_;
 };
 
