@@ -119,14 +119,28 @@ class NextEvent {
     const auto is_known = [&](Real t) {
       return known != nullptr && known->knows(s.ray.origin + s.ray.direction * t);
     };
-    // A band may be scattered where the hero's is not.
-    const auto scatters = [&] {
-      return std::any_of(passed.begin(), passed.begin() + s.bands.count(),
-                         [](double light) { return light > 0; });
-    };
-    if (flight.collided && scatters() && !is_known(flight.t))
-      add_at_collision(s, flight, emitters_near, passed, weight, into);
+    if (flight.collided && !is_known(flight.t))
+      add_collided(s, flight, emitters_near, passed, weight, into);
     if (emitters_near) add_near_emitter(s, is_known, weight, into);
+  }
+
+  // The same in two, for a stretch of several flights. Each of them counts by the stretch's share.
+
+  /// Of places that are drawn near an emitter. Returns whether any emitter is near.
+  bool add_near(const Stretch& s, double weight, GroupLight& into) {
+    const bool emitters_near = weigh_along(s, s.bands);
+    if (emitters_near)
+      add_near_emitter(
+          s, [](Real) { return false; }, weight, into);
+    return emitters_near;
+  }
+  /// Of the place where a flight has collided. Requires: the last add_near was of this stretch.
+  void add_collided(const Stretch& s, const FreeFlight& flight, bool emitters_near,
+                    const BandValues& passed, double weight, GroupLight& into) {
+    // A band may be scattered where the hero's is not.
+    if (std::any_of(passed.begin(), passed.begin() + s.bands.count(),
+                    [](double light) { return light > 0; }))
+      add_at_collision(s, flight, emitters_near, passed, weight, into);
   }
 
   /// Weight of light that a path of such bands meets at a point of an emitter by its own direction.
