@@ -275,11 +275,12 @@ class PathTracer {
       const FreeFlight flight = fly(path.ray, hit.distance, path.bands.hero());
       pass_media(path, flight);
       const KnownRadiance* end = path.diffused ? known : nullptr;  // where the path may end here
+      const double weight = path.weight;  // before the turn
       const bool alive =
           flight.collided ? scatter(path, flight, stretch, end) : meet_surface(path, hit, end);
       // Last, since asking may drop the cell that the hit is of.
       if (scene_.features.media != MediaNeed::none)
-        next_event_.add_scattered(stretch, flight, passed_, path.weight, path.into, end);
+        next_event_.add_scattered(stretch, flight, passed_, weight, path.into, end);
       if (!alive || (event >= 2 && !survives_roulette(path.bands))) return;
     }
   }
