@@ -275,7 +275,7 @@ class PathTracer {
       const FreeFlight flight = fly(path.ray, hit.distance, path.bands.hero());
       pass_media(path, flight);
       const KnownRadiance* end = path.diffused ? known : nullptr;  // where the path may end here
-      const double weight = path.weight;  // before the turn
+      const double weight = path.weight;                           // before the turn
       const bool alive =
           flight.collided ? scatter(path, flight, stretch, end) : meet_surface(path, hit, end);
       // Last, since asking may drop the cell that the hit is of.

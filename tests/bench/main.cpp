@@ -38,6 +38,7 @@ constexpr Table tables[] = {
     {"residency", [](const Options& o) { luxodus::bench::print_residency(o.pack); }},
     {"merit", [](const Options& o) { luxodus::bench::print_merit(o.repeats, o.scene); }},
     {"images", [](const Options& o) { luxodus::bench::print_images(o.share); }},
+    {"seeds", [](const Options& o) { luxodus::bench::print_image_seeds(o.share); }},
     {"bias", [](const Options& o) { luxodus::bench::print_bias(o.share, o.scene); }},
     {"choice", [](const Options& o) { luxodus::bench::print_choice(o.share); }},
     {"views", [](const Options& o) { luxodus::bench::print_views(o.share); }},
