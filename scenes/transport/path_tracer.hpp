@@ -28,8 +28,8 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int eye_events = 10'000;
-/// Parts that a path of a picture is split into where it ends in known light. With more, those in
-/// smoke cost what they gain.
+/// Parts that a path of a picture is split into in scenes with media, where it ends in known light.
+/// More cost what they gain, as any do in clear air.
 inline constexpr int path_parts = 2;
 }  // namespace limits
 
@@ -112,7 +112,7 @@ class PathTracer {
     ends_.clear();
     const Path path{ray, PathBands::all(hero_, hero), counted, 1, into};
     if (known == nullptr) return trace(path, nullptr, 0);
-    split(path, limits::path_parts);
+    split(path, scene_.features.media == MediaNeed::none ? 1 : limits::path_parts);
     for (const Path& part : parts_) trace(part, known, 1);
   }
 
@@ -164,8 +164,7 @@ class PathTracer {
  private:
   using Path = EyePath;
 
-  // ---- what is known without chance
-  // ------------------------------------------------------------------------------------
+  // ---- what is known without chance --------------------------------------------------------
 
   /// Through a pane or an open surface, on the same line; false: something else ends the line.
   bool pass_straight(Ray& ray, const Hit& hit, PathBands& through) {
