@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "scenes/tally/totals.hpp"
 #include "scenes/transport/known_radiance.hpp"
@@ -35,9 +36,9 @@ constexpr size_t half_of(int path) {
 class PixelSums {
  public:
   /// Adds what a path has found: light that has turned, light that emitters send straight, the
-  /// known light that it has ended in, and features.
-  void add(int path, const ChannelLight& turned, const ChannelLight& straight, const KnownEnd& end,
-           const std::array<double, picture_features>& features) {
+  /// known light that its parts have ended in, and features.
+  void add(int path, const ChannelLight& turned, const ChannelLight& straight,
+           std::span<const KnownEnd> ends, const std::array<double, picture_features>& features) {
     const size_t half = half_of(path);
     for (size_t c = 0; c < light_channels; ++c) {
       sums_[turned_at(half, c)] += fixed(turned[c]);
@@ -46,7 +47,7 @@ class PixelSums {
     for (size_t c = 0; c < 3; ++c) squares_[turned_square_at(half, c)] += square_of(turned[c]);
     squares_[luminance_square_at] += square_of(turned[1] + straight[1]);
     for (size_t k = 0; k < picture_features; ++k) sums_[features_at + k] += fixed(features[k]);
-    add_known(end);
+    for (size_t i = 0; i < ends.size(); ++i) add_known(ends, i);
   }
 
   // Sums over paths: of light [cd/m2], of its squares [cd2/m4].
@@ -117,12 +118,16 @@ class PixelSums {
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
     return z ^ (z >> 31);
   }
-  /// By draws of signs: who ends in the same bin errs alike.
-  void add_known(const KnownEnd& end) {
-    if (!(end.luminance > 0)) return;
+  /// By draws of signs: who ends in the same bin errs alike. Of the path's own square, the end's
+  /// and its products with earlier ends in that bin.
+  void add_known(std::span<const KnownEnd> ends, size_t i) {
+    const KnownEnd& end = ends[i];
     const double error = end.luminance * end.error.relative;
+    double before = 0;
+    for (size_t k = 0; k < i; ++k)
+      if (ends[k].error.bin == end.error.bin) before += ends[k].luminance * ends[k].error.relative;
     sums_[known_at] += fixed(end.luminance);
-    squares_[known_square_at] += square_of(error);
+    squares_[known_square_at] += square_of(before + error) - square_of(before);
     const Int128 units = fixed(error);
     const uint64_t signs = signs_of(end.error.bin);
     for (size_t k = 0; k < sign_draws; ++k)

@@ -55,7 +55,7 @@ void PixelTracer::trace(int column, int row, uint64_t pixel, int from, int to, P
     const Ray ray = pinhole_.ray(column + x, row + y);
     const ChannelLight turned = light_of(tracer_->radiance(ray, hero, flux_));
     tracer_->meet_first(ray, first_);
-    sums.add(i, turned, light_of(first_.emitted), tracer_->end(), features());
+    sums.add(i, turned, light_of(first_.emitted), tracer_->ends(), features());
   }
 }
 

@@ -32,11 +32,8 @@ double EmitterChoice::weigh(Cumulative& cumulative, int band, WeightOf&& weight)
   cumulative.resize(scene_.emitters.size());
   double total = 0;
   for (size_t i = 0; i < cumulative.size(); ++i) {
-    const CompiledEmitter& e = scene_.emitters[i];
-    const double in_band =
-        band == all_bands ? seen_power_[i] : e.wanted * e.power_w[static_cast<size_t>(band)];
-    const double power = e.distribution == Distribution::collimated ? 0 : in_band;
-    if (power > 0) total += power * weight(e);
+    const double power = power_of(i, band);
+    if (power > 0) total += power * weight(scene_.emitters[i]);
     cumulative[i] = total;
   }
   return total;
@@ -84,6 +81,7 @@ bool EmitterChoice::weigh_at(const Vec3& place, const Vec3& normal, int band,
 }
 
 bool EmitterChoice::weigh_along(const Ray& ray, Real end, int band) {
+  near_alone_ = false;
   const bool few = scene_.emitters.size() <= limits::nearby_emitters;
   bool near = !few;
   const double total = weigh(along_, band, [&](const CompiledEmitter& e) {
@@ -93,10 +91,21 @@ bool EmitterChoice::weigh_along(const Ray& ray, Real end, int band) {
     const Real distance = glm::length(from_origin - ray.direction * t);
     const Real half = 0.5_r * glm::length(e.size);
     near |= distance < limits::near_line * end + half;
-    const Real least = distance + half + 1e-4_r * end;
-    return static_cast<double>(end / (least * (least + end / 3)));
+    return seen_along(distance, half, end);
   });
   return near && total > 0;
+}
+
+EmitterSample EmitterChoice::choose_along(double u) const {
+  const EmitterSample chosen = choose(along_, u);
+  return near_alone_ ? EmitterSample{near_[chosen.emitter], chosen.probability} : chosen;
+}
+
+double EmitterChoice::probability_along(size_t emitter) const {
+  if (!near_alone_) return share_of(emitter, along_);
+  for (size_t i = 0; i < near_.size(); ++i)
+    if (near_[i] == emitter) return share_of(i, along_);
+  return 0;
 }
 
 EmitterSample EmitterChoice::choose_at(double u) const {

@@ -4,6 +4,8 @@
 // (equiangular.hpp). One thread or fiber at a time.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "scenes/transport/compiled_scene.hpp"
@@ -45,15 +47,33 @@ class EmitterChoice {
   /// Weighs emitters by what each sends to the first `end` of a ray, nearly: the angle at
   /// which it sees it, over its distance. False where none is near, so that none need be chosen so.
   bool weigh_along(const Ray& ray, Real end, int band);
-  EmitterSample choose_along(double u) const { return choose(along_, u); }
-  double probability_along(size_t emitter) const { return share_of(emitter, along_); }
+  /// The same of the near emitters alone: each by what `seen_at(place)` knows to arrive at the
+  /// place of the line that is nearest to it. One that is not bright there is left out: a collision
+  /// may still ask it.
+  template <class SeenAt>
+  bool weigh_near(const Ray& ray, Real end, int band, SeenAt&& seen_at);
+  /// Of the last weigh_along or weigh_near.
+  EmitterSample choose_along(double u) const;
+  double probability_along(size_t emitter) const;
 
  private:
   /// Sums of the weights of the emitters up to each.
   using Cumulative = std::vector<double>;
+  double power_of(size_t emitter, int band) const {
+    const CompiledEmitter& e = scene_.emitters[emitter];
+    if (e.distribution == Distribution::collimated) return 0;
+    return band == all_bands ? seen_power_[emitter]
+                             : e.wanted * e.power_w[static_cast<size_t>(band)];
+  }
   bool weigh_bright(const Vec3& place, const Vec3& normal, int band);
   template <class WeightOf>
   double weigh(Cumulative& cumulative, int band, WeightOf&& weight) const;
+  /// The angle at which an emitter sees a line that passes it so far away, over that distance,
+  /// nearly.
+  static double seen_along(Real distance, Real half, Real end) {
+    const Real least = distance + half + 1e-4_r * end;
+    return static_cast<double>(end / (least * (least + end / 3)));
+  }
   static EmitterSample choose(const Cumulative& cumulative, double u);
   static double share_of(size_t emitter, const Cumulative& cumulative);
 
@@ -64,6 +84,32 @@ class EmitterChoice {
   const CellSight* seen_ = nullptr;  // of the last weigh_at
   double bright_ = 0;                // the share of the choice that its bright emitters have
   Cumulative at_, along_;            // at_: of the bright ones, or of all
+  bool near_alone_ = false;          // along_ is of these:
+  std::vector<uint32_t> near_;
 };
+
+template <class SeenAt>
+bool EmitterChoice::weigh_near(const Ray& ray, Real end, int band, SeenAt&& seen_at) {
+  near_alone_ = true;
+  near_.clear();
+  along_.clear();
+  double total = 0;
+  for (uint32_t i = 0; i < bounds_.size(); ++i) {
+    const Vec3 way = bounds_[i].centre - ray.origin;
+    const Real t = glm::clamp(glm::dot(way, ray.direction), 0.0_r, end);
+    const Vec3 aside = way - ray.direction * t;
+    const Real square = glm::dot(aside, aside);
+    const Real reach = limits::near_line * end + bounds_[i].radius;
+    if (!(square < reach * reach)) continue;
+    const double power = power_of(i, band);
+    if (!(power > 0)) continue;
+    const double arriving = seen_at(ray.origin + ray.direction * t).arriving_of(i);
+    if (!(arriving > 0)) continue;
+    total += power * arriving * seen_along(std::sqrt(square), bounds_[i].radius, end);
+    near_.push_back(i);
+    along_.push_back(total);
+  }
+  return total > 0;
+}
 
 }  // namespace luxodus

@@ -54,6 +54,13 @@ struct CellSight {
   std::vector<uint32_t> asked;
   std::vector<float> cumulative;
   double by_cell = 1;  // share of the choices by `cumulative`; the rest are by power alone
+
+  /// What arrives of a watt of an emitter, as of `Bright`; 0 of one that is not bright here.
+  double arriving_of(uint32_t emitter) const {
+    for (const Bright& b : bright)
+      if (b.emitter == emitter) return b.arriving;
+    return 0;
+  }
 };
 
 class EmitterSight {

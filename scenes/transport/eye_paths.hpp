@@ -195,7 +195,7 @@ class EyeScores {
     OwnLight own;
     for (int b = 0; b < scene_.bands.count(); ++b) {
       const double t = medium_transmittance(scene_, c.ray, c.distance, b, resolver_);
-      const SourceLight texel = eye_.texel_light(sign, uv, -c.ray.direction, b);
+      const SourceLight texel = eye_.emitters().texel_light(sign, uv, -c.ray.direction, b);
       const double luminance = scene_.bands[b].lm_per_w * texel.radiance;
       own.group = texel.group;
       own.at_face += luminance;
@@ -232,7 +232,7 @@ class EyeScores {
     if (scene_.features.media == MediaNeed::none) return;
     const int band = chosen.band;
     if (!scene_.volume_points.empty())
-      eye_.add_flames(c.ray, c.ray.length, band, -1, chosen.lm_per_w, light_);
+      eye_.emitters().add_flames(c.ray, c.ray.length, band, -1, chosen.lm_per_w, light_);
     const double depth = optical_depth<MediaNeed::general>(scene_.media, band, c.ray.origin,
                                                            c.ray.direction, c.distance, resolver_);
     if (!(depth > 0)) return;

@@ -13,6 +13,8 @@ namespace {
 /// Sine of the angle off an axis, below which directions count as off by that much: densities have
 /// no bound on the axis.
 constexpr Real least_sine = 1e-6_r;
+/// Of a sphere's radius: nearer to its middle there is no direction towards that.
+constexpr Real least_distance = 1e-3_r;
 
 }  // namespace
 
@@ -48,9 +50,12 @@ double GlowGuide::weigh(const Glow& glow, const Vec3& place, double arriving) {
   const Real square = glm::dot(way, way);
   const Real reach = glow.radius * glow.radius;
   const double light = arriving * glow.power / static_cast<double>(std::max(square, reach));
-  // In the midst of it every turn stays near.
-  if (square > reach && glow.share > 0)
-    cones_.push_back({way / std::sqrt(square), std::sqrt(reach / square), light * glow.share});
+  // Lines that begin beside an emitter of some size meet its light from everywhere.
+  const Real least = std::max(glow.body, least_distance * glow.radius);
+  if (square > least * least && glow.share > 0) {
+    const Real slope = std::min(limits::widest_slope, std::sqrt(reach / square));
+    cones_.push_back({way / std::sqrt(square), slope, light * glow.share});
+  }
   return light;
 }
 

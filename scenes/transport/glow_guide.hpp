@@ -19,7 +19,9 @@ namespace limits {
 /// Emitters that are aimed at, those of the most glow: each costs time at every turn of a path.
 inline constexpr size_t glows = 16;
 /// Of the turns at a place, those that are aimed at most.
-inline constexpr double max_aimed = 0.5;
+inline constexpr double max_aimed = 0.9;
+/// Tangent of the half angle of what is aimed at, from within a sphere as well.
+inline constexpr Real widest_slope = 3;
 /// Events of a path that may be aimed.
 inline constexpr int aimed_events = 8;
 /// Share of an emitter's light: less is left to chance. Aimed at, it gained less than it cost.
@@ -36,6 +38,7 @@ struct Glow {
   Real radius = 0;
   double power = 0;  // of the emitter, in all bands, by how they look
   double share = 0;  // of its light that smoke in the sphere scatters; 0: not worth aiming at
+  Real body = 0;     // radius of the emitter itself
 };
 
 class GlowGuide {
@@ -90,7 +93,7 @@ std::vector<Glow> glows_of(const CompiledScene& scene, Resolver& resolver) {
   for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
     const CompiledEmitter& e = scene.emitters[i];
     const EmitterBound bound = emitter_bound(scene, i);
-    Glow glow{bound.centre, bound.radius + glow_reach_m(scene), 0, 0};
+    Glow glow{bound.centre, bound.radius + glow_reach_m(scene), 0, 0, bound.radius};
     if (e.distribution != Distribution::collimated) glow.power = power_seen(scene, e);
     // Before its face: the face itself may be a boundary of the smoke.
     const Vec3 before = bound.centre - e.axes[2] * (0.5_r * glow.radius);

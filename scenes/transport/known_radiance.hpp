@@ -14,10 +14,10 @@ struct KnownError {
   double relative = 0;  // standard error of the luminance, by the luminance
 };
 
-/// Where a path has ended in known light.
+/// Where a path, or a part of one, has ended in known light.
 struct KnownEnd {
   KnownError error;
-  double luminance = 0;  // that it brings from there [cd/m2]; 0: it has ended elsewhere
+  double luminance = 0;  // that it brings from there [cd/m2]
 };
 
 /// Implemented where flux is collected. Any thread.

@@ -115,18 +115,32 @@ class NextEvent {
   /// where the resolver does.
   void add_scattered(const Stretch& s, const FreeFlight& flight, const BandValues& passed,
                      double weight, GroupLight& into, const KnownRadiance* known = nullptr) {
-    const bool emitters_near = choice_.weigh_along(s.ray, s.end, chosen_by(s.bands));
+    const bool emitters_near = weigh_along(s, s.bands);
     const auto is_known = [&](Real t) {
       return known != nullptr && known->knows(s.ray.origin + s.ray.direction * t);
     };
-    // A band may be scattered where the hero's is not.
-    const auto scatters = [&] {
-      return std::any_of(passed.begin(), passed.begin() + s.bands.count(),
-                         [](double light) { return light > 0; });
-    };
-    if (flight.collided && scatters() && !is_known(flight.t))
-      add_at_collision(s, flight, emitters_near, passed, weight, into);
+    if (flight.collided && !is_known(flight.t))
+      add_collided(s, flight, emitters_near, passed, weight, into);
     if (emitters_near) add_near_emitter(s, is_known, weight, into);
+  }
+
+  // The same in two, for a stretch of several flights. Each of them counts by the stretch's share.
+
+  /// Of places that are drawn near an emitter. Returns whether any emitter is near.
+  bool add_near(const Stretch& s, double weight, GroupLight& into) {
+    const bool emitters_near = weigh_along(s, s.bands);
+    if (emitters_near)
+      add_near_emitter(
+          s, [](Real) { return false; }, weight, into);
+    return emitters_near;
+  }
+  /// Of the place where a flight has collided. Requires: the last add_near was of this stretch.
+  void add_collided(const Stretch& s, const FreeFlight& flight, bool emitters_near,
+                    const BandValues& passed, double weight, GroupLight& into) {
+    // A band may be scattered where the hero's is not.
+    if (std::any_of(passed.begin(), passed.begin() + s.bands.count(),
+                    [](double light) { return light > 0; }))
+      add_at_collision(s, flight, emitters_near, passed, weight, into);
   }
 
   /// Weight of light that a path of such bands meets at a point of an emitter by its own direction.
@@ -138,7 +152,7 @@ class NextEvent {
     const double hit = turn.pdf * apparent_sr;
     if (!(hit > 0)) return 0;
     double sampled = weigh_at(turn.place, turn.normal, bands) ? choice_.probability_at(emitter) : 0;
-    if (turn.in_medium && choice_.weigh_along(turn.stretch.ray, turn.stretch.end, chosen_by(bands)))
+    if (turn.in_medium && weigh_along(turn.stretch, bands))
       sampled += drawn_near(turn.stretch, turn.place, turn.t, emitter, point);
     return hit / (hit + sampled);
   }
@@ -160,6 +174,13 @@ class NextEvent {
   /// Weighs emitters as seen from a place. `normal`: of a surface; zero in a medium.
   bool weigh_at(const Vec3& place, const Vec3& normal, const PathBands& bands) {
     return choice_.weigh_at(place, normal, chosen_by(bands), seen_at(place));
+  }
+  /// Weighs emitters that are near a stretch. False where none is.
+  bool weigh_along(const Stretch& s, const PathBands& bands) {
+    if (sight_ == nullptr) return choice_.weigh_along(s.ray, s.end, chosen_by(bands));
+    return choice_.weigh_near(
+        s.ray, s.end, chosen_by(bands),
+        [&](const Vec3& place) -> const CellSight& { return *seen_at(place); });
   }
   const CellSight* seen_at(const Vec3& place) {
     return sight_ != nullptr ? &sight_->at(place, resolver_) : nullptr;
@@ -240,10 +261,11 @@ class NextEvent {
   /// collisions at that place. Requires: the last weigh_along was of this stretch.
   double drawn_near(const Stretch& s, const Vec3& place, Real t, size_t emitter,
                     const Vec3& point) {
+    const double share = choice_.probability_along(emitter);
+    if (!(share > 0)) return 0;
     const double here = may_collide_at(s, place) ? density_of_collisions(s, t) : 0;
     if (!(here > 0)) return std::numeric_limits<double>::infinity();
-    return choice_.probability_along(emitter) *
-           seen_from(point, s).density(static_cast<double>(t)) / here;
+    return share * seen_from(point, s).density(static_cast<double>(t)) / here;
   }
 
   /// The place is where a flight has collided; an emitter is sampled there.

@@ -8,33 +8,30 @@
 #pragma once
 
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "runtime/core/random.hpp"
 #include "scenes/geometry/real.hpp"
 #include "scenes/tally/batch_scores.hpp"
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
+#include "scenes/transport/emitters_met.hpp"
 #include "scenes/transport/first_hit.hpp"
 #include "scenes/transport/group_light.hpp"
 #include "scenes/transport/known_radiance.hpp"
 #include "scenes/transport/next_event.hpp"
 #include "scenes/transport/textures.hpp"
+#include "scenes/transport/turn_numbers.hpp"
 
 namespace luxodus {
 
 namespace limits {
 inline constexpr int eye_events = 10'000;
-inline constexpr int emitters_per_line = 16;  // emitting faces that one straight line may cross
-/// Of the size of a scene: where a stretch ends on which places are drawn by an emitter's light.
-inline constexpr Real longest_line = 4;
+/// Parts that a path of a picture is split into in scenes with media, where it ends in known light.
+/// More cost what they gain, as any do in clear air.
+inline constexpr int path_parts = 2;
 }  // namespace limits
-
-/// Which emitters count when a path meets them on its way.
-enum class EmitterHits {
-  none,      // somebody else holds all direct light of this place
-  weighted,  // emitters were sampled too: by the balance heuristic
-  all,       // none was sampled
-};
 
 template <class Resolver>
 class PathTracer {
@@ -46,6 +43,7 @@ class PathTracer {
         resolver_(resolver),
         random_(seed, stream),
         next_event_(scene, resolver, random_, stream == RandomStream::picture, sight),
+        met_(scene, resolver, random_, next_event_),
         models_(static_cast<size_t>(scene.bands.count())),
         straight_(scene.groups.size(), static_cast<size_t>(scene.bands.count())) {
     // A picture shows colours, an estimate of luminance needs few.
@@ -64,6 +62,8 @@ class PathTracer {
   }
 
   Random& random() { return random_; }
+  /// Emitters on lines.
+  EmittersMet<Resolver>& emitters() { return met_; }
 
   /// A band for a path, or the hero of all, from a uniform number; and the probability of it.
   int choose_band(double u) const {
@@ -86,14 +86,14 @@ class PathTracer {
     Hit hit = resolver_.nearest(rest);
     for (int pane = 0; pane < limits::panes_per_line; ++pane) {
       Path path{rest, through, EmitterHits::all, 1, straight_};
-      add_emitted_along(path, hit);
+      met_.add_along(path, hit);
       if (!hit.found() || !pass_straight(rest, hit, through)) break;
       passed += hit.distance;
       hit = resolver_.nearest(rest);
     }
     std::copy_n(straight_.by_band().begin(), bands, first.emitted.begin());
     describe(hit, rest, passed, first);
-    first.transmittance = medium_transmittance(scene_, ray, line_end(passed + hit.distance),
+    first.transmittance = medium_transmittance(scene_, ray, line_end(scene_, passed + hit.distance),
                                                brightest_band_, resolver_);
   }
 
@@ -102,19 +102,22 @@ class PathTracer {
   /// paths may end after their first diffuse event; null traces them to their end.
   void radiance(const Ray& ray, int band, EmitterHits counted, double weight, GroupLight& into,
                 const KnownRadiance* known = nullptr) {
-    trace({ray, PathBands::one(band), counted, weight, into}, known);
+    trace({ray, PathBands::one(band), counted, weight, into}, known, 0);
   }
 
   /// The same of all bands, by `into.by_band()`, where the path goes as a hero's. Requires: heroes
   /// are drawn by choose_band.
   void radiance_of_all(const Ray& ray, int hero, EmitterHits counted, GroupLight& into,
                        const KnownRadiance* known = nullptr) {
-    end_ = {};
-    trace({ray, PathBands::all(hero_, hero), counted, 1, into}, known);
+    ends_.clear();
+    const Path path{ray, PathBands::all(hero_, hero), counted, 1, into};
+    if (known == nullptr) return trace(path, nullptr, 0);
+    split(path, scene_.features.media == MediaNeed::none ? 1 : limits::path_parts);
+    for (const Path& part : parts_) trace(part, known, 1);
   }
 
-  /// Where the last path of radiance_of_all() has ended, if that was in known light.
-  const KnownEnd& end() const { return end_; }
+  /// Where the parts of the last path of radiance_of_all() have ended in known light.
+  std::span<const KnownEnd> ends() const { return ends_; }
 
   /// The same of a path that a Lambertian surface has sent along `ray`, where `reflected_light` has
   /// sampled emitters.
@@ -124,7 +127,7 @@ class PathTracer {
     path.turn.place = ray.origin;
     path.turn.normal = normal;
     path.turn.pdf = static_cast<double>(cosine_pdf(glm::dot(ray.direction, normal)));
-    trace(path, nullptr);
+    trace(path, nullptr, 0);
   }
 
   /// The same of a path that a medium has turned to `direction`, where `flight` along `line`, for
@@ -133,10 +136,10 @@ class PathTracer {
                                  double share, const Vec3& direction, int band, double weight,
                                  GroupLight& into) {
     const PathTurn turn =
-        scattered({line, line_end(length), share, PathBands::one(band)}, flight, direction);
+        scattered({line, line_end(scene_, length), share, PathBands::one(band)}, flight, direction);
     Path path{{turn.place, direction}, PathBands::one(band), EmitterHits::weighted, weight, into};
     path.turn = turn;
-    trace(path, nullptr);
+    trace(path, nullptr, 0);
   }
 
   /// Adds `weight` times the radiance [W/(m2 sr)] that emitters send to the first `length` of the
@@ -146,7 +149,7 @@ class PathTracer {
   void add_single_scattering(const Ray& ray, Real length, const FreeFlight& flight, double share,
                              int band, double weight, GroupLight& into) {
     if (scene_.features.media == MediaNeed::none) return;
-    next_event_.add_scattered({ray, line_end(length), share, PathBands::one(band)}, flight,
+    next_event_.add_scattered({ray, line_end(scene_, length), share, PathBands::one(band)}, flight,
                               {flight.albedo}, weight, into);
   }
 
@@ -158,65 +161,10 @@ class PathTracer {
                               into);
   }
 
-  /// Own light of a point of a sign's face towards an eye, without path or room light.
-  SourceLight texel_light(const CompiledSign& sign, const Vec2& uv, const Vec3& to_eye,
-                          int band) const {
-    const Sign& d = scene_.description->signs[sign.sign];
-    const SignColour colour = d.face.colour[texel_at(d.face, uv)];
-    if (colour == SignColour::other) return {};
-    const bool white = colour == SignColour::white;
-    const auto& radiance = white ? sign.white_radiance : sign.green_radiance;
-    const double cosine = std::max(0.0, static_cast<double>(glm::dot(sign.axes[2], to_eye)));
-    const double angular = d.angular_exponent == 0 ? 1 : std::pow(cosine, d.angular_exponent);
-    return {white ? sign.white_group : sign.green_group,
-            radiance[static_cast<size_t>(band)] * angular * face_relative(d.face, uv)};
-  }
-
-  /// Adds `weight` times the emission of flames along `length` of the ray, of one medium or of all
-  /// (-1). False where the ray meets none of them.
-  bool add_flames(const Ray& ray, Real length, int band, int medium, double weight,
-                  GroupLight& into) {
-    double depth = 0;
-    bool met = false;
-    for_each_segment(
-        scene_.media, band, ray.origin, ray.direction, std::min(length, 4 * scene_.diagonal_m),
-        resolver_, [&](const MediaSegment& s) {
-          const double tau = s.sigma_t * s.length;
-          const double through = s.sigma_t > 0 ? -std::expm1(-tau) / s.sigma_t : s.length;
-          for (const EmissionPart& part : s.emission) {
-            if (medium >= 0 && part.medium != medium) continue;
-            met = true;
-            const CompiledEmitter* flame = flame_of(part.medium);
-            if (flame == nullptr) continue;  // the scenario has put it out
-            const double power = flame->power_w[static_cast<size_t>(band)] * part.density;
-            into.add(flame->group, band,
-                     weight * power * std::exp(-depth) * through / (4 * static_cast<double>(pi_f)));
-          }
-          depth += tau;
-          return depth < 50;
-        });
-    return met || depth >= 50;
-  }
-
  private:
-  struct Path {
-    Ray ray;
-    PathBands bands;
-    EmitterHits counted;
-    double weight;
-    GroupLight& into;
-    PathTurn turn{};        // where `counted` is weighted
-    Real travelled = 0;     // from the last event to the ray's origin, through panes
-    bool diffused = false;  // a surface or a medium has spread it
+  using Path = EyePath;
 
-    /// Light of the band in place `i`.
-    void add(size_t i, const SourceLight& light) {
-      into.add(light.group, bands.band(i), weight * bands.light(i) * light.radiance);
-    }
-  };
-
-  // ---- what is known without chance
-  // ------------------------------------------------------------------------------------
+  // ---- what is known without chance --------------------------------------------------------
 
   /// Through a pane or an open surface, on the same line; false: something else ends the line.
   bool pass_straight(Ray& ray, const Hit& hit, PathBands& through) {
@@ -225,7 +173,8 @@ class PathTracer {
     const CompiledMaterial& material = material_at(hit, cosine < 0);
     if (material.kind != MaterialKind::glass_pane && material.kind != MaterialKind::open)
       return false;
-    next_event_.media().transmittances(ray, line_end(hit.distance), through, passed_, resolver_);
+    next_event_.media().transmittances(ray, line_end(scene_, hit.distance), through, passed_,
+                                       resolver_);
     for (size_t b = 0; b < through.count(); ++b) {
       if (material.kind == MaterialKind::glass_pane)
         passed_[b] *= static_cast<double>(pane_transmittance(material.by_band[b], cosine));
@@ -254,34 +203,95 @@ class PathTracer {
   // ---- events
   // ------------------------------------------------------------------------------------
 
-  void trace(Path path, const KnownRadiance* known) {
-    for (int event = 0; event < limits::eye_events; ++event) {
+  /// Splits a path at its first event. All parts share the ray from the eye, and what is sampled of
+  /// emitters on a surface and near the ray; their flights and turns are spread evenly. Into
+  /// `parts_`: those that go on.
+  void split(Path path, int parts) {
+    parts_.clear();
+    flights_.clear();
+    next_event_.start_event(0);
+    const Hit hit = resolver_.nearest(path.ray);
+    if (path.counted != EmitterHits::none) met_.add_along(path, hit);
+    // Collisions of all parts together are so much denser.
+    const Stretch stretch{path.ray, line_end(scene_, hit.distance), 1.0 / parts, path.bands};
+    const bool media = scene_.features.media != MediaNeed::none;
+    if (media) {
+      const uint32_t bits = random_.bits();
+      const Real choice = random_.uniform();
+      constexpr double step = 0.6180339887498949;  // the golden ratio's
+      for (int i = 0; i < parts; ++i) {
+        flights_.push_back(fly_by(path.ray, hit.distance, path.bands.hero(),
+                                  bits_of_part(bits, i, parts), moved_on(choice, i, step)));
+      }
+      std::erase_if(flights_, [](const FreeFlight& flight) { return !flight.collided; });
+    }
+    const int passing = parts - static_cast<int>(flights_.size());
+    if (passing > 0 && hit.found()) split_at_surface(path, hit, passing, parts);
+    // Last, since asking may drop the cell that the hit is of.
+    if (media) split_in_medium(path, stretch, parts);
+  }
+
+  /// `passing` of the parts reach the surface.
+  void split_at_surface(Path path, const Hit& hit, int passing, int parts) {
+    FreeFlight through;
+    through.t = hit.distance;
+    pass_media(path, through);
+    const SurfaceEvent event = meet(path, hit);
+    path.weight *= static_cast<double>(passing) / parts;
+    add_reflected(path, event);
+    path.weight /= passing;
+    const TurnNumbers numbers = surface_numbers();
+    for (int i = 0; i < passing; ++i) {
+      Path part = path;
+      if (turn_at_surface(part, event, numbers.of_part(i))) parts_.push_back(part);
+    }
+  }
+
+  /// `flights_` have collided.
+  void split_in_medium(const Path& path, const Stretch& stretch, int parts) {
+    const bool emitters_near = next_event_.add_near(stretch, path.weight, path.into);
+    if (flights_.empty()) return;
+    const TurnNumbers numbers = medium_numbers();
+    for (size_t i = 0; i < flights_.size(); ++i) {
+      Path part = path;
+      pass_media(part, flights_[i]);
+      next_event_.add_collided(stretch, flights_[i], emitters_near, passed_, path.weight,
+                               path.into);
+      if (part.bands.brightest() <= 0) continue;
+      part.weight /= parts;
+      turn_in_medium(part, flights_[i], stretch, numbers.of_part(static_cast<int>(i)));
+      parts_.push_back(part);
+    }
+  }
+
+  /// From event number `first` on.
+  void trace(Path path, const KnownRadiance* known, int first) {
+    for (int event = first; event < limits::eye_events; ++event) {
       next_event_.start_event(event);
       const Hit hit = resolver_.nearest(path.ray);
-      if (path.counted != EmitterHits::none) add_emitted_along(path, hit);
-      const Stretch stretch{path.ray, line_end(hit.distance), 1, path.bands};
+      if (path.counted != EmitterHits::none) met_.add_along(path, hit);
+      const Stretch stretch{path.ray, line_end(scene_, hit.distance), 1, path.bands};
       const FreeFlight flight = fly(path.ray, hit.distance, path.bands.hero());
       pass_media(path, flight);
       const KnownRadiance* end = path.diffused ? known : nullptr;  // where the path may end here
+      const double weight = path.weight;                           // before the turn
       const bool alive =
           flight.collided ? scatter(path, flight, stretch, end) : meet_surface(path, hit, end);
       // Last, since asking may drop the cell that the hit is of.
       if (scene_.features.media != MediaNeed::none)
-        next_event_.add_scattered(stretch, flight, passed_, path.weight, path.into, end);
+        next_event_.add_scattered(stretch, flight, passed_, weight, path.into, end);
       if (!alive || (event >= 2 && !survives_roulette(path.bands))) return;
     }
   }
 
-  /// Where a stretch of that length ends for emitters that are near it.
-  Real line_end(Real length) const {
-    return std::min(length, limits::longest_line * scene_.diagonal_m);
-  }
-
   FreeFlight fly(const Ray& ray, Real length, int band) {
     if (scene_.features.media == MediaNeed::none) return {};
-    const uint32_t r = random_.bits();
-    const double tau = -std::log((4294967296.0 - static_cast<double>(r)) * 0x1p-32);
-    const Real choice = random_.uniform();
+    const uint32_t bits = random_.bits();
+    return fly_by(ray, length, band, bits, random_.uniform());
+  }
+
+  FreeFlight fly_by(const Ray& ray, Real length, int band, uint32_t bits, Real choice) {
+    const double tau = -std::log((4294967296.0 - static_cast<double>(bits)) * 0x1p-32);
     return free_flight<MediaNeed::general>(scene_.media, band, ray.origin, ray.direction, length,
                                            tau, choice, resolver_);
   }
@@ -321,23 +331,34 @@ class PathTracer {
     if (known != nullptr && known->knows(place)) {
       for (size_t i = 0; i < p.bands.count(); ++i)
         add_known(p, i, known->of_medium(place, p.ray.direction, phase, p.bands.band(i)));
-      if (end_.luminance > 0) end_.error = known->error_of_medium(place, p.ray.direction, phase);
+      end_in_known([&] { return known->error_of_medium(place, p.ray.direction, phase); });
       return false;
     }
-    const auto choice = aims() ? random_.uniform_double() : 1.0;
-    const Real u = random_.uniform();
-    const Real v = random_.uniform();
-    next_event_.guide_at(place);
-    const bool aimed = choice < next_event_.guide().aimed();
-    const Vec3 direction =
-        aimed ? next_event_.guide().direction(choice, u, v) : sample(phase, p.ray.direction, u, v);
+    turn_in_medium(p, flight, stretch, medium_numbers());
+    return true;
+  }
+
+  TurnNumbers medium_numbers() {
+    TurnNumbers out;
+    if (aims()) out.choice = random_.uniform_double();
+    out.u = random_.uniform();
+    out.v = random_.uniform();
+    return out;
+  }
+
+  void turn_in_medium(Path& p, const FreeFlight& flight, const Stretch& stretch,
+                      const TurnNumbers& numbers) {
+    const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
+    const GlowGuide& guide = next_event_.guide_at(p.ray.origin + p.ray.direction * flight.t);
+    const Vec3 direction = numbers.choice < guide.aimed()
+                               ? guide.direction(numbers.choice, numbers.u, numbers.v)
+                               : sample(phase, p.ray.direction, numbers.u, numbers.v);
     p.turn = scattered(stretch, flight, direction);
     weigh_aimed(p, direction);
     p.ray = {p.turn.place, direction};
     p.counted = EmitterHits::weighted;
     p.travelled = 0;
     p.diffused = true;
-    return true;
   }
 
   /// Whether a part of the turns goes towards glows.
@@ -370,7 +391,7 @@ class PathTracer {
     const bool front = glm::dot(hit.triangle->unit_normal(), p.ray.direction) < 0;
     for (size_t i = 0; i < p.bands.count(); ++i)
       add_known(p, i, known->of_surface(hit, front, p.bands.band(i)));
-    if (end_.luminance > 0) end_.error = known->error_of_surface(hit, front);
+    end_in_known([&] { return known->error_of_surface(hit, front); });
     return false;
   }
 
@@ -378,42 +399,79 @@ class PathTracer {
   void add_known(Path& p, size_t i, double radiance) {
     const double brought = p.weight * p.bands.light(i) * radiance;
     p.into.add_of_all(p.bands.band(i), brought);
-    end_.luminance += brought * scene_.bands[p.bands.band(i)].lm_per_w;
+    brought_luminance_ += brought * scene_.bands[p.bands.band(i)].lm_per_w;
   }
+
+  /// After all bands of it.
+  template <class ErrorOf>
+  void end_in_known(ErrorOf&& error_of) {
+    if (brought_luminance_ > 0) ends_.push_back({error_of(), brought_luminance_});
+    brought_luminance_ = 0;
+  }
+
+  /// A place of a surface where a path has an event.
+  struct SurfaceEvent {
+    Vec3 place, normal;  // the normal on the path's side
+    Vec3 before;         // the place, moved off the surface
+    bool front;
+    Real distance;  // along the path's ray
+  };
 
   /// Surface event: light sampled from an emitter, then a new direction. False ends the path.
   bool bounce(Path& p, const Hit& hit) {
+    const SurfaceEvent event = meet(p, hit);
+    add_reflected(p, event);
+    return turn_at_surface(p, event, surface_numbers());
+  }
+
+  /// Into `models_`, how the surface reflects.
+  SurfaceEvent meet(const Path& p, const Hit& hit) {
     const TriangleRecord& t = *hit.triangle;
     const bool front = glm::dot(t.unit_normal(), p.ray.direction) < 0;
     for (size_t i = 0; i < p.bands.count(); ++i)
       models_[i] =
           surface_at(scene_, hit, front, p.bands.band(i), material_at(hit, front), resolver_);
-    const SurfaceModel& model = models_[p.bands.hero_place()];
     const Vec3 normal = front ? t.unit_normal() : -t.unit_normal();
     const Vec3 place = t.at(hit.u, hit.v);
-    if (model.kind == SurfaceKind::lambertian || model.kind == SurfaceKind::glossy) {
-      next_event_.add_reflected(offset_ray(place, normal, scene_.min_offset_m), p.ray.direction,
-                                normal, models_, p.bands, p.weight, p.into);
-    }
-    const Real lobe = random_.uniform();
-    const Real u = random_.uniform();
-    const Real v = random_.uniform();
-    SurfaceSample s = sample_surface(model, p.ray.direction, normal, front, lobe, u, v);
+    return {place, normal, offset_ray(place, normal, scene_.min_offset_m), front, hit.distance};
+  }
+
+  void add_reflected(Path& p, const SurfaceEvent& e) {
+    const SurfaceKind kind = models_[p.bands.hero_place()].kind;
+    if (kind == SurfaceKind::lambertian || kind == SurfaceKind::glossy)
+      next_event_.add_reflected(e.before, p.ray.direction, e.normal, models_, p.bands, p.weight,
+                                p.into);
+  }
+
+  TurnNumbers surface_numbers() {
+    TurnNumbers out;
+    out.lobe = random_.uniform();
+    out.u = random_.uniform();
+    out.v = random_.uniform();
+    if (aims() && models_[0].kind == SurfaceKind::lambertian) out.choice = random_.uniform_double();
+    return out;
+  }
+
+  /// False ends the path.
+  bool turn_at_surface(Path& p, const SurfaceEvent& e, const TurnNumbers& numbers) {
+    const SurfaceModel& model = models_[p.bands.hero_place()];
+    const Vec3& normal = e.normal;
+    SurfaceSample s =
+        sample_surface(model, p.ray.direction, normal, e.front, numbers.lobe, numbers.u, numbers.v);
     const bool aimed = aims() && model.kind == SurfaceKind::lambertian;
-    if (aimed && !aim_reflection(offset_ray(place, normal, scene_.min_offset_m), normal, u, v, s))
-      return false;
+    if (aimed && !aim_reflection(e, numbers, s)) return false;
     double pdf = 0;
     if (!reflect_bands(p, s, normal, pdf)) return false;
     // Straight through a pane nothing has happened that asking does not know of.
     const bool straight = s.specular && s.transmitted && model.kind != SurfaceKind::dielectric;
     if (straight) {
-      p.travelled += hit.distance;
+      p.travelled += e.distance;
     } else {
       p.counted = s.specular ? EmitterHits::all : EmitterHits::weighted;
       p.travelled = 0;
     }
     p.ray.direction = s.direction;
-    p.ray.origin = offset_ray(place, s.transmitted ? -normal : normal, scene_.min_offset_m);
+    p.ray.origin = offset_ray(e.place, s.transmitted ? -normal : normal, scene_.min_offset_m);
     if (s.specular) return true;
     p.diffused = true;
     p.turn.place = p.ray.origin;
@@ -426,12 +484,11 @@ class PathTracer {
 
   /// Draws the direction of a Lambertian reflection anew, where it is an aimed one. False: it goes
   /// below the horizon, where nothing is sent.
-  bool aim_reflection(const Vec3& place, const Vec3& normal, Real u, Real v, SurfaceSample& s) {
-    const GlowGuide& guide = next_event_.guide_at(place);
-    const double choice = random_.uniform_double();
-    if (choice >= guide.aimed()) return true;
-    s.direction = guide.direction(choice, u, v);
-    return glm::dot(s.direction, normal) > 0;
+  bool aim_reflection(const SurfaceEvent& e, const TurnNumbers& numbers, SurfaceSample& s) {
+    const GlowGuide& guide = next_event_.guide_at(e.before);
+    if (numbers.choice >= guide.aimed()) return true;
+    s.direction = guide.direction(numbers.choice, numbers.u, numbers.v);
+    return glm::dot(s.direction, e.normal) > 0;
   }
 
   /// What `models_` let go on of each band where the hero's has drawn the sample; and the density
@@ -488,194 +545,20 @@ class PathTracer {
     return true;
   }
 
-  // ---- emitters seen directly
-  // --------------------------------------------------------------------
-
-  /// Expected radiance of what emits along the ray up to the surface it hits: emitting faces, the
-  /// sign that was hit, flames; each weighted by what passes the media before it.
-  void add_emitted_along(Path& p, const Hit& hit) {
-    const Real slack = 1 + 1e-5_r;  // a body's own face lies as far as the emitter on it
-    Real reach = hit.distance * slack;
-    Ray rest = p.ray;
-    Real before = 0;
-    for (int k = 0; k < limits::emitters_per_line; ++k) {
-      const EmitterHit e = nearest_emitter(scene_, rest, reach);
-      if (e.emitter == none_index) break;
-      const CompiledEmitter& emitter = scene_.emitters[e.emitter];
-      const Real distance = before + e.distance;
-      const double weight = weight_of_face(p, e.emitter, e.point, distance);
-      next_event_.media().transmittances(p.ray, distance, p.bands, through_, resolver_);
-      for (size_t i = 0; i < p.bands.count(); ++i) {
-        const double sent =
-            emitted_radiance(emitter, e.point, -p.ray.direction, p.bands.band(i), resolver_);
-        p.add(i, {emitter.group, weight * sent * through_[i]});
-      }
-      // Past it by more than rounding, or the same face would be hit again.
-      const Real step = e.distance * slack + scene_.min_offset_m;
-      rest.origin += rest.direction * step;
-      before += step;
-      reach -= step;
-      if (!(reach > 0)) break;
-    }
-    add_emitted_by_sign(p, hit);
-    add_flames_met(p, hit.distance);
-  }
-
-  /// Weight of a point of an emitting face that the path hits, `distance` along its ray.
-  double weight_of_face(const Path& p, uint32_t emitter, const EmissionPoint& point,
-                        Real distance) {
-    if (p.counted == EmitterHits::all) return 1;
-    const double apparent_sr =
-        apparent_face(scene_.emitters[emitter], point, -p.ray.direction, p.travelled + distance);
-    return next_event_.weight_of_hit(p.turn, emitter, point.position, apparent_sr, p.bands);
-  }
-
-  void add_emitted_by_sign(Path& p, const Hit& hit) {
-    if (!hit.found()) return;
-    const uint32_t index = scene_.surfaces[hit.triangle->surface].sign;
-    if (index == none_index || glm::dot(hit.triangle->unit_normal(), p.ray.direction) >= 0) return;
-    const CompiledSign& sign = scene_.signs[index];
-    const Vec2 uv = texture_uv(*hit.cell, hit);
-    const int group = texel_light(sign, uv, -p.ray.direction, p.bands.hero()).group;
-    const EmissionPoint point{hit.triangle->at(hit.u, hit.v), sign.axes[2]};
-    double weight = -1;  // not known yet
-    for (size_t i = 0; i < p.bands.count(); ++i) {
-      const SourceLight own = texel_light(sign, uv, -p.ray.direction, p.bands.band(i));
-      if (own.radiance <= 0) continue;
-      if (weight < 0) {
-        weight = weight_of_sign(p, index, group, point, hit.distance);
-        next_event_.media().transmittances(p.ray, hit.distance, p.bands, through_, resolver_);
-      }
-      p.add(i, {group, weight * own.radiance * through_[i]});
-    }
-  }
-
-  /// Of a sign's face, each colour is an emitter.
-  double weight_of_sign(const Path& p, uint32_t sign, int group, const EmissionPoint& point,
-                        Real distance) {
-    for (uint32_t i = 0; i < scene_.emitters.size(); ++i) {
-      const CompiledEmitter& e = scene_.emitters[i];
-      if (e.kind == EmitterKind::sign_face && e.sign == sign && e.group == group &&
-          sampled_area_m2(e, point.position) > 0)
-        return weight_of_face(p, i, point, distance);
-    }
-    return 1;  // nothing that is sampled: hits count alone
-  }
-
-  /// Flames on the line, up to the surface: all of their light, or what the weight leaves of it.
-  void add_flames_met(const Path& p, Real length) {
-    if (scene_.volume_points.empty()) return;
-    if (p.counted == EmitterHits::all) {
-      bool met = true;
-      for (size_t i = 0; i < p.bands.count() && met; ++i)
-        met = add_flames(p.ray, length, p.bands.band(i), -1, p.weight * p.bands.light(i), p.into);
-      return;
-    }
-    for (uint32_t i = 0; i < scene_.emitters.size(); ++i) {
-      if (scene_.emitters[i].kind == EmitterKind::volume) add_flame_hit(p, i, length);
-    }
-  }
-
-  /// A place of the line in proportion to the light that it sends back along it.
-  struct FlamePlace {
-    double light =
-        0;  // of the whole line: emission density, times what passes, times length [1/m2]
-    double density = 0;  // mean of the segment [1/m3]
-    Real t = 0;
-    bool missed = false;  // the line does not meet the flame
-  };
-
-  /// `u`: uniform.
-  FlamePlace place_in_flame(const Path& p, int band, const CompiledEmitter& flame, Real length,
-                            double u) {
-    FlamePlace chosen;
-    double depth = 0;
-    for_each_segment(
-        scene_.media, band, p.ray.origin, p.ray.direction, line_end(length), resolver_,
-        [&](const MediaSegment& s) {
-          const double tau = s.sigma_t * s.length;
-          for (const EmissionPart& part : s.emission) {
-            if (static_cast<uint32_t>(part.medium) != flame.medium) continue;
-            const double through = s.sigma_t > 0 ? -std::expm1(-tau) / s.sigma_t : s.length;
-            const double light = part.density * std::exp(-depth) * through;
-            if (!(light > 0)) continue;
-            chosen.light += light;
-            const double share = light / chosen.light;
-            if (u >= share) {  // used again for each segment: what is left is uniform
-              u = (u - share) / (1 - share);
-              continue;
-            }
-            u /= share;
-            const double along =
-                s.sigma_t > 0 ? -std::log1p(u * std::expm1(-tau)) / s.sigma_t : u * s.length;
-            chosen.density = part.density;
-            chosen.t = s.t0 + static_cast<Real>(along);
-          }
-          depth += tau;
-          return depth < 50;
-        });
-    chosen.missed = !(chosen.light > 0) && depth < 50;
-    return chosen;
-  }
-
-  void add_flame_hit(const Path& p, uint32_t emitter, Real length) {
-    const CompiledEmitter& flame = scene_.emitters[emitter];
-    const auto power = [&](size_t i) {
-      return flame.power_w[static_cast<size_t>(p.bands.band(i))];
-    };
-    const size_t hero = p.bands.hero_place();
-    if (!p.bands.many() && !(power(hero) > 0)) return;
-    const double u = random_.uniform_double();
-    const FlamePlace place = place_in_flame(p, p.bands.hero(), flame, length, u);
-    if (place.missed) return;
-    for (size_t i = 0; i < p.bands.count(); ++i) {
-      if (!(power(i) > 0)) continue;
-      // Bands see the flame through different depths of smoke.
-      const bool same = i == hero || next_event_.media().grey();
-      add_flame_place(p, i, emitter, power(i),
-                      same ? place : place_in_flame(p, p.bands.band(i), flame, length, u));
-    }
-  }
-
-  void add_flame_place(const Path& p, size_t i, uint32_t emitter, double power,
-                       const FlamePlace& place) {
-    if (!(place.light > 0)) return;
-    const CompiledEmitter& flame = scene_.emitters[emitter];
-    const EmissionPoint point{p.ray.origin + p.ray.direction * place.t, Vec3(0, 0, -1)};
-    const double density =
-        scene_.media.emission_density(static_cast<int>(flame.medium), point.position, resolver_);
-    const double apparent_sr =
-        next_event_.apparent_solid_angle(flame, point, -p.ray.direction, p.travelled + place.t);
-    const double weight =
-        next_event_.weight_of_hit(p.turn, emitter, point.position, apparent_sr, p.bands);
-    p.into.add(flame.group, p.bands.band(i),
-               p.weight * p.bands.light(i) * weight * power * place.light *
-                   (density / place.density) / (4 * static_cast<double>(pi_f)));
-  }
-
-  /// The emitter that stands for a medium's glow; null where the scenario has put it out.
-  const CompiledEmitter* flame_of(int medium) const {
-    for (const CompiledEmitter& e : scene_.emitters) {
-      if (e.kind == EmitterKind::volume && e.medium == static_cast<uint32_t>(medium)) return &e;
-    }
-    return nullptr;
-  }
-
-  static double face_relative(const SignFace& face, const Vec2& uv) {
-    if (face.relative_luminance.empty()) return 1;
-    return static_cast<double>(face.relative_luminance[texel_at(face, uv)]);
-  }
-
   const CompiledScene& scene_;
   Resolver& resolver_;
   Random random_;
   std::vector<double> band_cdf_, hero_;  // hero_: probabilities
   NextEvent<Resolver> next_event_;
+  EmittersMet<Resolver> met_;
   int brightest_band_ = 0;            // of the most lumens a watt
   std::vector<SurfaceModel> models_;  // of the path's bands, at the last surface
-  BandValues passed_, drawn_, through_;
+  BandValues passed_, drawn_;
   GroupLight straight_;
-  KnownEnd end_;
+  std::vector<Path> parts_;          // of the path that was split last
+  std::vector<FreeFlight> flights_;  // theirs
+  std::vector<KnownEnd> ends_;
+  double brought_luminance_ = 0;  // by the end that is being added
 };
 
 }  // namespace luxodus

@@ -90,7 +90,7 @@ class ResolverPictureTracer final : public PictureTracer {
     eye_.radiance_of_all(ray, hero, EmitterHits::none, light_, gather);
     return light_.by_band();
   }
-  const KnownEnd& end() const override { return eye_.end(); }
+  std::span<const KnownEnd> ends() const override { return eye_.ends(); }
   double radiance_in_band(const Ray& ray, int band, const KnownRadiance* gather) override {
     light_.clear();
     eye_.radiance(ray, band, EmitterHits::none, 1, light_, gather);

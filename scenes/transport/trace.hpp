@@ -49,8 +49,8 @@ class PictureTracer {
   /// send straight to the eye: meet_first() has that without chance.
   virtual std::span<const double> radiance(const Ray& ray, int hero,
                                            const KnownRadiance* gather) = 0;
-  /// Where the path of the last radiance() has ended, if that was in known light.
-  virtual const KnownEnd& end() const = 0;
+  /// Where the parts of the path of the last radiance() have ended in known light.
+  virtual std::span<const KnownEnd> ends() const = 0;
   /// The same in one band, from a path of that band alone.
   virtual double radiance_in_band(const Ray& ray, int band, const KnownRadiance* gather) = 0;
   /// What is known of the ray without chance. `first` keeps its memory.

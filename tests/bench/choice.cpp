@@ -1,134 +1,43 @@
 // What paths of pictures gain where emitters are chosen by what cells of space have learned of
 // them, over the choice by power and distance alone: variance of luminance, by processor time, of
-// the same pixels, one way after the other.
+// the same pixels, one way after the other. And the same of each view as it is, for comparing
+// programs.
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <memory>
-#include <stdexcept>
-#include <vector>
+#include <cstdio>
 
-#include "actors/display/pictures.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
-#include "tests/bench/measure.hpp"
+#include "tests/bench/picture_variance.hpp"
 #include "tests/bench/tables.hpp"
 
 namespace luxodus::bench {
 
 namespace {
 
-constexpr int picture_width = 96, picture_height = 54;
 constexpr int64_t most_particles = 1 << 24;
 constexpr int most_paths = 2048;
-/// Pixels darker than this share of the mean are judged as if they were that bright.
-constexpr double darkest_share = 0.01;
 
-struct ChoiceScene {
-  const char* file;  // of scenes/library
-  const char* scenario;
-  const char* view;
-};
-const ChoiceScene choice_scenes[] = {
-    {"office_floor", "smoke_emergency", "corridor"},
-    {"office_floor", "smoke_emergency", "open plan"},
-    {"office_floor", "smoke_emergency", "kitchen"},
-    {"office_floor", "smoke_emergency", "stairwell"},
-    {"office_floor", "clear_emergency", "corridor"},
-    {"office_floor", "clear_mains", "open plan"},
-    {"auditorium", "emergency in smoke", "from the back"},
-};
-
-std::shared_ptr<const CompiledScene> scene_of(const ChoiceScene& of) {
-  auto read = read_scene(std::string(LUX_SOURCE_DIR "/scenes/library/") + of.file + ".toml");
-  if (!read.scene) throw std::runtime_error(std::string(of.file) + " cannot be read");
-  SceneDescription d = *read.scene;
-  d.run.eye_path_factor = 0;  // pictures take their paths themselves
-  std::erase_if(d.cameras, [&](const Camera& c) { return c.name != of.view; });
-  if (d.cameras.empty()) throw std::runtime_error(std::string("there is no view ") + of.view);
-  d.cameras[0].width = picture_width;
-  d.cameras[0].height = picture_height;
-  const Scenario found = find_scenario(d, of.scenario).value();
-  auto scene = compile_scene(std::make_shared<const SceneDescription>(std::move(d)), found, {});
-  if (!scene.ok()) throw std::runtime_error(scene.problem().text());
-  return scene.value();
+int64_t particles_of(double share) {
+  return static_cast<int64_t>(share * static_cast<double>(most_particles));
+}
+int paths_of(double share) {
+  return std::max(16, static_cast<int>(share * most_paths));
 }
 
-/// Pixels of one way to choose.
-struct Chosen {
-  double seconds = 0, mean = 0, error_of_mean = 0;
-  double variance = 0, without_brightest = 0;  // relative, of one path; means over the pixels
-};
-
-Chosen trace_pixels(const LocalRun& run, const KnownRadiance* flux, bool learned, int paths) {
-  const CompiledScene& scene = run.scene();
-  const Pinhole pinhole(scene.description->cameras[0], scene.local_origin);
-  constexpr size_t pixels = size_t{picture_width} * picture_height;
-  std::vector<double> sums(pixels), squares(pixels);
-  Chosen out;
-  run.rows().run(1, [&](const GeometryAccess& access) -> ParallelFor::Worker {
-    const double before = process_seconds();
-    const auto sight = learned ? make_emitter_sight(scene) : nullptr;
-    const std::shared_ptr<PictureTracer> tracer = make_picture_tracer(scene, access, 5, sight);
-    return [&, tracer, before](int64_t) {
-      for (size_t p = 0; p < pixels; ++p) {
-        for (int i = 0; i < paths; ++i) {
-          tracer->start(uint64_t{p} << 17, static_cast<uint32_t>(paths), static_cast<uint32_t>(i));
-          const auto x =
-              static_cast<double>(p % picture_width) + static_cast<double>(tracer->uniform());
-          const auto y =
-              static_cast<double>(p / picture_width) + static_cast<double>(tracer->uniform());
-          const int hero = tracer->choose_band(static_cast<double>(tracer->uniform()));
-          const auto light = tracer->radiance(pinhole.ray(x, y), hero, flux);
-          double luminance = 0;
-          for (int b = 0; b < scene.bands.count(); ++b)
-            luminance += light[static_cast<size_t>(b)] * scene.bands[b].lm_per_w;
-          sums[p] += luminance / paths;
-          squares[p] += luminance * luminance / paths;
-        }
-      }
-      out.seconds = process_seconds() - before;
-    };
-  });
-  constexpr auto count = static_cast<double>(pixels);
-  double variances = 0;
-  for (const double sum : sums) out.mean += sum / count;
-  std::vector<double> relative;
-  for (size_t p = 0; p < pixels; ++p) {
-    const double variance = std::max(0.0, squares[p] - sums[p] * sums[p]) * paths / (paths - 1.0);
-    variances += variance / paths;
-    relative.push_back(variance / std::pow(sums[p] + darkest_share * out.mean, 2));
-  }
-  out.error_of_mean = std::sqrt(variances) / count;
-  std::sort(relative.begin(), relative.end());
-  for (size_t p = 0; p < pixels; ++p) {
-    out.variance += relative[p] / count;
-    if (p < pixels - pixels / 1000) out.without_brightest += relative[p] / count;
-  }
-  return out;
-}
-
-void print_choice_of(const ChoiceScene& of, int64_t particles, int paths) {
-  LocalRun run(scene_of(of), 1, 1);
-  const std::atomic<bool> never{false};
-  StopRule stop;
-  stop.particles = particles;
-  run.run(stop, never, [](const Progress&) {});
-  const auto flux = flux_radiance(run);
+void print_choice_of(const ScenarioView& of, int64_t particles, int paths) {
+  const auto run = traced_run(of, particles);
+  const auto flux = flux_radiance(*run);
   for (const bool gather : {true, false}) {
     const KnownRadiance* ends = gather ? flux.get() : nullptr;
-    const Chosen old = trace_pixels(run, ends, false, paths);
-    const Chosen now = trace_pixels(run, ends, true, paths);
-    const double traced = static_cast<double>(picture_width * picture_height) * paths;
-    const auto merit = [](const Chosen& c) { return 1 / (c.variance * c.seconds); };
+    const PathVariance old = variance_of_paths(*run, ends, false, paths);
+    const PathVariance now = variance_of_paths(*run, ends, true, paths);
     fmt::print(
         "{:<16} {:<10} {:<7} {:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} "
         "{:>8.4f} +- {:.4f}\n",
-        of.scenario, of.view, gather ? "gather" : "full", 1e6 * old.seconds / traced,
-        1e6 * now.seconds / traced, old.variance, now.variance, old.without_brightest,
-        now.without_brightest, merit(now) / merit(old), now.mean / old.mean,
+        of.scenario, of.view, gather ? "gather" : "full", 1e6 * old.path_s, 1e6 * now.path_s,
+        old.variance, now.variance, old.without_brightest, now.without_brightest,
+        now.merit() / old.merit(), now.mean / old.mean,
         std::hypot(now.error_of_mean / now.mean, old.error_of_mean / old.mean));
     std::fflush(stdout);
   }
@@ -137,16 +46,34 @@ void print_choice_of(const ChoiceScene& of, int64_t particles, int paths) {
 }  // namespace
 
 void print_choice(double share) {
-  const auto particles = static_cast<int64_t>(share * static_cast<double>(most_particles));
-  const int paths = std::max(16, static_cast<int>(share * most_paths));
+  const int paths = paths_of(share);
   fmt::print(
-      "\nEmitters chosen by power and distance, and by what cells have learned; {} x {} pixels, {} "
-      "paths:\ntime of a path [us], relative variance of its luminance (also without the worst "
+      "\nEmitters chosen by power and distance, and by what cells have learned; {} paths a "
+      "pixel:\ntime of a path [us], relative variance of its luminance (also without the worst "
       "thousandth of\nthe pixels), gain in merit, mean over mean\n{:<16} {:<10} {:<7} {:>7} {:>7} "
       "{:>7} {:>7} {:>7} {:>7} {:>7} {:>8}\n",
-      picture_width, picture_height, paths, "scenario", "view", "paths", "us", "learned", "var",
-      "learned", "var'", "learned", "merit", "mean");
-  for (const ChoiceScene& scene : choice_scenes) print_choice_of(scene, particles, paths);
+      paths, "scenario", "view", "paths", "us", "learned", "var", "learned", "var'", "learned",
+      "merit", "mean");
+  for (const ScenarioView& view : compared_views())
+    print_choice_of(view, particles_of(share), paths);
+}
+
+void print_views(double share) {
+  const int paths = paths_of(share);
+  fmt::print(
+      "\nViews by final gather, {} paths a pixel: time of a path [us], relative variance of its\n"
+      "luminance (also without the worst thousandth of the pixels), merit of a path, mean "
+      "luminance\n{:<16} {:<14} {:>7} {:>7} {:>7} {:>9} {:>9}\n",
+      paths, "scenario", "view", "us", "var", "var'", "merit", "mean");
+  for (const ScenarioView& view : compared_views()) {
+    const auto run = traced_run(view, particles_of(share));
+    const auto flux = flux_radiance(*run);
+    const PathVariance found = variance_of_paths(*run, flux.get(), true, paths);
+    fmt::print("{:<16} {:<14} {:>7.2f} {:>7.3f} {:>7.3f} {:>9.0f} {:>9.5f} +- {:.5f}\n",
+               view.scenario, view.view, 1e6 * found.path_s, found.variance,
+               found.without_brightest, found.merit(), found.mean, found.error_of_mean);
+    std::fflush(stdout);
+  }
 }
 
 }  // namespace luxodus::bench

@@ -265,6 +265,35 @@ void print_face() {
 
 }  // namespace
 
+void print_image_seeds(double share) {
+  constexpr int paths = 64, all_reference_paths = 1 << 14, picture_seeds = 6;
+  const auto particles = static_cast<int64_t>(share * static_cast<double>(all_particles));
+  const int reference_paths = std::max(paths, static_cast<int>(share * all_reference_paths));
+  fmt::print(
+      "\nPictures of the office floor by final gather, {} x {} pixels of {} paths, of {} seeds, "
+      "each "
+      "against\none of {} paths; its chance taken off\n{:<16} {:>8} {:>11}\n",
+      width, height, paths, picture_seeds, reference_paths, "scenario", "cpu [s]", "rms error");
+  const double own = std::sqrt(reference_paths / static_cast<double>(reference_paths + paths));
+  for (const char* scenario : {"smoke_emergency", "clear_emergency"}) {
+    const auto long_run = traced(office(scenario, true, 0), 77, particles);
+    const TracedPicture wanted = draw(*long_run, reference_paths, true).picture;
+    double squares = 0, seconds = 0;
+    for (uint64_t seed = 1; seed <= picture_seeds; ++seed) {
+      const auto run = traced(office(scenario, true, 0), seed, particles);
+      const Timed timed = draw(*run, paths, true);
+      const double error = own * deviation(timed.picture, wanted).luminance;
+      fmt::print("{:<16} {:>8.2f} {:>9.1f} %\n", scenario, timed.seconds, 100 * error);
+      std::fflush(stdout);
+      squares += error * error / picture_seeds;
+      seconds += timed.seconds / picture_seeds;
+    }
+    fmt::print("{:<16} {:>8.2f} {:>9.1f} %, merit {:.2f} /s\n", "all", seconds,
+               100 * std::sqrt(squares), 1 / (squares * seconds));
+    std::fflush(stdout);
+  }
+}
+
 void print_images(double share) {
   const Size size{static_cast<int64_t>(share * static_cast<double>(all_particles)),
                   std::max(1, static_cast<int>(share * long_paths))};

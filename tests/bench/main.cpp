@@ -13,7 +13,7 @@ namespace {
 
 struct Options {
   int repeats = 9;
-  double share = 1;   // of the particles and paths of images, bias and allocation
+  double share = 1;   // of the particles and paths of images, bias, views and allocation
   std::string scene;  // of merit and bias: those that begin so
   std::string pack;   // of residency
 };
@@ -38,8 +38,10 @@ constexpr Table tables[] = {
     {"residency", [](const Options& o) { luxodus::bench::print_residency(o.pack); }},
     {"merit", [](const Options& o) { luxodus::bench::print_merit(o.repeats, o.scene); }},
     {"images", [](const Options& o) { luxodus::bench::print_images(o.share); }},
+    {"seeds", [](const Options& o) { luxodus::bench::print_image_seeds(o.share); }},
     {"bias", [](const Options& o) { luxodus::bench::print_bias(o.share, o.scene); }},
     {"choice", [](const Options& o) { luxodus::bench::print_choice(o.share); }},
+    {"views", [](const Options& o) { luxodus::bench::print_views(o.share); }},
     {"colours", [](const Options& o) { luxodus::bench::print_colours(o.share); }},
     {"rooms", [](const Options& o) { luxodus::bench::print_rooms(o.share); }},
     {"features", [](const Options& o) { luxodus::bench::print_features(o.repeats); }},

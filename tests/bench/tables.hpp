@@ -39,6 +39,9 @@ void print_merit(int turns, const std::string& scene);
 /// How far pictures are from a long run, by paths and seconds, and by the size of patches; with a
 /// share of the particles and of the long picture's paths.
 void print_images(double share);
+/// The same of several seeds, against one long picture, by final gather alone; a few bright paths
+/// decide the error of one.
+void print_image_seeds(double share);
 /// How far pictures that end in patches and voxels are off in the mean, by the voxels' edge, on the
 /// scenes whose names begin so; with a share of the particles and of the paths.
 void print_bias(double share, const std::string& scene);
@@ -48,6 +51,8 @@ void print_colours(double share);
 /// What paths gain that choose emitters by what cells of space have learned; of a share of the
 /// particles and paths.
 void print_choice(double share);
+/// Time and variance of a path of pictures, by view; of a share of the particles and paths.
+void print_views(double share);
 /// Processor seconds that pictures of a furnished room take to an error of 10 %, in clear air and
 /// in smoke; with a share of the particles and of the long picture's paths.
 void print_rooms(double share);

@@ -1,9 +1,11 @@
 // Whether a picture's errors are honest: pictures of independent runs spread as they say.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "actors/display/pictures.hpp"
+#include "actors/display/pixel_sums.hpp"
 #include "tests/unit/actors/display/display_fixture.hpp"
 
 using namespace luxodus;
@@ -158,4 +160,24 @@ TEST_CASE("a picture that ends in the flux of one batch counts that as uncertain
   }
   CHECK(of_many > 0);
   CHECK(of_one > 4 * of_many);
+}
+
+TEST_CASE("what two parts of a path end in together is of that path alone", "[display]") {
+  const ChannelLight light{1, 1, 1, 1};
+  const auto variance_of = [&](uint64_t first_bin, uint64_t second_bin) {
+    PixelSums sums;
+    const std::array<KnownEnd, 2> ends{KnownEnd{{first_bin, 0.5}, 3},
+                                       KnownEnd{{second_bin, 0.1}, 5}};
+    sums.add(0, light, light, ends, {});
+    CHECK(sums.known() == Approx(8));
+    return sums.known_variance();
+  };
+  // In one bin both err alike, by 2 together.
+  CHECK(variance_of(7, 7) == Approx(0).margin(1e-6));
+  // In two they do not: twice their product, with the signs of few draws.
+  double mean = 0;
+  constexpr int pairs = 2000;
+  for (uint64_t i = 0; i < pairs; ++i) mean += variance_of(2 * i, 2 * i + 1) / pairs;
+  const double of_one = 2 * 1.5 * 0.5 / std::sqrt(static_cast<double>(sign_draws));
+  CHECK(std::abs(mean) < 4 * of_one / std::sqrt(static_cast<double>(pairs)));
 }

@@ -2,6 +2,7 @@
 #include "scenes/transport/emitter_choice.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "scenes/transport/compile.hpp"
 #include "scenes/transport/resolver.hpp"
@@ -106,6 +107,45 @@ TEST_CASE("emitters are drawn as often as their probabilities say, which sum to 
     for (const size_t e : {lamp, weak_lamp, hidden_lamp})
       CHECK(drawn[e] == Approx(probability[e] * draws).margin(draws * 1e-4));
   }
+}
+
+TEST_CASE("of the emitters that are near a line those are drawn that light it", "[transport]") {
+  TwoRooms rooms;
+  EmitterChoice choice(*rooms.scene);
+  const auto seen_at = [&](const Vec3& place) -> const CellSight& {
+    return rooms.sight.at(place, rooms.resolver);
+  };
+  // Past both lamps of the lit room, and along the wall that hides the third.
+  const Vec3 from = rooms.at(1, 7, 2.5), to = rooms.at(9.5, 0.5, 2.5);
+  const Real length = glm::distance(from, to);
+  REQUIRE(choice.weigh_near({from, (to - from) / length}, length, all_bands, seen_at));
+  const double of_lamp = choice.probability_along(lamp);
+  const double of_weak = choice.probability_along(weak_lamp);
+  CHECK(of_lamp > 0.05);
+  CHECK(of_weak > 0.05);
+  CHECK(choice.probability_along(hidden_lamp) == 0);
+  CHECK(of_lamp + of_weak == Approx(1));
+  Random random(4, RandomStream::test);
+  random.start(0);
+  constexpr int draws = 20'000;
+  int lamps = 0;
+  for (int i = 0; i < draws; ++i) {
+    const EmitterSample drawn = choice.choose_along(random.uniform_double());
+    REQUIRE(drawn.probability == choice.probability_along(drawn.emitter));
+    if (drawn.emitter == lamp) ++lamps;
+  }
+  const double error = std::sqrt(of_lamp * of_weak / draws);
+  CHECK(std::abs(lamps / double{draws} - of_lamp) < 4 * error);
+}
+
+TEST_CASE("a line that passes no emitter closely asks none for a place on it", "[transport]") {
+  TwoRooms rooms;
+  EmitterChoice choice(*rooms.scene);
+  const Ray along_the_floor{rooms.at(0.5, 9.5, 0.1), Vec3(1, 0, 0)};
+  CHECK_FALSE(
+      choice.weigh_near(along_the_floor, 9, all_bands, [&](const Vec3& place) -> const CellSight& {
+        return rooms.sight.at(place, rooms.resolver);
+      }));
 }
 
 TEST_CASE("a surface does not ask for what shines on its back", "[transport]") {

@@ -65,6 +65,27 @@ TEST_CASE("directions are aimed as densely as the guide says", "[transport]") {
   CHECK(upper == Approx(2 * std::numbers::pi).epsilon(0.005));
 }
 
+TEST_CASE("an emitter is aimed at from within its glow, more densely the nearer a line passes it",
+          "[transport]") {
+  const Vec3 emitter(1, 2, 3);
+  GlowGuide guide({{emitter, 0.5f, 10, 0.8, 0.008f}});
+  for (const Real distance : {2.0f, 0.6f, 0.4f, 0.01f}) {
+    const Vec3 place = emitter + Vec3(0, distance, 0);
+    guide.stand_at(place, nullptr);
+    const auto aimed_at = [&](Real sine) {
+      const Vec3 direction(sine, -std::sqrt(1 - sine * sine), 0);
+      return guide.density(direction, isotropic) - (1 - guide.aimed()) * isotropic;
+    };
+    CHECK(aimed_at(0.01f) > 5 * isotropic);
+    CHECK(aimed_at(0.001f) == Approx(10 * aimed_at(0.01f)).epsilon(0.01));
+  }
+  // On it there is nowhere to aim at.
+  for (const Vec3& aside : {Vec3(0), Vec3(0, 0.007f, 0)}) {
+    guide.stand_at(emitter + aside, nullptr);
+    CHECK(guide.aimed() == 0);
+  }
+}
+
 TEST_CASE("a guide without glows leaves every density as it is", "[transport]") {
   GlowGuide guide;
   CHECK(guide.empty());
