@@ -176,7 +176,7 @@ ProgramAnswer solve_program(const IntegerProgram& program, const ProgramLimits& 
   }
   answer.bound = model.getBestPossibleObjValue();
   constexpr int by_event = 5;
-  answer.interrupted = model.secondaryStatus() == by_event && !interrupt;
+  answer.interrupted = model.secondaryStatus() == by_event && !deadline.was_passed();
   const bool stopped = model.status() != 0 || deadline.was_passed();
   if (!stopped && !answer.values.empty()) {
     answer.end = ProgramEnd::solved;
