@@ -42,7 +42,10 @@ class Demands::Displaced {
     for (const LuminaireCandidate& copy : copies.value()) out->whose_.push_back(copy.place);
     out->count_ = some.size();
     out->scene_ = scene_of(of.scene, of.design, copies.value());
+    const bool has_furniture =
+        std::any_of(out->scene_.objects.begin(), out->scene_.objects.end(), is_furniture);
     for (const bool furnished : {false, true}) {
+      if (furnished && !has_furniture) break;
       auto building = Building::make(code_scene(out->scene_, furnished),
                                      code_scenario(out->scene_, of.doors), of.threads);
       if (!building) return building.problem();
@@ -52,13 +55,29 @@ class Demands::Displaced {
     return out;
   }
 
-  /// Of each of the candidates [lx].
-  std::vector<double> least_at(const glm::dvec3& place, bool furnished) const {
-    std::vector<double> out(count_, std::numeric_limits<double>::infinity());
-    const Lit& lit = furnished ? *furnished_ : *bare_;
-    const LitPoint point = lit.light.lit({place}, floor_normal, lifted_already).front();
-    for (size_t k = 0; k < whose_.size(); ++k)
-      out[whose_[k]] = std::min(out[whose_[k]], point.lux[k]);
+  /// At each point, of each of the candidates [lx]. `furnished`: of each point. Requires: there is
+  /// furniture, where it is asked for.
+  std::vector<std::vector<double>> least_at(const std::vector<PointOffPlace>& points,
+                                            const std::vector<char>& furnished) const {
+    const std::vector<double> none(count_, std::numeric_limits<double>::infinity());
+    std::vector<std::vector<double>> out(points.size(), none);
+    for (const bool with : {false, true}) {
+      std::vector<size_t> those;
+      std::vector<glm::dvec3> places;
+      for (size_t p = 0; p < points.size(); ++p) {
+        if ((furnished[p] != 0) != with) continue;
+        those.push_back(p);
+        places.push_back(points[p].place);
+      }
+      if (places.empty()) continue;
+      const CodeLight& light = (with ? *furnished_ : *bare_).light;
+      const auto lit = light.lit(places, floor_normal, lifted_already);
+      for (size_t i = 0; i < lit.size(); ++i)
+        for (size_t k = 0; k < whose_.size(); ++k) {
+          double& least = out[those[i]][whose_[k]];
+          least = std::min(least, lit[i].lux[k]);
+        }
+    }
     return out;
   }
 
@@ -105,10 +124,10 @@ Result<size_t> Demands::ask_off_place(const OffPlaceScene& of,
   const auto displaced = Displaced::make(of, some);
   if (!displaced) return displaced.problem();
   size_t broken = 0;
+  const auto least = displaced.value()->least_at(asked, furnished);
   for (size_t p = 0; p < asked.size(); ++p) {
-    const auto least = displaced.value()->least_at(asked[p].place, furnished[p] != 0);
     for (size_t k = 0; k < moved.size(); ++k)
-      light[p][moved[k]] = std::min(light[p][moved[k]], least[k]);
+      light[p][moved[k]] = std::min(light[p][moved[k]], least[p][k]);
     broken += add_off_place(asked[p], terms_of(light[p], no_light_lx), layout) ? 1 : 0;
   }
   return broken;

@@ -187,7 +187,7 @@ class Designing {
       keep_bound();
       if (auto problem = judge()) return *problem;
       const auto failing = failing_checks(out_, out_.assessment, &out_.others);
-      const bool last = out_.verifications == max_verifications || interrupt_;
+      const bool last = out_.verifications == max_verifications || interrupted();
       if (!failing.empty()) {
         if (!last && ask_for_more(failing)) continue;
         if (!nearest_) return rejected(failing.front());
@@ -210,16 +210,17 @@ class Designing {
       break;
     }
     out_.tightest = tightest_of(demands_->problem(), out_.answer.layout);
-    if (options_.what_binds && !interrupt_) find_what_binds();
-    if ((scene_->design->refine || options_.refine) && !interrupt_)
+    if (options_.what_binds && !interrupted()) find_what_binds();
+    if ((scene_->design->refine || options_.refine) && !interrupted())
       if (auto problem = refine()) return *problem;
-    if (!scenarios_in_smoke().empty() && !interrupt_)
+    if (!scenarios_in_smoke().empty() && !interrupted())
       if (auto problem = judge_alternatives()) return *problem;
     return std::move(out_);
   }
 
  private:
   double seconds() const { return 1e-9 * static_cast<double>(clock_.now() - began_); }
+  bool interrupted() const { return interrupt_ || interrupted_; }
 
   std::optional<Problem> prepare() {
     progress_("inspecting the scene", no_objective, 0);
@@ -376,6 +377,7 @@ class Designing {
     LayoutAnswer& answer = out_.answer;
     if (rows_of_all_) known_bound_ = std::max(known_bound_, answer.bound);
     answer.bound = std::min(known_bound_, answer.objective);
+    if (answer.end == LayoutEnd::interrupted) return;
     if (answer.gap() == 0)
       answer.end = LayoutEnd::optimal;
     else if (answer.gap() <= options_.gap || answer.end == LayoutEnd::optimal)
@@ -436,6 +438,7 @@ class Designing {
     }
     if (out_.verifications == 1) solving_since_ = out_.prepared_seconds = seconds();
     out_.answer = solve_layout(demands_->problem(), settings, interrupt_, progress_);
+    interrupted_ = interrupted_ || out_.answer.interrupted;
     if (out_.answer.end == LayoutEnd::infeasible) {
       progress_("looking for what cannot hold together", no_objective, 0);
       out_.conflict = conflict_of(demands_->problem(), conflict_seconds, interrupt_);
@@ -574,6 +577,7 @@ class Designing {
   std::optional<DesignResult> nearest_;
   bool rows_of_all_ = true;  // every layout that passes keeps all rows that were added
   double known_bound_ = 0;
+  bool interrupted_ = false;  // during a search, where CBC may have taken the signal
 };
 
 }  // namespace

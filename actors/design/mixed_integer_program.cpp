@@ -168,6 +168,8 @@ ProgramAnswer solve_program(const IntegerProgram& program, const ProgramLimits& 
       static_cast<int>(arguments.size()), arguments.data(), model, [](CbcModel*, int) { return 0; },
       data);
 
+  // CBC looks at its own limit as well, and may then take what it has not solved for infeasible.
+  (void)deadline.passed();
   ProgramAnswer answer;
   const double* best = model.bestSolution();
   if (best != nullptr && model.getObjValue() < cbc_infinity) {
@@ -176,7 +178,7 @@ ProgramAnswer solve_program(const IntegerProgram& program, const ProgramLimits& 
   }
   answer.bound = model.getBestPossibleObjValue();
   constexpr int by_event = 5;
-  answer.interrupted = model.secondaryStatus() == by_event && !interrupt;
+  answer.interrupted = model.secondaryStatus() == by_event && !deadline.was_passed();
   const bool stopped = model.status() != 0 || deadline.was_passed();
   if (!stopped && !answer.values.empty()) {
     answer.end = ProgramEnd::solved;

@@ -189,7 +189,9 @@ RegionBounds::Found RegionBounds::bound_of(const std::set<uint32_t>& regions, co
       out.finished = true;
       break;
     }
-    out.least = std::max(out.least, sums_.from(found.bound));
+    // Of layouts below the cutoff alone: others weigh more than it.
+    const double bound = cutoff ? std::min(found.bound, *cutoff) : found.bound;
+    out.least = std::max(out.least, sums_.from(bound));
     if (found.end == ProgramEnd::stopped || found.values.empty()) break;
     sums.set(growing_.layout_of(found.values));
     auto broken = sums.violations();

@@ -86,6 +86,16 @@ class Solving {
     tell("greedy", 0);
     integer_program();
     choose_among_equals();
+    answer_.interrupted = interrupted_ || interrupt_;
+    answer_.seconds = seconds();
+    return std::move(answer_);
+  }
+
+  /// Without a search, as an interrupt leaves it.
+  LayoutAnswer leave() {
+    raise_bound(0);
+    answer_.end = answer_.layout.empty() ? LayoutEnd::unknown : LayoutEnd::interrupted;
+    answer_.interrupted = true;
     answer_.seconds = seconds();
     return std::move(answer_);
   }
@@ -160,6 +170,7 @@ class Solving {
     LayoutSums sums(index_);
     for (answer_.rounds = 1; answer_.rounds <= limits::row_rounds; ++answer_.rounds) {
       const ProgramAnswer found = solve(growing, gap);
+      interrupted_ = interrupted_ || found.interrupted || interrupt_;
       answer_.rows = growing.rows();
       if (found.end == ProgramEnd::infeasible) {
         // No layout is better than the one that is there, or none exists.
@@ -261,7 +272,7 @@ class Solving {
   bool ended(const ProgramAnswer& found) {
     const bool stopped = found.end == ProgramEnd::stopped || interrupt_;
     if (ended()) return true;
-    if (found.interrupted || interrupt_)
+    if (interrupted_)
       answer_.end = answer_.layout.empty() ? LayoutEnd::unknown : LayoutEnd::interrupted;
     else if (stopped || out_of_time())
       answer_.end = answer_.layout.empty() ? LayoutEnd::unknown : LayoutEnd::out_of_time;
@@ -299,7 +310,7 @@ class Solving {
   }
 
   void choose_among_equals() {
-    if (answer_.layout.empty() || answer_.end == LayoutEnd::interrupted) return;
+    if (answer_.layout.empty() || interrupted_) return;
     tell("choosing among equals", 0);
     const Layout liked = tidied(index_, better(answer_.layout));
     const double objective = objective_of(problem_, liked);
@@ -349,6 +360,25 @@ std::vector<size_t> smallest_first(const std::vector<ProblemPart>& parts) {
   return out;
 }
 
+/// Regions that have options in more than one part: what such a region weighs at least in the whole
+/// problem may be more than it weighs in any of them.
+std::set<uint32_t> regions_of_several(const std::vector<ProblemPart>& parts) {
+  std::set<uint32_t> met, out;
+  for (const ProblemPart& part : parts) {
+    std::set<uint32_t> its;
+    for (const LayoutOption& option : part.problem.options)
+      if (!option.fixed) its.insert(option.region);
+    for (const uint32_t region : its)
+      if (!met.insert(region).second) out.insert(region);
+  }
+  return out;
+}
+
+bool reaches(const RegionBound& bound, const std::set<uint32_t>& regions) {
+  return std::any_of(bound.regions.begin(), bound.regions.end(),
+                     [&](uint32_t region) { return regions.contains(region); });
+}
+
 /// Parts that have nothing to do with each other, one after another: their answers add up.
 LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<ProblemPart>& parts,
                          const SolveSettings& settings, const std::atomic<bool>& interrupt,
@@ -363,9 +393,11 @@ LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<Problem
   out.share_of_group.assign(problem.groups.size(), 0);
   // A layout of all parts first, which an interrupt or a limit of time leaves.
   bool all = true, known = true;
+  const std::set<uint32_t> shared = regions_of_several(parts);
   std::vector<std::unique_ptr<Solving>> solving;
   for (size_t i = 0; i < parts.size(); ++i) {
     SolveSettings its = settings;
+    std::erase_if(its.known_regions, [&](const RegionBound& one) { return reaches(one, shared); });
     if (!settings.start.empty()) {
       its.start.clear();
       for (const uint32_t option : parts[i].options) its.start.push_back(settings.start[option]);
@@ -381,9 +413,12 @@ LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<Problem
   size_t left = parts.size();
   for (const size_t i : smallest_first(parts)) {
     solving[i]->goes_on_from(out);
-    const LayoutAnswer answer = solving[i]->finish(std::max(0.0, settings.seconds - seconds()) /
-                                                   static_cast<double>(left--));
+    const double its_seconds =
+        std::max(0.0, settings.seconds - seconds()) / static_cast<double>(left--);
+    const LayoutAnswer answer =
+        out.interrupted ? solving[i]->leave() : solving[i]->finish(its_seconds);
     solving[i].reset();
+    out.interrupted = answer.interrupted;
     out.end = worse(out.end, answer.end);
     all = all && !answer.layout.empty();
     for (size_t k = 0; k < answer.layout.size(); ++k)

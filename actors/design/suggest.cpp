@@ -115,7 +115,7 @@ Result<Suggestion> suggest(const std::shared_ptr<const SceneDescription>& scene,
   const LayoutAnswer answer =
       solve_layout(problem, settings, interrupt, [](const std::string&, double, double) {});
   // CBC has listened to the signal in the program's place: it is told on.
-  if (answer.end == LayoutEnd::interrupted && !interrupt) ::raise(SIGINT);
+  if (answer.interrupted && !interrupt) ::raise(SIGINT);
   out.end = answer.end;
   out.bound = answer.bound;  // what stands weighs nothing
   for (size_t i = 0; i < answer.layout.size(); ++i) {

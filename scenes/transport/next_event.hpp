@@ -146,7 +146,8 @@ class NextEvent {
   /// Weight of light that a path of such bands meets at a point of an emitter by its own direction.
   /// `apparent_sr`: as of `apparent_solid_angle`, from the place of the turn. Callers hold a hit,
   /// so no cell of space may be learned here: that asks the resolver, which may drop what the hit
-  /// is of. Emitters were sampled at the place of the turn, so its cell has been learned.
+  /// is of. None is new: emitters were sampled at the place of the turn, and add_scattered or
+  /// add_near of its stretch has asked the cells along that before.
   double weight_of_hit(const PathTurn& turn, size_t emitter, const Vec3& point, double apparent_sr,
                        const PathBands& bands) {
     const double hit = turn.pdf * apparent_sr;

@@ -102,6 +102,7 @@ class PathTracer {
   /// paths may end after their first diffuse event; null traces them to their end.
   void radiance(const Ray& ray, int band, EmitterHits counted, double weight, GroupLight& into,
                 const KnownRadiance* known = nullptr) {
+    ends_.clear();
     trace({ray, PathBands::one(band), counted, weight, into}, known, 0);
   }
 
@@ -116,7 +117,8 @@ class PathTracer {
     for (const Path& part : parts_) trace(part, known, 1);
   }
 
-  /// Where the parts of the last path of radiance_of_all() have ended in known light.
+  /// Where the last path of radiance() has ended in known light, or the parts of that of
+  /// radiance_of_all().
   std::span<const KnownEnd> ends() const { return ends_; }
 
   /// The same of a path that a Lambertian surface has sent along `ray`, where `reflected_light` has

@@ -109,6 +109,35 @@ TEST_CASE("no layout weighs less in a region than its bound, alone or joined", "
   CHECK(raised_by_joining >= 4);
 }
 
+TEST_CASE("no bound of a search that was stopped is above what layouts weigh", "[design]") {
+  for (uint64_t seed = 1; seed <= 12; ++seed) {
+    const LayoutProblem problem = in_regions(test::random_problem(seed, 12, 25));
+    const std::vector<Layout> layouts = all_that_hold(problem);
+    if (layouts.empty()) continue;
+    const Layout& best =
+        *std::min_element(layouts.begin(), layouts.end(), [&](const Layout& a, const Layout& b) {
+          return objective_of(problem, a) < objective_of(problem, b);
+        });
+    // Wherever the time is out, what is known until then holds.
+    for (const double seconds : {0.0, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2}) {
+      INFO("seed " << seed << ", " << seconds << " s");
+      Bounding kit(problem);
+      RegionBounds bounds(problem, kit.index, kit.sums, {}, kit.growing, nobody);
+      double told = 0;
+      const auto tell = [&](double sum) {
+        told = sum;
+        return true;
+      };
+      bounds.bound_each(best, seconds, tell);
+      while (bounds.join(best, seconds, tell)) {
+      }
+      CHECK(told <= objective_of(problem, best) + 1e-6);
+      for (const RegionBound& one : bounds.bounds())
+        CHECK(one.least <= least_weight(bounds, one, layouts) + 1e-6);
+    }
+  }
+}
+
 TEST_CASE("a problem in regions is solved as well as one without", "[design]") {
   int joined = 0;
   for (uint64_t seed = 1; seed <= 12; ++seed) {

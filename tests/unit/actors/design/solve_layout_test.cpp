@@ -67,6 +67,25 @@ TEST_CASE("a search that is cut short has a bound that no layout is below", "[de
   }
 }
 
+TEST_CASE("a known bound of a region stays out of parts that hold some of it alone", "[design]") {
+  // Two rooms. The last option lights nothing, so it is with the first room, though its region is
+  // the second: there nothing weighs as much as the second room needs.
+  LayoutProblem problem = with_options(5);
+  for (const uint32_t i : {0U, 1U, 2U}) problem.options[i].region = 1;
+  for (const uint32_t i : {3U, 4U}) problem.options[i].region = 2;
+  problem.options[2].weight = 1.9;
+  ask(problem, {{0, 0.6f}, {1, 0.5f}, {2, 1}}, 1, "first room");
+  ask(problem, {{3, 1}}, 1, "second room");
+  SolveSettings settings;
+  settings.start = {1, 1, 0, 1, 0};  // nothing better is looked for but by the program
+  settings.known_regions = {{{1}, 1.5}, {{2}, 1}};
+  settings.greedy_rounds = 0;
+  const LayoutAnswer answer = solve_layout(problem, settings, nobody, silent);
+  CHECK(answer.end == LayoutEnd::optimal);
+  CHECK(answer.objective == Approx(2.9));
+  CHECK(answer.bound == Approx(2.9));
+}
+
 TEST_CASE("the same problem and seed give the same layout", "[design]") {
   const LayoutProblem problem = random_problem(3, 16, 40);
   CHECK(solved(problem).layout == solved(problem).layout);
