@@ -86,7 +86,7 @@ OpenScene OpenScene::load(const fs::path& file, const py::list& changes,
   out.changes_ = changes_text(changes);
   out.at_s_ = at_s;
   OpenedScene opened;
-  work_apart(py::none(), [&](Waiting&) { opened = open_scene(file, at_s, out.changes_); });
+  work_apart(py::none(), [&](Waiting&) { opened = open_scene(out.file_, at_s, out.changes_); });
   if (!opened.scene) throw Refused(opened.problems.list());
   out.description_ = std::move(opened.scene);
   return out;
@@ -101,9 +101,7 @@ std::shared_ptr<const SceneDescription> OpenScene::at_frames() const {
   if (description_->packed ||
       std::none_of(media.begin(), media.end(), [](const Medium& m) { return m.simulation; }))
     return description_;
-  OpenedScene opened = open_scene(file_, at_s_, changes_, FireFrames::nearest);
-  if (!opened.scene) throw Refused(opened.problems.list());
-  return std::move(opened.scene);
+  return taken(reopen_scene(*description_, file_, at_s_, FireFrames::nearest, changes_));
 }
 
 void add_scene(py::module_& module) {

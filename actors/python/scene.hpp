@@ -29,7 +29,7 @@ class OpenScene {
   /// it refuses.
   SceneAtTime reader() const;
   /// The scene as verdicts are made of it: at frames of its simulations; a pack as it is. Errors
-  /// (Refused): as open_scene.
+  /// (Refused): as reopen_scene.
   std::shared_ptr<const SceneDescription> at_frames() const;
 
  private:

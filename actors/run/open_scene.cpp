@@ -55,6 +55,11 @@ OpenedScene open_scene(const std::filesystem::path& file, std::optional<double> 
   return out;
 }
 
+ReadState reopen_scene(const SceneDescription& scene, const std::filesystem::path& file,
+                       std::optional<double> at_s, FireFrames frames, const std::string& changes) {
+  return opened_as(scene.files.get(), file, at_s, changes, frames);
+}
+
 SceneAtTime reader_at_times(const SceneDescription& scene, const std::filesystem::path& file,
                             FireFrames frames, const std::string& changes) {
   return [files = scene.files, file, frames, changes](double at_s) {

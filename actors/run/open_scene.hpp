@@ -29,8 +29,15 @@ OpenedScene open_scene(const std::filesystem::path& file, std::optional<double> 
                        const std::string& changes = {}, FireFrames frames = FireFrames::between,
                        ReadingShare* share = nullptr);
 
-/// Reads a scene that was read from this file, with these changes, at other times.
+/// Reads a scene again that was read from this file, by the same path, with these changes.
 /// Errors: the first of its problems; files that are others than when `scene` was read.
+Result<std::shared_ptr<const SceneDescription>> reopen_scene(const SceneDescription& scene,
+                                                             const std::filesystem::path& file,
+                                                             std::optional<double> at_s,
+                                                             FireFrames frames,
+                                                             const std::string& changes = {});
+
+/// Reads it at other times, as reopen_scene does.
 SceneAtTime reader_at_times(const SceneDescription& scene, const std::filesystem::path& file,
                             FireFrames frames, const std::string& changes = {});
 

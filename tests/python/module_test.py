@@ -71,6 +71,16 @@ operation = "mains"
 smoke_factor = 0
 """
 
+ROUTE = """
+[[route]]
+name = "out"
+path = [[0.5, 2, 0], [5.5, 2, 0]]
+width = 1.2
+[assessment]
+irritant_smoke = false
+rules = ["en1838-2024"]
+"""
+
 
 
 class Module(unittest.TestCase):
@@ -376,6 +386,23 @@ class Assessments(Module):
         self.assertEqual(made.checks, program["checks"])
         self.assertTrue(told)
         self.assertFalse(hasattr(made, "nothing"))
+
+    def test_a_scene_of_a_relative_path_is_assessed_until_its_file_is_another(self):
+        clock = "[time]\nfrom = 0\nto = 30\nstep = 30\n"
+        path = self.scene_file(ROOM + clock + ROUTE)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder)
+        scene = luxodus.load(path.name)
+        self.assertEqual(scene.file, str(path))
+        os.chdir(ROOT)
+        before = scene.assess(codes_alone=True, scenario="haze").verdict
+        again = luxodus.load(path).assess(codes_alone=True, scenario="haze")
+        self.assertEqual(before, again.verdict)
+        path.write_text(path.read_text() + "# a word\n")
+        with self.assertRaises(luxodus.Error) as caught:
+            scene.assess(codes_alone=True, scenario="haze")
+        self.assertEqual(caught.exception.file, str(path))
+        self.assertIn("the scene has changed on disk", str(caught.exception))
 
     def test_a_scene_without_a_route_has_nothing_to_assess(self):
         with self.assertRaises(luxodus.Error) as caught:

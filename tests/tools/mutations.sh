@@ -22,12 +22,14 @@ ninja -C build/asan-ubsan "${rooms[@]/#/test_scenes_}" >>build/mutations.log
 reports=build/vdb-reports
 rm -rf "$reports"
 mkdir -p "$reports"
+own_options=${ASAN_OPTIONS:-}
 options="log_path=$reports/report:max_allocation_size_mb=256"
 
 failed=0
 for room in "${rooms[@]}"; do
   begun=$SECONDS
   words=/dev/stderr
+  export ASAN_OPTIONS=$own_options
   if [ "$room" = vdb ]; then
     export ASAN_OPTIONS=$options
     words=$reports/words
@@ -46,7 +48,7 @@ PYTHON
   fi
 done
 if [ -e "$reports/words" ]; then grep -E '^ +[0-9]+  ' "$reports/words" || true; fi
-ours='\.\./\.\./(scenes|runtime)/'
+ours="(\.\./\.\.|$PWD)/(scenes|runtime)/"
 if grep -lE "#[0-2] .* $ours|^$ours.*runtime error" "$reports"/* 2>/dev/null; then
   echo "vdb: these reports are of our code" >&2
   failed=1

@@ -147,7 +147,7 @@ VdbSmoke cells_of(const FloatGrid& grid, const Place& place) {
   smoke.ny = static_cast<uint64_t>(dim.y());
   smoke.nz = static_cast<uint64_t>(dim.z());
   smoke.values.resize(smoke.nx * smoke.ny * smoke.nz);
-  constexpr int64_t slab = 64;  // cells: of nodes none is cut, and not all is done at once
+  constexpr int64_t slab = 64;  // cells: not all is done at once
   for (int64_t z = box.min().z(); z <= box.max().z(); z += slab) {
     openvdb::CoordBBox part = box;
     part.min().z() = static_cast<int>(z);
