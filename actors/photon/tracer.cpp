@@ -464,7 +464,7 @@ void Tracer::watch_coordinator(Nanoseconds now) {
     if (!unreachable_since_) unreachable_since_ = now;
   } else if (unreachable_since_) {
     unreachable_since_.reset();
-    if (round_empty_ && !over_) begin_round();  // it may have begun anew, and know of nobody
+    ask_now();
   }
   const auto give_up = [&](const char* what, Nanoseconds after, const char* key) {
     if (rumour_) return end(std::nullopt);
@@ -539,6 +539,19 @@ void Tracer::retry() {
   if (asking_ && !asking_->left) put(*asking_);
   if (learning_ && !learning_->left) put(*learning_);
   if (flushing_ && !flushing_->left && slices_.placed()) put(*flushing_);
+}
+
+/// A way leads to the coordinator again. What was under way may be lost with the last one; or the
+/// coordinator has begun anew, and knows of nobody.
+void Tracer::ask_now() {
+  if (over_) return;
+  if (asking_) put(*asking_);
+  if (learning_) put(*learning_);
+  if (flushing_) {
+    slices_.ask_now(clock_.now());
+    put_flush();
+  }
+  if (round_empty_) begin_round();
 }
 
 void Tracer::set_timer() {

@@ -152,6 +152,7 @@ class Tracer final
   Question question(RetryTimer& timer, Message message, SharedBytes payload = {});
   void put(Question& question);
   void retry();
+  void ask_now();
   void set_timer();
   void on_timer();
   void begin_round();

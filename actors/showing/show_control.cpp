@@ -4,9 +4,9 @@
 
 namespace luxodus {
 
-ShowControl::ShowControl(const std::optional<NodeId>& display, const LocalRun& run, Sender& sender,
-                         Address self)
-    : display_(display), sender_(sender), self_(self) {
+ShowControl::ShowControl(const std::optional<NodeId>& display, const LocalRun& run,
+                         const RetryTimer& timer, Sender& sender, Address self)
+    : display_(display), sender_(sender), self_(self), new_timer_(timer) {
   if (display_) snapshot_.emplace(run.totals().groups(), run.totals().layout().totals());
 }
 
@@ -60,7 +60,7 @@ void ShowControl::tell_end(const RunEnded& ended, Nanoseconds now) {
 
 void ShowControl::end_life(NodeId node) {
   if (display_ != node) return;
-  telling_.forget();
+  telling_ = new_timer_;
   saved_ = false;
   wanted_.reset();
   shown_.reset();

@@ -18,8 +18,8 @@ class ShowControl {
  public:
   /// `display`: the node where it lives; nothing: there is none. `self`: whom it asks.
   /// Requires: `sender` outlives this.
-  ShowControl(const std::optional<NodeId>& display, const LocalRun& run, Sender& sender,
-              Address self);
+  ShowControl(const std::optional<NodeId>& display, const LocalRun& run, const RetryTimer& timer,
+              Sender& sender, Address self);
 
   bool any() const { return display_.has_value(); }
   NodeId node() const { return *display_; }
@@ -66,7 +66,8 @@ class ShowControl {
   StopReason reason_ = StopReason::particles;
   bool packing_ = false;  // what is packed belongs to another thread
   bool saved_ = false;
-  RetryTimer telling_{milliseconds(125), seconds(30)};  // it of the end
+  const RetryTimer new_timer_;
+  RetryTimer telling_ = new_timer_;  // it of the end
 };
 
 }  // namespace luxodus

@@ -18,6 +18,8 @@ class CheckedNode : public SimNode {
   virtual std::string fault() const = 0;
   /// Why it has left without having done its part, for people; "" where it has done it.
   virtual std::string regret() const = 0;
+  /// For how long it takes those whom it leads to know of the end that have said so.
+  virtual Nanoseconds word_is_fresh() const { return 0; }
 };
 
 /// Has all fibers return, as they do when they are cancelled.
@@ -46,6 +48,9 @@ class SimWorker final : public CheckedNode {
   void die() override;
   std::string fault() const override;
   std::string regret() const override;
+  Nanoseconds word_is_fresh() const override {
+    return worker_.coordinator() == nullptr ? 0 : worker_.coordinator()->word_is_fresh();
+  }
   const Worker& worker() const { return worker_; }
 
  private:
@@ -71,6 +76,7 @@ class SimController final : public CheckedNode {
   void die() override;
   std::string fault() const override;
   std::string regret() const override;
+  Nanoseconds word_is_fresh() const override { return coordinator().word_is_fresh(); }
   const RunCoordinator& coordinator() const { return node_.coordinator(); }
   /// Of its loop [ns], of what was charged.
   uint64_t longest_turn() const { return node_.shell().scheduler().counters().longest_turn; }

@@ -108,6 +108,7 @@ class Simulation {
   std::string ended_well() const;
   NodeId controller() const { return setups_.controller(); }
   void note_last(const SimController& controller);
+  Nanoseconds longest_word_below();
   void note_left(NodeId node, const CheckedNode& left);
   bool sharded() const { return !setup_.shards.owners.empty(); }
 
@@ -220,7 +221,16 @@ void Simulation::note_last(const SimController& controller) {
   reason_ = controller.coordinator().reason();
   if (let_go_ != never) return;
   let_go_ = world_->now();
-  fresh_ = controller.coordinator().word_is_fresh();
+  fresh_ = controller.word_is_fresh() + longest_word_below();
+}
+
+/// Words of those below are told on when they may be as old as this, level by level.
+Nanoseconds Simulation::longest_word_below() {
+  Nanoseconds longest = 0;
+  for (uint16_t node = 0; node < setup_.graph.workers(); ++node)
+    if (const SimNode* const here = world_->node({node}))
+      longest = std::max(longest, static_cast<const CheckedNode*>(here)->word_is_fresh());
+  return longest * (setup_.tree->height(setup_.tree->root()) - 1);
 }
 
 /// A worker has heard of the end, however it was parted from the others. Who begins anew when all

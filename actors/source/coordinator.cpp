@@ -26,11 +26,11 @@ Coordinator::Coordinator(const CoordinatorConfig& config, const CompiledScene& s
       book_(std::move(book)),
       clock_(scheduler.clock()) {
   for (const NodeId worker : config_.workers) {
-    peers_.emplace(worker, config_);
+    peers_.emplace(worker, end_timer(worker));
     tracers_ += tracers_of(worker);
   }
   for (const NodeId orphan : config_.orphans)
-    peers_.try_emplace(orphan, config_).first->second.expected = false;
+    peers_.try_emplace(orphan, end_timer(orphan)).first->second.expected = false;
   untold_.reserve(peers_.size());
   uncounted_.reserve(2 * peers_.size());
 }
@@ -58,6 +58,7 @@ bool Coordinator::meet(Address worker, Incarnation life) {
     }
     peer.life = life;
     peer.told.reset();
+    peer.telling = end_timer(worker.node);
     peer.left = peer.idle = false;
   }
   if (!std::exchange(peer.here, true)) worker_came(worker.node);
@@ -77,6 +78,7 @@ void Coordinator::watch_workers(Nanoseconds now) {
       peer.unreachable_since.reset();
       continue;
     }
+    peer.told.reset();  // it may begin anew meanwhile
     if (!peer.unreachable_since) peer.unreachable_since = now;
     if (!(begun_ || over_) || !peer.here || !is_lost(peer)) continue;
     peer.here = false;
@@ -116,18 +118,21 @@ void Coordinator::tell_fenced(const std::vector<Lease>& leases) {
 }
 
 /// Who was told that there is no more would ask again when its patience is over. That is too late
-/// for batches that have come since. As many are told as there are batches, each once until it has
-/// asked: were all told, all but these would ask in vain. If one of them does not come, the next
-/// look tells others.
+/// for batches that have come since. As many are told as there are batches: were all told, all but
+/// these would ask in vain. Each look tells as many others, in turn, and again who does not come.
 void Coordinator::offer_batches() {
   if (!begun_ || over_) return;
   int64_t batches = book_.waiting();
-  for (auto& [worker, last] : last_grant_) {
-    if (batches == 0) return;
-    if (last.offered || std::get<LeaseGranted>(last.answer).batches > 0) continue;
+  auto at = last_grant_.upper_bound(last_offered_);
+  for (size_t tried = 0; batches > 0 && tried < last_grant_.size(); ++tried, ++at) {
+    if (at == last_grant_.end()) at = last_grant_.begin();
+    auto& [worker, last] = *at;
+    if (last.offer.is_open() && !last.offer.is_due(clock_.now())) continue;
+    if (std::get<LeaseGranted>(last.answer).batches > 0) continue;
     if (!peers_.at(worker).traces() || !network_.reaches(worker)) continue;
     if (send_opened(worker) != SendOutcome::taken) continue;
-    last.offered = true;
+    last.offer.asked(clock_.now());
+    last_offered_ = worker;
     --batches;
   }
 }
@@ -289,6 +294,17 @@ void Coordinator::tell_end() {
   tell_untold();
 }
 
+void Coordinator::tell_end_anew() {
+  for (auto& [worker, peer] : peers_) peer.telling = end_timer(worker);
+  tell_end();
+}
+
+/// Who leads others says nothing until all of them know: to hear from it soon, it is asked at each
+/// look. There are few such.
+RetryTimer Coordinator::end_timer(NodeId worker) const {
+  return {config_.look_every / 2, levels_below(worker) > 0 ? config_.look_every / 2 : config_.lost};
+}
+
 /// Until the network has taken the word for each.
 void Coordinator::tell_untold() {
   std::erase_if(untold_, [&](NodeId worker) {
@@ -312,6 +328,7 @@ void Coordinator::answer_with_end(const Letter<RequestLease>& request) {
     return;
   }
   answer(request, end_word());
+  peers_.at(request.from.node).telling.asked(clock_.now());
   if (letting_go_) tell(request.from, EnterPhase{EndPhase::leave, 0});
 }
 

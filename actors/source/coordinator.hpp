@@ -123,7 +123,7 @@ class Coordinator
 
   /// What is known of a worker.
   struct Peer {
-    explicit Peer(const CoordinatorConfig& config) : telling(config.look_every / 2, config.lost) {}
+    explicit Peer(const RetryTimer& timer) : telling(timer) {}
 
     bool expected = true;  // else it may come when another coordinator is lost
     bool here = false;     // it was heard of, and has not been lost since
@@ -200,6 +200,8 @@ class Coordinator
   /// Nothing is lent or counted any more, and all are told.
   void end_work();
   void tell_end();
+  /// It is another one than was told.
+  void tell_end_anew();
   bool all_know_end() const;
   void let_go();
   std::string who_lacks_end() const;
@@ -239,6 +241,7 @@ class Coordinator
   bool knows_end(NodeId worker, const Peer& peer) const;
   bool is_told(const Peer& peer) const;
   Nanoseconds is_fresh_for(const Peer& peer) const;
+  RetryTimer end_timer(NodeId worker) const;
   bool is_lost(const Peer& peer) const;
   void answer_with_end(const Letter<RequestLease>& request);
 
@@ -251,9 +254,10 @@ class Coordinator
   struct Answered {
     MessageId question;
     Message answer;
-    bool offered = false;  // more was offered since, after an answer without batches
+    RetryTimer offer{milliseconds(250), seconds(30)};  // of more, where there were no batches
   };
   std::map<NodeId, Answered> last_grant_, last_flush_;
+  NodeId last_offered_;  // to whom batches were
   /// Flushes not counted yet. They are counted on the actor's fiber, in steps: a million bins take
   /// a second, in which beats must go on.
   std::vector<MessageId> uncounted_;

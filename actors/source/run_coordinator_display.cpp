@@ -75,7 +75,7 @@ void RunCoordinator::lose_display(const std::string& why) {
   lost_display_ = true;
   fault_ = problem(why);
   log_error("run=unwritten text=\"{}\"", why);
-  tell_end();
+  tell_end_anew();
 }
 
 }  // namespace luxodus

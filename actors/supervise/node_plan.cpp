@@ -5,6 +5,7 @@
 #include "actors/photon/tracer.hpp"
 #include "actors/supervise/node_shell.hpp"
 #include "actors/supervise/residency_setup.hpp"
+#include "actors/tally/shard_control.hpp"
 #include "actors/tally/tally_shard.hpp"
 
 namespace luxodus {
@@ -135,8 +136,9 @@ SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node) {
 
 NetConfig controller_net(const RunSetup& run, const NodeSetup& node) {
   NetConfig net = node.net;
-  // That a round begins, and an answer.
-  const size_t words = 2 * run.tree->children(node.net.self.value).size();
+  // That a round begins, and an answer; and what became of flushes.
+  const size_t words = 2 * run.tree->children(node.net.self.value).size() +
+                       ShardControl::max_decisions * run.shards.owners.size();
   if (words > defaults::outbox_messages) net.outbox_messages = std::max(net.outbox_messages, words);
   return net;
 }

@@ -11,18 +11,16 @@ namespace luxodus {
 
 namespace {
 /// Until a question is sent again: a shard may be adding a part of a million bins, in turns.
-constexpr Nanoseconds patience = seconds(1), longest_patience = seconds(60);
-/// Decisions under way to a shard: half of what its mailbox holds.
-constexpr size_t max_open = 32;
+constexpr Nanoseconds patience = seconds(1);
 }  // namespace
 
 ShardControl::ShardControl(const ShardPlan& plan, Totals& totals, const Clock& clock,
-                           Sender& sender, Address self)
+                           Nanoseconds lost, Sender& sender, Address self)
     : plan_(plan), totals_(totals), clock_(clock), sender_(sender), self_(self) {
   for (size_t i = 0; i < plan_.owners.size(); ++i) {
     const BinRange bins = plan_.range(i + 1, totals.layout().totals());
-    const RetryTimer timer(patience, longest_patience);
-    shards_.push_back({plan_.owners[i], bins, {}, timer, {}, bins.end});
+    const RetryTimer timer(patience, lost);
+    shards_.push_back({plan_.owners[i], bins, {}, timer, timer, {}, bins.end});
   }
 }
 
@@ -55,9 +53,9 @@ bool ShardControl::settled() const {
 void ShardControl::ask_decisions(Shard& shard) {
   std::set<NodeId> nodes;
   for (Decision& decision : shard.decisions) {
-    if (nodes.size() == max_open) return;
+    if (nodes.size() == max_decisions) return;
     if (!nodes.insert(decision.what.flush.node).second || decision.asked) continue;
-    decision.asked = Question{sender_.next_id(), shard.timer};
+    decision.asked = Question{sender_.next_id(), shard.decision_timer};
     put(shard, *decision.asked, decision.what);
   }
 }
@@ -71,8 +69,8 @@ void ShardControl::on(const Letter<FlushSettled>& settled) {
   if (at == shard->decisions.end()) return;
   if (!settled.body.whole)
     fault_ = "a shard of the totals lacks a slice of a flush that was counted";
-  shard->timer = at->asked->timer;
-  shard->timer.answered(clock_.now());
+  shard->decision_timer = at->asked->timer;
+  shard->decision_timer.answered(clock_.now());
   shard->decisions.erase(at);
   ask_decisions(*shard);
 }
@@ -96,7 +94,7 @@ AskTotals ShardControl::next_totals(const Shard& shard) const {
 
 void ShardControl::ask_totals(Shard& shard) {
   if (shard.next == shard.bins.end) return;
-  shard.asked = Question{sender_.next_id(), shard.timer};
+  shard.asked = Question{sender_.next_id(), shard.totals_timer};
   put(shard, *shard.asked, next_totals(shard));
 }
 
@@ -117,8 +115,8 @@ void ShardControl::add(Shard& shard, const TotalsTold& told, std::span<const std
 void ShardControl::on(const Letter<TotalsTold>& told) {
   Shard* const shard = shard_of(told.from.node);
   if (shard == nullptr || !shard->asked || shard->asked->id != told.id) return;
-  shard->timer = shard->asked->timer;
-  shard->timer.answered(clock_.now());
+  shard->totals_timer = shard->asked->timer;
+  shard->totals_timer.answered(clock_.now());
   shard->asked.reset();
   add(*shard, told.body, told.payload.bytes());
   if (fault_) return;

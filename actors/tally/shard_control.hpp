@@ -25,10 +25,13 @@ namespace luxodus {
 
 class ShardControl {
  public:
-  /// `self` is the coordinator that it asks for. Requires: all that is referred to outlives it.
-  ShardControl(const ShardPlan& plan, Totals& totals, const Clock& clock, Sender& sender,
-               Address self);
+  /// `self` is the coordinator that it asks for. No question waits for longer than `lost` before it
+  /// is asked again. Requires: all that is referred to outlives it.
+  ShardControl(const ShardPlan& plan, Totals& totals, const Clock& clock, Nanoseconds lost,
+               Sender& sender, Address self);
 
+  /// Decisions under way to a shard at once: half of what its mailbox holds.
+  static constexpr size_t max_decisions = 32;
   /// Shards beside the controller's.
   size_t others() const { return shards_.size(); }
   bool owns(NodeId worker) const { return plan_.shard_of(worker) != 0; }
@@ -75,10 +78,10 @@ class ShardControl {
   struct Shard {
     NodeId owner;
     BinRange bins;
-    std::deque<Decision> decisions;  // not answered yet
-    RetryTimer timer;                // with what the last answer took
-    std::optional<Question> asked;   // for totals, in a gather
-    int64_t next = 0;                // bin to ask for
+    std::deque<Decision> decisions;           // not answered yet
+    RetryTimer decision_timer, totals_timer;  // with what the last answers took
+    std::optional<Question> asked;            // for totals, in a gather
+    int64_t next = 0;                         // bin to ask for
   };
 
   void decide(size_t shard, const FlushDecided& decision);

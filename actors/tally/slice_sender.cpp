@@ -31,19 +31,25 @@ void SliceSender::send(const MessageId& flush, Nanoseconds now) {
   flush_ = flush;
   refused_ = false;
   timer_.forget();
-  timer_.asked(now);
   for (Slice& slice : slices_) {
     const auto& bytes = slice.encoder->bytes();
     slice.hash = XXH3_64bits(bytes.data(), bytes.size());  // as Hasher, in no memory
     slice.held = false;
   }
-  for (size_t slice = 0; slice < slices(); ++slice) put(slice);
+  put_missing(now);
 }
 
-void SliceSender::put(size_t index) {
+void SliceSender::put_missing(Nanoseconds now) {
+  bool all_left = true;
+  for (size_t slice = 0; slice < slices(); ++slice)
+    if (!slices_[slice].held) all_left &= put(slice) == SendOutcome::taken;
+  if (all_left) timer_.asked(now);
+}
+
+SendOutcome SliceSender::put(size_t index) {
   const Slice& slice = slices_[index];
-  sender_.send(self_, {plan_.owners[index], ActorName::tally_shard}, flush_, FlushSlice{slice.hash},
-               {slice.encoder->bytes(), slice.encoder});
+  return sender_.send(self_, {plan_.owners[index], ActorName::tally_shard}, flush_,
+                      FlushSlice{slice.hash}, {slice.encoder->bytes(), slice.encoder});
 }
 
 bool SliceSender::placed() const {
@@ -59,10 +65,11 @@ std::vector<uint64_t> SliceSender::hashes() const {
 }
 
 void SliceSender::ask_again(Nanoseconds now) {
-  if (placed() || !timer_.is_due(now)) return;
-  timer_.asked(now);
-  for (size_t slice = 0; slice < slices(); ++slice)
-    if (!slices_[slice].held) put(slice);
+  if (!placed() && (!timer_.is_open() || timer_.is_due(now))) put_missing(now);
+}
+
+void SliceSender::ask_now(Nanoseconds now) {
+  if (!placed()) put_missing(now);
 }
 
 /// The slice that this shard was asked to hold; null for answers about an earlier flush.

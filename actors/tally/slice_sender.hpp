@@ -39,8 +39,10 @@ class SliceSender {
   bool placed() const;
   /// Of all slices; none where one was refused, so that the controller refuses the flush.
   std::vector<uint64_t> hashes() const;
-  /// Sends again what has had no answer for too long.
+  /// Sends again what has had no answer for too long, or found no room in the network.
   void ask_again(Nanoseconds now);
+  /// Sends again what has had no answer: a way leads to others again.
+  void ask_now(Nanoseconds now);
   /// Answers of shards to the slices of a flush.
   void on(const Letter<SliceHeld>& held, Nanoseconds now);
   void on(const Letter<FlushRefused>& refused);
@@ -51,7 +53,8 @@ class SliceSender {
     uint64_t hash = 0;
     bool held = false;
   };
-  void put(size_t slice);
+  void put_missing(Nanoseconds now);
+  SendOutcome put(size_t slice);
   Slice* asked(NodeId owner, const MessageId& flush);
 
   const ShardPlan plan_;

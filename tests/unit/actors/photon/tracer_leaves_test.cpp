@@ -112,6 +112,36 @@ TEST_CASE("a tracer hears of the end from the coordinator that it lost while non
   CHECK(led.sender.told<RequestLease>(first).back().batches == 0);
 }
 
+TEST_CASE("questions are put again when a way leads to the coordinator again", "[tracer]") {
+  Led led;
+  led.grant(first);
+  const auto asked = [&] { return led.sender.told<RequestLease>(first).size(); };
+  led.run(seconds(10));  // what it asks is asked ever more seldom
+  led.cluster.stop(first.value);
+  led.run(milliseconds(2500));  // down, and not lost yet
+  const size_t before = asked();
+  led.cluster.start(test::config_of(first.value, 3, test::ring(3), 2001));
+  led.run(seconds(1));
+  CHECK(asked() > before);
+}
+
+TEST_CASE("who was answered that there is nothing asks again after a rest", "[tracer]") {
+  Led led;
+  led.grant(first);
+  const auto asked = [&] { return led.sender.told<RequestLease>(first).size(); };
+  const size_t before = asked();
+  led.run(milliseconds(1500));
+  CHECK(asked() == before);
+  led.run(seconds(1));
+  REQUIRE(asked() == before + 1);  // after the patience: this answer took no time
+  led.run(seconds(1));
+  led.grant(first);  // this one took a second, and some
+  led.run(seconds(6));
+  CHECK(asked() == before + 1);
+  led.run(seconds(7));
+  CHECK(asked() == before + 2);
+}
+
 TEST_CASE("a tracer that ends before the run says that it leaves", "[tracer]") {
   Led led;
   led.grant(first);

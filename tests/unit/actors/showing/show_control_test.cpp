@@ -51,7 +51,8 @@ struct Desk {
 
   LocalRun run;
   NotedSender sender;
-  ShowControl control{display_node, run, sender, {{9}, ActorName::coordinator}};
+  const RetryTimer timer{milliseconds(125), seconds(30)};
+  ShowControl control{display_node, run, timer, sender, {{9}, ActorName::coordinator}};
 };
 
 }  // namespace
@@ -135,7 +136,7 @@ TEST_CASE("the end is told until the flux is on a disk, and again to a display t
 
 TEST_CASE("a run without a display has nobody to tell", "[showing]") {
   Desk desk;
-  ShowControl none(std::nullopt, desk.run, desk.sender, {{9}, ActorName::coordinator});
+  ShowControl none(std::nullopt, desk.run, desk.timer, desk.sender, {{9}, ActorName::coordinator});
   none.tell_end({3, ""}, 0);
   none.end_life(display_node);
   CHECK(desk.sender.sent.empty());

@@ -125,7 +125,7 @@ TEST_CASE("nothing is asked for above before all who are led have come, or half 
   }
 }
 
-TEST_CASE("batches that come are offered to as many as can have one, and each is told once",
+TEST_CASE("batches that come are offered to as many as can have one, in turn",
           "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
@@ -137,6 +137,21 @@ TEST_CASE("batches that come are offered to as many as can have one, and each is
   CHECK(told(right) == 1);  // the second time: the first may not come
   stage.coordinator.look_again();
   CHECK(told(left) + told(right) == 2);
+  SECTION("who does not come is told again, ever more seldom") {
+    stage.run(seconds(8));
+    CHECK(told(left) >= 4);
+    CHECK(told(left) <= 6);
+    CHECK(told(right) >= 4);
+    CHECK(told(right) <= 6);
+  }
+  SECTION("who may not have what waits does not keep it from others") {
+    stage.say(left, LeasesFenced{{stage.ask(left, 1).first_lease}});
+    CHECK(stage.ask(left, 1).batches == 0);
+    const size_t before = told(right);
+    stage.coordinator.look_again();
+    stage.run(seconds(1));
+    CHECK(told(right) > before);
+  }
   SECTION("who has asked in vain is told of the next") {
     CHECK(stage.ask(right, 1).batches == 1);
     CHECK(stage.ask(left, 1).batches == 0);

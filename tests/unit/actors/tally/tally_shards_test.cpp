@@ -47,7 +47,7 @@ struct Stage : Sender {
       : plan{std::move(owners)},
         totals(layout, shard_groups, {}),
         expected(layout, shard_groups, {}),
-        control(plan, totals, node.clock, *this, coordinator) {
+        control(plan, totals, node.clock, seconds(30), *this, coordinator) {
     for (size_t i = 0; i < plan.owners.size(); ++i) {
       const NodeId owner = plan.owners[i];
       const TallyShardConfig config{owner, controller, plan.range(i + 1, bins)};
@@ -64,6 +64,8 @@ struct Stage : Sender {
   MessageId next_id() override { return {controller, {1}, ++ids}; }
   SendOutcome send(Address from, Address to, const MessageId& id, const Message& message,
                    SharedBytes bytes = {}) override {
+    if (room == 0) return SendOutcome::full;
+    --room;
     wire.push_back({from, to, id, message, {bytes.bytes.begin(), bytes.bytes.end()}});
     return SendOutcome::taken;
   }
@@ -174,6 +176,7 @@ struct Stage : Sender {
   ShardPlan plan;
   Totals totals, expected;
   uint64_t ids = 0;
+  size_t room = SIZE_MAX;  // for messages in the network
   std::deque<Mail> wire;
   std::vector<Mail> passed;
   std::map<NodeId, std::unique_ptr<TallyShard>> shards;
@@ -367,6 +370,32 @@ TEST_CASE("decisions about several nodes are under way at once, about each node 
   stage.pass();
   CHECK(stage.control.settled());
   CHECK_FALSE(stage.control.fault());
+}
+
+TEST_CASE("no more decisions are under way than a shard's mailbox holds twice", "[shards]") {
+  Stage stage(std::vector<NodeId>{{2}});
+  for (uint16_t node = 10; node < 60; ++node) stage.control.refuse(flush_of({node}, 1));
+  CHECK(stage.wire.size() == ShardControl::max_decisions);
+  stage.pass();
+  CHECK(stage.control.settled());
+}
+
+TEST_CASE("slices that find no room are sent again without waiting for an answer", "[shards]") {
+  Stage stage(std::vector<NodeId>{{2}, {5}});
+  stage.room = 1;
+  SliceSender& sender = stage.pack(worker, flush_of(worker, 1), 7, true);
+  CHECK(stage.wire.size() == 1);
+  stage.room = 10;
+  sender.ask_again(stage.node.clock.now());
+  CHECK(stage.wire.size() == 3);
+  sender.ask_again(stage.node.clock.now());
+  CHECK(stage.wire.size() == 3);  // both are on their way
+  sender.ask_now(stage.node.clock.now());
+  CHECK(stage.wire.size() == 5);
+  stage.pass();
+  CHECK(sender.placed());
+  sender.ask_now(stage.node.clock.now());
+  CHECK(stage.wire.empty());
 }
 
 TEST_CASE("a shard that lacks a slice of a flush that was taken is a fault", "[shards]") {
