@@ -135,20 +135,26 @@ Result<void> write_body(const LuminaireBody& body, const fs::path& file) {
   const auto out = std::back_inserter(text);
   for (const glm::dvec3& p : body.mesh.positions)
     fmt::format_to(out, "v {:.7g} {:.7g} {:.7g}\n", p.x, p.y, p.z);
-  std::map<std::string, size_t> materials;  // number of each, by its words
+  // Each material once: readers make an object of every run of one.
+  std::map<std::string, std::string> faces;  // of each material, by its words
+  std::string* faces_here = &faces[""];
   auto next = body.colours.begin();
   for (size_t i = 0; i < body.mesh.triangles.size(); ++i) {
-    for (; coloured && next != body.colours.end() && next->first_triangle == i; ++next) {
-      const auto known = materials.try_emplace(paint_words(next->value), materials.size() + 1);
-      fmt::format_to(out, "usemtl colour {}\n", known.first->second);
-    }
+    for (; coloured && next != body.colours.end() && next->first_triangle == i; ++next)
+      faces_here = &faces[paint_words(next->value)];
     const glm::uvec3& t = body.mesh.triangles[i];
-    fmt::format_to(out, "f {} {} {}\n", t.x + 1, t.y + 1, t.z + 1);
+    fmt::format_to(std::back_inserter(*faces_here), "f {} {} {}\n", t.x + 1, t.y + 1, t.z + 1);
+  }
+  std::string paints = "# Made by `luxodus import gldf`, of the model's colours.\n";
+  int number = 0;
+  for (const auto& [words, of_material] : faces) {
+    if (!words.empty()) {
+      fmt::format_to(out, "usemtl colour {}\n", ++number);
+      paints += fmt::format("newmtl colour {}\n{}\n", number, words);
+    }
+    text += of_material;
   }
   if (coloured) {
-    std::string paints = "# Made by `luxodus import gldf`, of the model's colours.\n";
-    for (const auto& [words, number] : materials)
-      paints += fmt::format("newmtl colour {}\n{}\n", number, words);
     if (auto ok = write_file_atomically(file.parent_path() / library, std::string_view(paints));
         !ok)
       return ok.problem();

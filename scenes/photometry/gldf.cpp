@@ -131,7 +131,8 @@ void take_models(const GldfArchive& archive, GldfProduct& product, Unpacking& un
       continue;
     }
     model.shape = std::move(shape).value();
-    for (const L3dShape& one : model.shape.shapes) left -= one.obj.size() + one.colours.size();
+    for (const L3dShape& one : model.shape.shapes)
+      left -= std::min<uint64_t>(left, one.obj.size() + one.colours.size());
   }
 }
 

@@ -56,9 +56,10 @@ Transform turned(const glm::dvec3& degrees) {
 /// Calls `each` with the first word of every line and what follows it.
 template <class Each>
 void for_lines(std::string_view text, Each&& each) {
-  constexpr std::string_view blanks = " \t\r";
+  constexpr std::string_view blanks = " \t";
+  constexpr std::string_view ends("\n\r\f\0", 4);  // of lines, for one reader or another
   while (!text.empty()) {
-    const size_t end = std::min(text.find('\n'), text.size());
+    const size_t end = std::min(text.find_first_of(ends), text.size());
     std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
@@ -93,16 +94,25 @@ bool is_colour(std::string_view text) {
   return count == 3;
 }
 
-/// Names and diffuse colours of a material library; nothing else of it, such as its textures.
+/// Names and diffuse colours of a material library; nothing else of it, such as its textures. A
+/// material without a colour is grey. "" where none has one.
 std::string colours_in(std::string_view library) {
-  std::string out;
-  bool named = false;
+  constexpr std::string_view grey = "0.7 0.7 0.7";
+  struct Paint {
+    std::string_view name, colour;
+  };
+  std::vector<Paint> paints;
   for_lines(library, [&](std::string_view word, std::string_view rest) {
-    if (word == "newmtl" && !rest.empty()) named = true;
-    if ((word == "newmtl" && !rest.empty()) || (named && word == "Kd" && is_colour(rest)))
-      out += fmt::format("{} {}\n", word, rest);
+    if (word == "newmtl" && !rest.empty()) paints.push_back({rest, {}});
+    if (!paints.empty() && word == "Kd" && is_colour(rest)) paints.back().colour = rest;
   });
-  return out;
+  std::string out;
+  bool coloured = false;
+  for (const auto& [name, colour] : paints) {
+    coloured = coloured || !colour.empty();
+    out += fmt::format("newmtl {}\nKd {}\n", name, colour.empty() ? grey : colour);
+  }
+  return coloured ? out : "";
 }
 
 class L3dReader {
@@ -240,7 +250,7 @@ class L3dReader {
     if (!library) return;
     shape.colours = colours_in(library.value());
     if (shape.colours.empty()) return;
-    left_bytes_ -= shape.colours.size();
+    left_bytes_ -= std::min<uint64_t>(left_bytes_, shape.colours.size());
     shape.obj.replace(static_cast<size_t>(name.data() - shape.obj.data()), name.size(),
                       l3d_library);
   }

@@ -81,7 +81,7 @@ void read_data_set(KeyReader& keys, Medium& m) {
   }
   const bool interpolate = keys.flag("interpolate_emission");
   const auto path = keys.file("file");
-  if (!path || !keys.clean()) return;
+  if (!path || !keys.clean() || !take_hash(*path, keys.place("file"), keys.reading())) return;
   DataSetOptions options;
   options.mass_extinction_m2_per_kg = mass.value_or(no_mass_extinction);
   options.field = quantity;

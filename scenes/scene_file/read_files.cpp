@@ -13,8 +13,9 @@ void take_problem(const Problem& problem, const SourcePlace& place, SceneReading
   }
 }
 
-bool take_hash(const std::filesystem::path& path, const SourcePlace& place, SceneReading& reading) {
-  const auto failed = reading.hash_file(path);
+bool take_hash(const std::filesystem::path& path, const SourcePlace& place, SceneReading& reading,
+               FileLife life) {
+  const auto failed = reading.hash_file(path, life);
   if (failed) take_problem(*failed, place, reading);
   return !failed;
 }

@@ -21,8 +21,9 @@ std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::pa
 /// A GLDF container.
 std::shared_ptr<const GldfProduct> read_container(const std::filesystem::path& path,
                                                   const SourcePlace& place, SceneReading& reading);
-/// Hashes a file; false and a problem where it cannot be read.
-bool take_hash(const std::filesystem::path& path, const SourcePlace& place, SceneReading& reading);
+/// Hashes a file that is read next; false and a problem where it cannot be read.
+bool take_hash(const std::filesystem::path& path, const SourcePlace& place, SceneReading& reading,
+               FileLife life = FileLife::settled);
 /// A problem of another reader, with the place that named its file.
 void take_problem(const Problem& problem, const SourcePlace& place, SceneReading& reading);
 

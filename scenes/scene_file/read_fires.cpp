@@ -200,9 +200,9 @@ void read_fire_medium(KeyReader& keys, Medium m) {
   options.reading = reading.share;
   const auto path = keys.file("file");
   if (!path || !keys.clean()) return;
+  if (!take_hash(*path, keys.place("file"), reading, FileLife::grows)) return;
   auto fire = read_fire(*path, options);
   if (!fire) return take_problem(fire.problem(), keys.place("file"), reading);
-  take_hash(*path, keys.place("file"), reading);
   hash_fire(reading, fire.value());
   tell_fire(keys, m.name, fire.value(), flames, options.at_s);
   FireSimulation simulation{path->filename().string(),

@@ -192,6 +192,10 @@ void read_import(const toml::Table& table, SceneReading& reading) {
     reading.incomplete = true;
     return;
   }
+  if (!take_hash(*path, keys.place("file"), reading)) {
+    reading.incomplete = true;
+    return;
+  }
   std::vector<std::string> files;
   auto parts = import_mesh(path->string(), scale.value(), up.value(), &files, reading.share);
   for (const auto& file : files) take_hash(file, keys.place("file"), reading);

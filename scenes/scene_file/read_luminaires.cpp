@@ -161,7 +161,7 @@ void read_mesh_shape(KeyReader& keys, Emitter& e) {
   const auto scale = metres_per_unit(keys.choice("units"));
   const auto up = up_axis_named(keys.choice("up"));
   const Transform transform = read_transform(keys);
-  if (!path || !keys.clean()) return;
+  if (!path || !keys.clean() || !take_hash(*path, keys.place("file"), keys.reading())) return;
   std::vector<std::string> files;
   auto parts = import_mesh(path->string(), scale.value(), up.value(), &files, keys.reading().share);
   for (const auto& f : files) take_hash(f, keys.place("file"), keys.reading());

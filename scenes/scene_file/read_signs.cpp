@@ -100,13 +100,13 @@ void read_face(KeyReader& keys, Sign& sign) {
   if (path) sign.file = *keys.value("file")->as_text();
   bound_lengths(keys, sign);
   if (!keys.clean()) return;
+  if (path && !take_hash(*path, keys.place("file"), keys.reading())) return;
   auto face = given == "file" ? drawn_face(*path, sign, texels)
               : given == "text"
                   ? face_from_text(sign.text, sign.width_m, sign.height_m, letter, stroke, spacing,
                                    legend, texels)
                   : uniform_face(plain == "green" ? SignColour::green : SignColour::white,
                                  sign.width_m, sign.height_m, texels);
-  if (path) take_hash(*path, keys.place("file"), keys.reading());
   if (!face) {
     SourcePlace at = keys.place(given);
     return take_problem(face.problem(), at, keys.reading());

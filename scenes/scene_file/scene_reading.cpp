@@ -102,10 +102,11 @@ void SceneReading::hash_bytes(std::string_view bytes) {
   scene.content_hash = XXH3_64bits_withSeed(bytes.data(), bytes.size(), scene.content_hash);
 }
 
-std::optional<Problem> SceneReading::hash_file(const std::filesystem::path& path) {
+std::optional<Problem> SceneReading::hash_file(const std::filesystem::path& path, FileLife life) {
   if (!hashed_.insert(path.lexically_normal().string()).second) return std::nullopt;
   auto file = open_regular_file(path);
   if (!file) return file.problem();
+  const FileStamp before = stamp_of(file->descriptor.number());
   using State = std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)>;
   const State state(XXH3_createState(), &XXH3_freeState);
   const State own(XXH3_createState(), &XXH3_freeState);  // of this file alone
@@ -118,7 +119,7 @@ std::optional<Problem> SceneReading::hash_file(const std::filesystem::path& path
       XXH3_64bits_update(each, part.data(), static_cast<size_t>(n));
   if (n < 0) return problem_in(path, "this file cannot be read");
   scene.content_hash = XXH3_64bits_digest(state.get());
-  files.add(path.string(), XXH3_64bits_digest(own.get()));
+  if (life == FileLife::settled) files.add(path.string(), XXH3_64bits_digest(own.get()), before);
   return std::nullopt;
 }
 

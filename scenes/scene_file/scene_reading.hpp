@@ -104,10 +104,12 @@ class SceneReading {
   /// Default of an object's patch edge [m].
   double patch_edge_m = 0.5;
 
-  /// Takes the file's bytes into the content hash, and the file among those that were read (once
-  /// per file).
+  /// Takes the file's bytes into the content hash, and a settled file among those that were read
+  /// (once per file). Called before the file is read: what is written to it in between is then a
+  /// change.
   /// Errors: a file that cannot be read.
-  std::optional<Problem> hash_file(const std::filesystem::path& path);
+  std::optional<Problem> hash_file(const std::filesystem::path& path,
+                                   FileLife life = FileLife::settled);
   void hash_bytes(std::string_view bytes);
   FilesAsRead files;
 

@@ -1,7 +1,7 @@
 // The files that a scene was read from, each with a hash of its bytes: what goes on with a scene
 // for long, and reads states of it at other times, tells by them that the scene on the disk is
-// another one now. Frames of fire simulations are not among them: a simulation that still runs adds
-// to them. Plain values; any thread.
+// another one now. Index and frames of fire simulations are not among them: a simulation that still
+// runs adds to them. Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,48 @@
 
 namespace luxodus {
 
+/// Whether a file stays as it is while a scene is open, or is written to by a program that runs.
+enum class FileLife { settled, grows };
+
+/// What the file system says of a file. Two that are equal are of the same bytes, unless the file
+/// had been written so shortly before the first that a later write has the same time.
+struct FileStamp {
+  uint64_t device = 0, inode = 0, bytes = 0;
+  int64_t changed_ns = 0;  // of the status, which every write changes and no program sets
+  bool sure = false;       // the file was last written well before
+
+  bool same_as(const FileStamp& later) const {
+    return sure && device == later.device && inode == later.inode && bytes == later.bytes &&
+           changed_ns == later.changed_ns;
+  }
+};
+
 class FilesAsRead {
  public:
-  void add(const std::string& path, uint64_t hash) { hashes_[path] = hash; }
+  /// `before`: of the file before it was hashed; without it the file is read whenever it is asked
+  /// for.
+  void add(const std::string& path, uint64_t hash, FileStamp before = {}) {
+    files_[path] = {hash, before};
+  }
   /// The hash of a file that was added; none of others.
   std::optional<uint64_t> hash_of(const std::string& path) const;
 
-  /// The first file that is not on the disk any more, or has other bytes there. Reads all of them.
+  /// The first file that is not on the disk any more, or has other bytes there. Reads those whose
+  /// stamps are others.
   std::optional<Problem> change_on_disk() const;
   /// The first file that a later reading of the scene has found with other bytes.
   std::optional<Problem> change_in(const FilesAsRead& later) const;
 
  private:
-  std::map<std::string, uint64_t> hashes_;  // by path
+  struct File {
+    uint64_t hash = 0;
+    FileStamp stamp;
+  };
+  std::map<std::string, File> files_;  // by path
 };
+
+/// Of an open file. A stamp that cannot be had is that of no file, and not sure.
+FileStamp stamp_of(int descriptor);
 
 /// XXH3 of the bytes of a file. Errors: as open_regular_file; a failed read.
 Result<uint64_t> hash_of_file(const std::string& path);

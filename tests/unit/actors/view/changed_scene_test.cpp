@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "actors/run/open_scene.hpp"
+#include "scenes/world/files_as_read.hpp"
 #include "tests/kit/small_fire.hpp"
 #include "tests/unit/actors/view/hub_kit.hpp"
 
@@ -74,7 +75,8 @@ TEST_CASE("verdicts at frames are not of an edited scene, though a simulation ma
   const std::string label = "SOOT EXTINCTION COEFFICIENT";
   const auto thin = cell_values(mesh, [](int, int, int) { return 0.1F; });
   folder.write("a.sf", slice_file(mesh, label, {{0, thin}}));
-  folder.write("fire.smv", index_of_meshes({mesh}) + slice_entry(1, true, mesh, "a.sf", label));
+  const std::string index = index_of_meshes({mesh}) + slice_entry(1, true, mesh, "a.sf", label);
+  folder.write("fire.smv", index);
   const std::string text = watched_room +
                            "[[medium]]\nname = \"fire\"\nkind = \"fds\"\nfile = \"fire.smv\"\n"
                            "at_s = 0\nalbedo = 0.2\ng = 0.6\nangstrom = 1\n";
@@ -82,6 +84,9 @@ TEST_CASE("verdicts at frames are not of an edited scene, though a simulation ma
   const auto scene = described(file);
   const auto before = FrameScenes::of(*scene, file, std::nullopt);
   folder.write("a.sf", slice_file(mesh, label, {{0, thin}, {10, thin}}));
+  // FDS adds what happens to its index, too.
+  folder.write("fire.smv", index + "HIDE_OBST   1\n         1   0.50000E+01\n");
+  CHECK_FALSE(scene->files->change_on_disk());
   CHECK(before->at(std::nullopt).ok());
   const auto after = FrameScenes::of(*scene, file, std::nullopt);
   folder.write("scene.toml", text + "# a word\n");

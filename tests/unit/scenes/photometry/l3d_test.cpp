@@ -228,10 +228,21 @@ TEST_CASE("of a material library names and diffuse colours are kept, and nothing
   small.obj = coloured_box_obj("paint box.mtl");
   small.library =
       "# paint\nKd 1 1 1\nnewmtl red\r\n  Kd 1 0.1 0.05\nKs 1 1 1\nmap_Kd /etc/passwd\n"
-      "newmtl odd\nKd 2 0 0\nKd 0 nan 0\nKd 1 1\nKd 1 1 1 1\nnewmtl\nmtllib other.mtl\n";
+      "newmtl odd\nKd 2 0 0\nKd 0 nan 0\nKd 1 1\nKd 1 1 1 1\nnewmtl\nmtllib other.mtl\n"
+      "newmtl late\rKd 9 9 9\rKd 0 0 1\n";
   const L3dModel model = read_model(small);
-  CHECK(model.shapes[0].colours == "newmtl red\nKd 1 0.1 0.05\nnewmtl odd\n");
+  CHECK(model.shapes[0].colours ==
+        "newmtl red\nKd 1 0.1 0.05\nnewmtl odd\nKd 0.7 0.7 0.7\nnewmtl late\nKd 0 0 1\n");
   CHECK(model.shapes[0].obj == coloured_box_obj(l3d_library));
+}
+
+TEST_CASE("a library without a colour is none", "[photometry][l3d]") {
+  SmallL3d small;
+  small.obj = coloured_box_obj("paint box.mtl");
+  small.library = "newmtl red\nmap_Kd red.png\nnewmtl odd\nKd 2 0 0\n";
+  const L3dModel model = read_model(small);
+  CHECK(model.shapes[0].colours.empty());
+  CHECK(model.shapes[0].obj == small.obj);
 }
 
 TEST_CASE("a library that is not there, lies elsewhere or is too large leaves its colours out",
