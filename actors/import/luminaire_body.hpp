@@ -1,5 +1,6 @@
 // The body of a luminaire from the parts of its model (L3D): their shapes are OBJ files, which the
-// reader of meshes takes in, placed and joined to one mesh, with the diffuse colours of their materials. Any thread.
+// reader of meshes takes in, placed and joined to one mesh, with the diffuse colours of their
+// materials. Any thread.
 #pragma once
 
 #include <filesystem>

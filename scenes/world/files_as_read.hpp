@@ -9,25 +9,13 @@
 #include <optional>
 #include <string>
 
+#include "runtime/core/file_stamp.hpp"
 #include "runtime/core/result.hpp"
 
 namespace luxodus {
 
 /// Whether a file stays as it is while a scene is open, or is written to by a program that runs.
 enum class FileLife { settled, grows };
-
-/// What the file system says of a file. Two that are equal are of the same bytes, unless the file
-/// had been written so shortly before the first that a later write has the same time.
-struct FileStamp {
-  uint64_t device = 0, inode = 0, bytes = 0;
-  int64_t changed_ns = 0;  // of the status, which every write changes and no program sets
-  bool sure = false;       // the file was last written well before
-
-  bool same_as(const FileStamp& later) const {
-    return sure && device == later.device && inode == later.inode && bytes == later.bytes &&
-           changed_ns == later.changed_ns;
-  }
-};
 
 class FilesAsRead {
  public:
@@ -52,9 +40,6 @@ class FilesAsRead {
   };
   std::map<std::string, File> files_;  // by path
 };
-
-/// Of an open file. A stamp that cannot be had is that of no file, and not sure.
-FileStamp stamp_of(int descriptor);
 
 /// XXH3 of the bytes of a file. Errors: as open_regular_file; a failed read.
 Result<uint64_t> hash_of_file(const std::string& path);
