@@ -52,7 +52,7 @@ void ShowControl::answer(Address to, const MessageId& question, const ShowTotals
 }
 
 void ShowControl::tell_end(const RunEnded& ended, Nanoseconds now) {
-  if (!any() || saved_ || !(telling_.is_due(now) || telling_.has_rested(now))) return;
+  if (!any() || saved_ || !telling_.may_remind(now)) return;
   const Address display{*display_, ActorName::display};
   if (sender_.send(self_, display, sender_.next_id(), ended) == SendOutcome::taken)
     telling_.asked(now);

@@ -122,24 +122,20 @@ void Coordinator::tell_fenced(const std::vector<Lease>& leases) {
 /// these would ask in vain. Each look tells as many others, in turn, and again who does not come.
 void Coordinator::offer_batches() {
   if (!begun_ || over_) return;
+  const RoundOpened more{round(), static_cast<uint64_t>(book_.end()), state()};
   int64_t batches = book_.waiting();
   auto at = last_grant_.upper_bound(last_offered_);
   for (size_t tried = 0; batches > 0 && tried < last_grant_.size(); ++tried, ++at) {
     if (at == last_grant_.end()) at = last_grant_.begin();
     auto& [worker, last] = *at;
-    if (last.offer.is_open() && !last.offer.is_due(clock_.now())) continue;
+    if (!last.offer.may_ask(clock_.now())) continue;
     if (std::get<LeaseGranted>(last.answer).batches > 0) continue;
     if (!peers_.at(worker).traces() || !network_.reaches(worker)) continue;
-    if (send_opened(worker) != SendOutcome::taken) continue;
+    if (send(worker, sender().next_id(), more) != SendOutcome::taken) continue;
     last.offer.asked(clock_.now());
     last_offered_ = worker;
     --batches;
   }
-}
-
-SendOutcome Coordinator::send_opened(NodeId worker) {
-  return send(worker, sender().next_id(),
-              RoundOpened{round(), static_cast<uint64_t>(book_.end()), state()});
 }
 
 void Coordinator::add_metrics(Metrics& metrics) const {
@@ -287,9 +283,8 @@ void Coordinator::tell_end() {
   if (keeps_end_to_itself()) return;
   before_end_is_told();
   for (const auto& [worker, peer] : peers_) {
-    const bool due = peer.telling.is_due(clock_.now()) || peer.telling.has_rested(clock_.now());
-    if (due && is_told(peer) && std::count(untold_.begin(), untold_.end(), worker) == 0)
-      untold_.push_back(worker);
+    if (!is_told(peer) || !peer.telling.may_remind(clock_.now())) continue;
+    if (std::count(untold_.begin(), untold_.end(), worker) == 0) untold_.push_back(worker);
   }
   tell_untold();
 }

@@ -190,7 +190,6 @@ class Coordinator
   void fence(const std::vector<Lease>& leases, const char* why);
   void tell_fenced(const std::vector<Lease>& leases);
   void offer_batches();
-  SendOutcome send_opened(NodeId worker);
   void go_on_counting();
   void look_soon();
   /// Lets others have their turn. A node that is to end goes on: what is begun is whole in the end.

@@ -139,7 +139,7 @@ void ShardControl::put(const Shard& shard, Question& question, const Message& me
 }
 
 void ShardControl::put_again(const Shard& shard, Question& question, const Message& message) {
-  if (question.timer.is_open() && !question.timer.is_due(clock_.now())) return;
+  if (!question.timer.may_ask(clock_.now())) return;
   ++counters_.asked_again;
   put(shard, question, message);
 }

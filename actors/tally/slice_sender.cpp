@@ -65,7 +65,7 @@ std::vector<uint64_t> SliceSender::hashes() const {
 }
 
 void SliceSender::ask_again(Nanoseconds now) {
-  if (!placed() && (!timer_.is_open() || timer_.is_due(now))) put_missing(now);
+  if (!placed() && timer_.may_ask(now)) put_missing(now);
 }
 
 void SliceSender::ask_now(Nanoseconds now) {

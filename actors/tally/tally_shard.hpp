@@ -7,8 +7,7 @@
 // What if a message is lost, late, or comes twice?
 // - A slice: the worker sends it until it is told that the slice is held. One that comes again is
 //   answered again; one of a flush that was decided meanwhile is old, and gets no answer.
-// - A decision: the controller repeats it until it is answered. Those about one node it sends one
-// by
+// - A decision: the controller repeats it until it is answered. Of one node it sends them one by
 //   one, each when the one before was answered; so what is older than the last is answered, and
 //   nothing done.
 // - A question for totals: it names the piece. The last piece is kept until the next one is asked

@@ -15,12 +15,11 @@ namespace luxodus {
 class RetryTimer {
  public:
   /// All waits lie between these.
-  RetryTimer(Nanoseconds least, Nanoseconds most)
-      : least_(least), most_(std::max(least, most)), first_wait_(least) {}
+  RetryTimer(Nanoseconds least, Nanoseconds most) : least_(least), most_(std::max(least, most)) {}
 
   /// The question is on its way, for the first time or again.
   void asked(Nanoseconds now) {
-    wait_ = begun_ ? std::min(2 * wait_, most_) : first_wait_;
+    wait_ = begun_ ? std::min(2 * wait_, most_) : first_wait();
     if (!begun_) begun_ = now;
     asked_ = now;
   }
@@ -30,17 +29,18 @@ class RetryTimer {
   void answered(Nanoseconds now) {
     if (!begun_) return;
     took_ = std::clamp(took_, now - asked_, now - *begun_);
-    first_wait_ = std::clamp(2 * took_, least_, most_);
     begun_.reset();
     answered_ = now;
   }
   /// Nobody wants the answer any more.
   void forget() { begun_.reset(); }
 
+  /// Asked, and not answered for too long.
   bool is_due(Nanoseconds now) const { return begun_ && now - asked_ >= wait_; }
-  bool is_open() const { return begun_.has_value(); }  // asked, and not answered
+  /// Nothing is on its way that may yet be answered in time.
+  bool may_ask(Nanoseconds now) const { return !begun_ || is_due(now); }
   /// How long the next question will wait before it is asked again.
-  Nanoseconds first_wait() const { return first_wait_; }
+  Nanoseconds first_wait() const { return std::clamp(2 * took_, least_, most_); }
   /// How long to leave the network to others after an answer, where the next question can wait:
   /// then what a thousand nodes ask in vain takes a ninth of what a slow network carries.
   Nanoseconds rest() const { return std::clamp(8 * took_, least_, most_); }
@@ -48,12 +48,13 @@ class RetryTimer {
   bool has_rested(Nanoseconds now) const {
     return !begun_ && (!answered_ || now - *answered_ >= rest());
   }
+  /// Of what is said again and again, though it was answered.
+  bool may_remind(Nanoseconds now) const { return is_due(now) || has_rested(now); }
   /// How long an answer takes, as far as is known; 0: there was none.
   Nanoseconds took() const { return took_; }
 
  private:
   Nanoseconds least_, most_;
-  Nanoseconds first_wait_;
   Nanoseconds took_ = 0;
   std::optional<Nanoseconds> begun_;     // asking
   std::optional<Nanoseconds> answered_;  // for the last time

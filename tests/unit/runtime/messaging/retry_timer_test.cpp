@@ -11,12 +11,13 @@ constexpr Nanoseconds least = seconds(2), most = seconds(30);
 TEST_CASE("a question is asked again after the least wait, then each time after twice as long",
           "[messaging]") {
   RetryTimer timer(least, most);
-  CHECK_FALSE(timer.is_open());
+  CHECK(timer.may_ask(0));
   CHECK_FALSE(timer.is_due(seconds(100)));  // nothing was asked
   Nanoseconds now = 0;
   for (const Nanoseconds wait : {seconds(2), seconds(4), seconds(8), seconds(16), most, most}) {
     timer.asked(now);
-    CHECK(timer.is_open());
+    CHECK_FALSE(timer.may_ask(now + wait - 1));
+    CHECK(timer.may_ask(now + wait));
     CHECK_FALSE(timer.is_due(now + wait - 1));
     CHECK(timer.is_due(now + wait));
     now += wait;
@@ -55,7 +56,7 @@ TEST_CASE("what is asked in place of a question that was given up begins with th
   timer.asked(0);
   timer.asked(seconds(2));
   timer.forget();
-  CHECK_FALSE(timer.is_open());
+  CHECK(timer.may_ask(seconds(2)));
   timer.asked(seconds(3));
   CHECK(timer.is_due(seconds(5)));
 }
