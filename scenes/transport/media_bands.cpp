@@ -36,6 +36,10 @@ MediaBands::MediaBands(const CompiledScene& scene)
   grey_ = !ratio_.empty() && std::all_of(ratio_.begin(), ratio_.end(), [](double ratio) {
     return std::abs(ratio - 1) <= same_ratio;
   });
+  const MediaTables& tables = scene.media.tables();
+  for (int c = 0; c < static_cast<int>(tables.components.size()); ++c)
+    for (int b = 0; b < scene.bands.count(); ++b)
+      most_scattered_ = std::max(most_scattered_, tables.albedo_of(b, c));
 }
 
 void MediaBands::albedos(const FreeFlight& flight, const PathBands& bands, BandValues& out) const {

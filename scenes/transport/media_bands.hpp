@@ -18,6 +18,8 @@ class MediaBands {
 
   /// Whether all bands fly and collide alike.
   bool grey() const { return grey_; }
+  /// Of what collisions take, what any medium scatters at most, in any band.
+  double most_scattered() const { return most_scattered_; }
 
   /// Optical depth of each band along the ray.
   template <class Resolver>
@@ -95,6 +97,7 @@ class MediaBands {
   const CompiledScene& scene_;
   std::vector<double> ratio_;  // by band, of the extinctions of all media; empty: there is no one
   bool grey_ = false;          // all ratios are 1
+  double most_scattered_ = 0;
 };
 
 }  // namespace luxodus

@@ -31,6 +31,11 @@ inline constexpr int eye_events = 10'000;
 /// Parts that a path of a picture is split into in scenes with media, where it ends in known light.
 /// More cost what they gain, as any do in clear air.
 inline constexpr int path_parts = 2;
+/// What a collision in smoke that takes nothing is worth, by what a surface is, where paths are
+/// split: so much more often than by their light first flights collide.
+inline constexpr double collision_worth = 4;
+/// Of first flights, those that collide at most where more do than free ones: of two parts, one.
+inline constexpr double most_forced = 0.5;
 }  // namespace limits
 
 template <class Resolver>
@@ -214,30 +219,56 @@ class PathTracer {
     next_event_.start_event(0);
     const Hit hit = resolver_.nearest(path.ray);
     if (path.counted != EmitterHits::none) met_.add_along(path, hit);
-    // Collisions of all parts together are so much denser.
-    const Stretch stretch{path.ray, line_end(scene_, hit.distance), 1.0 / parts, path.bands};
     const bool media = scene_.features.media != MediaNeed::none;
+    const Real end = line_end(scene_, hit.distance);
+    const double more = media ? more_collisions(path, end) : 1;
+    // Collisions of all parts together are denser than those of one free flight.
+    const Stretch stretch{path.ray, end, 1.0 / (parts * more), path.bands};
     if (media) {
+      const double collides = 1 - through_[path.bands.hero_place()];
       const uint32_t bits = random_.bits();
       const Real choice = random_.uniform();
       constexpr double step = 0.6180339887498949;  // the golden ratio's
       for (int i = 0; i < parts; ++i) {
-        flights_.push_back(fly_by(path.ray, hit.distance, path.bands.hero(),
-                                  bits_of_part(bits, i, parts), moved_on(choice, i, step)));
+        const double u = uniform_of(bits_of_part(bits, i, parts)) / more;
+        if (u >= collides) continue;
+        flights_.push_back(fly_by(path.ray, hit.distance, path.bands.hero(), -std::log1p(-u),
+                                  moved_on(choice, i, step)));
       }
       std::erase_if(flights_, [](const FreeFlight& flight) { return !flight.collided; });
     }
     const int passing = parts - static_cast<int>(flights_.size());
-    if (passing > 0 && hit.found()) split_at_surface(path, hit, passing, parts);
+    if (passing > 0 && hit.found()) split_at_surface(path, hit, passing, parts, more);
     // Last, since asking may drop the cell that the hit is of.
-    if (media) split_in_medium(path, stretch, parts);
+    if (media) split_in_medium(path, stretch);
+  }
+
+  /// By how much more often the first flight collides than a free one does, in all bands alike.
+  /// Thin smoke that scatters well brings more light than its few collisions find. Into `through_`,
+  /// what the media pass of each band.
+  double more_collisions(const Path& path, Real end) {
+    const MediaBands& media = next_event_.media();
+    media.transmittances(path.ray, end, path.bands, through_, resolver_);
+    const double least = *std::min_element(through_.begin(), through_.begin() + path.bands.count());
+    const double free = 1 - least;
+    if (!(free > 0)) return 1;
+    const double brought = limits::collision_worth * media.most_scattered() * free;
+    const double wanted = std::min(limits::most_forced, brought / (brought + least));
+    return std::max(1.0, wanted / free);
+  }
+
+  /// The light that a medium passes up to the surface, where flights collide `more` often than free
+  /// ones.
+  void reach_surface(Path& p, double more) {
+    for (size_t i = 0; i < p.bands.count(); ++i) drawn_[i] = 1 - more * (1 - through_[i]);
+    const double all = p.bands.mixed([&](size_t i) { return drawn_[i]; });
+    for (size_t i = 0; i < p.bands.count(); ++i) passed_[i] = through_[i] / all;
+    p.bands.go_on(passed_, drawn_, all);
   }
 
   /// `passing` of the parts reach the surface.
-  void split_at_surface(Path path, const Hit& hit, int passing, int parts) {
-    FreeFlight through;
-    through.t = hit.distance;
-    pass_media(path, through);
+  void split_at_surface(Path path, const Hit& hit, int passing, int parts, double more) {
+    if (scene_.features.media != MediaNeed::none) reach_surface(path, more);
     const SurfaceEvent event = meet(path, hit);
     path.weight *= static_cast<double>(passing) / parts;
     add_reflected(path, event);
@@ -250,7 +281,7 @@ class PathTracer {
   }
 
   /// `flights_` have collided.
-  void split_in_medium(const Path& path, const Stretch& stretch, int parts) {
+  void split_in_medium(const Path& path, const Stretch& stretch) {
     const bool emitters_near = next_event_.add_near(stretch, path.weight, path.into);
     if (flights_.empty()) return;
     const TurnNumbers numbers = medium_numbers();
@@ -260,7 +291,7 @@ class PathTracer {
       next_event_.add_collided(stretch, flights_[i], emitters_near, passed_, path.weight,
                                path.into);
       if (part.bands.brightest() <= 0) continue;
-      part.weight /= parts;
+      part.weight *= stretch.share;
       turn_in_medium(part, flights_[i], stretch, numbers.of_part(static_cast<int>(i)));
       parts_.push_back(part);
     }
@@ -288,12 +319,14 @@ class PathTracer {
 
   FreeFlight fly(const Ray& ray, Real length, int band) {
     if (scene_.features.media == MediaNeed::none) return {};
-    const uint32_t bits = random_.bits();
-    return fly_by(ray, length, band, bits, random_.uniform());
+    const double u = uniform_of(random_.bits());
+    return fly_by(ray, length, band, -std::log(1 - u), random_.uniform());
   }
 
-  FreeFlight fly_by(const Ray& ray, Real length, int band, uint32_t bits, Real choice) {
-    const double tau = -std::log((4294967296.0 - static_cast<double>(bits)) * 0x1p-32);
+  /// In [0, 1), by steps of 2^-32.
+  static double uniform_of(uint32_t bits) { return static_cast<double>(bits) * 0x1p-32; }
+
+  FreeFlight fly_by(const Ray& ray, Real length, int band, double tau, Real choice) {
     return free_flight<MediaNeed::general>(scene_.media, band, ray.origin, ray.direction, length,
                                            tau, choice, resolver_);
   }
@@ -555,7 +588,7 @@ class PathTracer {
   EmittersMet<Resolver> met_;
   int brightest_band_ = 0;            // of the most lumens a watt
   std::vector<SurfaceModel> models_;  // of the path's bands, at the last surface
-  BandValues passed_, drawn_;
+  BandValues passed_, drawn_, through_;
   GroupLight straight_;
   std::vector<Path> parts_;          // of the path that was split last
   std::vector<FreeFlight> flights_;  // theirs

@@ -209,6 +209,36 @@ position = [1.5, 1.5, 2.4]
 flux_lm = 1000
 )";
 
+/// Haze in which few free flights collide, and six times as many in blue as in red: of the first
+/// ones more are made to.
+const std::string hazy_room = R"(
+patch_edge_m = 0.5
+[run]
+max_bands = 4
+voxel_edge_m = 0.5
+[[material]]
+name = "ochre"
+reflectance = [[400, 0.1], [700, 0.4]]
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [4, 3, 2.5]
+material = "ochre"
+[[medium]]
+name = "haze"
+kind = "homogeneous"
+extinction = 0.03
+angstrom = 3
+albedo = 0.95
+[[emitter]]
+name = "lamp"
+shape = "rectangle"
+size = [0.6, 0.3]
+position = [1.5, 1.5, 2.4]
+flux_lm = 1000
+)";
+
 /// Light of a band along some rays, by many paths.
 struct BandLight {
   double mean = 0, error = 0;
@@ -312,6 +342,9 @@ TEST_CASE("a path of all bands brings of each what a path of that band brings", 
   }
   SECTION("smoke that scatters some bands alone") {
     check_alike(red_smoke_room, {0.3f, 0.4f, 1.5f}, {1, 0.4f, -0.2f}, gather);
+  }
+  SECTION("haze that is thicker in blue") {
+    check_alike(hazy_room, {0.3f, 0.4f, 1.5f}, {1, 0.4f, -0.2f}, gather);
   }
   SECTION("a flame in soot") {
     check_alike(flame_room, {-1.3f, -1.0f, 1.3f}, {1, 0.9f, -0.3f}, gather);
