@@ -288,12 +288,12 @@ constexpr ReportText design_rows[] = {
       "places. Que d’autres luminaires aident à lire ces panneaux dans cette fumée n’est pas "
       "montré."}},
     {"design.smoke_better",
-     {"Layout {0} has {1} new luminaires instead of {2}, and a sign is read from {3}: it is "
-      "recommended.",
-      "Anordnung {0} hat {1} statt {2} neue Leuchten, und von {3} ist ein Zeichen lesbar: sie wird "
-      "empfohlen.",
+     {"Layout {0} has {1} new luminaires instead of {2}, and a sign is read from {3}, {4} beside "
+      "layout {5} by the same paths: it is recommended.",
+      "Anordnung {0} hat {1} statt {2} neue Leuchten, und von {3} ist ein Zeichen lesbar, {4} "
+      "gegen Anordnung {5} nach denselben Strahlen: sie wird empfohlen.",
       "L’implantation {0} a {1} luminaires neufs au lieu de {2}, et un panneau est lisible depuis "
-      "{3} : elle est recommandée."}},
+      "{3}, {4} face à l’implantation {5} d’après les mêmes chemins : elle est recommandée."}},
     {"design.smoke_signs_help",
      {"Signs {0} times as bright would be read from {1}: that helps more than any layout that was "
       "tried.",
@@ -408,20 +408,28 @@ constexpr ReportText design_rows[] = {
     {"design.smoke_read",
      {"A sign ahead is read from", "Ein Zeichen voraus ist lesbar von",
       "Un panneau est lisible depuis"}},
+    {"design.smoke_beyond_first", {"Beside A", "Gegen A", "Face à A"}},
     {"design.smoke_file", {"File", "Datei", "Fichier"}},
     {"design.smoke_note",
      {"Of the length of all routes, at all eye heights of the scene. A sign is ahead within {0} "
       "degrees of the way. ● marks layouts than which no other is read from more for no more. All "
       "pass the rules that luminaires decide, at their planned places; off these alone A was "
-      "looked at.",
+      "looked at. “Beside A” is by how much more is read than with A, within two standard errors. "
+      "It may be known better than either share: the same paths show both layouts, and err alike.",
       "Von der Länge aller Wege, in allen Augenhöhen der Szene. Ein Zeichen ist voraus innerhalb "
       "von {0} Grad vom Weg. ● bezeichnet Anordnungen, zu denen keine mit gleichem Aufwand "
       "lesbarer ist. Alle erfüllen die Regeln, über die Leuchten entscheiden, an ihren geplanten "
-      "Orten; daneben wurde nur A betrachtet.",
+      "Orten; daneben wurde nur A betrachtet. „Gegen A“ ist, um wie viel mehr als mit A lesbar "
+      "ist, "
+      "innerhalb von zwei Standardfehlern. Es kann genauer bekannt sein als jeder Anteil: "
+      "dieselben Strahlen zeigen beide Anordnungen und irren gleich.",
       "De la longueur de tous les itinéraires, à toutes les hauteurs d’œil de la scène. Un panneau "
       "est devant à {0} degrés du chemin au plus. ● marque les implantations dont aucune autre "
       "n’est plus lisible pour autant. Toutes respectent les règles que les luminaires "
-      "décident, aux places prévues ; à côté de celles-ci, seule A a été examinée."}},
+      "décident, aux places prévues ; à côté de celles-ci, seule A a été examinée. « Face à A » "
+      "est "
+      "de combien on lit plus qu’avec A, à deux erreurs types près. Cela peut être mieux connu que "
+      "chaque part : les mêmes chemins montrent les deux implantations et se trompent autant."}},
     {"design.left_no_wall",
      {"{0} where no wall is flat", "{0}, wo keine Wand eben ist", "{0} où aucun mur n’est plan"}},
     {"design.left_glaring", {"{0} glaring (E8)", "{0} blendend (E8)", "{0} éblouissants (E8)"}},
