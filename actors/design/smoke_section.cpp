@@ -98,12 +98,12 @@ std::string share_words(const Texts& t, const Json& share) {
   return least == most ? least + " %" : t.say("design.smoke_range", least, most);
 }
 
-/// "+2 to +5 %", "-1 to +3 %", "0 %".
+/// "+2.1 to +5.0 %", "-1.1 to 0 %", "0 %".
 std::string difference_words(const Texts& t, const Json& difference) {
   const auto percent = [&](const char* end) {
-    const double value = std::round(100 * difference[end].get<double>());
-    const std::string size = t.fixed(std::abs(value), 0);
-    return value > 0 ? "+" + size : value < 0 ? "−" + size : size;
+    const double tenths = std::round(1000 * difference[end].get<double>());
+    if (tenths == 0) return std::string("0");
+    return (tenths > 0 ? "+" : "−") + t.fixed(std::abs(tenths) / 10, 1);
   };
   const std::string least = percent("least"), most = percent("most");
   return least == most ? least + " %" : t.say("design.smoke_range", least, most);
@@ -300,7 +300,7 @@ std::string smoke_section(const Texts& t, const Json& design) {
   out += plot_of(t, design);
   const bool followed = is_followed(smoke["layouts"][0]);
   std::vector<const char*> columns{"design.smoke_layout", "column.count",
-                                   "design.cost",         "design.watts",
+                                   "design.smoke_cost",   "design.smoke_watts",
                                    "design.smoke_read",   "design.smoke_beyond_first",
                                    "design.smoke_file"};
   std::vector<int> widths{14, 8, 10, 10, 26, 14, 18};

@@ -9,6 +9,7 @@ constexpr ReportText design_rows[] = {
     {"design.page",
      {"Layout of emergency luminaires", "Anordnung von Notleuchten",
       "Implantation de luminaires de secours"}},
+    {"design.luminaire", {"{0} new luminaire", "{0} neue Leuchte", "{0} luminaire neuf"}},
     {"design.luminaires", {"{0} new luminaires", "{0} neue Leuchten", "{0} luminaires neufs"}},
     {"design.kept", {"{0} stay", "{0} bleiben", "{0} restent"}},
     {"design.battery", {"battery class", "Batterieklasse", "classe de batterie"}},
@@ -88,14 +89,15 @@ constexpr ReportText design_rows[] = {
       "Keine Anordnung dieser Kandidaten wurde gefunden, deren Mindestwerte dann gelten.",
       "Aucune implantation de ces candidats n’a été trouvée dont les minimums tiennent alors."}},
     {"design.signs_heading", {"Signs", "Zeichen", "Panneaux"}},
-    {"design.signs",
-     {"{0} new signs. From everywhere on the routes, but for what is named below, a sign ahead is "
-      "seen within its viewing distance that belongs to the route and points along it.",
-      "{0} neue Zeichen. Von überall auf den Wegen, außer wo unten genannt, ist voraus innerhalb "
-      "der Erkennungsweite ein Zeichen zu sehen, das zum Weg gehört und an ihm entlang zeigt.",
-      "{0} panneaux neufs. De partout sur les itinéraires, sauf mention ci-dessous, on voit devant "
-      "soi, à sa distance de vision, un panneau qui appartient à l’itinéraire et pointe le long de "
-      "celui-ci."}},
+    {"design.sign", {"{0} new sign.", "{0} neues Zeichen.", "{0} panneau neuf."}},
+    {"design.signs", {"{0} new signs.", "{0} neue Zeichen.", "{0} panneaux neufs."}},
+    {"design.signs_guide",
+     {"From everywhere on the routes, but for what is named below, a sign ahead is seen within its "
+      "viewing distance that belongs to the route and points along it.",
+      "Von überall auf den Wegen, außer wo unten genannt, ist voraus innerhalb der "
+      "Erkennungsweite ein Zeichen zu sehen, das zum Weg gehört und an ihm entlang zeigt.",
+      "De partout sur les itinéraires, sauf mention ci-dessous, on voit devant soi, à sa distance "
+      "de vision, un panneau qui appartient à l’itinéraire et pointe le long de celui-ci."}},
     {"design.signs_optimal",
      {"No plan with these places has less.", "Kein Plan mit diesen Orten hat weniger.",
       "Aucun plan avec ces places n’a moins."}},
@@ -408,6 +410,8 @@ constexpr ReportText design_rows[] = {
     {"design.smoke_read",
      {"A sign ahead is read from", "Ein Zeichen voraus ist lesbar von",
       "Un panneau est lisible depuis"}},
+    {"design.smoke_cost", {"Cost", "Kosten", "Coût"}},
+    {"design.smoke_watts", {"Power", "Leistung", "Puissance"}},
     {"design.smoke_beyond_first", {"Beside A", "Gegen A", "Face à A"}},
     {"design.smoke_file", {"File", "Datei", "Fichier"}},
     {"design.smoke_note",

@@ -208,11 +208,11 @@ TEST_CASE("a layout is dropped that is surely read less than one that costs no m
   std::string told;
   for (const std::string& line : smoke_words(english, smoke)) told += line + "\n";
   INFO(told);
-  CHECK(told.find("+2 to +10 % beside layout A by the same paths") != std::string::npos);
+  CHECK(told.find("+2.0 to +10.0 % beside layout A by the same paths") != std::string::npos);
   const std::string page =
       smoke_section(english, {{"objective", {{"kind", "number"}}}, {"smoke", smoke}});
-  CHECK(page.find("−10 to −2 %") != std::string::npos);
-  CHECK(page.find("−5 to +5 %") != std::string::npos);
+  CHECK(page.find("−10.0 to −2.0 %") != std::string::npos);
+  CHECK(page.find("−5.0 to +5.0 %") != std::string::npos);
 }
 
 TEST_CASE("paths that layouts share know what these differ by better than each", "[design]") {
