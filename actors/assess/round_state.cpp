@@ -32,6 +32,16 @@ void set_albedo(SceneDescription& scene, double albedo) {
     if (!is_flame(medium)) medium.data.albedo.clear();
 }
 
+/// What light has more than other light of the same groups.
+GroupMixture minus(const GroupMixture& light, const GroupMixture& other) {
+  GroupMixture out;
+  for (const GroupMixture* one : {&light, &other})
+    for (const auto& [group, factor] : one->factors)
+      out.factors[group] = light.factor_of(group) - other.factor_of(group);
+  out.of_others = light.of_others - other.of_others;
+  return out;
+}
+
 // What is not there or of another type is thrown by Json, and caught below.
 
 glm::dvec3 vector_of(const Json& list) {
@@ -113,6 +123,11 @@ std::vector<GroupMixture> JudgedScene::mixtures() const {
   for (const JudgedLight& light : lights) {
     out.push_back(light.aged);
     if (ageing.any()) out.push_back(light.as_new);
+  }
+  const JudgedLight& first = lights.front();
+  for (size_t light = 1; light < lights.size(); ++light) {
+    out.push_back(minus(lights[light].aged, first.aged));
+    if (ageing.any()) out.push_back(minus(lights[light].as_new, first.as_new));
   }
   return out;
 }

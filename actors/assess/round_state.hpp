@@ -66,11 +66,18 @@ struct JudgedScene {
   Ageing ageing;                    // by which its sources are grouped
   std::vector<JudgedLight> lights;  // at least one
 
-  /// Of all lights: the aged one, and the new one where luminaires age.
+  /// Of all lights: the aged one, and the new one where luminaires age. Then what each light but
+  /// the first has more than the first, in the same order: paths that all lights share err alike.
   std::vector<GroupMixture> mixtures() const;
-  size_t aged_mixture(size_t light) const { return ageing.any() ? 2 * light : light; }
+  size_t lights_mixtures() const { return per_light() * lights.size(); }
+  size_t aged_mixture(size_t light) const { return per_light() * light; }
   /// Requires: luminaires age.
-  size_t new_mixture(size_t light) const { return 2 * light + 1; }
+  size_t new_mixture(size_t light) const { return per_light() * light + 1; }
+  /// Requires: not the first light, and luminaires age where the new light is asked for.
+  size_t mixture_beyond_first(size_t light, bool as_new) const {
+    return lights_mixtures() + per_light() * (light - 1) + (as_new ? 1 : 0);
+  }
+  size_t per_light() const { return ageing.any() ? 2 : 1; }
 };
 
 /// A scenario with the extinctions of all media times a factor, named ones too.

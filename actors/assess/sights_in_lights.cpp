@@ -184,6 +184,11 @@ SightsInLights::SightsInLights(const JudgedScene& judged, const std::vector<Obse
       options_(options),
       rows_(judged.lights.size()) {}
 
+std::optional<double> SightsInLights::error_beyond_first(size_t light, size_t row) const {
+  const double error = errors_beyond_first_[light][row];
+  return std::isnan(error) ? std::nullopt : std::optional(error);
+}
+
 bool SightsInLights::is_open(size_t light) const {
   return std::find(open_[light].begin(), open_[light].end(), true) != open_[light].end();
 }
@@ -221,7 +226,8 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
             {rows[i].size(), i, s,
              veils_of(building, access, row, s, scene_.assessment.age_years, factors)});
         const std::vector<double>& veils = faced[i].back().veils_cd_m2;
-        row.look.veil_cd_m2 = *std::max_element(veils.begin(), veils.end());
+        const auto of_lights = static_cast<std::ptrdiff_t>(judged_.lights_mixtures());
+        row.look.veil_cd_m2 = *std::max_element(veils.begin(), veils.begin() + of_lights);
       }
       rows[i].push_back(std::move(row));
     }
@@ -236,6 +242,9 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
   }
   std::fill(rows_.begin() + 1, rows_.end(), rows_.front());
   open_.assign(lights(), std::vector<bool>(faced_.size(), true));
+  errors_beyond_first_.assign(
+      lights(),
+      std::vector<double>(rows_.front().size(), std::numeric_limits<double>::quiet_NaN()));
   return {};
 }
 
@@ -285,6 +294,21 @@ void SightsInLights::judge_view(const Readout& readout, const CompiledScene& sce
   row.other = std::move(as_new);
 }
 
+/// Where both verdicts count in the same light, aged or new. Requires: the round has judged both.
+void SightsInLights::compare_with_first(const Readout& readout, const CompiledScene& scene,
+                                        const EyeTarget& target, const Faced& faced, size_t light) {
+  const SightRow &first = rows_.front()[faced.row], &row = rows_[light][faced.row];
+  double& error = errors_beyond_first_[light][faced.row];
+  error = std::numeric_limits<double>::quiet_NaN();
+  if (row.sight.verdict != SightVerdict::undecided || first.in_new_light != row.in_new_light)
+    return;
+  const size_t mixture = judged_.mixture_beyond_first(light, row.in_new_light);
+  const SignLook beyond =
+      ViewReadout(readout, scene, target, mixture).look(faced.veils_cd_m2[mixture]);
+  error =
+      error_of_level_beyond(first.look, row.look, beyond, row.view, {scene_.assessment.age_years});
+}
+
 void SightsInLights::judge(const CompiledScene& scene, const Totals& totals,
                            const std::vector<size_t>& views) {
   const Readout readout(scene, totals);
@@ -304,6 +328,8 @@ void SightsInLights::judge(const CompiledScene& scene, const Totals& totals,
         row.sight.reason = "it is seen edge-on";
       } else {
         judge_view(readout, scene, *target->second, faced, light);
+        if (light > 0 && open_.front()[view])
+          compare_with_first(readout, scene, *target->second, faced, light);
       }
       open_[light][view] = row.sight.verdict == SightVerdict::undecided;
     }

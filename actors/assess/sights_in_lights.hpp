@@ -4,6 +4,7 @@
 // verdict is undecided. Thread rule: one thread, which has batches traced by others.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "actors/assess/assessment.hpp"
@@ -34,6 +35,11 @@ class SightsInLights {
   bool is_open(size_t light) const;
   /// Of all views that the building lets be, in a light.
   const std::vector<SightRow>& rows(size_t light) const { return rows_[light]; }
+  /// Of a view that is undecided in the first light and in another one: the standard error of its
+  /// level of reading in that light less that in the first, which is smaller than that of either,
+  /// as paths show both. None where a verdict is given, and where one counts in aged light and the
+  /// other in new. Requires: not the first light.
+  std::optional<double> error_beyond_first(size_t light, size_t row) const;
   int64_t paths() const { return paths_; }
 
  private:
@@ -47,13 +53,16 @@ class SightsInLights {
   void judge(const CompiledScene& scene, const Totals& totals, const std::vector<size_t>& views);
   void judge_view(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
                   const Faced& faced, size_t light);
+  void compare_with_first(const Readout& readout, const CompiledScene& scene,
+                          const EyeTarget& target, const Faced& faced, size_t light);
 
   const JudgedScene& judged_;
   const SceneDescription& scene_ = judged_.scene;
   const std::vector<Observer>& observers_;
   const OtherSmoke smoke_;
   const AssessOptions& options_;
-  std::vector<std::vector<SightRow>> rows_;  // by light
+  std::vector<std::vector<SightRow>> rows_;               // by light
+  std::vector<std::vector<double>> errors_beyond_first_;  // by light, by row; NaN: not known
   std::vector<Stand> stands_;
   std::vector<Faced> faced_;
   std::vector<std::vector<bool>> open_;  // by light, by faced view

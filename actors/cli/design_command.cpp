@@ -89,15 +89,13 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
         "planned\n",
         result.between.added, 100 * result.between.least);
   std::printf("the layout, assessed: %s\n", words_of(counts_of(result.assessment.checks)).c_str());
-  for (const Check& check : result.others)
-    std::printf("  fails, and is not decided here: %s: %s\n", check.subject.c_str(),
-                check.rule.title.c_str());
+  for (const std::string& line : others_words(result.others)) std::printf("  %s\n", line.c_str());
   for (const UnusedType& one : result.unused) std::printf("  %s\n", unused_words(one).c_str());
   for (const std::string& name : result.unlit_flights)
     std::printf(
         "  not planned, as no candidate lights all of its treads: flight of stairs \"%s\"\n",
         name.c_str());
-  for (const HiddenByFurniture& one : result.hidden)
+  for (const HiddenByFurniture& one : joined_by_subject(result.hidden))
     std::printf("  planned without furniture, which hides %zu points from all candidates: %s, %s\n",
                 one.points, one.subject.c_str(), one.rule.c_str());
   for (size_t i = 0; i < result.groups.size(); ++i) {

@@ -187,7 +187,7 @@ class Designing {
       keep_bound();
       if (auto problem = judge()) return *problem;
       const auto failing = failing_checks(out_, out_.assessment, &out_.others);
-      const bool last = out_.verifications == max_verifications || interrupted();
+      const bool last = out_.verifications == max_verifications || interrupt_;
       if (!failing.empty()) {
         if (!last && ask_for_more(failing)) continue;
         if (!nearest_) return rejected(failing.front());
@@ -210,17 +210,16 @@ class Designing {
       break;
     }
     out_.tightest = tightest_of(demands_->problem(), out_.answer.layout);
-    if (options_.what_binds && !interrupted()) find_what_binds();
-    if ((scene_->design->refine || options_.refine) && !interrupted())
+    if (options_.what_binds && !interrupt_) find_what_binds();
+    if ((scene_->design->refine || options_.refine) && !interrupt_)
       if (auto problem = refine()) return *problem;
-    if (!scenarios_in_smoke().empty() && !interrupted())
+    if (!scenarios_in_smoke().empty() && !interrupt_)
       if (auto problem = judge_alternatives()) return *problem;
     return std::move(out_);
   }
 
  private:
   double seconds() const { return 1e-9 * static_cast<double>(clock_.now() - began_); }
-  bool interrupted() const { return interrupt_ || interrupted_; }
 
   std::optional<Problem> prepare() {
     progress_("inspecting the scene", no_objective, 0);
@@ -438,7 +437,6 @@ class Designing {
     }
     if (out_.verifications == 1) solving_since_ = out_.prepared_seconds = seconds();
     out_.answer = solve_layout(demands_->problem(), settings, interrupt_, progress_);
-    interrupted_ = interrupted_ || out_.answer.interrupted;
     if (out_.answer.end == LayoutEnd::infeasible) {
       progress_("looking for what cannot hold together", no_objective, 0);
       out_.conflict = conflict_of(demands_->problem(), conflict_seconds, interrupt_);
@@ -577,7 +575,6 @@ class Designing {
   std::optional<DesignResult> nearest_;
   bool rows_of_all_ = true;  // every layout that passes keeps all rows that were added
   double known_bound_ = 0;
-  bool interrupted_ = false;  // during a search, where CBC may have taken the signal
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "actors/assess/assessment_json.hpp"
 #include "actors/design/binding_words.hpp"
@@ -280,6 +281,38 @@ std::string outcome_words(const SceneDescription& scene, const DesignResult& res
       return "no layout exists";
     case LayoutEnd::unknown:
       return "no layout was found in time, and it is not known whether one exists";
+  }
+  return out;
+}
+
+std::vector<HiddenByFurniture> joined_by_subject(const std::vector<HiddenByFurniture>& hidden) {
+  std::vector<HiddenByFurniture> out;
+  for (const HiddenByFurniture& one : hidden) {
+    const auto at = std::find_if(out.begin(), out.end(), [&](const HiddenByFurniture& other) {
+      return other.subject == one.subject && other.points == one.points;
+    });
+    if (at == out.end())
+      out.push_back(one);
+    else
+      at->rule += ", " + one.rule;
+  }
+  return out;
+}
+
+std::vector<std::string> others_words(const std::vector<Check>& others) {
+  constexpr size_t told_one_by_one = 3;
+  std::vector<std::string> out;
+  std::set<std::string> told;
+  for (const Check& check : others) {
+    const auto of_rule =
+        static_cast<size_t>(std::count_if(others.begin(), others.end(), [&](const Check& one) {
+          return one.rule.title == check.rule.title;
+        }));
+    const bool together = of_rule > told_one_by_one;
+    if (together && !told.insert(check.rule.title).second) continue;
+    out.push_back(fmt::format("fails, and is not decided here: {}{}: {}", check.subject,
+                              together ? fmt::format(" and {} others", of_rule - 1) : "",
+                              check.rule.title));
   }
   return out;
 }

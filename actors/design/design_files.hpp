@@ -41,6 +41,13 @@ std::vector<std::string> conflict_words(const SceneDescription& scene, const Des
 /// What is left of the minima with luminaires mounted off their places: a sentence. English.
 std::string tolerance_words(const PlaceTolerance& tolerance);
 
+/// Rules of one subject that lack as many points as one: "E6, E6d". In the order of the first.
+std::vector<HiddenByFurniture> joined_by_subject(const std::vector<HiddenByFurniture>& hidden);
+
+/// Checks that fail and that a design does not decide: sentences, one for many subjects of the same
+/// rule. English.
+std::vector<std::string> others_words(const std::vector<Check>& others);
+
 /// What a group asks for: "at least 1.25 lx everywhere (E5, route "corridor")". English.
 std::string demand_words(const ConstraintGroup& group);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "actors/design/binding_words.hpp"
+#include "actors/design/design_files.hpp"
 #include "actors/design/smoke_section.hpp"
 #include "actors/output/html_page.hpp"
 #include "actors/report/html.hpp"
@@ -30,7 +31,7 @@ std::string outcome(const Texts& t, const Json& d) {
   size_t fresh = 0, kept = 0, moved = 0;
   for (const Json& one : d["luminaires"])
     ++(one["is_new"].get<bool>() ? fresh : one["moved_from"].is_null() ? kept : moved);
-  std::string words = t.say("design.luminaires", fresh);
+  std::string words = t.say(fresh == 1 ? "design.luminaire" : "design.luminaires", fresh);
   if (kept > 0) words += ", " + t.say("design.kept", kept);
   if (moved > 0) words += ", " + t.say("design.moved", moved);
   if (const size_t gone = d["removed"].size(); gone > 0) words += ", " + t.say("design.gone", gone);
@@ -143,7 +144,8 @@ std::string signs_of(const Texts& t, const Json& signs) {
   const double value = signs["objective"]["value"].get<double>();
   const bool optimal = signs["objective"]["bound"].get<double>() >= value;
   std::string out = heading(t, "design.signs_heading") +
-                    paragraph(t.say("design.signs", fresh) +
+                    paragraph(t.say(fresh == 1 ? "design.sign" : "design.signs", fresh) + " " +
+                              t("design.signs_guide") +
                               (optimal ? std::string(" ") + t("design.signs_optimal") : ""));
   for (const Json& one : signs["unguided"]) {
     const Json& p = one["first"];
@@ -209,10 +211,12 @@ std::string others(const Texts& t, const Json& d) {
 }
 
 std::string hidden(const Texts& t, const Json& d) {
-  std::string out;
+  std::vector<HiddenByFurniture> all;
   for (const Json& one : d["hidden_by_furniture"])
-    out += paragraph(t.say("design.hidden", text_in(one, "rule"),
-                           subject_text(t, text_in(one, "subject")), one["points"].get<int64_t>()));
+    all.push_back({text_in(one, "rule"), text_in(one, "subject"), one["points"].get<size_t>()});
+  std::string out;
+  for (const HiddenByFurniture& one : joined_by_subject(all))
+    out += paragraph(t.say("design.hidden", one.rule, subject_text(t, one.subject), one.points));
   return out;
 }
 

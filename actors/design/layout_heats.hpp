@@ -14,9 +14,9 @@ namespace luxodus {
 struct JudgedLayout;
 
 namespace limits {
-/// Pairs of a view and a layout in one heat, in all its scenarios: each takes some 500 bytes of
-/// tallies, and as much for its verdict.
-inline constexpr size_t heat_views = 500'000;
+/// Pairs of a view and a layout in one heat, in all its scenarios: each takes some 1000 bytes of
+/// tallies, half of them for what it has more than the first layout, and 500 for its verdict.
+inline constexpr size_t heat_views = 300'000;
 }  // namespace limits
 
 /// One state of the building in the light of a heat's layouts.

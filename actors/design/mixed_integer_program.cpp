@@ -8,7 +8,6 @@
 #include <CoinPackedMatrix.hpp>
 #include <OsiClpSolverInterface.hpp>
 #include <algorithm>
-#include <csignal>
 #include <limits>
 #include <string>
 
@@ -89,17 +88,14 @@ class LinearWatch : public ClpEventHandler {
   unsigned iterations_ = 0;
 };
 
-/// Gives SIGINT back to whoever had it.
-class SignalKept {
- public:
-  SignalKept() { ::sigaction(SIGINT, nullptr, &before_); }
-  ~SignalKept() { ::sigaction(SIGINT, &before_, nullptr); }
-  SignalKept(const SignalKept&) = delete;
-  SignalKept& operator=(const SignalKept&) = delete;
-
- private:
-  struct sigaction before_ {};
-};
+/// Clp, within CBC too, would listen to Ctrl-C in the program's place while it solves a linear
+/// program, and the program would not hear of it: deadlines look at what it hears.
+void leave_signals_alone(OsiClpSolverInterface& solver) {
+  constexpr int interrupt_handling = 2, off = 1;
+  ClpSolve options;
+  options.setSpecialOption(interrupt_handling, off);
+  solver.setSolveOptions(options);
+}
 
 /// All rows at once: one after another, each would copy those before it.
 void load(const IntegerProgram& program, OsiClpSolverInterface& solver) {
@@ -119,6 +115,7 @@ void load(const IntegerProgram& program, OsiClpSolverInterface& solver) {
   solver.messageHandler()->setLogLevel(0);
   solver.loadProblem(matrix, program.low.data(), program.high.data(), program.cost.data(),
                      low.data(), high.data());
+  leave_signals_alone(solver);
 }
 
 }  // namespace
@@ -134,7 +131,6 @@ int IntegerProgram::add_variable(double cost_of_one, double low_bound, double hi
 
 ProgramAnswer solve_program(const IntegerProgram& program, const ProgramLimits& limits,
                             const std::atomic<bool>& interrupt, const ProgramProgress& progress) {
-  const SignalKept kept;
   Deadline deadline(interrupt, limits.seconds);
   OsiClpSolverInterface solver;
   load(program, solver);
@@ -177,8 +173,6 @@ ProgramAnswer solve_program(const IntegerProgram& program, const ProgramLimits& 
     answer.objective = model.getObjValue();
   }
   answer.bound = model.getBestPossibleObjValue();
-  constexpr int by_event = 5;
-  answer.interrupted = model.secondaryStatus() == by_event && !deadline.was_passed();
   const bool stopped = model.status() != 0 || deadline.was_passed();
   if (!stopped && !answer.values.empty()) {
     answer.end = ProgramEnd::solved;

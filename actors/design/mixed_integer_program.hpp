@@ -1,7 +1,7 @@
 // Linear programs some of whose variables are whole numbers, solved by CBC (COIN-OR branch and
 // cut). The only source that includes CBC. The same program gives the same answer, unless a limit
 // of time or an interrupt ends the search. Thread rule: one call at a time in a process, since CBC
-// takes SIGINT while it searches; the handler is given back.
+// keeps globals. SIGINT stays with whoever listens to it.
 #pragma once
 
 #include <atomic>
@@ -52,7 +52,6 @@ struct ProgramAnswer {
   std::vector<double> values;  // of the best solution; empty: none was found
   double objective = 0;        // of it
   double bound = 0;            // no solution is below it
-  bool interrupted = false;    // Ctrl-C, while CBC listened to it
 };
 
 /// Best solution and bound so far; no solution: infinity.

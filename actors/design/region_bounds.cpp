@@ -82,7 +82,7 @@ void RegionBounds::bound_each(const Layout& layout, double seconds, const Raised
       const Found found =
           bound_of(bound.regions, layout, time.seconds() / static_cast<double>(left--));
       if (!found.finished) unfinished.push_back(i);
-      if (interrupted_) return;
+      if (interrupt_) return;
       if (found.least <= bound.least) continue;
       bound.least = found.least;
       growing_.add_region_bound(bound.regions, bound.least);
@@ -95,7 +95,7 @@ void RegionBounds::bound_each(const Layout& layout, double seconds, const Raised
 bool RegionBounds::join(const Layout& layout, double seconds, const Raised& raised) {
   const TimeLeft time(seconds);
   for (const auto& [a, b] : pairs_to_try(layout)) {
-    if (interrupt_ || interrupted_ || time.seconds() <= 0) return false;
+    if (interrupt_ || time.seconds() <= 0) return false;
     RegionBound both = bounds_[a];
     both.regions.insert(bounds_[b].regions.begin(), bounds_[b].regions.end());
     const double apart = bounds_[a].least + bounds_[b].least;
@@ -182,7 +182,6 @@ RegionBounds::Found RegionBounds::bound_of(const std::set<uint32_t>& regions, co
   for (int round = 0; round < limits::row_rounds && !interrupt_; ++round) {
     const ProgramLimits asked{.seconds = time.seconds(), .cutoff = cutoff};
     const ProgramAnswer found = solve_program(growing_.of_regions(regions), asked, interrupt_, {});
-    interrupted_ = interrupted_ || (found.interrupted && time.seconds() > 0);
     if (found.end == ProgramEnd::infeasible) {
       // Without any layout the whole program says so.
       if (cutoff) out.least = std::max(out.least, sums_.from(*cutoff));

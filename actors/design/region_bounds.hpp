@@ -40,9 +40,6 @@ class RegionBounds {
   /// the first where that raises the sum. False where none does, or the time was too short.
   bool join(const Layout& layout, double seconds, const Raised& raised);
 
-  /// Ctrl-C came while the solver listened to it: nothing goes on.
-  bool interrupted() const { return interrupted_; }
-
   /// All regions, each in one of them.
   const std::vector<RegionBound>& bounds() const { return bounds_; }
   double weight_of(const Layout& layout, const RegionBound& bound) const;
@@ -70,7 +67,6 @@ class RegionBounds {
   const std::map<std::pair<uint32_t, uint32_t>, double> light_;
   std::vector<RegionBound> bounds_;
   std::set<std::set<uint32_t>> tried_;  // together, and nothing was gained
-  bool interrupted_ = false;
 };
 
 }  // namespace luxodus

@@ -28,8 +28,9 @@ SmokeVerdict verdict_of(const std::string& scenario, const SeenPlaces& places,
 
 bool beats(const JudgedLayout& a, const JudgedLayout& b) {
   const bool costs_no_more = a.objective <= b.objective * (1 + 1e-9);
-  if (!costs_no_more || a.worst().least < b.worst().most) return false;
-  return a.objective < b.objective * (1 - 1e-9) || a.worst().least > b.worst().least;
+  const double surely_more = difference_of(b, a).least;
+  if (!costs_no_more || surely_more < 0) return false;
+  return a.objective < b.objective * (1 - 1e-9) || surely_more > 0;
 }
 
 /// Whether more paths could change its place among the others.
@@ -40,6 +41,15 @@ bool SmokeRace::is_open(const JudgedLayout& one) const {
          std::none_of(stage_.layouts.begin(), stage_.layouts.end(), [&](const auto& other) {
            return other.rounds > 0 && like_signs(other, one) && beats(other, one);
          });
+}
+
+/// From all others that may be on the front.
+bool SmokeRace::is_told_apart(const JudgedLayout& one) const {
+  return std::all_of(stage_.layouts.begin(), stage_.layouts.end(), [&](const auto& other) {
+    if (&other == &one || !like_signs(other, one) || !is_open(other)) return true;
+    const ShareDifference beyond = difference_of(one, other);
+    return beyond.least >= 0 || beyond.most <= 0;
+  });
 }
 
 Result<bool> SmokeRace::run() {
@@ -55,10 +65,10 @@ Result<bool> SmokeRace::run() {
     stage_.end = RaceEnd::decided;
     finished = true;
   }
-  for (JudgedLayout& one : stage_.layouts) one.is_open = is_open(one);
+  for (JudgedLayout& one : stage_.layouts) one.is_open = is_open(one) && !is_told_apart(one);
   for (const States& states : states_)
     for (const auto& state : states) stage_.paths += state->sights().paths();
-  for (size_t i = 0; i < stage_.layouts.size(); ++i) compare(i);
+  for (size_t i = 0; i < stage_.layouts.size(); ++i) count_places(i);
   return finished;
 }
 
@@ -135,10 +145,31 @@ void SmokeRace::judge(size_t heat, int rounds) {
     }
     one.rounds = rounds;
   }
+  for (size_t h = 0; h < states_.size(); ++h) compare_with_first(h);
 }
 
-/// With the first layout, place by place.
-void SmokeRace::compare(size_t layout) {
+/// All layouts of a heat. Those that share their paths with the first are compared view by view.
+void SmokeRace::compare_with_first(size_t heat) {
+  const std::vector<size_t>& members = heats_[heat].members;
+  for (size_t i = 0; i < members.size(); ++i) {
+    if (stage_.layouts[members[i]].rounds == 0) continue;
+    for (size_t s = 0; s < stage_.scenarios.size(); ++s) {
+      const LayoutViews first{places_[0][s], states_[0][s]->sights().rows(0)};
+      const SightsInLights& sights = states_[heat][s]->sights();
+      ShareDifference& beyond = stage_.layouts[members[i]].smoke[s].beyond_first;
+      if (members[i] == 0)
+        beyond = {0, 0};
+      else if (heat == 0)
+        beyond = difference_of(first, {places_[members[i]][s], sights.rows(i)},
+                               [&](size_t row) { return sights.error_beyond_first(i, row); });
+      else
+        beyond = difference_of(first, {places_[members[i]][s], sights.rows(i)}, {});
+    }
+  }
+}
+
+/// Those that are read with the first layout and not with this one; the other way.
+void SmokeRace::count_places(size_t layout) {
   JudgedLayout& one = stage_.layouts[layout];
   one.lost = one.won = 0;
   for (size_t s = 0; s < places_[layout].size(); ++s)

@@ -7,7 +7,7 @@
 
 namespace luxodus {
 
-/// Whether `a` is read at least as well for no more, whatever the undecided views are.
+/// Whether `a` is surely read at least as well for no more.
 bool beats(const JudgedLayout& a, const JudgedLayout& b);
 
 class SmokeRace {
@@ -37,8 +37,10 @@ class SmokeRace {
   Result<void> open_heat(const Heat& heat);
   Result<void> trace(size_t heat, int round, const std::vector<bool>& asked);
   void judge(size_t heat, int rounds);
-  void compare(size_t layout);
+  void compare_with_first(size_t heat);
+  void count_places(size_t layout);
   bool is_open(const JudgedLayout& one) const;
+  bool is_told_apart(const JudgedLayout& one) const;
   bool any_open() const;
   AssessProgress tell(const Heat& heat, size_t scenario, int round) const;
 

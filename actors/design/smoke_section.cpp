@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "actors/output/svg_plot.hpp"
 #include "actors/report/html.hpp"
@@ -13,6 +14,10 @@ namespace {
 
 Json share_json(const LegibleShare& share) {
   return {{"least", number_json(share.least)}, {"most", number_json(share.most)}};
+}
+
+Json difference_json(const ShareDifference& difference) {
+  return {{"least", number_json(difference.least)}, {"most", number_json(difference.most)}};
 }
 
 Json optional_seconds(const std::optional<double>& seconds) {
@@ -45,6 +50,7 @@ Json layout_json(const SmokeStage& stage, const JudgedLayout& one) {
     }
     scenarios.push_back({{"name", verdict.scenario},
                          {"all", share_json(verdict.all)},
+                         {"beyond_first", difference_json(verdict.beyond_first)},
                          {"by_height", std::move(heights)}});
   }
   return {{"name", one.name},
@@ -62,6 +68,7 @@ Json layout_json(const SmokeStage& stage, const JudgedLayout& one) {
           {"places_lost", one.lost},
           {"places_won", one.won},
           {"worst", share_json(one.worst())},
+          {"beyond_first", difference_json(difference_of(stage.layouts.front(), one))},
           {"scenarios", std::move(scenarios)}};
 }
 
@@ -70,6 +77,9 @@ double least_of(const Json& layout) {
 }
 double most_of(const Json& layout) {
   return layout["worst"]["most"].get<double>();
+}
+double surely_beyond_first(const Json& layout) {
+  return layout["beyond_first"]["least"].get<double>();
 }
 bool has_brighter_signs(const Json& layout) {
   return layout["sign_factor"].get<double>() != 1;
@@ -85,6 +95,17 @@ bool has_other_signs(const Json& layout) {
 std::string share_words(const Texts& t, const Json& share) {
   const std::string least = t.fixed(100 * share["least"].get<double>(), 0),
                     most = t.fixed(100 * share["most"].get<double>(), 0);
+  return least == most ? least + " %" : t.say("design.smoke_range", least, most);
+}
+
+/// "+2.1 to +5.0 %", "-1.1 to 0 %", "0 %".
+std::string difference_words(const Texts& t, const Json& difference) {
+  const auto percent = [&](const char* end) {
+    const double tenths = std::round(1000 * difference[end].get<double>());
+    if (tenths == 0) return std::string("0");
+    return (tenths > 0 ? "+" : "−") + t.fixed(std::abs(tenths) / 10, 1);
+  };
+  const std::string least = percent("least"), most = percent("most");
   return least == most ? least + " %" : t.say("design.smoke_range", least, most);
 }
 
@@ -110,11 +131,12 @@ const Json& named_layout(const Json& smoke, const std::string& name) {
   return layouts[0];
 }
 
-/// The largest share that any layout with signs as they are may have.
-double most_of_all(const Json& smoke) {
+/// By how much more than with the first layout is read, at most, with any layout whose signs are as
+/// they are.
+double most_beyond_first(const Json& smoke) {
   double out = 0;
   for (const Json& one : smoke["layouts"])
-    if (!has_other_signs(one)) out = std::max(out, most_of(one));
+    if (!has_other_signs(one)) out = std::max(out, one["beyond_first"]["most"].get<double>());
   return out;
 }
 
@@ -188,7 +210,9 @@ std::string rows_of(const Texts& t, const Json& smoke) {
     const std::string file = text_in(one, "file");
     out += "<tr>" + cell(name) + number_cell(t, one["luminaires"]) +
            number_cell(t, one["cost"], "", 4) + number_cell(t, one["watts"], "W") +
-           cell(by_scenario) + (is_followed(one) ? cell(until_words(t, one["guided"])) : "") +
+           cell(by_scenario) +
+           cell(&one == &smoke["layouts"][0] ? "–" : difference_words(t, one["beyond_first"])) +
+           (is_followed(one) ? cell(until_words(t, one["guided"])) : "") +
            html_cell(file.empty() ? "–"
                                   : "<a href=\"" + escaped(file) + "\">" + escaped(file) + "</a>") +
            "</tr>\n";
@@ -244,9 +268,10 @@ std::vector<std::string> smoke_words(const Texts& t, const Json& smoke) {
     out.emplace_back(t("design.smoke_same"));
   else
     out.push_back(t.say("design.smoke_better", best_name, best["luminaires"].get<int64_t>(),
-                        first["luminaires"].get<int64_t>(), share_words(t, best["worst"])));
+                        first["luminaires"].get<int64_t>(), share_words(t, best["worst"]),
+                        difference_words(t, best["beyond_first"]), first_name));
   for (const Json& one : smoke["layouts"]) {
-    const bool helps = least_of(one) > most_of_all(smoke);
+    const bool helps = surely_beyond_first(one) > most_beyond_first(smoke);
     if (has_brighter_signs(one))
       out.push_back(t.say(helps ? "design.smoke_signs_help" : "design.smoke_signs",
                           t.number(one["sign_factor"].get<double>(), 2),
@@ -274,12 +299,14 @@ std::string smoke_section(const Texts& t, const Json& design) {
   for (const std::string& words : smoke_words(t, smoke)) out += paragraph(words);
   out += plot_of(t, design);
   const bool followed = is_followed(smoke["layouts"][0]);
-  std::vector<const char*> columns{"design.smoke_layout", "column.count",      "design.cost",
-                                   "design.watts",        "design.smoke_read", "design.smoke_file"};
-  std::vector<int> widths{16, 10, 12, 12, 30, 20};
+  std::vector<const char*> columns{"design.smoke_layout", "column.count",
+                                   "design.smoke_cost",   "design.smoke_watts",
+                                   "design.smoke_read",   "design.smoke_beyond_first",
+                                   "design.smoke_file"};
+  std::vector<int> widths{14, 8, 10, 10, 26, 14, 18};
   if (followed) {
     columns.insert(columns.end() - 1, "design.smoke_until");
-    widths = {14, 8, 10, 10, 26, 14, 18};
+    widths = {12, 8, 8, 8, 22, 12, 12, 18};
   }
   out +=
       table(t, columns, widths, rows_of(t, smoke)) +

@@ -164,14 +164,28 @@ LegibleShare JudgedLayout::worst() const {
   return out;
 }
 
+ShareDifference JudgedLayout::beyond_first() const {
+  if (smoke.empty()) return {};
+  ShareDifference out = smoke.front().beyond_first;
+  for (const SmokeVerdict& verdict : smoke) {
+    out.least = std::min(out.least, verdict.beyond_first.least);
+    out.most = std::max(out.most, verdict.beyond_first.most);
+  }
+  return out;
+}
+
+ShareDifference difference_of(const JudgedLayout& from, const JudgedLayout& to) {
+  return both_of(by_ranges(from.worst(), to.worst()),
+                 chained(from.beyond_first(), to.beyond_first()));
+}
+
 const JudgedLayout& SmokeStage::recommended() const {
   const JudgedLayout* best = &layouts.front();
   for (const JudgedLayout& one : layouts) {
     if (!one.has_usual_signs()) continue;
-    const bool surely_better = one.worst().least > best->worst().most;
-    const bool as_good_and_cheaper =
-        one.worst().least >= best->worst().most && one.objective < best->objective;
-    if (surely_better || as_good_and_cheaper) best = &one;
+    const double surely_more = difference_of(*best, one).least;
+    const bool as_good_and_cheaper = surely_more >= 0 && one.objective < best->objective;
+    if (surely_more > 0 || as_good_and_cheaper) best = &one;
   }
   return *best;
 }

@@ -13,6 +13,7 @@
 #include "actors/design/layout_guidance.hpp"
 #include "actors/design/low_signs.hpp"
 #include "actors/design/placed_layout.hpp"
+#include "actors/design/smoke_differences.hpp"
 #include "actors/design/smoke_verdicts.hpp"
 
 namespace luxodus {
@@ -24,6 +25,7 @@ struct SmokeVerdict {
   std::string scenario;
   std::vector<LegibleShare> by_height;  // of the scene's eye heights
   LegibleShare all;
+  ShareDifference beyond_first = {};  // of `all`
 };
 
 struct JudgedLayout {
@@ -47,7 +49,14 @@ struct JudgedLayout {
   bool has_usual_signs() const { return sign_factor == 1 && low_signs.empty(); }
   /// In the scenario where it is worst.
   LegibleShare worst() const;
+  /// Of that, by how much more is read than with the first layout. Where both are worst in
+  /// different scenarios, it is what they differ by in any.
+  ShareDifference beyond_first() const;
 };
+
+/// By how much more is read with one layout than with another: by their ranges, and by what both
+/// differ from the first layout by.
+ShareDifference difference_of(const JudgedLayout& from, const JudgedLayout& to);
 
 /// What ended the race of layouts.
 enum class RaceEnd {

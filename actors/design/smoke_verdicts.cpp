@@ -23,8 +23,9 @@ SeenPlaces places_of(const SceneDescription& scene, const std::vector<SightRow>&
     const auto at = out.find({row.from, row.along_m, row.height_m});
     if (at == out.end() || !is_ahead(row)) continue;
     SeenPlace& seen = at->second;
-    if (row.sight.verdict == SightVerdict::legible) seen.read = Read::a_sign;
-    if (row.sight.verdict == SightVerdict::undecided)
+    if (row.sight.verdict == SightVerdict::legible)
+      seen.read = Read::a_sign;
+    else if (may_be_read(row.sight))
       seen.read = std::max(seen.read, Read::undecided);
   }
   return out;

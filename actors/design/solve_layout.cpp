@@ -86,7 +86,6 @@ class Solving {
     tell("greedy", 0);
     integer_program();
     choose_among_equals();
-    answer_.interrupted = interrupted_ || interrupt_;
     answer_.seconds = seconds();
     return std::move(answer_);
   }
@@ -95,7 +94,6 @@ class Solving {
   LayoutAnswer leave() {
     raise_bound(0);
     answer_.end = answer_.layout.empty() ? LayoutEnd::unknown : LayoutEnd::interrupted;
-    answer_.interrupted = true;
     answer_.seconds = seconds();
     return std::move(answer_);
   }
@@ -162,7 +160,7 @@ class Solving {
     for (const Violation& v : first_rows(problem_)) growing.add(v);
     bound_regions(growing);
     if (ended()) return fill_shares(growing);
-    if (interrupted_) {
+    if (interrupt_) {
       answer_.end = answer_.layout.empty() ? LayoutEnd::unknown : LayoutEnd::interrupted;
       return fill_shares(growing);
     }
@@ -170,7 +168,6 @@ class Solving {
     LayoutSums sums(index_);
     for (answer_.rounds = 1; answer_.rounds <= limits::row_rounds; ++answer_.rounds) {
       const ProgramAnswer found = solve(growing, gap);
-      interrupted_ = interrupted_ || found.interrupted || interrupt_;
       answer_.rows = growing.rows();
       if (found.end == ProgramEnd::infeasible) {
         // No layout is better than the one that is there, or none exists.
@@ -207,13 +204,11 @@ class Solving {
       return !ended();
     };
     regions.bound_each(answer_.layout, time_for_regions * seconds_left(), raised);
-    interrupted_ = regions.interrupted();
     improve_regions(growing, regions);
     const double until = seconds() + time_for_joining * seconds_left();
-    while (!answer_.layout.empty() && !ended() && !interrupt_ && !interrupted_ &&
-           seconds() < until && regions.join(answer_.layout, until - seconds(), raised))
+    while (!answer_.layout.empty() && !ended() && !interrupt_ && seconds() < until &&
+           regions.join(answer_.layout, until - seconds(), raised))
       improve_regions(growing, regions);
-    interrupted_ = interrupted_ || regions.interrupted();
     answer_.regions = regions.bounds();
   }
 
@@ -224,7 +219,7 @@ class Solving {
     for (bool better = !answer_.layout.empty(); better && !ended();) {
       better = false;
       for (const RegionBound& one : regions.bounds()) {
-        if (interrupt_ || interrupted_ || seconds() > until) return;
+        if (interrupt_ || seconds() > until) return;
         if (!regions.is_loose(answer_.layout, one)) continue;
         better = improve_region(growing, one.regions, until) || better;
         tell("regions", 0);
@@ -239,7 +234,6 @@ class Solving {
       const ProgramLimits asked{.seconds = until - seconds(), .cutoff = cutoff()};
       const ProgramAnswer found =
           solve_program(growing.around(answer_.layout, regions), asked, interrupt_, {});
-      interrupted_ = interrupted_ || (found.interrupted && seconds() < until);
       if (found.values.empty()) break;
       sums.set(growing.layout_of(found.values));
       const auto broken = sums.violations();
@@ -270,9 +264,9 @@ class Solving {
   }
 
   bool ended(const ProgramAnswer& found) {
-    const bool stopped = found.end == ProgramEnd::stopped || interrupt_;
+    const bool stopped = found.end == ProgramEnd::stopped;
     if (ended()) return true;
-    if (interrupted_)
+    if (interrupt_)
       answer_.end = answer_.layout.empty() ? LayoutEnd::unknown : LayoutEnd::interrupted;
     else if (stopped || out_of_time())
       answer_.end = answer_.layout.empty() ? LayoutEnd::unknown : LayoutEnd::out_of_time;
@@ -310,7 +304,7 @@ class Solving {
   }
 
   void choose_among_equals() {
-    if (answer_.layout.empty() || interrupted_) return;
+    if (answer_.layout.empty() || interrupt_) return;
     tell("choosing among equals", 0);
     const Layout liked = tidied(index_, better(answer_.layout));
     const double objective = objective_of(problem_, liked);
@@ -329,7 +323,6 @@ class Solving {
   SystemClock clock_;
   Nanoseconds began_;
   double solved_objective_ = 0, solved_bound_ = 0;
-  bool interrupted_ = false;  // Ctrl-C came while the solver listened to it
   LayoutAnswer answer_;
 };
 
@@ -415,10 +408,8 @@ LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<Problem
     solving[i]->goes_on_from(out);
     const double its_seconds =
         std::max(0.0, settings.seconds - seconds()) / static_cast<double>(left--);
-    const LayoutAnswer answer =
-        out.interrupted ? solving[i]->leave() : solving[i]->finish(its_seconds);
+    const LayoutAnswer answer = interrupt ? solving[i]->leave() : solving[i]->finish(its_seconds);
     solving[i].reset();
-    out.interrupted = answer.interrupted;
     out.end = worse(out.end, answer.end);
     all = all && !answer.layout.empty();
     for (size_t k = 0; k < answer.layout.size(); ++k)

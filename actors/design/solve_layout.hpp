@@ -42,8 +42,7 @@ struct LayoutAnswer {
   double greedy_objective = 0;  // of it, pruned
   double first_seconds = 0;     // until the first layout
   double seconds = 0;
-  bool interrupted = false;  // by a person; CBC may have taken the signal
-  size_t rows = 0;           // of the last program
+  size_t rows = 0;  // of the last program
   int rounds = 0;
   std::vector<RegionBound> regions;    // what they weigh at least
   std::vector<double> share_of_group;  // of the bound of the program without whole numbers

@@ -1,7 +1,6 @@
 #include "actors/design/suggest.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <map>
 
 #include "actors/assess/assessment.hpp"
@@ -114,8 +113,6 @@ Result<Suggestion> suggest(const std::shared_ptr<const SceneDescription>& scene,
   settings.greedy_rounds = quick_rounds;
   const LayoutAnswer answer =
       solve_layout(problem, settings, interrupt, [](const std::string&, double, double) {});
-  // CBC has listened to the signal in the program's place: it is told on.
-  if (answer.interrupted && !interrupt) ::raise(SIGINT);
   out.end = answer.end;
   out.bound = answer.bound;  // what stands weighs nothing
   for (size_t i = 0; i < answer.layout.size(); ++i) {

@@ -9,6 +9,7 @@ constexpr ReportText design_rows[] = {
     {"design.page",
      {"Layout of emergency luminaires", "Anordnung von Notleuchten",
       "Implantation de luminaires de secours"}},
+    {"design.luminaire", {"{0} new luminaire", "{0} neue Leuchte", "{0} luminaire neuf"}},
     {"design.luminaires", {"{0} new luminaires", "{0} neue Leuchten", "{0} luminaires neufs"}},
     {"design.kept", {"{0} stay", "{0} bleiben", "{0} restent"}},
     {"design.battery", {"battery class", "Batterieklasse", "classe de batterie"}},
@@ -88,14 +89,15 @@ constexpr ReportText design_rows[] = {
       "Keine Anordnung dieser Kandidaten wurde gefunden, deren Mindestwerte dann gelten.",
       "Aucune implantation de ces candidats n’a été trouvée dont les minimums tiennent alors."}},
     {"design.signs_heading", {"Signs", "Zeichen", "Panneaux"}},
-    {"design.signs",
-     {"{0} new signs. From everywhere on the routes, but for what is named below, a sign ahead is "
-      "seen within its viewing distance that belongs to the route and points along it.",
-      "{0} neue Zeichen. Von überall auf den Wegen, außer wo unten genannt, ist voraus innerhalb "
-      "der Erkennungsweite ein Zeichen zu sehen, das zum Weg gehört und an ihm entlang zeigt.",
-      "{0} panneaux neufs. De partout sur les itinéraires, sauf mention ci-dessous, on voit devant "
-      "soi, à sa distance de vision, un panneau qui appartient à l’itinéraire et pointe le long de "
-      "celui-ci."}},
+    {"design.sign", {"{0} new sign.", "{0} neues Zeichen.", "{0} panneau neuf."}},
+    {"design.signs", {"{0} new signs.", "{0} neue Zeichen.", "{0} panneaux neufs."}},
+    {"design.signs_guide",
+     {"From everywhere on the routes, but for what is named below, a sign ahead is seen within its "
+      "viewing distance that belongs to the route and points along it.",
+      "Von überall auf den Wegen, außer wo unten genannt, ist voraus innerhalb der "
+      "Erkennungsweite ein Zeichen zu sehen, das zum Weg gehört und an ihm entlang zeigt.",
+      "De partout sur les itinéraires, sauf mention ci-dessous, on voit devant soi, à sa distance "
+      "de vision, un panneau qui appartient à l’itinéraire et pointe le long de celui-ci."}},
     {"design.signs_optimal",
      {"No plan with these places has less.", "Kein Plan mit diesen Orten hat weniger.",
       "Aucun plan avec ces places n’a moins."}},
@@ -288,12 +290,12 @@ constexpr ReportText design_rows[] = {
       "places. Que d’autres luminaires aident à lire ces panneaux dans cette fumée n’est pas "
       "montré."}},
     {"design.smoke_better",
-     {"Layout {0} has {1} new luminaires instead of {2}, and a sign is read from {3}: it is "
-      "recommended.",
-      "Anordnung {0} hat {1} statt {2} neue Leuchten, und von {3} ist ein Zeichen lesbar: sie wird "
-      "empfohlen.",
+     {"Layout {0} has {1} new luminaires instead of {2}, and a sign is read from {3}, {4} beside "
+      "layout {5} by the same paths: it is recommended.",
+      "Anordnung {0} hat {1} statt {2} neue Leuchten, und von {3} ist ein Zeichen lesbar, {4} "
+      "gegen Anordnung {5} nach denselben Strahlen: sie wird empfohlen.",
       "L’implantation {0} a {1} luminaires neufs au lieu de {2}, et un panneau est lisible depuis "
-      "{3} : elle est recommandée."}},
+      "{3}, {4} face à l’implantation {5} d’après les mêmes chemins : elle est recommandée."}},
     {"design.smoke_signs_help",
      {"Signs {0} times as bright would be read from {1}: that helps more than any layout that was "
       "tried.",
@@ -408,20 +410,30 @@ constexpr ReportText design_rows[] = {
     {"design.smoke_read",
      {"A sign ahead is read from", "Ein Zeichen voraus ist lesbar von",
       "Un panneau est lisible depuis"}},
+    {"design.smoke_cost", {"Cost", "Kosten", "Coût"}},
+    {"design.smoke_watts", {"Power", "Leistung", "Puissance"}},
+    {"design.smoke_beyond_first", {"Beside A", "Gegen A", "Face à A"}},
     {"design.smoke_file", {"File", "Datei", "Fichier"}},
     {"design.smoke_note",
      {"Of the length of all routes, at all eye heights of the scene. A sign is ahead within {0} "
       "degrees of the way. ● marks layouts than which no other is read from more for no more. All "
       "pass the rules that luminaires decide, at their planned places; off these alone A was "
-      "looked at.",
+      "looked at. “Beside A” is by how much more is read than with A, within two standard errors. "
+      "It may be known better than either share: the same paths show both layouts, and err alike.",
       "Von der Länge aller Wege, in allen Augenhöhen der Szene. Ein Zeichen ist voraus innerhalb "
       "von {0} Grad vom Weg. ● bezeichnet Anordnungen, zu denen keine mit gleichem Aufwand "
       "lesbarer ist. Alle erfüllen die Regeln, über die Leuchten entscheiden, an ihren geplanten "
-      "Orten; daneben wurde nur A betrachtet.",
+      "Orten; daneben wurde nur A betrachtet. „Gegen A“ ist, um wie viel mehr als mit A lesbar "
+      "ist, "
+      "innerhalb von zwei Standardfehlern. Es kann genauer bekannt sein als jeder Anteil: "
+      "dieselben Strahlen zeigen beide Anordnungen und irren gleich.",
       "De la longueur de tous les itinéraires, à toutes les hauteurs d’œil de la scène. Un panneau "
       "est devant à {0} degrés du chemin au plus. ● marque les implantations dont aucune autre "
       "n’est plus lisible pour autant. Toutes respectent les règles que les luminaires "
-      "décident, aux places prévues ; à côté de celles-ci, seule A a été examinée."}},
+      "décident, aux places prévues ; à côté de celles-ci, seule A a été examinée. « Face à A » "
+      "est "
+      "de combien on lit plus qu’avec A, à deux erreurs types près. Cela peut être mieux connu que "
+      "chaque part : les mêmes chemins montrent les deux implantations et se trompent autant."}},
     {"design.left_no_wall",
      {"{0} where no wall is flat", "{0}, wo keine Wand eben ist", "{0} où aucun mur n’est plan"}},
     {"design.left_glaring", {"{0} glaring (E8)", "{0} blendend (E8)", "{0} éblouissants (E8)"}},

@@ -138,6 +138,32 @@ Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
   return sight;
 }
 
+bool may_be_read(const Sight& sight) {
+  return sight.verdict == SightVerdict::legible || (sight.verdict == SightVerdict::undecided &&
+                                                    !surely_below(sight.reading_level, level_read));
+}
+
+double error_of_level_beyond(const SignLook& first, const SignLook& other, const SignLook& beyond,
+                             const SignView& view, const Eye& eye) {
+  if (!(view.detail_arcmin > 0)) return 0;
+  const auto at = [&](double by, double under) {
+    return visibility_level(under + by, under, view.detail_arcmin, eye);
+  };
+  const auto under = [](const SignLook& look) { return look.ground.value + look.veil_cd_m2; };
+  const auto brighter_ground = [&](const SignLook& look, double by) {
+    return at(look.difference.value, under(look) + by) - at(look.difference.value, under(look));
+  };
+  // What errs alike in both lights counts by how differently they take it. As in level(), errors
+  // are taken as independent.
+  const double by_difference = std::hypot(
+      at(beyond.difference.error, under(other)),
+      at(first.difference.error, under(other)) - at(first.difference.error, under(first)));
+  const double by_ground = std::hypot(
+      brighter_ground(other, beyond.ground.error),
+      brighter_ground(other, first.ground.error) - brighter_ground(first, first.ground.error));
+  return std::hypot(by_difference, by_ground);
+}
+
 bool is_worse(const Sight& a, const Sight& b) {
   const auto badness = [](const Sight& sight) {
     switch (sight.verdict) {

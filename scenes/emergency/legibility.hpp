@@ -53,6 +53,15 @@ struct SightRules {
 Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
                   const SightRules& rules);
 
+/// Whether it is read, or chance leaves open that it is.
+bool may_be_read(const Sight& sight);
+
+/// Of one view in two lights that the same paths have shown: the standard error of its level of
+/// reading in the other light less that in the first. `beyond`: what arrives in the other light
+/// less what does in the first, with the errors of that.
+double error_of_level_beyond(const SignLook& first, const SignLook& other, const SignLook& beyond,
+                             const SignView& view, const Eye& eye);
+
 /// Which of two verdicts on one view, in two lights, counts: the one that is worse, or may be. What
 /// is undecided may be invisible, unless it is surely seen: then it is legible or visible.
 bool is_worse(const Sight& a, const Sight& b);

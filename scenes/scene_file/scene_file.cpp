@@ -223,7 +223,8 @@ void check_whole(SceneReading& reading) {
   const bool flames = std::any_of(s.media.begin(), s.media.end(),
                                   [](const Medium& m) { return m.emission.has_value(); });
   if (s.emitters.empty() && s.signs.empty() && !flames) {
-    reading.warning({s.file, 1}, "nothing in this scene gives light");
+    reading.warning({s.file, 1},
+                    "nothing in this scene gives light (luxodus design places luminaires)");
   }
   if (s.objects.empty()) reading.warning({s.file, 1}, "this scene has no surfaces");
   const bool fails = std::any_of(s.scenarios.begin(), s.scenarios.end(), [](const Scenario& one) {

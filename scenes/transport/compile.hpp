@@ -15,10 +15,11 @@ namespace luxodus {
 /// Light of the source groups, each times a factor, by name; 1 of those that are not named.
 struct GroupMixture {
   std::map<std::string, double> factors;
+  double of_others = 1;  // of groups without a factor
 
   double factor_of(const std::string& group) const {
     const auto at = factors.find(group);
-    return at == factors.end() ? 1 : at->second;
+    return at == factors.end() ? of_others : at->second;
   }
 };
 

@@ -319,6 +319,30 @@ TEST_CASE("a type counts with what its circuit leaves of it in the judged scenar
   CHECK(problem.find("no type of luminaire gives light") != std::string::npos);
 }
 
+TEST_CASE("what a design does not decide is told once for many subjects", "[design][files]") {
+  std::vector<Check> others;
+  const auto add = [&](const std::string& title, const std::string& subject) {
+    others.emplace_back();
+    others.back().rule.title = title;
+    others.back().subject = subject;
+  };
+  add("Height", "luminaire \"a\"");
+  for (int storey = 0; storey < 4; ++storey)
+    add("A sign in sight", "route \"" + std::to_string(storey) + "\"");
+  CHECK(others_words(others) ==
+        std::vector<std::string>{
+            "fails, and is not decided here: luminaire \"a\": Height",
+            "fails, and is not decided here: route \"0\" and 3 others: A sign in sight"});
+  others.pop_back();
+  CHECK(others_words(others).size() == 4);
+  const auto joined = joined_by_subject(
+      {{"E10f", "hall", 4}, {"E6", "hall", 4}, {"E5", "way", 4}, {"E7", "hall", 9}});
+  REQUIRE(joined.size() == 3);
+  CHECK(joined[0].rule == "E10f, E6");
+  CHECK(joined[1].subject == "way");
+  CHECK(joined[2].points == 9);
+}
+
 TEST_CASE("a design leaves no file of an earlier one that it does not have", "[design][files]") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("scene.toml", spot_corridor(6));

@@ -14,6 +14,7 @@
 #include "scenes/emergency/guidance.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
+#include "tests/unit/actors/design/ctrl_c.hpp"
 #include "tests/unit/actors/design/design_scenes.hpp"
 
 namespace luxodus {
@@ -338,6 +339,37 @@ TEST_CASE("where no plan of signs exists that is said, and what would help", "[d
   REQUIRE_FALSE(result);
   CHECK(result.problem().text().find("no plan of signs guides along all routes") !=
         std::string::npos);
+}
+
+TEST_CASE("Ctrl-C while signs are planned keeps their plan, and ends what follows",
+          "[design][signs]") {
+  // Routes that cross: what a sign tells one of them is wrong for others.
+  std::string crossing = hall(40, 24, 3);
+  for (int i = 0; i < 6; ++i)
+    crossing +=
+        route(fmt::format("way {}", i), fmt::format("[{}, 1, 0], [{}, {}, 0], [{}, 23, 0]",
+                                                    2 + 6 * i, 37 - 6 * i, 8 + 2 * i, 4 + 5 * i));
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("scene.toml", crossing + "[design]\nspacing_m = 2\n");
+  DesignOptions options;
+  options.threads = 2;
+  test::CtrlC ctrl_c;
+  const auto result =
+      design(test::described(file), options, ctrl_c.interrupt(), ctrl_c.pressed_at("signs: ", 2));
+  INFO((result ? "" : result.problem().text()));
+  REQUIRE(ctrl_c.interrupt());
+  CHECK(ctrl_c.times_taken() == 0);
+  REQUIRE(result);
+  REQUIRE(result->signs);
+  CHECK(result->signs->end == LayoutEnd::interrupted);
+  CHECK_FALSE(result->signs->signs.empty());
+  CHECK(result->signs->bound <= result->signs->objective);
+  // The luminaires are those that are known at once, and they pass.
+  CHECK(result->answer.end == LayoutEnd::interrupted);
+  CHECK_FALSE(result->luminaires.empty());
+  CHECK(result->because.empty());
+  CHECK(test::failing_on_disk(folder, file, result.value()).empty());
+  check_guided(folder, file, result.value());
 }
 
 TEST_CASE("a sign type on a circuit that is out hangs nowhere", "[design][signs]") {

@@ -5,6 +5,7 @@
 
 #include "actors/design/solve_layout.hpp"
 #include "runtime/core/random.hpp"
+#include "tests/unit/actors/design/ctrl_c.hpp"
 #include "tests/unit/actors/design/problems.hpp"
 #include "tests/unit/actors/design/silent.hpp"
 
@@ -49,6 +50,44 @@ LayoutProblem storeys(uint32_t count, bool varied) {
     out.spreads.push_back(spread);
   }
   return out;
+}
+
+/// With options, points and groups of its own.
+void add_storey(LayoutProblem& tower, const LayoutProblem& storey) {
+  const auto options = static_cast<uint32_t>(tower.options.size());
+  const auto points = static_cast<uint32_t>(tower.points.size());
+  const auto groups = static_cast<uint32_t>(tower.groups.size());
+  const auto places = static_cast<uint32_t>(tower.places());
+  const auto moved = [&](const Terms& terms) {
+    std::vector<Term> out = *terms;
+    for (Term& term : out) term.option += options;
+    return sum_of(out);
+  };
+  for (LayoutOption option : storey.options) {
+    option.place += places;
+    tower.options.push_back(option);
+  }
+  tower.groups.insert(tower.groups.end(), storey.groups.begin(), storey.groups.end());
+  for (auto point : storey.points) {
+    point.light = moved(point.light);
+    tower.points.push_back(point);
+  }
+  for (auto cover : storey.covers) {
+    cover.group += groups;
+    cover.terms = moved(cover.terms);
+    tower.covers.push_back(cover);
+  }
+  for (FailureRows failures : storey.failures) {
+    failures.group += groups;
+    for (uint32_t& point : failures.points) point += points;
+    tower.failures.push_back(failures);
+  }
+  for (SpreadRows spread : storey.spreads) {
+    spread.group += groups;
+    for (uint32_t& point : spread.low) point += points;
+    for (uint32_t& point : spread.high) point += points;
+    tower.spreads.push_back(spread);
+  }
 }
 
 LayoutAnswer answer_to(const LayoutProblem& problem) {
@@ -124,6 +163,48 @@ TEST_CASE("a tower has a layout of all storeys before any of them is searched", 
   CHECK(sums.holds());
   CHECK(answer.first_seconds <= answer.seconds);
   CHECK(answer.bound <= answer.objective + 1e-6);
+}
+
+TEST_CASE("Ctrl-C ends the search of all storeys, and the best layout of each is kept",
+          "[design][parts]") {
+  constexpr uint32_t count = 4;
+  LayoutProblem tower;
+  for (uint32_t storey = 0; storey < count; ++storey)
+    add_storey(tower, test::random_problem(40 + storey, 60, 80));
+  REQUIRE(parts_of(tower).size() == count);
+  test::CtrlC ctrl_c;
+  SolveSettings settings;
+  settings.seconds = 20;
+  settings.greedy_rounds = 5;
+  // The second storey tells of its first layout, of its search, and then of what the search found:
+  // the first is done by then, and the others have not begun.
+  const LayoutAnswer answer =
+      solve_layout(tower, settings, ctrl_c.interrupt(), ctrl_c.pressed_at("part 2 of 4", 3));
+  REQUIRE(ctrl_c.interrupt());
+  CHECK(answer.end == LayoutEnd::interrupted);
+  const LayoutIndex index(tower);
+  LayoutSums sums(index);
+  sums.set(answer.layout);
+  CHECK(sums.holds());
+  CHECK(answer.objective == Approx(objective_of(tower, answer.layout)));
+  CHECK(answer.objective <= answer.greedy_objective);
+  CHECK(answer.bound > 0);
+  CHECK(answer.bound < answer.objective);
+}
+
+TEST_CASE("whoever listens to Ctrl-C does so while a layout is searched, too", "[design][parts]") {
+  const test::CtrlC ctrl_c;
+  SolveSettings settings;
+  settings.seconds = 2;
+  settings.greedy_rounds = 5;
+  constexpr int enough_looks = 50;
+  for (uint64_t seed = 40; seed < 80 && ctrl_c.times_looked() < enough_looks; ++seed) {
+    const LayoutAnswer answer = solve_layout(test::random_problem(seed, 120, 160), settings,
+                                             ctrl_c.interrupt(), test::silent);
+    CHECK_FALSE(answer.layout.empty());
+  }
+  CHECK(ctrl_c.times_looked() > 0);
+  CHECK(ctrl_c.times_taken() == 0);
 }
 
 TEST_CASE("a tower with one storey that cannot be lit has no layout", "[design][parts]") {

@@ -65,6 +65,49 @@ TEST_CASE("what chance may have made is undecided", "[emergency][legibility]") {
   CHECK_FALSE(unsure.reason.empty());
 }
 
+TEST_CASE("what may be read is what is read, or what chance leaves open",
+          "[emergency][legibility]") {
+  Sight sight;
+  sight.reading_level = {level_read, 0.5};
+  for (const auto& [verdict, may] : {std::pair{SightVerdict::legible, true},
+                                     {SightVerdict::undecided, true},
+                                     {SightVerdict::visible, false},
+                                     {SightVerdict::hidden, false}}) {
+    sight.verdict = verdict;
+    CHECK(may_be_read(sight) == may);
+  }
+  // Open is whether it is seen at all.
+  sight.verdict = SightVerdict::undecided;
+  sight.reading_level = {1, 0.5};
+  CHECK_FALSE(may_be_read(sight));
+}
+
+TEST_CASE("what errs alike in two lights is no error of what they differ by",
+          "[emergency][legibility]") {
+  const Sign sign = two_coloured();
+  const SignView view = view_of_sign(sign, {0, 0, 30});
+  SignLook first = clear();
+  first.difference.error = first.ground.error = 2;
+  SignLook nothing;
+  CHECK(error_of_level_beyond(first, first, nothing, view, {}) == 0);
+  // By itself, what differs errs as it would in one light.
+  SignLook beyond;
+  beyond.difference.error = 0.5;
+  first.difference.error = first.ground.error = 0;
+  SignLook alone = first;
+  alone.difference.error = 0.5;
+  CHECK(error_of_level_beyond(first, first, beyond, view, {}) ==
+        Approx(judge_sight(sign, view, alone, {}).reading_level.error));
+  // A brighter ground is one before which the same difference errs less.
+  SignLook other = first;
+  other.ground.value += 30;
+  first.difference.error = 2;
+  const double before_other = error_of_level_beyond(first, other, nothing, view, {});
+  CHECK(before_other > 0);
+  SignLook in_first = first;
+  CHECK(before_other < judge_sight(sign, view, in_first, {}).reading_level.error);
+}
+
 TEST_CASE("a silhouette before a bright wall is seen, though nothing on it can be told apart",
           "[emergency][legibility]") {
   SignLook dark = clear();
