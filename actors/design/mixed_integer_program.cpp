@@ -113,6 +113,7 @@ void load(const IntegerProgram& program, OsiClpSolverInterface& solver) {
                                 static_cast<int>(program.rows.size()), start.back(), value.data(),
                                 column.data(), start.data(), nullptr);
   solver.messageHandler()->setLogLevel(0);
+  solver.getModelPtr()->setLogLevel(0);  // its own messages, as of a presolve that time has ended
   solver.loadProblem(matrix, program.low.data(), program.high.data(), program.cost.data(),
                      low.data(), high.data());
   leave_signals_alone(solver);
