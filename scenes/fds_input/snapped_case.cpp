@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/core/reading_share.hpp"
 #include "scenes/fds_input/input_building.hpp"
 #include "scenes/fds_input/input_states.hpp"
 
@@ -213,12 +214,14 @@ std::vector<Box> holes_of(const FdsInput& input, const FdsInputOptions& options,
 }
 
 /// The obstructions of a mesh, with the holes that are open, and when they come and go. `pairs`:
-/// that were compared.
+/// that were compared. `done`: hears of all meshes.
 Result<void> fill_mesh(const FdsInput& input, const FdsInputOptions& options,
                        const MeshSnapper& snapper, const std::vector<Box>& holes, uint64_t& pairs,
-                       size_t m, fds::Case& out) {
+                       size_t m, fds::Case& out, ReadingPart& done) {
   fds::Mesh& mesh = out.meshes[m];
+  uint64_t number = m * input.obstructions.size();
   for (const FdsObstruction& o : input.obstructions) {
+    done.at(number++);
     if (!fds_input::is_ever_there(o, options)) continue;
     const auto whole = snapper.snap(o);
     if (!whole) continue;
@@ -256,6 +259,7 @@ Result<fds::Case> snapped_case(const FdsInput& input, const FdsInputOptions& opt
   out.default_surface = input.default_surface;
   for (const FdsInputSurface& s : input.surfaces)
     out.surfaces.push_back({s.name, s.rgb, s.opacity});
+  ReadingPart done(options.reading, input.meshes.size() * input.obstructions.size());
   for (size_t m = 0; m < input.meshes.size(); ++m) {
     const MeshSnapper snapper(input.meshes, m);
     fds::Mesh& mesh = out.meshes.emplace_back();
@@ -264,7 +268,7 @@ Result<fds::Case> snapped_case(const FdsInput& input, const FdsInputOptions& opt
     mesh.cells = input.meshes[m].cells;
     mesh.nodes = snapper.nodes();
     const std::vector<Box> holes = holes_of(input, options, input.meshes[m]);
-    if (auto ok = fill_mesh(input, options, snapper, holes, pairs, m, out); !ok)
+    if (auto ok = fill_mesh(input, options, snapper, holes, pairs, m, out, done); !ok)
       return ok.problem();
     for (const FdsOpening& o : input.openings)
       if (is_there(o.name, o.course, options))
