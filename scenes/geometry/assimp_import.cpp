@@ -237,6 +237,14 @@ class Collector {
     return std::nullopt;
   }
 
+  /// Why the file gives no colour of a material: its base colour alone would be another one.
+  std::optional<Problem> no_colour_of(const aiMaterial& material, const std::string& name) const {
+    if (obj_ != nullptr) return obj_->no_colour(name);
+    if (material.GetTextureCount(aiTextureType_BASE_COLOR) == 0) return std::nullopt;
+    return problem("the colour of the material '" + excerpt(name) +
+                   "' is in a picture (\"baseColorTexture\"), and pictures are not read");
+  }
+
   std::optional<Problem> copy_material(unsigned index, ImportedPart& part) const {
     if (index >= scene_.mNumMaterials) return std::nullopt;
     const aiMaterial& material = *scene_.mMaterials[index];
@@ -247,10 +255,8 @@ class Collector {
       part.material_name.clear();
       return std::nullopt;
     }
-    if (obj_ != nullptr) {
-      part.no_colour = obj_->no_colour(part.material_name);
-      if (part.no_colour) return std::nullopt;
-    }
+    part.no_colour = no_colour_of(material, part.material_name);
+    if (part.no_colour) return std::nullopt;
     aiColor4D colour;
     if (material.Get(AI_MATKEY_BASE_COLOR, colour) != AI_SUCCESS &&
         material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) != AI_SUCCESS) {

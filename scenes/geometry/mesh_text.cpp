@@ -188,10 +188,12 @@ void ObjMaterials::add_library(const std::string& path) {
     const std::string_view word = take_word(rest);
     if (word == "newmtl") {
       const std::string name(without_blanks(rest));
-      material = &declared_.try_emplace(name, Declared{{path, number}, false}).first->second;
+      material = &declared_.try_emplace(name, Declared{{path, number}}).first->second;
     } else if (material != nullptr && (word == "Kd" || word == "kd")) {
       const std::string_view value = take_word(rest);  // "spectral" and "xyz" are no colours
       material->has_colour |= !value.empty() && starts_like_number(value);
+    } else if (material != nullptr && word == "map_Kd") {
+      material->has_picture = true;
     }
   }
 }
@@ -199,11 +201,16 @@ void ObjMaterials::add_library(const std::string& path) {
 std::optional<Problem> ObjMaterials::no_colour(const std::string& material) const {
   const std::string name = "'" + excerpt(material) + "'";
   const auto known = declared_.find(material);
-  if (known != declared_.end() && known->second.has_colour) return std::nullopt;
-  if (known != declared_.end())
-    return problem_in(known->second.place, "the material " + name +
-                                               " has no colour here: give it \"Kd\" with three "
-                                               "numbers from 0 to 1 (pictures are not read)");
+  if (known != declared_.end()) {
+    const auto& [place, has_colour, has_picture] = known->second;
+    if (has_picture)
+      return problem_in(place, "the colour of the material " + name +
+                                   " is in a picture (\"map_Kd\"), and pictures are not read");
+    if (has_colour) return std::nullopt;
+    return problem_in(place, "the material " + name +
+                                 " has no colour here: give it \"Kd\" with three numbers from 0 to "
+                                 "1");
+  }
   const auto use = first_use_.find(material);
   const SourcePlace place{obj_, use != first_use_.end() ? use->second : 0};
   if (libraries_.empty())

@@ -36,6 +36,7 @@ class ObjMaterials {
   struct Declared {
     SourcePlace place;
     bool has_colour = false;
+    bool has_picture = false;  // of its colour
   };
 
   std::string obj_;

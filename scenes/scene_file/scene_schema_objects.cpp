@@ -199,9 +199,9 @@ std::vector<TableSpec> object_schema() {
                  "table: material of the file = material of the scene"},
                 {"material", "text", "", "", "", "material of parts that the table does not name"},
                 {"file_colours", "flag", "", "false", "",
-                 "parts that neither names are Lambertian in the colour of the file; a colour that "
-                 "an OBJ's material libraries do not say is an error, for nothing else stands for "
-                 "it"}},
+                 "parts that neither names are Lambertian in the colour of the file; a material "
+                 "whose "
+                 "colour it does not say, or has in a picture, is an error"}},
                surface_keys()),
            joined(
                transform_keys(),

@@ -111,6 +111,8 @@ TEST_CASE("a material of which no library says a colour has none, and it is said
        "no \"newmtl dark wood\" is in"},
       {"mtllib a.mtl\n" + shape + wood, "\nnewmtl dark wood\nKs 1 1 1\n", "a.mtl", 2,
        "give it \"Kd\""},
+      {"mtllib a.mtl\n" + shape + wood, "newmtl dark wood\nKd 1 1 1\nmap_Kd oak.png\n", "a.mtl", 1,
+       "is in a picture (\"map_Kd\")"},
   };
   for (const Row& row : rows) {
     INFO(row.says);
@@ -123,6 +125,15 @@ TEST_CASE("a material of which no library says a colour has none, and it is said
     CHECK(bare.no_colour->what.find(row.says) != std::string::npos);
     CHECK(bare.no_colour->what.find("'dark wood'") != std::string::npos);
   }
+  // White in a glTF stands for nothing but the picture that it dims.
+  const std::string tiled =
+      R"({"name":"tiles","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
+      R"("textures":[{"source":0}],"images":[{"uri":"tiles.png"})";
+  const auto parts =
+      import_ok(folder.write("tiled.gltf", gltf(R"({"name":"n","mesh":0})", "0", tiled)));
+  CHECK_FALSE(parts.at(0).base_colour);
+  REQUIRE(parts[0].no_colour);
+  CHECK(parts[0].no_colour->what.find("'tiles' is in a picture") != std::string::npos);
 }
 
 TEST_CASE("an OBJ without materials has none, and normals do not keep vertices apart",
