@@ -84,9 +84,8 @@ Result<ExitCode> import_ifc(const ImportIfcOptions& options) {
   if (!shapes) return shapes.problem();
   ProgressLine line("import");
   const Building building = building_of(
-      model.value(), std::move(shapes).value(), [&](const std::string& what, double share) {
-        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
-      });
+      model.value(), std::move(shapes).value(),
+      [&](const std::string& what, double share) { line.show_share(share, ", " + what); });
   const auto written = write_building(building, options.out, options.photometry);
   if (!written) return written.problem();
   tell(building, written.value(), options.out);
