@@ -69,7 +69,7 @@ class Faults {
 function computed_meshes(api, bytes, plan, faults) {
   api.setSourceBytes(bytes);
   const meshes = [];
-  const step = job_words * Math.ceil(plan.totalJobs / most_batches);
+  const step = job_words * Math.ceil(plan.jobs.length / job_words / most_batches);
   for (let at = 0; at < plan.jobs.length; at += step) {
     const batch = api.processGeometryBatchFromSource(
       plan.jobs.slice(at, at + step), plan.unitScale, ...plan.rtcOffset, plan.needsShift,

@@ -348,6 +348,35 @@ TEST_CASE("a model's parts stand where it says, in millimetres, in feet and far 
   }
 }
 
+TEST_CASE("the shape of a type stands nowhere beside those of its products", "[import]") {
+  if (!can_compute()) return;
+  const TemporaryFolder folder;
+  std::string text = SmallIfc{}.text();
+  const auto id_of = [&](const std::string& kind) {
+    const size_t end = text.rfind("=" + kind + "(");
+    REQUIRE(end != std::string::npos);
+    const size_t begin = text.rfind('#', end);
+    return text.substr(begin, end - begin);
+  };
+  const auto names_in = [&](const std::string& model) {
+    const auto shapes = ifc_shapes(folder.write("small.ifc", model), script, 120);
+    if (!shapes) FAIL(shapes.problem().text());
+    std::vector<std::string> names;
+    for (const ImportedPart& part : shapes->parts) names.push_back(part.name);
+    return names;
+  };
+  const std::vector<std::string> before = names_in(text);
+  CHECK(before.size() > 5);
+  const std::string type = "1_VlNhLA52XG8421000911";
+  const std::string typed = "#9000=IFCREPRESENTATIONMAP(" + id_of("IFCAXIS2PLACEMENT3D") + "," +
+                            id_of("IFCSHAPEREPRESENTATION") + ");\n#9001=IFCFURNITURETYPE('" +
+                            type + "',$,'Table',$,$,$,(#9000),$,$,.NOTDEFINED.,$);\n" +
+                            "#9002=IFCRELDEFINESBYTYPE('1_VlNhLA52XG8421000918',$,$,$,(" +
+                            id_of("IFCFURNITURE") + "),#9001);\n";
+  const size_t end = text.rfind("ENDSEC;");
+  CHECK(names_in(text.substr(0, end) + typed + text.substr(end)) == before);
+}
+
 TEST_CASE("a wrong volume and a missing ceiling are told", "[import]") {
   if (!can_compute()) return;
   SmallIfc small;
