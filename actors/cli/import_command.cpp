@@ -10,6 +10,7 @@
 #include "actors/cli/progress_line.hpp"
 #include "actors/import/write_fire.hpp"
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 #include "scenes/fds_input/input_building.hpp"
 
 namespace luxodus::cli {
@@ -73,7 +74,7 @@ bool is_input_file(const std::string& file) {
   return ending == ".fds";
 }
 
-Result<FireImport> of_input(const ImportOptions& options) {
+Result<FireImport> of_input(const ImportOptions& options, ReadingShare& reading) {
   const auto input = read_fds_input(options.file);
   if (!input) return input.problem();
   FireImport out;
@@ -83,6 +84,7 @@ Result<FireImport> of_input(const ImportOptions& options) {
   FdsInputOptions wanted;
   wanted.at_s = out.source.at_s;
   wanted.without = {options.without.begin(), options.without.end()};
+  wanted.reading = &reading;
   auto building = options.snap ? snapped_building(input.value(), wanted)
                                : exact_building(input.value(), wanted);
   if (!building) return building.problem();
@@ -93,8 +95,9 @@ Result<FireImport> of_input(const ImportOptions& options) {
 Result<ExitCode> import_fds(const ImportOptions& options) {
   const bool is_input = is_input_file(options.file);
   const auto made = [&] {
-    const WaitingLine waiting("reading " + options.file);
-    return is_input ? of_input(options) : of_results(options);
+    ReadingShare reading;
+    const WaitingLine waiting("reading " + options.file, &reading);
+    return is_input ? of_input(options, reading) : of_results(options);
   }();
   if (!made) return made.problem();
   const FireBuilding& building = made->building;

@@ -48,9 +48,12 @@ void tell(const Building& building, const WrittenBuilding& written, const std::s
   std::printf("storeys %zu, parts %zu, door leaves %zu, rooms %zu, luminaires %zu, signs %zu\n",
               building.storeys.size(), written.parts, written.doors, written.rooms,
               written.luminaires, written.signs);
-  std::printf("volumes: %zu of %zu authored ones within %g %%\n",
-              building.volumes_compared - building.differences.size(), building.volumes_compared,
-              100 * limits::volume_difference);
+  if (building.volumes_compared == 0)
+    std::printf("volumes: the model states none that shapes could be held against\n");
+  else
+    std::printf("volumes: %zu of %zu authored ones within %g %%\n",
+                building.volumes_compared - building.differences.size(), building.volumes_compared,
+                100 * limits::volume_difference);
   std::vector<std::string> differences;
   for (const VolumeDifference& d : building.differences)
     differences.push_back(fmt::format("#{} {} {}: {:.4g} m3 authored, {:.4g} m3 as a shape", d.id,
@@ -73,15 +76,16 @@ Result<ExitCode> import_ifc(const ImportIfcOptions& options) {
     return ifc_model_of(std::move(bytes).value(), options.model, &share);
   }();
   if (!model) return model.problem();
-  ProgressLine line("import");
-  auto shapes = ifc_shapes(options.model, shapes_script(), options.seconds, [&](double seconds) {
-    line.put(fmt::format("computing shapes for {:.0f} s", seconds), false);
-  });
+  auto shapes = [&] {
+    ReadingShare share;
+    const WaitingLine waiting("computing the shapes of " + options.model, &share);
+    return ifc_shapes(options.model, shapes_script(), options.seconds, &share);
+  }();
   if (!shapes) return shapes.problem();
+  ProgressLine line("import");
   const Building building = building_of(
-      model.value(), std::move(shapes).value(), [&](const std::string& what, double share) {
-        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
-      });
+      model.value(), std::move(shapes).value(),
+      [&](const std::string& what, double share) { line.show_share(share, ", " + what); });
   const auto written = write_building(building, options.out, options.photometry);
   if (!written) return written.problem();
   tell(building, written.value(), options.out);

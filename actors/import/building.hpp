@@ -131,7 +131,8 @@ DoorPieces door_pieces(const std::vector<DoorPiece>& parts, const Transform& pla
 /// without points on straight lines. Empty where there is none.
 std::vector<glm::dvec2> floor_outline(const Mesh& mesh);
 
-/// Rays at the parts of storeys, which outlive it. Every part in whose box a ray comes is asked.
+/// Rays at the parts of storeys, which outlive it. Parts are found by a tree of their boxes, in
+/// double precision: a model may stand far from its origin.
 class PartRays {
  public:
   explicit PartRays(const std::vector<BuildingStorey>& storeys);
@@ -140,7 +141,22 @@ class PartRays {
   std::optional<double> first(const glm::dvec3& from, const glm::dvec3& direction) const;
 
  private:
-  std::vector<std::pair<const Mesh*, Bounds>> parts_;
+  struct Part {
+    const Mesh* mesh;
+    Bounds box;
+  };
+  /// A leaf has parts. The first child of any other stands behind it.
+  struct Node {
+    Bounds box;
+    size_t first = 0, end = 0;  // parts of a leaf
+    size_t second_child = 0;
+    bool is_leaf() const { return first < end; }
+  };
+
+  void grow(size_t first, size_t end);
+
+  std::vector<Part> parts_;
+  std::vector<Node> nodes_;
 };
 
 /// Share of rays from the middle of a room that meet none of the parts, the way most of them go,

@@ -53,8 +53,9 @@ std::optional<double> meets(const glm::dvec3& from, const glm::dvec3& way, const
   return distance > 1e-6 ? std::optional(distance) : std::nullopt;
 }
 
-bool passes_box(const glm::dvec3& from, const glm::dvec3& way, const Bounds& box) {
-  double enter = 0, leave = 1e300;
+/// Whether a ray comes into a box before it has gone so far.
+bool passes_box(const glm::dvec3& from, const glm::dvec3& way, const Bounds& box, double within) {
+  double enter = 0, leave = within;
   for (glm::length_t i = 0; i < 3; ++i) {
     const double a = (box.low[i] - 1e-6 - from[i]) / way[i];
     const double b = (box.high[i] + 1e-6 - from[i]) / way[i];
@@ -283,19 +284,63 @@ PartRays::PartRays(const std::vector<BuildingStorey>& storeys) {
   for (const BuildingStorey& storey : storeys)
     for (const BuildingPart& part : storey.parts)
       if (!part.mesh.triangles.empty()) parts_.push_back({&part.mesh, bounds_of(part.mesh)});
+  if (!parts_.empty()) grow(0, parts_.size());
+}
+
+/// The tree of these parts: halves along the axis in which their middles are farthest apart.
+void PartRays::grow(size_t first, size_t end) {
+  constexpr size_t leaf_parts = 4;
+  const size_t at = nodes_.size();
+  nodes_.emplace_back();
+  Bounds box, middles;
+  for (size_t i = first; i < end; ++i) {
+    box.extend(parts_[i].box);
+    middles.extend(parts_[i].box.low + parts_[i].box.high);
+  }
+  nodes_[at].box = box;
+  if (end - first <= leaf_parts) {
+    nodes_[at].first = first;
+    nodes_[at].end = end;
+    return;
+  }
+  const glm::dvec3 extent = middles.high - middles.low;
+  const glm::length_t axis = extent.x >= std::max(extent.y, extent.z) ? 0
+                             : extent.y >= extent.z                   ? 1
+                                                                      : 2;
+  const auto place = [&](size_t i) { return parts_.begin() + static_cast<std::ptrdiff_t>(i); };
+  const size_t half = first + (end - first) / 2;
+  std::nth_element(place(first), place(half), place(end), [&](const Part& a, const Part& b) {
+    return a.box.low[axis] + a.box.high[axis] < b.box.low[axis] + b.box.high[axis];
+  });
+  grow(first, half);
+  nodes_[at].second_child = nodes_.size();
+  grow(half, end);
 }
 
 std::optional<double> PartRays::first(const glm::dvec3& from, const glm::dvec3& way) const {
-  std::optional<double> nearest;
-  for (const auto& [mesh, box] : parts_) {
-    if (!passes_box(from, way, box)) continue;
-    for (const glm::uvec3& t : mesh->triangles) {
-      const auto d =
-          meets(from, way, mesh->positions[t.x], mesh->positions[t.y], mesh->positions[t.z]);
-      if (d && (!nearest || *d < *nearest)) nearest = d;
+  constexpr double endless = 1e300;
+  double nearest = endless;
+  std::vector<size_t> open;
+  if (!nodes_.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const size_t at = open.back();
+    const Node& node = nodes_[at];
+    open.pop_back();
+    if (!passes_box(from, way, node.box, nearest)) continue;
+    if (!node.is_leaf()) {
+      open.push_back(node.second_child);
+      open.push_back(at + 1);
+    }
+    for (size_t i = node.first; i < node.end; ++i) {
+      const Mesh& mesh = *parts_[i].mesh;
+      if (!passes_box(from, way, parts_[i].box, nearest)) continue;
+      for (const glm::uvec3& t : mesh.triangles)
+        nearest = std::min(
+            nearest, meets(from, way, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z])
+                         .value_or(endless));
     }
   }
-  return nearest;
+  return nearest < endless ? std::optional(nearest) : std::nullopt;
 }
 
 void look_for_openings(const PartRays& solids, BuildingRoom& room) {

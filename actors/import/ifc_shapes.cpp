@@ -14,10 +14,12 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 
 #include "actors/import/answer_folder.hpp"
 #include "runtime/core/file_descriptor.hpp"
 #include "runtime/core/printable.hpp"
+#include "runtime/core/reading_share.hpp"
 #include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
@@ -33,10 +35,11 @@ constexpr int no_package = 3, no_shapes = 4;
 /// posix_spawnp: the shell's code of a program that is not there.
 constexpr int not_found = 127;
 
-/// Exit code of a process; nothing where it did not end in time and was killed.
+/// Exit code of a process; nothing where it did not end in time and was killed. `waits` is called
+/// twice a second.
 Result<std::optional<int>> run_process(const std::vector<std::string>& words, const fs::path& out,
                                        const fs::path& err, double seconds,
-                                       const std::function<void(double)>& told) {
+                                       const std::function<void()>& waits) {
   std::vector<std::string> held = words;
   std::vector<char*> arguments;
   for (std::string& word : held) arguments.push_back(word.data());
@@ -63,7 +66,7 @@ Result<std::optional<int>> run_process(const std::vector<std::string>& words, co
     ready = ::poll(&ends, 1, static_cast<int>(std::ceil(wait_s * 1000)));
     if (ready < 0) ready = errno == EINTR ? 0 : 1;
     waited_s += wait_s;
-    if (told && ready == 0) told(waited_s);
+    if (ready == 0) waits();
   }
   if (ready == 0) ::kill(process, SIGKILL);
   int status = 0;
@@ -112,6 +115,20 @@ Said said_by(const fs::path& file) {
   return said;
 }
 
+/// The share of products in the last whole line that the process has said of it; 0 before the
+/// first.
+double share_said_in(const fs::path& file) {
+  const auto text = read_regular_file(file, max_said_bytes);
+  if (!text) return 0;
+  constexpr std::string_view word = "\ndone ";
+  const std::string all = "\n" + text.value();
+  const size_t begin = all.rfind(word, all.rfind('\n') - 1);
+  if (begin == std::string::npos) return 0;
+  double share = 0;
+  (void)std::from_chars(all.data() + begin + word.size(), all.data() + all.size(), share);
+  return share >= 0 && share <= 1 ? share : 0;
+}
+
 /// The first line of what the process complained about.
 std::string complaint(const fs::path& file) {
   const auto text = read_regular_file(file, max_said_bytes);
@@ -137,7 +154,7 @@ double opacity_of(const ImportedPart& part) {
 }
 
 Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, double seconds,
-                             const std::function<void(double)>& told) {
+                             ReadingShare* reading) {
   const std::string file = model.string();
   std::error_code failed;
   if (!fs::is_regular_file(script, failed))
@@ -149,9 +166,11 @@ Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, doub
     return system_problem(fs::temp_directory_path(failed).string(), "no folder can be made", errno);
   const fs::path glb = folder.path() / "shapes.glb", out = folder.path() / "out",
                  err = folder.path() / "err";
+  const uint64_t bytes = fs::file_size(model, failed);
+  ReadingPart computed(reading, failed ? 0 : bytes);
   const auto code =
       run_process({"node", script.string(), fs::absolute(model).string(), glb.string()}, out, err,
-                  seconds, told);
+                  seconds, [&] { computed.at_share(share_said_in(out)); });
   if (!code) return code.problem();
   if (!code.value())
     return problem_in(file, fmt::format("its shapes take longer than {:g} s to compute: give more "

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,8 @@
 #include "scenes/geometry/import.hpp"
 
 namespace luxodus {
+
+class ReadingShare;
 
 struct IfcShapes {
   /// By product: `name` begins with its GlobalId, up to a '#'. Scene axes [m], in double.
@@ -23,11 +24,11 @@ struct IfcShapes {
 double opacity_of(const ImportedPart& part);
 
 /// `script`: ifc_shapes.mjs, with node_modules beside it. `seconds`: until the process is ended.
-/// `told`, where given, hears twice a second for how long it has been at work [s].
+/// `reading`, where given, hears twice a second how much of the model's products is done.
 /// Errors: no Node.js, no package, more time, a model without shapes, an answer that is none or
 /// does not say where the shapes are.
 Result<IfcShapes> ifc_shapes(const std::filesystem::path& model,
                              const std::filesystem::path& script, double seconds,
-                             const std::function<void(double)>& told = {});
+                             ReadingShare* reading = nullptr);
 
 }  // namespace luxodus

@@ -84,28 +84,33 @@ std::map<std::string, size_t> counted(const Things& things, const Name& name) {
   return out;
 }
 
+/// "1 line", "12 lines".
+std::string several(size_t count, const char* one) {
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
 void add_rules(const DxfPlan& plan, OwnTables& layers, const OwnTables& blocks) {
   for (const auto& [name, count] :
        counted(plan.segments, [](const DxfSegment& s) { return s.layer; }))
     if (!layers.has("layer", name))
       layers.added += fmt::format(
-          "\n[[layer]]           # {} lines\nname = {}\nas = \"nothing\"      # wall, sheet\n"
+          "\n[[layer]]           # {}\nname = {}\nas = \"nothing\"      # wall, sheet\n"
           "height_m = 3\nthickness_m = 0.1\nmaterial = \"wall\"\n",
-          count, toml_text(name));
+          several(count, "line"), toml_text(name));
   for (const auto& [name, count] :
        counted(plan.inserts, [](const DxfInsert& i) { return i.block; }))
     if (!blocks.has("block", name))
       layers.added += fmt::format(
-          "\n[[block]]           # {} times\nname = {}\nas = \"nothing\"      # luminaire, sign\n"
+          "\n[[block]]           # {}\nname = {}\nas = \"nothing\"      # luminaire, sign\n"
           "type = {}\nheight_m = 2.5\n",
-          count, toml_text(name), toml_text(name));
+          several(count, "time"), toml_text(name), toml_text(name));
 }
 
 constexpr const char* plan_head =
     "# What the layers and blocks of the drawing become. This file is yours: an import adds what "
-    "is "
-    "new at\n# its end and changes nothing else. Say \"wall\" for lines along the middle of walls, "
-    "\"sheet\" for\n# lines along their faces; then import again.\nfloor_m = 0\n# ceiling_m = 3\n";
+    "is\n"
+    "# new at its end and changes nothing else. Say \"wall\" for lines along the middle of walls,\n"
+    "# \"sheet\" for lines along their faces; then import again.\nfloor_m = 0\n# ceiling_m = 3\n";
 
 constexpr const char* plan_materials =
     "# Yours. A plan knows no reflectances: state them.\n\n[[material]]\nname = \"wall\"\n"

@@ -144,7 +144,8 @@ Result<void> same(const Json& header, const Json& wanted, const char* key,
   if (found == wanted[key]) return {};
   return problem_in(place, std::string("this flux is of another ") + key + " (" + found.dump() +
                                " here, the run has " + wanted[key].dump() +
-                               "): give another --out, or run without --resume");
+                               "): the scene or its options have changed since, so run it again, "
+                               "without --resume");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/core/reading_share.hpp"
 #include "scenes/fds_input/input_building.hpp"
 #include "scenes/fds_input/input_states.hpp"
 
@@ -65,7 +66,10 @@ class ExactBuilding {
     std::vector<Box> holes;
     for (const FdsHole& hole : input_.holes)
       if (is_there(hole.name, hole.course, options_)) holes.push_back(hole.box);
+    ReadingPart done(options_.reading, input_.obstructions.size());
+    uint64_t number = 0;
     for (const FdsObstruction& o : input_.obstructions) {
+      done.at(number++);
       if (!fds_input::is_ever_there(o, options_)) continue;
       const bool in_a_mesh =
           std::any_of(input_.meshes.begin(), input_.meshes.end(),

@@ -11,10 +11,14 @@
 
 namespace luxodus {
 
+class ReadingShare;
+
 struct FdsInputOptions {
   double at_s = 0;
   /// Obstructions, holes and openings that are not there, by name: for those that no clock drives.
   std::set<std::string> without;
+  /// Hears how many obstructions are done, where given.
+  ReadingShare* reading = nullptr;
 };
 
 /// To the last digit as written. Holes cut obstructions of PERMIT_HOLE exactly; faces of meshes are

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/core/reading_share.hpp"
 #include "scenes/fds_input/input_building.hpp"
 #include "scenes/fds_input/input_states.hpp"
 
@@ -68,8 +69,8 @@ class MeshSnapper {
     return flat > 1 ? std::nullopt : std::optional(out);
   }
 
-  /// The rest of a piece, which a hole cuts if it takes whole cells of it.
-  std::vector<Piece> without(const Piece& piece, const Box& hole) const {
+  /// A hole, on the nodes of the mesh.
+  Piece snap(const Box& hole) const {
     Piece cut;
     for (int axis = 0; axis < 3; ++axis) {
       const double margin = beyond * cell_[axis];
@@ -78,6 +79,23 @@ class MeshSnapper {
       cut.nodes.low[axis] = node(cut.box.low[axis], axis);
       cut.nodes.high[axis] = node(cut.box.high[axis], axis);
     }
+    return cut;
+  }
+
+  /// Whether a hole takes more than a face of a piece: on the nodes, and as written.
+  static bool takes_of(const Piece& hole, const Piece& piece) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int low = std::max(hole.nodes.low[axis], piece.nodes.low[axis]);
+      const int high = std::min(hole.nodes.high[axis], piece.nodes.high[axis]);
+      const bool flat = piece.nodes.low[axis] == piece.nodes.high[axis];
+      if (high < low || (high == low && !flat)) return false;
+    }
+    return glm::all(glm::lessThan(hole.box.low, piece.box.high)) &&
+           glm::all(glm::greaterThan(hole.box.high, piece.box.low));
+  }
+
+  /// The rest of a piece, which a hole cuts if it takes whole cells of it. `cut`: the hole.
+  static std::vector<Piece> without(const Piece& piece, const Piece& cut) {
     if (!takes_of(cut, piece)) return {piece};
     std::vector<Piece> out;
     Piece rest = piece;
@@ -183,42 +201,32 @@ class MeshSnapper {
     }
   }
 
-  /// Whether a hole takes more than a face of a piece: on the nodes, and as written.
-  static bool takes_of(const Piece& hole, const Piece& piece) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const int low = std::max(hole.nodes.low[axis], piece.nodes.low[axis]);
-      const int high = std::min(hole.nodes.high[axis], piece.nodes.high[axis]);
-      const bool flat = piece.nodes.low[axis] == piece.nodes.high[axis];
-      if (high < low || (high == low && !flat)) return false;
-    }
-    return glm::all(glm::lessThan(hole.box.low, piece.box.high)) &&
-           glm::all(glm::greaterThan(hole.box.high, piece.box.low));
-  }
-
   const std::vector<FdsInputMesh>& all_;
   const FdsInputMesh& mesh_;
   glm::dvec3 cell_{0};
 };
 
-/// The holes that are open and reach into a mesh.
-std::vector<Box> holes_of(const FdsInput& input, const FdsInputOptions& options,
-                          const FdsInputMesh& mesh) {
-  std::vector<Box> out;
+/// The holes that are open and reach into a mesh, on its nodes.
+std::vector<Piece> holes_of(const FdsInput& input, const FdsInputOptions& options,
+                            const FdsInputMesh& mesh, const MeshSnapper& snapper) {
+  std::vector<Piece> out;
   for (const FdsHole& hole : input.holes)
     if (is_there(hole.name, hole.course, options) &&
         glm::all(glm::lessThanEqual(hole.box.low, mesh.box.high)) &&
         glm::all(glm::greaterThanEqual(hole.box.high, mesh.box.low)))
-      out.push_back(hole.box);
+      out.push_back(snapper.snap(hole.box));
   return out;
 }
 
 /// The obstructions of a mesh, with the holes that are open, and when they come and go. `pairs`:
-/// that were compared.
+/// that were compared. `done`: hears of all meshes.
 Result<void> fill_mesh(const FdsInput& input, const FdsInputOptions& options,
-                       const MeshSnapper& snapper, const std::vector<Box>& holes, uint64_t& pairs,
-                       size_t m, fds::Case& out) {
+                       const MeshSnapper& snapper, const std::vector<Piece>& holes, uint64_t& pairs,
+                       size_t m, fds::Case& out, ReadingPart& done) {
   fds::Mesh& mesh = out.meshes[m];
+  uint64_t number = m * input.obstructions.size();
   for (const FdsObstruction& o : input.obstructions) {
+    done.at(number++);
     if (!fds_input::is_ever_there(o, options)) continue;
     const auto whole = snapper.snap(o);
     if (!whole) continue;
@@ -226,9 +234,13 @@ Result<void> fill_mesh(const FdsInput& input, const FdsInputOptions& options,
     for (size_t h = 0; o.permit_hole && h < holes.size(); ++h) {
       pairs += pieces.size();
       if (pairs > limits::fds_input_pairs) return too_much_to_compare(input);
+      const auto is_cut = [&](const Piece& piece) {
+        return MeshSnapper::takes_of(holes[h], piece);
+      };
+      if (std::none_of(pieces.begin(), pieces.end(), is_cut)) continue;
       std::vector<Piece> left;
       for (const Piece& piece : pieces)
-        for (const Piece& part : snapper.without(piece, holes[h])) left.push_back(part);
+        for (const Piece& part : MeshSnapper::without(piece, holes[h])) left.push_back(part);
       pieces = std::move(left);
       if (pieces.size() > limits::fire_objects) return too_many_objects(input);
     }
@@ -256,6 +268,7 @@ Result<fds::Case> snapped_case(const FdsInput& input, const FdsInputOptions& opt
   out.default_surface = input.default_surface;
   for (const FdsInputSurface& s : input.surfaces)
     out.surfaces.push_back({s.name, s.rgb, s.opacity});
+  ReadingPart done(options.reading, input.meshes.size() * input.obstructions.size());
   for (size_t m = 0; m < input.meshes.size(); ++m) {
     const MeshSnapper snapper(input.meshes, m);
     fds::Mesh& mesh = out.meshes.emplace_back();
@@ -263,8 +276,8 @@ Result<fds::Case> snapped_case(const FdsInput& input, const FdsInputOptions& opt
     mesh.line = input.meshes[m].line;
     mesh.cells = input.meshes[m].cells;
     mesh.nodes = snapper.nodes();
-    const std::vector<Box> holes = holes_of(input, options, input.meshes[m]);
-    if (auto ok = fill_mesh(input, options, snapper, holes, pairs, m, out); !ok)
+    const std::vector<Piece> holes = holes_of(input, options, input.meshes[m], snapper);
+    if (auto ok = fill_mesh(input, options, snapper, holes, pairs, m, out, done); !ok)
       return ok.problem();
     for (const FdsOpening& o : input.openings)
       if (is_there(o.name, o.course, options))

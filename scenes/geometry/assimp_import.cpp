@@ -97,9 +97,12 @@ double float_step(double coordinate) {
 /// Walks the tree of nodes and copies what it places.
 class Collector {
  public:
-  Collector(const aiScene& scene, const std::string& path, double metres_per_unit, UpAxis up)
+  /// `obj`: what the texts of an OBJ say of its materials; null for other kinds.
+  Collector(const aiScene& scene, const std::string& path, double metres_per_unit, UpAxis up,
+            const ObjMaterials* obj)
       : scene_(scene),
         path_(path),
+        obj_(obj),
         to_scene_(to_z_up(up) * scaling(glm::dvec3(metres_per_unit))),
         metres_per_unit_(metres_per_unit) {}
 
@@ -234,6 +237,14 @@ class Collector {
     return std::nullopt;
   }
 
+  /// Why the file gives no colour of a material: its base colour alone would be another one.
+  std::optional<Problem> no_colour_of(const aiMaterial& material, const std::string& name) const {
+    if (obj_ != nullptr) return obj_->no_colour(name);
+    if (material.GetTextureCount(aiTextureType_BASE_COLOR) == 0) return std::nullopt;
+    return problem("the colour of the material '" + excerpt(name) +
+                   "' is in a picture (\"baseColorTexture\"), and pictures are not read");
+  }
+
   std::optional<Problem> copy_material(unsigned index, ImportedPart& part) const {
     if (index >= scene_.mNumMaterials) return std::nullopt;
     const aiMaterial& material = *scene_.mMaterials[index];
@@ -244,6 +255,8 @@ class Collector {
       part.material_name.clear();
       return std::nullopt;
     }
+    part.no_colour = no_colour_of(material, part.material_name);
+    if (part.no_colour) return std::nullopt;
     aiColor4D colour;
     if (material.Get(AI_MATKEY_BASE_COLOR, colour) != AI_SUCCESS &&
         material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) != AI_SUCCESS) {
@@ -261,6 +274,7 @@ class Collector {
 
   const aiScene& scene_;
   const std::string& path_;
+  const ObjMaterials* obj_;
   Transform to_scene_;
   double metres_per_unit_;
   uint64_t vertices_ = 0, triangles_ = 0;
@@ -275,7 +289,8 @@ Result<std::vector<ImportedPart>> import_by_assimp(const std::string& path, doub
                                                    UpAxis up,
                                                    std::vector<std::string>& files_read) {
   const bool is_obj = mesh_ending(path) == ".obj";
-  if (auto bad = is_obj ? fault_of_obj(path) : fault_of_gltf(path)) return *bad;
+  ObjMaterials materials(path);
+  if (auto bad = is_obj ? fault_of_obj(path, materials) : fault_of_gltf(path)) return *bad;
   Assimp::Importer importer;
   auto* files = new GuardedFiles(is_obj ? path : "");  // the importer owns it from here
   importer.SetIOHandler(files);
@@ -295,7 +310,9 @@ Result<std::vector<ImportedPart>> import_by_assimp(const std::string& path, doub
     if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // Assimp has caught it
     return problem_in(path, "cannot be read: " + excerpt(why, 200));
   }
-  return Collector(*scene, path, metres_per_unit, up).collect();
+  for (const std::string& file : files_read)
+    if (is_obj && file != path) materials.add_library(file);
+  return Collector(*scene, path, metres_per_unit, up, is_obj ? &materials : nullptr).collect();
 }
 
 }  // namespace luxodus

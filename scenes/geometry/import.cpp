@@ -38,6 +38,8 @@ void put(PlainWriter& out, const ImportedPart& part) {
   out.put(part.mesh.positions);
   out.put(part.mesh.triangles);
   out.put(part.mesh.texture_uv);
+  out.put(static_cast<uint8_t>(part.no_colour ? 1 : 0));
+  if (part.no_colour) put(out, *part.no_colour);
   out.put(static_cast<uint8_t>(part.base_colour ? 1 : 0));
   out.put(part.base_colour.value_or(glm::dvec3(0)));
   out.put(part.degenerate_triangles);
@@ -93,25 +95,26 @@ bool sound(const Mesh& mesh) {
          all_finite(mesh.positions) && all_finite(mesh.texture_uv);
 }
 
-/// A part of the answer; false where it is none.
-bool get(PlainReader& in, ImportedPart& part) {
-  uint8_t has_colour = 0;
-  glm::dvec3 colour(0);
-  if (!in.get(part.name) || !in.get(part.material_name) || !in.get(part.mesh.positions) ||
-      !in.get(part.mesh.triangles) || !in.get(part.mesh.texture_uv) || !in.get(has_colour) ||
-      !in.get(colour) || !in.get(part.degenerate_triangles))
-    return false;
-  for (glm::length_t i = 0; i < 3; ++i)
-    if (!(colour[i] >= 0 && colour[i] <= 1)) return false;
-  if (has_colour == 1) part.base_colour = colour;
-  return has_colour <= 1 && part.degenerate_triangles >= 0 && sound(part.mesh);
-}
-
 std::optional<Problem> get_problem(PlainReader& in) {
   Problem problem;
   const bool told =
       in.get(problem.where.file) && in.get(problem.where.line) && in.get(problem.what);
   return told ? std::optional(std::move(problem)) : std::nullopt;
+}
+
+/// A part of the answer; false where it is none.
+bool get(PlainReader& in, ImportedPart& part) {
+  uint8_t lacks_colour = 0, has_colour = 0;
+  glm::dvec3 colour(0);
+  if (!in.get(part.name) || !in.get(part.material_name) || !in.get(part.mesh.positions) ||
+      !in.get(part.mesh.triangles) || !in.get(part.mesh.texture_uv) || !in.get(lacks_colour))
+    return false;
+  if (lacks_colour == 1 && !(part.no_colour = get_problem(in))) return false;
+  if (!in.get(has_colour) || !in.get(colour) || !in.get(part.degenerate_triangles)) return false;
+  for (glm::length_t i = 0; i < 3; ++i)
+    if (!(colour[i] >= 0 && colour[i] <= 1)) return false;
+  if (has_colour == 1) part.base_colour = colour;
+  return lacks_colour + has_colour <= 1 && part.degenerate_triangles >= 0 && sound(part.mesh);
 }
 
 Result<std::vector<ImportedPart>> parts_of(PlainReader& in, const std::string& path,

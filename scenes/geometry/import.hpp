@@ -32,6 +32,7 @@ struct ImportedPart {
   Mesh mesh;                  // texture coordinates where the file has them, v upwards
   std::optional<glm::dvec3>
       base_colour;                   // linear RGB in [0, 1]: glTF base colour, OBJ Kd as written
+  std::optional<Problem> no_colour;  // why there is none of a material that is named, and where
   int64_t degenerate_triangles = 0;  // dropped; those of parts that had no others go to the first
 };
 

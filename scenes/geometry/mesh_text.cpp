@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/core/printable.hpp"
 #include "scenes/geometry/import.hpp"
 
 namespace luxodus {
@@ -27,6 +28,13 @@ std::string_view take_word(std::string_view& line) {
   const std::string_view word = line.substr(0, line.find_first_of(blanks));
   line.remove_prefix(word.size());
   return word;
+}
+
+/// The rest of a line, which is one name: blanks may stand in it.
+std::string_view without_blanks(std::string_view rest) {
+  constexpr std::string_view blanks = " \t\r";
+  rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+  return rest.substr(0, rest.find_last_not_of(blanks) + 1);
 }
 
 /// Whether a word could be a number, NaN and infinity included.
@@ -162,7 +170,62 @@ std::string mesh_ending(const std::string& path) {
   return ending;
 }
 
-std::optional<Problem> fault_of_obj(const std::string& path) {
+void ObjMaterials::names_library(std::string_view rest) {
+  libraries_.emplace_back(without_blanks(rest));
+}
+
+void ObjMaterials::uses(std::string_view rest, int line) {
+  first_use_.try_emplace(std::string(without_blanks(rest)), line);
+}
+
+void ObjMaterials::add_library(const std::string& path) {
+  read_.push_back(path);
+  std::ifstream in(path, std::ios::binary);
+  std::string line;
+  Declared* material = nullptr;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::string_view rest = line;
+    const std::string_view word = take_word(rest);
+    if (word == "newmtl") {
+      const std::string name(without_blanks(rest));
+      material = &declared_.try_emplace(name, Declared{{path, number}}).first->second;
+    } else if (material != nullptr && (word == "Kd" || word == "kd")) {
+      const std::string_view value = take_word(rest);  // "spectral" and "xyz" are no colours
+      material->has_colour |= !value.empty() && starts_like_number(value);
+    } else if (material != nullptr && word == "map_Kd") {
+      material->has_picture = true;
+    }
+  }
+}
+
+std::optional<Problem> ObjMaterials::no_colour(const std::string& material) const {
+  const std::string name = "'" + excerpt(material) + "'";
+  const auto known = declared_.find(material);
+  if (known != declared_.end()) {
+    const auto& [place, has_colour, has_picture] = known->second;
+    if (has_picture)
+      return problem_in(place, "the colour of the material " + name +
+                                   " is in a picture (\"map_Kd\"), and pictures are not read");
+    if (has_colour) return std::nullopt;
+    return problem_in(place, "the material " + name +
+                                 " has no colour here: give it \"Kd\" with three numbers from 0 to "
+                                 "1");
+  }
+  const auto use = first_use_.find(material);
+  const SourcePlace place{obj_, use != first_use_.end() ? use->second : 0};
+  if (libraries_.empty())
+    return problem_in(place, "the material " + name +
+                                 " has no colour: this file names no material library "
+                                 "(\"mtllib FILE.mtl\")");
+  if (read_.empty())
+    return problem_in(place, "the material " + name + " has no colour: the material library '" +
+                                 excerpt(libraries_.front()) +
+                                 "' is not there; it lies beside this file where it was exported");
+  return problem_in(place, "the material " + name + " has no colour: no \"newmtl " +
+                               excerpt(material) + "\" is in " + excerpt(read_.front(), 200));
+}
+
+std::optional<Problem> fault_of_obj(const std::string& path, ObjMaterials& materials) {
   std::ifstream in(path, std::ios::binary);
   std::string line;
   uint64_t groups = 0;
@@ -177,6 +240,10 @@ std::optional<Problem> fault_of_obj(const std::string& path) {
         return problem_in(path, number,
                           fmt::format("more than {} objects and groups: join some before exporting",
                                       limits::obj_groups));
+    } else if (word == "mtllib") {
+      materials.names_library(rest);
+    } else if (word == "usemtl") {
+      materials.uses(rest, number);
     }
   }
   return std::nullopt;

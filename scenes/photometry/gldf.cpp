@@ -64,11 +64,12 @@ std::optional<size_t> entry_of(const std::vector<std::string>& names, const std:
   });
 }
 
-/// How much of a container is unpacked, told to whoever waits for this process.
+/// How much of a container is unpacked, told to whoever waits for it.
 class Unpacking {
  public:
   /// All files of photometry, and where they are read of models, are to be taken.
-  Unpacking(const GldfArchive& archive, GldfModels models) : archive_(archive) {
+  Unpacking(const GldfArchive& archive, GldfModels models, const std::function<void(double)>& told)
+      : archive_(archive), told_(told) {
     const auto& names = archive.names();
     for (size_t i = 0; i < names.size(); ++i)
       if (lower(names[i]).starts_with("ldc/") ||
@@ -77,11 +78,12 @@ class Unpacking {
   }
   void took(size_t entry) {
     done_ += static_cast<double>(archive_.packed_bytes(entry));
-    if (all_ > 0) tell_share(std::min(1.0, done_ / all_));
+    if (told_ && all_ > 0) told_(std::min(1.0, done_ / all_));
   }
 
  private:
   const GldfArchive& archive_;
+  const std::function<void(double)>& told_;
   double all_ = 0, done_ = 0;  // bytes
 };
 
@@ -292,7 +294,7 @@ void gldf_answer(PlainReader& question, PlainWriter& out) {
   GldfModels models = GldfModels::left;
   if (!question.get(path) || !question.get(models)) throw std::runtime_error("no question");
   const auto bytes = read_regular_file(path, limits::gldf_bytes);
-  const auto product = bytes ? gldf_of(bytes.value(), path, models) : bytes.problem();
+  const auto product = bytes ? gldf_of(bytes.value(), path, models, tell_share) : bytes.problem();
   out.put(static_cast<uint8_t>(product.ok()));
   if (product) return put(out, product.value());
   out.put(product.problem().what);
@@ -376,7 +378,8 @@ Result<std::shared_ptr<const PhotometricWeb>> with_flux(const PhotometricWeb& we
 
 }  // namespace
 
-Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file, GldfModels models) {
+Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file, GldfModels models,
+                            const std::function<void(double)>& told) {
   const auto archive = GldfArchive::open(bytes, file, "GLDF container");
   if (!archive) return archive.problem();
   const auto& names = archive->names();
@@ -386,7 +389,7 @@ Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file, Gld
   if (!xml) return xml.problem();
   auto product = gldf_product_of(xml.value(), file);
   if (!product) return product;
-  Unpacking unpacking(archive.value(), models);
+  Unpacking unpacking(archive.value(), models, told);
   if (auto taken = take_photometry(archive.value(), product.value(), unpacking); !taken)
     return taken.problem();
   if (models == GldfModels::read) take_models(archive.value(), product.value(), unpacking);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -103,9 +104,11 @@ Result<GldfProduct> read_gldf(const std::filesystem::path& path,
                               GldfModels models = GldfModels::left,
                               ReadingShare* reading = nullptr);
 
-/// The same of its bytes, in this process. `file` names it in messages.
+/// The same of its bytes, in this process. `file` names it in messages; `told`, where given, hears
+/// after each file that is taken out which share of the container's bytes has been.
 Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file,
-                            GldfModels models = GldfModels::left);
+                            GldfModels models = GldfModels::left,
+                            const std::function<void(double)>& told = {});
 
 /// One light of one variant, as a scene takes it.
 struct GldfLuminaire {

@@ -94,6 +94,11 @@ class Materials {
 
   void missing(const ImportedPart& part) {
     if (!reported_.insert(part.material_name).second) return;
+    if (colours_ && part.no_colour) {
+      Problem why = *part.no_colour;
+      why.what += "; or have 'materials' or 'material' map it to one of the scene";
+      return take_problem(why, keys_.place("file_colours"), keys_.reading());
+    }
     const std::string name = part.material_name.empty()
                                  ? "no material"
                                  : "the material '" + excerpt(part.material_name) + "'";

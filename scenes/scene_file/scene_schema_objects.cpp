@@ -199,7 +199,9 @@ std::vector<TableSpec> object_schema() {
                  "table: material of the file = material of the scene"},
                 {"material", "text", "", "", "", "material of parts that the table does not name"},
                 {"file_colours", "flag", "", "false", "",
-                 "parts that neither names are Lambertian in the colour of the file"}},
+                 "parts that neither names are Lambertian in the colour of the file; a material "
+                 "whose "
+                 "colour it does not say, or has in a picture, is an error"}},
                surface_keys()),
            joined(
                transform_keys(),

@@ -11,6 +11,7 @@
 #include "actors/import/ifc_shapes.hpp"
 #include "actors/import/import_files.hpp"
 #include "actors/import/write_building.hpp"
+#include "runtime/core/random.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
 #include "scenes/geometry/primitives.hpp"
 #include "scenes/scene_file/scene_file.hpp"
@@ -87,6 +88,41 @@ TEST_CASE("a mesh falls into its connected pieces", "[import]") {
   REQUIRE(pieces.size() == 2);
   CHECK(signed_volume_of(pieces[0]) == Approx(1));
   CHECK(bounds_of(pieces[1]).low.x == 2);
+}
+
+TEST_CASE("a ray finds the first of many parts, far from the origin too", "[import]") {
+  Random random(1, RandomStream::test);
+  random.start(1);
+  const auto number = [&](double low, double high) {
+    return low + (high - low) * random.uniform_double();
+  };
+  const glm::dvec3 site(500'000, -4'200'000, 350);
+  const auto place = [&] { return site + glm::dvec3(number(0, 40), number(0, 30), number(0, 9)); };
+  // All in one, and each in a storey of its own.
+  std::vector<BuildingStorey> all(1), each;
+  for (int i = 0; i < 300; ++i) {
+    const glm::dvec3 low = place();
+    BuildingPart part;
+    part.mesh = block(low, low + glm::dvec3(number(0.1, 3), number(0.1, 3), number(0.1, 3)));
+    all[0].parts.push_back(part);
+    each.emplace_back().parts.push_back(part);
+  }
+  const PartRays rays(all);
+  int met = 0;
+  for (int i = 0; i < 200; ++i) {
+    const glm::dvec3 from = place();
+    glm::dvec3 way(number(-1, 1), number(-1, 1), number(-1, 1));
+    if (i % 4 == 0) way = {0, 0, i % 8 == 0 ? 1 : -1};
+    std::optional<double> nearest;
+    for (const BuildingStorey& one : each)
+      if (const auto d = PartRays({one}).first(from, way); d && (!nearest || *d < *nearest))
+        nearest = d;
+    CHECK(rays.first(from, way) == nearest);
+    met += nearest ? 1 : 0;
+  }
+  CHECK(met > 50);
+  CHECK(met < 200);
+  CHECK_FALSE(PartRays({}).first(site, {0, 0, 1}));
 }
 
 TEST_CASE("a leaf turns about its edge with its handle, and the frame stays", "[import]") {
@@ -310,6 +346,35 @@ TEST_CASE("a model's parts stand where it says, in millimetres, in feet and far 
     CHECK(sign.width_m == Approx(0.3).epsilon(1e-3));
     CHECK_FALSE(sign.double_sided);
   }
+}
+
+TEST_CASE("the shape of a type stands nowhere beside those of its products", "[import]") {
+  if (!can_compute()) return;
+  const TemporaryFolder folder;
+  std::string text = SmallIfc{}.text();
+  const auto id_of = [&](const std::string& kind) {
+    const size_t end = text.rfind("=" + kind + "(");
+    REQUIRE(end != std::string::npos);
+    const size_t begin = text.rfind('#', end);
+    return text.substr(begin, end - begin);
+  };
+  const auto names_in = [&](const std::string& model) {
+    const auto shapes = ifc_shapes(folder.write("small.ifc", model), script, 120);
+    if (!shapes) FAIL(shapes.problem().text());
+    std::vector<std::string> names;
+    for (const ImportedPart& part : shapes->parts) names.push_back(part.name);
+    return names;
+  };
+  const std::vector<std::string> before = names_in(text);
+  CHECK(before.size() > 5);
+  const std::string type = "1_VlNhLA52XG8421000911";
+  const std::string typed = "#9000=IFCREPRESENTATIONMAP(" + id_of("IFCAXIS2PLACEMENT3D") + "," +
+                            id_of("IFCSHAPEREPRESENTATION") + ");\n#9001=IFCFURNITURETYPE('" +
+                            type + "',$,'Table',$,$,$,(#9000),$,$,.NOTDEFINED.,$);\n" +
+                            "#9002=IFCRELDEFINESBYTYPE('1_VlNhLA52XG8421000918',$,$,$,(" +
+                            id_of("IFCFURNITURE") + "),#9001);\n";
+  const size_t end = text.rfind("ENDSEC;");
+  CHECK(names_in(text.substr(0, end) + typed + text.substr(end)) == before);
 }
 
 TEST_CASE("a wrong volume and a missing ceiling are told", "[import]") {

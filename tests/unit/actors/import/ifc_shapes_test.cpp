@@ -5,12 +5,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <thread>
 
 #include "actors/import/answer_folder.hpp"
+#include "runtime/core/reading_share.hpp"
+#include "tests/kit/small_ifc.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
@@ -151,4 +157,63 @@ TEST_CASE("notes beyond those that are kept are counted", "[import]") {
   if (!shapes) FAIL(shapes.problem().text());
   REQUIRE(shapes->notes.size() == 201);
   CHECK(shapes->notes.back().find("7 more") == 0);
+}
+
+TEST_CASE("who waits for shapes hears how much of them is computed", "[import]") {
+  if (!node_is_there()) return;
+  const TemporaryFolder folder;
+  const auto model = folder.write("small.ifc", std::string(1000, ' '));
+  // Each share is said, the last one not as a whole line, until somebody has heard the one before.
+  const auto slow = folder.write(
+      "slow.mjs",
+      "import { existsSync, writeSync } from 'node:fs';\n"
+      "const heard = (what) => {\n"
+      "  while (!existsSync('" +
+          folder.path().string() +
+          "/' + what)) Atomics.wait(new Int32Array(new SharedArrayBuffer(4)), 0, 0, 10);\n"
+          "};\n"
+          "writeSync(1, 'done 0.25\\nnote a wall\\n'); heard('a quarter');\n"
+          "writeSync(1, 'done 0.5\\ndone 0.75'); heard('half');\n"
+          "process.exit(4);\n");
+  ReadingShare share;
+  std::atomic<bool> over = false;
+  std::vector<double> heard;
+  std::thread listener([&] {
+    for (const auto& [wanted, what] : {std::pair(0.25, "a quarter"), std::pair(0.5, "half")}) {
+      while (!over && share.share().value_or(0) < wanted) std::this_thread::yield();
+      heard.push_back(share.share().value_or(0));
+      folder.write(what, "");
+    }
+  });
+  const auto none = ifc_shapes(model, slow, 60, &share);
+  over = true;
+  listener.join();
+  REQUIRE_FALSE(none.ok());
+  CHECK(none.problem().what.find("has no shapes") != std::string::npos);
+  CHECK(heard == std::vector<double>{0.25, 0.5});
+  CHECK(share.share() == std::optional(1.0));
+}
+
+TEST_CASE("the script computes products some at a time, and says which share is done", "[import]") {
+  const fs::path script = fs::path(LUX_SOURCE_DIR) / "actors/import/shapes/ifc_shapes.mjs";
+  if (!node_is_there()) return;
+  if (!fs::is_directory(script.parent_path() / "node_modules/@ifc-lite/wasm")) {
+    WARN("skipped: the package @ifc-lite/wasm is not there (./setup.sh)");
+    return;
+  }
+  const TemporaryFolder folder;
+  const auto model = folder.write("small.ifc", SmallIfc{}.text());
+  const auto said = folder / "said";
+  REQUIRE(std::system(("node '" + script.string() + "' '" + model.string() + "' '" +
+                       (folder / "out.glb").string() + "' > '" + said.string() + "'")
+                          .c_str()) == 0);
+  std::vector<double> shares;
+  std::ifstream in(said);
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("done ")) shares.push_back(std::stod(line.substr(5)));
+  // Fewer products than batches: each is one.
+  REQUIRE(shares.size() > 5);
+  CHECK(std::is_sorted(shares.begin(), shares.end()));
+  CHECK(shares.front() == Approx(1 / static_cast<double>(shares.size())));
+  CHECK(shares.back() == 1);
 }

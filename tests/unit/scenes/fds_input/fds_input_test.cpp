@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "runtime/core/reading_share.hpp"
 #include "scenes/fds_input/colours.hpp"
 #include "scenes/fds_input/input_building.hpp"
 #include "scenes/fields/fds_cells.hpp"
@@ -140,6 +141,24 @@ TEST_CASE("a hole cuts obstructions exactly, but none that forbids it", "[fds][i
         snapped_building(fds.good(text), {})->tables.materials().size());
   // 30 cells of the wall, less 2 x 2 (3.5 snaps to 4, 5.5 to 6), and the post's 1 x 2 among them.
   CHECK(solid_cells(fds.good(text)) == 30 - 4 + 2);
+}
+
+TEST_CASE("obstructions are the work that is heard of, once for each mesh where they snap",
+          "[fds][input]") {
+  Case fds;
+  const FdsInput input = fds.good(
+      "&MESH IJK=10,10,10, XB=10,20,0,10,0,10 /\n&OBST XB=1,2,5,6,0,3 /\n&OBST XB=4,5,5,6,0,3 /\n"
+      "&OBST XB=11,12,5,6,0,3 /\n");
+  ReadingShare exact, snapped;
+  // As much again is to be done by others, who have not begun.
+  const ReadingPart others(&exact, 3), other_meshes(&snapped, 6);
+  FdsInputOptions options;
+  options.reading = &exact;
+  REQUIRE(exact_building(input, options).ok());
+  CHECK(exact.share() == std::optional(0.5));
+  options.reading = &snapped;
+  REQUIRE(snapped_building(input, options).ok());
+  CHECK(snapped.share() == std::optional(0.5));
 }
 
 TEST_CASE("cells are snapped as FDS snaps them", "[fds][input]") {

@@ -83,6 +83,59 @@ TEST_CASE("an OBJ gives its objects with names, materials and colours, in order"
   CHECK(fs::path(files[1]).filename() == "house.mtl");
 }
 
+TEST_CASE("a material of which no library says a colour has none, and it is said why and where",
+          "[geometry][import]") {
+  const TemporaryFolder folder;
+  const std::string shape = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+  const std::string wood = "usemtl dark wood \nf 1 2 3\n";
+  const auto part = [&](const std::string& obj, const std::string& mtl) {
+    fs::remove(folder / "a.mtl");
+    if (!mtl.empty()) folder.write("a.mtl", mtl);
+    auto parts = import_ok(folder.write("house.obj", obj));
+    REQUIRE(parts.size() == 1);
+    CHECK(parts[0].material_name == "dark wood");
+    return std::move(parts[0]);
+  };
+  const ImportedPart good = part("mtllib a.mtl\n" + shape + wood, "newmtl dark wood\nKd .2 .1 0\n");
+  REQUIRE(good.base_colour);
+  CHECK_FALSE(good.no_colour);
+  struct Row {
+    std::string obj, mtl, file;
+    int line;
+    const char* says;
+  };
+  const std::vector<Row> rows = {
+      {"mtllib a.mtl\n" + shape + wood, "", "house.obj", 5, "the material library 'a.mtl' is not"},
+      {shape + wood, "", "house.obj", 4, "names no material library"},
+      {"mtllib a.mtl\n" + shape + wood, "newmtl wood\nKd 0.2 0.1 0\n", "house.obj", 5,
+       "no \"newmtl dark wood\" is in"},
+      {"mtllib a.mtl\n" + shape + wood, "\nnewmtl dark wood\nKs 1 1 1\n", "a.mtl", 2,
+       "give it \"Kd\""},
+      {"mtllib a.mtl\n" + shape + wood, "newmtl dark wood\nKd 1 1 1\nmap_Kd oak.png\n", "a.mtl", 1,
+       "is in a picture (\"map_Kd\")"},
+  };
+  for (const Row& row : rows) {
+    INFO(row.says);
+    const ImportedPart bare = part(row.obj, row.mtl);
+    CHECK_FALSE(bare.base_colour);
+    REQUIRE(bare.no_colour);
+    INFO(bare.no_colour->text());
+    CHECK(bare.no_colour->where.file == (folder / row.file).string());
+    CHECK(bare.no_colour->where.line == row.line);
+    CHECK(bare.no_colour->what.find(row.says) != std::string::npos);
+    CHECK(bare.no_colour->what.find("'dark wood'") != std::string::npos);
+  }
+  // White in a glTF stands for nothing but the picture that it dims.
+  const std::string tiled =
+      R"({"name":"tiles","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
+      R"("textures":[{"source":0}],"images":[{"uri":"tiles.png"})";
+  const auto parts =
+      import_ok(folder.write("tiled.gltf", gltf(R"({"name":"n","mesh":0})", "0", tiled)));
+  CHECK_FALSE(parts.at(0).base_colour);
+  REQUIRE(parts[0].no_colour);
+  CHECK(parts[0].no_colour->what.find("'tiles' is in a picture") != std::string::npos);
+}
+
 TEST_CASE("an OBJ without materials has none, and normals do not keep vertices apart",
           "[geometry][import]") {
   const TemporaryFolder folder;

@@ -8,6 +8,7 @@
 
 #include "runtime/core/reading_share.hpp"
 #include "tests/fuzz/mutate.hpp"
+#include "tests/kit/replaced.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/kit/zip_kit.hpp"
 #include "tests/unit/scenes/photometry/photometric_kit.hpp"
@@ -240,6 +241,38 @@ TEST_CASE("names that lead out of the archive, and entries that swell, are refus
   std::vector<ZipEntry> many(5000);
   for (size_t i = 0; i < many.size(); ++i) many[i].name = std::to_string(i);
   says(gldf_refusal(zip_of(many)), "the most are 4096");
+}
+
+TEST_CASE("who waits for a container hears after each file of it how much is taken out",
+          "[photometry][gldf]") {
+  // Two more emitters in the variant's geometry, each with a file of its own.
+  std::string xml = Product{}.xml(), lights;
+  for (const std::string id : {"g", "h"}) {
+    const auto before = [&](const std::string& end, const std::string& what) {
+      xml = replaced(xml, end, what + end);
+    };
+    before("</Files>", "<File id=\"" + id + "\" contentType=\"ldc/ies\" type=\"localFileName\">" +
+                           id + ".ies</File>");
+    before("</Photometries>", "<Photometry id=\"" + id + "\"><PhotometryFileReference fileId=\"" +
+                                  id + "\"/></Photometry>");
+    before("</Emitters>", "<Emitter id=\"" + id + "\"><FixedLightEmitter>" +
+                              "<PhotometryReference photometryId=\"" + id +
+                              "\"/></FixedLightEmitter></Emitter>");
+    lights += "<EmitterReference emitterId=\"" + id + "\"/>";
+  }
+  xml = replaced(xml, "</Geometry>", lights + "</Geometry>");
+  const std::string container = zip_of({{"product.xml", xml},
+                                        {"ldc/lamp.ies", gldf_lamp},
+                                        {"ldc/g.ies", gldf_lamp},
+                                        {"ldc/h.ies", gldf_lamp}});
+  std::vector<double> heard;
+  const auto product = gldf_of(container, "test.gldf", GldfModels::left,
+                               [&](double share) { heard.push_back(share); });
+  INFO((product ? std::string() : product.problem().text()));
+  REQUIRE(product);
+  REQUIRE(product->photometry.size() == 3);
+  REQUIRE(heard.size() == 3);
+  for (size_t i = 0; i < 3; ++i) CHECK(heard[i] == Approx(static_cast<double>(i + 1) / 3));
 }
 
 TEST_CASE("another process reads a container from the disk with the same result",

@@ -345,6 +345,27 @@ part = [{ match = "frame", omit = true }]
   CHECK(coloured.materials.at(0).reflectance.at(500) == Approx(0.5).margin(0.01));
 }
 
+TEST_CASE("a colour that the file does not have is asked for, unless a table names the material",
+          "[format][scene]") {
+  SceneFolder f;
+  const std::string house =
+      "[[import]]\nname = \"house\"\nfile = \"cube.obj\"\nunits = \"cm\"\nup = \"z\"\n"
+      "file_colours = true\n";
+  f.put("cube.mtl", "newmtl paint\nKd 0.5 0.5 0.5\n");
+  const ReadScene bare = f.read(house);
+  INFO(all_problems(bare));
+  REQUIRE(bare.problems.list().size() == 1);
+  const Problem problem = bare.problems.list().front();
+  CHECK(problem.where.file == (f.path() / "cube.obj").string());
+  CHECK(problem.where.line == 12);
+  for (const char* words : {"the material 'steel' has no colour", "cube.mtl", "'materials'",
+                            "named at ", "scene.toml:6"})
+    CHECK(problem.what.find(words) != std::string::npos);
+  const SceneDescription mapped = good(f, house + "materials = { steel = \"grey20\" }\n");
+  CHECK(mapped.objects.size() == 2);
+  CHECK(good(f, house + "part = [{ match = \"frame\", omit = true }]\n").objects.size() == 1);
+}
+
 TEST_CASE("measurements, views and scenarios are read as written", "[format][scene]") {
   SceneFolder f;
   const auto s = good(f, R"(

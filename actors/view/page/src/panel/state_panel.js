@@ -9,7 +9,7 @@ const densityOf = (place) => (place <= none + 0.05 ? 0 : 10 ** place);
 const placeOf = (density) => (density <= 0 ? none : Math.log10(density));
 const wordsFor = (density) => (density === 0 ? 'none' : `× ${words(density, 2)}`);
 
-const secondsWords = (seconds) => `${words(seconds, 4)} s`;
+const secondsWords = (seconds) => `${Number(seconds.toPrecision(6))} s`;
 /** From the first state to the last. */
 const stepsOf = ({ from, to, step }) => Math.ceil((to - from) / step - 1e-9);
 
