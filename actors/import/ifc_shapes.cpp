@@ -122,7 +122,8 @@ double share_said_in(const fs::path& file) {
   if (!text) return 0;
   constexpr std::string_view word = "\ndone ";
   const std::string all = "\n" + text.value();
-  const size_t begin = all.rfind(word, all.rfind('\n') - 1);
+  const size_t end = all.rfind('\n');
+  const size_t begin = end == 0 ? std::string::npos : all.rfind(word, end - 1);
   if (begin == std::string::npos) return 0;
   double share = 0;
   (void)std::from_chars(all.data() + begin + word.size(), all.data() + all.size(), share);
@@ -187,7 +188,8 @@ Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, doub
                       "not installed beside " +
                           script.string() + ": run ./setup.sh, or 'npm ci' in that folder");
   if (code.value() == no_shapes)
-    return problem_in(file, "the model has no shapes: export it with geometry");
+    return problem_in(file, "the model has no shapes: export it with geometry" +
+                                (said.notes.empty() ? "" : " (" + said.notes.front() + ")"));
   if (code.value() != 0)
     return problem_in(file, "its shapes cannot be computed: " + complaint(err));
   if (!said.offset)

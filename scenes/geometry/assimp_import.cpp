@@ -240,9 +240,12 @@ class Collector {
   /// Why the file gives no colour of a material: its base colour alone would be another one.
   std::optional<Problem> no_colour_of(const aiMaterial& material, const std::string& name) const {
     if (obj_ != nullptr) return obj_->no_colour(name);
-    if (material.GetTextureCount(aiTextureType_BASE_COLOR) == 0) return std::nullopt;
+    if (material.GetTextureCount(aiTextureType_BASE_COLOR) == 0 &&
+        material.GetTextureCount(aiTextureType_DIFFUSE) == 0)
+      return std::nullopt;
     return problem("the colour of the material '" + excerpt(name) +
-                   "' is in a picture (\"baseColorTexture\"), and pictures are not read");
+                   "' is in a picture (\"baseColorTexture\" or \"diffuseTexture\"), and pictures "
+                   "are not read");
   }
 
   std::optional<Problem> copy_material(unsigned index, ImportedPart& part) const {

@@ -161,6 +161,17 @@ std::optional<Problem> fault_of_nodes(const nlohmann::json& gltf, const std::str
   return std::nullopt;
 }
 
+/// A line that ends as on any system: in LF, CR LF or CR.
+bool get_any_line(std::istream& in, std::string& line) {
+  line.clear();
+  for (int c = in.get(); c != std::istream::traits_type::eof(); c = in.get()) {
+    if (c == '\r' && in.peek() == '\n') in.get();
+    if (c == '\r' || c == '\n') return true;
+    line.push_back(static_cast<char>(c));
+  }
+  return !line.empty();
+}
+
 }  // namespace
 
 std::string mesh_ending(const std::string& path) {
@@ -183,7 +194,7 @@ void ObjMaterials::add_library(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::string line;
   Declared* material = nullptr;
-  for (int number = 1; std::getline(in, line); ++number) {
+  for (int number = 1; get_any_line(in, line); ++number) {
     std::string_view rest = line;
     const std::string_view word = take_word(rest);
     if (word == "newmtl") {
@@ -192,8 +203,8 @@ void ObjMaterials::add_library(const std::string& path) {
     } else if (material != nullptr && (word == "Kd" || word == "kd")) {
       const std::string_view value = take_word(rest);  // "spectral" and "xyz" are no colours
       material->has_colour |= !value.empty() && starts_like_number(value);
-    } else if (material != nullptr && word == "map_Kd") {
-      material->has_picture = true;
+    } else if (material != nullptr && (word == "map_Kd" || word == "map_kd")) {
+      material->has_picture |= !without_blanks(rest).empty();
     }
   }
 }
@@ -220,7 +231,8 @@ std::optional<Problem> ObjMaterials::no_colour(const std::string& material) cons
   if (read_.empty())
     return problem_in(place, "the material " + name + " has no colour: the material library '" +
                                  excerpt(libraries_.front()) +
-                                 "' is not there; it lies beside this file where it was exported");
+                                 "' is not there; it lies beside this file where it was exported "
+                                 "(one \"mtllib\" line for each file, without blanks at its end)");
   return problem_in(place, "the material " + name + " has no colour: no \"newmtl " +
                                excerpt(material) + "\" is in " + excerpt(read_.front(), 200));
 }

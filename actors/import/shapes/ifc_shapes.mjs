@@ -20,8 +20,10 @@ const json_chunk = 0x4e4f534a;
 const job_words = 3;
 /** Class of a mesh: the shape of a type that products have, and show in their places. */
 const of_used_type = 2;
-/** Of a model. Products share work within a batch: 400 took a quarter longer than 10. */
+/** Of a model. Products share work within a batch. */
 const most_batches = 100;
+/** Products that are named for openings that were not cut; each batch names some. */
+const most_hosts = 16;
 
 /** The package, with its module of WebAssembly compiled from the disk. */
 async function load_api() {
@@ -53,15 +55,16 @@ class Faults {
     for (const host of found?.worstHosts ?? [])
       this.hosts.add(host.productId ?? host.expressId ?? '?');
     for (const item of found?.unsupportedItemsByType ?? [])
-      grow(this.shapeless, item.type ?? item.ifcType ?? '?', item.count ?? 1);
+      grow(this.shapeless, item.reason ?? '?', item.count ?? 1);
   }
 
   tell() {
-    for (const [reason, count] of this.uncut)
-      console.log(`note ${count} openings were not cut: ${reason}`);
-    for (const host of this.hosts) console.log(`note #${host} has openings that were not cut`);
     for (const [type, count] of this.shapeless)
       console.log(`note ${count} items of ${type} have no shape`);
+    for (const [reason, count] of this.uncut)
+      console.log(`note ${count} openings were not cut: ${reason}`);
+    for (const host of [...this.hosts].slice(0, most_hosts))
+      console.log(`note #${host} has openings that were not cut`);
   }
 }
 
@@ -176,7 +179,7 @@ const plan = api.buildPrePassOnce(bytes);
 const faults = new Faults();
 const meshes = computed_meshes(api, bytes, plan, faults);
 if (meshes.length === 0) {
-  console.log('note the model has no shapes');
+  faults.tell();
   process.exit(4);
 }
 const { json, rest } = taken_apart(glb_of(api, meshes));

@@ -99,6 +99,11 @@ TEST_CASE("a material of which no library says a colour has none, and it is said
   const ImportedPart good = part("mtllib a.mtl\n" + shape + wood, "newmtl dark wood\nKd .2 .1 0\n");
   REQUIRE(good.base_colour);
   CHECK_FALSE(good.no_colour);
+  for (const char* mtl :
+       {"newmtl dark wood\nKd .2 .1 0\nmap_Kd \n", "newmtl dark wood\rKd .2 .1 0\r"}) {
+    INFO(mtl);
+    CHECK_FALSE(part("mtllib a.mtl\n" + shape + wood, mtl).no_colour);
+  }
   struct Row {
     std::string obj, mtl, file;
     int line;
@@ -113,6 +118,10 @@ TEST_CASE("a material of which no library says a colour has none, and it is said
        "give it \"Kd\""},
       {"mtllib a.mtl\n" + shape + wood, "newmtl dark wood\nKd 1 1 1\nmap_Kd oak.png\n", "a.mtl", 1,
        "is in a picture (\"map_Kd\")"},
+      {"mtllib a.mtl\n" + shape + wood, "newmtl dark wood\nKd 1 1 1\nmap_kd oak.png\n", "a.mtl", 1,
+       "is in a picture"},
+      {"mtllib a.mtl \n" + shape + wood, "newmtl dark wood\nKd 1 1 1\n", "house.obj", 5,
+       "without blanks at its end"},
   };
   for (const Row& row : rows) {
     INFO(row.says);
