@@ -39,7 +39,8 @@ MediaBands::MediaBands(const CompiledScene& scene)
   const MediaTables& tables = scene.media.tables();
   for (int c = 0; c < static_cast<int>(tables.components.size()); ++c)
     for (int b = 0; b < scene.bands.count(); ++b)
-      most_scattered_ = std::max(most_scattered_, tables.albedo_of(b, c));
+      if (tables.sigma_of(b, c) > 0)
+        most_scattered_ = std::max(most_scattered_, tables.albedo_of(b, c));
 }
 
 void MediaBands::albedos(const FreeFlight& flight, const PathBands& bands, BandValues& out) const {

@@ -18,7 +18,8 @@ class MediaBands {
 
   /// Whether all bands fly and collide alike.
   bool grey() const { return grey_; }
-  /// Of what collisions take, what any medium scatters at most, in any band.
+  /// Of what collisions take, what any medium scatters at most, in any band, by the albedo that it
+  /// states: a data set may have others.
   double most_scattered() const { return most_scattered_; }
 
   /// Optical depth of each band along the ray.

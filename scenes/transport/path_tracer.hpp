@@ -221,11 +221,13 @@ class PathTracer {
     if (path.counted != EmitterHits::none) met_.add_along(path, hit);
     const bool media = scene_.features.media != MediaNeed::none;
     const Real end = line_end(scene_, hit.distance);
-    const double more = media ? more_collisions(path, end) : 1;
+    // A flight that meets no surface may go beyond the stretch's end: it is a free one.
+    const bool may_force = media && hit.found();
+    const double more = may_force ? more_collisions(path, end) : 1;
     // Collisions of all parts together are denser than those of one free flight.
     const Stretch stretch{path.ray, end, 1.0 / (parts * more), path.bands};
     if (media) {
-      const double collides = 1 - through_[path.bands.hero_place()];
+      const double collides = may_force ? 1 - through_[path.bands.hero_place()] : 1;
       const uint32_t bits = random_.bits();
       const Real choice = random_.uniform();
       constexpr double step = 0.6180339887498949;  // the golden ratio's

@@ -346,6 +346,20 @@ TEST_CASE("a path of all bands brings of each what a path of that band brings", 
   SECTION("haze that is thicker in blue") {
     check_alike(hazy_room, {0.3f, 0.4f, 1.5f}, {1, 0.4f, -0.2f}, gather);
   }
+  SECTION("haze in the open") {
+    const std::string beam = R"([[object]]
+name = "wall"
+shape = "quad"
+corner = [4, -2, -2]
+edge_u = [0, 6, 0]
+edge_v = [0, 0, 6]
+material = "ochre"
+[[medium]])";
+    const size_t room = hazy_room.find("[[object]]"), medium = hazy_room.find("[[medium]]");
+    const std::string text = hazy_room.substr(0, room) + beam +
+                             hazy_room.substr(medium + std::string("[[medium]]").size());
+    check_alike(text, {0.3f, 0.4f, 1.5f}, {-1, 0.4f, -0.2f}, gather);
+  }
   SECTION("a flame in soot") {
     check_alike(flame_room, {-1.3f, -1.0f, 1.3f}, {1, 0.9f, -0.3f}, gather);
   }
