@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace luxodus {
 
 namespace {
 
-/// As verdicts on views.
-constexpr double sure_errors = 2;
+/// As verdicts on views; and of a normal variable the share that lies as far below its mean.
+constexpr double sure_errors = 2, unsure_share = 0.02275;
 
 double normal_below(double a) {
   return std::erfc(-a / std::numbers::sqrt2) / 2;
@@ -18,7 +20,7 @@ double normal_below(double a) {
 /// By how many standard errors the level that is read lies above that of a view; none where its
 /// verdict leaves nothing to chance.
 std::optional<double> open_distance(const SightRow& row) {
-  if (!may_be_read(row.sight) || row.sight.verdict == SightVerdict::legible) return std::nullopt;
+  if (!may_be_read(row) || row.sight.verdict == SightVerdict::legible) return std::nullopt;
   const Uncertain& level = row.sight.reading_level;
   return (level_read - level.value) / level.error;
 }
@@ -43,6 +45,40 @@ Unread unread(const SightRow& first, const SightRow& other, std::optional<double
   const double correlation = std::clamp((x * x + y * y - *error * *error) / (2 * x * y), -1.0, 1.0);
   out.both = chance_below(*a, *b, correlation);
   return out;
+}
+
+/// A length of the routes, with the chances that the other layout wins and loses it.
+struct OpenPlace {
+  double length = 0, won = 0, lost = 0;
+};
+
+/// The logarithm of the mean of exp(-t times what is won).
+double log_mean_exp(const std::vector<OpenPlace>& places, double t) {
+  double out = 0;
+  for (const OpenPlace& p : places)
+    out += std::log1p(p.won * std::expm1(-t * p.length) + p.lost * std::expm1(t * p.length));
+  return out;
+}
+
+/// The length that is won but for a share of chance: two standard errors below the mean, or what
+/// Chernoff's bound leaves (Annals of Mathematical Statistics 23, 1952) where few places decide.
+double surely_won(const std::vector<OpenPlace>& places) {
+  double mean = 0, variance = 0, longest = 0, all = 0;
+  for (const OpenPlace& p : places) {
+    const double expected = p.won - p.lost;
+    const double chance = std::max(0.0, p.won + p.lost - expected * expected);
+    mean += p.length * expected;
+    variance += p.length * p.length * chance;
+    if (chance > 0) longest = std::max(longest, p.length);
+    all += p.length;
+  }
+  const double error = std::sqrt(variance);
+  if (error >= longest) return mean - sure_errors * error;
+  double out = -all;
+  constexpr double finer = 1.1, largest = 20;
+  for (double t = 1 / all; t < largest / longest; t *= finer)
+    out = std::max(out, -(log_mean_exp(places, t) - std::log(unsure_share)) / t);
+  return std::min(out, mean);
 }
 
 using UnreadPlaces = std::map<RoutePlace, Unread>;
@@ -94,22 +130,21 @@ ShareDifference difference_of(const LayoutViews& first, const LayoutViews& other
                               const ErrorOfDifference& error_of) {
   const UnreadPlaces unread = error_of ? unread_by_the_same_paths(first.rows, other.rows, error_of)
                                        : unread_by_other_paths(first.rows, other.rows);
-  double length = 0, mean = 0, variance = 0;
+  double length = 0;
+  std::vector<OpenPlace> places;
   for (const auto& [place, seen] : first.places) {
     length += seen.stands_for;
     const auto at = unread.find(place);
     if (at == unread.end()) continue;
     const Unread& chances = at->second;
-    const double won = chances.first - chances.both, lost = chances.other - chances.both;
-    mean += seen.stands_for * (won - lost);
-    variance +=
-        seen.stands_for * seen.stands_for * std::max(0.0, won + lost - (won - lost) * (won - lost));
+    places.push_back({seen.stands_for, chances.first - chances.both, chances.other - chances.both});
   }
   if (!(length > 0)) return {0, 0};
-  mean /= length;
-  const double error = sure_errors * std::sqrt(variance) / length;
+  const double least = surely_won(places);
+  for (OpenPlace& place : places) std::swap(place.won, place.lost);
+  const double most = -surely_won(places);
   const auto all = [](const RoutePlace&) { return true; };
-  return both_of({mean - error, mean + error},
+  return both_of({least / length, most / length},
                  by_ranges(share_of(first.places, all), share_of(other.places, all)));
 }
 

@@ -11,10 +11,18 @@
 
 namespace luxodus {
 
-/// By how much the share of one layout is larger than that of another: between these two, by two
-/// standard errors, in shares of the routes' length.
+/// By how much the share of one layout is larger than that of another: between these two but for
+/// 2.3 % on either side, as by two standard errors, in shares of the routes' length.
 struct ShareDifference {
   double least = -1, most = 1;  // [1]
+
+  /// But for what rounding leaves of equal shares.
+  bool surely_more() const { return least > rounding; }
+  bool surely_no_less() const { return least >= -rounding; }
+  bool surely_no_more() const { return most <= rounding; }
+
+ private:
+  static constexpr double rounding = 1e-9;
 };
 
 /// Where both hold.

@@ -28,9 +28,9 @@ SmokeVerdict verdict_of(const std::string& scenario, const SeenPlaces& places,
 
 bool beats(const JudgedLayout& a, const JudgedLayout& b) {
   const bool costs_no_more = a.objective <= b.objective * (1 + 1e-9);
-  const double surely_more = difference_of(b, a).least;
-  if (!costs_no_more || surely_more < 0) return false;
-  return a.objective < b.objective * (1 - 1e-9) || surely_more > 0;
+  const ShareDifference beyond = difference_of(b, a);
+  if (!costs_no_more || !beyond.surely_no_less()) return false;
+  return a.objective < b.objective * (1 - 1e-9) || beyond.surely_more();
 }
 
 /// Whether more paths could change its place among the others.
@@ -48,7 +48,7 @@ bool SmokeRace::is_told_apart(const JudgedLayout& one) const {
   return std::all_of(stage_.layouts.begin(), stage_.layouts.end(), [&](const auto& other) {
     if (&other == &one || !like_signs(other, one) || !is_open(other)) return true;
     const ShareDifference beyond = difference_of(one, other);
-    return beyond.least >= 0 || beyond.most <= 0;
+    return beyond.surely_no_less() || beyond.surely_no_more();
   });
 }
 

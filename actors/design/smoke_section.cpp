@@ -271,7 +271,8 @@ std::vector<std::string> smoke_words(const Texts& t, const Json& smoke) {
                         first["luminaires"].get<int64_t>(), share_words(t, best["worst"]),
                         difference_words(t, best["beyond_first"]), first_name));
   for (const Json& one : smoke["layouts"]) {
-    const bool helps = surely_beyond_first(one) > most_beyond_first(smoke);
+    constexpr double rounding = 1e-9;
+    const bool helps = surely_beyond_first(one) > most_beyond_first(smoke) + rounding;
     if (has_brighter_signs(one))
       out.push_back(t.say(helps ? "design.smoke_signs_help" : "design.smoke_signs",
                           t.number(one["sign_factor"].get<double>(), 2),

@@ -183,9 +183,9 @@ const JudgedLayout& SmokeStage::recommended() const {
   const JudgedLayout* best = &layouts.front();
   for (const JudgedLayout& one : layouts) {
     if (!one.has_usual_signs()) continue;
-    const double surely_more = difference_of(*best, one).least;
-    const bool as_good_and_cheaper = surely_more >= 0 && one.objective < best->objective;
-    if (surely_more > 0 || as_good_and_cheaper) best = &one;
+    const ShareDifference beyond = difference_of(*best, one);
+    const bool as_good_and_cheaper = beyond.surely_no_less() && one.objective < best->objective;
+    if (beyond.surely_more() || as_good_and_cheaper) best = &one;
   }
   return *best;
 }

@@ -10,6 +10,10 @@ bool is_ahead(const SightRow& row) {
   return row.gaze_deg <= ahead_deg;
 }
 
+bool may_be_read(const SightRow& row) {
+  return may_be_read(row.sight) && (!row.other || may_be_read(row.other->sight));
+}
+
 SeenPlaces places_of(const SceneDescription& scene, const std::vector<SightRow>& rows) {
   SeenPlaces out;
   for (const EscapeRoute& route : scene.routes) {
@@ -25,7 +29,7 @@ SeenPlaces places_of(const SceneDescription& scene, const std::vector<SightRow>&
     SeenPlace& seen = at->second;
     if (row.sight.verdict == SightVerdict::legible)
       seen.read = Read::a_sign;
-    else if (may_be_read(row.sight))
+    else if (may_be_read(row))
       seen.read = std::max(seen.read, Read::undecided);
   }
   return out;

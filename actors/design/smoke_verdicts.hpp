@@ -36,6 +36,9 @@ using SeenPlaces = std::map<RoutePlace, SeenPlace>;
 /// Whether a view counts: one of a sign ahead.
 bool is_ahead(const SightRow& row);
 
+/// Whether its sign is read, or chance leaves open that it is: in aged light and in new.
+bool may_be_read(const SightRow& row);
+
 /// Of all places on routes: where all signs turn their backs there is no row.
 SeenPlaces places_of(const SceneDescription& scene, const std::vector<SightRow>& rows);
 

@@ -291,11 +291,11 @@ constexpr ReportText design_rows[] = {
       "montré."}},
     {"design.smoke_better",
      {"Layout {0} has {1} new luminaires instead of {2}, and a sign is read from {3}, {4} beside "
-      "layout {5} by the same paths: it is recommended.",
+      "layout {5}: it is recommended.",
       "Anordnung {0} hat {1} statt {2} neue Leuchten, und von {3} ist ein Zeichen lesbar, {4} "
-      "gegen Anordnung {5} nach denselben Strahlen: sie wird empfohlen.",
+      "gegen Anordnung {5}: sie wird empfohlen.",
       "L’implantation {0} a {1} luminaires neufs au lieu de {2}, et un panneau est lisible depuis "
-      "{3}, {4} face à l’implantation {5} d’après les mêmes chemins : elle est recommandée."}},
+      "{3}, {4} face à l’implantation {5} : elle est recommandée."}},
     {"design.smoke_signs_help",
      {"Signs {0} times as bright would be read from {1}: that helps more than any layout that was "
       "tried.",
@@ -419,21 +419,22 @@ constexpr ReportText design_rows[] = {
       "degrees of the way. ● marks layouts than which no other is read from more for no more. All "
       "pass the rules that luminaires decide, at their planned places; off these alone A was "
       "looked at. “Beside A” is by how much more is read than with A, within two standard errors. "
-      "It may be known better than either share: the same paths show both layouts, and err alike.",
+      "Where the same paths show both layouts they err alike, and it is known better than either "
+      "share.",
       "Von der Länge aller Wege, in allen Augenhöhen der Szene. Ein Zeichen ist voraus innerhalb "
       "von {0} Grad vom Weg. ● bezeichnet Anordnungen, zu denen keine mit gleichem Aufwand "
       "lesbarer ist. Alle erfüllen die Regeln, über die Leuchten entscheiden, an ihren geplanten "
       "Orten; daneben wurde nur A betrachtet. „Gegen A“ ist, um wie viel mehr als mit A lesbar "
       "ist, "
-      "innerhalb von zwei Standardfehlern. Es kann genauer bekannt sein als jeder Anteil: "
-      "dieselben Strahlen zeigen beide Anordnungen und irren gleich.",
+      "innerhalb von zwei Standardfehlern. Wo dieselben Strahlen beide Anordnungen "
+      "zeigen, irren sie gleich, und es ist genauer bekannt als jeder Anteil.",
       "De la longueur de tous les itinéraires, à toutes les hauteurs d’œil de la scène. Un panneau "
       "est devant à {0} degrés du chemin au plus. ● marque les implantations dont aucune autre "
       "n’est plus lisible pour autant. Toutes respectent les règles que les luminaires "
       "décident, aux places prévues ; à côté de celles-ci, seule A a été examinée. « Face à A » "
       "est "
-      "de combien on lit plus qu’avec A, à deux erreurs types près. Cela peut être mieux connu que "
-      "chaque part : les mêmes chemins montrent les deux implantations et se trompent autant."}},
+      "de combien on lit plus qu’avec A, à deux erreurs types près. Où les mêmes chemins montrent "
+      "les deux implantations, ils se trompent autant, et c’est mieux connu que chaque part."}},
     {"design.left_no_wall",
      {"{0} where no wall is flat", "{0}, wo keine Wand eben ist", "{0} où aucun mur n’est plan"}},
     {"design.left_glaring", {"{0} glaring (E8)", "{0} blendend (E8)", "{0} éblouissants (E8)"}},

@@ -55,14 +55,27 @@ bool unseen(const Uncertain& pattern, const Uncertain& silhouette) {
   return surely_below(pattern, level_seen) && no_silhouette;
 }
 
+constexpr const char* visible_or_not = "visible or invisible: more paths tell (--rounds)";
+
 /// Between which verdicts chance has left a view open, the better first.
 const char* open_between(const Uncertain& reading, const Uncertain& pattern,
                          const Uncertain& silhouette) {
   const bool may_be_read = !surely_below(reading, level_read);
   const bool seen = surely_above(pattern, level_seen) || surely_above(silhouette, level_seen);
-  if (!may_be_read) return "visible or invisible: more paths tell (--rounds)";
+  if (!may_be_read) return visible_or_not;
   return seen ? "legible or not: more paths tell (--rounds)"
               : "legible or even invisible: more paths tell (--rounds)";
+}
+
+/// Of what light alone would let be read, or perhaps.
+void judge_in_irritant_smoke(Sight& sight) {
+  const bool undecided = sight.verdict == SightVerdict::undecided;
+  if (undecided && !surely_above(sight.seeing_level, level_seen)) {
+    sight.reason = visible_or_not;
+  } else if (undecided || sight.verdict == SightVerdict::legible) {
+    sight.verdict = SightVerdict::visible;
+    sight.reason = "irritant smoke: too far for eyes that sting (Jin and Yamada 1985)";
+  }
 }
 
 /// By what the eye receives alone.
@@ -129,18 +142,16 @@ Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
     return sight;
   }
   judge_by_light(sight, view, look, rules.eye);
-  if (sight.verdict == SightVerdict::legible && rules.irritant_smoke &&
-      sight.extinction >= irritant_from &&
-      view.distance_m > irritant_distance_m(constant, sight.extinction)) {
-    sight.verdict = SightVerdict::visible;
-    sight.reason = "irritant smoke: too far for eyes that sting (Jin and Yamada 1985)";
-  }
+  sight.stings = rules.irritant_smoke && sight.extinction >= irritant_from &&
+                 view.distance_m > irritant_distance_m(constant, sight.extinction);
+  if (sight.stings) judge_in_irritant_smoke(sight);
   return sight;
 }
 
 bool may_be_read(const Sight& sight) {
-  return sight.verdict == SightVerdict::legible || (sight.verdict == SightVerdict::undecided &&
-                                                    !surely_below(sight.reading_level, level_read));
+  if (sight.verdict == SightVerdict::legible) return true;
+  return sight.verdict == SightVerdict::undecided && !sight.stings &&
+         !surely_below(sight.reading_level, level_read);
 }
 
 double error_of_level_beyond(const SignLook& first, const SignLook& other, const SignLook& beyond,
@@ -153,14 +164,15 @@ double error_of_level_beyond(const SignLook& first, const SignLook& other, const
   const auto brighter_ground = [&](const SignLook& look, double by) {
     return at(look.difference.value, under(look) + by) - at(look.difference.value, under(look));
   };
-  // What errs alike in both lights counts by how differently they take it. As in level(), errors
-  // are taken as independent.
-  const double by_difference = std::hypot(
-      at(beyond.difference.error, under(other)),
-      at(first.difference.error, under(other)) - at(first.difference.error, under(first)));
-  const double by_ground = std::hypot(
-      brighter_ground(other, beyond.ground.error),
-      brighter_ground(other, first.ground.error) - brighter_ground(first, first.ground.error));
+  // What errs alike in both lights counts by how differently they take it. The same paths tell of
+  // the first light and of what is beyond it, so the two add up at worst. Between difference and
+  // ground errors are taken as independent, as in level().
+  const double by_difference =
+      at(beyond.difference.error, under(other)) +
+      std::abs(at(first.difference.error, under(other)) - at(first.difference.error, under(first)));
+  const double by_ground = std::abs(brighter_ground(other, beyond.ground.error)) +
+                           std::abs(brighter_ground(other, first.ground.error) -
+                                    brighter_ground(first, first.ground.error));
   return std::hypot(by_difference, by_ground);
 }
 

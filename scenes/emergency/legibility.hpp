@@ -41,6 +41,7 @@ struct Sight {
   double extinction = 0;    // mean on the line of sight [1/m]
   double jin_m = 0;         // how far Jin's law would have it legible
   bool jin_legible = false;
+  bool stings = false;      // irritant smoke and the distance forbid reading it, whatever its light
   ViewingDistance viewing;  // what the code's rule would say
 };
 

@@ -155,6 +155,11 @@ TEST_CASE("irritant smoke caps what optics would allow", "[emergency][legibility
   CHECK(stung.verdict == SightVerdict::visible);
   CHECK(stung.reason.find("Jin and Yamada") != std::string::npos);
   CHECK(judged_at(6, look, {{65}, true}).verdict != SightVerdict::undecided);
+  // What light leaves open is not read there either.
+  look.difference.error = 20;
+  REQUIRE(judged_at(8, look).verdict == SightVerdict::undecided);
+  CHECK(may_be_read(judged_at(8, look)));
+  CHECK_FALSE(may_be_read(judged_at(8, look, {{65}, true})));
 }
 
 TEST_CASE("of two verdicts on a view that which is or may be worse counts",
