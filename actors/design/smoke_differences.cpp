@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -137,7 +136,8 @@ ShareDifference difference_of(const LayoutViews& first, const LayoutViews& other
     const auto at = unread.find(place);
     if (at == unread.end()) continue;
     const Unread& chances = at->second;
-    places.push_back({seen.stands_for, chances.first - chances.both, chances.other - chances.both});
+    places.push_back({seen.stands_for, std::max(0.0, chances.first - chances.both),
+                      std::max(0.0, chances.other - chances.both)});
   }
   if (!(length > 0)) return {0, 0};
   const double least = surely_won(places);
