@@ -59,7 +59,9 @@ Result<PhaseFunction> PhaseFunction::make(const Phase& phase, const SourcePlace&
     out.g_ = straight ? 1.0_r : static_cast<Real>(magnitude);
     out.one_minus_g_ = straight ? 0.0_r : static_cast<Real>(1.0 - magnitude);
     out.mean_cosine_ = out.sign_ * out.g_;
+    out.mean_second_ = out.g_ * out.g_;
   }
+  if (phase.kind == PhaseKind::rayleigh) out.mean_second_ = 0.1_r;
   if (phase.kind == PhaseKind::tabulated) {
     const std::string fault = table_fault(phase);
     if (!fault.empty()) return problem_in(where, fault);
@@ -73,7 +75,7 @@ void PhaseFunction::compile_table(const Phase& phase) {
   const std::vector<double>& values = phase.table_value;
   const std::size_t count = cosines.size();
   double total = 0;
-  double moment = 0;
+  double moment = 0, square = 0;
   std::vector<double> below(count, 0.0);
   for (std::size_t i = 1; i < count; ++i) {
     const double c0 = cosines[i - 1];
@@ -81,8 +83,10 @@ void PhaseFunction::compile_table(const Phase& phase) {
     const double f0 = values[i - 1];
     const double f1 = values[i];
     total += 0.5 * (f0 + f1) * (c1 - c0);
-    // Simpson's rule is exact for the product of two linear functions.
+    // Simpson's rule is exact for products of linear functions, two or three.
     moment += (c1 - c0) / 6.0 * (f0 * c0 + (f0 + f1) * (c0 + c1) + f1 * c1);
+    square +=
+        (c1 - c0) / 6.0 * (f0 * c0 * c0 + 0.5 * (f0 + f1) * (c0 + c1) * (c0 + c1) + f1 * c1 * c1);
     below[i] = total;
   }
   table_.resize(count);
@@ -91,6 +95,7 @@ void PhaseFunction::compile_table(const Phase& phase) {
                  static_cast<Real>(below[i] / total)};
   }
   mean_cosine_ = static_cast<Real>(moment / total);
+  mean_second_ = static_cast<Real>(1.5 * square / total - 0.5);
 }
 
 PhaseFunction::Deflection PhaseFunction::tabulated(Real u) const {

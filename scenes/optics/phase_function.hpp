@@ -49,10 +49,15 @@ class PhaseFunction {
   PhaseKind kind() const { return kind_; }
   /// Mean cosine of the scattering angle, of the very function that is sampled.
   Real mean_cosine() const { return mean_cosine_; }
+  /// Mean of its second Legendre polynomial, (3 cos^2 - 1) / 2.
+  Real mean_second() const { return mean_second_; }
   std::size_t bytes() const { return sizeof(*this) + table_.capacity() * sizeof(Node); }
 
  private:
   friend Real evaluate(const PhaseFunction& phase, Real cos_theta);
+  friend Real evaluate_spread(const PhaseFunction& phase, Real cos_theta, Real mean_cosine);
+  friend Real evaluate_spread(const PhaseFunction& phase, Real cos_theta, Real mean_cosine,
+                              Real mean_second);
 
   /// One corner of the piecewise linear density. Kept as 1 - cos, descending, so that a forward
   /// peak keeps its width; `below` is the probability of a smaller cosine.
@@ -65,7 +70,7 @@ class PhaseFunction {
   Deflection henyey_greenstein(Real u) const;
   static Deflection rayleigh(Real u);
   Deflection tabulated(Real u) const;
-  Real henyey_greenstein_density(Real cos_theta) const;
+  static Real henyey_greenstein_density(Real cos_theta, Real g, Real one_minus_g);
   Real tabulated_density(Real cos_theta) const;
   void compile_table(const Phase& phase);
 
@@ -73,7 +78,7 @@ class PhaseFunction {
   Real sign_ = 1;         // of g: a negative g is the mirrored function of |g|
   Real g_ = 0;            // |g|
   Real one_minus_g_ = 1;  // 1 - |g|, rounded once from double
-  Real mean_cosine_ = 0;
+  Real mean_cosine_ = 0, mean_second_ = 0;
   std::vector<Node> table_;  // tabulated: at least two
 };
 
@@ -135,11 +140,11 @@ inline Vec3 sample(const PhaseFunction& phase, const Vec3& direction_of_travel, 
 
 /// (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^(3/2)), with 1 + g^2 - 2 g cos = (1 - g)^2 + 2 g (1 -
 /// cos). 0 for |g| = 1, which scatters into one direction that no evaluation meets.
-inline Real PhaseFunction::henyey_greenstein_density(Real cos_theta) const {
-  const Real one_minus_cos = std::max(0.0_r, 1.0_r - sign_ * cos_theta);
-  const Real square = one_minus_g_ * one_minus_g_ + 2.0_r * g_ * one_minus_cos;
-  if (one_minus_g_ == 0.0_r) return 0.0_r;
-  return 0.25_r * inverse_pi_f * one_minus_g_ * (1.0_r + g_) / (square * std::sqrt(square));
+inline Real PhaseFunction::henyey_greenstein_density(Real cos_theta, Real g, Real one_minus_g) {
+  const Real one_minus_cos = std::max(0.0_r, 1.0_r - cos_theta);
+  const Real square = one_minus_g * one_minus_g + 2.0_r * g * one_minus_cos;
+  if (one_minus_g == 0.0_r) return 0.0_r;
+  return 0.25_r * inverse_pi_f * one_minus_g * (1.0_r + g) / (square * std::sqrt(square));
 }
 
 /// Density [1/sr] of scattering by an angle of this cosine.
@@ -154,7 +159,39 @@ inline Real evaluate(const PhaseFunction& phase, Real cos_theta) {
     case PhaseKind::henyey_greenstein:
       break;
   }
-  return phase.henyey_greenstein_density(cos_theta);
+  return PhaseFunction::henyey_greenstein_density(phase.sign_ * cos_theta, phase.g_,
+                                                  phase.one_minus_g_);
+}
+
+/// Density [1/sr] with which light that comes from many directions is scattered into one. Of the
+/// light its `mean_cosine` in [0, 1] to its mean direction is known, which `cos_theta` is to. It
+/// counts as spread by Henyey and Greenstein's law, which scattering by the same law keeps (mean
+/// cosines multiply). Exact for a beam (1) and for light from everywhere (0).
+inline Real evaluate_spread(const PhaseFunction& phase, Real cos_theta, Real mean_cosine) {
+  constexpr Real even = 0.25_r * inverse_pi_f;
+  switch (phase.kind_) {
+    case PhaseKind::isotropic:
+      return even;
+    case PhaseKind::rayleigh:
+    case PhaseKind::tabulated:  // a beam, and the rest from everywhere
+      return mean_cosine * evaluate(phase, cos_theta) + (1 - mean_cosine) * even;
+    case PhaseKind::henyey_greenstein:
+      break;
+  }
+  const Real one_minus_g = phase.one_minus_g_ + phase.g_ * (1 - mean_cosine);
+  return PhaseFunction::henyey_greenstein_density(phase.sign_ * cos_theta, phase.g_ * mean_cosine,
+                                                  one_minus_g);
+}
+
+/// The same where the light's second moment is known, too: `mean_second`, the mean of (3 cos^2 - 1)
+/// / 2 of the angles to the direction that it is scattered into. Never negative.
+inline Real evaluate_spread(const PhaseFunction& phase, Real cos_theta, Real mean_cosine,
+                            Real mean_second) {
+  const bool by_law = phase.kind_ == PhaseKind::henyey_greenstein;
+  const Real of_spread = by_law ? mean_cosine * mean_cosine : mean_cosine;
+  const Real off = mean_second - of_spread * (1.5_r * cos_theta * cos_theta - 0.5_r);
+  return std::max(0.0_r, evaluate_spread(phase, cos_theta, mean_cosine) +
+                             1.25_r * inverse_pi_f * phase.mean_second_ * off);
 }
 
 }  // namespace luxodus

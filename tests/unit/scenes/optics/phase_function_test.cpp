@@ -304,3 +304,55 @@ TEST_CASE("a phase function that cannot be is refused with its place and what to
   CHECK_THAT(fault_of(table({-1, 0, 1}, {1, nan, 1})), Catch::Contains("not a number"));
   CHECK_THAT(fault_of(table({-1, 1}, {0, 0})), Catch::Contains("above 0"));
 }
+
+TEST_CASE("a beam is scattered as the phase function says, and even light evenly", "[phase]") {
+  constexpr double even = 1 / (4 * std::numbers::pi);
+  for (const PhaseFunction& phase : {PhaseFunction(), rayleigh(), henyey_greenstein(0.7),
+                                     henyey_greenstein(-0.4), tabulated({-1, 0, 1}, {1, 0, 3})}) {
+    for (const float cosine : {-1.0f, -0.6f, 0.0f, 0.3f, 1.0f}) {
+      const float second = 1.5f * cosine * cosine - 0.5f;  // of a beam
+      const auto own = static_cast<double>(evaluate(phase, cosine));
+      CHECK(evaluate_spread(phase, cosine, 1) == Approx(own).margin(1e-7));
+      CHECK(evaluate_spread(phase, cosine, 1, second) == Approx(own).margin(1e-7));
+      CHECK(evaluate_spread(phase, cosine, 0) == Approx(even).epsilon(1e-5));
+      CHECK(evaluate_spread(phase, cosine, 0, 0) == Approx(even).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("light spread by Henyey and Greenstein's law stays so when it is scattered by it",
+          "[phase]") {
+  const PhaseFunction product = henyey_greenstein(0.6 * 0.5);
+  for (const float cosine : {-1.0f, -0.2f, 0.5f, 1.0f}) {
+    const auto exact = static_cast<double>(evaluate(product, cosine));
+    CHECK(evaluate_spread(henyey_greenstein(0.6), cosine, 0.5f) == Approx(exact).epsilon(1e-5));
+    const float second = 0.25f * (1.5f * cosine * cosine - 0.5f);
+    CHECK(evaluate_spread(henyey_greenstein(0.6), cosine, 0.5f, second) ==
+          Approx(exact).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("two beams that meet are told from even light by their second moment", "[phase]") {
+  // Rayleigh's function has no moments beyond the second, and is the same to both sides.
+  for (const float cosine : {-0.9f, 0.0f, 0.4f}) {
+    const float second = 1.5f * cosine * cosine - 0.5f;
+    CHECK(evaluate_spread(rayleigh(), cosine, 0, second) ==
+          Approx(static_cast<double>(evaluate(rayleigh(), cosine))).epsilon(1e-5));
+  }
+  // A table of 3 (1 + cos^2) / 8, nearly.
+  std::vector<double> cosines, values;
+  for (int i = -100; i <= 100; ++i) {
+    cosines.push_back(i / 100.0);
+    values.push_back(1 + cosines.back() * cosines.back());
+  }
+  CHECK(tabulated(cosines, values).mean_second() == Approx(0.1).epsilon(1e-3));
+  CHECK(henyey_greenstein(0.6).mean_second() == Approx(0.36));
+}
+
+TEST_CASE("scattered light is never negative", "[phase]") {
+  const PhaseFunction phase = henyey_greenstein(0.9);
+  for (const float cosine : {-1.0f, 0.0f, 1.0f})
+    for (const float mean : {0.0f, 0.5f, 1.0f})
+      for (const float second : {-0.5f, 0.0f, 1.0f})
+        CHECK(evaluate_spread(phase, cosine, mean, second) >= 0);
+}
