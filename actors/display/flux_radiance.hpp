@@ -15,9 +15,4 @@ namespace luxodus {
 /// meanwhile. Throws std::runtime_error where a packed scene cannot be read.
 std::unique_ptr<KnownRadiance> flux_radiance(const LocalRun& run);
 
-/// The voxels that hold gas alone, so that their volume is their cube and no wall parts their
-/// light: none that a surface cuts or touches, and none beside an emitter, where light varies
-/// within a voxel. By voxel, true where it is known. Errors: a packed scene that cannot be read.
-Result<std::vector<bool>> voxels_of_gas(const CompiledScene& scene);
-
 }  // namespace luxodus

@@ -207,7 +207,8 @@ void lay_out_tally(CompiledScene& scene) {
   if (!scene.media_names.empty())
     b.media_power = l.add_block({"media_power", size(scene.media_names), 2, ScoreUnit::weight});
   if (scene.voxels.edge > 0) {
-    b.voxels = l.add_block({"voxels", scene.voxels.count(), 4, ScoreUnit::weight_length});
+    b.voxels =
+        l.add_block({"voxels", scene.voxels.count(), voxel_quantities, ScoreUnit::weight_length});
     b.voxel_power = l.add_block({"voxel_power", scene.voxels.count(), 2, ScoreUnit::weight});
   }
   const uint32_t groups = size(scene.groups);

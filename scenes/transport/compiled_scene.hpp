@@ -123,12 +123,17 @@ struct ErrorTarget {
   bool asks_bins() const { return !planes.empty() || !cells.empty() || surfaces || patches; }
 };
 
+/// Of a voxel: fluence and net flux along x, y, z; then the same of light that has come from
+/// another collision, and how it is spread over directions: sums of products of the components of
+/// its direction, xx, yy, xy, xz, yz (zz is the rest of the fluence).
+inline constexpr uint32_t voxel_quantities = 13, first_scattered_quantity = 4;
+
 /// Blocks of the tally, by what they count. none_index where a scene has no such thing.
 struct TallyBlocks {
   uint32_t patches = none_index;         // in, out
   uint32_t surfaces = none_index;        // in, out: one bin per object
   uint32_t surface_groups = none_index;  // in, out
-  uint32_t voxels = none_index;          // fluence, jx, jy, jz (lengths); then
+  uint32_t voxels = none_index;          // see VoxelQuantity (lengths)
   uint32_t voxel_power = none_index;     // absorbed, scattered
   uint32_t volume_length = none_index;   // track length per volume group
   uint32_t volume_power = none_index;    // absorbed, scattered per volume group

@@ -107,7 +107,7 @@ int64_t nearest_integer(double x) {
   return std::bit_cast<int64_t>(x + magic) - std::bit_cast<int64_t>(magic);
 }
 
-/// A voxel's four scores as one register.
+/// Four scores of a voxel as one register.
 using FourScores [[gnu::vector_size(32)]] = int64_t;
 
 }  // namespace
@@ -120,15 +120,28 @@ void score_voxels(const CompiledScene& scene, const FlightPiece& piece, BatchSco
   const glm::dvec3 along = length * glm::dvec3(piece.direction);
   const FourScores share = {nearest_integer(length), nearest_integer(along.x),
                             nearest_integer(along.y), nearest_integer(along.z)};
+  const glm::dvec3 d(piece.direction);
+  const FourScores products = {nearest_integer(along.x * d.x), nearest_integer(along.y * d.y),
+                               nearest_integer(along.x * d.y), nearest_integer(along.x * d.z)};
+  const int64_t last_product = nearest_integer(along.y * d.z);
   int64_t* scores =
       batch.scores.data() + scene.layout.score_index(scene.blocks.voxels, 0, piece.band, 0);
-  const auto stride = static_cast<size_t>(4 * scene.bands.count());
-  for_each_voxel_point(scene.voxels, points, [&](uint32_t voxel) {
-    int64_t* score = scores + voxel * stride;
+  const auto stride =
+      static_cast<size_t>(voxel_quantities) * static_cast<size_t>(scene.bands.count());
+  const auto add = [](const FourScores& four, int64_t* score) {
     FourScores sum;
     std::memcpy(&sum, score, sizeof sum);
-    sum += share;
+    sum += four;
     std::memcpy(score, &sum, sizeof sum);
+  };
+  for_each_voxel_point(scene.voxels, points, [&](uint32_t voxel) {
+    int64_t* score = scores + voxel * stride;
+    add(share, score);
+    if (!piece.scattered) return;
+    score += first_scattered_quantity;
+    add(share, score);
+    add(products, score + 4);
+    score[8] += last_product;
   });
 }
 

@@ -21,9 +21,10 @@ struct FlightPiece {
   Real length;
   Weight weight;
   int band;
-  bool direct;    // not scattered or reflected yet (glass panes passed straight do not count)
-  bool collided;  // has collided with a medium
-  Real chance;    // uniform in [0, 1), independent of all the above: where voxel points begin
+  bool direct;     // not scattered or reflected yet (glass panes passed straight do not count)
+  bool collided;   // has collided with a medium
+  bool scattered;  // a collision was its last event
+  Real chance;     // uniform in [0, 1), independent of all the above: where voxel points begin
 };
 
 /// Fixed-point score of weight times length; rounded to nearest, one part in 2^32 of the scene's
@@ -114,8 +115,8 @@ inline VoxelPoints points_in_grid(const VoxelGrid& grid, const FlightPiece& piec
     return glm::all(glm::greaterThanEqual(p, Vec3(0))) && glm::all(glm::lessThanEqual(p, cells));
   };
   if (!in_grid(start) || !in_grid(start + piece.direction * last)) {
-    const BoxStretch inside =
-        stretch_in_box(Vec3(0), cells, {start, piece.direction, last, 0, 0, false, false, 0});
+    const BoxStretch inside = stretch_in_box(
+        Vec3(0), cells, {start, piece.direction, last, 0, 0, false, false, false, 0});
     if (!(inside.first < inside.last)) return {};
     first = inside.first;
     last = inside.last;

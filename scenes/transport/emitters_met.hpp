@@ -41,9 +41,10 @@ struct EyePath {
   EmitterHits counted;
   double weight;
   GroupLight& into;
-  PathTurn turn{};        // where `counted` is weighted
-  Real travelled = 0;     // from the last event to the ray's origin, through panes
-  bool diffused = false;  // a surface or a medium has spread it
+  PathTurn turn{};               // where `counted` is weighted
+  Real travelled = 0;            // from the last event to the ray's origin, through panes
+  bool diffused = false;         // a surface or a medium has spread it
+  bool scattered_known = false;  // light from collisions on the ray has been counted already
 
   /// Light of the band in place `i`.
   void add(size_t i, const SourceLight& light) {

@@ -27,17 +27,17 @@ GlowGuide::GlowGuide(std::vector<Glow> glows) : by_emitter_(std::move(glows)) {
   brightest_.resize(std::min(brightest_.size(), limits::glows));
 }
 
-void GlowGuide::stand_at(const Vec3& place, const CellSight* seen) {
+void GlowGuide::stand_at(const Vec3& place, const CellSight* seen, Known known) {
   cones_.clear();
   aimed_ = 0;
   if (!aims_ || empty()) return;
   double light = 0;
   if (seen != nullptr) {
     for (const auto& [emitter, arriving] : seen->bright)
-      light += weigh(by_emitter_[emitter], place, arriving);
+      light += weigh(by_emitter_[emitter], place, arriving, known);
     std::erase_if(cones_, [&](const Cone& c) { return c.share < limits::min_glow_seen * light; });
   } else {
-    for (const uint32_t emitter : brightest_) light += weigh(by_emitter_[emitter], place, 1);
+    for (const uint32_t emitter : brightest_) light += weigh(by_emitter_[emitter], place, 1, known);
   }
   for (Cone& cone : cones_) {
     cone.share *= limits::max_aimed / light;
@@ -45,16 +45,17 @@ void GlowGuide::stand_at(const Vec3& place, const CellSight* seen) {
   }
 }
 
-double GlowGuide::weigh(const Glow& glow, const Vec3& place, double arriving) {
+double GlowGuide::weigh(const Glow& glow, const Vec3& place, double arriving, Known known) {
   const Vec3 way = glow.centre - place;
   const Real square = glm::dot(way, way);
   const Real reach = glow.radius * glow.radius;
   const double light = arriving * glow.power / static_cast<double>(std::max(square, reach));
   // Lines that begin beside an emitter of some size meet its light from everywhere.
   const Real least = std::max(glow.body, least_distance * glow.radius);
-  if (square > least * least && glow.share > 0) {
+  const double share = known == Known::nothing ? glow.share : glow.reflected;
+  if (square > least * least && share > 0) {
     const Real slope = std::min(limits::widest_slope, std::sqrt(reach / square));
-    cones_.push_back({way / std::sqrt(square), slope, light * glow.share});
+    cones_.push_back({way / std::sqrt(square), slope, light * share});
   }
   return light;
 }

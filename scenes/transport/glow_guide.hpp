@@ -12,6 +12,7 @@
 
 #include "scenes/geometry/real.hpp"
 #include "scenes/transport/emission.hpp"
+#include "scenes/transport/known_radiance.hpp"
 
 namespace luxodus {
 
@@ -26,6 +27,8 @@ inline constexpr Real widest_slope = 3;
 inline constexpr int aimed_events = 8;
 /// Share of an emitter's light: less is left to chance. Aimed at, it gained less than it cost.
 inline constexpr double min_glow = 0.25;
+/// From an emitter, for what surfaces beside it reflect.
+inline constexpr int glow_rays = 64;
 /// Of the light at a place, what a glow's emitter has at least where that is aimed at.
 inline constexpr double min_glow_seen = 0.01;
 }  // namespace limits
@@ -37,8 +40,10 @@ struct Glow {
   Vec3 centre{0};
   Real radius = 0;
   double power = 0;  // of the emitter, in all bands, by how they look
-  double share = 0;  // of its light that smoke in the sphere scatters; 0: not worth aiming at
-  Real body = 0;     // radius of the emitter itself
+  /// Of its light that smoke and surfaces in the sphere send on, and surfaces alone; 0: not worth
+  /// aiming at.
+  double share = 0, reflected = 0;
+  Real body = 0;  // radius of the emitter itself
 };
 
 class GlowGuide {
@@ -53,8 +58,9 @@ class GlowGuide {
   /// Turns after so many events are left as they are: weights of many aimed ones would multiply.
   void start_event(int event) { aims_ = event < limits::aimed_events; }
   /// For turns at a place: until the next call. `seen`: what is known of emitters there; null: they
-  /// are weighed by power and distance, wherever walls are.
-  void stand_at(const Vec3& place, const CellSight* seen);
+  /// are weighed by power and distance, wherever walls are. `known`: where scattered light is
+  /// known, smoke does not count.
+  void stand_at(const Vec3& place, const CellSight* seen, Known known);
   /// Share of the turns there that are aimed.
   double aimed() const { return aimed_; }
   /// A direction of an aimed turn, by uniform numbers; `choice` in [0, aimed()).
@@ -70,7 +76,7 @@ class GlowGuide {
   };
   /// Returns the light of an emitter at the place, of which `arriving` arrives of a watt without
   /// the inverse square; and aims at its glow by that.
-  double weigh(const Glow& glow, const Vec3& place, double arriving);
+  double weigh(const Glow& glow, const Vec3& place, double arriving, Known known);
 
   std::vector<Glow> by_emitter_;
   std::vector<uint32_t> brightest_;  // numbers of those with the most glow
@@ -84,6 +90,36 @@ Real glow_reach_m(const CompiledScene& scene);
 /// Power of all bands, by how they look.
 double power_seen(const CompiledScene& scene, const CompiledEmitter& emitter);
 
+/// Of a flame's light, the share that surfaces within the glow reflect. Luminaires light what is
+/// beside them little, or so evenly that aiming at it gains nothing.
+template <class Resolver>
+double reflected_beside(const CompiledScene& scene, uint32_t emitter, const Glow& glow,
+                        Resolver& resolver) {
+  const CompiledEmitter& e = scene.emitters[emitter];
+  if (e.kind != EmitterKind::volume) return 0;
+  Random random(0, RandomStream::picture, 2);
+  double sum = 0;
+  for (int i = 0; i < limits::glow_rays; ++i) {
+    random.start(uint64_t{emitter} * limits::glow_rays + static_cast<uint64_t>(i));
+    const EmissionPoint point = emission_point(scene, e, random, resolver);
+    Ray ray;
+    ray.direction = emission_direction(e, point, random, resolver);
+    ray.origin = point.position;
+    ray.length = 2 * glow.radius;
+    const Hit hit = resolver.nearest(ray);
+    if (!hit.found()) continue;
+    const TriangleRecord& t = *hit.triangle;
+    if (glm::length(t.at(hit.u, hit.v) - glow.centre) > glow.radius) continue;
+    const size_t met = glm::dot(t.unit_normal(), ray.direction) < 0 ? 0 : 1;
+    const auto band = static_cast<size_t>(scene.bands.count() / 2);
+    sum += static_cast<double>(scene.lambert_fraction[(t.surface * 2 + met) *
+                                                          static_cast<size_t>(scene.bands.count()) +
+                                                      band]) *
+           0x1p-32;
+  }
+  return sum / limits::glow_rays;
+}
+
 /// The glows of a scene's emitters, by number; none where there is no smoke. Suspends: where the
 /// resolver does.
 template <class Resolver>
@@ -93,7 +129,7 @@ std::vector<Glow> glows_of(const CompiledScene& scene, Resolver& resolver) {
   for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
     const CompiledEmitter& e = scene.emitters[i];
     const EmitterBound bound = emitter_bound(scene, i);
-    Glow glow{bound.centre, bound.radius + glow_reach_m(scene), 0, 0, bound.radius};
+    Glow glow{bound.centre, bound.radius + glow_reach_m(scene), 0, 0, 0, bound.radius};
     if (e.distribution != Distribution::collimated) glow.power = power_seen(scene, e);
     // Before its face: the face itself may be a boundary of the smoke.
     const Vec3 before = bound.centre - e.axes[2] * (0.5_r * glow.radius);
@@ -101,8 +137,10 @@ std::vector<Glow> glows_of(const CompiledScene& scene, Resolver& resolver) {
     for_each_medium_at(
         scene.media, scene.bands.count() / 2, before, resolver,
         [&](int, int, double sigma, double albedo) { scattering += sigma * albedo; });
-    const double share = -std::expm1(-scattering * static_cast<double>(glow.radius));
+    const double reflected = reflected_beside(scene, i, glow, resolver);
+    const double share = reflected - std::expm1(-scattering * static_cast<double>(glow.radius));
     if (glow.power > 0 && share > limits::min_glow) glow.share = share;
+    if (glow.power > 0 && reflected > limits::min_glow) glow.reflected = reflected;
     out.push_back(glow);
   }
   return out;

@@ -63,10 +63,10 @@ class NextEvent {
 
   const MediaBands& media() const { return media_; }
   const GlowGuide& guide() const { return guide_; }
-  /// The guide for turns at a place. Suspends: where the resolver does, unless emitters have been
-  /// weighed there before.
-  const GlowGuide& guide_at(const Vec3& place) {
-    if (!guide_.empty()) guide_.stand_at(place, seen_at(place));
+  /// The guide for turns at a place, where of the light so much is known: a path need not find
+  /// that. Suspends: where the resolver does, unless emitters have been weighed there before.
+  const GlowGuide& guide_at(const Vec3& place, Known known) {
+    if (!guide_.empty()) guide_.stand_at(place, seen_at(place), known);
     return guide_;
   }
 
@@ -97,7 +97,7 @@ class NextEvent {
       return static_cast<double>(surface_pdf(models[i], -direction, towards, normal));
     });
     const double turned = models[0].kind == SurfaceKind::lambertian && !guide_.empty()
-                              ? turned_at(place, towards, hit)
+                              ? turned_at(place, Known::nothing, towards, hit)
                               : hit;
     const double density = sampled.probability + turned * arriving_.apparent_sr;
     for (size_t i = 0; i < bands.count(); ++i) {
@@ -110,37 +110,34 @@ class NextEvent {
   }
 
   /// Adds `weight` times the radiance [W/(m2 sr)] that emitters send to the stretch and the medium
-  /// there turns against its ray, once; but for places where `known` has all light. `flight` is one
-  /// along it, and `passed` is what its collision lets go on of the light of each band. Suspends:
-  /// where the resolver does.
+  /// there turns against its ray, once; but for places where all light is known (`ends`). `flight`
+  /// is one along it, and `passed` is what its collision lets go on of the light of each band.
+  /// Suspends: where the resolver does.
   void add_scattered(const Stretch& s, const FreeFlight& flight, const BandValues& passed,
-                     double weight, GroupLight& into, const KnownRadiance* known = nullptr) {
+                     double weight, GroupLight& into, const PathEnds& ends = {}) {
     const bool emitters_near = weigh_along(s, s.bands);
-    const auto is_known = [&](Real t) {
-      return known != nullptr && known->knows(s.ray.origin + s.ray.direction * t);
-    };
-    if (flight.collided && !is_known(flight.t))
-      add_collided(s, flight, emitters_near, passed, weight, into);
-    if (emitters_near) add_near_emitter(s, is_known, weight, into);
+    if (flight.collided) add_collided(s, flight, emitters_near, passed, weight, into, ends);
+    if (emitters_near) add_near_emitter(s, ends, weight, into);
   }
 
   // The same in two, for a stretch of several flights. Each of them counts by the stretch's share.
 
   /// Of places that are drawn near an emitter. Returns whether any emitter is near.
-  bool add_near(const Stretch& s, double weight, GroupLight& into) {
+  bool add_near(const Stretch& s, double weight, GroupLight& into, const PathEnds& ends) {
     const bool emitters_near = weigh_along(s, s.bands);
-    if (emitters_near)
-      add_near_emitter(
-          s, [](Real) { return false; }, weight, into);
+    if (emitters_near) add_near_emitter(s, ends, weight, into);
     return emitters_near;
   }
   /// Of the place where a flight has collided. Requires: the last add_near was of this stretch.
   void add_collided(const Stretch& s, const FreeFlight& flight, bool emitters_near,
-                    const BandValues& passed, double weight, GroupLight& into) {
+                    const BandValues& passed, double weight, GroupLight& into,
+                    const PathEnds& ends) {
+    const Known known = ends.in_medium(s.ray.origin + s.ray.direction * flight.t);
+    if (known == Known::all) return;
     // A band may be scattered where the hero's is not.
     if (std::any_of(passed.begin(), passed.begin() + s.bands.count(),
                     [](double light) { return light > 0; }))
-      add_at_collision(s, flight, emitters_near, passed, weight, into);
+      add_at_collision(s, flight, emitters_near, passed, weight, into, known);
   }
 
   /// Weight of light that a path of such bands meets at a point of an emitter by its own direction.
@@ -195,9 +192,9 @@ class NextEvent {
   };
 
   /// Density [1/sr] of turns at a place, where the phase function or the surface alone has `own`.
-  double turned_at(const Vec3& place, const Vec3& direction, double own) {
+  double turned_at(const Vec3& place, Known known, const Vec3& direction, double own) {
     if (guide_.empty()) return own;
-    return guide_at(place).density(direction, own);
+    return guide_at(place, known).density(direction, own);
   }
 
   /// Emitters are chosen for all bands of a path at once.
@@ -271,7 +268,7 @@ class NextEvent {
 
   /// The place is where a flight has collided; an emitter is sampled there.
   void add_at_collision(const Stretch& s, const FreeFlight& flight, bool emitters_near,
-                        const BandValues& passed, double weight, GroupLight& into) {
+                        const BandValues& passed, double weight, GroupLight& into, Known known) {
     const Vec3 place = s.ray.origin + s.ray.direction * flight.t;
     if (!weigh_at(place, Vec3(0), s.bands)) return;
     const EmitterSample sampled = choice_.choose_at(random_.uniform_double());
@@ -283,7 +280,8 @@ class NextEvent {
     const auto turned =
         static_cast<double>(evaluate(phase, glm::dot(arriving_.direction, s.ray.direction)));
     double probability =
-        sampled.probability + turned_at(place, arriving_.direction, turned) * arriving_.apparent_sr;
+        sampled.probability +
+        turned_at(place, known, arriving_.direction, turned) * arriving_.apparent_sr;
     if (emitters_near)
       probability += drawn_near(s, place, flight.t, sampled.emitter, point.position);
     for (size_t i = 0; i < s.bands.count(); ++i) {
@@ -293,16 +291,16 @@ class NextEvent {
   }
 
   /// The emitter is chosen first, and the place as its light falls on the stretch.
-  template <class IsKnown>
-  void add_near_emitter(const Stretch& s, IsKnown&& is_known, double weight, GroupLight& into) {
+  void add_near_emitter(const Stretch& s, const PathEnds& ends, double weight, GroupLight& into) {
     const auto [chosen, share] = choice_.choose_along(random_.uniform_double());
     if (!(share > 0)) return;
     const CompiledEmitter& e = scene_.emitters[chosen];
     const EmissionPoint point = emission_point(scene_, e, random_, resolver_);
     const EquiangularLine line = seen_from(point.position, s);
     const auto t = static_cast<Real>(line.sample(random_.uniform_double()));
-    if (is_known(t)) return;
     const Vec3 place = s.ray.origin + s.ray.direction * t;
+    const Known known = ends.in_medium(place);
+    if (known == Known::all) return;
     if (!may_collide_at(s, place) || !arrive(e, point, place, s.bands)) return;
     const double here = density_of_collisions(s, t);
     if (!(here > 0)) return;
@@ -310,7 +308,7 @@ class NextEvent {
     const double drawn = share * line.density(static_cast<double>(t));
     const double sampled = choice_.probability_at(chosen);
     const Real cosine = glm::dot(arriving_.direction, s.ray.direction);
-    guide_at(place);
+    guide_at(place, known);
     for (size_t i = 0; i < s.bands.count(); ++i) {
       if (!(sigma_[i] > 0)) continue;
       double scattered = 0;  // of each medium here, since each turns a path in its own way

@@ -80,6 +80,7 @@ class ParticleTracer {
     int band = 0;
     bool direct = true;
     bool collided = false;
+    bool scattered = false;  // its last event was a collision
   };
 
   /// Chance for a new direction, and what becomes of it on a Lambertian surface: a direction about
@@ -201,10 +202,10 @@ class ParticleTracer {
   void pass_detectors(const State& p, Real length, const Turn& turn) {
     if constexpr (K::detectors) {
       if constexpr (flawed) Flaws::passed(length);
-      score_flight(
-          scene_,
-          {p.ray.origin, p.ray.direction, length, p.weight, p.band, p.direct, p.collided, turn.u},
-          *batch_);
+      score_flight(scene_,
+                   {p.ray.origin, p.ray.direction, length, p.weight, p.band, p.direct, p.collided,
+                    p.scattered, turn.u},
+                   *batch_);
     }
   }
 
@@ -246,7 +247,7 @@ class ParticleTracer {
         sample(scene_.phases[static_cast<size_t>(flight.phase)], incoming, turn.u, turn.v);
     if constexpr (flawed) Flaws::scattered(p.ray.direction, incoming);
     p.direct = false;
-    p.collided = true;
+    p.collided = p.scattered = true;
     return true;
   }
 
@@ -285,7 +286,7 @@ class ParticleTracer {
     p.ray.direction = to_world(normal, turn.lambertian);
     p.ray.origin = offset_ray(triangle.at(hit.u, hit.v), normal, scene_.min_offset_m);
     if constexpr (flawed) Flaws::departure(p.ray.origin, triangle.at(hit.u, hit.v));
-    p.direct = false;
+    p.direct = p.scattered = false;
     return true;
   }
 
@@ -311,6 +312,7 @@ class ParticleTracer {
     const bool straight =
         sampled.transmitted && sampled.specular && model.kind != SurfaceKind::dielectric;
     p.direct = p.direct && straight;
+    p.scattered = p.scattered && straight;
     p.ray.direction = sampled.direction;
     p.ray.origin = offset_ray(place, sampled.transmitted ? -normal : normal, scene_.min_offset_m);
     return true;

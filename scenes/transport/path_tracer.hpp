@@ -118,7 +118,7 @@ class PathTracer {
     ends_.clear();
     const Path path{ray, PathBands::all(hero_, hero), counted, 1, into};
     if (known == nullptr) return trace(path, nullptr, 0);
-    split(path, scene_.features.media == MediaNeed::none ? 1 : limits::path_parts);
+    split(path, {known, false}, scene_.features.media == MediaNeed::none ? 1 : limits::path_parts);
     for (const Path& part : parts_) trace(part, known, 1);
   }
 
@@ -213,7 +213,7 @@ class PathTracer {
   /// Splits a path at its first event. All parts share the ray from the eye, and what is sampled of
   /// emitters on a surface and near the ray; their flights and turns are spread evenly. Into
   /// `parts_`: those that go on.
-  void split(Path path, int parts) {
+  void split(Path path, const PathEnds& ends, int parts) {
     parts_.clear();
     flights_.clear();
     next_event_.start_event(0);
@@ -242,7 +242,7 @@ class PathTracer {
     const int passing = parts - static_cast<int>(flights_.size());
     if (passing > 0 && hit.found()) split_at_surface(path, hit, passing, parts, more);
     // Last, since asking may drop the cell that the hit is of.
-    if (media) split_in_medium(path, stretch);
+    if (media) split_in_medium(path, stretch, ends);
   }
 
   /// By how much more often the first flight collides than a free one does, in all bands alike.
@@ -283,18 +283,19 @@ class PathTracer {
   }
 
   /// `flights_` have collided.
-  void split_in_medium(const Path& path, const Stretch& stretch) {
-    const bool emitters_near = next_event_.add_near(stretch, path.weight, path.into);
+  void split_in_medium(const Path& path, const Stretch& stretch, const PathEnds& ends) {
+    const bool emitters_near = next_event_.add_near(stretch, path.weight, path.into, ends);
     if (flights_.empty()) return;
     const TurnNumbers numbers = medium_numbers();
     for (size_t i = 0; i < flights_.size(); ++i) {
       Path part = path;
       pass_media(part, flights_[i]);
-      next_event_.add_collided(stretch, flights_[i], emitters_near, passed_, path.weight,
-                               path.into);
+      next_event_.add_collided(stretch, flights_[i], emitters_near, passed_, path.weight, path.into,
+                               ends);
       if (part.bands.brightest() <= 0) continue;
       part.weight *= stretch.share;
-      turn_in_medium(part, flights_[i], stretch, numbers.of_part(static_cast<int>(i)));
+      const Known known = add_known_of_medium(part, flights_[i], ends);
+      turn_in_medium(part, flights_[i], stretch, numbers.of_part(static_cast<int>(i)), known);
       parts_.push_back(part);
     }
   }
@@ -305,16 +306,22 @@ class PathTracer {
       next_event_.start_event(event);
       const Hit hit = resolver_.nearest(path.ray);
       if (path.counted != EmitterHits::none) met_.add_along(path, hit);
+      const PathEnds ends{known, path.diffused};
+      if (path.scattered_known) {
+        if (!hit.found()) return;
+        pass_without_collision(path, line_end(scene_, hit.distance));
+        if (!meet_surface(path, hit, ends)) return;
+        continue;
+      }
       const Stretch stretch{path.ray, line_end(scene_, hit.distance), 1, path.bands};
       const FreeFlight flight = fly(path.ray, hit.distance, path.bands.hero());
       pass_media(path, flight);
-      const KnownRadiance* end = path.diffused ? known : nullptr;  // where the path may end here
-      const double weight = path.weight;                           // before the turn
+      const double weight = path.weight;  // before the turn
       const bool alive =
-          flight.collided ? scatter(path, flight, stretch, end) : meet_surface(path, hit, end);
+          flight.collided ? scatter(path, flight, stretch, ends) : meet_surface(path, hit, ends);
       // Last, since asking may drop the cell that the hit is of.
       if (scene_.features.media != MediaNeed::none)
-        next_event_.add_scattered(stretch, flight, passed_, weight, path.into, end);
+        next_event_.add_scattered(stretch, flight, passed_, weight, path.into, ends);
       if (!alive || (event >= 2 && !survives_roulette(path.bands))) return;
     }
   }
@@ -331,6 +338,12 @@ class PathTracer {
   FreeFlight fly_by(const Ray& ray, Real length, int band, double tau, Real choice) {
     return free_flight<MediaNeed::general>(scene_.media, band, ray.origin, ray.direction, length,
                                            tau, choice, resolver_);
+  }
+
+  /// The light that the media pass, where what they scatter into the stretch is known.
+  void pass_without_collision(Path& p, Real end) {
+    next_event_.media().transmittances(p.ray, end, p.bands, passed_, resolver_);
+    for (size_t i = 0; i < p.bands.count(); ++i) p.bands.scale(i, passed_[i]);
   }
 
   /// The light and the shares of bands after a flight; `passed_` keeps what a collision lets go on.
@@ -360,19 +373,28 @@ class PathTracer {
 
   /// Medium event: a new direction, or the end in known light. Light sampled from emitters is
   /// NextEvent's, where it is not of the known. False ends the path.
-  bool scatter(Path& p, const FreeFlight& flight, const Stretch& stretch,
-               const KnownRadiance* known) {
+  bool scatter(Path& p, const FreeFlight& flight, const Stretch& stretch, const PathEnds& ends) {
     if (p.bands.brightest() <= 0) return false;
-    const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
-    const Vec3 place = p.ray.origin + p.ray.direction * flight.t;
-    if (known != nullptr && known->knows(place)) {
-      for (size_t i = 0; i < p.bands.count(); ++i)
-        add_known(p, i, known->of_medium(place, p.ray.direction, phase, p.bands.band(i)));
-      end_in_known([&] { return known->error_of_medium(place, p.ray.direction, phase); });
-      return false;
-    }
-    turn_in_medium(p, flight, stretch, medium_numbers());
+    const Known known = add_known_of_medium(p, flight, ends);
+    if (known == Known::all) return false;
+    turn_in_medium(p, flight, stretch, medium_numbers(), known);
     return true;
+  }
+
+  /// Where the path has collided. Returns how much is known there, which its rest need not find.
+  Known add_known_of_medium(Path& p, const FreeFlight& flight, const PathEnds& ends) {
+    const Vec3 place = p.ray.origin + p.ray.direction * flight.t;
+    const Known which = ends.in_medium(place);
+    if (which == Known::nothing) return which;
+    const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
+    const Vec3& direction = p.ray.direction;
+    const Real x = random_.uniform();
+    const Real y = random_.uniform();
+    const uint32_t voxel = ends.known->choose_voxel(place, {x, y, random_.uniform()}, which);
+    for (size_t i = 0; i < p.bands.count(); ++i)
+      add_known(p, i, ends.known->of_medium(voxel, direction, phase, p.bands.band(i), which));
+    end_in_known([&] { return ends.known->error_of_medium(voxel, direction, phase, which); });
+    return which;
   }
 
   TurnNumbers medium_numbers() {
@@ -384,9 +406,9 @@ class PathTracer {
   }
 
   void turn_in_medium(Path& p, const FreeFlight& flight, const Stretch& stretch,
-                      const TurnNumbers& numbers) {
+                      const TurnNumbers& numbers, Known known) {
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
-    const GlowGuide& guide = next_event_.guide_at(p.ray.origin + p.ray.direction * flight.t);
+    const GlowGuide& guide = next_event_.guide_at(p.ray.origin + p.ray.direction * flight.t, known);
     const Vec3 direction = numbers.choice < guide.aimed()
                                ? guide.direction(numbers.choice, numbers.u, numbers.v)
                                : sample(phase, p.ray.direction, numbers.u, numbers.v);
@@ -396,6 +418,7 @@ class PathTracer {
     p.counted = EmitterHits::weighted;
     p.travelled = 0;
     p.diffused = true;
+    p.scattered_known = known == Known::scattered;
   }
 
   /// Whether a part of the turns goes towards glows.
@@ -422,9 +445,10 @@ class PathTracer {
   }
 
   /// Surface event, where the path may end in known light. False ends it.
-  bool meet_surface(Path& p, const Hit& hit, const KnownRadiance* known) {
+  bool meet_surface(Path& p, const Hit& hit, const PathEnds& ends) {
     if (!hit.found()) return false;
-    if (known == nullptr || !reflects_diffusely(hit, p.ray)) return bounce(p, hit);
+    const KnownRadiance* known = ends.known;
+    if (!ends.on_surfaces() || !reflects_diffusely(hit, p.ray)) return bounce(p, hit);
     const bool front = glm::dot(hit.triangle->unit_normal(), p.ray.direction) < 0;
     for (size_t i = 0; i < p.bands.count(); ++i)
       add_known(p, i, known->of_surface(hit, front, p.bands.band(i)));
@@ -506,6 +530,7 @@ class PathTracer {
     } else {
       p.counted = s.specular ? EmitterHits::all : EmitterHits::weighted;
       p.travelled = 0;
+      p.scattered_known = false;
     }
     p.ray.direction = s.direction;
     p.ray.origin = offset_ray(e.place, s.transmitted ? -normal : normal, scene_.min_offset_m);
@@ -522,7 +547,7 @@ class PathTracer {
   /// Draws the direction of a Lambertian reflection anew, where it is an aimed one. False: it goes
   /// below the horizon, where nothing is sent.
   bool aim_reflection(const SurfaceEvent& e, const TurnNumbers& numbers, SurfaceSample& s) {
-    const GlowGuide& guide = next_event_.guide_at(e.before);
+    const GlowGuide& guide = next_event_.guide_at(e.before, Known::nothing);
     if (numbers.choice >= guide.aimed()) return true;
     s.direction = guide.direction(numbers.choice, numbers.u, numbers.v);
     return glm::dot(s.direction, e.normal) > 0;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "actors/display/pictures.hpp"
@@ -44,8 +45,9 @@ struct BiasScene {
   double widest_voxels;  // edge [m]; then a half and a quarter of it
 };
 
-SceneDescription read_or_throw(const std::filesystem::path& file) {
-  auto read = read_scene(file);
+SceneDescription read_or_throw(const std::filesystem::path& file,
+                               std::optional<double> at_s = std::nullopt) {
+  auto read = read_scene(file, at_s);
   if (!read.scene) throw std::runtime_error(read.problems.list().front().text());
   return *std::move(read.scene);
 }
@@ -54,9 +56,9 @@ SceneDescription of_library(const char* name) {
   return read_or_throw(std::string(LUX_SOURCE_DIR "/scenes/library/") + name + ".toml");
 }
 
-SceneDescription of_text(const std::string& toml) {
+SceneDescription of_text(const std::string& toml, std::optional<double> at_s = std::nullopt) {
   const test::TemporaryFolder folder;
-  return read_or_throw(folder.write("scene.toml", toml));
+  return read_or_throw(folder.write("scene.toml", toml), at_s);
 }
 
 /// A lit room in smoke, and beside it, behind 0.1 m, one with a lamp of a hundredth.
@@ -83,7 +85,8 @@ std::filesystem::path fire_index() {
 
 /// A corridor full of smoke, as FDS left it after 90 s, under three ceiling lamps.
 SceneDescription fire_corridor() {
-  const auto building = read_fire_building(fire_index(), 90);
+  constexpr double at_s = 90;
+  const auto building = read_fire_building(fire_index(), at_s);
   if (!building) throw std::runtime_error(building.problem().text());
   std::string toml = "[run]\nmax_bands = 3\n";
   for (const FireMaterial& m : building->tables.materials()) toml += material_table(m) + "\n";
@@ -97,8 +100,8 @@ SceneDescription fire_corridor() {
         "[[emitter]]\nname = \"lamp {0}\"\nshape = \"rectangle\"\nsize = [0.6, 0.3]\n"
         "position = [{0}, 1.2, 2.95]\nflux_lm = 3000\n",
         x);
-  return of_text(toml +
-                 "[[camera]]\nname = \"view\"\neye = [0.5, 1, 1]\ntarget = [11, 1.4, 1.4]\n");
+  return of_text(toml + "[[camera]]\nname = \"view\"\neye = [0.5, 1, 1]\ntarget = [11, 1.4, 1.4]\n",
+                 at_s);
 }
 
 SceneDescription office() {

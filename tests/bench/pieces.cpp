@@ -76,7 +76,8 @@ void print_pieces(int repeats) {
   scores.reset(scene->layout);
   print_piece("detectors and voxels along 3 m", repeats, [&](int) {
     const float x = 10 * random.uniform() - 7;
-    score_flight(*scene, {{x, 0, 0}, {0.6f, 0.64f, 0.48f}, 3, unit_weight, 0, false, false, 0.5f},
+    score_flight(*scene,
+                 {{x, 0, 0}, {0.6f, 0.64f, 0.48f}, 3, unit_weight, 0, false, false, false, 0.5f},
                  scores);
     return x;
   });

@@ -162,7 +162,7 @@ TEST_CASE("a disk that is really full when a cluster ends has room for the resul
   const fs::path out = folder / "out", kept = folder / "kept";
   fs::create_directories(out);
   fs::create_directories(kept);
-  const std::string mount = "mount -t tmpfs -o size=8m none " + out.string();
+  const std::string mount = "mount -t tmpfs -o size=14m none " + out.string();
   if (std::system(("unshare -rm " + mount + " 2>/dev/null").c_str()) != 0) {
     WARN("skipped: no file system of a few MiB can be mounted here");
     return;

@@ -48,7 +48,9 @@ std::string place_in(const TallyBlock& block, uint32_t bin, int band, uint32_t q
 
 /// Only the components of a current are.
 bool may_be_negative(const TallyBlock& block, uint32_t quantity) {
-  return block.name == "voxels" && quantity > 0;
+  // Fluences, and the mean squares of the direction's components, are sums of what is not.
+  return block.name == "voxels" && quantity != 0 && quantity != first_scattered_quantity &&
+         quantity != first_scattered_quantity + 4 && quantity != first_scattered_quantity + 5;
 }
 
 void check_signs(const BlockScores& scores, Findings& findings) {
@@ -67,12 +69,14 @@ void check_signs(const BlockScores& scores, Findings& findings) {
   }
 }
 
-/// A current is no larger than its fluence, but for the rounding of each piece of flight.
+/// A current and a product of components is no larger than its fluence, and scattered light no more
+/// than all, but for the rounding of each piece of flight.
 void check_currents(const BlockScores& voxels, uint64_t pieces, Findings& findings) {
   for (uint32_t bin = 0; bin < voxels.block().bins; ++bin) {
     for (int band = 0; band < voxels.bands(); ++band) {
-      const auto fluence = static_cast<double>(voxels.at(bin, band, 0));
-      for (uint32_t q = 1; q < 4; ++q) {
+      for (uint32_t q = 1; q < voxel_quantities; ++q) {
+        const uint32_t of = q <= first_scattered_quantity ? 0 : first_scattered_quantity;
+        const auto fluence = static_cast<double>(voxels.at(bin, band, of));
         const double most = fluence * (1 + 1e-5) + static_cast<double>(pieces);
         if (std::abs(static_cast<double>(voxels.at(bin, band, q))) <= most) continue;
         findings.push_back("a current above its fluence: " +

@@ -219,7 +219,7 @@ TEST_CASE("a picture in smoke is as bright when its paths end in voxels as when 
                      << full.error);
   CHECK(full.error < 0.005 * full.mean);
   CHECK(gathered.error < 0.005 * gathered.mean);
-  // Voxels of half a metre: what has scattered twice varies little within one.
+  // Voxels of half a metre: what has scattered varies little within one.
   const double chance = std::hypot(full.error, gathered.error);
   CHECK(std::abs(gathered.mean - full.mean) < 4 * chance + 0.01 * full.mean);
 }
@@ -230,22 +230,21 @@ TEST_CASE("smoke in a dark room beside a bright one stays dark", "[display]") {
   for (size_t i = 0; i < picture.light.pixels(); ++i) CHECK(picture.light.xyz[3 * i + 1] == 0);
 }
 
-TEST_CASE("light is known in voxels of gas, not in those that a wall or an emitter is in",
+TEST_CASE("light is known in voxels of one room's gas, and smooth light where eyes look first",
           "[display]") {
   const auto run = traced(two_rooms(true), 1 << 13);
   const auto flux = flux_radiance(*run);
   const glm::dvec3 origin = run->scene().local_origin;
-  const auto knows = [&](double x, double y, double z) {
-    return flux->knows(Vec3(glm::dvec3(x, y, z) - origin));
+  const auto known = [&](double x, double y, double z) {
+    return flux->known_at(Vec3(glm::dvec3(x, y, z) - origin), true);
   };
-  CHECK(knows(2, 2, 1.2));           // amid the lit room
-  CHECK(knows(6, 2, 1.2));           // amid the dark one
-  CHECK_FALSE(knows(3.9, 2, 1.2));   // before the wall
-  CHECK_FALSE(knows(4.05, 2, 1.2));  // in it
-  CHECK_FALSE(knows(4.2, 2, 1.2));   // behind it
-  CHECK_FALSE(knows(2, 2, 0.1));     // on the floor
-  CHECK_FALSE(knows(2, 2, 1.9));     // an edge below the lamp
-  CHECK_FALSE(knows(20, 2, 1.2));    // beyond all voxels
+  CHECK(known(2, 2, 1.2) == Known::all);        // amid the lit room
+  CHECK(known(3.9, 2, 1.2) == Known::all);      // before the wall, which runs along a face
+  CHECK(known(2, 2, 0.1) == Known::all);        // on the floor
+  CHECK(known(2, 2, 2.3) == Known::scattered);  // beside the lamp
+  CHECK(known(2, 2, 1.9) == Known::scattered);  // an edge below it
+  CHECK(known(4.2, 2, 1.2) == Known::nothing);  // dark, and partly in the wall
+  CHECK(known(20, 2, 1.2) == Known::nothing);   // beyond all voxels
 }
 
 TEST_CASE("a lamp in clear air has its own luminance in every pixel, without chance", "[display]") {

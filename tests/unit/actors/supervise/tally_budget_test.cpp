@@ -37,7 +37,7 @@ TEST_CASE("a tally that is full flushes, takes no more than its budget, and chan
   NodesOptions options;
   options.nodes = 2;
   options.fibers = 3;
-  options.tally_bytes = uint64_t{64} << 20;
+  options.tally_bytes = uint64_t{128} << 20;
   REQUIRE(options.tally_bytes < tally_need(*scene, 2).all());
   LocalRun run(scene, 1, 1);
   NodesReport report;

@@ -21,7 +21,7 @@ VoxelGrid small_grid() {
 }
 
 FlightPiece piece_of(const glm::vec3& origin, const glm::vec3& direction, float length) {
-  return {origin, direction, length, unit_weight, 0, true, false, 0.5f};
+  return {origin, direction, length, unit_weight, 0, true, false, false, 0.5f};
 }
 
 /// Length of a piece in a box, in double, by clipping axis by axis.

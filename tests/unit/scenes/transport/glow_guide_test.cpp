@@ -28,7 +28,7 @@ TEST_CASE("turns that are partly aimed have a density of one in all", "[transpor
   GlowGuide guide(three_glows());
   // Outside of all spheres, and inside of one.
   for (const Vec3& place : {Vec3(2, 1, 1), Vec3(0.1f, 0.1f, 0.2f)}) {
-    guide.stand_at(place, nullptr);
+    guide.stand_at(place, nullptr, Known::nothing);
     CHECK(guide.aimed() > 0);
     CHECK(guide.aimed() <= limits::max_aimed);
     Random random(1, RandomStream::test);
@@ -45,7 +45,7 @@ TEST_CASE("turns that are partly aimed have a density of one in all", "[transpor
 
 TEST_CASE("directions are aimed as densely as the guide says", "[transport]") {
   GlowGuide guide(three_glows());
-  guide.stand_at(Vec3(2, 1, 1), nullptr);
+  guide.stand_at(Vec3(2, 1, 1), nullptr, Known::nothing);
   Random random(2, RandomStream::test);
   random.start(0);
   // The mean of 1/density over drawn directions is the whole sphere, whatever is drawn; over those
@@ -68,10 +68,10 @@ TEST_CASE("directions are aimed as densely as the guide says", "[transport]") {
 TEST_CASE("an emitter is aimed at from within its glow, more densely the nearer a line passes it",
           "[transport]") {
   const Vec3 emitter(1, 2, 3);
-  GlowGuide guide({{emitter, 0.5f, 10, 0.8, 0.008f}});
+  GlowGuide guide({{emitter, 0.5f, 10, 0.8, 0, 0.008f}});
   for (const Real distance : {2.0f, 0.6f, 0.4f, 0.01f}) {
     const Vec3 place = emitter + Vec3(0, distance, 0);
-    guide.stand_at(place, nullptr);
+    guide.stand_at(place, nullptr, Known::nothing);
     const auto aimed_at = [&](Real sine) {
       const Vec3 direction(sine, -std::sqrt(1 - sine * sine), 0);
       return guide.density(direction, isotropic) - (1 - guide.aimed()) * isotropic;
@@ -81,15 +81,30 @@ TEST_CASE("an emitter is aimed at from within its glow, more densely the nearer 
   }
   // On it there is nowhere to aim at.
   for (const Vec3& aside : {Vec3(0), Vec3(0, 0.007f, 0)}) {
-    guide.stand_at(emitter + aside, nullptr);
+    guide.stand_at(emitter + aside, nullptr, Known::nothing);
     CHECK(guide.aimed() == 0);
   }
+}
+
+TEST_CASE("where scattered light is known, turns are aimed at what surfaces reflect alone",
+          "[transport]") {
+  const Vec3 smoky(0, 0, 3), beside_a_wall(4, 0, 3);
+  GlowGuide guide({{smoky, 0.5f, 10, 0.8, 0, 0.01f}, {beside_a_wall, 0.5f, 10, 0.5, 0.4, 0.01f}});
+  const Vec3 place(2, 0, 0);
+  const auto aimed_at = [&](const Vec3& glow) {
+    return guide.density(glm::normalize(glow - place + Vec3(0, 0.05f, 0)), 0);
+  };
+  guide.stand_at(place, nullptr, Known::nothing);
+  CHECK(aimed_at(smoky) == Approx(1.6 * aimed_at(beside_a_wall)).epsilon(1e-3));
+  guide.stand_at(place, nullptr, Known::scattered);
+  CHECK(aimed_at(smoky) == 0);
+  CHECK(aimed_at(beside_a_wall) > 0);
 }
 
 TEST_CASE("a guide without glows leaves every density as it is", "[transport]") {
   GlowGuide guide;
   CHECK(guide.empty());
-  guide.stand_at(Vec3(1, 2, 3), nullptr);
+  guide.stand_at(Vec3(1, 2, 3), nullptr, Known::nothing);
   CHECK(guide.aimed() == 0);
   CHECK(guide.density(Vec3(0, 0, 1), 0.37) == 0.37);
 }
@@ -104,7 +119,7 @@ TEST_CASE("only the brightest glows are aimed at where nothing is known of emitt
   GlowGuide guide(glows);
   const auto aims_at = [&](size_t i) {
     const Vec3 place = glows[i].centre + Vec3(0, 2, 0);
-    guide.stand_at(place, nullptr);
+    guide.stand_at(place, nullptr, Known::nothing);
     return guide.density(glm::normalize(Vec3(0.1f, -1, 0)), isotropic) > isotropic;
   };
   CHECK_FALSE(aims_at(9));
@@ -121,12 +136,12 @@ TEST_CASE("a glow is aimed at by what arrives of its emitter's light", "[transpo
   };
   CellSight seen;
   seen.bright = {{0, 0.5}, {1, 0.5}};
-  guide.stand_at(place, &seen);
+  guide.stand_at(place, &seen, Known::nothing);
   CHECK(above_isotropic(first) > 1);
   CHECK(above_isotropic(second) > 1);
   // What a wall hides is not aimed at, nor what no ray of the cell has met.
   seen.bright = {{0, 0.5}, {1, 1e-4}};
-  guide.stand_at(place, &seen);
+  guide.stand_at(place, &seen, Known::nothing);
   CHECK(above_isotropic(first) > 1);
   CHECK(above_isotropic(second) == Approx(0).margin(1e-9));
   // A lamp that does not glow leaves the less for those that do.
@@ -135,7 +150,7 @@ TEST_CASE("a glow is aimed at by what arrives of its emitter's light", "[transpo
   glows[2].share = 0;
   guide = GlowGuide(glows);
   seen.bright.push_back({2, 5});
-  guide.stand_at(place, &seen);
+  guide.stand_at(place, &seen, Known::nothing);
   CHECK(guide.aimed() > 0);
   CHECK(guide.aimed() < before / 2);
 }
