@@ -120,10 +120,6 @@ void score_voxels(const CompiledScene& scene, const FlightPiece& piece, BatchSco
   const glm::dvec3 along = length * glm::dvec3(piece.direction);
   const FourScores share = {nearest_integer(length), nearest_integer(along.x),
                             nearest_integer(along.y), nearest_integer(along.z)};
-  const glm::dvec3 d(piece.direction);
-  const FourScores products = {nearest_integer(along.x * d.x), nearest_integer(along.y * d.y),
-                               nearest_integer(along.x * d.y), nearest_integer(along.x * d.z)};
-  const int64_t last_product = nearest_integer(along.y * d.z);
   int64_t* scores =
       batch.scores.data() + scene.layout.score_index(scene.blocks.voxels, 0, piece.band, 0);
   const auto stride =
@@ -134,10 +130,18 @@ void score_voxels(const CompiledScene& scene, const FlightPiece& piece, BatchSco
     sum += four;
     std::memcpy(score, &sum, sizeof sum);
   };
+  if (!piece.scattered) {
+    for_each_voxel_point(scene.voxels, points,
+                         [&](uint32_t voxel) { add(share, scores + voxel * stride); });
+    return;
+  }
+  const glm::dvec3 d(piece.direction);
+  const FourScores products = {nearest_integer(along.x * d.x), nearest_integer(along.y * d.y),
+                               nearest_integer(along.x * d.y), nearest_integer(along.x * d.z)};
+  const int64_t last_product = nearest_integer(along.y * d.z);
   for_each_voxel_point(scene.voxels, points, [&](uint32_t voxel) {
     int64_t* score = scores + voxel * stride;
     add(share, score);
-    if (!piece.scattered) return;
     score += first_scattered_quantity;
     add(share, score);
     add(products, score + 4);
