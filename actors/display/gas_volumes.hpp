@@ -1,6 +1,6 @@
 // Which part of a voxel is gas that light passes. A voxel counts all light in its cube, so its mean
-// needs the volume that the light fills, and no wall may part two rooms in it. Pure functions of a
-// scene; the caller's threads.
+// needs the volume that the light fills, and no wall may part two rooms in it. Threads of its own;
+// what it asks of the run it asks on the caller's.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace luxodus {
 
-/// What a run knows of where light has been. One thread.
+/// What a run knows of where light has been.
 struct LitPlaces {
   std::function<bool(uint32_t voxel)> voxel;  // whether it has passed a voxel
   /// What a side of a triangle gets, or lets through.

@@ -133,7 +133,7 @@ struct TallyBlocks {
   uint32_t patches = none_index;         // in, out
   uint32_t surfaces = none_index;        // in, out: one bin per object
   uint32_t surface_groups = none_index;  // in, out
-  uint32_t voxels = none_index;          // see VoxelQuantity (lengths)
+  uint32_t voxels = none_index;          // see voxel_quantities (lengths)
   uint32_t voxel_power = none_index;     // absorbed, scattered
   uint32_t volume_length = none_index;   // track length per volume group
   uint32_t volume_power = none_index;    // absorbed, scattered per volume group
