@@ -43,6 +43,18 @@ test('a wall stops the walk unless walls are passed through', () => {
   assert.ok(walk.motion.eye[0] < -5);
 });
 
+test('a move counts as one until it is shown, however long pictures take', (context) => {
+  let now = 1000;
+  context.mock.method(performance, 'now', () => now);
+  const { walk } = walking();
+  walk.show();
+  walk.look(0.1, 0);
+  now += 5000;
+  assert.ok(walk.moving);
+  walk.show();
+  assert.ok(!walk.moving);
+});
+
 test('the picture looks anew once after each change, and not without one', () => {
   const { walk, told } = walking();
   walk.show();

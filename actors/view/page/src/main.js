@@ -154,8 +154,9 @@ class Page {
     this.last = now;
     this.walk.goOn(this.hands.held, Math.min(0.1, elapsed));
     this.light.update(now);
+    const { moving } = this.walk;
     this.walk.show();
-    if (this.picture.draw(elapsed, this.walk.moving)) {
+    if (this.picture.draw(elapsed, moving)) {
       this.panels.rendition.show();
       this.panels.labels.draw(this.picture.camera, this.walk.motion);
     }

@@ -44,8 +44,9 @@ export class CameraWalk {
     this.shown = false;
   }
 
+  /** A move that is not shown yet counts, however long the picture before it took. */
   get moving() {
-    return performance.now() - this.movedAt < still_ms;
+    return !this.shown || performance.now() - this.movedAt < still_ms;
   }
 
   /** `shift` in plan, where there is nothing to turn. */
