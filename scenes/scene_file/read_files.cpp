@@ -1,8 +1,30 @@
 #include "scenes/scene_file/read_files.hpp"
 
+#include <fmt/format.h>
+
+#include "runtime/core/reading_share.hpp"
 #include "scenes/images/image_file.hpp"
 
 namespace luxodus {
+
+namespace {
+
+/// Of a mesh that is kept after it was read: furniture that stands in every room is smaller, and a
+/// building is placed once.
+constexpr size_t kept_vertices = 100'000;
+
+struct ReadMesh {
+  std::vector<ImportedPart> parts;
+  std::vector<std::string> files;
+};
+
+bool is_small(const std::vector<ImportedPart>& parts) {
+  size_t vertices = 0;
+  for (const ImportedPart& part : parts) vertices += part.mesh.positions.size();
+  return vertices <= kept_vertices;
+}
+
+}  // namespace
 
 void take_problem(const Problem& problem, const SourcePlace& place, SceneReading& reading) {
   if (problem.where.file.empty()) {
@@ -69,6 +91,34 @@ std::shared_ptr<const GldfProduct> read_container(const std::filesystem::path& p
     kept = std::make_shared<const GldfProduct>(std::move(product).value());
   }
   return std::static_pointer_cast<const GldfProduct>(kept);
+}
+
+std::optional<std::vector<ImportedPart>> read_mesh(const std::filesystem::path& path,
+                                                   double metres_per_unit, UpAxis up,
+                                                   const SourcePlace& place,
+                                                   SceneReading& reading) {
+  if (!take_hash(path, place, reading)) return std::nullopt;
+  const std::string name =
+      fmt::format("mesh {} {} {}", metres_per_unit, static_cast<int>(up), path.string());
+  if (const auto it = reading.cache.find(name); it != reading.cache.end()) {
+    const auto kept = std::static_pointer_cast<const ReadMesh>(it->second);
+    std::error_code gone;
+    const uint64_t bytes = std::filesystem::file_size(path, gone);
+    const ReadingPart foreseen(reading.share, gone ? 0 : bytes);
+    for (const auto& file : kept->files) take_hash(file, place, reading);
+    return kept->parts;
+  }
+  std::vector<std::string> files;
+  auto parts = import_mesh(path.string(), metres_per_unit, up, &files, reading.share);
+  for (const auto& file : files) take_hash(file, place, reading);
+  if (!parts) {
+    take_problem(parts.problem(), place, reading);
+    return std::nullopt;
+  }
+  if (is_small(parts.value()))
+    reading.cache[name] =
+        std::make_shared<const ReadMesh>(ReadMesh{parts.value(), std::move(files)});
+  return std::move(parts).value();
 }
 
 }  // namespace luxodus

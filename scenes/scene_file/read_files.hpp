@@ -4,7 +4,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <vector>
 
+#include "scenes/geometry/import.hpp"
 #include "scenes/photometry/gldf.hpp"
 #include "scenes/photometry/photometric_file.hpp"
 #include "scenes/scene_file/scene_reading.hpp"
@@ -21,6 +24,10 @@ std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::pa
 /// A GLDF container.
 std::shared_ptr<const GldfProduct> read_container(const std::filesystem::path& path,
                                                   const SourcePlace& place, SceneReading& reading);
+/// Parts of an OBJ or glTF file. A small one is read once, however often the scene places it.
+std::optional<std::vector<ImportedPart>> read_mesh(const std::filesystem::path& path,
+                                                   double metres_per_unit, UpAxis up,
+                                                   const SourcePlace& place, SceneReading& reading);
 /// Hashes a file that is read next; false and a problem where it cannot be read.
 bool take_hash(const std::filesystem::path& path, const SourcePlace& place, SceneReading& reading,
                FileLife life = FileLife::settled);

@@ -4,7 +4,6 @@
 
 #include "runtime/core/printable.hpp"
 #include "runtime/toml/words.hpp"
-#include "scenes/geometry/import.hpp"
 #include "scenes/scene_file/read_files.hpp"
 #include "scenes/scene_file/read_placement.hpp"
 #include "scenes/scene_file/scene_readers.hpp"
@@ -197,19 +196,13 @@ void read_import(const toml::Table& table, SceneReading& reading) {
     reading.incomplete = true;
     return;
   }
-  if (!take_hash(*path, keys.place("file"), reading)) {
+  auto parts = read_mesh(*path, scale.value(), up.value(), keys.place("file"), reading);
+  if (!parts) {
     reading.incomplete = true;
     return;
   }
-  std::vector<std::string> files;
-  auto parts = import_mesh(path->string(), scale.value(), up.value(), &files, reading.share);
-  for (const auto& file : files) take_hash(file, keys.place("file"), reading);
-  if (!parts) {
-    reading.incomplete = true;
-    return take_problem(parts.problem(), keys.place("file"), reading);
-  }
   reading.note("object or tag", common.name, common.place);
-  for (ImportedPart& part : parts.value()) {
+  for (ImportedPart& part : *parts) {
     apply(transform, part.mesh);
     repeat_mesh(keys, copies, part.mesh);
     add_part(part, common, words, rules, materials, reading);

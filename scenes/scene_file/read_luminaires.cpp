@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "runtime/core/output_text.hpp"
-#include "scenes/geometry/import.hpp"
 #include "scenes/geometry/mesh_tools.hpp"
 #include "scenes/scene_file/read_files.hpp"
 #include "scenes/scene_file/read_placement.hpp"
@@ -161,15 +160,11 @@ void read_mesh_shape(KeyReader& keys, Emitter& e) {
   const auto scale = metres_per_unit(keys.choice("units"));
   const auto up = up_axis_named(keys.choice("up"));
   const Transform transform = read_transform(keys);
-  if (!path || !keys.clean() || !take_hash(*path, keys.place("file"), keys.reading())) return;
-  std::vector<std::string> files;
-  auto parts = import_mesh(path->string(), scale.value(), up.value(), &files, keys.reading().share);
-  for (const auto& f : files) take_hash(f, keys.place("file"), keys.reading());
-  if (!parts) {
-    take_problem(parts.problem(), keys.place("file"), keys.reading());
-    return;
-  }
-  for (ImportedPart& part : parts.value()) {
+  if (!path || !keys.clean()) return;
+  const auto parts =
+      read_mesh(*path, scale.value(), up.value(), keys.place("file"), keys.reading());
+  if (!parts) return;
+  for (const ImportedPart& part : *parts) {
     keys.reading().scene.degenerate_triangles += part.degenerate_triangles;
     append(e.mesh, part.mesh);
   }

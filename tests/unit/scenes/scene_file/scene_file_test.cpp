@@ -345,6 +345,28 @@ part = [{ match = "frame", omit = true }]
   CHECK(coloured.materials.at(0).reflectance.at(500) == Approx(0.5).margin(0.01));
 }
 
+TEST_CASE("a file that is imported again is as it is in its own units and directions",
+          "[format][scene]") {
+  SceneFolder f;
+  const auto placed = [](const char* name, const char* units, const char* up, const char* at) {
+    return std::string("[[import]]\nname = \"") + name + "\"\nfile = \"cube.obj\"\nunits = \"" +
+           units + "\"\nup = \"" + up + "\"\nmaterial = \"white80\"\ntranslate = " + at + "\n";
+  };
+  const auto s = good(
+      f, placed("first", "cm", "z", "[0, 0, 0]") + placed("again", "cm", "z", "[5, 0, 0]") +
+             placed("larger", "m", "z", "[0, 0, 0]") + placed("turned", "cm", "y", "[0, 0, 0]"));
+  const auto bounds = [&](const std::string& name) {
+    return bounds_of(named(s.objects, name + ".leaf").mesh);
+  };
+  const auto first = bounds("first");
+  CHECK(same(bounds("again").low, first.low + glm::dvec3(5, 0, 0)));
+  CHECK(same(bounds("again").high, first.high + glm::dvec3(5, 0, 0)));
+  CHECK(same(bounds("larger").high, 100.0 * first.high));
+  CHECK(bounds("turned").high.z == near(first.high.y));
+  CHECK(named(s.objects, "again.leaf").mesh.triangles ==
+        named(s.objects, "first.leaf").mesh.triangles);
+}
+
 TEST_CASE("a colour that the file does not have is asked for, unless a table names the material",
           "[format][scene]") {
   SceneFolder f;
