@@ -19,8 +19,8 @@ namespace {
 
 constexpr size_t max_voxel_table_bytes = size_t{256} << 20;
 /// Of a voxel's light, what its second differences to its neighbours may be where eyes read it.
-/// With 1 and 1.5 the veil in the kitchen was 3 % too bright.
-constexpr double most_curved = 0.75;
+/// With 0.75 and more the veil in the kitchen was 3 % too bright.
+constexpr double most_curved = 0.5;
 /// Voxels along an edge of a block whose light errs alike.
 constexpr uint32_t err_alike = 2;
 

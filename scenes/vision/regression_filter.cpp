@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/core/check.hpp"
+#include "scenes/vision/outliers.hpp"
 
 namespace luxodus {
 
@@ -13,6 +14,9 @@ namespace {
 constexpr int rows_of_a_band = 8;
 /// Differences of light below this share are no differences, however small the errors.
 constexpr float unseen_difference = 1e-3f;
+/// Pixels that are less alike do not count in a window: one that is dark would take a share of a
+/// bright window's light, however small, that is much for it.
+constexpr float least_alike = 0.05f;
 /// Ridge of the regression, relative to the features' own spread: where they do not vary in a
 /// window, they explain nothing.
 constexpr double ridge = 1e-4;
@@ -87,7 +91,20 @@ std::vector<float> borne_out_variance(const NoisyPicture& picture, const HalfPic
   return variance;
 }
 
-/// A pixel that has missed all rare paths does not know its error; its surroundings do.
+/// Of what both halves say of a channel [(cd/m2)2].
+std::vector<float> squared_light(const NoisyPicture& picture, size_t channel) {
+  std::vector<float> out(picture.pixels());
+  for (size_t i = 0; i < picture.pixels(); ++i) {
+    const float light = (picture.half[0].light[light_channels * i + channel] +
+                         picture.half[1].light[light_channels * i + channel]) /
+                        2;
+    out[i] = light * light;
+  }
+  return out;
+}
+
+/// A pixel that has missed all rare paths does not know its error; its surroundings do, but for one
+/// that is darker, whose error is smaller.
 Compared compared(const NoisyPicture& picture, const HalfPicture& half) {
   const Rectangle all{0, 0, picture.width, picture.height};
   Compared out;
@@ -98,10 +115,16 @@ Compared compared(const NoisyPicture& picture, const HalfPicture& half) {
     for (size_t i = 0; i < picture.pixels(); ++i)
       out.light[c][i] = half.light[light_channels * i + c];
     out.variance[c] = borne_out_variance(picture, half, c);
-    std::vector<float> mean = out.variance[c];
+    std::vector<float> mean = out.variance[c], square = squared_light(picture, c);
+    std::vector<float> mean_square = square;
     add_surroundings(mean, all, variance_reach_px, scratch);
-    for (size_t i = 0; i < picture.pixels(); ++i)
-      out.variance[c][i] = std::max(out.variance[c][i], mean[i] / count[i]);
+    add_surroundings(mean_square, all, variance_reach_px, scratch);
+    for (size_t i = 0; i < picture.pixels(); ++i) {
+      mean[i] /= count[i];
+      mean_square[i] /= count[i];
+      if (square[i] < mean_square[i]) mean[i] *= square[i] / mean_square[i];
+      out.variance[c][i] = std::max(out.variance[c][i], mean[i]);
+    }
   }
   return out;
 }
@@ -184,12 +207,11 @@ class NormalEquations {
 class HalfFilter {
  public:
   HalfFilter(const NoisyPicture& picture, const RegressionFilter& filter, const Compared& likeness,
-             const HalfPicture& light, const std::vector<float>& features)
+             const HalfPicture& light)
       : picture_(picture),
         filter_(filter),
         likeness_(likeness),
         light_(light),
-        features_(features),
         offsets_(static_cast<size_t>(2 * filter.window_px + 1) *
                  static_cast<size_t>(2 * filter.window_px + 1)),
         sums_((light_channels + 1) * picture.pixels(), 0.0),
@@ -257,8 +279,8 @@ class HalfFilter {
           if (x + dx < 0 || x + dx >= picture_.width || y + dy < 0 || y + dy >= picture_.height)
             return;
           const size_t at = area.index(x, y);
-          weights[offsets_ * of_centre + at_offset] =
-              std::exp(-std::max(0.0f, distance[at] / inside[at]));
+          const float weight = std::exp(-std::max(0.0f, distance[at] / inside[at]));
+          weights[offsets_ * of_centre + at_offset] = weight < least_alike ? 0.0f : weight;
         });
       }
     return weights;
@@ -285,7 +307,9 @@ class HalfFilter {
         const float* v_there = &likeness_.variance[c][other] + dx;
         for (int x = from; x < to; ++x) {
           const float difference = u[x] - u_there[x];
-          const float chance = v[x] + std::min(v[x], v_there[x]);
+          // As much as chance brings where both are as noisy as the less noisy: what is dark and
+          // even is not like what is bright and noisy, whichever of them the window is around.
+          const float chance = 2 * std::min(v[x], v_there[x]);
           const float level = unseen_difference * (u[x] + u_there[x]);
           const float scale = level * level + k2 * (v[x] + v_there[x]) + 1e-20f;
           out[x] += (difference * difference - chance) / (scale * float{colour_channels});
@@ -301,7 +325,7 @@ class HalfFilter {
     const size_t features = picture_.feature_count;
     NormalEquations<max_features + 1, light_channels> equations(features + 1);
     const auto centre = static_cast<size_t>(y * picture_.width + x);
-    const float* own = &features_[features * centre];
+    const float* own = &picture_.features[features * centre];
     std::array<double, max_features + 1> row{};
     row[0] = 1;
     const auto for_each_pixel = [&](auto&& with) {
@@ -310,7 +334,7 @@ class HalfFilter {
         for (int dx = -filter_.window_px; dx <= filter_.window_px; ++dx, ++at_offset) {
           if (!(weights[at_offset] > 0)) continue;
           const auto pixel = static_cast<size_t>((y + dy) * picture_.width + x + dx);
-          const float* there = &features_[features * pixel];
+          const float* there = &picture_.features[features * pixel];
           for (size_t k = 0; k < features; ++k) row[k + 1] = static_cast<double>(there[k] - own[k]);
           with(pixel, static_cast<double>(weights[at_offset]));
         }
@@ -339,7 +363,6 @@ class HalfFilter {
   const RegressionFilter& filter_;
   const Compared& likeness_;
   const HalfPicture& light_;
-  const std::vector<float>& features_;
   const size_t offsets_;
   std::vector<double> sums_;   // per pixel: light_channels weighted values, and the weights
   std::vector<double> means_;  // per pixel: weighted means of windows
@@ -370,25 +393,25 @@ std::array<double, light_channels> filtered_light(const std::vector<HalfFilter>&
     for (double& light : fit) light = std::max(0.0, light);
     return fit;
   }
-  for (size_t c = 0; c < light_channels; ++c)
-    fit[c] = luminance * std::max(0.0, mean[c]) / mean[1];
+  for (size_t c = 0; c < light_channels; ++c) fit[c] = luminance * std::max(0.0, mean[c]) / mean[1];
   return fit;
 }
 
 }  // namespace
 
-FilteredPicture filter_picture(const NoisyPicture& picture, const RegressionFilter& filter,
+FilteredPicture filter_picture(NoisyPicture picture, const RegressionFilter& filter,
                                const ShareWork& share) {
   LUX_CHECK(picture.feature_count <= max_features, "a filter takes 16 features at most");
   LUX_CHECK(filter.stride_px >= 1 && filter.stride_px <= filter.window_px &&
                 2 * filter.window_px <= rows_of_a_band * filter.stride_px,
             "windows of two bands that are no neighbours must not meet");
-  const std::vector<float> features = standardised(picture);
+  picture.features = standardised(picture);
+  spread_outliers(picture);
   const std::array<Compared, 2> likeness{compared(picture, picture.half[0]),
                                          compared(picture, picture.half[1])};
   std::vector<HalfFilter> halves;
   for (const size_t h : {size_t{0}, size_t{1}})
-    halves.emplace_back(picture, filter, likeness[1 - h], picture.half[h], features);
+    halves.emplace_back(picture, filter, likeness[1 - h], picture.half[h]);
   for (HalfFilter& half : halves) filter_half(half, share);
 
   FilteredPicture out;

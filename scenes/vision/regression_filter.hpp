@@ -5,8 +5,9 @@
 // Pixels count by how alike their surroundings are in light, within the errors (non-local means, F.
 // Rousselle et al., "Adaptive rendering with non-local means filtering", 2012). A picture comes as
 // two halves of independent paths: one half says which pixels are alike, the other gives the light,
-// so that chance does not choose itself; and their difference is the filter's own error. For
-// pictures to look at: verdicts come from traced numbers. Pure functions; any thread.
+// so that chance does not choose itself; and their difference is the filter's own error. Light of
+// single bright paths is spread first (outliers.hpp). For pictures to look at: verdicts come from
+// traced numbers. Pure functions; any thread.
 #pragma once
 
 #include <array>
@@ -55,7 +56,7 @@ using ShareWork = std::function<void(int64_t count, const std::function<void(int
 
 /// The same for any threads, bit for bit. Requires: sizes that fit together, and 1 <= stride_px <=
 /// window_px.
-FilteredPicture filter_picture(const NoisyPicture& picture, const RegressionFilter& filter,
+FilteredPicture filter_picture(NoisyPicture picture, const RegressionFilter& filter,
                                const ShareWork& share);
 
 }  // namespace luxodus

@@ -122,6 +122,39 @@ TEST_CASE("a legend that the light resolves is kept, though no feature knows it"
   }
 }
 
+TEST_CASE("a single bright path leaves no spot", "[filter]") {
+  NoisyPicture noisy = noisy_picture(
+      96, 64, [](int, int) { return 10.0; }, no_feature, 1);
+  const size_t bright = 32 * 96 + 48;
+  for (size_t c = 0; c < light_channels; ++c)
+    noisy.half[0].light[light_channels * bright + c] = 500;
+  noisy.half[0].variance[3 * bright + 1] = 250'000;
+  const FilteredPicture filtered = filter_picture(noisy, {}, in_order);
+  for (size_t i = 0; i < noisy.pixels(); ++i) CHECK(luminance(filtered, i) < 12);
+}
+
+TEST_CASE("a dark spot stays dark beside bright noise", "[filter]") {
+  const LightAt spot = [](int x, int y) {
+    return x >= 40 && x < 50 && y >= 25 && y < 35 ? 0.1 : 10.0;
+  };
+  NoisyPicture noisy = noisy_picture(96, 64, spot, no_feature, 0);
+  std::mt19937 random(5);
+  std::normal_distribution<double> chance(0, 0.3);
+  for (HalfPicture& half : noisy.half)
+    for (size_t i = 0; i < noisy.pixels(); ++i) {
+      const double factor = std::max(0.0, 1 + chance(random));
+      for (size_t c = 0; c < light_channels; ++c)
+        half.light[light_channels * i + c] *= static_cast<float>(factor);
+      for (size_t c = 0; c < 3; ++c)
+        half.variance[3 * i + c] =
+            0.09f * half.light[light_channels * i + c] * half.light[light_channels * i + c];
+    }
+  const FilteredPicture filtered = filter_picture(noisy, {}, in_order);
+  for (int y = 25; y < 35; ++y)
+    for (int x = 40; x < 50; ++x)
+      CHECK(luminance(filtered, static_cast<size_t>(96 * y + x)) < 0.2);
+}
+
 TEST_CASE("a filtered picture has the same bits in whatever order it is made", "[filter]") {
   const LightAt slope = [](int x, int y) { return 1.0 + x + 0.5 * y; };
   const NoisyPicture noisy = noisy_picture(50, 110, slope, slope, 5);
