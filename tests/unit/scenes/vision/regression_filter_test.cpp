@@ -151,8 +151,7 @@ TEST_CASE("a dark spot stays dark beside bright noise", "[filter]") {
     }
   const FilteredPicture filtered = filter_picture(noisy, {}, in_order);
   for (int y = 25; y < 35; ++y)
-    for (int x = 40; x < 50; ++x)
-      CHECK(luminance(filtered, static_cast<size_t>(96 * y + x)) < 0.2);
+    for (int x = 40; x < 50; ++x) CHECK(luminance(filtered, static_cast<size_t>(96 * y + x)) < 0.2);
 }
 
 TEST_CASE("a filtered picture has the same bits in whatever order it is made", "[filter]") {
