@@ -16,7 +16,7 @@ constexpr float outlying = 5;
 constexpr int farthest_px = 32;
 /// And as far as this at least, so that some are alike.
 constexpr int nearest_px = 3;
-/// As many pixels take it as are brightened by no more than this share of their light.
+/// As many pixels take it as are brightened by no more than this share of their mean light.
 constexpr double unseen_share = 0.05;
 /// Features that differ by this are alike to a factor of exp(-1/2).
 constexpr double alike = 0.5;
@@ -38,11 +38,11 @@ struct Receiver {
 /// Finds outliers, and who takes their light.
 class Outliers {
  public:
-  explicit Outliers(const NoisyPicture& picture) : picture_(picture), height_(picture.height) {
+  explicit Outliers(const NoisyPicture& picture) : picture_(picture) {
     for (size_t i = 0; i < picture.pixels(); ++i) differences_.push_back(light(0, i) - light(1, i));
   }
 
-  /// The outlier that a pixel is; of no excess where it is none.
+  /// The outlier that a pixel is; all of it is left where it is none.
   Outlier at(int x, int y) {
     const size_t i = pixel(x, y);
     const float difference = std::abs(differences_[i]);
@@ -88,7 +88,7 @@ class Outliers {
   /// Of the differences of halves around a pixel, without its own [cd/m2].
   float median_around(int x, int y) {
     around_.clear();
-    for (int v = std::max(0, y - reach_px); v <= std::min(height_ - 1, y + reach_px); ++v)
+    for (int v = std::max(0, y - reach_px); v <= std::min(picture_.height - 1, y + reach_px); ++v)
       for (int u = std::max(0, x - reach_px); u <= std::min(picture_.width - 1, x + reach_px); ++u)
         if (u != x || v != y) around_.push_back(std::abs(differences_[pixel(u, v)]));
     if (around_.empty()) return std::abs(differences_[pixel(x, y)]);
@@ -100,7 +100,7 @@ class Outliers {
   /// Pixels of the square ring at this distance.
   void add_ring(const Outlier& outlier, int far) {
     for (int y = outlier.y - far; y <= outlier.y + far; ++y) {
-      if (y < 0 || y >= height_) continue;
+      if (y < 0 || y >= picture_.height) continue;
       const bool edge = std::abs(y - outlier.y) == far;
       for (int x = outlier.x - far; x <= outlier.x + far; x += edge || far == 0 ? 1 : 2 * far)
         if (x >= 0 && x < picture_.width)
@@ -126,7 +126,6 @@ class Outliers {
   }
 
   const NoisyPicture& picture_;
-  const int height_;
   std::vector<float> differences_;  // of luminance, the first half less the second [cd/m2]
   std::vector<float> around_;
   std::vector<Receiver> receivers_;

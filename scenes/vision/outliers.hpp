@@ -8,9 +8,9 @@
 namespace luxodus {
 
 /// Where the halves of a pixel differ far more than those of the pixels around it, what one has too
-/// much goes to that half of pixels with alike features, the nearest first, to each in proportion
-/// to its light. Sums over the picture stay, channel by channel and half by half. Features are
-/// those of standardised(). Requires: light of half pictures is not negative.
+/// much goes to that half of pixels with alike features, the nearest first, to darker ones in
+/// proportion to their light. Sums over the picture stay, channel by channel and half by half.
+/// Features are in units of their spread over the picture. Requires: light is not negative.
 void spread_outliers(NoisyPicture& picture);
 
 }  // namespace luxodus
