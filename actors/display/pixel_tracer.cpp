@@ -53,8 +53,7 @@ void PixelTracer::trace(int column, int row, uint64_t pixel, int from, int to, P
     const auto y = static_cast<double>(tracer_->uniform());
     const int hero = tracer_->choose_band(static_cast<double>(tracer_->uniform()));
     const Ray ray = pinhole_.ray(column + x, row + y);
-    const ChannelLight turned = light_of(tracer_->radiance(ray, hero, flux_));
-    tracer_->meet_first(ray, first_);
+    const ChannelLight turned = light_of(tracer_->radiance(ray, hero, flux_, &first_));
     sums.add(i, turned, light_of(first_.emitted), tracer_->ends(), features());
   }
 }

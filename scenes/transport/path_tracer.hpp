@@ -17,7 +17,7 @@
 #include "scenes/transport/connect.hpp"
 #include "scenes/transport/emission.hpp"
 #include "scenes/transport/emitters_met.hpp"
-#include "scenes/transport/first_hit.hpp"
+#include "scenes/transport/eye_view.hpp"
 #include "scenes/transport/group_light.hpp"
 #include "scenes/transport/known_radiance.hpp"
 #include "scenes/transport/next_event.hpp"
@@ -49,8 +49,8 @@ class PathTracer {
         random_(seed, stream),
         next_event_(scene, resolver, random_, stream == RandomStream::picture, sight),
         met_(scene, resolver, random_, next_event_),
-        models_(static_cast<size_t>(scene.bands.count())),
-        straight_(scene.groups.size(), static_cast<size_t>(scene.bands.count())) {
+        view_(scene, resolver, next_event_.media(), met_),
+        models_(static_cast<size_t>(scene.bands.count())) {
     // A picture shows colours, an estimate of luminance needs few.
     const double colour = stream == RandomStream::picture ? 1.0 : 0.05;
     double total = 0;
@@ -60,7 +60,6 @@ class PathTracer {
       const Band& band = scene.bands[b];
       total += power * (band.lm_per_w + colour * (band.x_per_w + band.z_per_w));
       band_cdf_.push_back(total);
-      if (band.lm_per_w > scene.bands[brightest_band_].lm_per_w) brightest_band_ = b;
     }
     for (double& c : band_cdf_) c /= total;
     for (int b = 0; b < scene.bands.count(); ++b) hero_.push_back(band_probability(b));
@@ -80,28 +79,6 @@ class PathTracer {
     return band_cdf_[static_cast<size_t>(b)] - (b > 0 ? band_cdf_[static_cast<size_t>(b - 1)] : 0);
   }
 
-  /// What is known of the ray without chance. `first` keeps its memory.
-  void meet_first(const Ray& ray, FirstHit& first) {
-    const auto bands = static_cast<size_t>(scene_.bands.count());
-    first.emitted.assign(bands, 0.0);
-    straight_.clear();
-    PathBands through = PathBands::all(hero_, brightest_band_);  // what panes and media let pass
-    Ray rest = ray;
-    Real passed = 0;
-    Hit hit = resolver_.nearest(rest);
-    for (int pane = 0; pane < limits::panes_per_line; ++pane) {
-      Path path{rest, through, EmitterHits::all, 1, straight_};
-      met_.add_along(path, hit);
-      if (!hit.found() || !pass_straight(rest, hit, through)) break;
-      passed += hit.distance;
-      hit = resolver_.nearest(rest);
-    }
-    std::copy_n(straight_.by_band().begin(), bands, first.emitted.begin());
-    describe(hit, rest, passed, first);
-    first.transmittance = medium_transmittance(scene_, ray, line_end(scene_, passed + hit.distance),
-                                               brightest_band_, resolver_);
-  }
-
   /// Adds `weight` times the radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`,
   /// from one path. `counted`: which emitters count before the first event. `known`: in which light
   /// paths may end after their first diffuse event; null traces them to their end.
@@ -112,11 +89,14 @@ class PathTracer {
   }
 
   /// The same of all bands, by `into.by_band()`, where the path goes as a hero's. Requires: heroes
-  /// are drawn by choose_band.
+  /// are drawn by choose_band. `first`: what is known of the ray without chance; null: not asked.
   void radiance_of_all(const Ray& ray, int hero, EmitterHits counted, GroupLight& into,
-                       const KnownRadiance* known = nullptr) {
+                       const KnownRadiance* known = nullptr, FirstHit* first = nullptr) {
     ends_.clear();
     const Path path{ray, PathBands::all(hero_, hero), counted, 1, into};
+    next_event_.start_event(0);  // before the ray: asking for glows may drop the cell of its hit
+    if (known != nullptr || first != nullptr) met_first_ = view_.meet(ray, path.bands);
+    if (first != nullptr) view_.describe(ray, path.bands, met_first_, *first);
     if (known == nullptr) return trace(path, nullptr, 0);
     split(path, {known, false}, scene_.features.media == MediaNeed::none ? 1 : limits::path_parts);
     for (const Path& part : parts_) trace(part, known, 1);
@@ -171,63 +151,23 @@ class PathTracer {
  private:
   using Path = EyePath;
 
-  // ---- what is known without chance --------------------------------------------------------
-
-  /// Through a pane or an open surface, on the same line; false: something else ends the line.
-  bool pass_straight(Ray& ray, const Hit& hit, PathBands& through) {
-    const TriangleRecord& t = *hit.triangle;
-    const Real cosine = glm::dot(t.unit_normal(), ray.direction);
-    const CompiledMaterial& material = material_at(hit, cosine < 0);
-    if (material.kind != MaterialKind::glass_pane && material.kind != MaterialKind::open)
-      return false;
-    next_event_.media().transmittances(ray, line_end(scene_, hit.distance), through, passed_,
-                                       resolver_);
-    for (size_t b = 0; b < through.count(); ++b) {
-      if (material.kind == MaterialKind::glass_pane)
-        passed_[b] *= static_cast<double>(pane_transmittance(material.by_band[b], cosine));
-      through.scale(b, passed_[b]);
-    }
-    ray.origin = offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.unit_normal() : t.unit_normal(),
-                            scene_.min_offset_m);
-    return true;
-  }
-
-  void describe(const Hit& hit, const Ray& ray, Real passed, FirstHit& first) {
-    first.reflectance.assign(models_.size(), 0.0);
-    first.normal = Vec3(0);
-    first.nearness = 0;
-    if (!hit.found()) return;
-    const Vec3 normal = hit.triangle->unit_normal();
-    const bool front = glm::dot(normal, ray.direction) < 0;
-    first.normal = front ? normal : -normal;
-    first.nearness = 1 / static_cast<double>(passed + hit.distance);
-    const CompiledMaterial& material = material_at(hit, front);
-    for (size_t b = 0; b < models_.size(); ++b)
-      first.reflectance[b] = static_cast<double>(
-          surface_at(scene_, hit, front, static_cast<int>(b), material, resolver_).reflectance);
-  }
-
-  // ---- events
-  // ------------------------------------------------------------------------------------
-
   /// Splits a path at its first event. All parts share the ray from the eye, and what is sampled of
   /// emitters on a surface and near the ray; their flights and turns are spread evenly. Into
-  /// `parts_`: those that go on.
+  /// `parts_`: those that go on. Requires: `met_first_` is of the path.
   void split(Path path, const PathEnds& ends, int parts) {
     parts_.clear();
     flights_.clear();
-    next_event_.start_event(0);
-    const Hit hit = resolver_.nearest(path.ray);
+    const Hit& hit = met_first_.hit;
     if (path.counted != EmitterHits::none) met_.add_along(path, hit);
     const bool media = scene_.features.media != MediaNeed::none;
     const Real end = line_end(scene_, hit.distance);
     // A flight that meets no surface may go beyond the stretch's end: it is a free one.
     const bool may_force = media && hit.found();
-    const double more = may_force ? more_collisions(path, end) : 1;
+    const double more = may_force ? more_collisions(path) : 1;
     // Collisions of all parts together are denser than those of one free flight.
     const Stretch stretch{path.ray, end, 1.0 / (parts * more), path.bands};
     if (media) {
-      const double collides = may_force ? 1 - through_[path.bands.hero_place()] : 1;
+      const double collides = may_force ? 1 - met_first_.passed[path.bands.hero_place()] : 1;
       const uint32_t bits = random_.bits();
       const Real choice = random_.uniform();
       constexpr double step = 0.6180339887498949;  // the golden ratio's
@@ -246,15 +186,13 @@ class PathTracer {
   }
 
   /// By how much more often the first flight collides than a free one does, in all bands alike.
-  /// Thin smoke that scatters well brings more light than its few collisions find. Into `through_`,
-  /// what the media pass of each band.
-  double more_collisions(const Path& path, Real end) {
-    const MediaBands& media = next_event_.media();
-    media.transmittances(path.ray, end, path.bands, through_, resolver_);
-    const double least = *std::min_element(through_.begin(), through_.begin() + path.bands.count());
+  /// Thin smoke that scatters well brings more light than its few collisions find.
+  double more_collisions(const Path& path) const {
+    const BandValues& through = met_first_.passed;
+    const double least = *std::min_element(through.begin(), through.begin() + path.bands.count());
     const double free = 1 - least;
     if (!(free > 0)) return 1;
-    const double brought = limits::collision_worth * media.most_scattered() * free;
+    const double brought = limits::collision_worth * next_event_.media().most_scattered() * free;
     const double wanted = std::min(limits::most_forced, brought / (brought + least));
     return std::max(1.0, wanted / free);
   }
@@ -262,9 +200,10 @@ class PathTracer {
   /// The light that a medium passes up to the surface, where flights collide `more` often than free
   /// ones.
   void reach_surface(Path& p, double more) {
-    for (size_t i = 0; i < p.bands.count(); ++i) drawn_[i] = 1 - more * (1 - through_[i]);
+    const BandValues& through = met_first_.passed;
+    for (size_t i = 0; i < p.bands.count(); ++i) drawn_[i] = 1 - more * (1 - through[i]);
     const double all = p.bands.mixed([&](size_t i) { return drawn_[i]; });
-    for (size_t i = 0; i < p.bands.count(); ++i) passed_[i] = through_[i] / all;
+    for (size_t i = 0; i < p.bands.count(); ++i) passed_[i] = through[i] / all;
     p.bands.go_on(passed_, drawn_, all);
   }
 
@@ -361,13 +300,9 @@ class PathTracer {
     }
   }
 
-  const CompiledMaterial& material_at(const Hit& hit, bool front) const {
-    return scene_.materials[scene_.surfaces[hit.triangle->surface].material[front ? 0 : 1]];
-  }
-
   bool reflects_diffusely(const Hit& hit, const Ray& ray) const {
     const bool front = glm::dot(hit.triangle->unit_normal(), ray.direction) < 0;
-    const MaterialKind kind = material_at(hit, front).kind;
+    const MaterialKind kind = material_at(scene_, hit, front).kind;
     return kind == MaterialKind::lambertian || kind == MaterialKind::glossy;
   }
 
@@ -490,8 +425,8 @@ class PathTracer {
     const TriangleRecord& t = *hit.triangle;
     const bool front = glm::dot(t.unit_normal(), p.ray.direction) < 0;
     for (size_t i = 0; i < p.bands.count(); ++i)
-      models_[i] =
-          surface_at(scene_, hit, front, p.bands.band(i), material_at(hit, front), resolver_);
+      models_[i] = surface_at(scene_, hit, front, p.bands.band(i), material_at(scene_, hit, front),
+                              resolver_);
     const Vec3 normal = front ? t.unit_normal() : -t.unit_normal();
     const Vec3 place = t.at(hit.u, hit.v);
     return {place, normal, offset_ray(place, normal, scene_.min_offset_m), front, hit.distance};
@@ -613,10 +548,10 @@ class PathTracer {
   std::vector<double> band_cdf_, hero_;  // hero_: probabilities
   NextEvent<Resolver> next_event_;
   EmittersMet<Resolver> met_;
-  int brightest_band_ = 0;            // of the most lumens a watt
+  EyeView<Resolver> view_;
   std::vector<SurfaceModel> models_;  // of the path's bands, at the last surface
-  BandValues passed_, drawn_, through_;
-  GroupLight straight_;
+  BandValues passed_, drawn_;
+  EyeRay met_first_;                 // of the path of all bands that was traced last
   std::vector<Path> parts_;          // of the path that was split last
   std::vector<FreeFlight> flights_;  // theirs
   std::vector<KnownEnd> ends_;

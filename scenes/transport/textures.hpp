@@ -1,4 +1,5 @@
-// The surface model at a hit where it varies over the surface: reflectance pictures and sign faces.
+// The material and the surface model at a hit, also where it varies over the surface: reflectance
+// pictures and sign faces.
 #pragma once
 
 #include "scenes/geometry/real.hpp"
@@ -17,6 +18,11 @@ Real texel_factor(const CompiledScene& scene, const float* texel, int channels, 
 
 /// Texel of a sign's face at (u, v); (0, 0) is the reader's lower left corner.
 size_t texel_at(const SignFace& face, const Vec2& uv);
+
+/// The material on one side of what was hit.
+inline const CompiledMaterial& material_at(const CompiledScene& scene, const Hit& hit, bool front) {
+  return scene.materials[scene.surfaces[hit.triangle->surface].material[front ? 0 : 1]];
+}
 
 /// The model that holds at this hit: the material's, with its diffuse part taken from picture or
 /// sign face.

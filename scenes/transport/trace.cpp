@@ -85,9 +85,10 @@ class ResolverPictureTracer final : public PictureTracer {
   }
   Real uniform() override { return eye_.random().uniform(); }
   int choose_band(double u) const override { return eye_.choose_band(u); }
-  std::span<const double> radiance(const Ray& ray, int hero, const KnownRadiance* gather) override {
+  std::span<const double> radiance(const Ray& ray, int hero, const KnownRadiance* gather,
+                                   FirstHit* first) override {
     light_.clear();
-    eye_.radiance_of_all(ray, hero, EmitterHits::none, light_, gather);
+    eye_.radiance_of_all(ray, hero, EmitterHits::none, light_, gather, first);
     return light_.by_band();
   }
   std::span<const KnownEnd> ends() const override { return eye_.ends(); }
@@ -96,7 +97,6 @@ class ResolverPictureTracer final : public PictureTracer {
     eye_.radiance(ray, band, EmitterHits::none, 1, light_, gather);
     return light_.total();
   }
-  void meet_first(const Ray& ray, FirstHit& first) override { eye_.meet_first(ray, first); }
 
  private:
   Resolver resolver_;

@@ -46,15 +46,14 @@ class PictureTracer {
   /// The hero of a path of all bands, from a uniform number.
   virtual int choose_band(double u) const = 0;
   /// By band, from one path that goes as the hero's; until the next call. But for what emitters
-  /// send straight to the eye: meet_first() has that without chance.
-  virtual std::span<const double> radiance(const Ray& ray, int hero,
-                                           const KnownRadiance* gather) = 0;
+  /// send straight to the eye: `first` has that without chance, where it is asked for (not null).
+  /// It keeps its memory.
+  virtual std::span<const double> radiance(const Ray& ray, int hero, const KnownRadiance* gather,
+                                           FirstHit* first) = 0;
   /// Where the parts of the path of the last radiance() have ended in known light.
   virtual std::span<const KnownEnd> ends() const = 0;
   /// The same in one band, from a path of that band alone.
   virtual double radiance_in_band(const Ray& ray, int band, const KnownRadiance* gather) = 0;
-  /// What is known of the ray without chance. `first` keeps its memory.
-  virtual void meet_first(const Ray& ray, FirstHit& first) = 0;
 };
 
 class EmitterSight;

@@ -151,7 +151,7 @@ std::array<Way, 2> trace_ways(const LocalRun& run, const KnownRadiance* flux) {
                         tracer->radiance_in_band(ray, band, flux) / share / compared_paths, sum);
               continue;
             }
-            const auto light = tracer->radiance(ray, band, flux);
+            const auto light = tracer->radiance(ray, band, flux, nullptr);
             for (int b = 0; b < bands.count(); ++b)
               add_light(bands, b, light[static_cast<size_t>(b)] / compared_paths, sum);
           }

@@ -79,7 +79,7 @@ PathVariance variance_of_paths(const LocalRun& run, const KnownRadiance* flux, b
           const auto y =
               static_cast<double>(p / picture_width) + static_cast<double>(tracer->uniform());
           const int hero = tracer->choose_band(static_cast<double>(tracer->uniform()));
-          const auto light = tracer->radiance(pinhole.ray(x, y), hero, flux);
+          const auto light = tracer->radiance(pinhole.ray(x, y), hero, flux, nullptr);
           double luminance = 0;
           for (int b = 0; b < scene.bands.count(); ++b)
             luminance += light[static_cast<size_t>(b)] * scene.bands[b].lm_per_w;

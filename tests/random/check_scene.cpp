@@ -173,7 +173,7 @@ class Tracing {
       tracer->start(0, 4, path);
       const int hero = tracer->choose_band(static_cast<double>(tracer->uniform()));
       const Ray ray{glm::vec3(camera.eye - scene_.local_origin), glm::vec3(glm::normalize(way))};
-      for (const double radiance : tracer->radiance(ray, hero, nullptr))
+      for (const double radiance : tracer->radiance(ray, hero, nullptr, nullptr))
         check_value(radiance, "radiance in a picture");
     }
   }

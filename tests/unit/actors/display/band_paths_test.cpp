@@ -263,7 +263,6 @@ std::vector<BandLight> seen(const LocalRun& run, const glm::vec3& eye, const glm
                                tracer->uniform() - 0.5f);
         const Ray ray{local, glm::normalize(towards + 0.8f * spread)};
         const int hero = tracer->choose_band(static_cast<double>(tracer->uniform()));
-        if (with_emitted) tracer->meet_first(ray, first);
         const auto add = [&](size_t b, double light) {
           if (with_emitted) light += first.emitted[b];
           sums[b] += light;
@@ -275,7 +274,7 @@ std::vector<BandLight> seen(const LocalRun& run, const glm::vec3& eye, const glm
           add(b, tracer->radiance_in_band(ray, static_cast<int>(b), flux));
           continue;
         }
-        const auto light = tracer->radiance(ray, hero, flux);
+        const auto light = tracer->radiance(ray, hero, flux, &first);
         for (size_t b = 0; b < bands; ++b) add(b, light[b]);
       }
     };
@@ -404,7 +403,7 @@ spectrum = "A"
         tracer->start(0, 64, i);
         const Ray ray{glm::vec3(glm::dvec3(0.3, 0.4, 1.5) - run->scene().local_origin),
                       glm::normalize(glm::vec3(1, 0.4f, -0.2f))};
-        const auto light = tracer->radiance(ray, static_cast<int>(i % 4), nullptr);
+        const auto light = tracer->radiance(ray, static_cast<int>(i % 4), nullptr, nullptr);
         for (size_t b = 1; b < 4; ++b)
           CHECK(light[b] * power[0] == Approx(light[0] * power[b]).epsilon(1e-9));
       }

@@ -223,7 +223,7 @@ TEST_CASE("direct light and pictures read bricks and tiles through a cache", "[n
             for (uint32_t path = 0; path < 40; ++path) {
               eye->start(i * 40, 40, path);
               const Ray ray{{0, -1.5f, 0.1f}, towards};
-              out[rows + i] += eye->radiance(ray, 0, nullptr).front();
+              out[rows + i] += eye->radiance(ray, 0, nullptr, nullptr).front();
             }
           };
         },
