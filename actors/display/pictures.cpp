@@ -20,9 +20,8 @@ namespace {
 constexpr int columns_at_once = 32;
 
 constexpr std::array<int, 2> halves_of(int paths) {
-  const int pairs = paths / 2;
-  std::array<int, 2> counts{pairs, pairs};
-  if (paths % 2 != 0) ++counts[half_of(paths - 1)];
+  std::array<int, 2> counts{};
+  for (int path = 0; path < paths; ++path) ++counts[half_of(path)];
   return counts;
 }
 

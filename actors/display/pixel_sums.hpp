@@ -26,11 +26,12 @@ inline constexpr size_t sign_draws = 8;
 /// Light by channels of a picture: X, Y, Z, scotopic [cd/m2].
 using ChannelLight = std::array<double, light_channels>;
 
-/// In which half of a pixel's paths a path is: by the parity of the bits of its number (the
-/// sequence of Thue and Morse). Each half of the first 2^k points of a Sobol' set is spread nearly
-/// as evenly as the first half would be, for all k at once.
+/// In which half of a pixel's paths a path is, by two bits of its number. Of every four paths two
+/// are in each half, and from 16 on both halves see all quarters of the pixel alike. The parity of
+/// all bits would not do: it is the first digit of a Sobol' point's second dimension, so that the
+/// halves would be the upper and the lower half of the pixel.
 constexpr size_t half_of(int path) {
-  return static_cast<size_t>(std::popcount(static_cast<unsigned>(path)) % 2);
+  return static_cast<size_t>(std::popcount(static_cast<unsigned>(path) & 0b110u) % 2);
 }
 
 class PixelSums {

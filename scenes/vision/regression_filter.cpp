@@ -28,6 +28,12 @@ constexpr int variance_reach_px = 2;
 constexpr int calibration_reach_px = 8;
 /// Of a pixel's own light beside what windows say of it: it decides where no centre is like it.
 constexpr double own_weight = 0.25;
+/// A pixel that windows say less of has a small window of its own: of an edge as of a thin line,
+/// large surroundings are like few others, and those nearest to it are.
+constexpr double least_said = 12;
+/// What an alike pixel of a small window says, by what a large window does.
+constexpr double said_by_close_pixel = 0.25;
+constexpr int close_window_px = 4, close_patch_px = 1;
 /// Of the mean luminance of its windows: a fit of less is the chance of what is around it.
 constexpr double least_coloured = 0.1;
 constexpr size_t max_features = 16;
@@ -203,6 +209,82 @@ class NormalEquations {
   std::array<std::array<double, Sides>, MaxUnknowns> side_{};
 };
 
+/// How unlike the light of two pixels is, in units of what their errors explain, with what chance
+/// brings taken off; `k2` is the square of the filter's tolerance. As much as chance brings where
+/// both are as noisy as the less noisy: what is dark and even is not like what is bright and noisy,
+/// whichever of them the window is around.
+float unlikeness(float light, float variance, float other_light, float other_variance, float k2) {
+  const float difference = light - other_light;
+  const float chance = 2 * std::min(variance, other_variance);
+  const float level = unseen_difference * (light + other_light);
+  const float scale = level * level + k2 * (variance + other_variance) + 1e-20f;
+  return (difference * difference - chance) / (scale * float{colour_channels});
+}
+
+/// Of an unlikeness, the weight in a window.
+float likeness_weight(float unlike) {
+  const float weight = std::exp(-std::max(0.0f, unlike));
+  return weight < least_alike ? 0.0f : weight;
+}
+
+/// A pixel of a window, and how much it counts there.
+struct Member {
+  size_t pixel = 0;
+  double weight = 0;
+};
+
+using Light = std::array<double, light_channels>;
+
+/// The light of a window as a linear function of features.
+class Fit {
+ public:
+  /// Requires: the picture outlives it.
+  Fit(const NoisyPicture& picture, const HalfPicture& light, size_t centre,
+      const std::vector<Member>& window)
+      : picture_(picture), centre_(centre), equations_(picture.feature_count + 1) {
+    for (const Member& member : window)
+      equations_.add(member.weight, row_of(member.pixel).data(),
+                     &light.light[light_channels * member.pixel]);
+    const double weight_of_all = equations_.diagonal(0);
+    mean_ = equations_.side(0);
+    for (double& channel : mean_) channel /= weight_of_all;
+    for (size_t k = 1; k <= picture.feature_count; ++k)
+      equations_.add_to_diagonal(k, ridge * weight_of_all);
+    equations_.solve();
+  }
+
+  /// [cd/m2]
+  Light at(size_t pixel) const {
+    const Row row = row_of(pixel);
+    Light out{};
+    for (size_t c = 0; c < light_channels; ++c)
+      for (size_t k = 0; k <= picture_.feature_count; ++k)
+        out[c] += row[k] * equations_.solution(k)[c];
+    return out;
+  }
+  /// Without regard to features [cd/m2].
+  const Light& mean() const { return mean_; }
+
+ private:
+  using Row = std::array<double, max_features + 1>;
+
+  /// 1, and by how much each feature of a pixel differs from the centre's.
+  Row row_of(size_t pixel) const {
+    const size_t n = picture_.feature_count;
+    Row row;
+    row[0] = 1;
+    for (size_t k = 0; k < n; ++k)
+      row[k + 1] = static_cast<double>(picture_.features[n * pixel + k] -
+                                       picture_.features[n * centre_ + k]);
+    return row;
+  }
+
+  const NoisyPicture& picture_;
+  const size_t centre_;
+  NormalEquations<max_features + 1, light_channels> equations_;
+  Light mean_{};
+};
+
 /// Filters one half by the likeness of pixels in the other.
 class HalfFilter {
  public:
@@ -232,6 +314,12 @@ class HalfFilter {
     size_t centre = 0;
     for_each_centre(centres,
                     [&](int x, int y) { add_window(x, y, &weights[offsets_ * centre++]); });
+  }
+
+  int rows() const { return picture_.height; }
+  /// After all bands: what small windows say of the pixels of a row. Any rows may be done at once.
+  void filter_closely(int row) {
+    for (int x = 0; x < picture_.width; ++x) add_close_window(x, row);
   }
 
   /// [cd/m2]
@@ -279,8 +367,7 @@ class HalfFilter {
           if (x + dx < 0 || x + dx >= picture_.width || y + dy < 0 || y + dy >= picture_.height)
             return;
           const size_t at = area.index(x, y);
-          const float weight = std::exp(-std::max(0.0f, distance[at] / inside[at]));
-          weights[offsets_ * of_centre + at_offset] = weight < least_alike ? 0.0f : weight;
+          weights[offsets_ * of_centre + at_offset] = likeness_weight(distance[at] / inside[at]);
         });
       }
     return weights;
@@ -292,7 +379,7 @@ class HalfFilter {
                std::vector<float>& inside) const {
     std::fill(distance.begin(), distance.end(), 0.0f);
     std::fill(inside.begin(), inside.end(), 0.0f);
-    const auto k2 = static_cast<float>(filter_.tolerance * filter_.tolerance);
+    const float k2 = squared_tolerance();
     for (int y = area.y0; y < area.y1; ++y) {
       if (y + dy < 0 || y + dy >= picture_.height) continue;
       const int from = std::max(0, -dx), to = std::min(picture_.width, picture_.width - dx);
@@ -305,58 +392,86 @@ class HalfFilter {
         const float* v = &likeness_.variance[c][row];
         const float* u_there = &likeness_.light[c][other] + dx;
         const float* v_there = &likeness_.variance[c][other] + dx;
-        for (int x = from; x < to; ++x) {
-          const float difference = u[x] - u_there[x];
-          // As much as chance brings where both are as noisy as the less noisy: what is dark and
-          // even is not like what is bright and noisy, whichever of them the window is around.
-          const float chance = 2 * std::min(v[x], v_there[x]);
-          const float level = unseen_difference * (u[x] + u_there[x]);
-          const float scale = level * level + k2 * (v[x] + v_there[x]) + 1e-20f;
-          out[x] += (difference * difference - chance) / (scale * float{colour_channels});
-        }
+        for (int x = from; x < to; ++x)
+          out[x] += unlikeness(u[x], v[x], u_there[x], v_there[x], k2);
       }
       float* there = &inside[area.index(0, y)];
       std::fill(there + from, there + to, 1.0f);
     }
   }
 
+  float squared_tolerance() const {
+    return static_cast<float>(filter_.tolerance * filter_.tolerance);
+  }
+  size_t pixel_at(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(picture_.width) + static_cast<size_t>(x);
+  }
+  bool is_inside(int x, int y) const {
+    return x >= 0 && x < picture_.width && y >= 0 && y < picture_.height;
+  }
+
+  /// The weight of one pixel in the small window of another, by their closest surroundings.
+  float likeness_of(int x, int y, int other_x, int other_y) const {
+    float unlike = 0;
+    int count = 0;
+    for (int dy = -close_patch_px; dy <= close_patch_px; ++dy)
+      for (int dx = -close_patch_px; dx <= close_patch_px; ++dx) {
+        if (!is_inside(x + dx, y + dy) || !is_inside(other_x + dx, other_y + dy)) continue;
+        const size_t i = pixel_at(x + dx, y + dy), k = pixel_at(other_x + dx, other_y + dy);
+        for (size_t c = 0; c < colour_channels; ++c) {
+          const std::vector<float>& light = likeness_.light[c];
+          const std::vector<float>& variance = likeness_.variance[c];
+          unlike += unlikeness(light[i], variance[i], light[k], variance[k], squared_tolerance());
+        }
+        ++count;
+      }
+    return likeness_weight(unlike / static_cast<float>(count));
+  }
+
   /// Fits the light of a window, and adds the fit to all of its pixels.
   void add_window(int x, int y, const float* weights) {
-    const size_t features = picture_.feature_count;
-    NormalEquations<max_features + 1, light_channels> equations(features + 1);
-    const auto centre = static_cast<size_t>(y * picture_.width + x);
-    const float* own = &picture_.features[features * centre];
-    std::array<double, max_features + 1> row{};
-    row[0] = 1;
-    const auto for_each_pixel = [&](auto&& with) {
-      size_t at_offset = 0;
-      for (int dy = -filter_.window_px; dy <= filter_.window_px; ++dy)
-        for (int dx = -filter_.window_px; dx <= filter_.window_px; ++dx, ++at_offset) {
-          if (!(weights[at_offset] > 0)) continue;
-          const auto pixel = static_cast<size_t>((y + dy) * picture_.width + x + dx);
-          const float* there = &picture_.features[features * pixel];
-          for (size_t k = 0; k < features; ++k) row[k + 1] = static_cast<double>(there[k] - own[k]);
-          with(pixel, static_cast<double>(weights[at_offset]));
-        }
-    };
-    for_each_pixel([&](size_t pixel, double weight) {
-      equations.add(weight, row.data(), &light_.light[light_channels * pixel]);
-    });
-    const double weight_of_all = equations.diagonal(0);
-    std::array<double, light_channels> mean = equations.side(0);
-    for (double& light : mean) light /= weight_of_all;
-    for (size_t k = 1; k <= features; ++k) equations.add_to_diagonal(k, ridge * weight_of_all);
-    equations.solve();
-    for_each_pixel([&](size_t pixel, double weight) {
-      double* sums = &sums_[(light_channels + 1) * pixel];
-      for (size_t c = 0; c < light_channels; ++c) {
-        double fit = 0;
-        for (size_t k = 0; k <= features; ++k) fit += row[k] * equations.solution(k)[c];
-        sums[c] += weight * fit;
-        means_[light_channels * pixel + c] += weight * mean[c];
+    std::vector<Member> window;
+    window.reserve(offsets_);
+    size_t at_offset = 0;
+    for (int dy = -filter_.window_px; dy <= filter_.window_px; ++dy)
+      for (int dx = -filter_.window_px; dx <= filter_.window_px; ++dx, ++at_offset)
+        if (weights[at_offset] > 0)
+          window.push_back({pixel_at(x + dx, y + dy), static_cast<double>(weights[at_offset])});
+    const Fit fit(picture_, light_, pixel_at(x, y), window);
+    for (const Member& member : window) add(fit, member);
+  }
+
+  /// Of a pixel that little is said of, the small window around it: what is missing.
+  void add_close_window(int x, int y) {
+    const size_t centre = pixel_at(x, y);
+    const double missing = least_said - said_of(centre);
+    if (!(missing > 0)) return;
+    std::vector<Member> window;
+    double said = 0;
+    for (int v = y - close_window_px; v <= y + close_window_px; ++v)
+      for (int u = x - close_window_px; u <= x + close_window_px; ++u) {
+        if (!is_inside(u, v)) continue;
+        const float weight = likeness_of(x, y, u, v);
+        if (!(weight > 0)) continue;
+        window.push_back({pixel_at(u, v), static_cast<double>(weight)});
+        said += said_by_close_pixel * static_cast<double>(weight);
       }
-      sums[light_channels] += weight;
-    });
+    add(Fit(picture_, light_, centre, window), {centre, std::min(missing, said)});
+  }
+
+  double said_of(size_t pixel) const {
+    return sums_[(light_channels + 1) * pixel + light_channels];
+  }
+
+  /// What a window says of one pixel.
+  void add(const Fit& fit, const Member& of) {
+    const Light light = fit.at(of.pixel);
+    double* sums = &sums_[(light_channels + 1) * of.pixel];
+    for (size_t c = 0; c < light_channels; ++c) {
+      sums[c] += of.weight * light[c];
+      means_[light_channels * of.pixel + c] += of.weight * fit.mean()[c];
+    }
+    sums[light_channels] += of.weight;
   }
 
   const NoisyPicture& picture_;
@@ -374,13 +489,13 @@ void filter_half(HalfFilter& half, const ShareWork& share) {
     const int64_t count = (half.bands() + 1 - parity) / 2;
     share(count, [&](int64_t i) { half.filter_band(static_cast<int>(2 * i) + parity); });
   }
+  share(half.rows(), [&](int64_t row) { half.filter_closely(static_cast<int>(row)); });
 }
 
 /// What both halves say of a pixel. Where the fit leaves it too little light to have a colour, or
 /// less than none of one channel, its colour is that of its windows.
-std::array<double, light_channels> filtered_light(const std::vector<HalfFilter>& halves,
-                                                  size_t pixel) {
-  std::array<double, light_channels> fit{}, mean{};
+Light filtered_light(const std::vector<HalfFilter>& halves, size_t pixel) {
+  Light fit{}, mean{};
   for (const HalfFilter& half : halves)
     for (size_t c = 0; c < light_channels; ++c) {
       fit[c] += half.value(pixel, c) / 2;
@@ -395,6 +510,21 @@ std::array<double, light_channels> filtered_light(const std::vector<HalfFilter>&
   }
   for (size_t c = 0; c < light_channels; ++c) fit[c] = luminance * std::max(0.0, mean[c]) / mean[1];
   return fit;
+}
+
+/// Scales each channel so that its sum is that of the halves: a filter that knows pixels by their
+/// light loses a little of what is bright by chance, and so of the mean.
+void keep_means(const NoisyPicture& picture, std::vector<float>& light) {
+  for (size_t c = 0; c < light_channels; ++c) {
+    double traced = 0, filtered = 0;
+    for (size_t i = c; i < light.size(); i += light_channels) {
+      for (const HalfPicture& half : picture.half) traced += static_cast<double>(half.light[i]) / 2;
+      filtered += static_cast<double>(light[i]);
+    }
+    if (!(traced > 0 && filtered > 0)) continue;
+    const auto factor = static_cast<float>(traced / filtered);
+    for (size_t i = c; i < light.size(); i += light_channels) light[i] *= factor;
+  }
 }
 
 }  // namespace
@@ -418,12 +548,13 @@ FilteredPicture filter_picture(NoisyPicture picture, const RegressionFilter& fil
   out.light.resize(light_channels * picture.pixels());
   std::vector<float> squares(picture.pixels()), count(picture.pixels(), 1.0f), scratch;
   for (size_t i = 0; i < picture.pixels(); ++i) {
-    const std::array<double, light_channels> light = filtered_light(halves, i);
+    const Light light = filtered_light(halves, i);
     for (size_t c = 0; c < light_channels; ++c)
       out.light[light_channels * i + c] = static_cast<float>(light[c]);
     const double half_difference = (halves[0].value(i, 1) - halves[1].value(i, 1)) / 2;
     squares[i] = static_cast<float>(half_difference * half_difference);
   }
+  keep_means(picture, out.light);
   const Rectangle all{0, 0, picture.width, picture.height};
   add_surroundings(squares, all, filter.patch_px, scratch);
   add_surroundings(count, all, filter.patch_px, scratch);

@@ -6,6 +6,8 @@
 
 #include "actors/display/pictures.hpp"
 #include "actors/display/pixel_sums.hpp"
+#include "runtime/core/random.hpp"
+#include "runtime/core/sobol.hpp"
 #include "tests/unit/actors/display/display_fixture.hpp"
 
 using namespace luxodus;
@@ -180,4 +182,30 @@ TEST_CASE("what two parts of a path end in together is of that path alone", "[di
   for (uint64_t i = 0; i < pairs; ++i) mean += variance_of(2 * i, 2 * i + 1) / pairs;
   const double of_one = 2 * 1.5 * 0.5 / std::sqrt(static_cast<double>(sign_draws));
   CHECK(std::abs(mean) < 4 * of_one / std::sqrt(static_cast<double>(pairs)));
+}
+
+TEST_CASE("both halves of a pixel's paths see all of the pixel", "[display]") {
+  SobolSet set(1, RandomStream::picture);
+  for (const uint32_t paths : {16u, 32u, 64u}) {
+    for (uint64_t pixel = 0; pixel < 20; ++pixel) {
+      set.choose(pixel, paths);
+      std::array<std::array<int, 4>, 2> in_quarter{};  // by half
+      for (uint32_t path = 0; path < paths; ++path) {
+        SobolSet::Point point;
+        set.point(path, point);
+        const uint32_t quarter = 2 * (point[0] >> 31) + (point[1] >> 31);
+        ++in_quarter[half_of(static_cast<int>(path))][quarter];
+      }
+      for (const auto& counts : in_quarter)
+        for (const int count : counts) CHECK(count == static_cast<int>(paths) / 8);
+    }
+  }
+}
+
+TEST_CASE("of every four paths of a pixel two are in each half", "[display]") {
+  for (int first = 0; first < 128; first += 4) {
+    int second_half = 0;
+    for (int path = first; path < first + 4; ++path) second_half += static_cast<int>(half_of(path));
+    CHECK(second_half == 2);
+  }
 }
