@@ -6,8 +6,9 @@
 // Rousselle et al., "Adaptive rendering with non-local means filtering", 2012). A picture comes as
 // two halves of independent paths: one half says which pixels are alike, the other gives the light,
 // so that chance does not choose itself; and their difference is the filter's own error. Light of
-// single bright paths is spread first (outliers.hpp). For pictures to look at: verdicts come from
-// traced numbers. Pure functions; any thread.
+// single bright paths is spread first (outliers.hpp); pixels that few windows are like, as at
+// edges, have a small one of their own; and the mean is kept. For pictures to look at: verdicts
+// come from traced numbers. Pure functions; any thread.
 #pragma once
 
 #include <array>
