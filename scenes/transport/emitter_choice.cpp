@@ -46,11 +46,11 @@ bool EmitterChoice::weigh_bright(const Vec3& place, const Vec3& normal, int band
   const bool surface = normal != Vec3(0);
   double total = 0;
   for (size_t i = 0; i < at_.size(); ++i) {
-    const auto& [emitter, arriving] = seen_->bright[i];
+    const uint32_t emitter = seen_->bright[i].emitter;
     const EmitterBound& bound = bounds_[emitter];
     const Vec3 way = bound.centre - place;
     const Real square = glm::dot(way, way) + bound.radius * bound.radius;
-    double weight = arriving / static_cast<double>(square);
+    double weight = seen_->bright[i].arriving / static_cast<double>(square);
     if (surface) {
       // Its highest point may be above the horizon where its middle is not.
       const Real height = std::max(0.0_r, glm::dot(way, normal) + bound.radius);

@@ -4,14 +4,16 @@ namespace luxodus {
 
 namespace {
 
-/// Memory of a learned cell, its pointer included [bytes]. An allocation takes some more than it is
-/// asked for.
+/// Memory of a cell whose sides are all learned, their pointers included [bytes]. An allocation
+/// takes some more than it is asked for.
 uint64_t bytes_of_cell(uint64_t emitters) {
-  constexpr uint64_t allocations = 4, of_allocation = 16;
+  constexpr uint64_t allocations = 5, of_allocation = 16;
   const uint64_t asked = std::min<uint64_t>(emitters, limits::asked_emitters);
   const uint64_t bright = std::min<uint64_t>(emitters, limits::bright_emitters);
-  return sizeof(void*) + sizeof(CellSight) + allocations * of_allocation +
-         asked * (sizeof(uint32_t) + sizeof(float)) + bright * sizeof(CellSight::Bright);
+  return cell_sides *
+         (sizeof(void*) + sizeof(CellSight) + allocations * of_allocation +
+          asked * (sizeof(uint32_t) + sizeof(float)) + bright * sizeof(CellSight::Bright) +
+          limits::emitter_images * sizeof(EmitterImage));
 }
 
 CellGrid grid_of(const CompiledScene& scene) {
@@ -25,7 +27,8 @@ uint64_t EmitterSight::most_bytes(const CompiledScene& scene) {
   return grid_of(scene).count() * bytes_of_cell(scene.emitters.size());
 }
 
-EmitterSight::EmitterSight(const CompiledScene& scene) : scene_(scene), cells_(grid_of(scene)) {
+EmitterSight::EmitterSight(const CompiledScene& scene)
+    : scene_(scene), cells_(grid_of(scene), cell_sides) {
   for (int b = 0; b < scene.bands.count(); ++b)
     if (scene.bands[b].lm_per_w > scene.bands[band_].lm_per_w) band_ = b;
   for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
@@ -43,7 +46,7 @@ std::vector<EmitterSight::Asked> EmitterSight::candidates(const Vec3& middle) co
     const double square =
         static_cast<double>(glm::dot(d, d) + bounds_[i].radius * bounds_[i].radius +
                             0.25_r * cells_.grid().edge() * cells_.grid().edge());
-    out.push_back({i, power_[i] / square, 0, 0});
+    out.push_back({i, power_[i] / square});
   }
   if (out.size() > limits::asked_emitters) {
     const auto brighter = [](const Asked& a, const Asked& b) {
@@ -55,6 +58,10 @@ std::vector<EmitterSight::Asked> EmitterSight::candidates(const Vec3& middle) co
               [](const Asked& a, const Asked& b) { return a.emitter < b.emitter; });
   }
   return out;
+}
+
+Vec3 EmitterSight::glow_place(uint32_t emitter) const {
+  return before_face(scene_, emitter, bounds_[emitter].radius + glow_reach_m(scene_));
 }
 
 CellSight EmitterSight::conclude(std::vector<Asked> asked) const {
@@ -73,19 +80,21 @@ CellSight EmitterSight::conclude(std::vector<Asked> asked) const {
     so_far += a.light(a.arriving);
     out.asked.push_back(a.emitter);
     out.cumulative.push_back(static_cast<float>(so_far / sum));
-    if (a.light(a.arriving) > limits::bright_share * sum) bright.push_back(a);
+    if (a.light(a.arriving) > limits::bright_share * sum ||
+        a.light(a.glowing) > limits::min_glow_seen * sum)
+      bright.push_back(a);
   }
   out.cumulative.back() = 1;
   if (bright.size() > limits::bright_emitters) {
     std::stable_sort(bright.begin(), bright.end(), [](const Asked& a, const Asked& b) {
-      return a.light(a.arriving) > b.light(b.arriving);
+      return a.light(a.glowing) > b.light(b.glowing);
     });
     bright.resize(limits::bright_emitters);
     std::sort(bright.begin(), bright.end(),
               [](const Asked& a, const Asked& b) { return a.emitter < b.emitter; });
   }
   out.bright.reserve(bright.size());
-  for (const Asked& a : bright) out.bright.push_back({a.emitter, a.arriving});
+  for (const Asked& a : bright) out.bright.push_back({a.emitter, a.arriving, a.glowing});
   out.by_cell = limits::cell_choice;
   return out;
 }

@@ -18,7 +18,8 @@ constexpr Real least_distance = 1e-3_r;
 
 }  // namespace
 
-GlowGuide::GlowGuide(std::vector<Glow> glows) : by_emitter_(std::move(glows)) {
+GlowGuide::GlowGuide(std::vector<Glow> glows, bool mirrors)
+    : by_emitter_(std::move(glows)), mirrors_(mirrors) {
   for (uint32_t i = 0; i < by_emitter_.size(); ++i)
     if (by_emitter_[i].share > 0) brightest_.push_back(i);
   const auto light = [&](uint32_t i) { return by_emitter_[i].power * by_emitter_[i].share; };
@@ -33,9 +34,10 @@ void GlowGuide::stand_at(const Vec3& place, const CellSight* seen, Known known) 
   if (!aims_ || empty()) return;
   double light = 0;
   if (seen != nullptr) {
-    for (const auto& [emitter, arriving] : seen->bright)
-      light += weigh(by_emitter_[emitter], place, arriving, known);
+    for (const CellSight::Bright& b : seen->bright)
+      light += weigh(by_emitter_[b.emitter], place, b.glowing, known);
     std::erase_if(cones_, [&](const Cone& c) { return c.share < limits::min_glow_seen * light; });
+    for (const EmitterImage& image : seen->images) light += weigh(image, place);
   } else {
     for (const uint32_t emitter : brightest_) light += weigh(by_emitter_[emitter], place, 1, known);
   }
@@ -57,6 +59,15 @@ double GlowGuide::weigh(const Glow& glow, const Vec3& place, double arriving, Kn
     const Real slope = std::min(limits::widest_slope, std::sqrt(reach / square));
     cones_.push_back({way / std::sqrt(square), slope, light * share});
   }
+  return light;
+}
+
+double GlowGuide::weigh(const EmitterImage& image, const Vec3& place) {
+  const Vec3 way = image.centre - place;
+  const Real distance = glm::length(way);
+  if (!(distance > image.radius)) return 0;
+  const double light = image.worth / static_cast<double>(distance * distance);
+  cones_.push_back({way / distance, image.radius / distance, light});
   return light;
 }
 
@@ -85,6 +96,11 @@ double GlowGuide::density(const Vec3& direction, double own) const {
 
 Real glow_reach_m(const CompiledScene& scene) {
   return scene.voxels.edge > 0 ? Real{scene.voxels.edge} : 0.02_r * scene.diagonal_m;
+}
+
+Vec3 before_face(const CompiledScene& scene, uint32_t emitter, Real glow_radius) {
+  return emitter_bound(scene, emitter).centre -
+         scene.emitters[emitter].axes[2] * (0.5_r * glow_radius);
 }
 
 double power_seen(const CompiledScene& scene, const CompiledEmitter& emitter) {

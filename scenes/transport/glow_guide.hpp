@@ -25,8 +25,9 @@ inline constexpr double max_aimed = 0.9;
 inline constexpr Real widest_slope = 3;
 /// Events of a path that may be aimed.
 inline constexpr int aimed_events = 8;
-/// Share of an emitter's light: less is left to chance. Aimed at, it gained less than it cost.
-inline constexpr double min_glow = 0.25;
+/// Share of an emitter's light that its glow sends on: less is left to chance. The brightest single
+/// paths are those that pass an emitter in thin smoke which nobody aims at.
+inline constexpr double min_glow = 0.02;
 /// From an emitter, for what surfaces beside it reflect.
 inline constexpr int glow_rays = 64;
 /// Of the light at a place, what a glow's emitter has at least where that is aimed at.
@@ -34,6 +35,7 @@ inline constexpr double min_glow_seen = 0.01;
 }  // namespace limits
 
 struct CellSight;
+struct EmitterImage;
 
 /// A sphere around an emitter, and how much it glows.
 struct Glow {
@@ -49,11 +51,12 @@ struct Glow {
 class GlowGuide {
  public:
   GlowGuide() = default;
-  /// Of all emitters, by number; none where there is no smoke.
-  explicit GlowGuide(std::vector<Glow> glows);
+  /// Of all emitters, by number; none where there is no smoke. `mirrors`: whether emitters may be
+  /// seen in mirrors, which are aimed at as well.
+  explicit GlowGuide(std::vector<Glow> glows, bool mirrors = false);
 
-  /// Nothing glows: every turn is as it was.
-  bool empty() const { return brightest_.empty(); }
+  /// Nothing glows or is mirrored: every turn is as it was.
+  bool empty() const { return brightest_.empty() && !mirrors_; }
 
   /// Turns after so many events are left as they are: weights of many aimed ones would multiply.
   void start_event(int event) { aims_ = event < limits::aimed_events; }
@@ -77,16 +80,20 @@ class GlowGuide {
   /// Returns the light of an emitter at the place, of which `arriving` arrives of a watt without
   /// the inverse square; and aims at its glow by that.
   double weigh(const Glow& glow, const Vec3& place, double arriving, Known known);
+  /// The same of an emitter in a mirror.
+  double weigh(const EmitterImage& image, const Vec3& place);
 
   std::vector<Glow> by_emitter_;
   std::vector<uint32_t> brightest_;  // numbers of those with the most glow
   std::vector<Cone> cones_;
   double aimed_ = 0;
-  bool aims_ = true;
+  bool aims_ = true, mirrors_ = false;
 };
 
 /// How far from an emitter smoke counts as its glow: as far as voxels do not know it.
 Real glow_reach_m(const CompiledScene& scene);
+/// Within a glow, where it is brightest: the emitter's face may itself be a boundary of the smoke.
+Vec3 before_face(const CompiledScene& scene, uint32_t emitter, Real glow_radius);
 /// Power of all bands, by how they look.
 double power_seen(const CompiledScene& scene, const CompiledEmitter& emitter);
 
@@ -131,8 +138,7 @@ std::vector<Glow> glows_of(const CompiledScene& scene, Resolver& resolver) {
     const EmitterBound bound = emitter_bound(scene, i);
     Glow glow{bound.centre, bound.radius + glow_reach_m(scene), 0, 0, 0, bound.radius};
     if (e.distribution != Distribution::collimated) glow.power = power_seen(scene, e);
-    // Before its face: the face itself may be a boundary of the smoke.
-    const Vec3 before = bound.centre - e.axes[2] * (0.5_r * glow.radius);
+    const Vec3 before = before_face(scene, i, glow.radius);
     double scattering = 0;
     for_each_medium_at(
         scene.media, scene.bands.count() / 2, before, resolver,

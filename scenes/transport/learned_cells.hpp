@@ -70,31 +70,36 @@ class CellGrid {
 template <class Learned>
 class LearnedCells {
  public:
-  explicit LearnedCells(const CellGrid& grid)
-      : grid_(grid), cells_(std::make_unique<std::atomic<const Learned*>[]>(grid.count())) {}
+  /// `sides`: into which each cell falls.
+  LearnedCells(const CellGrid& grid, size_t sides)
+      : grid_(grid),
+        sides_(sides),
+        learned_(std::make_unique<std::atomic<const Learned*>[]>(grid.count() * sides)) {}
   ~LearnedCells() {
-    for (size_t i = 0; i < grid_.count(); ++i) delete cells_[i].load();
+    for (size_t i = 0; i < grid_.count() * sides_; ++i) delete learned_[i].load();
   }
   LearnedCells(const LearnedCells&) = delete;
   LearnedCells& operator=(const LearnedCells&) = delete;
 
   const CellGrid& grid() const { return grid_; }
 
-  /// Of the cell of a place, or of the nearest one. `learn(cell)` makes it.
+  /// Of a side of the cell of a place, or of the nearest one. `learn(cell)` makes it.
   template <class Learn>
-  const Learned& at(const Vec3& place, Learn&& learn) const {
+  const Learned& at(const Vec3& place, size_t side, Learn&& learn) const {
     const size_t cell = grid_.cell_of(place);
-    if (const Learned* known = cells_[cell].load(std::memory_order_acquire)) return *known;
+    std::atomic<const Learned*>& learned = learned_[cell * sides_ + side];
+    if (const Learned* known = learned.load(std::memory_order_acquire)) return *known;
     auto own = std::make_unique<const Learned>(learn(cell));
     const Learned* faster = nullptr;
-    if (!cells_[cell].compare_exchange_strong(faster, own.get(), std::memory_order_acq_rel))
+    if (!learned.compare_exchange_strong(faster, own.get(), std::memory_order_acq_rel))
       return *faster;
     return *own.release();
   }
 
  private:
   CellGrid grid_;
-  std::unique_ptr<std::atomic<const Learned*>[]> cells_;
+  size_t sides_;
+  std::unique_ptr<std::atomic<const Learned*>[]> learned_;  // by cell and side
 };
 
 }  // namespace luxodus

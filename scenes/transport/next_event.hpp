@@ -65,15 +65,16 @@ class NextEvent {
   const GlowGuide& guide() const { return guide_; }
   /// The guide for turns at a place, where of the light so much is known: a path need not find
   /// that. Suspends: where the resolver does, unless emitters have been weighed there before.
-  const GlowGuide& guide_at(const Vec3& place, Known known) {
-    if (!guide_.empty()) guide_.stand_at(place, seen_at(place), known);
+  const GlowGuide& guide_at(const Vec3& place, const Vec3& normal, Known known) {
+    if (!guide_.empty()) guide_.stand_at(place, seen_at(place, normal), known);
     return guide_;
   }
 
   /// Before an event of a path. Glows are found at the first: only then may the resolver wait.
   void start_event(int event) {
     if (aimed_ && !knows_glows_) {
-      guide_ = GlowGuide(glows_of(scene_, resolver_));
+      const bool smoke = scene_.features.media != MediaNeed::none;
+      guide_ = GlowGuide(glows_of(scene_, resolver_), smoke && scene_.features.surfaces);
       knows_glows_ = true;
     }
     guide_.start_event(event);
@@ -97,7 +98,7 @@ class NextEvent {
       return static_cast<double>(surface_pdf(models[i], -direction, towards, normal));
     });
     const double turned = models[0].kind == SurfaceKind::lambertian && !guide_.empty()
-                              ? turned_at(place, Known::nothing, towards, hit)
+                              ? turned_at(place, normal, Known::nothing, towards, hit)
                               : hit;
     const double density = sampled.probability + turned * arriving_.apparent_sr;
     for (size_t i = 0; i < bands.count(); ++i) {
@@ -171,17 +172,17 @@ class NextEvent {
  private:
   /// Weighs emitters as seen from a place. `normal`: of a surface; zero in a medium.
   bool weigh_at(const Vec3& place, const Vec3& normal, const PathBands& bands) {
-    return choice_.weigh_at(place, normal, chosen_by(bands), seen_at(place));
+    return choice_.weigh_at(place, normal, chosen_by(bands), seen_at(place, normal));
   }
   /// Weighs emitters that are near a stretch. False where none is.
   bool weigh_along(const Stretch& s, const PathBands& bands) {
     if (sight_ == nullptr) return choice_.weigh_along(s.ray, s.end, chosen_by(bands));
     return choice_.weigh_near(
         s.ray, s.end, chosen_by(bands),
-        [&](const Vec3& place) -> const CellSight& { return *seen_at(place); });
+        [&](const Vec3& place) -> const CellSight& { return *seen_at(place, Vec3(0)); });
   }
-  const CellSight* seen_at(const Vec3& place) {
-    return sight_ != nullptr ? &sight_->at(place, resolver_) : nullptr;
+  const CellSight* seen_at(const Vec3& place, const Vec3& normal) {
+    return sight_ != nullptr ? &sight_->at(place, normal, resolver_) : nullptr;
   }
 
   /// Irradiance [W/m2] of a point of an emitter, normal to the line between, by the path's bands.
@@ -192,9 +193,10 @@ class NextEvent {
   };
 
   /// Density [1/sr] of turns at a place, where the phase function or the surface alone has `own`.
-  double turned_at(const Vec3& place, Known known, const Vec3& direction, double own) {
+  double turned_at(const Vec3& place, const Vec3& normal, Known known, const Vec3& direction,
+                   double own) {
     if (guide_.empty()) return own;
-    return guide_at(place, known).density(direction, own);
+    return guide_at(place, normal, known).density(direction, own);
   }
 
   /// Emitters are chosen for all bands of a path at once.
@@ -281,7 +283,7 @@ class NextEvent {
         static_cast<double>(evaluate(phase, glm::dot(arriving_.direction, s.ray.direction)));
     double probability =
         sampled.probability +
-        turned_at(place, known, arriving_.direction, turned) * arriving_.apparent_sr;
+        turned_at(place, Vec3(0), known, arriving_.direction, turned) * arriving_.apparent_sr;
     if (emitters_near)
       probability += drawn_near(s, place, flight.t, sampled.emitter, point.position);
     for (size_t i = 0; i < s.bands.count(); ++i) {
@@ -308,7 +310,7 @@ class NextEvent {
     const double drawn = share * line.density(static_cast<double>(t));
     const double sampled = choice_.probability_at(chosen);
     const Real cosine = glm::dot(arriving_.direction, s.ray.direction);
-    guide_at(place, known);
+    guide_at(place, Vec3(0), known);
     for (size_t i = 0; i < s.bands.count(); ++i) {
       if (!(sigma_[i] > 0)) continue;
       double scattered = 0;  // of each medium here, since each turns a path in its own way

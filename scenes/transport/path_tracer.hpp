@@ -343,7 +343,8 @@ class PathTracer {
   void turn_in_medium(Path& p, const FreeFlight& flight, const Stretch& stretch,
                       const TurnNumbers& numbers, Known known) {
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
-    const GlowGuide& guide = next_event_.guide_at(p.ray.origin + p.ray.direction * flight.t, known);
+    const GlowGuide& guide =
+        next_event_.guide_at(p.ray.origin + p.ray.direction * flight.t, Vec3(0), known);
     const Vec3 direction = numbers.choice < guide.aimed()
                                ? guide.direction(numbers.choice, numbers.u, numbers.v)
                                : sample(phase, p.ray.direction, numbers.u, numbers.v);
@@ -482,7 +483,7 @@ class PathTracer {
   /// Draws the direction of a Lambertian reflection anew, where it is an aimed one. False: it goes
   /// below the horizon, where nothing is sent.
   bool aim_reflection(const SurfaceEvent& e, const TurnNumbers& numbers, SurfaceSample& s) {
-    const GlowGuide& guide = next_event_.guide_at(e.before, Known::nothing);
+    const GlowGuide& guide = next_event_.guide_at(e.before, e.normal, Known::nothing);
     if (numbers.choice >= guide.aimed()) return true;
     s.direction = guide.direction(numbers.choice, numbers.u, numbers.v);
     return glm::dot(s.direction, e.normal) > 0;

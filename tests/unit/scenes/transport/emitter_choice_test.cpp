@@ -80,7 +80,7 @@ TEST_CASE("a lamp in sight is chosen before a brighter one behind a wall", "[tra
   const Vec3 place = rooms.at(8.5, 5, 1);
   REQUIRE(choice.weigh_at(place, in_the_air, all_bands, nullptr));
   CHECK(choice.probability_at(hidden_lamp) > 0.75);  // by power and distance alone
-  const CellSight& seen = rooms.sight.at(place, rooms.resolver);
+  const CellSight& seen = rooms.sight.at(place, in_the_air, rooms.resolver);
   REQUIRE(choice.weigh_at(place, in_the_air, all_bands, &seen));
   CHECK(choice.probability_at(lamp) > choice.probability_at(hidden_lamp));
   // What a few rays have not seen may still be there.
@@ -93,7 +93,8 @@ TEST_CASE("emitters are drawn as often as their probabilities say, which sum to 
   EmitterChoice choice(*rooms.scene);
   for (const Vec3& normal : {in_the_air, up, -up}) {
     const Vec3 place = rooms.at(6, 4, 1);
-    REQUIRE(choice.weigh_at(place, normal, all_bands, &rooms.sight.at(place, rooms.resolver)));
+    REQUIRE(choice.weigh_at(place, normal, all_bands,
+                            &rooms.sight.at(place, in_the_air, rooms.resolver)));
     const double probability[] = {choice.probability_at(lamp), choice.probability_at(weak_lamp),
                                   choice.probability_at(hidden_lamp)};
     CHECK(probability[0] + probability[1] + probability[2] == Approx(1).margin(1e-6));
@@ -113,7 +114,7 @@ TEST_CASE("of the emitters that are near a line those are drawn that light it", 
   TwoRooms rooms;
   EmitterChoice choice(*rooms.scene);
   const auto seen_at = [&](const Vec3& place) -> const CellSight& {
-    return rooms.sight.at(place, rooms.resolver);
+    return rooms.sight.at(place, in_the_air, rooms.resolver);
   };
   // Past both lamps of the lit room, and along the wall that hides the third.
   const Vec3 from = rooms.at(1, 7, 2.5), to = rooms.at(9.5, 0.5, 2.5);
@@ -144,7 +145,7 @@ TEST_CASE("a line that passes no emitter closely asks none for a place on it", "
   const Ray along_the_floor{rooms.at(0.5, 9.5, 0.1), Vec3(1, 0, 0)};
   CHECK_FALSE(
       choice.weigh_near(along_the_floor, 9, all_bands, [&](const Vec3& place) -> const CellSight& {
-        return rooms.sight.at(place, rooms.resolver);
+        return rooms.sight.at(place, in_the_air, rooms.resolver);
       }));
 }
 
@@ -152,7 +153,7 @@ TEST_CASE("a surface does not ask for what shines on its back", "[transport]") {
   TwoRooms rooms;
   EmitterChoice choice(*rooms.scene);
   const Vec3 place = rooms.at(6, 4, 1);
-  const CellSight& seen = rooms.sight.at(place, rooms.resolver);
+  const CellSight& seen = rooms.sight.at(place, in_the_air, rooms.resolver);
   const auto chance_of_lamp = [&](const Vec3& normal) {
     REQUIRE(choice.weigh_at(place, normal, all_bands, &seen));
     return choice.probability_at(lamp);
@@ -168,11 +169,12 @@ TEST_CASE("cells learn the same in whichever order they are asked", "[transport]
   for (int i = 0; i < 40; ++i)
     places.push_back(first.at(0.5 * i + 0.2, 0.2 * i + 0.3, 0.07 * i + 0.1));
   std::vector<const CellSight*> forwards, backwards(places.size());
-  for (const Vec3& place : places) forwards.push_back(&first.sight.at(place, first.resolver));
+  for (const Vec3& place : places)
+    forwards.push_back(&first.sight.at(place, in_the_air, first.resolver));
   for (size_t i = places.size(); i-- > 0;)
-    backwards[i] = &second.sight.at(places[i], second.resolver);
+    backwards[i] = &second.sight.at(places[i], in_the_air, second.resolver);
   for (size_t i = 0; i < places.size(); ++i) {
-    CHECK(&first.sight.at(places[i], first.resolver) == forwards[i]);
+    CHECK(&first.sight.at(places[i], in_the_air, first.resolver) == forwards[i]);
     CHECK(forwards[i]->asked == backwards[i]->asked);
     CHECK(forwards[i]->cumulative == backwards[i]->cumulative);
     REQUIRE(forwards[i]->bright.size() == backwards[i]->bright.size());
@@ -190,7 +192,7 @@ TEST_CASE("a picture of more emitters than cells ask chooses any of them", "[tra
   TwoRooms rooms(test::described_text(text));
   EmitterChoice choice(*rooms.scene);
   const Vec3 place = rooms.at(6, 4, 1);
-  const CellSight& seen = rooms.sight.at(place, rooms.resolver);
+  const CellSight& seen = rooms.sight.at(place, in_the_air, rooms.resolver);
   CHECK(seen.asked.size() == limits::asked_emitters);
   REQUIRE(choice.weigh_at(place, in_the_air, all_bands, &seen));
   double sum = 0;

@@ -135,12 +135,12 @@ TEST_CASE("a glow is aimed at by what arrives of its emitter's light", "[transpo
     return guide.density(direction, isotropic) / isotropic - (1 - guide.aimed());
   };
   CellSight seen;
-  seen.bright = {{0, 0.5}, {1, 0.5}};
+  seen.bright = {{0, 0.5, 0.5}, {1, 0.5, 0.5}};
   guide.stand_at(place, &seen, Known::nothing);
   CHECK(above_isotropic(first) > 1);
   CHECK(above_isotropic(second) > 1);
   // What a wall hides is not aimed at, nor what no ray of the cell has met.
-  seen.bright = {{0, 0.5}, {1, 1e-4}};
+  seen.bright = {{0, 0.5, 0.5}, {1, 1e-4, 1e-4}};
   guide.stand_at(place, &seen, Known::nothing);
   CHECK(above_isotropic(first) > 1);
   CHECK(above_isotropic(second) == Approx(0).margin(1e-9));
@@ -149,7 +149,7 @@ TEST_CASE("a glow is aimed at by what arrives of its emitter's light", "[transpo
   std::vector<Glow> glows = three_glows();
   glows[2].share = 0;
   guide = GlowGuide(glows);
-  seen.bright.push_back({2, 5});
+  seen.bright.push_back({2, 5, 5});
   guide.stand_at(place, &seen, Known::nothing);
   CHECK(guide.aimed() > 0);
   CHECK(guide.aimed() < before / 2);
