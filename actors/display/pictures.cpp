@@ -259,16 +259,35 @@ double relative_error(const XyzPicture& light, const std::vector<float>& standar
 
 namespace {
 
+constexpr size_t luminance_channel = 1;
+
+double mean_turned_luminance(const NoisyPicture& noisy) {
+  double sum = 0;
+  for (const HalfPicture& half : noisy.half)
+    for (size_t i = 0; i < noisy.pixels(); ++i)
+      sum += static_cast<double>(half.light[light_channels * i + luminance_channel]);
+  return sum / (2 * static_cast<double>(noisy.pixels()));
+}
+
 /// Features as the smoke lets them be seen: a surface behind it must not show in the fit more than
-/// its light does in the picture.
-NoisyPicture seen_through_smoke(NoisyPicture noisy) {
-  constexpr size_t transmittance = 4;
-  for (size_t i = 0; i < noisy.pixels(); ++i) {
-    float* features = &noisy.features[picture_features * i];
+/// its light does in the picture. And the light that emitters send straight, in [0, 1): it tells
+/// the glow on a lamp from what is beside it.
+NoisyPicture with_seen_features(const TracedPicture& traced) {
+  constexpr size_t transmittance = 4, count = picture_features + 1;
+  NoisyPicture out = traced.noisy;
+  out.feature_count = count;
+  out.features.resize(count * out.pixels());
+  const double mean = mean_turned_luminance(out);
+  for (size_t i = 0; i < out.pixels(); ++i) {
+    const float* features = &traced.noisy.features[picture_features * i];
+    float* seen = &out.features[count * i];
     for (size_t k = 0; k < picture_features; ++k)
-      if (k != transmittance) features[k] *= features[transmittance];
+      seen[k] = k == transmittance ? features[k] : features[k] * features[transmittance];
+    const auto emitted =
+        static_cast<double>(traced.emitted[light_channels * i + luminance_channel]);
+    seen[picture_features] = emitted > 0 ? static_cast<float>(emitted / (emitted + mean)) : 0;
   }
-  return noisy;
+  return out;
 }
 
 }  // namespace
@@ -278,7 +297,7 @@ FilteredView filter_traced(const TracedPicture& traced, int threads,
   const ShareWork share = [&](int64_t count, const std::function<void(int64_t)>& work) {
     parallel_for(count, threads, [&] { return work; });
   };
-  FilteredPicture filtered = filter_picture(seen_through_smoke(traced.noisy), filter, share);
+  FilteredPicture filtered = filter_picture(with_seen_features(traced), filter, share);
   FilteredView out;
   out.light.width = traced.light.width;
   out.light.height = traced.light.height;

@@ -381,6 +381,44 @@ TEST_CASE("what smoke hides does not show in a filtered picture", "[display]") {
   CHECK(contrast(1e-4f) < 0.2 * contrast(1.0f));
 }
 
+TEST_CASE("glow on a lamp does not spread over what is beside it", "[display]") {
+  const auto in_square = [](size_t i, size_t low, size_t high) {
+    const size_t x = i % 48, y = i / 48;
+    return x >= low && x < high && y >= low && y < high;
+  };
+  const auto is_lamp = [&](size_t i) { return in_square(i, 22, 26); };
+  // What has turned before the lamp is six times as bright as around it, and as noisy.
+  TracedPicture picture = chequers_behind_smoke(1.0f);
+  for (size_t i = 0; i < picture.light.pixels(); ++i) {
+    for (size_t k = 5; k < picture_features; ++k)
+      picture.noisy.features[picture_features * i + k] = 0.5f;
+    if (!is_lamp(i)) continue;
+    for (HalfPicture& part : picture.noisy.half) {
+      for (size_t c = 0; c < light_channels; ++c) part.light[light_channels * i + c] *= 6;
+      for (size_t c = 0; c < 3; ++c) part.variance[3 * i + c] *= 36;
+    }
+  }
+  // The mean beside it, of a pixel's width, should be 1.
+  const auto beside_lamp = [&] {
+    const FilteredView view = filter_traced(picture, 1);
+    double sum = 0;
+    int count = 0;
+    for (size_t i = 0; i < picture.light.pixels(); ++i)
+      if (in_square(i, 21, 27) && !is_lamp(i)) {
+        sum += static_cast<double>(view.light.xyz[3 * i + 1]);
+        ++count;
+      }
+    return sum / count;
+  };
+  const double spread = beside_lamp();
+  for (size_t i = 0; i < picture.light.pixels(); ++i)
+    if (is_lamp(i))
+      for (size_t c = 0; c < light_channels; ++c) picture.emitted[light_channels * i + c] = 1e4f;
+  const double told_apart = beside_lamp();
+  CHECK(std::abs(told_apart - 1) < 0.1);
+  CHECK(std::abs(told_apart - 1) < 0.5 * std::abs(spread - 1));
+}
+
 TEST_CASE("a picture is the same bits for one and three threads, and for geometry in cells",
           "[display]") {
   const std::string toml = glowing_box("0.5", "0.8");
