@@ -43,7 +43,7 @@ inline size_t cell_side(const Vec3& normal) {
 struct SightPlace {
   Vec3 at{0};      // off the surface
   Vec3 normal{0};  // of the surface; zero in the air
-  double weight = 1;
+  double weight = 1;  // beside the others
   /// Whether light that arrives against the direction could be seen here.
   bool faces(const Vec3& direction) const {
     return normal == Vec3(0) || glm::dot(normal, direction) > 0;
