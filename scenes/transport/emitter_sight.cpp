@@ -6,25 +6,26 @@ namespace {
 
 /// Memory of a cell whose sides are all learned, their pointers included [bytes]. An allocation
 /// takes some more than it is asked for.
-uint64_t bytes_of_cell(uint64_t emitters) {
+uint64_t bytes_of_cell(const CompiledScene& scene) {
   constexpr uint64_t allocations = 5, of_allocation = 16;
+  const uint64_t emitters = scene.emitters.size();
+  const uint64_t images = aims_at_mirrors(scene) ? limits::emitter_images : 0;
   const uint64_t asked = std::min<uint64_t>(emitters, limits::asked_emitters);
   const uint64_t bright = std::min<uint64_t>(emitters, limits::bright_emitters);
-  return cell_sides *
-         (sizeof(void*) + sizeof(CellSight) + allocations * of_allocation +
-          asked * (sizeof(uint32_t) + sizeof(float)) + bright * sizeof(CellSight::Bright) +
-          limits::emitter_images * sizeof(EmitterImage));
+  return cell_sides * (sizeof(void*) + sizeof(CellSight) + allocations * of_allocation +
+                       asked * (sizeof(uint32_t) + sizeof(float)) +
+                       bright * sizeof(CellSight::Bright) + images * sizeof(EmitterImage));
 }
 
 CellGrid grid_of(const CompiledScene& scene) {
-  const uint64_t affordable = limits::sight_bytes / bytes_of_cell(scene.emitters.size());
+  const uint64_t affordable = limits::sight_bytes / bytes_of_cell(scene);
   return {scene, std::min(limits::learned_cells, static_cast<int64_t>(affordable))};
 }
 
 }  // namespace
 
 uint64_t EmitterSight::most_bytes(const CompiledScene& scene) {
-  return grid_of(scene).count() * bytes_of_cell(scene.emitters.size());
+  return grid_of(scene).count() * bytes_of_cell(scene);
 }
 
 EmitterSight::EmitterSight(const CompiledScene& scene)

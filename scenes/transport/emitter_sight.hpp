@@ -200,11 +200,10 @@ class EmitterSight {
                          [](const CompiledMaterial&, Real) {});
   }
 
-  /// Turns are aimed in smoke alone.
   template <class Resolver>
   std::vector<EmitterImage> images_from(Learning& from, const std::vector<Asked>& asked,
                                         Resolver& resolver) const {
-    if (scene_.features.media == MediaNeed::none || !scene_.features.surfaces) return {};
+    if (!aims_at_mirrors(scene_)) return {};
     std::vector<MirroredEmitter> emitters;
     double straight = 0;
     for (const Asked& a : asked) {

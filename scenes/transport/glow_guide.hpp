@@ -2,8 +2,9 @@
 // that is turned by a phase function or a surface alone seldom goes there, but brings much when it
 // does. So a part of the turns are aimed at spheres around emitters. Whoever turns a path weights
 // both ways by the balance heuristic: `density` is that of aimed turns. What is known of emitters
-// at a place (emitter_sight.hpp) says which are worth it there. Not here: light that emitters send
-// straight (next_event.hpp). One thread or fiber at a time.
+// at a place (emitter_sight.hpp) says which are worth it there. In smoke turns are aimed at
+// emitters in mirrors, too (emitter_images.hpp). Not here: light that emitters send straight
+// (next_event.hpp). One thread or fiber at a time.
 #pragma once
 
 #include <cmath>
@@ -89,6 +90,11 @@ class GlowGuide {
   double aimed_ = 0;
   bool aims_ = true, mirrors_ = false;
 };
+
+/// Whether turns are aimed at emitters in mirrors: in smoke, where there is any special surface.
+inline bool aims_at_mirrors(const CompiledScene& scene) {
+  return scene.features.media != MediaNeed::none && scene.features.surfaces;
+}
 
 /// How far from an emitter smoke counts as its glow: as far as voxels do not know it.
 Real glow_reach_m(const CompiledScene& scene);

@@ -73,8 +73,7 @@ class NextEvent {
   /// Before an event of a path. Glows are found at the first: only then may the resolver wait.
   void start_event(int event) {
     if (aimed_ && !knows_glows_) {
-      const bool smoke = scene_.features.media != MediaNeed::none;
-      guide_ = GlowGuide(glows_of(scene_, resolver_), smoke && scene_.features.surfaces);
+      guide_ = GlowGuide(glows_of(scene_, resolver_), aims_at_mirrors(scene_));
       knows_glows_ = true;
     }
     guide_.start_event(event);

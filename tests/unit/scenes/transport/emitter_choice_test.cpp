@@ -4,9 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "scenes/transport/compile.hpp"
-#include "scenes/transport/resolver.hpp"
-#include "tests/kit/described.hpp"
+#include "tests/unit/scenes/transport/seen_scene.hpp"
 
 using namespace luxodus;
 
@@ -51,23 +49,9 @@ flux_lm = 600
 )";
 constexpr size_t lamp = 0, weak_lamp = 1, hidden_lamp = 2;
 
-struct TwoRooms {
-  std::shared_ptr<const CompiledScene> scene;
-  EmbreeDevice device;
-  SceneIndex index;
-  MergedResolver resolver;
-  EmitterSight sight;
-
-  TwoRooms() : TwoRooms(test::described_text(two_rooms)) {}
-  explicit TwoRooms(const std::shared_ptr<const SceneDescription>& d)
-      : scene(compile_scene(d, find_scenario(*d, "").value(), {}).value()),
-        index(device, *scene),
-        resolver(*scene, index),
-        sight(*scene) {}
-
-  Vec3 at(double x, double y, double z) const {
-    return Vec3(glm::dvec3(x, y, z) - scene->local_origin);
-  }
+struct TwoRooms : test::SeenScene {
+  TwoRooms() : SeenScene(two_rooms) {}
+  using SeenScene::SeenScene;
 };
 
 const Vec3 in_the_air(0), up(0, 0, 1);

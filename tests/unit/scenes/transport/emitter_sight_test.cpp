@@ -5,10 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "scenes/transport/compile.hpp"
-#include "scenes/transport/resolver.hpp"
 #include "scenes/transport/trace.hpp"
-#include "tests/kit/described.hpp"
+#include "tests/unit/scenes/transport/seen_scene.hpp"
 
 using namespace luxodus;
 
@@ -61,25 +59,6 @@ extinction = 0.1
 albedo = 0.9
 )" + room("room", "[0, 0, 0]", "[4, 4, 3]");
 
-struct Sight {
-  std::shared_ptr<const CompiledScene> scene;
-  EmbreeDevice device;
-  SceneIndex index;
-  MergedResolver resolver;
-  EmitterSight sight;
-
-  explicit Sight(const std::string& text) : Sight(test::described_text(text)) {}
-  explicit Sight(const std::shared_ptr<const SceneDescription>& d)
-      : scene(compile_scene(d, find_scenario(*d, "").value(), {}).value()),
-        index(device, *scene),
-        resolver(*scene, index),
-        sight(*scene) {}
-
-  Vec3 at(double x, double y, double z) const {
-    return Vec3(glm::dvec3(x, y, z) - scene->local_origin);
-  }
-};
-
 const Vec3 in_air(0), upward(0, 0, 1), east(1, 0, 0);
 
 }  // namespace
@@ -95,8 +74,8 @@ TEST_CASE("sides of a cell are told by the axis that a normal is nearest to", "[
 }
 
 TEST_CASE("places of a side are on surfaces that face it, some of them in the air", "[transport]") {
-  Sight s(room("room", "[0, 0, 0]", "[4, 4, 3]") + point_lamp("a", "[1, 1, 2]") +
-          point_lamp("b", "[2, 1, 2]"));
+  test::SeenScene s(room("room", "[0, 0, 0]", "[4, 4, 3]") + point_lamp("a", "[1, 1, 2]") +
+                    point_lamp("b", "[2, 1, 2]"));
   const CellGrid grid(*s.scene, limits::learned_cells);
   const size_t cell = grid.cell_of(s.at(2, 2, 0));
   Random random(1, RandomStream::test);
@@ -125,8 +104,9 @@ TEST_CASE("places of a side are on surfaces that face it, some of them in the ai
 }
 
 TEST_CASE("the two sides of a wall see the lamps of their own rooms", "[transport]") {
-  Sight s(room("west", "[0, 0, 0]", "[5.1, 5, 3]") + room("east", "[5.2, 0, 0]", "[10, 5, 3]") +
-          point_lamp("west lamp", "[3, 2, 2]") + point_lamp("east lamp", "[7.1, 2, 2]"));
+  test::SeenScene s(room("west", "[0, 0, 0]", "[5.1, 5, 3]") +
+                    room("east", "[5.2, 0, 0]", "[10, 5, 3]") +
+                    point_lamp("west lamp", "[3, 2, 2]") + point_lamp("east lamp", "[7.1, 2, 2]"));
   constexpr uint32_t west_lamp = 0, east_lamp = 1;
   const CellGrid grid(*s.scene, limits::learned_cells);
   const Vec3 west_face = s.at(5.1, 2.6, 1.6), east_face = s.at(5.2, 2.6, 1.6);
@@ -138,7 +118,7 @@ TEST_CASE("the two sides of a wall see the lamps of their own rooms", "[transpor
 }
 
 TEST_CASE("a lamp is known where a mirror shows it", "[transport]") {
-  Sight s(mirror_room + point_lamp("far", "[3.9, 3.9, 2.9]"));
+  test::SeenScene s(mirror_room + point_lamp("far", "[3.9, 3.9, 2.9]"));
   const Vec3 below = s.at(1.5, 2, 0.001);
   const CellSight& seen = s.sight.at(below, upward, s.resolver);
   REQUIRE(seen.images.size() == 1);
@@ -157,7 +137,7 @@ TEST_CASE("mirrors are not looked for where no turn is aimed", "[transport]") {
   std::string clear = mirror_room;
   clear.erase(clear.find("[[medium]]"),
               clear.find("[[object]]\nname = \"room\"") - clear.find("[[medium]]"));
-  Sight s(clear + point_lamp("far", "[3.9, 3.9, 2.9]"));
+  test::SeenScene s(clear + point_lamp("far", "[3.9, 3.9, 2.9]"));
   CHECK(s.sight.at(s.at(1.5, 2, 0.001), upward, s.resolver).images.empty());
 }
 
@@ -178,7 +158,7 @@ kind = "homogeneous"
 extinction = 1
 albedo = 0.9
 )" + room("room", "[0, 0, 0]", "[4, 4, 3]");
-  Sight s(lit + point_lamp("weak", "[0.1, 0.1, 0.1]"));
+  test::SeenScene s(lit + point_lamp("weak", "[0.1, 0.1, 0.1]"));
   // High on the wall, level with the smoke beneath the downlight.
   const CellSight& seen = s.sight.at(s.at(3.999, 2, 2.6), -east, s.resolver);
   const auto downlight = std::find_if(seen.bright.begin(), seen.bright.end(),
@@ -190,7 +170,7 @@ albedo = 0.9
 
 TEST_CASE("paths that turn to a lamp in a mirror find the same light with less noise",
           "[transport]") {
-  Sight s(mirror_room + point_lamp("far", "[3.9, 3.9, 2.9]"));
+  test::SeenScene s(mirror_room + point_lamp("far", "[3.9, 3.9, 2.9]"));
   struct Spread {
     double mean = 0, error = 0;
   };
