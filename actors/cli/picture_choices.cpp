@@ -32,7 +32,7 @@ std::vector<Option> options_of(PictureChoices& choices, const char* paths_name) 
   return {
       {paths_name,
        &choices.paths,
-       "Number of paths per pixel at most",
+       "Number of paths per pixel, on average, at most",
        {.otherwise = "32; with --picture-time or --picture-error 65536",
         .range = Range{1, limits::max_paths_per_pixel}}},
       {"--picture-time",

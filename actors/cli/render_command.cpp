@@ -305,7 +305,8 @@ std::vector<Option> render_options(RenderOptions& o) {
       {"--full-paths", &o.full_paths,
        "Paths traced to their end instead of to the run's flux: slower and noisier, free of the "
        "patches' size"},
-      {"--raw", &o.raw, "PNG files of the light as traced, with its noise"},
+      {"--raw", &o.raw,
+       "PNG files of the light as traced, with its noise; as many paths for all pixels"},
       {"--threads",
        &o.threads,
        "Number of threads",
@@ -377,7 +378,9 @@ Command render_command() {
           "ones. Equal paths give equal pictures, bit for bit, however they came together, and "
           "whether "
           "threads or nodes traced them. Ctrl-C "
-          "keeps the pictures of the paths that all of their pixels have.\n\n"
+          "keeps the pictures of the paths that all of their pixels have. The last quarter of the "
+          "paths goes where the filter would leave most error; not with --raw, in films, or with "
+          "fewer than 16.\n\n"
           "With --route it renders a film instead: what somebody sees who walks a route of the "
           "scene, as DIR/films/ROUTE/000000.png and so on, and where there is ffmpeg as "
           "DIR/films/ROUTE.mp4. With --through it goes through cameras of the scene instead:\n"

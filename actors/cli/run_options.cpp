@@ -124,7 +124,8 @@ std::vector<Option> picture_options(RunOptions& o) {
        "Interval of pictures during the run, in DIR/preview, e.g. 60s; one more whenever the "
        "process gets SIGUSR1",
        {.form = Form::duration, .otherwise = "none"}},
-      {"--raw", &o.raw, "PNG files of the light as traced, with its noise"},
+      {"--raw", &o.raw,
+       "PNG files of the light as traced, with its noise; as many paths for all pixels"},
       {"--no-views", &o.no_views, "No pictures"}};
   all.insert(all.end(), more.begin(), more.end());
   return all;

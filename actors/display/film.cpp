@@ -204,7 +204,8 @@ class FramesOfRun {
       if (progress) progress(static_cast<double>(k) + share);
     };
     if (options_.executor != nullptr && k % frames_of_a_state == 0)
-      elsewhere_.emplace(run_, frames_from(film_.cameras, k), options_, flux_);
+      elsewhere_.emplace(run_, frames_from(film_.cameras, k), options_.paths_per_pixel, options_,
+                         flux_);
     const bool whole =
         elsewhere_ ? elsewhere_->add(k % frames_of_a_state, view, options_.paths_per_pixel, tell)
                    : view.add(options_.paths_per_pixel, options_, tell);

@@ -1,5 +1,6 @@
-// A batch is 32 x 8 pixels with four paths each, some ten milliseconds: what is lost with a node is
-// little, and a lease, its flush and their answers are short against it.
+// A batch is 32 x 8 pixels with four paths each, some ten milliseconds, or with what is allocated
+// to them: what is lost with a node is little, and a lease, its flush and their answers are short
+// against it.
 #include "actors/display/picture_tiles.hpp"
 
 #include <algorithm>
@@ -19,13 +20,14 @@ namespace luxodus {
 namespace {
 
 constexpr int tile_width = 32, tile_height = 8;
-/// Pixels that are traced in one go: 32 paths, some milliseconds in thick smoke.
-constexpr int pixels_of_portion = 8;
+/// Paths that are traced in one go, up to a pixel's: some milliseconds in thick smoke.
+constexpr int paths_of_portion = 32;
 
-/// A step is a stream of BatchRange: 0 is the first picture, then come four paths after four.
-constexpr int first_picture_step = 0;
+/// A step is a stream of BatchRange: 0 is the first picture, 1 is what is allocated, then come four
+/// paths after four.
+constexpr int first_picture_step = 0, allocated_step = 1;
 constexpr int step_of(int path) {
-  return 1 + path / PictureExecutor::paths_of_tile;
+  return 2 + path / PictureExecutor::paths_of_tile;
 }
 
 struct PixelRange {
@@ -54,7 +56,8 @@ class TileWorker final : public BatchWorker {
   void begin(const BatchRange& batch) override {
     if (static_cast<size_t>(batch.group) >= tracers_.size() ||
         batch.first >= tiles_of(view_of(batch).camera) ||
-        batch.stream >= step_of(state_.pictures().paths_per_pixel - 1) + 1)
+        batch.stream > step_of(state_.pictures().paths_per_pixel - 1) ||
+        (batch.stream == allocated_step && view_of(batch).ends.empty()))
       throw std::runtime_error("a tile was lent of a picture that has none such");
     batch_ = batch;
     area_ = pixels_of(view_of(batch).camera, batch.first);
@@ -64,8 +67,10 @@ class TileWorker final : public BatchWorker {
   }
 
   bool go_on() override {
-    const size_t end = std::min(done_ + pixels_of_portion, sums_.size());
-    for (; done_ < end; ++done_) trace_pixel(done_);
+    for (int paths = 0; done_ < sums_.size() && paths < paths_of_portion; ++done_) {
+      trace_pixel(done_);
+      paths += sums_[done_].paths();
+    }
     return done_ < sums_.size();
   }
 
@@ -94,22 +99,28 @@ class TileWorker final : public BatchWorker {
   void trace_pixel(size_t i) {
     const int column = area_.first_column + static_cast<int>(i) % columns();
     const int row = area_.first_row + static_cast<int>(i) / columns();
-    const auto [from, to] = paths_of(column, row);
-    if (from >= to) return;
+    const PathRange paths = paths_of(column, row);
     const uint64_t pixel =
         static_cast<uint64_t>(row) * static_cast<uint64_t>(view_of(batch_).camera.width) +
         static_cast<uint64_t>(column);
-    tracer().trace(column, row, pixel, from, to, sums_[i]);
-    counters_.paths += static_cast<uint64_t>(to - from);
+    tracer().trace(column, row, pixel, paths, sums_[i]);
+    counters_.paths += static_cast<uint64_t>(sums_[i].paths());
   }
 
-  std::pair<int, int> paths_of(int column, int row) const {
+  PathRange paths_of(int column, int row) const {
     const bool first = view_of(batch_).first && comes_first(column, row);
-    if (batch_.stream == first_picture_step) return {0, first ? PictureExecutor::paths_of_tile : 0};
-    const int from = (batch_.stream - 1) * PictureExecutor::paths_of_tile;
-    if (from == 0 && first) return {0, 0};
-    return {from,
-            std::min(from + PictureExecutor::paths_of_tile, state_.pictures().paths_per_pixel)};
+    if (batch_.stream == allocated_step) {
+      const size_t pixel =
+          static_cast<size_t>(row) * static_cast<size_t>(view_of(batch_).camera.width) +
+          static_cast<size_t>(column);
+      return {state_.pictures().paths_per_pixel, view_of(batch_).ends[pixel]};
+    }
+    if (batch_.stream == first_picture_step)
+      return all_paths(0, first ? PictureExecutor::paths_of_tile : 0);
+    const int from = (batch_.stream - step_of(0)) * PictureExecutor::paths_of_tile;
+    if (from == 0 && first) return {};
+    return all_paths(
+        from, std::min(from + PictureExecutor::paths_of_tile, state_.pictures().paths_per_pixel));
   }
 
   PixelTracer& tracer() {
@@ -211,10 +222,11 @@ glm::dvec3 vector_of(const Json& three) {
 
 Json json_of(const TiledView& view) {
   const Camera& camera = view.camera;
-  return {{"eye", three(camera.eye)}, {"target", three(camera.target)},
-          {"up", three(camera.up)},   {"vertical_fov_deg", camera.vertical_fov_deg},
-          {"width", camera.width},    {"height", camera.height},
-          {"number", view.number},    {"first", view.first}};
+  return {{"eye", three(camera.eye)},  {"target", three(camera.target)},
+          {"up", three(camera.up)},    {"vertical_fov_deg", camera.vertical_fov_deg},
+          {"width", camera.width},     {"height", camera.height},
+          {"number", view.number},     {"first", view.first},
+          {"ends", !view.ends.empty()}};
 }
 
 TiledView view_of(const Json& object) {
@@ -240,12 +252,44 @@ bool is_picture(const TiledView& view) {
          camera.up != glm::dvec3(0) && view.number >> 16 == 0;
 }
 
+/// Ends are multiples of four, of 2^16 at most: two bytes each, the lower one first.
+void add_ends(const std::vector<HalfEnds>& ends, std::string& text) {
+  for (const HalfEnds& of_pixel : ends)
+    for (const int end : of_pixel) {
+      const int tiles = end / PictureExecutor::paths_of_tile;
+      text += static_cast<char>(tiles & 0xff);
+      text += static_cast<char>(tiles >> 8);
+    }
+}
+
+/// Takes the ends of a view off the front of `bytes`. False where there are not as many, or one is
+/// out of range.
+bool take_ends(std::string_view& bytes, int paths_per_pixel, TiledView& view) {
+  const size_t pixels =
+      static_cast<size_t>(view.camera.width) * static_cast<size_t>(view.camera.height);
+  const size_t size = 2 * sizeof(uint16_t) * pixels;
+  if (bytes.size() < size) return false;
+  view.ends.resize(pixels);
+  for (size_t i = 0; i < 2 * pixels; ++i) {
+    const auto byte = [&](size_t k) {
+      return static_cast<int>(static_cast<uint8_t>(bytes[2 * i + k]));
+    };
+    const int end = (byte(0) | byte(1) << 8) * PictureExecutor::paths_of_tile;
+    if (end < paths_per_pixel || end > limits::max_paths_per_pixel) return false;
+    view.ends[i / 2][i % 2] = end;
+  }
+  bytes.remove_prefix(size);
+  return true;
+}
+
 }  // namespace
 
 std::string tiles_text(const TiledPictures& pictures) {
   Json header{{"paths_per_pixel", pictures.paths_per_pixel}, {"views", Json::array()}};
   for (const TiledView& view : pictures.views) header["views"].push_back(json_of(view));
-  return header.dump() + "\n" + pictures.flux;
+  std::string text = header.dump() + "\n";
+  for (const TiledView& view : pictures.views) add_ends(view.ends, text);
+  return text + pictures.flux;
 }
 
 Result<TiledPictures> parse_tiles(const std::string& text) try {
@@ -258,11 +302,16 @@ Result<TiledPictures> parse_tiles(const std::string& text) try {
     return problem("these are no pictures: of so many paths a pixel there are none");
   if (header.at("views").empty() || header.at("views").size() > limits::max_tiled_views)
     return problem("these are no pictures, or more than can be traced at once");
+  std::string_view rest(text);
+  rest.remove_prefix(end + 1);
   for (const Json& one : header.at("views")) {
     out.views.push_back(view_of(one));
-    if (!is_picture(out.views.back())) return problem("a camera is none, or too large");
+    TiledView& view = out.views.back();
+    if (!is_picture(view)) return problem("a camera is none, or too large");
+    if (one.at("ends").get<bool>() && !take_ends(rest, out.paths_per_pixel, view))
+      return problem("these are no pictures: paths end nowhere, or where they cannot");
   }
-  out.flux = text.substr(end + 1);
+  out.flux = rest;
   return out;
 } catch (const Json::exception& e) {
   return problem(std::string("these are no pictures: ") + e.what());
@@ -354,10 +403,10 @@ PictureFlux picture_flux(const LocalRun& run, const PictureOptions& options) {
   return flux;
 }
 
-PictureExecutor::PictureExecutor(const LocalRun& run, std::vector<TiledView> views,
+PictureExecutor::PictureExecutor(const LocalRun& run, std::vector<TiledView> views, int paths,
                                  const PictureOptions& options, const PictureFlux& flux)
     : options_(options),
-      state_(run, {std::move(views), options.paths_per_pixel, {}}, flux.radiance, flux.sight),
+      state_(run, {std::move(views), paths, {}}, flux.radiance, flux.sight),
       totals_(state_.totals()) {
   TiledPictures told = state_.pictures();
   told.flux = flux.bytes;
@@ -385,6 +434,13 @@ bool PictureExecutor::add(size_t view, ViewPasses& passes, int paths, const Shar
             "tiles have whole steps of paths");
   if (!trace(view, step_of(passes.paths()), step_of(end - 1) + 1, progress)) return false;
   passes.take(*totals_, static_cast<int>(view), paths);
+  return true;
+}
+
+bool PictureExecutor::add_allocated(size_t view, ViewPasses& passes, int more,
+                                    const ShareDone& progress) {
+  if (!trace(view, allocated_step, allocated_step + 1, progress)) return false;
+  passes.take_allocated(*totals_, static_cast<int>(view), more);
   return true;
 }
 

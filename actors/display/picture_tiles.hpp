@@ -24,16 +24,19 @@ struct TiledView {
   Camera camera;
   uint64_t number = 0;  // of the random numbers; see ViewPasses
   bool first = false;   // whether its first picture is traced before it (ViewPasses::add_first)
+  /// Of all pixels, where paths end that are allocated (ViewPasses::allocate); none: there are
+  /// none.
+  std::vector<HalfEnds> ends = {};
 };
 
 /// What the tiles of a state are of.
 struct TiledPictures {
   std::vector<TiledView> views;
-  int paths_per_pixel = 0;  // at most
+  int paths_per_pixel = 0;  // at most; what is allocated follows
   std::string flux;         // the bytes of a flux file, in which paths end; none: they do not
 };
 
-/// JSON, whose numbers read back to the same bits, and the flux behind it.
+/// JSON, whose numbers read back to the same bits; behind it ends of paths, and the flux.
 std::string tiles_text(const TiledPictures& pictures);
 /// Errors: a text that is none; views that are no pictures, or take more memory than
 /// limits::max_view_bytes; too many of them.
@@ -102,16 +105,19 @@ PictureFlux picture_flux(const LocalRun& run, const PictureOptions& options);
 /// Has pictures traced by an executor.
 class PictureExecutor {
  public:
-  /// Enters their state. Requires: the run is resident; options.executor is there; all that is
-  /// referred to outlives this.
-  PictureExecutor(const LocalRun& run, std::vector<TiledView> views, const PictureOptions& options,
-                  const PictureFlux& flux);
+  /// Enters their state. `paths`: of all pixels, at most. Requires: the run is resident;
+  /// options.executor is there; all that is referred to outlives this.
+  PictureExecutor(const LocalRun& run, std::vector<TiledView> views, int paths,
+                  const PictureOptions& options, const PictureFlux& flux);
 
   /// As ViewPasses::add_first and ViewPasses::add, of the picture of `view`.
   /// Requires: `passes` are of that picture and have only been added to here; of add(): that they
   /// have a number of paths that is a multiple of `paths_of_tile`, as has the sum, or the most.
   bool add_first(size_t view, ViewPasses& passes, const ShareDone& progress = {});
   bool add(size_t view, ViewPasses& passes, int paths, const ShareDone& progress = {});
+  /// As ViewPasses::add_allocated, of the ends that the view has. Requires: `passes` have the paths
+  /// per pixel that the state says.
+  bool add_allocated(size_t view, ViewPasses& passes, int more, const ShareDone& progress = {});
 
   /// Paths of each pixel of a tile.
   static constexpr int paths_of_tile = 4;

@@ -19,10 +19,10 @@ namespace {
 /// Pixels that one fiber traces in one go.
 constexpr int columns_at_once = 32;
 
-constexpr std::array<int, 2> halves_of(int paths) {
-  std::array<int, 2> counts{};
-  for (int path = 0; path < paths; ++path) ++counts[half_of(path)];
-  return counts;
+ShareWork shared_by(int threads) {
+  return [threads](int64_t count, const std::function<void(int64_t)>& work) {
+    parallel_for(count, threads, [&] { return work; });
+  };
 }
 
 /// Of a mean of so many, by their sum and that of their squares. NaN with one.
@@ -33,6 +33,10 @@ double variance_of_mean(double sum, double squares, double count) {
 }
 
 }  // namespace
+
+int even_paths(const PictureOptions& options) {
+  return options.raw ? options.paths_per_pixel : even_paths(options.paths_per_pixel);
+}
 
 int next_pass(int paths) {
   if (paths < 32) return std::max(min_pass, 2 * paths);
@@ -73,8 +77,7 @@ bool ViewPasses::trace(const PictureOptions& options, const ShareDone& progress,
            ++column) {
         if (options.interrupted()) return;
         const auto pixel = static_cast<size_t>(int64_t{row} * camera_.width + column);
-        const auto [from, to] = paths_of(column, row);
-        if (from < to) tracer->trace(column, row, pixel, from, to, sums_[pixel]);
+        tracer->trace(column, row, pixel, paths_of(column, row), sums_[pixel]);
       }
     };
   };
@@ -89,7 +92,7 @@ bool ViewPasses::trace(const PictureOptions& options, const ShareDone& progress,
 
 bool ViewPasses::add_first(int paths, const PictureOptions& options, const ShareDone& progress) {
   const bool whole = trace(options, progress, [&](int column, int row) {
-    return std::pair(0, comes_first(column, row) ? paths : 0);
+    return all_paths(0, comes_first(column, row) ? paths : 0);
   });
   if (whole) first_paths_ = paths;
   return whole;
@@ -97,12 +100,26 @@ bool ViewPasses::add_first(int paths, const PictureOptions& options, const Share
 
 bool ViewPasses::add(int paths, const PictureOptions& options, const ShareDone& progress) {
   const bool whole = trace(options, progress, [&](int column, int row) {
-    return std::pair(paths_ + (comes_first(column, row) ? first_paths_ : 0), paths_ + paths);
+    return all_paths(paths_ + (comes_first(column, row) ? first_paths_ : 0), paths_ + paths);
   });
   if (!whole) return false;
   paths_ += paths;
   first_paths_ = 0;
   return true;
+}
+
+std::vector<HalfEnds> ViewPasses::allocate(int more) const {
+  return allocate_paths(sums_, camera_.width, camera_.height, paths_, more,
+                        shared_by(run_.threads()));
+}
+
+bool ViewPasses::add_allocated(const std::vector<HalfEnds>& ends, int more,
+                               const PictureOptions& options, const ShareDone& progress) {
+  const bool whole = trace(options, progress, [&](int column, int row) {
+    return PathRange{paths_, ends[static_cast<size_t>(int64_t{row} * camera_.width + column)]};
+  });
+  if (whole) allocated_ = more;
+  return whole;
 }
 
 void ViewPasses::take_sums(Totals& totals, int group) {
@@ -125,6 +142,11 @@ void ViewPasses::take(Totals& totals, int group, int paths) {
   first_paths_ = 0;
 }
 
+void ViewPasses::take_allocated(Totals& totals, int group, int more) {
+  take_sums(totals, group);
+  allocated_ = more;
+}
+
 namespace {
 
 /// Room for a picture of so many pixels.
@@ -141,6 +163,7 @@ TracedPicture empty_picture(int width, int height) {
   for (HalfPicture& half : out.noisy.half) {
     half.light.resize(light_channels * pixels);
     half.variance.resize(3 * pixels);
+    half.paths.resize(pixels);
   }
   out.noisy.feature_count = picture_features;
   out.noisy.features.resize(picture_features * pixels);
@@ -186,42 +209,62 @@ TracedPicture ViewPasses::first_picture() const {
   return picture_of(some, (camera_.width + 1) / 2, (camera_.height + 1) / 2, first_paths_);
 }
 
-TracedPicture ViewPasses::picture_of(const std::vector<const PixelSums*>& all, int width,
-                                     int height, int path_count) const {
-  TracedPicture out = empty_picture(width, height);
-  const std::array<int, 2> halves = halves_of(path_count);
-  const auto paths = static_cast<double>(path_count);
-  std::vector<double> known_squares(all.size()), known_variances(all.size());
-  for (size_t i = 0; i < all.size(); ++i) {
-    known_squares[i] = all[i]->known() * all[i]->known();
-    known_variances[i] = all[i]->known_variance();
+namespace {
+
+/// Of the mean known luminance of each pixel's paths, the relative variance that is common to many
+/// of them.
+std::vector<double> known_variances(const std::vector<const PixelSums*>& all, size_t width) {
+  std::vector<double> squares, variances;
+  for (const PixelSums* sums : all) {
+    const double count = sums->paths();
+    squares.push_back(sums->known() * sums->known() / (count * count));
+    variances.push_back(sums->known_variance() / (count * count));
   }
-  const auto columns = static_cast<size_t>(width);
-  const std::vector<double> squares = around(known_squares, columns, known_reach_px);
-  const std::vector<double> variances = around(known_variances, columns, known_reach_px);
+  squares = around(squares, width, known_reach_px);
+  variances = around(variances, width, known_reach_px);
+  for (size_t i = 0; i < all.size(); ++i)
+    variances[i] = squares[i] > 0 ? std::max(0.0, variances[i]) / squares[i] : 0;
+  return variances;
+}
+
+/// Puts the light of a pixel's paths into a picture; `share`: that of each half in its mean.
+void put_light(const PixelSums& sums, size_t pixel, const HalfShares& share, TracedPicture& out) {
+  for (const size_t h : {size_t{0}, size_t{1}}) {
+    if (sums.paths(h) == 0) continue;
+    const double count = sums.paths(h);
+    HalfPicture& half = out.noisy.half[h];
+    half.paths[pixel] = static_cast<float>(count);
+    for (size_t c = 0; c < light_channels; ++c) {
+      const size_t at = light_channels * pixel + c;
+      out.emitted[at] += static_cast<float>(share[h] * sums.straight(h, c) / count);
+      half.light[at] = static_cast<float>(sums.turned(h, c) / count);
+      if (c == 3) continue;
+      half.variance[3 * pixel + c] =
+          static_cast<float>(variance_of_mean(sums.turned(h, c), sums.turned_squares(h, c), count));
+    }
+  }
+  const ChannelLight light = sums.mean(share);
+  for (const size_t c : {size_t{0}, size_t{1}, size_t{2}})
+    out.light.xyz[3 * pixel + c] = static_cast<float>(light[c]);
+  out.light.scotopic[pixel] = static_cast<float>(light[3]);
+}
+
+}  // namespace
+
+TracedPicture ViewPasses::picture_of(const std::vector<const PixelSums*>& all, int width,
+                                     int height, int paths_of_all) const {
+  TracedPicture out = empty_picture(width, height);
+  const HalfShares share = shares_of_halves(paths_of_all);
+  const std::vector<double> of_known = known_variances(all, static_cast<size_t>(width));
   for (size_t i = 0; i < all.size(); ++i) {
     const PixelSums& sums = *all[i];
-    for (size_t c = 0; c < light_channels; ++c) {
-      const size_t at = light_channels * i + c;
-      const double straight = sums.straight(c);
-      const double sum = sums.turned(0, c) + sums.turned(1, c) + straight;
-      (c < 3 ? out.light.xyz[3 * i + c] : out.light.scotopic[i]) = static_cast<float>(sum / paths);
-      out.emitted[at] = static_cast<float>(straight / paths);
-      for (const size_t h : {size_t{0}, size_t{1}}) {
-        if (halves[h] == 0) continue;
-        const double count = halves[h];
-        out.noisy.half[h].light[at] = static_cast<float>(sums.turned(h, c) / count);
-        if (c < 3)
-          out.noisy.half[h].variance[3 * i + c] = static_cast<float>(
-              variance_of_mean(sums.turned(h, c), sums.turned_squares(h, c), count));
-      }
-    }
-    const double luminance = sums.turned(0, 1) + sums.turned(1, 1) + sums.straight(1);
-    const double relative = squares[i] > 0 ? std::max(0.0, variances[i]) / squares[i] : 0;
-    const double of_flux = path_count < 2 ? 0 : relative * known_squares[i] / (paths * (paths - 1));
+    const double paths = sums.paths();
+    put_light(sums, i, share, out);
+    const double known = sums.known() / paths;
+    const double of_flux = paths < 2 ? 0 : of_known[i] * known * known * paths / (paths - 1);
     out.flux_error_y[i] = static_cast<float>(std::sqrt(of_flux));
-    out.standard_error_y[i] = static_cast<float>(
-        std::sqrt(variance_of_mean(luminance, sums.luminance_squares(), paths) + of_flux));
+    out.standard_error_y[i] =
+        static_cast<float>(std::sqrt(sums.luminance_variance(share) + of_flux));
     for (size_t k = 0; k < picture_features; ++k)
       out.noisy.features[picture_features * i + k] = static_cast<float>(sums.feature(k) / paths);
   }
@@ -232,8 +275,16 @@ TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOpt
                             const KnownRadiance* flux, const ShareDone& progress) {
   ViewPasses view(run, run.scene().description->cameras[camera], camera, flux,
                   make_emitter_sight(run.scene()));
-  view.add(options.paths_per_pixel, options, progress);
-  return view.picture();
+  const int even = even_paths(options), more = options.paths_per_pixel - even;
+  const double share = static_cast<double>(even) / options.paths_per_pixel;
+  const auto tell = [&](double done) {
+    if (progress) progress(done);
+  };
+  bool whole = view.add(even, options, [&](double done) { tell(share * done); });
+  if (whole && more > 0)
+    whole = view.add_allocated(view.allocate(more), more, options,
+                               [&](double done) { tell(share + (1 - share) * done); });
+  return whole ? view.picture() : TracedPicture{};
 }
 
 double relative_error(const XyzPicture& light, const std::vector<float>& standard_error_y) {
@@ -258,8 +309,6 @@ double relative_error(const XyzPicture& light, const std::vector<float>& standar
 }
 
 namespace {
-
-constexpr size_t luminance_channel = 1;
 
 double mean_turned_luminance(const NoisyPicture& noisy) {
   double sum = 0;
@@ -294,10 +343,7 @@ NoisyPicture with_seen_features(const TracedPicture& traced) {
 
 FilteredView filter_traced(const TracedPicture& traced, int threads,
                            const RegressionFilter& filter) {
-  const ShareWork share = [&](int64_t count, const std::function<void(int64_t)>& work) {
-    parallel_for(count, threads, [&] { return work; });
-  };
-  FilteredPicture filtered = filter_picture(with_seen_features(traced), filter, share);
+  FilteredPicture filtered = filter_picture(with_seen_features(traced), filter, shared_by(threads));
   FilteredView out;
   out.light.width = traced.light.width;
   out.light.height = traced.light.height;

@@ -3,9 +3,10 @@
 // a surface or in smoke (final gather), so a picture takes seconds once the flux is there. What is
 // traced is neither clamped nor blurred; what PNG files show is filtered (regression_filter.hpp).
 // The standard error of a pixel is that of its paths and of the flux that they end in, which is
-// common to many of them. Pixels depend on the scene, the flux, the seed and the paths per pixel,
-// never on the number of threads, nor on whether their paths were traced at once or in passes. One
-// call at a time per run.
+// common to many of them. The last quarter of the paths goes where the filter would leave most
+// error (path_allocation.hpp). Pixels depend on the scene, the flux, the seed and the paths per
+// pixel, never on the number of threads, nor on whether their paths were traced at once or in
+// passes. One call at a time per run.
 #pragma once
 
 #include <atomic>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "actors/display/flux_radiance.hpp"
+#include "actors/display/path_allocation.hpp"
 #include "actors/display/pixel_tracer.hpp"
 #include "actors/run/local_run.hpp"
 #include "runtime/core/atomic_file.hpp"
@@ -34,7 +36,8 @@ inline constexpr uint64_t max_growing_bytes = uint64_t{1} << 30;
 }  // namespace limits
 
 struct PictureOptions {
-  int paths_per_pixel = 32;  // at most, where one of the two below may end a picture before
+  /// On average; at most, where one of the two below may end a picture before.
+  int paths_per_pixel = 32;
   /// Of all pictures of a call, with what filters and writes them [s]; 0: as long as it takes.
   double max_seconds = 0;
   /// Of the worst picture (ViewError): it may end where it is no more; 0: never.
@@ -44,8 +47,10 @@ struct PictureOptions {
   /// End paths in the run's flux. Without it they are traced to their end: slower and noisier, free
   /// of the patches' size. A run that has traced nothing has no flux to end in.
   bool gather = true;
-  bool raw = false;  // PNG files show light as traced, instead of filtered
-  HumanTone human;   // monitor and limits of sight of human views; angles are those of each camera
+  /// PNG files show light as traced, instead of filtered. All pixels have as many paths then;
+  /// without it some go where the filter leaves most error (even_paths).
+  bool raw = false;
+  HumanTone human;  // monitor and limits of sight of human views; angles are those of each camera
   /// When it is set, what is under way ends within a pixel, and pictures that are not whole are not
   /// written. Null: nobody interrupts.
   const std::atomic<bool>* interrupt = nullptr;
@@ -97,6 +102,8 @@ constexpr bool comes_first(int column, int row) {
 /// Paths that a pass adds at least, and that a first picture has in one pixel of four.
 inline constexpr int min_pass = 4;
 static_assert(min_pass >= min_filtered_paths);
+/// How many paths all pixels have, of those that there are on average.
+int even_paths(const PictureOptions& options);
 /// How many paths a pixel has after the next pass: 4, 8, 16, 32, 48, 64, 96 and so on.
 int next_pass(int paths);
 
@@ -123,12 +130,20 @@ class ViewPasses {
   /// Adds so many paths to each pixel. False where it was interrupted: then none was added.
   /// Requires: paths() + `paths` <= limits::max_paths_per_pixel.
   bool add(int paths, const PictureOptions& options, const ShareDone& progress = {});
+  /// Where `more` paths for each pixel on average are to end (path_allocation.hpp).
+  /// Requires: paths() is a multiple of four and the same for all pixels.
+  std::vector<HalfEnds> allocate(int more) const;
+  /// Adds paths up to these ends, which are of allocate(more): the last that are added. False where
+  /// it was interrupted: then none was added.
+  bool add_allocated(const std::vector<HalfEnds>& ends, int more, const PictureOptions& options,
+                     const ShareDone& progress = {});
   /// The same of what others have traced, who begin where this stands: sums of pixels as bins of a
   /// group of totals, which are taken out of them (PixelSums::bin).
   void take_first(Totals& totals, int group, int paths);
   void take(Totals& totals, int group, int paths);
-  /// Of each pixel.
-  int paths() const { return paths_; }
+  void take_allocated(Totals& totals, int group, int more);
+  /// Of each pixel; with allocated ones, on average.
+  int paths() const { return paths_ + allocated_; }
   /// What there is of it. Requires: paths() > 0.
   TracedPicture picture() const;
 
@@ -138,7 +153,7 @@ class ViewPasses {
   template <class PathsOf>
   bool trace(const PictureOptions& options, const ShareDone& progress, const PathsOf& paths_of);
   TracedPicture picture_of(const std::vector<const PixelSums*>& sums, int width, int height,
-                           int paths) const;
+                           int paths_of_all) const;
 
   const LocalRun& run_;
   const Camera camera_;
@@ -146,11 +161,12 @@ class ViewPasses {
   const KnownRadiance* flux_;
   std::shared_ptr<const EmitterSight> sight_;  // of all pictures and threads
   std::vector<PixelSums> sums_;
-  int paths_ = 0;
+  int paths_ = 0;        // of each pixel
+  int allocated_ = 0;    // beside them, on average
   int first_paths_ = 0;  // that pixels of even columns and rows have when others have none
 };
 
-/// One camera's picture; without meaning where it was interrupted. `flux`: where paths end, or
+/// One camera's picture; an empty one where it was interrupted. `flux`: where paths end, or
 /// null. Requires: camera is one of the scene's; 1 <= paths_per_pixel <=
 /// limits::max_paths_per_pixel.
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "scenes/tally/totals.hpp"
@@ -34,6 +35,26 @@ constexpr size_t half_of(int path) {
   return static_cast<size_t>(std::popcount(static_cast<unsigned>(path) & 0b110u) % 2);
 }
 
+/// What each half counts in a pixel's mean. Of so many paths that all pixels have: what it has of
+/// them. Whatever is added to a half later does not change it: a mean by the numbers of paths would
+/// have a bias where chance decides these.
+using HalfShares = std::array<double, 2>;
+constexpr HalfShares shares_of_halves(int paths) {
+  HalfShares shares{};
+  for (int path = 0; path < paths; ++path) shares[half_of(path)] += 1.0 / paths;
+  return shares;
+}
+
+/// Paths of a pixel by number: of each half those from `begin` to its own end, which is left out.
+using HalfEnds = std::array<int, 2>;
+struct PathRange {
+  int begin = 0;
+  HalfEnds ends{};
+};
+constexpr PathRange all_paths(int begin, int end) {
+  return {begin, {end, end}};
+}
+
 class PixelSums {
  public:
   /// Adds what a path has found: light that has turned, light that emitters send straight, the
@@ -43,22 +64,52 @@ class PixelSums {
     const size_t half = half_of(path);
     for (size_t c = 0; c < light_channels; ++c) {
       sums_[turned_at(half, c)] += fixed(turned[c]);
-      sums_[straight_at + c] += fixed(straight[c]);
+      sums_[straight_at(half, c)] += fixed(straight[c]);
     }
+    ++sums_[paths_at + half];
     for (size_t c = 0; c < 3; ++c) squares_[turned_square_at(half, c)] += square_of(turned[c]);
-    squares_[luminance_square_at] += square_of(turned[1] + straight[1]);
+    squares_[luminance_square_at + half] += square_of(turned[1] + straight[1]);
     for (size_t k = 0; k < picture_features; ++k) sums_[features_at + k] += fixed(features[k]);
     for (size_t i = 0; i < ends.size(); ++i) add_known(ends, i);
   }
 
-  // Sums over paths: of light [cd/m2], of its squares [cd2/m4].
+  /// Of a half.
+  int paths(size_t half) const { return static_cast<int>(sums_[paths_at + half]); }
+  int paths() const { return paths(0) + paths(1); }
+  // Sums over the paths of a half: of light [cd/m2], of its squares [cd2/m4].
   double turned(size_t half, size_t channel) const { return sum(turned_at(half, channel)); }
-  double straight(size_t channel) const { return sum(straight_at + channel); }
+  double straight(size_t half, size_t channel) const { return sum(straight_at(half, channel)); }
   double turned_squares(size_t half, size_t channel) const {
     return square(turned_square_at(half, channel));
   }
   /// Of luminance, of all light.
-  double luminance_squares() const { return square(luminance_square_at); }
+  double luminance_squares(size_t half) const { return square(luminance_square_at + half); }
+  /// Of all light [cd/m2].
+  double mean_of_half(size_t half, size_t channel) const {
+    return (turned(half, channel) + straight(half, channel)) / paths(half);
+  }
+  ChannelLight mean(const HalfShares& shares) const {
+    ChannelLight light{};
+    for (size_t c = 0; c < light_channels; ++c)
+      for (const size_t h : {size_t{0}, size_t{1}})
+        if (paths(h) > 0) light[c] += shares[h] * mean_of_half(h, c);
+    return light;
+  }
+  /// Of its luminance [(cd/m2)2]. NaN with one path.
+  double luminance_variance(const HalfShares& shares) const {
+    const double all = paths();
+    if (all < 2) return std::numeric_limits<double>::quiet_NaN();
+    const double common = mean(shares)[luminance_channel];
+    double variance = 0;
+    for (const size_t h : {size_t{0}, size_t{1}}) {
+      if (paths(h) == 0) continue;
+      const double own = mean_of_half(h, luminance_channel);
+      const double spread = luminance_squares(h) / paths(h) - 2 * common * own + common * common;
+      variance += shares[h] * shares[h] * std::max(0.0, spread) / paths(h);
+    }
+    return variance * all / (all - 1);
+  }
+  // Sums over all paths.
   double feature(size_t k) const { return sum(features_at + k); }
   /// Luminance that paths have ended in, as it is known [cd/m2].
   double known() const { return sum(known_at); }
@@ -73,7 +124,7 @@ class PixelSums {
 
   /// The same sums as bins of totals, for the way from node to node.
   static constexpr size_t bins =
-      2 * light_channels + light_channels + 1 + sign_draws + picture_features;
+      2 * light_channels + 2 * light_channels + 2 + 1 + sign_draws + picture_features;
   Total bin(size_t k) const { return {sums_[k], k < square_count ? squares_[k] : UInt128{0}}; }
   void add_bin(size_t k, const Total& total) {
     sums_[k] += total.sum;
@@ -83,15 +134,18 @@ class PixelSums {
  private:
   // Places among the sums.
   static constexpr size_t turned_at(size_t half, size_t c) { return half * light_channels + c; }
-  static constexpr size_t straight_at = 2 * light_channels;
-  static constexpr size_t known_at = straight_at + light_channels;
+  static constexpr size_t straight_at(size_t half, size_t c) {
+    return (2 + half) * light_channels + c;
+  }
+  static constexpr size_t paths_at = 4 * light_channels;
+  static constexpr size_t known_at = paths_at + 2;
   static constexpr size_t signed_at = known_at + 1;
   static constexpr size_t features_at = signed_at + sign_draws;
   // Among the squares.
   static constexpr size_t turned_square_at(size_t half, size_t c) { return 3 * half + c; }
   static constexpr size_t luminance_square_at = 6;
-  static constexpr size_t known_square_at = 7;
-  static constexpr size_t square_count = 8;
+  static constexpr size_t known_square_at = 8;
+  static constexpr size_t square_count = 9;
 
   /// A sum is in units of 2^-28 cd/m2, a square of 2^-44. Brighter than 2^33 cd/m2, five times the
   /// sun, nothing is: so a number has 61 bits, and 2^16 squares of 110 bits fit into 128.

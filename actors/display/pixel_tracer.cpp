@@ -1,5 +1,6 @@
 #include "actors/display/pixel_tracer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -45,9 +46,11 @@ PixelTracer::PixelTracer(const CompiledScene& scene, const GeometryAccess& acces
       flux_(flux),
       white_(light_of(std::vector<double>(static_cast<size_t>(scene.bands.count()), 1.0))) {}
 
-void PixelTracer::trace(int column, int row, uint64_t pixel, int from, int to, PixelSums& sums) {
+void PixelTracer::trace(int column, int row, uint64_t pixel, const PathRange& paths,
+                        PixelSums& sums) {
   const uint64_t first = first_path_ + (pixel << pixel_shift);
-  for (int i = from; i < to; ++i) {
+  for (int i = paths.begin; i < std::max(paths.ends[0], paths.ends[1]); ++i) {
+    if (i >= paths.ends[half_of(i)]) continue;
     start(first, i);
     const auto x = static_cast<double>(tracer_->uniform());
     const auto y = static_cast<double>(tracer_->uniform());

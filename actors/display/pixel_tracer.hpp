@@ -39,9 +39,9 @@ class PixelTracer {
               const Camera& camera, uint64_t number, const KnownRadiance* flux,
               std::shared_ptr<const EmitterSight> sight);
 
-  /// Adds the paths [from, to) of a pixel; `pixel`: row * width + column, below 2^28.
-  /// Requires: to <= limits::max_paths_per_pixel.
-  void trace(int column, int row, uint64_t pixel, int from, int to, PixelSums& sums);
+  /// Adds paths of a pixel; `pixel`: row * width + column, below 2^28.
+  /// Requires: ends <= limits::max_paths_per_pixel.
+  void trace(int column, int row, uint64_t pixel, const PathRange& paths, PixelSums& sums);
 
  private:
   void start(uint64_t first, int path);

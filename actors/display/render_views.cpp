@@ -1,7 +1,7 @@
 // Pictures of all cameras, as they grow. All of them get a few paths, then all a few more, so that
-// each is there early. Steps follow from the number of paths alone, and where a time or an error
-// ends a picture it does so between steps: the picture is that of as many paths at once. Files are
-// replaced whole. What they cost bounds how often that is done.
+// each is there early; the last ones are allocated. Steps follow from the number of paths alone,
+// and where a time or an error ends a picture it does so between steps: the picture is that of as
+// many paths at once. Files are replaced whole. What they cost bounds how often that is done.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -110,7 +110,8 @@ class GrowingViews {
   /// Until all is done that was asked for, or somebody interrupts; then all is written.
   /// `after_first`: called when first pictures are there.
   Result<void> grow(const std::function<Result<void>()>& after_first) {
-    if (options_.executor != nullptr) elsewhere_.emplace(run_, tiled_views(), options_, flux_);
+    if (options_.executor != nullptr)
+      elsewhere_.emplace(run_, tiled_views(), options_.paths_per_pixel, options_, flux_);
     if (auto ok = show_first(); !ok) return ok;
     if (auto ok = watch_.left_out(after_first); !ok) return ok;
     for (int target = next_target(); target > 0 && !interrupted_; target = next_target()) {
@@ -125,6 +126,7 @@ class GrowingViews {
       if (!should_write()) continue;
       if (auto ok = write(); !ok) return ok;
     }
+    if (const int more = next_allocation(); more > 0) add_allocated(more);
     return write();
   }
 
@@ -164,16 +166,37 @@ class GrowingViews {
     return {};
   }
 
+  bool is_good_enough() const {
+    return options_.target_error > 0 && error() <= options_.target_error;
+  }
+
+  /// Paths for each pixel that there is time for.
+  int fitting() const {
+    const double left_s = seconds_ - watch_.seconds() - writing_slack * writing_s_;
+    return static_cast<int>(
+        std::clamp(left_s / seconds_per_path_, 0.0, double{limits::max_paths_per_pixel}));
+  }
+
   /// How many paths all pixels have after the next step; 0: there is none.
   int next_target() const {
-    const int most = options_.paths_per_pixel;
-    if (paths_ >= most || (options_.target_error > 0 && error() <= options_.target_error)) return 0;
-    const int target = std::min(most, next_pass(paths_));
+    const int target = std::min(even_paths(options_), next_pass(paths_));
+    if (target <= paths_ || is_good_enough()) return 0;
     if (!(seconds_ > 0) || paths_ == 0) return target;
-    const double left_s = seconds_ - watch_.seconds() - writing_slack * writing_s_;
-    const double fit = std::min(left_s / seconds_per_path_, double{limits::max_paths_per_pixel});
-    const int steps = static_cast<int>(std::max(0.0, fit)) / min_pass;
-    return steps == 0 ? 0 : std::min(target, paths_ + steps * min_pass);
+    PictureOptions in_time = options_;
+    in_time.paths_per_pixel = paths_ + fitting();
+    const int steps = (even_paths(in_time) - paths_) / min_pass;
+    return steps <= 0 ? 0 : std::min(target, paths_ + steps * min_pass);
+  }
+
+  /// How many paths are allocated, for each pixel on average; 0: none.
+  int next_allocation() const {
+    if (options_.raw || interrupted_ || is_good_enough()) return 0;
+    const int even = even_paths(options_);
+    const int more = options_.paths_per_pixel - even;
+    if (paths_ == even && !(seconds_ > 0)) return more;
+    // As many as if what has fitted into the time had been asked for.
+    const int fit = std::min({options_.paths_per_pixel - paths_, (paths_ + 2) / 3, fitting()});
+    return even_paths(paths_ + fit) == paths_ ? fit : 0;
   }
 
   /// Whoever is interrupted in a view leaves it as it was.
@@ -189,6 +212,24 @@ class GrowingViews {
       if (interrupted_) return;
       before += view.pixels();
     }
+  }
+
+  void add_allocated(int more) {
+    std::vector<TiledView> tiled = tiled_views();
+    for (size_t i = 0; i < views_.size(); ++i) tiled[i].ends = views_[i].passes.allocate(more);
+    if (elsewhere_) elsewhere_.emplace(run_, tiled, paths_, options_, flux_);
+    double before = 0;
+    for (size_t i = 0; i < views_.size(); ++i) {
+      GrowingView& view = views_[i];
+      const auto tell = [&](double share) {
+        show_progress(paths_ + more * (before + share * view.pixels()) / pixels_);
+      };
+      interrupted_ |= elsewhere_ ? !elsewhere_->add_allocated(i, view.passes, more, tell)
+                                 : !view.passes.add_allocated(tiled[i].ends, more, options_, tell);
+      if (interrupted_) return;
+      before += view.pixels();
+    }
+    paths_ += more;
   }
 
   void show_progress(double paths) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/core/check.hpp"
+#include "scenes/vision/likeness.hpp"
 #include "scenes/vision/outliers.hpp"
 
 namespace luxodus {
@@ -12,19 +13,13 @@ namespace {
 
 /// Rows of centres that one piece of work has.
 constexpr int rows_of_a_band = 8;
-/// Differences of light below this share are no differences, however small the errors.
-constexpr float unseen_difference = 1e-3f;
-/// Pixels that are less alike do not count in a window: one that is dark would take a share of a
-/// bright window's light, however small, that is much for it.
-constexpr float least_alike = 0.05f;
 /// Ridge of the regression, relative to the features' own spread: where they do not vary in a
 /// window, they explain nothing.
 constexpr double ridge = 1e-4;
 /// Features that vary less than this are not scaled up any further.
 constexpr double min_spread = 0.1;
-/// Pixels are as far as this asked for the variance of one that has missed all rare paths.
-constexpr int variance_reach_px = 2;
-/// And as far as this to compare what the variances say with how far the halves differ.
+/// Pixels are as far as this asked to compare what the variances say with how far the halves
+/// differ.
 constexpr int calibration_reach_px = 8;
 /// Of a pixel's own light beside what windows say of it: it decides where no centre is like it.
 constexpr double own_weight = 0.25;
@@ -33,47 +28,13 @@ constexpr double own_weight = 0.25;
 constexpr double least_said = 12;
 /// What an alike pixel of a small window says, by what a large window does.
 constexpr double said_by_close_pixel = 0.25;
-constexpr int close_window_px = 4, close_patch_px = 1;
 /// Of the mean luminance of its windows: a fit of less is the chance of what is around it.
 constexpr double least_coloured = 0.1;
 constexpr size_t max_features = 16;
 constexpr size_t colour_channels = 3;
 
-struct Rectangle {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // without x1 and y1
-
-  int width() const { return x1 - x0; }
-  size_t pixels() const { return static_cast<size_t>(width()) * static_cast<size_t>(y1 - y0); }
-  size_t index(int x, int y) const {
-    return static_cast<size_t>(y - y0) * static_cast<size_t>(width()) + static_cast<size_t>(x - x0);
-  }
-};
-
-/// Sums over the (2 reach + 1)^2 surroundings of every pixel, in place; what lies beyond the edge
-/// is left out.
-void add_surroundings(std::vector<float>& values, const Rectangle& area, int reach,
-                      std::vector<float>& scratch) {
-  scratch.assign(values.size(), 0.0f);
-  for (int y = area.y0; y < area.y1; ++y)
-    for (int d = -reach; d <= reach; ++d) {
-      const int from = std::max(area.x0, area.x0 - d), to = std::min(area.x1, area.x1 - d);
-      const float* in = &values[area.index(area.x0, y)];
-      float* out = &scratch[area.index(area.x0, y)];
-      for (int x = from - area.x0; x < to - area.x0; ++x) out[x] += in[x + d];
-    }
-  std::fill(values.begin(), values.end(), 0.0f);
-  for (int y = area.y0; y < area.y1; ++y)
-    for (int j = std::max(area.y0, y - reach); j < std::min(area.y1, y + reach + 1); ++j) {
-      const float* in = &scratch[area.index(area.x0, j)];
-      float* out = &values[area.index(area.x0, y)];
-      for (int x = 0; x < area.width(); ++x) out[x] += in[x];
-    }
-}
-
-/// Light and variance of a half, channel by channel, as comparisons read them.
-struct Compared {
-  std::array<std::vector<float>, colour_channels> light, variance;
-};
+/// A half, channel by channel, as comparisons read it.
+using Compared = std::array<UncertainLight, colour_channels>;
 
 /// Variances of a half, one channel of it, that the difference of the halves bears out around each
 /// pixel. Low-discrepancy paths err less than the spread of their values says.
@@ -109,28 +70,14 @@ std::vector<float> squared_light(const NoisyPicture& picture, size_t channel) {
   return out;
 }
 
-/// A pixel that has missed all rare paths does not know its error; its surroundings do, but for one
-/// that is darker, whose error is smaller.
 Compared compared(const NoisyPicture& picture, const HalfPicture& half) {
   const Rectangle all{0, 0, picture.width, picture.height};
   Compared out;
-  std::vector<float> count(picture.pixels(), 1.0f), scratch;
-  add_surroundings(count, all, variance_reach_px, scratch);
   for (size_t c = 0; c < colour_channels; ++c) {
-    out.light[c].resize(picture.pixels());
     for (size_t i = 0; i < picture.pixels(); ++i)
-      out.light[c][i] = half.light[light_channels * i + c];
-    out.variance[c] = borne_out_variance(picture, half, c);
-    std::vector<float> mean = out.variance[c], square = squared_light(picture, c);
-    std::vector<float> mean_square = square;
-    add_surroundings(mean, all, variance_reach_px, scratch);
-    add_surroundings(mean_square, all, variance_reach_px, scratch);
-    for (size_t i = 0; i < picture.pixels(); ++i) {
-      mean[i] /= count[i];
-      mean_square[i] /= count[i];
-      if (square[i] < mean_square[i]) mean[i] *= square[i] / mean_square[i];
-      out.variance[c][i] = std::max(out.variance[c][i], mean[i]);
-    }
+      out[c].light.push_back(half.light[light_channels * i + c]);
+    out[c].variance = borne_out_variance(picture, half, c);
+    ask_surroundings(out[c].variance, squared_light(picture, c), all);
   }
   return out;
 }
@@ -209,24 +156,6 @@ class NormalEquations {
   std::array<std::array<double, Sides>, MaxUnknowns> side_{};
 };
 
-/// How unlike the light of two pixels is, in units of what their errors explain, with what chance
-/// brings taken off; `k2` is the square of the filter's tolerance. As much as chance brings where
-/// both are as noisy as the less noisy: what is dark and even is not like what is bright and noisy,
-/// whichever of them the window is around.
-float unlikeness(float light, float variance, float other_light, float other_variance, float k2) {
-  const float difference = light - other_light;
-  const float chance = 2 * std::min(variance, other_variance);
-  const float level = unseen_difference * (light + other_light);
-  const float scale = level * level + k2 * (variance + other_variance) + 1e-20f;
-  return (difference * difference - chance) / (scale * float{colour_channels});
-}
-
-/// Of an unlikeness, the weight in a window.
-float likeness_weight(float unlike) {
-  const float weight = std::exp(-std::max(0.0f, unlike));
-  return weight < least_alike ? 0.0f : weight;
-}
-
 /// A pixel of a window, and how much it counts there.
 struct Member {
   size_t pixel = 0;
@@ -243,7 +172,7 @@ class Fit {
       const std::vector<Member>& window)
       : picture_(picture), centre_(centre), equations_(picture.feature_count + 1) {
     for (const Member& member : window)
-      equations_.add(member.weight, row_of(member.pixel).data(),
+      equations_.add(member.weight * light.paths_of(member.pixel), row_of(member.pixel).data(),
                      &light.light[light_channels * member.pixel]);
     const double weight_of_all = equations_.diagonal(0);
     mean_ = equations_.side(0);
@@ -367,7 +296,8 @@ class HalfFilter {
           if (x + dx < 0 || x + dx >= picture_.width || y + dy < 0 || y + dy >= picture_.height)
             return;
           const size_t at = area.index(x, y);
-          weights[offsets_ * of_centre + at_offset] = likeness_weight(distance[at] / inside[at]);
+          weights[offsets_ * of_centre + at_offset] =
+              likeness_weight(distance[at] / (inside[at] * float{colour_channels}));
         });
       }
     return weights;
@@ -378,26 +308,9 @@ class HalfFilter {
   void measure(const Rectangle& area, int dx, int dy, std::vector<float>& distance,
                std::vector<float>& inside) const {
     std::fill(distance.begin(), distance.end(), 0.0f);
-    std::fill(inside.begin(), inside.end(), 0.0f);
-    const float k2 = squared_tolerance();
-    for (int y = area.y0; y < area.y1; ++y) {
-      if (y + dy < 0 || y + dy >= picture_.height) continue;
-      const int from = std::max(0, -dx), to = std::min(picture_.width, picture_.width - dx);
-      if (from >= to) continue;
-      const auto row = static_cast<size_t>(y) * static_cast<size_t>(picture_.width);
-      const auto other = static_cast<size_t>(y + dy) * static_cast<size_t>(picture_.width);
-      float* out = &distance[area.index(0, y)];
-      for (size_t c = 0; c < colour_channels; ++c) {
-        const float* u = &likeness_.light[c][row];
-        const float* v = &likeness_.variance[c][row];
-        const float* u_there = &likeness_.light[c][other] + dx;
-        const float* v_there = &likeness_.variance[c][other] + dx;
-        for (int x = from; x < to; ++x)
-          out[x] += unlikeness(u[x], v[x], u_there[x], v_there[x], k2);
-      }
-      float* there = &inside[area.index(0, y)];
-      std::fill(there + from, there + to, 1.0f);
-    }
+    for (const UncertainLight& channel : likeness_)
+      add_unlikeness(channel, picture_.height, area, dx, dy, squared_tolerance(), distance);
+    mark_pairs(picture_.height, area, dx, dy, inside);
   }
 
   float squared_tolerance() const {
@@ -418,14 +331,12 @@ class HalfFilter {
       for (int dx = -close_patch_px; dx <= close_patch_px; ++dx) {
         if (!is_inside(x + dx, y + dy) || !is_inside(other_x + dx, other_y + dy)) continue;
         const size_t i = pixel_at(x + dx, y + dy), k = pixel_at(other_x + dx, other_y + dy);
-        for (size_t c = 0; c < colour_channels; ++c) {
-          const std::vector<float>& light = likeness_.light[c];
-          const std::vector<float>& variance = likeness_.variance[c];
-          unlike += unlikeness(light[i], variance[i], light[k], variance[k], squared_tolerance());
-        }
+        for (const UncertainLight& of : likeness_)
+          unlike += unlikeness(of.light[i], of.variance[i], of.light[k], of.variance[k],
+                               squared_tolerance());
         ++count;
       }
-    return likeness_weight(unlike / static_cast<float>(count));
+    return likeness_weight(unlike / static_cast<float>(count * int{colour_channels}));
   }
 
   /// Fits the light of a window, and adds the fit to all of its pixels.

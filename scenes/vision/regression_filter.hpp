@@ -5,10 +5,10 @@
 // Pixels count by how alike their surroundings are in light, within the errors (non-local means, F.
 // Rousselle et al., "Adaptive rendering with non-local means filtering", 2012). A picture comes as
 // two halves of independent paths: one half says which pixels are alike, the other gives the light,
-// so that chance does not choose itself; and their difference is the filter's own error. Light of
-// single bright paths is spread first (outliers.hpp); pixels that few windows are like, as at
-// edges, have a small one of their own; and the mean is kept. For pictures to look at: verdicts
-// come from traced numbers. Pure functions; any thread.
+// so that chance does not choose itself; and their difference is the filter's own error. A pixel
+// counts as much as it has paths. Light of single bright paths is spread first (outliers.hpp);
+// pixels that few windows are like, as at edges, have a small one of their own; and the mean is
+// kept. For pictures to look at: verdicts come from traced numbers. Pure functions; any thread.
 #pragma once
 
 #include <array>
@@ -19,12 +19,17 @@
 namespace luxodus {
 
 /// X, Y, Z, scotopic.
-inline constexpr size_t light_channels = 4;
+inline constexpr size_t light_channels = 4, luminance_channel = 1;
 
 /// Half of a picture's paths.
 struct HalfPicture {
-  std::vector<float> light;     // light_channels per pixel [cd/m2]
-  std::vector<float> variance;  // of the means, 3 per pixel: of X, Y, Z [(cd/m2)2]
+  std::vector<float> light;       // light_channels per pixel [cd/m2]
+  std::vector<float> variance;    // of the means, 3 per pixel: of X, Y, Z [(cd/m2)2]
+  std::vector<float> paths = {};  // of each pixel, in any unit; none: all have as many
+
+  double paths_of(size_t pixel) const {
+    return paths.empty() ? 1 : static_cast<double>(paths[pixel]);
+  }
 };
 
 struct NoisyPicture {

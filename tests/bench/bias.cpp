@@ -199,6 +199,7 @@ struct TwoViews {
 TwoViews draw_both(const LocalRun& run, int paths, bool gather) {
   PictureOptions options;
   options.gather = gather;
+  options.raw = true;  // what is measured is not filtered
   const auto flux = gather ? flux_radiance(run) : nullptr;
   const auto draw = [&](size_t camera) {
     options.paths_per_pixel = std::max(2, paths);

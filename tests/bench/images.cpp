@@ -115,6 +115,7 @@ Timed draw(const LocalRun& run, int paths, bool gather) {
   PictureOptions options;
   options.paths_per_pixel = paths;
   options.gather = gather;
+  options.raw = true;  // what is measured is not filtered
   const auto flux = gather ? flux_radiance(run) : nullptr;
   const double before = process_seconds();
   TracedPicture picture = trace_picture(run, 0, options, flux.get());

@@ -58,6 +58,7 @@ void print_room(const char* name, Air air, int64_t particles, int reference_path
       PictureOptions options;
       options.paths_per_pixel = paths;
       options.gather = gather;
+      options.raw = true;  // as many paths for all pixels
       const auto flux = gather ? flux_radiance(of) : nullptr;
       return trace_picture(of, 0, options, flux.get());
     };

@@ -16,7 +16,7 @@ using namespace luxodus::test;
 namespace {
 
 /// A room with a lamp that is a point, 2 m over the middle of the floor plane, and thin smoke.
-const std::string smoky_room = R"(
+const std::string measured_room = R"(
 patch_edge_m = 1.0
 [[material]]
 name = "grey"
@@ -93,7 +93,7 @@ std::vector<float> vtk_floats(const std::string& text, const std::string& name) 
 }  // namespace
 
 TEST_CASE("a plane's direct light is the inverse square law, with and without smoke", "[display]") {
-  const auto run = traced(smoky_room, 1 << 14);
+  const auto run = traced(measured_room, 1 << 14);
   const PlaneMaps maps = make_plane_maps(*run);
   REQUIRE(maps.planes.size() == 1);
   const PlaneMap& map = maps.planes[0];
@@ -110,7 +110,7 @@ TEST_CASE("a plane's direct light is the inverse square law, with and without sm
 TEST_CASE("the means of a plane's table are those of result.json, and extremes are cells of it",
           "[display]") {
   const TemporaryFolder folder;
-  const auto run = traced(smoky_room, 1 << 17);
+  const auto run = traced(measured_room, 1 << 17);
   const auto done = write_report(folder.path(), *run, {"test.toml", "particles", 1});
   if (!done.ok()) FAIL(done.problem().text());
   const Json result = Json::parse(file_text(folder / "result.json"));
@@ -150,7 +150,7 @@ TEST_CASE("the means of a plane's table are those of result.json, and extremes a
 }
 
 TEST_CASE("traced direct light confirms the computed one within its error", "[display]") {
-  const auto run = traced(smoky_room, 1 << 17);
+  const auto run = traced(measured_room, 1 << 17);
   const Readout readout(run->scene(), run->totals());
   const Json plane = planes_json(*run, readout, make_plane_maps(*run))[0];
   const double direct = plane["direct_illuminance"]["value"];
@@ -161,7 +161,7 @@ TEST_CASE("traced direct light confirms the computed one within its error", "[di
 }
 
 TEST_CASE("a plane's light by source group adds up to its light", "[display]") {
-  std::string two = smoky_room;
+  std::string two = measured_room;
   two = "[run]\ngroups = \"emitter\"\n" + two.substr(two.find("[[material]]"));
   two += R"(
 [[emitter]]
@@ -184,7 +184,7 @@ flux_lm = 500
 }
 
 TEST_CASE("direct light on a plane is the same bits for one and three threads", "[display]") {
-  const auto scene = scene_of(smoky_room);
+  const auto scene = scene_of(measured_room);
   const LocalRun one(scene, 1, 1), three(scene, 1, 3);
   const PlaneMaps a = make_plane_maps(one), b = make_plane_maps(three);
   CHECK(a.planes[0].light.mean_lx == b.planes[0].light.mean_lx);
@@ -195,7 +195,7 @@ TEST_CASE("direct light on a plane is the same bits for one and three threads", 
 TEST_CASE("a plane's mean is that over its area, within the bound that stands beside it",
           "[display]") {
   // A point 2 m up, over the middle of a square of 3 m: the flux through it is a closed form.
-  std::string clear = smoky_room;
+  std::string clear = measured_room;
   clear = clear.substr(0, clear.find("[[medium]]")) + clear.substr(clear.find("[[plane]]"));
   const int cells = GENERATE(1, 2, 7);
   const auto at = clear.find("cells = [5, 3]");
@@ -217,7 +217,7 @@ TEST_CASE("the mean of a plane in shadows of boxes is right though cells' centre
           "[display]") {
   // A point 2 m up and a shelf that shades a square of the floor exactly: edges beside cells'
   // centres.
-  std::string shaded = smoky_room;
+  std::string shaded = measured_room;
   shaded = shaded.substr(0, shaded.find("[[medium]]")) + shaded.substr(shaded.find("[[plane]]"));
   shaded += R"(
 [[object]]
@@ -247,7 +247,7 @@ material = "grey"
 
 TEST_CASE("light of signs and flames is no part of what luminaires give in clear air",
           "[display]") {
-  std::string with_sign = smoky_room;
+  std::string with_sign = measured_room;
   with_sign += R"(
 [[sign]]
 name = "exit"
@@ -276,7 +276,7 @@ temperature_k = 1400
 name = "p"
 position = [11, 21, 0]
 )";
-  const auto plain = traced(smoky_room, 1 << 14);
+  const auto plain = traced(measured_room, 1 << 14);
   const auto run = traced(with_sign, 1 << 14);
   const PlaneMap without = make_plane_maps(*plain).planes[0];
   const PlaneMap with = make_plane_maps(*run).planes[0];
@@ -296,7 +296,7 @@ position = [11, 21, 0]
 
 TEST_CASE("a run of one batch says that an error needs two", "[display]") {
   const TemporaryFolder folder;
-  const auto run = traced(smoky_room, 1);
+  const auto run = traced(measured_room, 1);
   REQUIRE(run->traced() == 1);
   const auto result = write_report(folder.path(), *run, {"test.toml", "particles", 1});
   REQUIRE(result.ok());
@@ -310,17 +310,17 @@ TEST_CASE("a run of one batch says that an error needs two", "[display]") {
   const std::string csv = file_text(folder.path() / "planes" / "floor.csv");
   CHECK(csv.find("nan") == std::string::npos);
   CHECK(csv.find("needs two batches") != std::string::npos);
-  const auto two = traced(smoky_room, 8 * run->scene().batch_particles);
+  const auto two = traced(measured_room, 8 * run->scene().batch_particles);
   CHECK_FALSE(result_json(*two, {"test.toml", "particles", 1}).contains("standard_errors_unknown"));
 }
 
 TEST_CASE("rates of a resumed run are of all its time, or of the part whose time is known",
           "[display]") {
-  const auto first = traced(smoky_room, 1 << 17);
+  const auto first = traced(measured_room, 1 << 17);
   const TemporaryFolder folder;
   REQUIRE(save_flux(folder / "flux.lux", *first).ok());
   const auto go_on = [&](std::optional<double> earlier_s) {
-    auto run = std::make_unique<LocalRun>(scene_of(smoky_room), 11, 1);
+    auto run = std::make_unique<LocalRun>(scene_of(measured_room), 11, 1);
     REQUIRE(load_flux(folder / "flux.lux", *run).ok());
     if (earlier_s) run->add_earlier_seconds(*earlier_s);
     StopRule stop;
@@ -344,7 +344,7 @@ TEST_CASE("rates of a resumed run are of all its time, or of the part whose time
 TEST_CASE("patches and voxels on disk hold the run's flux, in scene coordinates", "[display]") {
   const TemporaryFolder folder;
   const int cells = GENERATE(1, 3);
-  const auto run = traced(smoky_room, 1 << 15, 1, cells);
+  const auto run = traced(measured_room, 1 << 15, 1, cells);
   REQUIRE(write_flux_maps(folder.path(), *run).ok());
   const CompiledScene& scene = run->scene();
   const Readout readout(scene, run->totals());

@@ -31,7 +31,8 @@ void check_tiles(const LocalRun& run, Executor& executor) {
   const PictureFlux flux = picture_flux(run, options);
   REQUIRE(flux.sight);
   const auto& cameras = run.scene().description->cameras;
-  PictureExecutor elsewhere(run, {{cameras[0], 0, true}, {cameras[1], 1, false}}, options, flux);
+  PictureExecutor elsewhere(run, {{cameras[0], 0, true}, {cameras[1], 1, false}}, asked_paths,
+                            options, flux);
   for (const size_t view : {size_t{0}, size_t{1}}) {
     ViewPasses passes(run, cameras[view], view, nullptr, nullptr);
     if (view == 0) {
@@ -77,14 +78,14 @@ TEST_CASE("files of pictures that nodes trace are those of threads", "[display][
   const TemporaryFolder here, there;
   const auto run = traced(smoky_room("120"), 1 << 14);
   PictureOptions options;
-  options.paths_per_pixel = 8;
+  options.paths_per_pixel = 16;  // of which four are allocated
   options.progressive = true;
   REQUIRE(render_views(here.path(), *run, "", options, {}).ok());
   PictureNodes nodes(*run);
   options.executor = nodes.nodes->executor().get();
   const auto rendered = render_views(there.path(), *run, "", options, {});
   REQUIRE(rendered.ok());
-  CHECK(rendered->paths == 8);
+  CHECK(rendered->paths == 16);
   for (const std::string file : {"views/view.exr", "views/other.exr", "views/view_human.png"})
     CHECK(file_text(here / file) == file_text(there / file));
 }
@@ -99,7 +100,7 @@ TEST_CASE("a picture of nodes that is interrupted stays as it was", "[display][t
   options.interrupt = &interrupt;
   const PictureFlux flux = picture_flux(*run, options);
   const Camera& camera = run->scene().description->cameras[0];
-  PictureExecutor elsewhere(*run, {{camera}}, options, flux);
+  PictureExecutor elsewhere(*run, {{camera}}, asked_paths, options, flux);
   ViewPasses passes(*run, camera, 0, nullptr, nullptr);
   REQUIRE(elsewhere.add(0, passes, 4));
   const TracedPicture before = passes.picture();
@@ -120,7 +121,10 @@ TEST_CASE("what is told of pictures reads back", "[display][tiles]") {
   view.camera.width = 17;
   view.number = 3;
   view.first = true;
+  view.camera.height = 2;
   pictures.views = {view, view};
+  for (int end = 48; end < 48 + 34 * 4; end += 4)
+    pictures.views[1].ends.push_back({end, limits::max_paths_per_pixel});
   const auto read = parse_tiles(tiles_text(pictures));
   REQUIRE(read.ok());
   CHECK(read->paths_per_pixel == 48);
@@ -130,6 +134,8 @@ TEST_CASE("what is told of pictures reads back", "[display][tiles]") {
   CHECK(read->views[1].camera.width == 17);
   CHECK(read->views[1].number == 3);
   CHECK(read->views[1].first);
+  CHECK(read->views[0].ends.empty());
+  CHECK(read->views[1].ends == pictures.views[1].ends);
 }
 
 TEST_CASE("what is told of no pictures is refused", "[display][tiles]") {
@@ -148,10 +154,22 @@ TEST_CASE("what is told of no pictures is refused", "[display][tiles]") {
         with("\"width\":640", "\"width\":0"), with("\"width\":640", "\"width\":1000000000"),
         with("\"width\":640", "\"width\":\"wide\""),
         with("\"paths_per_pixel\":48", "\"paths_per_pixel\":0"),
-        with("\"number\":0", "\"number\":70000"), with("\"views\":[", "\"views\":[7,")}) {
+        with("\"number\":0", "\"number\":70000"), with("\"ends\":false", "\"ends\":true"),
+        with("\"ends\":false", "\"ends\":4"), with("\"views\":[", "\"views\":[7,")}) {
     CAPTURE(text);
     CHECK_FALSE(parse_tiles(text).ok());
   }
+}
+
+TEST_CASE("paths that end before they begin are refused", "[display][tiles]") {
+  TiledPictures pictures;
+  pictures.paths_per_pixel = 48;
+  pictures.views.emplace_back();
+  pictures.views[0].camera.width = pictures.views[0].camera.height = 1;
+  pictures.views[0].ends = {{48, 52}};
+  CHECK(parse_tiles(tiles_text(pictures)).ok());
+  pictures.views[0].ends = {{48, 44}};
+  CHECK_FALSE(parse_tiles(tiles_text(pictures)).ok());
 }
 
 TEST_CASE("a flux of another seed is refused by whoever makes pictures", "[display][tiles]") {

@@ -151,6 +151,7 @@ MeanLuminance mean_luminance(const TracedPicture& picture) {
 TracedPicture picture_of(const LocalRun& run, int paths, bool gather) {
   PictureOptions options;
   options.paths_per_pixel = paths;
+  options.raw = true;  // as many paths for all pixels: of most tests the mean is what counts
   const auto flux = gather ? flux_radiance(run) : nullptr;
   return trace_picture(run, 0, options, flux.get());
 }

@@ -21,9 +21,10 @@ void check_file(const std::filesystem::path& file, const TracedPicture& wanted) 
     CHECK(y->values[i] == wanted.light.xyz[3 * i + 1]);
 }
 
-TracedPicture at_once(const LocalRun& run, int paths) {
+TracedPicture at_once(const LocalRun& run, int paths, bool raw = true) {
   PictureOptions options;
   options.paths_per_pixel = paths;
+  options.raw = raw;
   const auto flux = flux_radiance(run);
   return trace_picture(run, 0, options, flux.get());
 }
@@ -42,6 +43,20 @@ TEST_CASE("a picture in passes is the picture of as many paths at once, for any 
   for (const int paths : {4, 4, 1, 59, 28}) REQUIRE(view.add(paths, {}));
   CHECK(view.paths() == 96);
   check_same(view.picture(), at_once(*one, 96));
+}
+
+TEST_CASE("pictures whose last paths are allocated are those at once", "[display]") {
+  const TemporaryFolder folder;
+  const auto run = traced(smoky_room("17"), 1 << 14, 1);
+  PictureOptions options;
+  options.paths_per_pixel = 32;
+  const auto rendered = render_views(folder.path(), *run, "", options, {});
+  REQUIRE(rendered.ok());
+  CHECK(rendered->paths == 32);
+  const auto three = traced(smoky_room("17"), 1 << 14, 3);
+  const TracedPicture allocated = at_once(*three, 32, false);
+  check_file(folder / "views/view.exr", allocated);
+  CHECK(allocated.light.xyz != at_once(*three, 32, true).light.xyz);
 }
 
 TEST_CASE("a first picture has the first paths of one pixel of four", "[display]") {

@@ -104,6 +104,26 @@ TEST_CASE("the filter knows about how large its own error is", "[filter]") {
   CHECK(said < 2 * is);
 }
 
+TEST_CASE("a pixel counts in a filter as much as it has paths", "[filter]") {
+  const LightAt even = [](int, int) { return 10.0; };
+  const NoisyPicture noisy = noisy_picture(64, 48, even, no_feature, 4);
+  NoisyPicture known = noisy;  // every second column by sixteen times the paths
+  for (HalfPicture& half : known.half)
+    for (size_t i = 0; i < known.pixels(); ++i) {
+      const bool often = i % 2 == 0;
+      half.paths.push_back(often ? 16 : 1);
+      for (size_t c = 0; often && c < light_channels; ++c) {
+        float& light = half.light[light_channels * i + c];
+        light = 10 + (light - 10) / 4;
+        if (c < 3) half.variance[3 * i + c] /= 16;
+      }
+    }
+  NoisyPicture alike = known;
+  for (HalfPicture& half : alike.half) half.paths.clear();
+  const double is = rms_error(filter_picture(known, {}, in_order), noisy, even);
+  CHECK(is < 0.8 * rms_error(filter_picture(alike, {}, in_order), noisy, even));
+}
+
 TEST_CASE("an edge that a feature knows stays sharp under noise", "[filter]") {
   const LightAt albedo = [](int x, int) { return x < 32 ? 0.2 : 0.8; };
   const LightAt light = [&](int x, int y) { return 50 * albedo(x, y); };
