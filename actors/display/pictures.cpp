@@ -64,7 +64,9 @@ uint64_t ViewPasses::bytes_of(const Camera& camera) {
 template <class PathsOf>
 bool ViewPasses::trace(const PictureOptions& options, const ShareDone& progress,
                        const PathsOf& paths_of) {
-  const std::vector<PixelSums> before = options.may_end_early() ? sums_ : decltype(sums_)();
+  // What may be interrupted is to leave no trace; at first there is nothing to keep.
+  const bool keeps = paths_ + first_paths_ > 0 && options.may_end_early();
+  const std::vector<PixelSums> before = keeps ? sums_ : decltype(sums_)();
   // Parts of a row, so that there is work for many fibers.
   const int parts = (camera_.width + columns_at_once - 1) / columns_at_once;
   const auto make = [&](const GeometryAccess& access) {
@@ -86,7 +88,10 @@ bool ViewPasses::trace(const PictureOptions& options, const ShareDone& progress,
     if (progress) progress(static_cast<double>(done) / static_cast<double>(units));
   });
   if (!options.interrupted()) return true;
-  sums_ = before;
+  if (keeps)
+    sums_ = before;
+  else
+    sums_.assign(pixels(), {});
   return false;
 }
 

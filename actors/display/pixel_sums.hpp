@@ -88,6 +88,7 @@ class PixelSums {
   double mean_of_half(size_t half, size_t channel) const {
     return (turned(half, channel) + straight(half, channel)) / paths(half);
   }
+  /// Of both halves [cd/m2].
   ChannelLight mean(const HalfShares& shares) const {
     ChannelLight light{};
     for (size_t c = 0; c < light_channels; ++c)

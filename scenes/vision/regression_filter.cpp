@@ -245,6 +245,7 @@ class HalfFilter {
                     [&](int x, int y) { add_window(x, y, &weights[offsets_ * centre++]); });
   }
 
+  bool has_close_windows() const { return filter_.closely; }
   int rows() const { return picture_.height; }
   /// After all bands: what small windows say of the pixels of a row. Any rows may be done at once.
   void filter_closely(int row) {
@@ -400,7 +401,8 @@ void filter_half(HalfFilter& half, const ShareWork& share) {
     const int64_t count = (half.bands() + 1 - parity) / 2;
     share(count, [&](int64_t i) { half.filter_band(static_cast<int>(2 * i) + parity); });
   }
-  share(half.rows(), [&](int64_t row) { half.filter_closely(static_cast<int>(row)); });
+  if (half.has_close_windows())
+    share(half.rows(), [&](int64_t row) { half.filter_closely(static_cast<int>(row)); });
 }
 
 /// What both halves say of a pixel. Where the fit leaves it too little light to have a colour, or

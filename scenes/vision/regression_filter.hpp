@@ -53,6 +53,8 @@ struct RegressionFilter {
   int window_px = 9;  // pixels as far as this are asked
   int patch_px = 3;   // surroundings that are compared reach as far as this
   int stride_px = 3;  // between the windows' centres; each pixel is in several windows
+  /// Whether pixels that few windows are like have a small one of their own.
+  bool closely = true;
   /// Standard errors by which alike pixels differ: more smooths more.
   double tolerance = 0.5;
 };
