@@ -50,6 +50,7 @@ TEST_CASE("pictures whose last paths are allocated are those at once", "[display
   const auto run = traced(smoky_room("17"), 1 << 14, 1);
   PictureOptions options;
   options.paths_per_pixel = 32;
+  options.max_seconds = GENERATE(0.0, 1e4);  // no limit, and more than it takes
   const auto rendered = render_views(folder.path(), *run, "", options, {});
   REQUIRE(rendered.ok());
   CHECK(rendered->paths == 32);
@@ -126,6 +127,24 @@ TEST_CASE("pictures that are interrupted keep the last whole pass", "[display]")
   CHECK(rendered->interrupted);
   CHECK(rendered->paths == 8);
   check_file(folder / "views/view.exr", at_once(*run, 8));
+}
+
+TEST_CASE("pictures that are interrupted while paths are allocated keep those of all pixels",
+          "[display]") {
+  const TemporaryFolder folder;
+  const auto run = traced(smoky_room("17"), 1 << 14);
+  std::atomic<bool> interrupt{false};
+  PictureOptions options;
+  options.paths_per_pixel = 32;
+  options.interrupt = &interrupt;
+  const auto rendered =
+      render_views(folder.path(), *run, "", options, [&](const PictureProgress& progress) {
+        if (progress.share > 0.76) interrupt = true;
+      });
+  REQUIRE(rendered.ok());
+  CHECK(rendered->interrupted);
+  CHECK(rendered->paths == 24);
+  check_file(folder / "views/view.exr", at_once(*run, 24));
 }
 
 TEST_CASE("what waits for first pictures is done once, before any picture is whole", "[display]") {
