@@ -119,7 +119,6 @@ class GrowingViews {
       const int added = target - paths_;
       add_paths(added);
       if (interrupted_) break;
-      paths_ = target;
       seconds_per_path_ = (watch_.seconds() - before_s) / added;
       // The filter says how good a picture is: that needs no files.
       if (options_.target_error > 0) look();
@@ -199,37 +198,38 @@ class GrowingViews {
     return even_paths(paths_ + fit) == paths_ ? fit : 0;
   }
 
-  /// Whoever is interrupted in a view leaves it as it was.
-  void add_paths(int count) {
+  /// Calls add(number, view, tell) for each view, which adds `count` paths for each pixel; until
+  /// one returns false, as it was interrupted and left the view as it was.
+  template <class Add>
+  void add_to_views(int count, const Add& add) {
     double before = 0;
     for (size_t i = 0; i < views_.size(); ++i) {
       GrowingView& view = views_[i];
       const auto tell = [&](double share) {
         show_progress(paths_ + count * (before + share * view.pixels()) / pixels_);
       };
-      interrupted_ |= elsewhere_ ? !elsewhere_->add(i, view.passes, count, tell)
-                                 : !view.passes.add(count, options_, tell);
+      interrupted_ |= !add(i, view, tell);
       if (interrupted_) return;
       before += view.pixels();
     }
+    paths_ += count;
+  }
+
+  void add_paths(int count) {
+    add_to_views(count, [&](size_t i, GrowingView& view, const ShareDone& tell) {
+      return elsewhere_ ? elsewhere_->add(i, view.passes, count, tell)
+                        : view.passes.add(count, options_, tell);
+    });
   }
 
   void add_allocated(int more) {
     std::vector<TiledView> tiled = tiled_views();
     for (size_t i = 0; i < views_.size(); ++i) tiled[i].ends = views_[i].passes.allocate(more);
     if (elsewhere_) elsewhere_.emplace(run_, tiled, paths_, options_, flux_);
-    double before = 0;
-    for (size_t i = 0; i < views_.size(); ++i) {
-      GrowingView& view = views_[i];
-      const auto tell = [&](double share) {
-        show_progress(paths_ + more * (before + share * view.pixels()) / pixels_);
-      };
-      interrupted_ |= elsewhere_ ? !elsewhere_->add_allocated(i, view.passes, more, tell)
-                                 : !view.passes.add_allocated(tiled[i].ends, more, options_, tell);
-      if (interrupted_) return;
-      before += view.pixels();
-    }
-    paths_ += more;
+    add_to_views(more, [&](size_t i, GrowingView& view, const ShareDone& tell) {
+      return elsewhere_ ? elsewhere_->add_allocated(i, view.passes, more, tell)
+                        : view.passes.add_allocated(tiled[i].ends, more, options_, tell);
+    });
   }
 
   void show_progress(double paths) const {
