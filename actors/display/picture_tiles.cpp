@@ -99,22 +99,17 @@ class TileWorker final : public BatchWorker {
   void trace_pixel(size_t i) {
     const int column = area_.first_column + static_cast<int>(i) % columns();
     const int row = area_.first_row + static_cast<int>(i) / columns();
-    const PathRange paths = paths_of(column, row);
-    const uint64_t pixel =
-        static_cast<uint64_t>(row) * static_cast<uint64_t>(view_of(batch_).camera.width) +
-        static_cast<uint64_t>(column);
-    tracer().trace(column, row, pixel, paths, sums_[i]);
+    const size_t pixel =
+        static_cast<size_t>(row) * static_cast<size_t>(view_of(batch_).camera.width) +
+        static_cast<size_t>(column);
+    tracer().trace(column, row, pixel, paths_of(column, row, pixel), sums_[i]);
     counters_.paths += static_cast<uint64_t>(sums_[i].paths());
   }
 
-  PathRange paths_of(int column, int row) const {
+  PathRange paths_of(int column, int row, size_t pixel) const {
     const bool first = view_of(batch_).first && comes_first(column, row);
-    if (batch_.stream == allocated_step) {
-      const size_t pixel =
-          static_cast<size_t>(row) * static_cast<size_t>(view_of(batch_).camera.width) +
-          static_cast<size_t>(column);
+    if (batch_.stream == allocated_step)
       return {state_.pictures().paths_per_pixel, view_of(batch_).ends[pixel]};
-    }
     if (batch_.stream == first_picture_step)
       return all_paths(0, first ? PictureExecutor::paths_of_tile : 0);
     const int from = (batch_.stream - step_of(0)) * PictureExecutor::paths_of_tile;

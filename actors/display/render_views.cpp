@@ -181,9 +181,9 @@ class GrowingViews {
     const int target = std::min(even_paths(options_), next_pass(paths_));
     if (target <= paths_ || is_good_enough()) return 0;
     if (!(seconds_ > 0) || paths_ == 0) return target;
-    PictureOptions in_time = options_;
-    in_time.paths_per_pixel = paths_ + fitting();
-    const int steps = (even_paths(in_time) - paths_) / min_pass;
+    const int in_time = paths_ + fitting();
+    const int even = options_.raw ? in_time : even_paths(in_time);
+    const int steps = (even - paths_) / min_pass;
     return steps <= 0 ? 0 : std::min(target, paths_ + steps * min_pass);
   }
 
