@@ -1,6 +1,8 @@
 // How many pictures a second the page draws while somebody turns around, and how fine they are:
-// `node frame_rate.mjs [ADDRESS]`; without an address, of the room of mock_server.mjs. LUX_GPU=1
-// leaves the choice of the renderer to the browser, else it draws in software (SwiftShader).
+// `node frame_rate.mjs [ADDRESS]`; without an address, of the room of mock_server.mjs. LUX_GPU
+// holds the browser's flags for a graphics card, else it draws in software (SwiftShader); on one of
+// NVIDIA's: LUX_GPU='--use-angle=vulkan --enable-features=Vulkan --disable-vulkan-surface', and
+// --disable-frame-rate-limit for more than 60 pictures a second.
 // LUX_RASTER=0.5 keeps that share of the screen's raster, instead of letting the page learn it.
 // LUX_HEIGHT is that of the window, 1280 wide [px]. LUX_ROUNDS=5 counts in so many rounds of
 // LUX_SECONDS each, and says the least and the median of them. LUX_CLEAR=1 draws no smoke. The
@@ -13,7 +15,7 @@ import { MockServer } from './mock_server.mjs';
 const seconds = { learn: 12, count: Number(process.env.LUX_SECONDS ?? 8) };
 const rounds = Number(process.env.LUX_ROUNDS ?? 1);
 const software = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-const flags = ['--headless=new', '--no-sandbox', ...(process.env.LUX_GPU ? [] : software)];
+const flags = ['--headless=new', '--no-sandbox', ...(process.env.LUX_GPU?.split(' ') ?? software)];
 
 const raster = Number(process.env.LUX_RASTER ?? 0);
 const windowHeight = Number(process.env.LUX_HEIGHT ?? 800);
@@ -40,6 +42,12 @@ const address = process.argv[2] ?? `http://127.0.0.1:${await server.listen()}/`;
 const browser = await chromium.launch({
   executablePath: process.env.LUX_CHROMIUM ?? '/usr/bin/chromium', args: flags });
 const page = await browser.newPage({ viewport: { width: 1280, height: windowHeight } });
+const renderer = await page.evaluate(() => {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const named = gl?.getExtension('WEBGL_debug_renderer_info');
+  return named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : 'no WebGL 2';
+});
+console.log(`Drawn by ${renderer}.`);
 await page.goto(address);
 await page.waitForFunction(() => window.luxodus?.page.live.shown?.surfaces?.groups.size > 0 &&
   window.luxodus.page.live.shown.air?.groups.size > 0, null, { timeout: 180_000 });

@@ -89,8 +89,8 @@ height = 10
 }
 
 /// A room of 4 x 4 x 2.5 m full of smoke, under a lamp; and behind a wall of 0.1 m one like it
-/// without any light. The camera is in the first, or in the second.
-std::string two_rooms(bool in_the_dark) {
+/// without any light. The camera is in the first, or in the second. `g`: of the smoke.
+std::string two_rooms(bool in_the_dark, const std::string& g = "0.5") {
   std::string toml = R"(
 patch_edge_m = 0.5
 [run]
@@ -116,7 +116,7 @@ kind = "homogeneous"
 extinction = 0.8
 albedo = 0.8
 phase = "hg"
-g = 0.5
+g = )" + g + R"(
 [[emitter]]
 name = "lamp"
 shape = "rectangle"
@@ -213,7 +213,8 @@ TEST_CASE("white smoke in a box of even light is invisible", "[display]") {
 
 TEST_CASE("a picture in smoke is as bright when its paths end in voxels as when they do not",
           "[display]") {
-  const auto run = traced(two_rooms(false), 1 << 19);
+  const char* const g = GENERATE("0.3", "0.6");  // eyes read voxels with the first alone
+  const auto run = traced(two_rooms(false, g), 1 << 19);
   const MeanLuminance full = mean_luminance(picture_of(*run, 4096, false));
   const MeanLuminance gathered = mean_luminance(picture_of(*run, 2048, true));
   INFO(gathered.mean << " +- " << gathered.error << " against " << full.mean << " +- "
@@ -246,6 +247,18 @@ TEST_CASE("light is known in voxels of one room's gas, and smooth light where ey
   CHECK(known(2, 2, 1.9) == Known::scattered);  // an edge below it
   CHECK(known(4.2, 2, 1.2) == Known::nothing);  // dark, and partly in the wall
   CHECK(known(20, 2, 1.2) == Known::nothing);   // beyond all voxels
+}
+
+TEST_CASE("eyes read scattered light where smoke spreads what its moments leave open",
+          "[display]") {
+  const auto read = [](const char* g) {
+    const auto run = traced(two_rooms(true, g), 1 << 16);
+    const Vec3 amid_the_lit_room(glm::dvec3(2.7, 2, 1.2) - run->scene().local_origin);
+    return flux_radiance(*run)->known_at(amid_the_lit_room, false);
+  };
+  CHECK(read("0") == Known::scattered);
+  CHECK(read("0.3") == Known::scattered);
+  CHECK(read("0.75") == Known::nothing);
 }
 
 TEST_CASE("a lamp in clear air has its own luminance in every pixel, without chance", "[display]") {
