@@ -45,8 +45,12 @@ const page = await browser.newPage({ viewport: { width: 1280, height: windowHeig
 const renderer = await page.evaluate(() => {
   const gl = document.createElement('canvas').getContext('webgl2');
   const named = gl?.getExtension('WEBGL_debug_renderer_info');
-  return named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : 'no WebGL 2';
+  return named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : null;
 });
+if (!renderer) {
+  console.error(`No WebGL 2 with the browser's flags ${flags.join(' ')}; try others in LUX_GPU.`);
+  process.exit(1);
+}
 console.log(`Drawn by ${renderer}.`);
 await page.goto(address);
 await page.waitForFunction(() => window.luxodus?.page.live.shown?.surfaces?.groups.size > 0 &&
