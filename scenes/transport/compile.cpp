@@ -337,7 +337,10 @@ Result<void> compile_emitters(CompiledScene& scene, const std::vector<ActiveSour
   }
   compile_groups(scene, groups);
   for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
-    if (has_own_face(scene.emitters[i])) scene.emitter_bounds.push_back(emitter_bound(scene, i));
+    if (!has_own_face(scene.emitters[i])) continue;
+    const EmitterBound bound = emitter_bound(scene, i);
+    scene.emitters_with_faces.emitters.push_back(i);
+    scene.emitters_with_faces.around.add(bound.centre, bound.radius);
   }
   for (size_t i = 0; i < sources.size(); ++i) {
     if (sources[i].sign == nullptr) continue;

@@ -19,6 +19,7 @@
 #include "scenes/optics/sampling.hpp"
 #include "scenes/optics/surface.hpp"
 #include "scenes/tally/layout.hpp"
+#include "scenes/transport/sphere_set.hpp"
 #include "scenes/world/description.hpp"
 
 namespace luxodus {
@@ -76,11 +77,16 @@ struct CompiledEmitter {
   std::vector<Vec3> corners;      // mesh: three per triangle
 };
 
-/// A sphere around an emitter that rays can meet: tells most of them apart at little cost.
+/// A sphere around an emitter.
 struct EmitterBound {
   Vec3 centre{0};
   Real radius = 0;
-  uint32_t emitter = 0;
+};
+
+/// Emitters that rays can meet. Spheres around them tell most of them apart at little cost.
+struct EmittersWithFaces {
+  std::vector<uint32_t> emitters;
+  SphereSet around;
 };
 
 /// Parallelogram of cells, crossed by flights without stopping them.
@@ -221,7 +227,7 @@ struct CompiledScene {
   std::vector<CompiledMaterial> materials;
   std::vector<uint64_t> lambert_fraction;  // [(surface * 2 + side) * bands + band], units of 2^-32
   std::vector<CompiledEmitter> emitters;
-  std::vector<EmitterBound> emitter_bounds;  // of those with a face of their own
+  EmittersWithFaces emitters_with_faces;
   std::vector<Group> groups;
   std::vector<CompiledSign> signs;
   std::vector<std::shared_ptr<const PhotometricWeb>> webs;

@@ -106,13 +106,47 @@ Vec3 outward(const CompiledEmitter& e, const EmissionPoint& point) {
   return point.axis;
 }
 
-/// Whether the ray misses the sphere before `length`.
-bool passes(const EmitterBound& bound, const Ray& ray, Real length) {
-  const Vec3 d = bound.centre - ray.origin;
-  const Real along = glm::dot(d, ray.direction);
-  if (along < -bound.radius || along - bound.radius > length) return true;
-  const Vec3 beside = d - ray.direction * along;
-  return glm::dot(beside, beside) > bound.radius * bound.radius;
+/// The distance at which a ray meets an emitter's face; and its normal there, if that is nearer
+/// than `best`. Infinite: it does not.
+struct FaceHit {
+  Real distance = std::numeric_limits<Real>::infinity();
+  Vec3 normal{0};
+};
+FaceHit meet_face(const CompiledEmitter& e, const Ray& ray, Real best) {
+  FaceHit hit;
+  hit.normal = -e.axes[2];
+  switch (e.kind) {
+    case EmitterKind::point:
+    case EmitterKind::volume:
+    case EmitterKind::sign_face:
+      break;
+    case EmitterKind::rectangle:
+    case EmitterKind::disc:
+      hit.distance = flat_distance(e, ray);
+      break;
+    case EmitterKind::sphere:
+      hit.distance = sphere_distance(e, ray);
+      if (hit.distance < best)
+        hit.normal = glm::normalize(ray.origin + ray.direction * hit.distance - e.origin);
+      break;
+    case EmitterKind::tube:
+      hit.distance = tube_distance(e, ray);
+      if (hit.distance < best) {
+        const Vec3 o = ray.origin + ray.direction * hit.distance - e.origin;
+        hit.normal = glm::normalize(o - e.axes[0] * glm::dot(o, e.axes[0]));
+      }
+      break;
+    case EmitterKind::mesh:
+      for (size_t k = 0; k + 2 < e.corners.size(); k += 3) {
+        const Real at = triangle_distance(&e.corners[k], ray);
+        if (!(at > 0 && at < hit.distance)) continue;
+        hit.distance = at;
+        hit.normal = glm::normalize(
+            glm::cross(e.corners[k + 1] - e.corners[k], e.corners[k + 2] - e.corners[k]));
+      }
+      break;
+  }
+  return hit;
 }
 
 }  // namespace
@@ -124,7 +158,7 @@ bool has_own_face(const CompiledEmitter& e) {
 
 EmitterBound emitter_bound(const CompiledScene& scene, uint32_t emitter) {
   const CompiledEmitter& e = scene.emitters[emitter];
-  EmitterBound bound{e.origin, 0, emitter};
+  EmitterBound bound{e.origin, 0};
   if (e.kind == EmitterKind::mesh) {
     bound.centre = e.corners.front();
     for (const Vec3& c : e.corners)
@@ -197,48 +231,16 @@ double apparent_face(const CompiledEmitter& e, const EmissionPoint& point, const
 }
 
 EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, Real length) {
+  constexpr Real rounding = 1e-5_r;  // of a scene's coordinates: a face's rim is on its sphere
   EmitterHit best;
   best.distance = length;
-  for (const EmitterBound& bound : scene.emitter_bounds) {
-    if (passes(bound, ray, best.distance)) continue;
-    const uint32_t i = bound.emitter;
-    const CompiledEmitter& e = scene.emitters[i];
-    Real t = std::numeric_limits<Real>::infinity();
-    Vec3 normal = -e.axes[2];
-    switch (e.kind) {
-      case EmitterKind::point:
-      case EmitterKind::volume:
-      case EmitterKind::sign_face:
-        continue;
-      case EmitterKind::rectangle:
-      case EmitterKind::disc:
-        t = flat_distance(e, ray);
-        break;
-      case EmitterKind::sphere:
-        t = sphere_distance(e, ray);
-        if (t < best.distance) normal = glm::normalize(ray.origin + ray.direction * t - e.origin);
-        break;
-      case EmitterKind::tube:
-        t = tube_distance(e, ray);
-        if (t < best.distance) {
-          const Vec3 o = ray.origin + ray.direction * t - e.origin;
-          normal = glm::normalize(o - e.axes[0] * glm::dot(o, e.axes[0]));
-        }
-        break;
-      case EmitterKind::mesh:
-        for (size_t k = 0; k + 2 < e.corners.size(); k += 3) {
-          const Real at = triangle_distance(&e.corners[k], ray);
-          if (!(at > 0 && at < t)) continue;
-          t = at;
-          normal = glm::normalize(
-              glm::cross(e.corners[k + 1] - e.corners[k], e.corners[k + 2] - e.corners[k]));
-        }
-        break;
-    }
-    if (t > 0 && t < best.distance) {
-      best = {t, i, {ray.origin + ray.direction * t, normal}};
-    }
-  }
+  const EmittersWithFaces& faces = scene.emitters_with_faces;
+  faces.around.for_each_near(ray, length, rounding * scene.diagonal_m, [&](uint32_t k, Real) {
+    const uint32_t i = faces.emitters[k];
+    const FaceHit hit = meet_face(scene.emitters[i], ray, best.distance);
+    if (hit.distance > 0 && hit.distance < best.distance)
+      best = {hit.distance, i, {ray.origin + ray.direction * hit.distance, hit.normal}};
+  });
   return best;
 }
 

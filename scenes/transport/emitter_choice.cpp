@@ -19,7 +19,8 @@ EmitterChoice::EmitterChoice(const CompiledScene& scene) : scene_(scene) {
   for (uint32_t i = 0; i < scene.emitters.size(); ++i) {
     const CompiledEmitter& e = scene.emitters[i];
     seen_power_.push_back(e.wanted * power_seen(scene, e));
-    bounds_.push_back(emitter_bound(scene, i));
+    const EmitterBound bound = emitter_bound(scene, i);
+    bounds_.add(bound.centre, bound.radius);
     if (e.distribution != Distribution::collimated) sum += seen_power_.back();
     by_power_.push_back(sum);
   }
@@ -47,13 +48,13 @@ bool EmitterChoice::weigh_bright(const Vec3& place, const Vec3& normal, int band
   double total = 0;
   for (size_t i = 0; i < at_.size(); ++i) {
     const uint32_t emitter = seen_->bright[i].emitter;
-    const EmitterBound& bound = bounds_[emitter];
-    const Vec3 way = bound.centre - place;
-    const Real square = glm::dot(way, way) + bound.radius * bound.radius;
+    const Vec3 way = bounds_.centre(emitter) - place;
+    const Real radius = bounds_.radius(emitter);
+    const Real square = glm::dot(way, way) + radius * radius;
     double weight = seen_->bright[i].arriving / static_cast<double>(square);
     if (surface) {
       // Its highest point may be above the horizon where its middle is not.
-      const Real height = std::max(0.0_r, glm::dot(way, normal) + bound.radius);
+      const Real height = std::max(0.0_r, glm::dot(way, normal) + radius);
       weight *= static_cast<double>(height / std::sqrt(square));
     }
     total += weight * (band == all_bands

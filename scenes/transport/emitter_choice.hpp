@@ -10,6 +10,7 @@
 
 #include "scenes/transport/compiled_scene.hpp"
 #include "scenes/transport/emitter_sight.hpp"
+#include "scenes/transport/sphere_set.hpp"
 
 namespace luxodus {
 
@@ -80,7 +81,7 @@ class EmitterChoice {
   const CompiledScene& scene_;
   std::vector<double> seen_power_;  // of each emitter, in all bands, by how they look
   Cumulative by_power_;             // of all emitters
-  std::vector<EmitterBound> bounds_;
+  SphereSet bounds_;
   const CellSight* seen_ = nullptr;  // of the last weigh_at
   double bright_ = 0;                // the share of the choice that its bright emitters have
   Cumulative at_, along_;            // at_: of the bright ones, or of all
@@ -94,21 +95,16 @@ bool EmitterChoice::weigh_near(const Ray& ray, Real end, int band, SeenAt&& seen
   near_.clear();
   along_.clear();
   double total = 0;
-  for (uint32_t i = 0; i < bounds_.size(); ++i) {
-    const Vec3 way = bounds_[i].centre - ray.origin;
-    const Real t = glm::clamp(glm::dot(way, ray.direction), 0.0_r, end);
-    const Vec3 aside = way - ray.direction * t;
-    const Real square = glm::dot(aside, aside);
-    const Real reach = limits::near_line * end + bounds_[i].radius;
-    if (!(square < reach * reach)) continue;
+  bounds_.for_each_near(ray, end, limits::near_line * end, [&](uint32_t i, Real square) {
     const double power = power_of(i, band);
-    if (!(power > 0)) continue;
+    if (!(power > 0)) return;
+    const Real t = glm::clamp(glm::dot(bounds_.centre(i) - ray.origin, ray.direction), 0.0_r, end);
     const double arriving = seen_at(ray.origin + ray.direction * t).arriving_of(i);
-    if (!(arriving > 0)) continue;
-    total += power * arriving * seen_along(std::sqrt(square), bounds_[i].radius, end);
+    if (!(arriving > 0)) return;
+    total += power * arriving * seen_along(std::sqrt(square), bounds_.radius(i), end);
     near_.push_back(i);
     along_.push_back(total);
-  }
+  });
   return total > 0;
 }
 
