@@ -33,7 +33,7 @@ std::vector<Option> options_of(PictureChoices& choices, const char* paths_name) 
       {paths_name,
        &choices.paths,
        "Number of paths per pixel, on average, at most",
-       {.otherwise = "32; with --picture-time or --picture-error 65536",
+       {.otherwise = "28; with --picture-time or --picture-error 65536",
         .range = Range{1, limits::max_paths_per_pixel}}},
       {"--picture-time",
        &choices.time,

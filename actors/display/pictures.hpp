@@ -37,7 +37,7 @@ inline constexpr uint64_t max_growing_bytes = uint64_t{1} << 30;
 
 struct PictureOptions {
   /// On average; at most, where one of the two below may end a picture before.
-  int paths_per_pixel = 32;
+  int paths_per_pixel = 28;
   /// Of all pictures of a call, with what filters and writes them [s]; 0: as long as it takes.
   double max_seconds = 0;
   /// Of the worst picture (ViewError): it may end where it is no more; 0: never.

@@ -304,7 +304,7 @@ void add_run(py::module_& module) {
           py::kw_only(), py::arg("particles") = py::none(), py::arg("error") = py::none(),
           py::arg("time_s") = py::none(), py::arg("progress") = py::none(),
           "Traces more, until as many particles in all, the error or the time.")
-      .def("render", &TracedRun::render, py::arg("camera"), py::kw_only(), py::arg("paths") = 32,
+      .def("render", &TracedRun::render, py::arg("camera"), py::kw_only(), py::arg("paths") = 28,
            py::arg("progress") = py::none(),
            "The picture of a camera from this run's light: luminance_cd_m2 and "
            "standard_error_cd_m2 [height, width], top row first, xyz_cd_m2 [height, width, 3]; "
