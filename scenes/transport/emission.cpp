@@ -106,12 +106,12 @@ Vec3 outward(const CompiledEmitter& e, const EmissionPoint& point) {
   return point.axis;
 }
 
-/// The distance at which a ray meets an emitter's face; and its normal there, if that is nearer
-/// than `best`. Infinite: it does not.
 struct FaceHit {
-  Real distance = std::numeric_limits<Real>::infinity();
+  Real distance = std::numeric_limits<Real>::infinity();  // none is met
   Vec3 normal{0};
 };
+
+/// Where a ray meets an emitter's own face. The normal counts where that is nearer than `best`.
 FaceHit meet_face(const CompiledEmitter& e, const Ray& ray, Real best) {
   FaceHit hit;
   hit.normal = -e.axes[2];

@@ -23,7 +23,7 @@ constexpr int width = 96, height = 64;
 constexpr int64_t all_particles = 1 << 24;
 constexpr int all_paths = 8192;     // of a long picture
 constexpr int compared_paths = 16;  // of a pixel, in each way
-constexpr int filtered_paths = 32;  // as pictures have by default
+const int filtered_paths = PictureOptions{}.paths_per_pixel;
 constexpr double wanted_colour = 0.005;
 
 /// Coloured walls and soot for scenes that have one colour.

@@ -1,9 +1,12 @@
 // Spheres near a line, against each sphere by itself.
 #include "scenes/transport/sphere_set.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace luxodus {
 
