@@ -249,8 +249,7 @@ TEST_CASE("light is known in voxels of one room's gas, and smooth light where ey
   CHECK(known(20, 2, 1.2) == Known::nothing);   // beyond all voxels
 }
 
-TEST_CASE("eyes read scattered light where smoke spreads what its moments leave open",
-          "[display]") {
+TEST_CASE("eyes read scattered light where its moments tell how it goes on", "[display]") {
   const auto read = [](const char* g) {
     const auto run = traced(two_rooms(true, g), 1 << 16);
     const Vec3 amid_the_lit_room(glm::dvec3(2.7, 2, 1.2) - run->scene().local_origin);

@@ -112,39 +112,32 @@ TEST_CASE("pictures end when the worst is as good as was asked for", "[display]"
   CHECK(relative_error(same.light, same.standard_error_y) <= 0.1);
 }
 
-TEST_CASE("pictures that are interrupted keep the last whole pass", "[display]") {
+/// Renders, interrupted where `when` says so, and checks that it has kept so many paths.
+template <class When>
+void check_interrupted(int paths, int kept, const When& when) {
   const TemporaryFolder folder;
   const auto run = traced(smoky_room("17"), 1 << 14);
   std::atomic<bool> interrupt{false};
   PictureOptions options;
-  options.paths_per_pixel = 4096;
+  options.paths_per_pixel = paths;
   options.interrupt = &interrupt;
   const auto rendered =
       render_views(folder.path(), *run, "", options, [&](const PictureProgress& progress) {
-        if (progress.paths == 8) interrupt = true;
+        if (when(progress)) interrupt = true;
       });
   REQUIRE(rendered.ok());
   CHECK(rendered->interrupted);
-  CHECK(rendered->paths == 8);
-  check_file(folder / "views/view.exr", at_once(*run, 8));
+  CHECK(rendered->paths == kept);
+  check_file(folder / "views/view.exr", at_once(*run, kept));
+}
+
+TEST_CASE("pictures that are interrupted keep the last whole pass", "[display]") {
+  check_interrupted(4096, 8, [](const PictureProgress& progress) { return progress.paths == 8; });
 }
 
 TEST_CASE("pictures that are interrupted while paths are allocated keep those of all pixels",
           "[display]") {
-  const TemporaryFolder folder;
-  const auto run = traced(smoky_room("17"), 1 << 14);
-  std::atomic<bool> interrupt{false};
-  PictureOptions options;
-  options.paths_per_pixel = 32;
-  options.interrupt = &interrupt;
-  const auto rendered =
-      render_views(folder.path(), *run, "", options, [&](const PictureProgress& progress) {
-        if (progress.share > 0.76) interrupt = true;
-      });
-  REQUIRE(rendered.ok());
-  CHECK(rendered->interrupted);
-  CHECK(rendered->paths == 24);
-  check_file(folder / "views/view.exr", at_once(*run, 24));
+  check_interrupted(32, 24, [](const PictureProgress& progress) { return progress.share > 0.76; });
 }
 
 TEST_CASE("what waits for first pictures is done once, before any picture is whole", "[display]") {
