@@ -235,7 +235,7 @@ EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, Real leng
   EmitterHit best;
   best.distance = length;
   const EmittersWithFaces& faces = scene.emitters_with_faces;
-  faces.around.for_each_near(ray, length, rounding * scene.diagonal_m, [&](uint32_t k, Real) {
+  faces.around.for_each_near(ray, length, rounding * scene.diagonal_m, [&](uint32_t k, Real, Real) {
     const uint32_t i = faces.emitters[k];
     const FaceHit hit = meet_face(scene.emitters[i], ray, best.distance);
     if (hit.distance > 0 && hit.distance < best.distance)

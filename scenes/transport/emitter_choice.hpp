@@ -95,10 +95,9 @@ bool EmitterChoice::weigh_near(const Ray& ray, Real end, int band, SeenAt&& seen
   near_.clear();
   along_.clear();
   double total = 0;
-  bounds_.for_each_near(ray, end, limits::near_line * end, [&](uint32_t i, Real square) {
+  bounds_.for_each_near(ray, end, limits::near_line * end, [&](uint32_t i, Real t, Real square) {
     const double power = power_of(i, band);
     if (!(power > 0)) return;
-    const Real t = glm::clamp(glm::dot(bounds_.centre(i) - ray.origin, ray.direction), 0.0_r, end);
     const double arriving = seen_at(ray.origin + ray.direction * t).arriving_of(i);
     if (!(arriving > 0)) return;
     total += power * arriving * seen_along(std::sqrt(square), bounds_.radius(i), end);

@@ -25,8 +25,9 @@ class SphereSet {
   Vec3 centre(size_t i) const { return {x_[i], y_[i], z_[i]}; }
   Real radius(size_t i) const { return radius_[i]; }
 
-  /// Calls visit(i, square), ascending, for the spheres that come nearer than `reach` [m] to the
-  /// first `end` of the ray; `square`: of the distance of their middle to that [m2].
+  /// Calls visit(i, t, square), ascending, for the spheres that come nearer than `reach` [m] to the
+  /// first `end` of the ray. `t`: where their middle is nearest to that [m]; `square`: of the
+  /// distance there [m2].
   template <class Visit>
   void for_each_near(const Ray& ray, Real end, Real reach, Visit&& visit) const;
 
@@ -37,20 +38,21 @@ class SphereSet {
 template <class Visit>
 void SphereSet::for_each_near(const Ray& ray, Real end, Real reach, Visit&& visit) const {
   constexpr size_t at_once = 64;
-  std::array<Real, at_once> squares, beyond;
+  std::array<Real, at_once> nearest, squares, beyond;
   const Vec3 o = ray.origin, d = ray.direction;
   for (size_t first = 0; first < radius_.size(); first += at_once) {
     const size_t count = std::min(at_once, radius_.size() - first);
     for (size_t i = 0; i < count; ++i) {
       const Real x = x_[first + i] - o.x, y = y_[first + i] - o.y, z = z_[first + i] - o.z;
       const Real t = std::min(std::max(x * d.x + y * d.y + z * d.z, 0.0_r), end);
+      nearest[i] = t;
       const Real beside_x = x - d.x * t, beside_y = y - d.y * t, beside_z = z - d.z * t;
       squares[i] = beside_x * beside_x + beside_y * beside_y + beside_z * beside_z;
       const Real most = reach + radius_[first + i];
       beyond[i] = squares[i] - most * most;
     }
     for (size_t i = 0; i < count; ++i)
-      if (beyond[i] < 0) visit(static_cast<uint32_t>(first + i), squares[i]);
+      if (beyond[i] < 0) visit(static_cast<uint32_t>(first + i), nearest[i], squares[i]);
   }
 }
 

@@ -37,8 +37,10 @@ TEST_CASE("spheres near a line are found in order, whatever their number", "[tra
     const Ray ray{{anywhere(numbers), anywhere(numbers), 0}, glm::normalize(towards)};
     constexpr Real reach = 0.5_r;
     std::vector<uint32_t> found, expected;
-    set.for_each_near(ray, end, reach, [&](uint32_t i, Real square) {
+    set.for_each_near(ray, end, reach, [&](uint32_t i, Real t, Real square) {
       found.push_back(i);
+      const Vec3 there = ray.origin + ray.direction * t;
+      CHECK(glm::dot(centres[i] - there, centres[i] - there) == Approx(square).margin(1e-4));
       CHECK(std::sqrt(square) == Approx(distance_to(centres[i], ray, double{end})).margin(1e-4));
     });
     bool sure = true;  // that rounding decides nothing
