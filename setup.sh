@@ -105,7 +105,7 @@ fetch_packages() {
     echo "setup.sh: npm could not; $without" >&2
   fi
 }
-fetch_packages actors/view/page "the live view's page is built with" \
+fetch_packages actors/apps/view/page "the live view's page is built with" \
   "the live view will have no page"
 fetch_packages actors/import/shapes "computes the shapes of IFC models" \
   "luxodus import ifc will not work"

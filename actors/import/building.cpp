@@ -11,7 +11,7 @@
 #include <unordered_map>
 
 #include "actors/import/import_files.hpp"
-#include "scenes/geometry/mesh_tools.hpp"
+#include "scenes/light/geometry/mesh_tools.hpp"
 
 namespace luxodus {
 namespace {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "actors/import/ifc_shapes.hpp"
-#include "scenes/geometry/mesh.hpp"
-#include "scenes/ifc/ifc_model.hpp"
+#include "scenes/formats/ifc/ifc_model.hpp"
+#include "scenes/light/geometry/mesh.hpp"
 
 namespace luxodus {
 

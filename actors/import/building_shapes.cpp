@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "actors/import/building.hpp"
-#include "scenes/geometry/mesh_tools.hpp"
-#include "scenes/geometry/polygon.hpp"
+#include "scenes/light/geometry/mesh_tools.hpp"
+#include "scenes/light/geometry/polygon.hpp"
 
 namespace luxodus {
 namespace {

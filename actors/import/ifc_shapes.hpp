@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
-#include "scenes/geometry/import.hpp"
+#include "scenes/light/geometry/import.hpp"
 
 namespace luxodus {
 

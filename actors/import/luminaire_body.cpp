@@ -12,8 +12,8 @@
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/printable.hpp"
 #include "runtime/core/reading_share.hpp"
-#include "scenes/geometry/import.hpp"
-#include "scenes/geometry/mesh_tools.hpp"
+#include "scenes/light/geometry/import.hpp"
+#include "scenes/light/geometry/mesh_tools.hpp"
 
 namespace luxodus {
 namespace {

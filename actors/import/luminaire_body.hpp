@@ -8,8 +8,8 @@
 #include <string>
 
 #include "runtime/core/result.hpp"
-#include "scenes/geometry/mesh.hpp"
-#include "scenes/photometry/l3d.hpp"
+#include "scenes/formats/photometry/l3d.hpp"
+#include "scenes/light/geometry/mesh.hpp"
 
 namespace luxodus {
 

@@ -9,10 +9,10 @@
 
 #include "actors/import/import_files.hpp"
 #include "actors/import/own_tables.hpp"
-#include "actors/output/write_glb.hpp"
+#include "actors/results/formats/write_glb.hpp"
 #include "runtime/core/atomic_file.hpp"
-#include "scenes/geometry/mesh_tools.hpp"
-#include "scenes/photometry/gldf.hpp"
+#include "scenes/formats/photometry/gldf.hpp"
+#include "scenes/light/geometry/mesh_tools.hpp"
 
 namespace luxodus {
 namespace {

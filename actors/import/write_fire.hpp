@@ -11,7 +11,7 @@
 #include <string>
 
 #include "runtime/core/result.hpp"
-#include "scenes/fields/fds_building.hpp"
+#include "scenes/formats/fields/fds_building.hpp"
 
 namespace luxodus {
 

@@ -14,7 +14,7 @@
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/toml/document.hpp"
 #include "runtime/toml/table_reader.hpp"
-#include "scenes/geometry/mesh.hpp"
+#include "scenes/light/geometry/mesh.hpp"
 
 namespace luxodus {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "runtime/core/result.hpp"
 #include "runtime/toml/schema.hpp"
-#include "scenes/dxf/dxf_plan.hpp"
+#include "scenes/formats/dxf/dxf_plan.hpp"
 
 namespace luxodus {
 

@@ -10,7 +10,7 @@
 
 #include "actors/import/import_files.hpp"
 #include "runtime/core/atomic_file.hpp"
-#include "scenes/fields/data_set.hpp"
+#include "scenes/formats/fields/data_set.hpp"
 
 namespace luxodus {
 namespace {

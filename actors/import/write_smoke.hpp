@@ -7,7 +7,7 @@
 #include <string>
 
 #include "runtime/core/result.hpp"
-#include "scenes/vdb/vdb.hpp"
+#include "scenes/formats/vdb/vdb.hpp"
 
 namespace luxodus {
 

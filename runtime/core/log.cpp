@@ -22,7 +22,9 @@ spdlog::level::level_enum level_of(LogLevel level) {
 
 }  // namespace
 
-bool log_wants(LogLevel level) { return spdlog::should_log(level_of(level)); }
+bool log_wants(LogLevel level) {
+  return spdlog::should_log(level_of(level));
+}
 
 void log_line(LogLevel level, std::string_view line) {
   spdlog::log(level_of(level), spdlog::string_view_t(line.data(), line.size()));

@@ -6,7 +6,7 @@
 // A request that finds no room to be answered waits here, in its turn. Only when more wait than
 // `requests` is one dropped and counted; who has asked asks again under the same id.
 //
-// Thread rule: the node's thread. What an object is, and who holds which: actors/objects.
+// Thread rule: the node's thread. What an object is, and who holds which: actors/cast/parts.
 #pragma once
 
 #include <utility>

@@ -2,8 +2,9 @@
 // receives it declares as `Letter<Message>`, with a limit and a reaction for each, and it has a
 // handler for every one:
 //
-//   class Tracer final
-//       : public NodeActor<Tracer, ControlLane<Accepts<Letter<LeaseGranted>, 8, WhenFull::reject>>,
+//   class TracingWorker final
+//       : public NodeActor<TracingWorker, ControlLane<Accepts<Letter<LeaseGranted>, 8,
+//       WhenFull::reject>>,
 //                          DataLane<Accepts<PackFlush, 1, WhenFull::coalesce>>> {
 //     void on(const Letter<LeaseGranted>& granted);
 //     void on(PackFlush);  // sent by itself: no address leads to it

@@ -4,10 +4,10 @@
 #include <limits>
 #include <numeric>
 
-#include "scenes/emergency/onset.hpp"
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
+#include "scenes/light/signs/onset.hpp"
 
 namespace luxodus {
 

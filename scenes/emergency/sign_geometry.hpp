@@ -5,7 +5,7 @@
 
 #include <glm/glm.hpp>
 
-#include "scenes/world/description.hpp"
+#include "scenes/light/world/description.hpp"
 
 namespace luxodus {
 

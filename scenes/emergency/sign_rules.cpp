@@ -7,7 +7,7 @@
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/rules.hpp"
-#include "scenes/emergency/sign_face.hpp"
+#include "scenes/light/signs/sign_face.hpp"
 
 namespace luxodus {
 

@@ -4,7 +4,7 @@
 // smoke. Pure functions; any thread.
 #pragma once
 
-#include "scenes/world/description.hpp"
+#include "scenes/light/world/description.hpp"
 
 namespace luxodus {
 

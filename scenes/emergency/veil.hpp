@@ -1,5 +1,6 @@
 // The veil that bright sources lay over the field of view (CIE 146:2002): disability glare of an
-// eye. Which sources lie in a sign's field of view: actors/assess/reality_mode. Pure; any thread.
+// eye. Which sources lie in a sign's field of view: actors/judge/assess/reality_mode. Pure; any
+// thread.
 #pragma once
 
 namespace luxodus {

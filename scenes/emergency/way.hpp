@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "scenes/world/description.hpp"
+#include "scenes/light/world/description.hpp"
 
 namespace luxodus {
 

@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "runtime/core/random.hpp"
-#include "scenes/geometry/primitives.hpp"
-#include "scenes/transport/compile.hpp"
+#include "scenes/light/geometry/primitives.hpp"
+#include "scenes/light/transport/compile.hpp"
 
 namespace luxodus::bench {
 

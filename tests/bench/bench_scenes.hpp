@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "scenes/transport/compiled_scene.hpp"
+#include "scenes/light/transport/compiled_scene.hpp"
 
 namespace luxodus::bench {
 

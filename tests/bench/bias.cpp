@@ -11,12 +11,12 @@
 #include <optional>
 #include <stdexcept>
 
-#include "actors/display/pictures.hpp"
-#include "scenes/fields/fds_building.hpp"
-#include "scenes/geometry/primitives.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
-#include "scenes/transport/readout.hpp"
+#include "actors/results/pictures/pictures.hpp"
+#include "scenes/formats/fields/fds_building.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/geometry/primitives.hpp"
+#include "scenes/light/transport/compile.hpp"
+#include "scenes/light/transport/readout.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"
 #include "tests/kit/temporary_folder.hpp"

@@ -9,9 +9,9 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "actors/display/pictures.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
+#include "actors/results/pictures/pictures.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/transport/compile.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"
 

@@ -6,11 +6,11 @@
 #include <functional>
 #include <stdexcept>
 
-#include "actors/objects/scene_objects.hpp"
-#include "actors/simulate/simulation.hpp"
-#include "actors/supervise/in_process.hpp"
-#include "actors/validate/scene_kit.hpp"
-#include "scenes/transport/compile.hpp"
+#include "actors/cast/parts/scene_objects.hpp"
+#include "actors/cast/process/in_process.hpp"
+#include "actors/judge/validate/scene_kit.hpp"
+#include "actors/lab/simulate/simulation.hpp"
+#include "scenes/light/transport/compile.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "tests/bench/tables.hpp"
-#include "tests/unit/scenes/optics/media_test_tools.hpp"
+#include "tests/unit/scenes/light/optics/media_test_tools.hpp"
 
 namespace luxodus::bench {
 namespace {

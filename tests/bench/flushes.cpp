@@ -2,9 +2,9 @@
 
 #include <stdexcept>
 
-#include "actors/tally/flush_codec.hpp"
-#include "scenes/transport/readout.hpp"
-#include "scenes/transport/trace.hpp"
+#include "actors/cast/tally/flush_codec.hpp"
+#include "scenes/light/transport/readout.hpp"
+#include "scenes/light/transport/trace.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

@@ -7,11 +7,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "actors/display/pictures.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
-#include "scenes/transport/detectors.hpp"
-#include "scenes/transport/eye_paths.hpp"
+#include "actors/results/pictures/pictures.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/transport/compile.hpp"
+#include "scenes/light/transport/detectors.hpp"
+#include "scenes/light/transport/eye_paths.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

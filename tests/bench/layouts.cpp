@@ -8,12 +8,12 @@
 #include <limits>
 #include <numeric>
 
-#include "actors/assess/assessment.hpp"
-#include "actors/design/demands.hpp"
-#include "actors/design/solve_layout.hpp"
+#include "actors/judge/assess/assessment.hpp"
+#include "actors/judge/design/demands.hpp"
+#include "actors/judge/design/solve_layout.hpp"
 #include "runtime/core/clock.hpp"
 #include "runtime/core/random.hpp"
-#include "scenes/scene_file/scene_file.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
 #include "tests/bench/tables.hpp"
 #include "tests/kit/temporary_folder.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "actors/run/local_run.hpp"
+#include "actors/results/run/local_run.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

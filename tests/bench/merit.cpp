@@ -6,10 +6,10 @@
 #include <functional>
 #include <stdexcept>
 
-#include "actors/run/local_run.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
-#include "scenes/transport/eye_paths.hpp"
+#include "actors/results/run/local_run.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/transport/compile.hpp"
+#include "scenes/light/transport/eye_paths.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

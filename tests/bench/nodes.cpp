@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "actors/supervise/in_process.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
+#include "actors/cast/process/in_process.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/transport/compile.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"
 

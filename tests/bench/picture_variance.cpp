@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/transport/compile.hpp"
 #include "tests/bench/measure.hpp"
 
 namespace luxodus::bench {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "actors/display/pictures.hpp"
+#include "actors/results/pictures/pictures.hpp"
 
 namespace luxodus::bench {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "runtime/core/random.hpp"
-#include "scenes/optics/offset_ray.hpp"
-#include "scenes/tally/fixed_point.hpp"
-#include "scenes/transport/detectors.hpp"
+#include "scenes/light/optics/offset_ray.hpp"
+#include "scenes/light/tally/fixed_point.hpp"
+#include "scenes/light/transport/detectors.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

@@ -6,11 +6,11 @@
 #include <span>
 #include <stdexcept>
 
-#include "actors/objects/scene_objects.hpp"
-#include "actors/supervise/in_process.hpp"
-#include "scenes/pack/scene_pack.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
+#include "actors/cast/parts/scene_objects.hpp"
+#include "actors/cast/process/in_process.hpp"
+#include "scenes/formats/pack/scene_pack.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/transport/compile.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"
 

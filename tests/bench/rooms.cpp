@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "actors/display/pictures.hpp"
+#include "actors/results/pictures/pictures.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "actors/supervise/in_process.hpp"
-#include "scenes/transport/compile.hpp"
+#include "actors/cast/process/in_process.hpp"
+#include "scenes/light/transport/compile.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

@@ -3,8 +3,8 @@
 #include <atomic>
 #include <limits>
 
-#include "actors/run/local_run.hpp"
-#include "scenes/transport/particle.hpp"
+#include "actors/results/run/local_run.hpp"
+#include "scenes/light/transport/particle.hpp"
 #include "tests/bench/bench_scenes.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/tables.hpp"

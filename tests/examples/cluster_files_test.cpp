@@ -13,7 +13,7 @@ using namespace luxodus::program;
 namespace {
 
 std::string example(const std::string& name) {
-  return (fs::path(LUX_SOURCE_DIR) / "actors/cli/examples" / name).string();
+  return (fs::path(LUX_SOURCE_DIR) / "actors/apps/cli/examples" / name).string();
 }
 constexpr const char* examples[] = {"one_host.toml", "three_hosts.toml", "eight_hosts.toml"};
 

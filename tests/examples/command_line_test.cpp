@@ -125,7 +125,7 @@ TEST_CASE("keys of files are explained by the schemas that read them", "[program
   CHECK_THAT(keys("study sweep"), Contains("  fibers "));
   const std::string all = run_luxodus(folder, "keys scene --markdown").out;
   REQUIRE(all.size() > 10'000);
-  CHECK_THAT(slurp(std::string(LUX_SOURCE_DIR) + "/scenes/scene_file/README.md"),
+  CHECK_THAT(slurp(std::string(LUX_SOURCE_DIR) + "/scenes/formats/scene_file/README.md"),
              Contains(all.substr(0, all.size() - 1)));
   const Outcome wrong = run_luxodus(folder, "keys scene luminare");
   CHECK(wrong.code == 2);

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "tests/examples/program_kit.hpp"
-#include "tests/unit/scenes/pack/burning_gallery.hpp"
+#include "tests/unit/scenes/formats/pack/burning_gallery.hpp"
 
 using namespace luxodus::program;
 

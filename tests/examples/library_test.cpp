@@ -12,12 +12,12 @@
 #include <sstream>
 #include <thread>
 
-#include "actors/display/report.hpp"
-#include "actors/run/local_run.hpp"
+#include "actors/results/files/run_results.hpp"
+#include "actors/results/run/local_run.hpp"
 #include "runtime/core/regular_file.hpp"
 #include "runtime/toml/document.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/transport/compile.hpp"
 
 namespace fs = std::filesystem;
 
@@ -102,8 +102,7 @@ void list_unknown(const Json& in, const std::string& path, std::vector<std::stri
     return;
   }
   if (in.is_array())
-    for (size_t i = 0; i < in.size(); ++i)
-      list_unknown(in[i], path + "/" + std::to_string(i), out);
+    for (size_t i = 0; i < in.size(); ++i) list_unknown(in[i], path + "/" + std::to_string(i), out);
   if (!in.is_object()) return;
   for (const auto& [key, item] : in.items()) {
     if (key.starts_with("contrast") || key == "uniformity") continue;

@@ -2,7 +2,7 @@
 
 #include <zstd.h>
 
-#include "actors/tally/flush_codec.hpp"
+#include "actors/cast/tally/flush_codec.hpp"
 #include "tests/fuzz/must.hpp"
 #include "tests/kit/encode_flush.hpp"
 

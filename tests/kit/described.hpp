@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "scenes/scene_file/scene_file.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
 namespace luxodus::test {

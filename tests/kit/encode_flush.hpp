@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "actors/tally/flush_codec.hpp"
+#include "actors/cast/tally/flush_codec.hpp"
 
 namespace luxodus::test {
 

@@ -9,7 +9,7 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
-#include "scenes/images/write_image.hpp"
+#include "scenes/formats/images/write_image.hpp"
 
 namespace luxodus::test {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "scenes/intersect/embree_ray.hpp"
-#include "scenes/intersect/embree_scene.hpp"
+#include "scenes/light/intersect/embree_ray.hpp"
+#include "scenes/light/intersect/embree_scene.hpp"
 
 namespace luxodus::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "scenes/geometry/primitives.hpp"
+#include "scenes/light/geometry/primitives.hpp"
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {

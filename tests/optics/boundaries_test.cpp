@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/geometry/primitives.hpp"
-#include "scenes/geometry/transform.hpp"
-#include "scenes/transport/compile.hpp"
+#include "scenes/light/geometry/primitives.hpp"
+#include "scenes/light/geometry/transform.hpp"
+#include "scenes/light/transport/compile.hpp"
 #include "tests/optics/posed_room.hpp"
 
 namespace luxodus::light {

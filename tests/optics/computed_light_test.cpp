@@ -3,8 +3,8 @@
 
 #include "scenes/emergency/sight.hpp"
 #include "scenes/emergency/veil.hpp"
-#include "scenes/transport/polygon_light.hpp"
-#include "scenes/transport/visibility.hpp"
+#include "scenes/light/transport/polygon_light.hpp"
+#include "scenes/light/transport/visibility.hpp"
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {

@@ -1,5 +1,5 @@
 // Light that has met nothing yet: computed without chance, and by tracing. The scenes are those of
-// actors/validate.
+// actors/judge/validate.
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {

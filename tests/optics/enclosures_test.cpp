@@ -1,5 +1,5 @@
 // Closed rooms without smoke: cubes against the continuous radiosity solution, spheres and plates
-// against closed forms. The scenes are those of actors/validate.
+// against closed forms. The scenes are those of actors/judge/validate.
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "scenes/transport/compile.hpp"
-#include "scenes/transport/scene_features.hpp"
-#include "scenes/transport/trace.hpp"
+#include "scenes/light/transport/compile.hpp"
+#include "scenes/light/transport/scene_features.hpp"
+#include "scenes/light/transport/trace.hpp"
 #include "tests/optics/light_kit.hpp"
 
 using namespace luxodus;

@@ -1,5 +1,5 @@
 // Infinite layers of gas that absorb and glow and do not scatter: exponential integrals. The scenes
-// are those of actors/validate.
+// are those of actors/judge/validate.
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {

@@ -3,9 +3,9 @@
 #include <atomic>
 #include <cmath>
 
-#include "scenes/transport/birth_order.hpp"
-#include "scenes/transport/history.hpp"
-#include "scenes/world/measurements.hpp"
+#include "scenes/light/transport/birth_order.hpp"
+#include "scenes/light/transport/history.hpp"
+#include "scenes/light/world/measurements.hpp"
 #include "tests/optics/posed_room.hpp"
 
 namespace luxodus::light {

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "scenes/transport/compile.hpp"
-#include "scenes/transport/error_target.hpp"
+#include "scenes/light/transport/compile.hpp"
+#include "scenes/light/transport/error_target.hpp"
 #include "tests/optics/light_kit.hpp"
 
 using namespace luxodus;

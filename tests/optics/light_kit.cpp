@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/scene_file/scene_file.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
 #include "tests/kit/described.hpp"
 
 namespace luxodus::light {

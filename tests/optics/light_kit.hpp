@@ -1,7 +1,7 @@
-// What the tests of light share: scenes, runs and reference tables of actors/validate, and the one
-// comparison that counts: an estimate lies within its standard errors of a reference, and those are
-// small. Scenes are grey and radiometric (one band, watts), so results are plain fluxes, and the
-// same bits for any number of threads.
+// What the tests of light share: scenes, runs and reference tables of actors/judge/validate, and
+// the one comparison that counts: an estimate lies within its standard errors of a reference, and
+// those are small. Scenes are grey and radiometric (one band, watts), so results are plain fluxes,
+// and the same bits for any number of threads.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "actors/validate/case.hpp"
-#include "actors/validate/reference.hpp"
-#include "actors/validate/scene_kit.hpp"
-#include "actors/validate/traced.hpp"
-#include "scenes/transport/compile.hpp"
+#include "actors/judge/validate/case.hpp"
+#include "actors/judge/validate/reference.hpp"
+#include "actors/judge/validate/scene_kit.hpp"
+#include "actors/judge/validate/traced.hpp"
+#include "scenes/light/transport/compile.hpp"
 #include "tests/kit/test_length.hpp"
 
 namespace luxodus::light {

@@ -1,5 +1,5 @@
 // Smoke of any shape: what a uniform field of light does in it, point sources in fog, glowing
-// bodies. The scenes are those of actors/validate.
+// bodies. The scenes are those of actors/judge/validate.
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {

@@ -1,7 +1,7 @@
 // Particles whose numbers need more than 32 bits: a run of 1e10 particles has most of them. Each
 // has random numbers of its own, which are not those of its number modulo 2^32, and together they
 // give the same light.
-#include "scenes/transport/trace.hpp"
+#include "scenes/light/transport/trace.hpp"
 #include "tests/optics/posed_room.hpp"
 
 namespace luxodus::light {

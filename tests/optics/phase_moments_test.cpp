@@ -1,6 +1,6 @@
 // How far light gets in endless fog before it is absorbed: moments of the point of absorption under
 // Henyey-Greenstein scattering, for extinction 1/m, albedo c and mean cosine g. The scenes are
-// those of actors/validate.
+// those of actors/judge/validate.
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {

@@ -2,10 +2,10 @@
 // change: which of two triangles is met on their common edge, and nothing that counts.
 #include <cmath>
 
-#include "scenes/geometry/primitives.hpp"
-#include "scenes/transport/eye_paths.hpp"
-#include "scenes/transport/kernels.hpp"
-#include "scenes/transport/trace.hpp"
+#include "scenes/light/geometry/primitives.hpp"
+#include "scenes/light/transport/eye_paths.hpp"
+#include "scenes/light/transport/kernels.hpp"
+#include "scenes/light/transport/trace.hpp"
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {

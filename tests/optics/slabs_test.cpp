@@ -1,6 +1,6 @@
 // Scattering layers between perfect mirrors, which make them infinite, against discrete ordinates
 // of many streams: what is reflected, passed, passed unscattered, and in every layer absorbed and
-// travelled. The scenes are those of actors/validate.
+// travelled. The scenes are those of actors/judge/validate.
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {

@@ -1,6 +1,6 @@
 // Light adds: what a source group gives is the light of that group alone, and the groups together
 // are the whole, at probes and at signs as on planes.
-#include "actors/run/local_run.hpp"
+#include "actors/results/run/local_run.hpp"
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {

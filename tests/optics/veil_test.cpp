@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/transport/eye_paths.hpp"
+#include "scenes/light/transport/eye_paths.hpp"
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {

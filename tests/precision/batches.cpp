@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "runtime/core/denormals.hpp"
-#include "scenes/transport/trace.hpp"
+#include "scenes/light/transport/trace.hpp"
 
 namespace luxodus::precision {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/transport/compiled_scene.hpp"
+#include "scenes/light/transport/compiled_scene.hpp"
 
 namespace luxodus::precision {
 

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "runtime/core/isolated_job.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/transport/compile.hpp"
 #include "tests/precision/batches.hpp"
 #include "tests/precision/compare.hpp"
 

@@ -7,9 +7,9 @@
 #include <thread>
 
 #include "runtime/core/denormals.hpp"
-#include "scenes/transport/compile.hpp"
-#include "scenes/transport/readout.hpp"
-#include "scenes/transport/trace.hpp"
+#include "scenes/light/transport/compile.hpp"
+#include "scenes/light/transport/readout.hpp"
+#include "scenes/light/transport/trace.hpp"
 #include "tests/random/check_scores.hpp"
 #include "tests/random/forgetful_source.hpp"
 

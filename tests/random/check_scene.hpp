@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/intersect/embree_scene.hpp"
+#include "scenes/light/intersect/embree_scene.hpp"
 #include "tests/random/random_scene.hpp"
 
 namespace luxodus::test {

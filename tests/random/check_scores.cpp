@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/transport/readout.hpp"
+#include "scenes/light/transport/readout.hpp"
 
 namespace luxodus::test {
 

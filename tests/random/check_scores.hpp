@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "scenes/tally/totals.hpp"
-#include "scenes/transport/compiled_scene.hpp"
+#include "scenes/light/tally/totals.hpp"
+#include "scenes/light/transport/compiled_scene.hpp"
 
 namespace luxodus::test {
 

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "scenes/geometry/mesh_tools.hpp"
-#include "scenes/world/description.hpp"
+#include "scenes/light/geometry/mesh_tools.hpp"
+#include "scenes/light/world/description.hpp"
 #include "tests/random/dice.hpp"
 
 namespace luxodus::test {

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "scenes/transport/compiled_scene.hpp"
-#include "scenes/transport/image_tile.hpp"
-#include "scenes/transport/object_source.hpp"
+#include "scenes/light/transport/compiled_scene.hpp"
+#include "scenes/light/transport/image_tile.hpp"
+#include "scenes/light/transport/object_source.hpp"
 #include "tests/random/dice.hpp"
 
 namespace luxodus::test {

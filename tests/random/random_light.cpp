@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include "scenes/emergency/sign_face.hpp"
-#include "scenes/geometry/primitives.hpp"
-#include "scenes/geometry/transform.hpp"
+#include "scenes/light/geometry/primitives.hpp"
+#include "scenes/light/geometry/transform.hpp"
+#include "scenes/light/signs/sign_face.hpp"
 #include "tests/random/draw.hpp"
 
 namespace luxodus::test {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/geometry/transform.hpp"
-#include "scenes/optics/quadric_shapes.hpp"
+#include "scenes/light/geometry/transform.hpp"
+#include "scenes/light/optics/quadric_shapes.hpp"
 #include "tests/random/draw.hpp"
 
 namespace luxodus::test {

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "scenes/world/description.hpp"
+#include "scenes/light/world/description.hpp"
 
 namespace luxodus::test {
 

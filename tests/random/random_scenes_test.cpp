@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "scenes/transport/compile.hpp"
-#include "scenes/transport/trace.hpp"
+#include "scenes/light/transport/compile.hpp"
+#include "scenes/light/transport/trace.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/random/check_scene.hpp"
 #include "tests/random/check_scores.hpp"

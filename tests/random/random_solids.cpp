@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "scenes/geometry/building_parts.hpp"
-#include "scenes/geometry/polygon.hpp"
-#include "scenes/geometry/transform.hpp"
+#include "scenes/light/geometry/building_parts.hpp"
+#include "scenes/light/geometry/polygon.hpp"
+#include "scenes/light/geometry/transform.hpp"
 #include "tests/random/draw.hpp"
 
 namespace luxodus::test {

@@ -4,9 +4,9 @@
 #include <fstream>
 #include <vector>
 
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/scene_file/scene_schema.hpp"
-#include "scenes/transport/compile.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/formats/scene_file/scene_schema.hpp"
+#include "scenes/light/transport/compile.hpp"
 #include "tests/random/dice.hpp"
 
 namespace luxodus::test {

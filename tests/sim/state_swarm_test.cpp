@@ -4,9 +4,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "actors/simulate/state_simulation.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
+#include "actors/lab/simulate/state_simulation.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/transport/compile.hpp"
 #include "tests/kit/test_length.hpp"
 
 using namespace luxodus;

@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "actors/simulate/simulation.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
+#include "actors/lab/simulate/simulation.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/transport/compile.hpp"
 #include "tests/kit/test_length.hpp"
 
 using namespace luxodus;

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "actors/study/calibrate.hpp"
-#include "actors/study/report.hpp"
-#include "actors/study/runs.hpp"
-#include "actors/study/scenes.hpp"
-#include "actors/study/study_schema.hpp"
-#include "scenes/scene_file/scene_file.hpp"
+#include "actors/lab/study/calibrate.hpp"
+#include "actors/lab/study/runs.hpp"
+#include "actors/lab/study/scenes.hpp"
+#include "actors/lab/study/study_report.hpp"
+#include "actors/lab/study/study_schema.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;
@@ -149,7 +149,7 @@ TEST_CASE("costs are read back from the file that they were written to", "[study
 }
 
 TEST_CASE("the README of studies ends with every table and key of the schema", "[study]") {
-  std::ifstream in(std::string(LUX_SOURCE_DIR) + "/actors/study/README.md");
+  std::ifstream in(std::string(LUX_SOURCE_DIR) + "/actors/lab/study/README.md");
   std::stringstream text;
   text << in.rdbuf();
   const size_t from = text.str().find("### ");

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures how long Luxodus takes to build, without a compiler cache, in a folder of its own; asserts
-# nothing. Processor time (user and system) hardly depends on what else the machine does.
+# Measures how long Luxodus takes to build, without a compiler cache, in a folder of its own;
+# asserts nothing. Processor time (user and system) hardly depends on what else the machine does.
 #   tests/tools/build_times.sh                 the program: cold, unchanged, one source touched
 #   tests/tools/build_times.sh --tests         after it the test programs, cold
 #   tests/tools/build_times.sh -DLUX_PCH=OFF   other options go to CMake
@@ -9,7 +9,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 folder=build/times
-touched=(scenes/transport/particle.hpp scenes/world/description.hpp actors/cli/run_command.cpp)
+touched=(scenes/light/transport/particle.hpp scenes/light/world/description.hpp actors/apps/cli/run_command.cpp)
 with_tests=
 options=()
 for argument in "$@"; do

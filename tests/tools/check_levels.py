@@ -39,7 +39,7 @@ def main():
                 print(f"{other}: {name}")
                 failed = True
     if failed:
-        sys.exit("These functions belong to the tracing loops: let a source of scenes/transport call"
+        sys.exit("These functions belong to the tracing loops: let a source of scenes/light/transport call"
                  " them, or name the room in LUX_HOT_ROOMS (CMakeLists.txt).")
 
 

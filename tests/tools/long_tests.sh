@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The tests that ./test.sh leaves out because they take minutes, and those of which it runs a smaller
-# one, in full: more particles, seeds and cases. Any CTest option passes through.
+# The tests that ./test.sh leaves out because they take minutes, and those of which it runs a
+# smaller one, in full: more particles, seeds and cases. Any CTest option passes through.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 

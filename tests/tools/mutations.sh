@@ -17,8 +17,8 @@ mkdir -p build
 cmake --preset asan-ubsan >build/mutations.log
 ninja -C build/asan-ubsan "${rooms[@]/#/test_scenes_}" >>build/mutations.log
 
-# What OpenVDB does with a harmed file ends a process of its own, and is reported. What our code does
-# is a finding.
+# What OpenVDB does with a harmed file ends a process of its own, and is reported. What our code
+# does is a finding.
 reports=build/vdb-reports
 rm -rf "$reports"
 mkdir -p "$reports"

@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <string>
 
-#include "actors/supervise/cluster_process.hpp"
-#include "actors/supervise/node_threads.hpp"
+#include "actors/cast/process/cluster_process.hpp"
+#include "actors/cast/process/node_threads.hpp"
 #include "runtime/config/cluster_file.hpp"
 #include "runtime/core/isolated_job.hpp"
-#include "scenes/scene_file/scene_file.hpp"
-#include "scenes/transport/compile.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/transport/compile.hpp"
 
 using namespace luxodus;
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "runtime/core/isolated_job.hpp"
-#include "scenes/vdb/vdb_answer.hpp"
+#include "scenes/formats/vdb/vdb_answer.hpp"
 
 namespace luxodus::vdb {
 namespace {

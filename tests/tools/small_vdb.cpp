@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "tests/unit/scenes/vdb/vdb_kit.hpp"
+#include "tests/unit/scenes/formats/vdb/vdb_kit.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) {

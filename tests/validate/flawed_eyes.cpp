@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "runtime/core/check.hpp"
-#include "scenes/transport/direct.hpp"
-#include "scenes/transport/eye_paths.hpp"
+#include "scenes/light/transport/direct.hpp"
+#include "scenes/light/transport/eye_paths.hpp"
 
 namespace luxodus::light {
 

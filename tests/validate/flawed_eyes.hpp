@@ -3,7 +3,7 @@
 // stop light, or its result is spoiled afterwards. Particles are traced without one.
 #pragma once
 
-#include "actors/validate/traced.hpp"
+#include "actors/judge/validate/traced.hpp"
 
 namespace luxodus::light {
 

@@ -3,7 +3,7 @@
 #include <atomic>
 
 #include "runtime/core/check.hpp"
-#include "scenes/transport/kernels.hpp"
+#include "scenes/light/transport/kernels.hpp"
 
 namespace luxodus::light {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "scenes/transport/trace.hpp"
+#include "scenes/light/transport/trace.hpp"
 
 namespace luxodus::light {
 

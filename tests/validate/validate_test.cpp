@@ -8,8 +8,8 @@
 #include <numbers>
 #include <set>
 
-#include "actors/validate/reference.hpp"
-#include "actors/validate/report.hpp"
+#include "actors/judge/validate/reference.hpp"
+#include "actors/judge/validate/validation_report.hpp"
 #include "runtime/core/random.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/kit/test_length.hpp"

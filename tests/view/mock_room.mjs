@@ -1,7 +1,7 @@
 // A small building for tests of the page: two rooms, a doorway, three luminaires, a flame, signs,
 // and a smoke layer, lit by the inverse square law and a little light from everywhere. No physics
 // to be proud of; but linear in every group, as the page has to be.
-import { toHalf } from '../../actors/view/page/src/protocol/half.js';
+import { toHalf } from '../../actors/apps/view/page/src/protocol/half.js';
 
 export const low = [0, 0, 0];
 export const high = [11, 6, 3];

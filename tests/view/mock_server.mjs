@@ -1,4 +1,4 @@
-// A server that speaks actors/view/PROTOCOL.md without a simulation behind it.
+// A server that speaks actors/apps/view/PROTOCOL.md without a simulation behind it.
 // By hand: `node mock_server.mjs 8099`, then open http://127.0.0.1:8099/
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
@@ -35,7 +35,7 @@ export function greyPng(width, height) {
 }
 
 const pageFile = fileURLToPath(
-  new URL('../../actors/view/page/dist/index.html', import.meta.url));
+  new URL('../../actors/apps/view/page/dist/index.html', import.meta.url));
 const scenarios = [
   { name: 'smoke, mains', operation: 'mains', smoke: 1, lamps: 1 },
   { name: 'smoke, emergency', operation: 'emergency', smoke: 1, lamps: 0.05 },

@@ -1,7 +1,7 @@
-// How long after other smoke all groups have light, after dimming the page is told, and after a move
-// of a luminaire and of a sign, and a copy of each, its first light is there:
-// `node move_time.mjs [SCENE SCENARIO LUMINAIRE SIGN]`; LUX_PROGRAM names the program, LUX_OPTIONS
-// what is said to it besides (`LUX_OPTIONS="--nodes 2"`).
+// How long after other smoke all groups have light, after dimming the page is told, and after a
+// move of a luminaire and of a sign, and a copy of each, its first light is there: `node
+// move_time.mjs [SCENE SCENARIO LUMINAIRE SIGN]`; LUX_PROGRAM names the program, LUX_OPTIONS what
+// is said to it besides (`LUX_OPTIONS="--nodes 2"`).
 import { spawn } from 'node:child_process';
 import { WebSocket } from 'ws';
 

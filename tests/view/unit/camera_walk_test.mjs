@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { decodeFrame } from '../../../actors/view/page/src/protocol/decode_frame.js';
-import { Building } from '../../../actors/view/page/src/walk/building.js';
-import { CameraWalk } from '../../../actors/view/page/src/walk/camera_walk.js';
+import { decodeFrame } from '../../../actors/apps/view/page/src/protocol/decode_frame.js';
+import { Building } from '../../../actors/apps/view/page/src/walk/building.js';
+import { CameraWalk } from '../../../actors/apps/view/page/src/walk/camera_walk.js';
 import { geometryFrame } from '../mock_room.mjs';
 
 const scene = {

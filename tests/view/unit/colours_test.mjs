@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { count, scaleColour, scalePlace, scaleTexels, words, wordsWithError }
-  from '../../../actors/view/page/src/light/colours.js';
-import { Exposure, eyeScale, readMeter } from '../../../actors/view/page/src/draw/exposure.js';
+  from '../../../actors/apps/view/page/src/light/colours.js';
+import { Exposure, eyeScale, readMeter } from '../../../actors/apps/view/page/src/draw/exposure.js';
 
 const linear = (byte) => {
   const x = byte / 255;

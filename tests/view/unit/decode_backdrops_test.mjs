@@ -1,9 +1,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { ProtocolError } from '../../../actors/view/page/src/protocol/decode_frame.js';
-import { backdropsOf } from '../../../actors/view/page/src/protocol/connection.js';
+import { ProtocolError } from '../../../actors/apps/view/page/src/protocol/decode_frame.js';
+import { backdropsOf } from '../../../actors/apps/view/page/src/protocol/connection.js';
 import { decodeBackdrops, limits, under }
-  from '../../../actors/view/page/src/protocol/decode_backdrops.js';
+  from '../../../actors/apps/view/page/src/protocol/decode_backdrops.js';
 
 const lines = () => ({ floors: [-1, 2], lines: [[0, 0, 5, 0], [5, 0, 5, 4]] });
 const picture = () => ({ floors: [2, 5], png: 'iVBORw0KGgo=', corner: [0, 0], across: [5, 0], up: [0, 4] });

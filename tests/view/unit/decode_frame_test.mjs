@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { limits, decodeFrame, ProtocolError }
-  from '../../../actors/view/page/src/protocol/decode_frame.js';
+  from '../../../actors/apps/view/page/src/protocol/decode_frame.js';
 
 function frame(kind, generation, a, bytes) {
   const buffer = new ArrayBuffer(16 + bytes);

@@ -1,10 +1,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { ProtocolError } from '../../../actors/view/page/src/protocol/decode_frame.js';
+import { ProtocolError } from '../../../actors/apps/view/page/src/protocol/decode_frame.js';
 import { decodeMessage, limits }
-  from '../../../actors/view/page/src/protocol/decode_message.js';
-import { sizeOf } from '../../../actors/view/page/src/panel/traced.js';
-import { liveAddress } from '../../../actors/view/page/src/protocol/connection.js';
+  from '../../../actors/apps/view/page/src/protocol/decode_message.js';
+import { sizeOf } from '../../../actors/apps/view/page/src/panel/traced.js';
+import { liveAddress } from '../../../actors/apps/view/page/src/protocol/connection.js';
 import { glossyFloor } from '../mock_room.mjs';
 import { greyPng, MockServer } from '../mock_server.mjs';
 

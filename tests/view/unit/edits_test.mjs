@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { LightDisplay } from '../../../actors/view/page/src/draw/light_display.js';
-import { Edits } from '../../../actors/view/page/src/edit/edits.js';
+import { LightDisplay } from '../../../actors/apps/view/page/src/draw/light_display.js';
+import { Edits } from '../../../actors/apps/view/page/src/edit/edits.js';
 
 function display() {
   const told = { drawn: 0, settled: 0 };

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { allFinite, halfValues, toHalf } from '../../../actors/view/page/src/protocol/half.js';
+import { allFinite, halfValues, toHalf } from '../../../actors/apps/view/page/src/protocol/half.js';
 
 test('halves have the values that IEEE 754 gives them', () => {
   const known = [[0x0000, 0], [0x3c00, 1], [0xc000, -2], [0x7bff, 65504], [0x0400, 2 ** -14],

@@ -1,10 +1,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { facesOf } from '../../../actors/view/page/src/draw/lamp_faces.js';
+import { facesOf } from '../../../actors/apps/view/page/src/draw/lamp_faces.js';
 import { isSameGloss, levelIn, levelsOf, mirrored, seenOf }
-  from '../../../actors/view/page/src/draw/levels.js';
-import { Building } from '../../../actors/view/page/src/walk/building.js';
-import { cross, dot, length, subtract } from '../../../actors/view/page/src/walk/vectors.js';
+  from '../../../actors/apps/view/page/src/draw/levels.js';
+import { Building } from '../../../actors/apps/view/page/src/walk/building.js';
+import { cross, dot, length, subtract } from '../../../actors/apps/view/page/src/walk/vectors.js';
 
 /** A square of two triangles, front up where `up`. */
 function square(x, y, z, size, up = true) {

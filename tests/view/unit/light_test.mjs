@@ -1,9 +1,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { smokeSum, surfaceSum } from '../../../actors/view/page/src/light/sum.js';
-import { placesOf, smooth, weld } from '../../../actors/view/page/src/light/weld.js';
-import { atlasOf } from '../../../actors/view/page/src/draw/flames.js';
-import { toHalf } from '../../../actors/view/page/src/protocol/half.js';
+import { smokeSum, surfaceSum } from '../../../actors/apps/view/page/src/light/sum.js';
+import { placesOf, smooth, weld } from '../../../actors/apps/view/page/src/light/weld.js';
+import { atlasOf } from '../../../actors/apps/view/page/src/draw/flames.js';
+import { toHalf } from '../../../actors/apps/view/page/src/protocol/half.js';
 
 const halves = (...values) => Uint16Array.from(values, toHalf);
 

@@ -1,9 +1,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { decodeFrame, ProtocolError } from '../../../actors/view/page/src/protocol/decode_frame.js';
-import { decodeMessage } from '../../../actors/view/page/src/protocol/decode_message.js';
-import { intervalMs, Outbox } from '../../../actors/view/page/src/protocol/outbox.js';
-import { Live } from '../../../actors/view/page/src/state.js';
+import { decodeFrame, ProtocolError } from '../../../actors/apps/view/page/src/protocol/decode_frame.js';
+import { decodeMessage } from '../../../actors/apps/view/page/src/protocol/decode_message.js';
+import { intervalMs, Outbox } from '../../../actors/apps/view/page/src/protocol/outbox.js';
+import { Live } from '../../../actors/apps/view/page/src/state.js';
 import { geometryFrame, lightFrame, smokeFrame, sources, startState, trianglesOf }
   from '../mock_room.mjs';
 import { MockServer } from '../mock_server.mjs';

@@ -1,10 +1,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Building } from '../../../actors/view/page/src/walk/building.js';
+import { Building } from '../../../actors/apps/view/page/src/walk/building.js';
 import { gazeOf, rayThrough, speeds, stand, startMotion, stride, turn, viewOf, zoom }
-  from '../../../actors/view/page/src/walk/motion.js';
+  from '../../../actors/apps/view/page/src/walk/motion.js';
 import { geometryFrame } from '../mock_room.mjs';
-import { decodeFrame } from '../../../actors/view/page/src/protocol/decode_frame.js';
+import { decodeFrame } from '../../../actors/apps/view/page/src/protocol/decode_frame.js';
 
 const near = (a, b, most = 1e-6) =>
   a.forEach((x, i) => assert.ok(Math.abs(x - b[i]) < most, `${a} is not ${b}`));

@@ -12,9 +12,9 @@
 #include "actors/import/import_files.hpp"
 #include "actors/import/write_building.hpp"
 #include "runtime/core/random.hpp"
-#include "scenes/geometry/mesh_tools.hpp"
-#include "scenes/geometry/primitives.hpp"
-#include "scenes/scene_file/scene_file.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/geometry/mesh_tools.hpp"
+#include "scenes/light/geometry/primitives.hpp"
 #include "tests/kit/small_ifc.hpp"
 #include "tests/kit/temporary_folder.hpp"
 

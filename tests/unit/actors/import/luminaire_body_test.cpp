@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include "runtime/core/reading_share.hpp"
-#include "scenes/geometry/import.hpp"
-#include "scenes/geometry/mesh_tools.hpp"
+#include "scenes/light/geometry/import.hpp"
+#include "scenes/light/geometry/mesh_tools.hpp"
 #include "tests/kit/small_l3d.hpp"
 #include "tests/kit/temporary_folder.hpp"
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "scenes/vdb/vdb.hpp"
+#include "scenes/formats/vdb/vdb.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "scenes/dxf/dxf_plan.hpp"
-#include "scenes/scene_file/scene_file.hpp"
+#include "scenes/formats/dxf/dxf_plan.hpp"
+#include "scenes/formats/scene_file/scene_file.hpp"
 #include "tests/kit/small_dxf.hpp"
 #include "tests/kit/temporary_folder.hpp"
 

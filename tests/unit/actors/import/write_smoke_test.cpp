@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "scenes/fields/data_set.hpp"
+#include "scenes/formats/fields/data_set.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
 using namespace luxodus;

@@ -155,7 +155,7 @@ TEST_CASE("the clusters that ship are good, and name scenes that ship where they
        {Row{"one_host.toml", 1, 8, 1, false}, Row{"three_hosts.toml", 3, 6, 7, true},
         Row{"eight_hosts.toml", 8, 32, 9, true}}) {
     const ReadCluster read =
-        read_cluster(fs::path(LUX_SOURCE_DIR) / "actors/cli/examples" / row.file);
+        read_cluster(fs::path(LUX_SOURCE_DIR) / "actors/apps/cli/examples" / row.file);
     INFO(row.file << "\n" << all_problems(read));
     REQUIRE(read.cluster.has_value());
     CHECK(read.cluster->hosts.size() == row.hosts);

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "scenes/emergency/sign_face.hpp"
+#include "scenes/light/signs/sign_face.hpp"
 
 using namespace luxodus;
 

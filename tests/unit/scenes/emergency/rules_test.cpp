@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/emergency/sign_face.hpp"
+#include "scenes/light/signs/sign_face.hpp"
 #include "tests/unit/scenes/emergency/code_choices.hpp"
 
 using namespace luxodus;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/emergency/sign_face.hpp"
-#include "scenes/emergency/sign_light.hpp"
 #include "scenes/emergency/smoke_laws.hpp"
+#include "scenes/light/signs/sign_face.hpp"
+#include "scenes/light/signs/sign_light.hpp"
 
 using namespace luxodus;
 

@@ -1,0 +1,292 @@
+// luxodus assess, compare: whether signs and routes do their job, as data and as a report.
+#include "actors/apps/cli/assess_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "actors/apps/cli/command.hpp"
+#include "actors/apps/cli/commands.hpp"
+#include "actors/apps/cli/findings.hpp"
+#include "actors/apps/cli/load_scene.hpp"
+#include "actors/apps/cli/nodes_option.hpp"
+#include "actors/apps/cli/progress_line.hpp"
+#include "actors/apps/cli/quantities.hpp"
+#include "actors/apps/cli/report_options.hpp"
+#include "actors/apps/cli/signals.hpp"
+#include "actors/apps/cli/version.hpp"
+#include "actors/cast/process/in_process.hpp"
+#include "actors/judge/assess/assessment_json.hpp"
+#include "actors/judge/assess/check_words.hpp"
+#include "actors/judge/assess/over_time.hpp"
+#include "actors/judge/assess/over_time_json.hpp"
+#include "actors/judge/assess/state_words.hpp"
+#include "actors/results/formats/file_names.hpp"
+#include "actors/results/formats/output_folder.hpp"
+#include "runtime/core/log.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct AssessCommandOptions {
+  std::string scene;
+  std::string out;
+  AssessOptions assess;
+  int nodes = 0;
+  std::vector<std::string> at;
+  bool codes_alone = false;
+  bool strict = false;
+  bool overwrite = false;
+  ReportWords report;
+};
+
+std::string ids_of(std::span<const NamedRules> rows) {
+  std::string out;
+  for (const NamedRules& row : rows) out += (out.empty() ? "" : ", ") + std::string(row.id);
+  return out;
+}
+
+/// A check that fails, or whose limit was read nowhere, in a line.
+void print_check(const Json& check) {
+  if (check["verdict"] == "fail")
+    std::printf("  fails: %s\n", check_words(check).c_str());
+  else
+    std::printf("  not verified: %s: %s\n", check_words(check).c_str(),
+                check.value("reason", "").c_str());
+}
+
+/// Views of signs that the people on routes have behind them: read when they turn round.
+std::string behind_words(const Json& a) {
+  size_t behind = 0, legible = 0;
+  for (const Json& row : a["sights"]) {
+    const Json gaze = row["angle_from_gaze"].value("value", Json());
+    if (!gaze.is_number() || gaze.get<double>() <= 90) continue;
+    ++behind;
+    legible += row["verdict"] == name_of(SightVerdict::legible) ? 1 : 0;
+  }
+  if (behind == 0) return "";
+  return fmt::format("of these {} views are of signs behind the walkers, {} of them legible",
+                     behind, legible);
+}
+
+void print_summary(const Json& a) {
+  std::printf("%s\n%s%s\n", first_words(a).c_str(), state_text(a).c_str(),
+              verdict_words(a).c_str());
+  for (const char* verdict : {"fail", "not verified"})
+    for (const Json& check : a["checks"])
+      if (check["verdict"] == verdict) print_check(check);
+  for (const Json& check : a["checks"])
+    if (check["verdict"] == "pass" && (check["rule"] == "S4" || check["rule"] == "N8") &&
+        !check.value("reason", "").empty())
+      std::printf("  passes, but: %s: %s\n", check_words(check).c_str(),
+                  check["reason"].get<std::string>().c_str());
+  std::string seen;
+  for (const auto& [word, count] : a["sight_counts"].items())
+    seen += fmt::format("{}{} {}", seen.empty() ? "" : ", ", count.get<int>(), word);
+  if (!seen.empty()) std::printf("signs, from routes and areas: %s\n", seen.c_str());
+  if (const std::string behind = behind_words(a); !behind.empty())
+    std::printf("%s\n", behind.c_str());
+  if (const auto over = a.find("over_time"); over != a.end())
+    std::printf("%s", guidance_text(*over).c_str());
+}
+
+/// What stays to be done, from what is done.
+class Estimate {
+ public:
+  std::string left(double share) const {
+    const double passed =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    if (!(share > 0.01 && share < 1) || passed < 1) return "";
+    return ", about " + time_text(passed * (1 - share) / share) + " left";
+  }
+
+ private:
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
+Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
+  const auto states = assessed_states(options.scene, times_asked(options.at));
+  if (!states) return ExitCode::bad_input;
+  const auto& scene = states->last;
+  AssessmentJob job;
+  job.scene = scene;
+  job.scene_file = options.scene;
+  job.times = states->times;
+  job.folder = options.out.empty() ? fs::path("out") / file_name_of(scene->name + "-assessed")
+                                   : fs::path(options.out);
+  job.options = options.assess;
+  job.overwrite = options.overwrite;
+  job.strict = options.strict;
+  job.report = options.report;
+  install_interrupt_handler();
+  job.options.reality = !options.codes_alone;
+  const auto nodes = nodes_that_trace(options.nodes);
+  job.options.executor = nodes.get();
+  return assess_into(job);
+}
+
+Result<ExitCode> compare_folders(const std::string& before, const std::string& after,
+                                 const std::string& json) {
+  const auto a = read_assessment(before);
+  if (!a) return a.problem();
+  const auto b = read_assessment(after);
+  if (!b) return b.problem();
+  const Json comparison = comparison_of(a.value(), b.value());
+  std::printf("%s", comparison_text(comparison).c_str());
+  if (!json.empty())
+    if (auto ok = write_json(behind_links(json), comparison); !ok) return ok.problem();
+  return ExitCode::success;
+}
+
+}  // namespace
+
+std::optional<AssessedStates> assessed_states(const std::string& file, std::vector<double> times) {
+  AssessedStates out{std::move(times), nullptr};
+  const auto at = [&](std::optional<double> time) {
+    return load_scene(file, ReadingWarnings::left_to_inspection, time, FireFrames::nearest);
+  };
+  if (out.times.empty()) {
+    out.last = at(std::nullopt);
+    if (out.last && out.last->time) out.times = times_of(*out.last->time);
+    if (out.times.size() < 2) return out.last ? std::optional(out) : std::nullopt;
+  }
+  out.last = at(out.times.back());
+  return out.last ? std::optional(out) : std::nullopt;
+}
+
+Result<ExitCode> assess_into(const AssessmentJob& job) {
+  const OutputPlan plan{{"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv",
+                         "guided.csv", "by_guid.csv"},
+                        {"plans", "schedules"}};
+  const auto out = OutputFolder::claim(job.folder, plan);
+  if (!out) return out.problem();
+  if (!job.overwrite)
+    if (auto ok = refuse_files_of_others(out->path(), plan.files); !ok) return ok.problem();
+  ProgressLine line("assess");
+  std::optional<Estimate> estimate;  // of all times
+  auto assessed = assess_states(
+      {job.scene, job.times, reader_at_times(*job.scene, job.scene_file, FireFrames::nearest)},
+      job.options, interrupt_flag(),
+      [&](const std::string& what, double share) {
+        line.put(fmt::format("{}: {:.0f} %", what, 100 * share), share >= 1, share);
+      },
+      [&](const std::string& what, double share) {
+        if (!estimate) estimate.emplace();
+        line.put(fmt::format("{}: {:.0f} %{}", what, 100 * share, estimate->left(share)),
+                 share >= 1, share);
+      });
+  if (!assessed) {
+    if (!interrupt_flag()) {
+      tell(assessed.problem());
+      return ExitCode::bad_input;
+    }
+    log_warning("interrupted; nothing was written");
+    return ExitCode::interrupted;
+  }
+  tell_findings(assessed->findings);
+  for (const Problem& warning : assessed->warnings)
+    if (std::none_of(assessed->findings.begin(), assessed->findings.end(),
+                     [&](const Finding& f) { return f.problem.text() == warning.text(); }))
+      warn(warning);
+  const Json json = assessment_json(*job.scene, assessed.value(), build.version);
+  if (auto ok = write_assessment(out->path(), json); !ok) return ok.problem();
+  print_summary(json);
+  if (auto ok = write_report_and_tell(out.value(), json, job.report); !ok) return ok.problem();
+  return job.strict && anything_open(json) ? ExitCode::failure : ExitCode::success;
+}
+
+Command assess_command() {
+  const auto o = std::make_shared<AssessCommandOptions>();
+  o->assess.threads = default_threads();
+  Command command{
+      .name = "assess",
+      .summary = "Assess signs and escape routes, by the codes and in smoke",
+      .heading = "Assess",
+      .options =
+          {{"scene", &o->scene, "Scene file", {.form = Form::scene, .required = true}},
+           {"--scenario",
+            &o->assess.scenario,
+            "State of the building",
+            {.form = Form::name,
+             .otherwise = "the scenario in emergency operation, with smoke where any has it; none "
+                          "is guessed"}},
+           times_option(o->at),
+           {"--out",
+            &o->out,
+            "Folder of the results",
+            {.form = Form::folder, .otherwise = "out/NAME-assessed"}},
+           {"--rules",
+            &o->assess.rules,
+            "Rule sets: " + ids_of(rule_sets()),
+            {.form = Form::name, .otherwise = "those of the scene", .comma_separated = true}},
+           {"--deviation",
+            &o->assess.deviations,
+            "National deviations from the rule sets: " + ids_of(deviations()),
+            {.form = Form::name, .otherwise = "those of the scene", .comma_separated = true}},
+           {"--seed", &o->assess.seed, "Seed of the random number generator"},
+           {"--threads",
+            &o->assess.threads,
+            "Number of threads",
+            {.otherwise = "all cores", .range = Range{1, 1024}}},
+           nodes_option(o->nodes),
+           {"--rounds",
+            &o->assess.rounds,
+            "Largest number of rounds of paths, each of four times as many, for what is undecided",
+            {.range = Range{1, limits::sight_rounds}}},
+           {"--smoke-scale",
+            &o->assess.smoke_factors,
+            "Factors of a sweep: signs are assessed again with all smoke times each of them",
+            {.range = Range{0, 1e6}, .comma_separated = true}},
+           {"--codes-alone", &o->codes_alone,
+            "Assessment by the codes only: no smoke, no "
+            "reflections"},
+           {"--overwrite", &o->overwrite,
+            "Replacement of files in the folder that no assessment has written"},
+           {"--strict", &o->strict,
+            "Exit code 1 where anything fails, is undecided, not assessed or not verified"}},
+      .notes =
+          "Needs routes, areas or observers in the scene. Writes report.html, assessment.json, "
+          "checks.csv, sights.csv, guided.csv (over time), by_guid.csv (of what came from IFC), "
+          "plans/ (SVG, DXF), schedules/ (CSV). Over several times routes are followed; all else "
+          "is of the last of them.\n"
+          "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
+          "  luxodus assess office.toml --scenario fire --rules en1838-2013 \\\n"
+          "    --deviation de-asr-a3.4-3\n"
+          "  luxodus assess office.toml --rules en1838-2024,nfpa101 --codes-alone\n"
+          "  luxodus assess office.toml --smoke-scale 0.1,0.3,1,3,10\n"
+          "  luxodus assess office.toml --at 30s,60s,90s",
+      .run = [o] { return exit_code_of(assess_scene(*o)); }};
+  add_report_options(command, o->report);
+  return command;
+}
+
+Command compare_command() {
+  struct Folders {
+    std::string before, after, json;
+  };
+  const auto o = std::make_shared<Folders>();
+  return {.name = "compare",
+          .summary = "Compare two assessments",
+          .heading = "Assess",
+          .options = {{"before",
+                       &o->before,
+                       "Folder of an assessment",
+                       {.form = Form::folder, .required = true}},
+                      {"after",
+                       &o->after,
+                       "Folder of the other assessment",
+                       {.form = Form::folder, .required = true}},
+                      {"--json",
+                       &o->json,
+                       "File for the comparison as JSON, besides",
+                       {.form = Form::file}}},
+          .notes = "  luxodus compare out/before out/after",
+          .run = [o] { return exit_code_of(compare_folders(o->before, o->after, o->json)); }};
+}
+
+}  // namespace luxodus::cli

@@ -1,0 +1,40 @@
+// An assessment and the folder of its report, for the subcommands that make one.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actors/apps/cli/command.hpp"
+#include "actors/apps/cli/report_options.hpp"
+#include "actors/judge/assess/assessment.hpp"
+
+namespace luxodus::cli {
+
+/// The times of the states that are assessed, and the scene at the last of them.
+struct AssessedStates {
+  std::vector<double> times;  // none: the scene does not change in time
+  std::shared_ptr<const SceneDescription> last;
+};
+
+/// Without times those that the scene says. None after every problem was told.
+std::optional<AssessedStates> assessed_states(const std::string& file, std::vector<double> times);
+
+struct AssessmentJob {
+  std::shared_ptr<const SceneDescription> scene;  // of several states the last
+  std::string scene_file;
+  std::vector<double> times;  // of the states; one or none: there is one
+  std::filesystem::path folder;
+  AssessOptions options;
+  bool overwrite = false;  // files that no assessment has written
+  bool strict = false;     // exit code 1 where anything is open
+  ReportWords report;
+};
+
+/// Assesses, writes the report and prints the summary; until the interrupt flag is set, when
+/// nothing is written. Errors: of the folder, of writing; those of the scene are told here.
+Result<ExitCode> assess_into(const AssessmentJob& job);
+
+}  // namespace luxodus::cli

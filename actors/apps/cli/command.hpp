@@ -1,0 +1,22 @@
+// What all commands share: exit codes, and what is told on standard error.
+#pragma once
+
+#include <string>
+
+#include "actors/results/run/default_threads.hpp"
+#include "runtime/core/result.hpp"
+
+namespace luxodus::cli {
+
+enum ExitCode : int { success = 0, failure = 1, bad_input = 2, interrupted = 130 };
+
+/// One line "file:line: sentence" on standard error.
+void tell(const Problem& problem);
+/// One line "file:line: warning: sentence" on standard error.
+void warn(const Problem& warning);
+
+/// The exit code of what a command did; that of bad input after its problem was told.
+int exit_code_of(const Result<ExitCode>& result);
+int exit_code_of(const Result<void>& result);
+
+}  // namespace luxodus::cli

@@ -1,0 +1,53 @@
+#include "actors/apps/cli/findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "actors/apps/cli/command.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+std::string counted(const std::vector<Finding>& findings, Severity severity) {
+  const auto n = std::count_if(findings.begin(), findings.end(),
+                               [&](const Finding& f) { return f.severity == severity; });
+  return fmt::format("{} {}{}", n == 0 ? "no" : std::to_string(n), word_of(severity),
+                     n == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void tell_findings(const std::vector<Finding>& findings) {
+  for (const Finding& f : findings) std::fprintf(stderr, "%s\n", f.text().c_str());
+}
+
+std::string count_text(const std::vector<Finding>& findings) {
+  return counted(findings, Severity::error) + ", " + counted(findings, Severity::warning) + ", " +
+         counted(findings, Severity::note);
+}
+
+Json findings_json(const std::vector<Finding>& findings) {
+  Json out = Json::array();
+  for (const Finding& f : findings)
+    out.push_back({{"severity", word_of(f.severity)},
+                   {"kind", f.kind},
+                   {"file", f.problem.where.file},
+                   {"line", f.problem.where.line},
+                   {"what", f.problem.what}});
+  return out;
+}
+
+bool passes_inspection(const std::shared_ptr<const SceneDescription>& scene,
+                       const std::vector<Scenario>& scenarios, int threads) {
+  const auto found = inspect(scene, scenarios, threads);
+  if (!found) {
+    tell(found.problem());
+    return false;
+  }
+  tell_findings(found.value());
+  return !has_error(found.value());
+}
+
+}  // namespace luxodus::cli

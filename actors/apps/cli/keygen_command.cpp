@@ -1,0 +1,128 @@
+// luxodus keygen: the key pairs by which nodes of several hosts know each other.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "actors/apps/cli/command.hpp"
+#include "actors/apps/cli/commands.hpp"
+#include "actors/apps/cli/load_cluster.hpp"
+#include "runtime/net/keys.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct KeygenOptions {
+  std::string out;
+  std::string cluster;
+  std::vector<std::string> names;
+  bool force = false;
+};
+
+/// Takes names and folder from the cluster's file, where one is given. False: it was told why not.
+bool take_cluster(KeygenOptions& options) {
+  if (options.cluster.empty()) return true;
+  const std::optional<ClusterConfig> read = load_cluster(options.cluster);
+  if (!read) return false;
+  if (options.out.empty()) options.out = read->keys.folder.string();
+  if (options.names.empty()) {
+    for (const ClusterNode& node : read->nodes) options.names.push_back(node.name);
+    return true;
+  }
+  for (const std::string& name : options.names) {
+    if (find_node(*read, name)) continue;
+    tell({{options.cluster, 0}, fmt::format("there is no node \"{}\"", name)});
+    return false;
+  }
+  return true;
+}
+
+/// The folder, for its owner alone: whoever can write into it can put a key of his own there.
+std::optional<Problem> make_folder(const fs::path& folder) {
+  std::error_code failed;
+  if (fs::create_directories(folder, failed)) fs::permissions(folder, fs::perms::owner_all, failed);
+  const fs::file_status status = fs::status(folder, failed);
+  if (!fs::is_directory(status))
+    return problem_in(folder, "is no folder, and none can be made there");
+  if ((status.permissions() & (fs::perms::group_write | fs::perms::others_write)) !=
+      fs::perms::none)
+    return problem_in(folder, "others may write here, and replace keys: chmod go-w it");
+  return std::nullopt;
+}
+
+/// What keeps us from beginning, before a single key is written.
+std::optional<Problem> refusal(const KeygenOptions& options) {
+  if (options.out.empty())
+    return problem_in(
+        options.cluster,
+        "say where keys go: --out DIR, or folder = \"keys\" in [keys] of the cluster");
+  if (options.names.empty()) return problem("name nodes, or a cluster: --cluster FILE");
+  std::string there;
+  for (const std::string& name : options.names) {
+    if (const auto fault = name_fault(name); !fault.empty())
+      return problem(fmt::format("\"{}\" is no node's name: {}", name, fault));
+    for (const fs::path& path : {key_path(options.out, name), public_key_path(options.out, name)}) {
+      std::error_code failed;
+      if (fs::exists(fs::symlink_status(path, failed))) there += " " + path.filename().string();
+    }
+  }
+  if (there.empty() || options.force) return std::nullopt;
+  return problem_in(options.out,
+                    fmt::format("there already:{}; nodes may depend on these keys. Name the nodes "
+                                "that lack one, or replace keys by --force",
+                                there));
+}
+
+int keygen(KeygenOptions options) {
+  const auto refuse = [](const Problem& problem) {
+    tell(problem);
+    return ExitCode::bad_input;
+  };
+  if (!take_cluster(options)) return ExitCode::bad_input;
+  if (const auto problem = refusal(options)) return refuse(*problem);
+  if (const auto problem = make_folder(options.out)) return refuse(*problem);
+  for (const std::string& name : options.names) {
+    const fs::path path = key_path(options.out, name);
+    if (options.force) {
+      std::error_code failed;
+      fs::remove(path, failed);
+      fs::remove(public_key_path(options.out, name), failed);
+    }
+    const auto written = write_keys(make_keypair(), path);
+    if (!written) return refuse(written.problem());
+    fmt::print("{}  {}\n", written->public_key, name);
+  }
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command keygen_command() {
+  const auto o = std::make_shared<KeygenOptions>();
+  return {.name = "keygen",
+          .summary = "Make key pairs for the nodes of a cluster",
+          .heading = "Cluster",
+          .options = {{"names",
+                       &o->names,
+                       "Names of nodes",
+                       {.form = Form::name, .otherwise = "all nodes of the cluster"}},
+                      {"--cluster",
+                       &o->cluster,
+                       "Cluster file whose nodes need keys",
+                       {.form = Form::file}},
+                      {"--out",
+                       &o->out,
+                       "Folder for the keys",
+                       {.form = Form::folder, .otherwise = "keys.folder of the cluster"}},
+                      {"--force", &o->force, "Replacement of keys that are there"}},
+          .notes =
+              "Writes NAME.key, which only its owner may read and only its node needs, and "
+              "NAME.key.pub, which all nodes need; prints the public keys.\n"
+              "  luxodus keygen --cluster cluster.toml\n"
+              "  luxodus keygen --out keys n0 n1 controller",
+          .run = [o] { return keygen(*o); }};
+}
+
+}  // namespace luxodus::cli

@@ -1,0 +1,15 @@
+#include "actors/apps/cli/load_cluster.hpp"
+
+#include "actors/apps/cli/command.hpp"
+#include "runtime/config/cluster_file.hpp"
+
+namespace luxodus::cli {
+
+std::optional<ClusterConfig> load_cluster(const std::filesystem::path& file) {
+  ReadCluster read = read_cluster(file);
+  for (const Problem& problem : read.problems.list()) tell(problem);
+  for (const Problem& warning : read.warnings) warn(warning);
+  return std::move(read.cluster);
+}
+
+}  // namespace luxodus::cli

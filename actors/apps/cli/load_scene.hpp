@@ -1,0 +1,40 @@
+// The scene that a command is about, with all its problems told.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actors/apps/cli/options.hpp"
+#include "actors/results/run/open_scene.hpp"
+#include "runtime/core/result.hpp"
+#include "scenes/light/world/timed_scenes.hpp"
+
+namespace luxodus::cli {
+
+/// Who tells the warnings of reading: load_scene, or the inspection, whose findings they are, too.
+enum class ReadingWarnings { told, left_to_inspection };
+
+/// The scene of a scene file or a pack, or null after every problem was told. `at_s`: time of its
+/// fire simulations instead of the one that it states; a pack has one time. `frames`: what
+/// simulations have between two of theirs.
+std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
+                                                   ReadingWarnings warnings = ReadingWarnings::told,
+                                                   std::optional<double> at_s = std::nullopt,
+                                                   FireFrames frames = FireFrames::between);
+
+/// Reads a scene file at other times, where the scene has a clock; empty elsewhere, and of a pack.
+SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene,
+                            FireFrames frames);
+
+/// The option --at, whose text goes to `at`.
+Option at_option(std::string& at);
+/// The same option, which takes several times.
+Option times_option(std::vector<std::string>& at);
+/// Those it says, each once, ascending. Requires: they were read as that option.
+std::vector<double> times_asked(const std::vector<std::string>& at);
+/// The time it says; none where it is empty. Requires: it was read as that option.
+std::optional<double> time_asked(const std::string& at);
+
+}  // namespace luxodus::cli

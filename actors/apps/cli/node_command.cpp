@@ -1,0 +1,389 @@
+// luxodus node: the nodes of one process of a cluster, started on the machine where they belong.
+#include <fmt/format.h>
+#include <poll.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <mutex>
+
+#include "actors/apps/cli/assess_command.hpp"
+#include "actors/apps/cli/command.hpp"
+#include "actors/apps/cli/commands.hpp"
+#include "actors/apps/cli/findings.hpp"
+#include "actors/apps/cli/load_cluster.hpp"
+#include "actors/apps/cli/load_scene.hpp"
+#include "actors/apps/cli/picture_choices.hpp"
+#include "actors/apps/cli/progress_line.hpp"
+#include "actors/apps/cli/run_output_files.hpp"
+#include "actors/apps/cli/serve_view.hpp"
+#include "actors/apps/cli/signals.hpp"
+#include "actors/apps/view/live_states.hpp"
+#include "actors/cast/process/cluster_process.hpp"
+#include "actors/cast/process/node_executor.hpp"
+#include "actors/judge/assess/round_state.hpp"
+#include "actors/results/files/result_files.hpp"
+#include "actors/results/files/run_results.hpp"
+#include "actors/results/formats/file_names.hpp"
+#include "actors/results/formats/output_folder.hpp"
+#include "actors/results/pictures/picture_tiles.hpp"
+#include "actors/results/run/flux_store.hpp"
+#include "actors/results/run/run_in_pieces.hpp"
+#include "runtime/core/log.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NodeOptions {
+  std::string config;
+  std::vector<std::string> names;
+};
+
+/// The folder of the results, where this process is to write them: held until it ends.
+Result<std::optional<OutputFolder>> claim_results(const ClusterConfig& cluster,
+                                                  const ClusterProcessRun& process) {
+  if (!process.shows()) return std::optional<OutputFolder>();
+  const fs::path folder =
+      cluster.run.out.empty() ? fs::path("out") / file_name_of(cluster.run.name) : cluster.run.out;
+  OutputPlan plan = run_output(*process.local_run().scene().description, cluster.display.pictures);
+  auto out = OutputFolder::claim(folder, plan);
+  if (!out) return out.problem();
+  if (auto ok = refuse_foreign_files(out->path(), plan); !ok) return ok.problem();
+  return std::optional(std::move(out).value());
+}
+
+/// What the node that shows the run leaves, as `luxodus run` does.
+RunOutputOptions display_options(const ClusterConfig& cluster, const ClusterProcessRun& process,
+                                 const fs::path& folder) {
+  constexpr int preview_paths = 4;
+  RunOutputOptions options;
+  options.folder = folder;
+  options.record.scene_file = fs::absolute(cluster.run.scene).string();
+  options.record.at_s = cluster.run.at_s;
+  options.record.cells = process.cells();
+  options.pictures = cluster.display.pictures;
+  options.picture.interrupt = options.preview.interrupt = &interrupt_flag();
+  options.preview.paths_per_pixel = preview_paths;
+  options.preview_s = cluster.display.preview_s;
+  options.preview_asked = &preview_flag();
+  options.patient = true;
+  options.make_room = [&process] { process.make_room(); };
+  return options;
+}
+
+/// A controller that traces brings its worker.
+void add_tracer(const ClusterConfig& cluster, std::vector<NodeId>& nodes) {
+  const NodeId controller = cluster.controller();
+  if (!cluster.node(controller).traces || std::count(nodes.begin(), nodes.end(), controller) == 0)
+    return;
+  const auto tracer = find_node(cluster, tracer_of(cluster.node(controller).name));
+  if (tracer && std::count(nodes.begin(), nodes.end(), *tracer) == 0) nodes.push_back(*tracer);
+}
+
+/// What one node says is read beside what others say, on other hosts: with its moment, in UTC.
+void tell_the_time() {
+  spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v", spdlog::pattern_time_type::utc);
+}
+
+/// Workers of states that are made by `states`, which outlives them.
+NodeWork work_of_states(StateMaker& states) {
+  NodeWork work;
+  work.worker = [&states](const RunSetup& run, const Machine& machine, const NodeSetup& node,
+                          const std::function<bool()>& stop) {
+    RunSetup of_states = run;
+    of_states.states = &states;
+    return run_worker(of_states, machine, node, stop);
+  };
+  return work;
+}
+
+/// The nodes of a cluster whose file has a table [view].
+Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
+                                                ClusterProcessRun& process) {
+  const LocalRun& base = process.local_run();
+  const auto& scene = base.scene().description;
+  const SceneAtTime scene_at =
+      reader_of_times(cluster.run.scene.string(), *scene, FireFrames::between);
+  LiveStates states(scene, scene_at);
+  NodeWork work = work_of_states(states);
+  work.controller = [&](const RunSetup& run, const Machine& machine,
+                        const NodeSetup& node) -> Result<StopReason> {
+    auto started = NodeExecutor::start(run, machine, node);
+    if (!started) return started.problem();
+    HubOptions hub{{}, {}, cluster.view.save_folder.empty() ? "." : cluster.view.save_folder};
+    hub.live.scene_at = scene_at;
+    hub.live.judged = FrameScenes::of(*scene, cluster.run.scene, cluster.run.at_s);
+    hub.live.seed = base.seed();
+    hub.live.threads = default_threads();
+    if (cluster.run.particles) hub.live.particles = static_cast<int64_t>(*cluster.run.particles);
+    if (cluster.run.relative_error) hub.live.relative_error = *cluster.run.relative_error;
+    const std::shared_ptr<NodeExecutor> executor = std::move(started).value();
+    hub.live.executor = executor;
+    hub.first.scenario = cluster.run.scenario;
+    HttpAddress server{cluster.view.address, cluster.view.port, ""};
+    if (!cluster.view.allow_host.empty()) server.allowed_hosts = {cluster.view.allow_host};
+    const auto served = serve_view(scene, server, hub, [&] { return executor->fault(); });
+    if (!served) return served.problem();
+    return StopReason::interrupted;
+  };
+  return process.run(interrupt_flag(), work);
+}
+
+/// Why nobody will trace any more for whoever waits for workers. Any thread.
+class WorkerWatch {
+ public:
+  WorkerWatch(const ClusterConfig& cluster, const NodeExecutor& executor)
+      : cluster_(cluster), executor_(executor), without_since_(clock_.now()) {}
+
+  std::optional<Problem> fault() {
+    // The executor asks with its own lock held: it is asked before this one is taken.
+    if (auto refused = executor_.fault()) return refused;
+    const NodeExecutor::Counters counters = executor_.counters();
+    const std::lock_guard lock(mutex_);
+    const Nanoseconds now = clock_.now();
+    const Timeouts& patience = cluster_.timeouts;
+    if (counters.stuck == 0)
+      stuck_since_.reset();
+    else if (!stuck_since_)
+      stuck_since_ = now;
+    else if (now - *stuck_since_ > patience.start)  // so long a worker that can may take to come
+      return problem_in(cluster_.file,
+                        "no worker can trace what is asked for; their logs say why: raise what "
+                        "they lack, and start anew");
+    if (counters.workers > 0) {
+      any_ = true;
+      without_since_.reset();
+      return std::nullopt;
+    }
+    if (!without_since_) without_since_ = now;  // nobody may have asked for a while
+    if (now - *without_since_ <= (any_ ? patience.lost : patience.start)) return std::nullopt;
+    return problem_in(cluster_.file,
+                      any_ ? "all workers were lost: see to them and start anew"
+                           : "no worker has come within 'start_s' of [timeouts]: start them");
+  }
+
+ private:
+  const ClusterConfig& cluster_;
+  const NodeExecutor& executor_;
+  const SystemClock clock_;
+  std::mutex mutex_;  // guards all below
+  std::optional<Nanoseconds> without_since_, stuck_since_;
+  bool any_ = false;
+};
+
+/// What a cluster's file asks for in its table [assess]. None after every problem was told.
+std::optional<AssessmentJob> assessment_of(const ClusterConfig& cluster, const LocalRun& base) {
+  std::vector<double> times;
+  if (cluster.run.at_s) times.push_back(*cluster.run.at_s);
+  const auto states = assessed_states(cluster.run.scene.string(), times);
+  if (!states) return std::nullopt;
+  AssessmentJob job;
+  job.scene = states->last;
+  job.scene_file = cluster.run.scene.string();
+  job.times = states->times;
+  job.folder = cluster.run.out;
+  job.options.scenario = cluster.run.scenario;
+  job.options.rules = cluster.assess.rules;
+  job.options.deviations = cluster.assess.deviations;
+  job.options.seed = base.seed();
+  job.options.threads = default_threads();
+  job.options.rounds = cluster.assess.rounds;
+  job.options.smoke_factors = cluster.assess.smoke_scale;
+  return job;
+}
+
+/// The nodes of a cluster whose file has a table [assess].
+Result<ExitCode> assess_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process) {
+  const auto& scene = process.local_run().scene().description;
+  RoundStates states(scene,
+                     reader_of_times(cluster.run.scene.string(), *scene, FireFrames::nearest));
+  ExitCode code = ExitCode::success;
+  NodeWork work = work_of_states(states);
+  work.controller = [&](const RunSetup& run, const Machine& machine,
+                        const NodeSetup& node) -> Result<StopReason> {
+    auto job = assessment_of(cluster, process.local_run());
+    if (!job) {
+      code = ExitCode::bad_input;
+      return StopReason::interrupted;
+    }
+    auto started = NodeExecutor::start(run, machine, node);
+    if (!started) return started.problem();
+    NodeExecutor& executor = *started.value();
+    WorkerWatch watch(cluster, executor);
+    RunInPieces pieces(executor, [&] { return watch.fault(); });
+    job->options.executor = &pieces;
+    const auto assessed = assess_into(*job);
+    if (!assessed) return assessed.problem();
+    code = watch.fault() ? ExitCode::failure : assessed.value();
+    return StopReason::particles;
+  };
+  const auto ended = process.run(interrupt_flag(), work);
+  if (!ended) return ended.problem();
+  return code;
+}
+
+PictureOptions pictures_of(const RenderChoice& render) {
+  PictureOptions picture;
+  picture.max_seconds = render.time_s.value_or(0);
+  picture.target_error = render.error.value_or(0);
+  limit_paths(render.paths, picture);
+  picture.progressive = true;
+  picture.gather = !render.full_paths;
+  picture.raw = render.raw;
+  picture.interrupt = &interrupt_flag();
+  return picture;
+}
+
+/// The nodes of a cluster whose file has a table [render].
+Result<ExitCode> render_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process) {
+  const LocalRun& base = process.local_run();
+  const SceneDescription& scene = *base.scene().description;
+  PictureOptions picture = pictures_of(cluster.render);
+  if (auto ok = check_views(scene, cluster.render.view, picture); !ok) return ok.problem();
+  if (scene.cameras.empty()) return problem_in(scene.file, "the scene has no [[camera]] to render");
+  PictureStates states(base);
+  ExitCode code = ExitCode::success;
+  NodeWork work = work_of_states(states);
+  work.controller = [&](const RunSetup& run, const Machine& machine,
+                        const NodeSetup& node) -> Result<StopReason> {
+    const auto scenario = find_scenario(scene, cluster.run.scenario);
+    if (!scenario) return scenario.problem();
+    if (!passes_inspection(base.scene().description, {scenario.value()}, default_threads()))
+      return problem_in(scene.file, "the scene has errors, told above");
+    const auto out = OutputFolder::claim(cluster.run.out, plan_of_views(scene));
+    if (!out) return out.problem();
+    LocalRun finished(base.shared_scene(), base.seed(), default_threads());
+    if (auto ok = load_flux(out->path() / "flux.lux", finished); !ok) return ok.problem();
+    auto started = NodeExecutor::start(run, machine, node);
+    if (!started) return started.problem();
+    WorkerWatch watch(cluster, *started.value());
+    picture.executor = started.value().get();
+    picture.gives_up = [&] { return watch.fault().has_value(); };
+    const auto rendered = render_aloud(out->path(), finished, cluster.render.view, picture);
+    if (!rendered) return rendered.problem();
+    if (auto fault = watch.fault()) return *fault;
+    code = rendered.value();
+    return StopReason::particles;
+  };
+  const auto ended = process.run(interrupt_flag(), work);
+  if (!ended) return ended.problem();
+  return code;
+}
+
+int run_nodes(const NodeOptions& options) {
+  tell_the_time();
+  const std::optional<ClusterConfig> read = load_cluster(options.config);
+  if (!read) return ExitCode::bad_input;
+  const ClusterConfig& cluster = *read;
+  spdlog::set_level(spdlog::level::from_str(cluster.observe.log_level));
+  std::vector<NodeId> nodes;
+  for (const std::string& name : options.names) {
+    const auto node = find_node(cluster, name);
+    if (!node) {
+      tell({{options.config, 0}, "there is no node \"" + name + "\""});
+      return ExitCode::bad_input;
+    }
+    if (!nodes.empty() && cluster.node(*node).process != cluster.node(nodes.front()).process) {
+      tell({{options.config, 0},
+            "\"" + name + "\" belongs to another process than \"" + options.names.front() + "\""});
+      return ExitCode::bad_input;
+    }
+    nodes.push_back(*node);
+  }
+  add_tracer(cluster, nodes);
+  auto process = ClusterProcessRun::prepare(cluster, nodes);
+  if (!process) {
+    tell(process.problem());
+    return ExitCode::bad_input;
+  }
+  const auto out = claim_results(cluster, *process.value());
+  if (!out) {
+    tell(out.problem());
+    return ExitCode::bad_input;
+  }
+  install_interrupt_handler();
+  if (cluster.view.live) {
+    const auto viewed = view_on_nodes(cluster, *process.value());
+    if (viewed) return ExitCode::success;
+    tell(viewed.problem());
+    return ExitCode::failure;
+  }
+  if (cluster.assess.asked) {
+    const auto assessed = assess_on_nodes(cluster, *process.value());
+    if (assessed) return assessed.value();
+    tell(assessed.problem());
+    return ExitCode::failure;
+  }
+  if (cluster.render.asked) {
+    const auto rendered = render_on_nodes(cluster, *process.value());
+    if (rendered) return rendered.value();
+    tell(rendered.problem());
+    return ExitCode::failure;
+  }
+  std::optional<RunOutputFiles> display;
+  if (process.value()->shows()) {
+    install_preview_handler();
+    display.emplace(process.value()->local_run(),
+                    display_options(cluster, *process.value(), out.value()->path()));
+  }
+  ProgressLine line(cluster.run.name);
+  auto ended = process.value()->run(
+      interrupt_flag(), [&](const Progress& p) { line.show(p); }, display ? &*display : nullptr);
+  if (!ended) {
+    tell(ended.problem());
+    return ExitCode::failure;
+  }
+  for (const std::string& text : process.value()->residency_lines()) log_info("{}", text);
+  if (display && !display->result().is_null())
+    std::printf("%s in %s\n%s", cluster.run.name.c_str(), out.value()->path().string().c_str(),
+                summary_text(display->result()).c_str());
+  if (!ended.value()) return ExitCode::success;
+  process.value()->forget_journal();
+  if (*ended.value() == StopReason::workers_lost) {
+    tell({{options.config, 0},
+          "all workers were lost; what they had counted was written: go on with "
+          "luxodus run --resume, or see to the workers and start anew"});
+    return ExitCode::failure;
+  }
+  if (*ended.value() == StopReason::objects_lost) {
+    const LocalRun& run = process.value()->local_run();
+    const auto lost = static_cast<int64_t>(run.missing().size());
+    tell({{options.config, 0},
+          fmt::format("{} particles are lost: {} batches need scene parts that no node "
+                      "who is left has, and the results, which were written, lean away from what "
+                      "these would have met; start anew with nodes that store the scene, or go on "
+                      "with luxodus run --resume",
+                      lost * run.scene().batch_particles, lost)});
+    return ExitCode::failure;
+  }
+  return *ended.value() == StopReason::interrupted ? ExitCode::interrupted : ExitCode::success;
+}
+
+}  // namespace
+
+Command node_command() {
+  const auto o = std::make_shared<NodeOptions>();
+  return {
+      .name = "node",
+      .summary = "Run nodes of a cluster on this machine",
+      .heading = "Cluster",
+      .options = {{"--config", &o->config, "Cluster file", {.form = Form::file, .required = true}},
+                  {"--name",
+                   &o->names,
+                   "Name of a node of the process; may be repeated",
+                   {.form = Form::name, .required = true}}},
+      .notes =
+          "One call for each process of the cluster, in any order, on any machine; all wait "
+          "for each other.\n"
+          "  luxodus node --config cluster.toml --name n3\n"
+          "  luxodus node --config cluster.toml --name n0 --name n1     two in a process\n"
+          "The process of the display, by default the controller's, writes the results. `luxodus "
+          "cluster up` starts all "
+          "that belong to this machine, `luxodus deploy` writes what starts them on many.",
+      .run = [o] { return run_nodes(*o); }};
+}
+
+}  // namespace luxodus::cli

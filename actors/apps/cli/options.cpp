@@ -1,0 +1,234 @@
+// Reads a command line by the tables of options.hpp. CLI11 finds options, arguments and commands
+// among the words; values are read here, alike for all: a whole number is one of decimal digits
+// that fits, and what is refused is said with what would be right.
+#include "actors/apps/cli/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "actors/apps/cli/command.hpp"
+#include "actors/apps/cli/library.hpp"
+#include "actors/apps/cli/words.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+/// `text` cannot be the option's value.
+struct Refused {
+  std::string why;
+};
+
+template <class T>
+T read_number(const Option& option, const std::string& text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  bool is_one = error == std::errc() && end == text.data() + text.size();
+  if constexpr (std::is_floating_point_v<T>) is_one = is_one && std::isfinite(value);
+  const auto& range = option.traits.range;
+  const auto as_double = static_cast<double>(value);
+  if (is_one && (!range || (range->low <= as_double && as_double <= range->high))) return value;
+  std::string bounds;
+  if (range)
+    bounds = number_text(range->low) + " to " + number_text(range->high);
+  else if constexpr (std::is_integral_v<T>)
+    bounds = std::to_string(std::numeric_limits<T>::min()) + " to " +
+             std::to_string(std::numeric_limits<T>::max());
+  throw Refused{"\"" + text + "\" is no " + (std::is_integral_v<T> ? "whole number" : "number") +
+                (bounds.empty() ? "" : " from " + bounds)};
+}
+
+std::string read_text(const Option& option, std::string text) {
+  const auto& choices = option.traits.choices;
+  if (!choices.empty()) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (std::find(choices.begin(), choices.end(), text) == choices.end())
+      throw Refused{"\"" + text + "\" is none of " + option.value_word()};
+  }
+  if (option.traits.fault)
+    if (const std::string fault = option.traits.fault(text); !fault.empty()) throw Refused{fault};
+  return option.traits.form == Form::scene ? find_scene(text) : text;
+}
+
+/// Every word that was given for an option goes into its target.
+void store(const Option& option, const std::vector<std::string>& texts) {
+  const auto read = [&]<class T>(const std::string& text, T& value) {
+    if constexpr (std::is_same_v<T, std::string>)
+      value = read_text(option, text);
+    else
+      value = read_number<T>(option, text);
+  };
+  const auto put = [&](auto* target) {
+    using T = std::remove_cvref_t<decltype(*target)>;
+    if constexpr (std::is_same_v<T, bool>) {
+      *target = true;
+    } else if constexpr (std::is_same_v<T, std::vector<std::string>> ||
+                         std::is_same_v<T, std::vector<double>>) {
+      for (const std::string& text : texts) read(text, target->emplace_back());
+    } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
+      read(texts.back(), *target);
+    } else {
+      read(texts.back(), target->emplace());
+    }
+  };
+  std::visit(put, option.value);
+}
+
+/// Makes one name of an option known to the parser: its own, or the old one.
+void add_name(CLI::App& app, const Option& option, const std::string& name) {
+  const bool is_old = name != option.name;
+  const auto take = [&option, name, is_old](const std::vector<std::string>& texts) {
+    if (is_old)
+      warn(problem(name + " is now " + option.long_name() +
+                   "; the old name goes with the next release"));
+    try {
+      store(option, texts);
+    } catch (const Refused& refused) {
+      throw CLI::ValidationError(is_old || option.is_argument() ? name : option.long_name(),
+                                 refused.why);
+    }
+    return true;
+  };
+  if (option.is_flag()) {
+    app.add_flag_callback(name, [take] { take({}); });
+    return;
+  }
+  CLI::Option* added = app.add_option(name, take);
+  if (option.is_list()) added->expected(CLI::detail::expected_max_vector_size);
+  if (option.traits.comma_separated) added->delimiter(',');
+  if (option.traits.required) added->required();
+}
+
+void add_options(CLI::App& app, const Command& command) {
+  for (const Option& option : command.options) {
+    add_name(app, option, option.name);
+    if (option.traits.old_name == nullptr) continue;
+    add_name(app, option, option.traits.old_name);
+    app.get_option(option.long_name())->excludes(app.get_option(option.traits.old_name));
+  }
+  for (const Option& option : command.options) {
+    CLI::Option* added = app.get_option(option.long_name());
+    if (option.traits.needs) added->needs(app.get_option(option.traits.needs));
+    if (option.traits.excludes) added->excludes(app.get_option(option.traits.excludes));
+  }
+}
+
+/// `command` and its texts stay where they are while `app` lives.
+void add_command(CLI::App& app, const Command& command, const std::string& path) {
+  app.formatter_fn([&command, path](const CLI::App*, const std::string&, CLI::AppFormatMode) {
+    return help_text(command, path);
+  });
+  add_options(app, command);
+  for (const Command& inner : command.commands)
+    add_command(*app.add_subcommand(inner.name), inner, path + " " + inner.name);
+  if (!command.commands.empty() && !command.run) app.require_subcommand(1);
+}
+
+/// Changes of one character that make one word of the other.
+size_t distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+/// ": did you mean run? " of the nearest word, or "; ".
+std::string guess(const std::string& word, const std::vector<std::string>& known) {
+  std::string nearest;
+  size_t least = word.size() / 3 + 2;  // farther is another word
+  for (const std::string& name : known)
+    if (const size_t d = distance(word, name); d < least) {
+      least = d;
+      nearest = name;
+    }
+  return nearest.empty() ? "; " : ": did you mean " + nearest + "? ";
+}
+
+/// A first word that is no command, with the command that was likely meant; nothing where all is
+/// well or the parser says it better.
+std::optional<std::string> unknown_command(const Command& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return std::nullopt;
+  std::vector<std::string> names;
+  for (const Command& command : program.commands) names.push_back(command.name);
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return std::nullopt;
+  return "there is no command \"" + std::string(argv[1]) + "\"" + guess(argv[1], names) +
+         program.name + " --help lists all commands";
+}
+
+/// The command that was called, and its words.
+std::pair<const Command*, std::string> called(const CLI::App& app, const Command& program) {
+  const CLI::App* at = &app;
+  const Command* command = &program;
+  std::string path = program.name;
+  while (!at->get_subcommands().empty()) {
+    at = at->get_subcommands().front();
+    path += " " + at->get_name();
+    command = &*std::find_if(command->commands.begin(), command->commands.end(),
+                             [&](const Command& c) { return c.name == at->get_name(); });
+  }
+  return {command, path};
+}
+
+/// What is wrong with a command line, in a sentence, and where help is.
+std::string sentence(const CLI::ParseError& error, const CLI::App& app, const Command& program) {
+  const auto [command, path] = called(app, program);
+  const std::string where = path + " --help lists what it takes";
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
+    const std::vector<std::string> rest = app.remaining(true);
+    const auto option = std::find_if(rest.begin(), rest.end(),
+                                     [](const std::string& word) { return word.starts_with("-"); });
+    if (option != rest.end()) {
+      std::vector<std::string> names;
+      for (const Option& o : command->options)
+        if (!o.is_argument()) names.push_back(o.long_name());
+      const std::string name = option->substr(0, option->find('='));
+      return path + " has no option " + name + guess(name, names) + where;
+    }
+  }
+  return std::string(error.what()) + "; " + where;
+}
+
+}  // namespace
+
+int run_command_line(const Command& program, const std::string& version, int argc, char** argv) {
+  if (const auto unknown = unknown_command(program, argc, argv)) {
+    tell({{}, *unknown});
+    return ExitCode::bad_input;
+  }
+  CLI::App app(program.summary, program.name);
+  app.set_version_flag("--version", version);
+  add_command(app, program, program.name);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(app.help().c_str(), stdout);
+    return ExitCode::success;
+  } catch (const CLI::CallForVersion& asked) {
+    std::fprintf(stdout, "%s\n", asked.what());
+    return ExitCode::success;
+  } catch (const CLI::ParseError& error) {
+    tell({{}, sentence(error, app, program)});
+    return ExitCode::bad_input;
+  }
+  return called(app, program).first->run();
+}
+
+}  // namespace luxodus::cli

@@ -1,0 +1,72 @@
+#include "actors/apps/cli/serve_view.hpp"
+
+#include <fmt/format.h>
+#include <sys/random.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "actors/apps/cli/signals.hpp"
+#include "runtime/http/served_names.hpp"
+
+namespace luxodus::cli {
+
+namespace {
+
+bool is_loopback(const std::string& address) {
+  return address == "127.0.0.1" || address == "::1";
+}
+
+/// 128 bits that nobody guesses, from the system. Not the light's random numbers.
+std::string new_token() {
+  std::array<uint8_t, 16> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw std::runtime_error("the system gives no random numbers for a token");
+  std::string out;
+  for (const uint8_t byte : bytes) out += fmt::format("{:02x}", byte);
+  return out;
+}
+
+/// By making a file there: permissions do not tell of a file system that is full or read-only.
+Result<void> can_save_in(const std::filesystem::path& folder) {
+  std::string name = (folder / ".luxodus-view-XXXXXX").string();
+  const int file = ::mkstemp(name.data());
+  if (file < 0)
+    return problem_in(folder, std::string("variants cannot be saved in this folder: ") +
+                                  std::strerror(errno) +
+                                  "; make it, or name another (--save-folder)");
+  ::close(file);
+  ::unlink(name.c_str());
+  return {};
+}
+
+}  // namespace
+
+Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, HttpAddress server,
+                        const HubOptions& options,
+                        const std::function<std::optional<Problem>()>& fault) {
+  if (scene->packed)
+    return problem_in(scene->file, "a pack cannot be changed live: view its scene file");
+  if (auto ok = can_save_in(options.save_folder); !ok) return ok.problem();
+  if (!is_loopback(server.address)) server.token = new_token();
+  auto listening = ViewServer::listen(server);
+  if (!listening) return listening.problem();
+  ViewServer& serving = *listening.value();
+  ViewHub hub(std::move(scene), options,
+              [&](std::function<void()> function) { serving.post(std::move(function)); });
+  std::printf("%s/%s%s\nCtrl-C ends it.\n", http_address(server.address, serving.port()).c_str(),
+              server.token.empty() ? "" : "?token=", server.token.c_str());
+  std::fflush(stdout);
+  std::optional<Problem> broken;
+  serving.run(hub, [&] {
+    if (fault) broken = fault();
+    return broken || interrupt_flag();
+  });
+  if (broken) return *broken;
+  return {};
+}
+
+}  // namespace luxodus::cli

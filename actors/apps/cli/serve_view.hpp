@@ -1,0 +1,17 @@
+// The live view of a scene, served until Ctrl-C or until whoever traces for it cannot.
+#pragma once
+
+#include "actors/apps/view/view_hub.hpp"
+#include "actors/apps/view/view_server.hpp"
+#include "runtime/core/result.hpp"
+
+namespace luxodus::cli {
+
+/// Prints where the page is. Beyond this machine it makes a token, which the page then demands.
+/// `fault`: what has befallen whoever traces, which ends the view. Errors: that; a pack; an address
+/// that is none, a port that is taken; a folder that nothing can be saved in.
+Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, HttpAddress server,
+                        const HubOptions& options,
+                        const std::function<std::optional<Problem>()>& fault = {});
+
+}  // namespace luxodus::cli

@@ -1,0 +1,29 @@
+// What `luxodus topology` says of graphs: text for people, JSON for machines. Pure; one thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "actors/results/formats/json_out.hpp"
+#include "topology/graph.hpp"
+#include "topology/measure.hpp"
+
+namespace luxodus::cli {
+
+/// "32 nodes, 64 links (at most 4 a node), rotation 4".
+std::string title_of(const Graph& graph);
+
+std::string measures_text(const Graph& graph, const Measures& measures);
+Json measures_json(const Graph& graph, const Measures& measures);
+
+/// A graph among others of as many nodes; without one, why there is none.
+struct Compared {
+  std::string name;
+  std::optional<Graph> graph;
+  std::string why_not;
+};
+
+std::string comparison_text(const std::vector<Compared>& graphs);
+Json comparison_json(const std::vector<Compared>& graphs);
+
+}  // namespace luxodus::cli

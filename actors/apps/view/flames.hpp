@@ -1,0 +1,36 @@
+// Flames as a live view shows them: where within their box they glow, as cells. Pure; any thread,
+// but for what reads the scene's bricks.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "scenes/light/transport/compiled_scene.hpp"
+#include "scenes/light/transport/resolver.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Flames with a shape of their own in a live view; others glow as their voxels do.
+inline constexpr size_t view_flames = 8;
+/// Cells along the longest side of a flame.
+inline constexpr int view_flame_cells = 24;
+}  // namespace limits
+
+struct LiveFlame {
+  std::string group;
+  uint32_t medium = 0;
+  glm::dvec3 low{0}, size{0};      // of its box [m], in the scene's coordinates
+  glm::ivec3 count{1};             // of cells
+  std::array<double, 3> colour{};  // of a cell of 255: linear sRGB that a metre sends out
+                                   // [cd/(m2 m)]
+  std::string cells;               // a byte each, x fastest: glow by that of the brightest
+};
+
+/// The flames that give the most light, at most limits::view_flames. All cells of a flame together
+/// send out its luminous flux.
+std::vector<LiveFlame> flames_of(const CompiledScene& scene, const SceneIndex& index);
+
+}  // namespace luxodus

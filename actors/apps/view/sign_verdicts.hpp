@@ -1,0 +1,17 @@
+// Verdicts on one sign for a live view, from its observers and routes, as it stands now: moved,
+// dimmed, in thicker smoke. Takes seconds; any thread.
+#pragma once
+
+#include <atomic>
+
+#include "actors/apps/view/live_trace.hpp"
+#include "actors/results/formats/json_out.hpp"
+
+namespace luxodus {
+
+/// A message of type "sign", or "refused" with the reason.
+Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
+                   const std::map<std::string, double>& factors, const std::string& sign,
+                   const LiveOptions& options, const std::atomic<bool>& interrupt);
+
+}  // namespace luxodus

@@ -1,0 +1,124 @@
+// What becomes of a flush at a coordinator: it is counted whole on the actor's fiber, where it
+// leads a run after it was kept for a crash, and answered; or refused, and its leases are fenced.
+#include <algorithm>
+#include <utility>
+
+#include "actors/cast/coordinator/coordinator.hpp"
+#include "runtime/core/log.hpp"
+
+namespace luxodus {
+
+namespace {
+/// Hashed at once: some 0.1 ms.
+constexpr size_t bytes_of_a_step = 1 << 20;
+}  // namespace
+
+void Coordinator::on(Letter<Flush>&& letter) {
+  const MessageId flush = letter.id;
+  if (!meet(letter.from, flush.incarnation)) return;
+  if (const Answered& last = last_flush_[letter.from.node]; last.question == flush) {
+    answer(letter, last.answer);
+    return;
+  } else if (is_older(flush, last.question)) {
+    return;
+  }
+  if (std::count(uncounted_.begin(), uncounted_.end(), flush) > 0) return;  // it is being counted
+  // Who asks anew has given up what it asked before.
+  if (uncounted_.size() >= 2 * peers_.size()) return;
+  if (offer(CountFlush{std::move(letter)}) == Offered::taken) uncounted_.push_back(flush);
+}
+
+void Coordinator::go_on_counting() {
+  scheduler().fibers().wake_all(held_back_);
+}
+
+/// On the actor's fiber.
+void Coordinator::on(CountFlush&& count) {
+  while (holds_back(count.letter.body.leases.size()))
+    if (scheduler().fibers().wait(held_back_, "totals") == Wake::cancelled) return;
+  counting_ = true;
+  const std::string why = count_flush(count.letter);
+  counting_ = false;
+  if (scheduler().fibers().cancelled()) return;  // its worker asks whoever comes after this node
+  answer_flush(count.letter, why);
+  std::erase(uncounted_, count.letter.id);
+  sender().take_back(std::move(count.letter.body.leases));
+  look_soon();
+}
+
+/// Not on the fiber that asks. One timer does for all flushes of a turn: hundreds may come at once.
+void Coordinator::look_soon() {
+  if (std::exchange(looks_soon_, true)) return;
+  scheduler().timers().set(clock_.now(), own_task([this] {
+                             looks_soon_ = false;
+                             look_at_totals();
+                           }));
+}
+
+/// `why` it is refused; "" where it was counted.
+void Coordinator::answer_flush(const Letter<Flush>& letter, const std::string& why) {
+  const NodeId worker = letter.from.node;
+  Answered& last = last_flush_[worker];
+  last.question = letter.id;
+  if (why.empty()) {
+    ++counters_.flushes_taken;
+    last.answer = FlushTaken{};
+    log_debug("flush=taken node={} leases={}", worker.value, letter.body.leases.size());
+  } else {
+    ++counters_.flushes_refused;
+    last.answer = FlushRefused{{}, why};
+    refused(letter.id);
+    log_warning("flush=refused node={} text=\"{}\"", worker.value, why);
+  }
+  counters_.flush_bytes += letter.payload.bytes().size();
+  answer(letter, last.answer);
+  if (!why.empty()) fence(book_.fence_leases(worker, letter.body.leases), "its flush was refused");
+}
+
+/// Lets others have their turn. A node that is to end goes on: what is begun is whole in the end.
+bool Coordinator::take_turns() {
+  (void)scheduler().fibers().yield();
+  return true;
+}
+
+/// Takes a flush whole, or says why not.
+std::string Coordinator::count_flush(const Letter<Flush>& letter) {
+  const NodeId worker = letter.from.node;
+  const std::vector<uint64_t>& leases = letter.body.leases;
+  const char* const fenced = "a lease was fenced";
+  if (!book_.stand(worker, leases)) return fenced;
+  if (std::string why = objection(letter); !why.empty()) return why;
+  payload_hash_.reset();
+  for (std::span<const std::byte> left = letter.payload.bytes(); !left.empty(); take_turns()) {
+    const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
+    payload_hash_.add(piece.data(), piece.size());
+    left = left.subspan(piece.size());
+  }
+  if (payload_hash_.value() != letter.body.payload_hash)
+    return "the payload is not what its hash says";
+  // Others had turns: without leases that stand there may be nothing left to count into.
+  if (!book_.stand(worker, leases)) return fenced;
+  const auto rest = [this] { return take_turns(); };
+  auto gain = reader_.read(letter.payload.bytes(), totals().groups(), bins(), rest);
+  if (!gain) return gain.problem().what;
+  if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->balance().closes())
+    return "its batches or its ledger do not add up";
+  if (over_) return "the run has ended";
+  if (!book_.stand(worker, leases)) return fenced;
+  // From here on no lease of it can be fenced, though others have turns.
+  const std::span<const int64_t> batches = book_.batches_of(leases);
+  book_.hold(leases);
+  adding_ = true;
+  if (!keep(letter)) return "this node ends";
+  book_.commit(leases, clock_.now());
+  // Of who coordinates others, one batch may be late there while the others come.
+  if (levels_below(worker) > 0) book_.renew(worker, clock_.now() + span_of(worker));
+  gain->add_to(totals(), rest);
+  reader_.take_back(std::move(gain).value());
+  note_book();
+  adding_ = false;
+  counted(letter, batches);
+  return "";
+}
+
+}  // namespace luxodus

@@ -1,0 +1,90 @@
+#include "actors/cast/node/controller_node.hpp"
+
+#include "actors/cast/node/node_plan.hpp"
+
+namespace luxodus {
+
+namespace {
+
+CoordinatorConfig lead_config(const RunSetup& setup, const NodeSetup& node) {
+  CoordinatorConfig config = coordinator_config(setup, node);
+  // Who coordinates others lends on to whoever asks.
+  if (!setup.tree->has_levels()) config.group_ranks = node.group_ranks;
+  return config;
+}
+
+}  // namespace
+
+ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, LocalRun& run,
+                               const StopRule& stop, const std::atomic<bool>& interrupt,
+                               std::function<void(const Progress&)> report, const NodeSeams& seams,
+                               FlushKeeper* keeper)
+    : setup_(setup),
+      node_(node),
+      self_(node.net.self),
+      shell_({controller_net(setup, node), controller_limits(node), ShellConfig{}.max_payload_bytes,
+              node.shutdown_phase, setup.routes},
+             setup.graph, seams.clock, seams.transport),
+      calls_(seams.make_calls(shell_.scheduler())),
+      coordinator_(lead_config(setup, node),
+                   {run, stop, interrupt, std::move(report), setup.shards, *calls_,
+                    make_journal(keeper, seams), setup.display},
+                   shell_.scheduler(), shell_.network(), shell_.actors()) {
+  if (node.display == nullptr) return;
+  display_calls_ = seams.make_calls(shell_.scheduler());
+  display_.emplace(display_config(node), *node.display, *display_calls_, shell_.scheduler(),
+                   shell_.network(), shell_.actors());
+}
+
+/// The coordinator ends the run with this error; where it is itself what has failed, its workers
+/// are told in its place, and this node leaves.
+bool ControllerNode::end_run(const Verdict& verdict) {
+  if (verdict.actor != ActorName::coordinator) {
+    verdict.actor == ActorName::display ? coordinator_.lose_display(verdict.text)
+                                        : coordinator_.fail(verdict.text);
+    return true;
+  }
+  const std::string text = verdict.text.substr(0, limits::text_bytes);
+  ActorSystem& actors = shell_.actors();
+  for (uint16_t i = 0; i < setup_.graph.workers(); ++i) {
+    const Address worker{{i}, ActorName::tracer};  // some may have joined it
+    actors.send(coordinator_.address(), worker, actors.next_id(), RunEnded{0, text});
+    actors.send(coordinator_.address(), worker, actors.next_id(), EnterPhase{EndPhase::leave, 0});
+  }
+  return false;
+}
+
+/// Null where nothing is kept.
+JournalActor* ControllerNode::make_journal(FlushKeeper* keeper, const NodeSeams& seams) {
+  if (keeper == nullptr) return nullptr;
+  disk_calls_ = seams.make_calls(shell_.scheduler());
+  return &journal_.emplace(shell_.scheduler(), *keeper, *disk_calls_);
+}
+
+void ControllerNode::start(std::function<bool()> broken) {
+  if (display_) {
+    shell_.add(ActorName::display, *display_);
+    display_->begin();
+  }
+  shell_.add(ActorName::coordinator, coordinator_);
+  coordinator_.start();
+  if (journal_) {
+    shell_.supervisor().watch(ActorName::journal, *journal_);
+    journal_->start();
+  }
+  shell_.supervisor().end_runs_by([this](const Verdict& verdict) { return end_run(verdict); });
+  shell_.supervisor().rehearse(node_.faults);
+  if (setup_.observation != nullptr) {
+    metrics_.emplace(setup_.names, self_, "controller", shell_);
+    coordinator_.add_metrics(metrics_->registry());
+    if (display_) display_->add_metrics(metrics_->registry());
+    metrics_->add_rate({"particles_per_second", "", "Particles counted in a second.", ""},
+                       coordinator_.counters().particles);
+    metrics_->start(*setup_.observation);
+  }
+  shell_.begin([this, broken = std::move(broken)] {
+    return (coordinator_.ended() && is_shown()) || broken();
+  });
+}
+
+}  // namespace luxodus

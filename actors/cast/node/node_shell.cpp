@@ -1,0 +1,152 @@
+#include "actors/cast/node/node_shell.hpp"
+
+#include "runtime/core/log.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Between the end of a node's work and its leaving: others' farewells still pass through it.
+constexpr Nanoseconds linger_time = milliseconds(100);
+/// At what may have changed from outside: soon enough for who pressed Ctrl-C, and seldom enough
+/// that a node with nothing to do takes no processor from those that have.
+constexpr Nanoseconds look_every = milliseconds(50);
+
+}  // namespace
+
+std::vector<Edge> edges_of(const Graph& graph) {
+  std::vector<Edge> edges;
+  for (const GraphLink& link : graph.links()) {
+    edges.push_back({NodeId{static_cast<uint16_t>(link.a)}, NodeId{static_cast<uint16_t>(link.b)}});
+  }
+  return edges;
+}
+
+namespace {
+
+NodeRoutes routes_of(const ShellConfig& config, const Graph& graph) {
+  const Vertex self = config.net.self.value;
+  if (config.routes != nullptr) return NodeRoutes(graph, *config.routes, self);
+  return NodeRoutes(graph, balanced_routes(graph), self);
+}
+
+}  // namespace
+
+/// The network as what the scheduler polls and waits in.
+class NodeShell::Source final : public EventSource {
+ public:
+  Source(const Clock& clock, Network& network, Transport& transport)
+      : clock_(clock), network_(network), transport_(transport) {}
+
+  bool poll() override { return network_.poll(clock_.now()); }
+  void send_out() override { network_.send_out(clock_.now()); }
+  void wait_until(Nanoseconds deadline) override {
+    transport_.wait_until(std::min(deadline, network_.next_deadline()));
+  }
+  void wake() noexcept override { transport_.wake(); }
+
+ private:
+  const Clock& clock_;
+  Network& network_;
+  Transport& transport_;
+};
+
+/// Brings what the network delivers to the node's actors, and makes its routes.
+class NodeShell::Handler final : public NetHandler {
+ public:
+  explicit Handler(NodeShell& shell)
+      : shell_(shell), routes_(routes_of(shell.config_, shell.graph_)) {}
+
+  bool deliver(const Delivery& delivery) override {
+    shell_.actors_.deliver(delivery);
+    return true;
+  }
+  std::span<std::byte> room_for(const MessageId& id, NodeId, ActorPair actors,
+                                size_t bytes) override {
+    if (rarely(shell_.config_.net.buggify, Buggify::Site::no_room)) return {};
+    return shell_.actors_.room_for(id, actors.to, bytes);
+  }
+  void abandoned(const MessageId& id, Kind) override { shell_.actors_.abandoned(id); }
+  bool intercept(const Delivery& request) override { return shell_.actors_.intercept(request); }
+  void link_changed(NodeId neighbour, LinkPhase phase) override {
+    log_debug("link node={} neighbour={} phase={}", shell_.config_.net.self.value, neighbour.value,
+              name_of(phase));
+    if (phase != LinkPhase::up || !shell_.leaving_ || !shell_.tell_newcomer_) return;
+    shell_.tell_newcomer_(neighbour);
+    shell_.linger();
+  }
+  NextHops reroute(std::span<const Edge> down) override {
+    failed_.clear();
+    for (const Edge& edge : down) failed_.push_back({edge.a.value, edge.b.value});
+    NextHops hops;
+    hops.next.reserve(shell_.graph_.vertices());
+    for (const std::optional<Vertex> next : routes_.around(failed_))
+      hops.next.push_back(next ? NodeId{static_cast<uint16_t>(*next)} : no_node);
+    return hops;
+  }
+
+ private:
+  NodeShell& shell_;
+  NodeRoutes routes_;
+  std::vector<GraphLink> failed_;
+};
+
+NodeShell::NodeShell(const ShellConfig& config, const Graph& graph, const Clock& clock,
+                     Transport& transport)
+    : config_(config),
+      graph_(graph),
+      clock_(clock),
+      transport_(transport),
+      handler_(std::make_unique<Handler>(*this)),
+      network_(config.net, transport, *handler_, clock.now()),
+      actors_(config.net.self, network_, config.max_payload_bytes),
+      source_(std::make_unique<Source>(clock, network_, transport)),
+      scheduler_(config.scheduler, clock, *source_),
+      supervisor_(scheduler_, config.net.self) {}
+
+NodeShell::~NodeShell() = default;
+
+void NodeShell::begin(std::function<bool()> ended) {
+  ended_ = std::move(ended);
+  Shutdown& shutdown = scheduler_.shutdown();
+  shutdown.add(scheduler_.end_all_fibers(config_.shutdown_phase));
+  shutdown.add({"pass on farewells", config_.shutdown_phase, [this] { linger(); },
+                [this] { return may_leave(); }, [] { return "others to hear of it"; }});
+  shutdown.add({"leave", milliseconds(100), [this] { network_.say_bye(); }, [] { return true; },
+                [] { return ""; }});
+}
+
+void NodeShell::linger() {
+  left_at_ = clock_.now() + linger_time;
+}
+
+/// Who is being met waits for `start_s` if this node leaves without a word.
+bool NodeShell::may_leave() const {
+  return clock_.now() >= left_at_ && !network_.meets_neighbour();
+}
+
+void NodeShell::leave_if_ended() {
+  const bool fails = supervisor_.verdict().has_value();
+  if (leaving_ || (!fails && !ended_())) return;
+  leaving_ = true;
+  scheduler_.shutdown().begin(fails ? supervisor_.verdict()->text : "the run has ended");
+}
+
+Nanoseconds NodeShell::turn() {
+  const Nanoseconds due = scheduler_.turn();
+  const bool stayed = !leaving_;
+  leave_if_ended();
+  if (stayed && leaving_) return clock_.now();
+  return std::min(due, network_.next_deadline());
+}
+
+void NodeShell::run() {
+  std::function<void()> look = [&] {
+    leave_if_ended();
+    if (!leaving_) scheduler_.timers().set(clock_.now() + look_every, [l = &look] { (*l)(); });
+  };
+  look();
+  scheduler_.run();
+}
+
+}  // namespace luxodus

@@ -1,0 +1,39 @@
+#include "actors/cast/node/state_node.hpp"
+
+#include "actors/cast/node/node_plan.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Batches of one question: a worker wants as many as take some 40 ms.
+constexpr uint32_t leases_at_once = 256;
+
+/// Who is out of reach is not waited for: what it had is traced by others at once.
+CoordinatorConfig impatient_config(const RunSetup& run, const NodeSetup& node) {
+  CoordinatorConfig config = coordinator_config(run, node);
+  config.lost = 0;
+  config.max_leases = leases_at_once;
+  return config;
+}
+
+}  // namespace
+
+StateNode::StateNode(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams,
+                     std::function<void()> done)
+    : shell_({controller_net(run, node), controller_limits(node), ShellConfig{}.max_payload_bytes,
+              node.shutdown_phase, run.routes},
+             run.graph, seams.clock, seams.transport),
+      coordinator_(impatient_config(run, node), run.scene, std::move(done), shell_.scheduler(),
+                   shell_.network(), shell_.actors()) {}
+
+void StateNode::start(std::function<void()> look) {
+  shell_.add(ActorName::coordinator, coordinator_);
+  coordinator_.start();
+  shell_.begin([this, look = std::move(look)] {
+    look();
+    return coordinator_.ended();
+  });
+}
+
+}  // namespace luxodus

@@ -1,0 +1,157 @@
+#include "actors/cast/process/node_executor.hpp"
+
+#include <utility>
+
+#include "actors/cast/node/state_node.hpp"
+#include "runtime/core/log.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// How often whoever traces asks whether it shall stop.
+constexpr std::chrono::milliseconds stop_every(5);
+
+}  // namespace
+
+Result<std::unique_ptr<NodeExecutor>> NodeExecutor::start(const RunSetup& run,
+                                                          const Machine& machine,
+                                                          const NodeSetup& node) {
+  std::unique_ptr<NodeExecutor> out(new NodeExecutor(run, node));
+  NodeExecutor& self = *out;
+  out->thread_ = std::thread([&self, machine] { self.work(machine); });
+  std::unique_lock lock(self.mutex_);
+  self.changed_.wait(lock, [&] { return self.started_; });
+  if (self.fault_) return *self.fault_;
+  lock.unlock();
+  return out;
+}
+
+NodeExecutor::~NodeExecutor() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+    ask_node();
+  }
+  thread_.join();
+}
+
+// ---- whoever traces -----------------------------------------------------------------------------
+
+/// Its thread looks by itself as well: where the handoff is full, a little later.
+void NodeExecutor::ask_node() {
+  if (shell_ != nullptr) (void)shell_->scheduler().handoff().give([this] { do_what_is_wished(); });
+}
+
+void NodeExecutor::foresee(const StateObject& state) {
+  const std::lock_guard lock(mutex_);
+  foreseen_ = state;
+  ask_node();
+}
+
+void NodeExecutor::enter(const StateObject& state) {
+  const std::lock_guard lock(mutex_);
+  entered_ = state;
+  ask_node();
+}
+
+void NodeExecutor::trace(Work& work) {
+  std::unique_lock lock(mutex_);
+  next_ = &work;
+  stops_ = false;
+  tracing_ = true;
+  ask_node();
+  // Where its node is gone, nothing comes any more; whoever traces hears so elsewhere (fault).
+  while (tracing_ && !(shell_ == nullptr && work.stopped())) {
+    changed_.wait_for(lock, stop_every);
+    if (!tracing_ || stops_ || !work.stopped()) continue;
+    stops_ = true;
+    ask_node();
+  }
+  tracing_ = false;
+  next_ = nullptr;
+}
+
+std::optional<Problem> NodeExecutor::fault() const {
+  const std::lock_guard lock(mutex_);
+  return fault_;
+}
+
+NodeExecutor::Counters NodeExecutor::counters() const {
+  const std::lock_guard lock(mutex_);
+  return counters_;
+}
+
+// ---- the node's thread --------------------------------------------------------------------------
+
+void NodeExecutor::begun(std::optional<Problem> fault) {
+  const std::lock_guard lock(mutex_);
+  started_ = true;
+  if (fault) fault_ = std::move(fault);
+  changed_.notify_all();
+}
+
+/// While it is open, whoever traces reaches the node.
+class NodeExecutor::Door {
+ public:
+  Door(NodeExecutor& executor, StateNode& node) : executor_(executor) {
+    const std::lock_guard lock(executor_.mutex_);
+    executor_.shell_ = &node.shell();
+    executor_.coordinator_ = &node.coordinator();
+  }
+  ~Door() {
+    const std::lock_guard lock(executor_.mutex_);
+    executor_.shell_ = nullptr;
+    executor_.coordinator_ = nullptr;
+    executor_.changed_.notify_all();
+  }
+  Door(const Door&) = delete;
+  Door& operator=(const Door&) = delete;
+
+ private:
+  NodeExecutor& executor_;
+};
+
+void NodeExecutor::work(const Machine& machine) {
+  try {
+    NodeTransport transport(machine, node_);
+    StateNode node(run_, node_, transport.seams(), [this] {
+      const std::lock_guard lock(mutex_);
+      tracing_ = false;
+      changed_.notify_all();
+    });
+    if (auto joined = join_links(transport.sockets(), node_); !joined)
+      return begun(joined.problem());
+    node.start([this] { do_what_is_wished(); });
+    const Door door(*this, node);
+    begun(std::nullopt);
+    node.shell().run();
+    const auto& verdict = node.shell().supervisor().verdict();
+    begun(verdict ? std::optional(problem(verdict->text)) : std::nullopt);
+  } catch (const std::exception& e) {
+    log_error("view=broken text=\"{}\"", e.what());
+    begun(problem(e.what()));
+  }
+}
+
+/// In the order in which it may have been wished.
+void NodeExecutor::do_what_is_wished() {
+  const std::lock_guard lock(mutex_);
+  if (coordinator_ == nullptr) return;
+  if (foreseen_) coordinator_->foresee(*std::exchange(foreseen_, std::nullopt));
+  if (entered_ && !coordinator_->working())
+    coordinator_->enter(*std::exchange(entered_, std::nullopt));
+  if (next_ != nullptr) coordinator_->begin(*std::exchange(next_, nullptr));
+  if (stops_ && tracing_) coordinator_->stop();
+  if (ends_) coordinator_->end();
+  note(*coordinator_);
+}
+
+void NodeExecutor::note(const StateCoordinator& coordinator) {
+  const Coordinator::Counters& c = coordinator.counters();
+  counters_ = {c.leases, c.fenced, c.flushes_refused, coordinator.workers_here(),
+               coordinator.stuck()};
+  if (!fault_) fault_ = coordinator.fault();
+}
+
+}  // namespace luxodus

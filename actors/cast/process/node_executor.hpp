@@ -1,0 +1,75 @@
+// Nodes as an executor: the coordinator of states that change (StateCoordinator) on a node of its
+// own, with a thread of its own, and the door between that thread and whoever gives it work.
+// Thread rule: start(), Executor's functions and the end on the thread of whoever traces; fault()
+// and counters() from any.
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "actors/cast/coordinator/state_coordinator.hpp"
+#include "actors/cast/node/node_setup.hpp"
+#include "actors/results/run/executor.hpp"
+
+namespace luxodus {
+
+class NodeExecutor final : public Executor {
+ public:
+  /// Listens, and waits for workers from now on. Requires: all outlive this.
+  /// Errors: as join_links.
+  static Result<std::unique_ptr<NodeExecutor>> start(const RunSetup& run, const Machine& machine,
+                                                     const NodeSetup& node);
+  /// Tells the workers that it ends.
+  ~NodeExecutor() override;
+  NodeExecutor(const NodeExecutor&) = delete;
+  NodeExecutor& operator=(const NodeExecutor&) = delete;
+
+  /// Has workers make it.
+  void foresee(const StateObject& state) override;
+  void enter(const StateObject& state) override;
+  /// Waits for workers where none is there; see Executor.
+  void trace(Work& work) override;
+
+  /// Why none of its workers will ever come: they work for another run.
+  std::optional<Problem> fault() const;
+
+  struct Counters {
+    uint64_t leases = 0;
+    uint64_t fenced = 0;
+    uint64_t refused = 0;  // flushes
+    size_t workers = 0;    // that are there
+    uint64_t stuck = 0;    // looks in a row at which no worker could enter the state
+  };
+  Counters counters() const;
+
+ private:
+  class Door;
+  NodeExecutor(const RunSetup& run, const NodeSetup& node) : run_(run), node_(node) {}
+  void work(const Machine& machine);
+  void begun(std::optional<Problem> fault);
+  void ask_node();
+  void do_what_is_wished();
+  void note(const StateCoordinator& coordinator);
+
+  const RunSetup& run_;
+  const NodeSetup& node_;
+  // Guards all below.
+  mutable std::recursive_mutex mutex_;  // a work may be done as it is begun
+  std::condition_variable_any changed_;
+  std::optional<StateObject> foreseen_, entered_;  // and not passed on yet
+  Work* next_ = nullptr;                           // to be begun
+  bool stops_ = false;
+  bool tracing_ = false;  // a work is being traced, or is to be
+  bool ends_ = false;
+  bool started_ = false;
+  Counters counters_;
+  std::optional<Problem> fault_;
+  // Of the node's thread.
+  NodeShell* shell_ = nullptr;
+  StateCoordinator* coordinator_ = nullptr;
+  std::thread thread_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,386 @@
+// A fiber takes a portion, traces it, and looks for the next; with none left it rests in work_.
+// Portions of one batch go to whoever asks, so a batch ends with its slowest portion; meanwhile the
+// next batch is open. A batch is closed by the fiber that ends its last portion.
+// Where the tally may not hold all bins, a fiber that has scored or is to merge first looks whether
+// that has room, and rests until a flush has made some. A flush waits for no fiber of these, only
+// for the controller; so either room comes, or the one batch in work is more than the budget.
+#include "actors/cast/tracing/tracing_fibers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "proto/messages.hpp"
+#include "runtime/core/check.hpp"
+#include "scenes/light/transport/birth_order.hpp"
+#include "scenes/light/transport/readout.hpp"
+
+namespace luxodus {
+
+/// A batch in work.
+struct TracingFibers::OpenBatch {
+  bool used = false;
+  bool dropped = false;  // its lease was fenced
+  bool failed = false;   // an object was not to be had
+  uint64_t lease = 0;
+  Batch batch;
+  BatchScores scores;
+  bool cleared = true;          // the scores are zero
+  int64_t next_particle = 0;    // of the batch, not yet given out
+  std::vector<uint32_t> order;  // of its particles; empty: as they are numbered
+  uint32_t next_unit = 0;       // of the eye paths
+  uint32_t portions_out = 0;
+  Nanoseconds since = 0;
+};
+
+struct TracingFibers::Portion {
+  OpenBatch* batch;
+  int64_t first;  // particle within the batch
+  int64_t count;  // 0: the eye unit below
+  uint32_t unit;
+};
+
+namespace {
+
+/// So many particles that every fiber finds a few portions in the open batches: with fewer
+/// portions than fibers the rest would wait for work, and hide nothing.
+int64_t portion_for(const PhotonConfig& config, int64_t batch_particles) {
+  const auto open = static_cast<int64_t>(config.open_batches) * batch_particles;
+  return std::clamp<int64_t>(open / (4 * static_cast<int64_t>(config.fibers)), 1, config.portion);
+}
+
+}  // namespace
+
+TracingFibers::TracingFibers(const CompiledScene& scene, const GeometryAccess& access,
+                             uint64_t seed, const PhotonConfig& config, Scheduler& scheduler,
+                             LeasePort& port, const TracerMaker& make_tracer)
+    : scene_(scene),
+      source_(access.source),
+      seed_(seed),
+      places_(source_ == nullptr ? std::vector<uint32_t>() : places_of_emitters(scene)),
+      config_(config),
+      portion_(portion_for(config, scene.batch_particles)),
+      tight_(tally_need(scene, config.batches_in_work()).all() > config.tally_bytes),
+      scheduler_(scheduler),
+      port_(port),
+      open_(tight_ ? 1 : config.batches_in_work()),
+      totals_{{scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene),
+               tight_ ? Cleared::given_back : Cleared::kept},
+              {scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene),
+               tight_ ? Cleared::given_back : Cleared::kept}},
+      planned_(scene) {
+  for (size_t i = 0; i < config.fibers; ++i) tracers_.push_back(make_tracer(scene, access, seed));
+  for (OpenBatch& batch : open_)
+    batch.scores.reset(scene.layout, tight_ ? Cleared::given_back : Cleared::kept);
+  leases_.reserve(config.leases + limits::leases);
+}
+
+TracingFibers::~TracingFibers() = default;
+
+void TracingFibers::start() {
+  for (const auto& tracer : tracers_) {
+    const auto body = [this, tracer = tracer.get()] { trace_until_the_end(*tracer); };
+    LUX_CHECK(scheduler_.fibers().start("photon", body), "the plan counts a fiber for each");
+  }
+}
+
+/// What leaves it is a failure of the tracer.
+void TracingFibers::trace_until_the_end(BatchTracer& tracer) {
+  std::exception_ptr why;
+  try {
+    trace_portions(tracer);
+  } catch (...) {
+    why = std::current_exception();
+  }
+  if (!why) return;
+  end("");  // the others would go on with what it has left
+  port_.thread_failed(why);
+}
+
+void TracingFibers::add(uint64_t lease, int64_t batch) {
+  leases_.push_back({lease, batch});
+  scheduler_.fibers().wake_all(work_);
+}
+
+void TracingFibers::add_metrics(Metrics& metrics) const {
+  const Counters& c = counters_;
+  metrics.add_counter({"particles", "", "Particles traced.", ""}, c.particles);
+  metrics.add_counter({"eye_units", "", "Parts of signs, and probes, looked at.", ""}, c.eye_units);
+  metrics.add_counter({"batches", "", "Batches merged here.", ""}, c.batches);
+  metrics.add_counter({"batches_failed", "", "Batches traced in vain, for want of an object.", ""},
+                      c.batches_failed);
+  metrics.add_counter({"batches_dropped", "", "Batches whose lease was fenced.", ""},
+                      c.batches_dropped);
+  metrics.add_counter({"rays", "", "Rays of merged batches.", ""}, c.rays);
+  metrics.add_counter({"collisions", "", "Collisions with media, of merged batches.", ""},
+                      c.collisions);
+  metrics.add_gauge({"batches_open", "", "Batches in work.", ""}, c.batches_open);
+  metrics.add_gauge({"fibers_idle", "", "Photon-threads that wait for work.", ""}, c.fibers_idle);
+  metrics.add_counter({"tally_full", "", "Waits of batches for room in the tally.", ""},
+                      c.tally_full);
+  metrics.add_gauge({"tally_most", "bytes",
+                     "The most that the tally has taken, where its budget "
+                     "is less than all bins take.",
+                     ""},
+                    c.max_tally_bytes);
+  metrics.add_histogram({"batch", "", "From a batch's opening to its merging.", ""}, batch_time_);
+}
+
+void TracingFibers::drop(std::span<const uint64_t> leases) {
+  const auto named = [&](uint64_t id) {
+    return std::find(leases.begin(), leases.end(), id) != leases.end();
+  };
+  std::erase_if(leases_, [&](const WaitingLease& waiting) { return named(waiting.id); });
+  for (OpenBatch& open : open_)
+    if (open.used && named(open.lease)) open.dropped = true;
+}
+
+void TracingFibers::drop_all() {
+  leases_.clear();
+  for (OpenBatch& open : open_) open.dropped = open.used;
+  look_again();
+}
+
+void TracingFibers::end(const std::string&) {
+  ending_ = true;
+  scheduler_.fibers().wake_all(work_);
+}
+
+Totals& TracingFibers::give_totals() {
+  merging_ = 1 - merging_;
+  return totals_[1 - merging_];
+}
+
+size_t TracingFibers::at_hand() const {
+  const auto used = [](const OpenBatch& open) { return open.used; };
+  return leases_.size() + static_cast<size_t>(std::count_if(open_.begin(), open_.end(), used));
+}
+
+void TracingFibers::trace_portions(BatchTracer& tracer) {
+  Fibers& fibers = scheduler_.fibers();
+  while (!ending_) {
+    const std::optional<Portion> portion = next_portion();
+    if (!portion) {
+      ++counters_.fibers_idle;
+      const Wake how = fibers.wait(work_, "work");
+      --counters_.fibers_idle;
+      if (how == Wake::cancelled) return;
+      continue;
+    }
+    OpenBatch& open = *portion->batch;
+    const Batch& batch = open.batch;
+    if (open.failed || open.dropped) {
+      // Nobody will count it: the rest of it would be traced in vain.
+    } else if (portion->count > 0) {
+      trace_particles(tracer, *portion);
+      counters_.particles += static_cast<uint64_t>(portion->count);
+    } else {
+      ++counters_.eye_units;
+      fibers.set_subject(NodeTrace::nobody);
+      tracer.look(batch.number, portion->unit, open.scores);
+    }
+    if (source_ != nullptr && source_->spoilt()) open.failed = true;
+    if (tight_ && !make_room(open, 0)) return;
+    --open.portions_out;
+    const bool given_out =
+        open.next_particle == scene_.batch_particles && open.next_unit == tracer.look_units();
+    if (given_out && open.portions_out == 0 && !finish(open)) return;
+    if (fibers.yield() == Wake::cancelled) return;
+  }
+}
+
+void TracingFibers::trace_particles(BatchTracer& tracer, const Portion& portion) {
+  OpenBatch& open = *portion.batch;
+  const uint64_t of_batch = open.batch.first_particle;
+  if (open.order.empty())
+    return trace_row(tracer, open, of_batch + static_cast<uint64_t>(portion.first), portion.count);
+  for (int64_t i = portion.first; i < portion.first + portion.count && !open.failed; ++i) {
+    trace_row(tracer, open, of_batch + open.order[static_cast<size_t>(i)], 1);
+    if (source_ != nullptr && source_->spoilt()) open.failed = true;
+  }
+}
+
+/// Up to the next sampled particle in one go, and that one alone.
+void TracingFibers::trace_row(BatchTracer& tracer, OpenBatch& open, uint64_t first, int64_t count) {
+  Fibers& fibers = scheduler_.fibers();
+  NodeTrace* const trace = config_.trace;
+  const uint64_t end = first + static_cast<uint64_t>(count);
+  while (first < end) {
+    const uint64_t sampled = trace == nullptr ? end : trace->next_wanted(first);
+    const uint64_t stop = sampled == first ? first + 1 : std::min(sampled, end);
+    fibers.set_subject(first);
+    if (sampled == first)
+      trace->begin(TraceKind::particle, first, static_cast<uint64_t>(open.batch.number));
+    tracer.trace(open.batch.group, first, static_cast<int64_t>(stop - first), open.scores);
+    if (sampled == first)
+      trace->end(TraceKind::particle, first, static_cast<uint64_t>(open.batch.number));
+    first = stop;
+  }
+}
+
+std::optional<TracingFibers::Portion> TracingFibers::next_portion() {
+  const uint32_t units = tracers_.front()->look_units();
+  OpenBatch* oldest = nullptr;  // it should end
+  for (OpenBatch& open : open_) {
+    const bool left = open.next_particle < scene_.batch_particles || open.next_unit < units;
+    if (open.used && left && (oldest == nullptr || open.batch.number < oldest->batch.number))
+      oldest = &open;
+  }
+  if (oldest == nullptr) oldest = open_next();
+  if (oldest == nullptr) return std::nullopt;
+  OpenBatch& open = *oldest;
+  ++open.portions_out;
+  if (open.next_particle == scene_.batch_particles) return Portion{&open, 0, 0, open.next_unit++};
+  const int64_t first = open.next_particle;
+  const int64_t count = std::min(portion_, scene_.batch_particles - first);
+  open.next_particle += count;
+  return Portion{&open, first, count, 0};
+}
+
+bool TracingFibers::holds_sampled(const OpenBatch& open) const {
+  const uint64_t first = open.batch.first_particle;
+  return config_.trace != nullptr &&
+         config_.trace->next_wanted(first) < first + static_cast<uint64_t>(scene_.batch_particles);
+}
+
+TracingFibers::OpenBatch* TracingFibers::open_next() {
+  if (at_hand() < config_.leases) port_.want_leases(config_.leases - at_hand());
+  const auto free =
+      std::find_if(open_.begin(), open_.end(), [](const OpenBatch& open) { return !open.used; });
+  if (free == open_.end() || leases_.empty() || (tight_ && !room_for_batch())) return nullptr;
+  const WaitingLease lease = leases_.front();
+  leases_.erase(leases_.begin());
+  free->used = true;
+  free->dropped = free->failed = false;
+  free->lease = lease.id;
+  free->batch = planned_.at(lease.batch);
+  free->next_particle = 0;
+  free->next_unit = 0;
+  if (source_ != nullptr) {
+    order_by_emitter(scene_, places_, seed_, free->batch.group, free->batch.first_particle,
+                     static_cast<uint32_t>(scene_.batch_particles), free->order);
+  }
+  if (!std::exchange(free->cleared, false)) free->scores.reset(scene_.layout);
+  free->scores.balance = {};
+  free->since = scheduler_.clock().now();
+  ++counters_.batches_open;
+  if (holds_sampled(*free))
+    config_.trace->begin(TraceKind::batch, free->lease, static_cast<uint64_t>(free->batch.number));
+  scheduler_.fibers().wake_all(work_);  // there is work for more than who asked
+  return &*free;
+}
+
+// ---- a tally that may be full ----------------------------------------------------------------
+
+void TracingFibers::count_totals() {
+  for (size_t i = 0; i < 2; ++i) totals_bytes_[i] = totals_[i].bytes();
+}
+
+/// Whether the tally with `more` bytes is within its budget. Pages are counted only where what is
+/// known without counting does not tell.
+bool TracingFibers::fits(OpenBatch& open, size_t more) {
+  const auto with = [&](size_t scores) {
+    tally_bytes_ = port_.flush_bytes() + totals_bytes_[0] + totals_bytes_[1] + scores + more;
+    return tally_bytes_ <= config_.tally_bytes;
+  };
+  if (with(open.scores.scores.size() * sizeof(int64_t) + ZeroedMemory::page_bytes)) return true;
+  count_totals();
+  open.scores.scores.find_touched();
+  return with(open.scores.scores.bytes());
+}
+
+/// Whether to open the next batch now. Half the budget is for what batches leave behind; the other
+/// half for the next one.
+bool TracingFibers::room_for_batch() {
+  count_totals();
+  const size_t bytes = port_.flush_bytes() + totals_bytes_[0] + totals_bytes_[1];
+  if (!port_.room_to_come() || bytes <= config_.tally_bytes / 2) return true;
+  port_.want_room();
+  return false;
+}
+
+/// Rests until the tally has `more` bytes free. False: the run has ended, or will for want of them.
+bool TracingFibers::make_room(OpenBatch& open, size_t more) {
+  for (bool waits = false; !open.dropped && !fits(open, more); waits = true) {
+    if (!port_.room_to_come()) {
+      outgrown(open);
+      return false;
+    }
+    if (!waits) ++counters_.tally_full;
+    port_.want_room();
+    if (scheduler_.fibers().wait(work_, "tally") == Wake::cancelled || ending_) return false;
+  }
+  counters_.max_tally_bytes = std::max<uint64_t>(counters_.max_tally_bytes, tally_bytes_);
+  return true;
+}
+
+void TracingFibers::outgrown(const OpenBatch& open) {
+  const auto mebibytes = [](uint64_t bytes) { return static_cast<double>(bytes) / 0x1p20; };
+  port_.give_up(problem(fmt::format(
+      "batch {} of {} particles takes {:.1f} MiB of tally by itself, and tally_bytes is "
+      "{:.1f} MiB: raise tally_bytes in [budget], or lower batch_particles in the "
+      "scene",
+      open.batch.number, scene_.batch_particles, mebibytes(tally_bytes_),
+      mebibytes(config_.tally_bytes))));
+}
+
+/// Closes a batch of which everything is traced, when the totals have room for it.
+bool TracingFibers::finish(OpenBatch& open) {
+  if (!tight_) {
+    close(open);
+    return true;
+  }
+  const auto needed = [&] {
+    open.scores.scores.find_touched();
+    return totals_[merging_].bytes_to_merge(open.scores, open.batch.group);
+  };
+  for (size_t more = needed();; more = needed()) {
+    if (!make_room(open, more)) return false;
+    if (needed() <= more) break;  // else the totals were given up meanwhile, and these are empty
+  }
+  close(open);
+  if (!std::exchange(open.cleared, true)) open.scores.scores.clear();
+  totals_bytes_[merging_] = totals_[merging_].bytes();
+  if (totals_bytes_[merging_] > totals_share(config_.tally_bytes)) port_.want_room();
+  return true;
+}
+
+void TracingFibers::close(OpenBatch& open) {
+  const bool counts = !open.dropped && !open.failed;
+  if (counts) merge(open);
+  open.used = false;
+  --counters_.batches_open;
+  if (holds_sampled(open))
+    config_.trace->end(TraceKind::batch, open.lease, static_cast<uint64_t>(open.batch.number));
+  if (!counts && open.dropped) {  // somebody else traces it
+    ++counters_.batches_dropped;
+    return;
+  }
+  if (!counts) {
+    ++counters_.batches_failed;
+    return port_.lease_failed(open.lease, open.batch.number);
+  }
+  ++counters_.batches;
+  counters_.rays += open.scores.balance.rays;
+  counters_.collisions += open.scores.balance.collisions;
+  batch_time_.add(scheduler_.clock().now() - open.since);
+  port_.leases_done({&open.lease, 1});
+}
+
+/// Millions of bins take longer than a turn may: between steps others have theirs. What is merged
+/// is not given away meanwhile, so it is always of whole batches.
+void TracingFibers::merge(OpenBatch& open) {
+  ++merges_;
+  if (scheduler_.rarely(Buggify::Site::short_turn)) rest();
+  totals_[merging_].merge(open.scores, open.batch.group, [this] { rest(); });
+  --merges_;
+  open.scores.scores.clear_in_steps([this] { rest(); });
+  open.cleared = true;
+}
+
+/// A node that is to end goes on: what is begun is whole in the end.
+void TracingFibers::rest() {
+  (void)scheduler_.fibers().yield();
+}
+
+}  // namespace luxodus

@@ -1,0 +1,107 @@
+#include "actors/judge/assess/assessment.hpp"
+
+#include <algorithm>
+
+#include "actors/judge/assess/code_mode.hpp"
+#include "actors/judge/assess/plan_cut.hpp"
+#include "actors/judge/assess/reality_mode.hpp"
+#include "runtime/core/clock.hpp"
+#include "scenes/light/transport/compile.hpp"
+
+namespace luxodus {
+
+namespace {
+
+std::optional<Problem> cannot_assess(const SceneDescription& scene) {
+  if (scene.packed)
+    return problem_in(
+        scene.file,
+        "a pack has its triangles elsewhere: assess the scene file that it was made of");
+  if (scene.routes.empty() && scene.open_areas.empty() && scene.task_areas.empty() &&
+      scene.observers.empty())
+    return problem_in(scene.file,
+                      "there is nothing to assess: add [[route]], [[open_area]] or [[observer]]");
+  return std::nullopt;
+}
+
+/// From how many places each sign is legible.
+void count_sweep(double factor, const std::vector<SightRow>& sights, std::vector<SweepRow>& out) {
+  const auto first = static_cast<std::ptrdiff_t>(out.size());
+  for (const SightRow& row : sights) {
+    if (row.sight.verdict == SightVerdict::hidden) continue;
+    auto at = std::find_if(out.begin() + first, out.end(),
+                           [&](const SweepRow& s) { return s.sign == row.sign; });
+    if (at == out.end()) at = out.insert(out.end(), {factor, row.sign, 0, 0, 0});
+    ++at->places;
+    if (row.sight.verdict == SightVerdict::legible) ++at->legible;
+    if (row.sight.verdict == SightVerdict::undecided) ++at->undecided;
+  }
+}
+
+/// Refuses what is wrong with the scene, and keeps what else was found.
+std::optional<Problem> inspected(const std::shared_ptr<const SceneDescription>& scene,
+                                 const Scenario& scenario, int threads, Assessment& out) {
+  auto found = inspect(scene, {scenario}, threads);
+  if (!found) return found.problem();
+  const auto errors = std::count_if(found->begin(), found->end(),
+                                    [](const Finding& f) { return f.severity == Severity::error; });
+  if (errors > 0) {  // they come first
+    Problem first = found->front().problem;
+    if (errors > 1)
+      first.what += " (the first of " + std::to_string(errors) +
+                    " errors; `luxodus check` names all of them)";
+    return first;
+  }
+  for (const Finding& finding : found.value())
+    if (finding.severity == Severity::warning) out.warnings.push_back(finding.problem);
+  out.findings = std::move(found).value();
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
+                          const AssessOptions& options, const std::atomic<bool>& interrupt,
+                          const AssessProgress& progress) {
+  if (auto problem = cannot_assess(*scene)) return *problem;
+  auto scenario = judged_scenario(*scene, options.scenario);
+  if (!scenario) return scenario.problem();
+  const auto codes = judged_codes(*scene, options.rules, options.deviations);
+  if (!codes) return codes.problem();
+  if (options.reality)
+    if (auto ok = irritation_is_said(*scene, scenario.value()); !ok) return ok.problem();
+  const SystemClock clock;
+  const Nanoseconds began = clock.now();
+  Assessment out;
+  out.state = state_of(*scene, scenario.value(), codes.value());
+  for (std::string& words : overruled(*scene, options.rules, options.deviations))
+    out.state.remarks.push_back(std::move(words));
+  out.reality = options.reality;
+  if (scenario->operation == Operation::mains)
+    out.warnings.push_back({scenario->place, out.state.remarks.front()});
+  for (const std::string& words : out.state.warnings)
+    out.warnings.push_back({scenario->place, words});
+  out.seed = options.seed;
+  out.scene_hash = scene->content_hash;
+  out.levels = plan_levels(*scene, scenario.value());
+  if (auto problem = inspected(scene, scenario.value(), options.threads, out)) return *problem;
+  if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok)
+    return ok.problem();
+  if (options.reality)
+    if (auto ok = assess_sights(*scene, scenario.value(), {}, options, interrupt, progress, out);
+        !ok)
+      return ok.problem();
+  for (const double factor : options.smoke_factors) {
+    Assessment at_density;
+    if (auto ok = assess_sights(*scene, scenario.value(), {factor, {}, false}, options, interrupt,
+                                progress, at_density);
+        !ok)
+      return ok.problem();
+    count_sweep(factor, at_density.sights, out.sweep);
+    out.paths += at_density.paths;
+  }
+  out.seconds = 1e-9 * static_cast<double>(clock.now() - began);
+  return out;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,34 @@
+#include "actors/judge/assess/check_words.hpp"
+
+#include "runtime/core/output_text.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// " lx"; a share of 1 has none.
+std::string unit_words(const std::string& unit) {
+  if (unit.empty() || unit == "1") return "";
+  return " " + unit;
+}
+
+std::string value_words(const Json& check) {
+  const Json value = check.value("value", Json());
+  if (value.is_number())
+    return readable_number(value.get<double>()) + unit_words(text_in(check, "unit"));
+  const std::string reason = text_in(check, "reason");
+  return reason.empty() ? "no value" : reason;
+}
+
+}  // namespace
+
+std::string check_words(const Json& check) {
+  std::string text =
+      text_in(check, "subject") + ": " + text_in(check, "title") + ": " + value_words(check);
+  if (const Json limit = check.value("limit", Json()); limit.is_number())
+    text += ", " + text_in(check, "sense") + " " + readable_number(limit.get<double>());
+  const std::string condition = text_in(check, "condition");
+  return text + " (" + text_in(check, "rule") + (condition.empty() ? "" : ", ") + condition + ")";
+}
+
+}  // namespace luxodus

@@ -1,0 +1,14 @@
+// One check in one line of words, for the console. Reads assessment.json; pure, any thread.
+#pragma once
+
+#include <string>
+
+#include "actors/results/formats/json_out.hpp"
+
+namespace luxodus {
+
+/// "route "to the stairs": A sign within its viewing distance, everywhere on a route: 1.4 of the
+/// viewing distance, at most 1 (S4, without furniture)". Requires: `check` is one of an assessment.
+std::string check_words(const Json& check);
+
+}  // namespace luxodus

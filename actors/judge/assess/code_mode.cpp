@@ -1,0 +1,182 @@
+#include "actors/judge/assess/code_mode.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "actors/judge/assess/clear_signs.hpp"
+#include "actors/judge/assess/code_light.hpp"
+#include "actors/judge/assess/plan_cut.hpp"
+#include "actors/judge/inspect/site.hpp"
+
+namespace luxodus {
+
+namespace {
+
+void append(std::vector<Check>& out, const std::vector<Check>& more) {
+  out.insert(out.end(), more.begin(), more.end());
+}
+
+void add_condition(std::vector<Check>& checks, const std::string& condition) {
+  for (Check& check : checks) check.condition += (check.condition.empty() ? "" : "; ") + condition;
+}
+
+class CodeMode {
+ public:
+  CodeMode(const SceneDescription& scene, const Building& building,
+           const std::vector<CodeChoice>& codes)
+      : scene_(scene), building_(building), codes_(codes), light_(scene, building) {}
+
+  /// Those that what stands in the way may change.
+  std::vector<Check> checks_by_light() const;
+  /// Those of signs and luminaires by themselves.
+  std::vector<Check> checks_of_parts() const;
+  /// The points of calculation of each level, and its map of light.
+  void fill_plan(std::vector<PlanLevel>& levels) const;
+
+ private:
+  std::vector<Check> of_route(const EscapeRoute& route) const;
+  std::vector<Check> of_area(
+      const AssessedArea& area, double border_m,
+      const std::function<std::vector<Check>(const std::vector<LitPoint>&, const CodeChoice&)>&
+          checks) const;
+
+  const SceneDescription& scene_;
+  const Building& building_;
+  const std::vector<CodeChoice>& codes_;
+  CodeLight light_;
+};
+
+double sum_of(const std::vector<double>& lux) {
+  return std::accumulate(lux.begin(), lux.end(), 0.0);
+}
+
+std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
+  const RoutePoints points = points_of(route);
+  const glm::dvec3 up(0, 0, 1);
+  RouteLight light;
+  light.centre = light_.lit(points.centre, up, floor_plane_m);
+  light.band = light_.lit(points.band, up, floor_plane_m);
+  light.inner = light_.lit(points.inner, up, floor_plane_m);
+  const auto people = walkers(route, scene_.assessment.spacing_m);
+  const auto clear = clear_signs(scene_, building_, people);
+  std::vector<Check> out;
+  for (const CodeChoice& codes : codes_) {
+    append(out, checks_of_route(scene_, route, light, codes));
+    append(out, checks_of_distance(scene_, route, people, clear, codes));
+  }
+  out.push_back(check_of_failure(scene_, "route \"" + route.name + "\"", light.centre));
+  return out;
+}
+
+/// Points of an area within `border_m` of its edge are none of it, nor are those in furniture and
+/// walls: nobody walks or works there. How many these are stands beside the checks.
+std::vector<Check> CodeMode::of_area(
+    const AssessedArea& area, double border_m,
+    const std::function<std::vector<Check>(const std::vector<LitPoint>&, const CodeChoice&)>&
+        checks) const {
+  const glm::dvec3 up(0, 0, 1);
+  const AreaPoints all = light_.points_of(area, border_m);
+  const auto points = light_.lit(all.places, up, floor_plane_m);
+  std::vector<Check> out;
+  for (const CodeChoice& codes : codes_) append(out, checks(points, codes));
+  if (all.in_bodies > 0)
+    add_condition(out, fmt::format("{} of {} points lie in bodies and are left out", all.in_bodies,
+                                   all.in_bodies + all.places.size()));
+  return out;
+}
+
+std::vector<Check> CodeMode::checks_by_light() const {
+  std::vector<Check> out;
+  const auto add = [&](const auto& checks) {
+    for (const CodeChoice& codes : codes_) append(out, checks(codes));
+  };
+  for (const EscapeRoute& route : scene_.routes) append(out, of_route(route));
+  for (const AssessedArea& area : scene_.open_areas)
+    append(out, of_area(area, 0.5, [&](const auto& core, const CodeChoice& codes) {
+             auto checks = checks_of_open_area(scene_, area, core, codes);
+             if (&codes == &codes_.front())
+               checks.push_back(check_of_failure(scene_, "open area \"" + area.name + "\"", core));
+             return checks;
+           }));
+  for (const AssessedArea& area : scene_.task_areas)
+    append(out, of_area(area, 0, [&](const auto& plane, const CodeChoice& codes) {
+             return checks_of_task_area(scene_, area, plane, codes);
+           }));
+  for (const EmphasisPoint& point : emphasis_of(scene_)) {
+    const LinesOfSight seen = light_.seen_from(beside(point));
+    const auto parts = light_.vertical_lux(point);
+    const auto lux = parts ? std::optional(sum_of(*parts)) : std::nullopt;
+    add([&](const CodeChoice& codes) {
+      return checks_of_emphasis(scene_, point, seen, lux, codes);
+    });
+  }
+  return out;
+}
+
+std::vector<Check> CodeMode::checks_of_parts() const {
+  std::vector<Check> out;
+  const FloorUnder floor = [this](const glm::dvec3& place) { return light_.floor_under(place); };
+  for (const Sign& sign : scene_.signs) {
+    const double lux = sum_of(light_.lux_on_face(sign));
+    const LinesOfSight seen = light_.seen_from({before_face(sign)});
+    for (const CodeChoice& codes : codes_)
+      append(out, checks_of_sign(scene_, sign, lux, seen, codes, floor));
+  }
+  for (const CodeChoice& codes : codes_) {
+    append(out, checks_of_glare(scene_, codes, floor));
+    append(out, checks_of_height(scene_, codes, floor));
+    append(out, checks_beyond(scene_, codes));
+  }
+  return out;
+}
+
+void CodeMode::fill_plan(std::vector<PlanLevel>& levels) const {
+  std::vector<glm::dvec3> places;
+  for (const EscapeRoute& route : scene_.routes) {
+    const auto more = within(route, route.width_m / 2 - route_grid_m, 2 * route_grid_m);
+    places.insert(places.end(), more.begin(), more.end());
+  }
+  for (const AssessedArea& area : scene_.open_areas) {
+    const auto more = within(area, area_grid_m / 2, area_grid_m);
+    places.insert(places.end(), more.begin(), more.end());
+  }
+  const glm::dvec3 up(0, 0, 1);
+  for (const LitPoint& p : light_.lit(places, up, floor_plane_m))
+    levels[level_of(levels, p.place.z)].points.push_back({p.place, sum_of(p.lux)});
+  for (size_t i = 0; i < levels.size(); ++i) {
+    LightMap& map = levels[i].map = map_of(scene_, levels, i);
+    std::vector<glm::dvec3> grid;
+    for (int row = 0; row < map.rows; ++row)
+      for (int column = 0; column < map.columns; ++column)
+        grid.emplace_back(map.corner + glm::dvec2(column, row) * map.spacing_m, levels[i].floor_m);
+    for (const LitPoint& p : light_.lit(grid, up, floor_plane_m)) map.lux.push_back(sum_of(p.lux));
+  }
+}
+
+}  // namespace
+
+Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
+                             const AssessOptions& options, const AssessProgress& progress,
+                             Assessment& out) {
+  const SceneDescription switched = as_switched(scene, scenario);
+  const bool has_furniture = std::any_of(scene.objects.begin(), scene.objects.end(), is_furniture);
+  for (const bool furnished : {false, true}) {
+    if (furnished && !has_furniture) break;
+    progress(furnished ? "codes, with furniture" : "codes, without furniture", furnished ? 0.5 : 0);
+    auto building = Building::make(code_scene(switched, furnished),
+                                   code_scenario(switched, scenario), options.threads);
+    if (!building) return building.problem();
+    const CodeMode mode(switched, *building.value(), out.state.codes);
+    if (!furnished) mode.fill_plan(out.levels);
+    auto checks = mode.checks_by_light();
+    if (has_furniture) add_condition(checks, furnished ? "with furniture" : "without furniture");
+    append(out.checks, checks);
+    if (!furnished) append(out.checks, mode.checks_of_parts());
+  }
+  progress("codes", 1);
+  return {};
+}
+
+}  // namespace luxodus

@@ -1,0 +1,118 @@
+#include "actors/judge/assess/guid_results.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scenes/emergency/legibility.hpp"
+
+namespace luxodus {
+
+namespace {
+
+const std::vector<std::string> guid_columns{"ifc_guid", "kind",   "name",  "rule_set",  "rule",
+                                            "edition",  "clause", "title", "condition", "value",
+                                            "unit",     "sense",  "limit", "verdict",   "reason"};
+
+struct ModelThing {
+  std::string guid, kind, name;
+};
+
+std::string guid_of(const Json& row) {
+  const Json guid = row.value("ifc_guid", Json());
+  return guid.is_string() ? guid.get<std::string>() : std::string();
+}
+
+/// Things with a GlobalId by the subject that checks call them.
+std::map<std::string, ModelThing> things_by_subject(const Json& a) {
+  std::map<std::string, ModelThing> out;
+  const auto add = [&](const Json& rows, const char* subject, const char* kind) {
+    for (const Json& row : rows) {
+      const std::string name = row["name"].get<std::string>();
+      if (const std::string guid = guid_of(row); !guid.empty())
+        out[fmt::format("{} \"{}\"", subject, name)] = {guid, kind, name};
+    }
+  };
+  add(a["luminaires"], "luminaire", "luminaire");
+  add(a["signs"], "sign", "sign");
+  for (const Json& area : a["places"]["areas"])
+    add(Json::array({area}), area["kind"] == "task" ? "task area" : "open area", "space");
+  return out;
+}
+
+void begin_row(CsvTable& table, const ModelThing& thing) {
+  table.cell(thing.guid).cell(thing.kind).cell(thing.name);
+}
+
+/// A cell of a check; empty where the check does not say it.
+void put_value(CsvTable& table, const Json& check, const char* key) {
+  const Json value = check.value(key, Json());
+  if (value.is_number())
+    table.cell(value.get<double>());
+  else if (value.is_string() && !value.get<std::string>().empty())
+    table.cell(value.get<std::string>());
+  else
+    table.empty_cell();
+}
+
+void put_check(CsvTable& table, const ModelThing& thing, const Json& check) {
+  begin_row(table, thing);
+  for (const char* key : {"rule_set", "rule", "edition", "clause", "title", "condition", "value",
+                          "unit", "sense", "limit", "verdict", "reason"})
+    put_value(table, check, key);
+  table.end_row();
+}
+
+/// A row of no rule: a value that is told.
+void put_information(CsvTable& table, const ModelThing& thing, const std::string& title,
+                     double value, const std::string& unit, const std::string& reason) {
+  put_check(table, thing,
+            {{"title", title},
+             {"value", value},
+             {"unit", unit},
+             {"verdict", "information"},
+             {"reason", reason}});
+}
+
+void put_flux(CsvTable& table, const ModelThing& thing, const Json& luminaires) {
+  for (const Json& luminaire : luminaires)
+    if (guid_of(luminaire) == thing.guid && luminaire["name"] == thing.name)
+      put_information(table, thing, "emergency flux",
+                      luminaire["emergency_flux"]["value"].get<double>(),
+                      luminaire["emergency_flux"]["unit"].get<std::string>(), "");
+}
+
+void put_views(CsvTable& table, const ModelThing& thing, const Json& sights) {
+  std::map<std::string, int> verdicts;
+  int views = 0;
+  for (const Json& sight : sights) {
+    if (sight["sign"] != thing.name) continue;
+    ++views;
+    ++verdicts[sight["verdict"].get<std::string>()];
+  }
+  if (views == 0) return;
+  std::string words;
+  for (const auto& [verdict, count] : verdicts)
+    words += fmt::format("{}{} {}", words.empty() ? "" : ", ", count, verdict);
+  put_information(table, thing, "views from which it is legible",
+                  verdicts[name_of(SightVerdict::legible)], fmt::format("of {}", views), words);
+}
+
+}  // namespace
+
+std::optional<CsvTable> results_by_guid(const Json& assessment) {
+  const auto things = things_by_subject(assessment);
+  if (things.empty()) return std::nullopt;
+  CsvTable table(guid_columns);
+  for (const auto& [subject, thing] : things) {
+    for (const Json& check : assessment["checks"])
+      if (check["subject"] == subject) put_check(table, thing, check);
+    if (thing.kind == "luminaire") put_flux(table, thing, assessment["luminaires"]);
+    if (thing.kind == "sign") put_views(table, thing, assessment["sights"]);
+  }
+  return table;
+}
+
+}  // namespace luxodus

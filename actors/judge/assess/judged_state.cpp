@@ -1,0 +1,417 @@
+#include "actors/judge/assess/judged_state.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "actors/judge/assess/aged_light.hpp"
+#include "scenes/emergency/rule_limits.hpp"
+#include "scenes/light/transport/compile.hpp"
+#include "scenes/light/transport/compile_light.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Eyes younger than this, and eyes below this height [m], are not those of everybody.
+constexpr double young_years = 40, upright_m = 1.4;
+/// People this far apart leave much of a route unseen [m].
+constexpr double far_apart_m = 5;
+
+constexpr std::array medium_words{"homogeneous", "layered", "bounded", "data set"};
+
+double stated(const SmokeOptics& optics) {
+  return optics.extinction.spectrum().at(stated_nm);
+}
+
+/// Smallest and largest extinction of a medium as the scene has it.
+std::pair<double, double> range_of(const Medium& medium) {
+  if (medium.kind == MediumKind::layered && !medium.layers.empty()) {
+    double low = std::numeric_limits<double>::infinity(), high = 0;
+    for (const Layer& layer : medium.layers) {
+      low = std::min(low, stated(layer.optics));
+      high = std::max(high, stated(layer.optics));
+    }
+    return {low, high};
+  }
+  const double constant = stated(medium.optics);
+  const std::vector<float>& cells = medium.data.extinction;
+  if (medium.kind != MediumKind::data_set || cells.empty()) return {constant, constant};
+  // A data set's cells are at the wavelength of its law.
+  const Extinction& law = medium.optics.extinction;
+  const double there = law.spectrum().at(law.wavelength_nm);
+  const double shift = there > 0 ? constant / there : 1;
+  const auto [low, high] = std::minmax_element(cells.begin(), cells.end());
+  return {shift * static_cast<double>(*low), shift * static_cast<double>(*high)};
+}
+
+std::string source_of(const Medium& medium, double factor) {
+  std::string out = medium.place.line > 0
+                        ? fmt::format("{}:{}", medium.place.file, medium.place.line)
+                        : medium.place.file;
+  if (medium.kind == MediumKind::layered)
+    out += fmt::format(", {} layer{}", medium.layers.size(), medium.layers.size() == 1 ? "" : "s");
+  if (medium.kind == MediumKind::data_set)
+    out += fmt::format(", {} x {} x {} cells", medium.data.nx, medium.data.ny, medium.data.nz);
+  if (medium.simulation)
+    out += fmt::format(", a fire simulation at {:.6g} s ({})", medium.simulation->time_s,
+                       medium.simulation->source);
+  if (factor != 1) out += fmt::format(", times {:g} in this scenario", factor);
+  return out;
+}
+
+/// Once the mains have failed, which a clock may not yet have reached.
+Operation operation_then(const Scenario& scenario) {
+  return scenario.operation == Operation::mains ? scenario.written_operation : scenario.operation;
+}
+
+bool same_factors(std::vector<Scenario::Factor> a, std::vector<Scenario::Factor> b) {
+  const auto by_name = [](const Scenario::Factor& x, const Scenario::Factor& y) {
+    return x.name < y.name;
+  };
+  std::sort(a.begin(), a.end(), by_name);
+  std::sort(b.begin(), b.end(), by_name);
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Scenario::Factor& x, const Scenario::Factor& y) {
+                      return x.name == y.name && x.factor == y.factor;
+                    });
+}
+
+/// Whether two scenarios differ in their operation alone: had one lost its `operation`, judging the
+/// other would be judging it.
+bool differ_in_operation_alone(const Scenario& mains, const Scenario& other) {
+  return same_factors(mains.circuits, other.circuits) && same_factors(mains.media, other.media) &&
+         mains.smoke_factor == other.smoke_factor &&
+         mains.emission_factor == other.emission_factor && mains.doors_open == other.doors_open &&
+         mains.doors_closed == other.doors_closed;
+}
+
+/// "\"night\" (emergency operation, with smoke), ..."
+std::string candidates(const SceneDescription& scene) {
+  std::string out;
+  for (const Scenario& s : scene.scenarios)
+    out += fmt::format("{}\"{}\" ({} operation, {})", out.empty() ? "" : ", ", s.name,
+                       name_of(operation_then(s)),
+                       has_smoke(scene, s) ? "with smoke" : "without smoke");
+  return out;
+}
+
+Problem unclear(const SceneDescription& scene, const SourcePlace& place, const std::string& why) {
+  return problem_in(place,
+                    "which state is to be judged is not clear: " + why +
+                        ". Name it by --scenario, or write operation = \"emergency\" where it "
+                        "is missing; there are: " +
+                        candidates(scene));
+}
+
+/// What views are judged with, of a state whose lit luminaires are known.
+std::string ageing_words(const SceneDescription& scene, const AssessedState& state) {
+  double least = 1;
+  for (const Emitter& e : scene.emitters) {
+    if (!std::count(state.lit.begin(), state.lit.end(), e.name)) continue;
+    least = std::min(least, aged_share(e, state.operation));
+  }
+  if (state.lit.empty()) return "no luminaire is lit";
+  if (least == 1) return "as stated: no lit luminaire says that its light falls with age";
+  return fmt::format(
+      "aged light ({} down to {:.3g} of new light) and new light of the luminaires; the worse "
+      "verdict counts. Signs and flames as stated",
+      state.operation == Operation::mains ? "maintenance factor"
+                                          : "maintenance factor times end-of-duration factor",
+      least);
+}
+
+/// Emergency luminaires and signs whose circuits this state has dimmed or switched off.
+void add_switched(const SceneDescription& scene, const Scenario& scenario,
+                  std::vector<std::string>& remarks) {
+  if (scenario.operation == Operation::mains) return;
+  size_t off = 0, dimmed = 0, raised = 0, signs = 0;
+  for (const Emitter& e : scene.emitters) {
+    if (!(e.emergency_flux > 0)) continue;
+    const double factor = factor_of(scenario.circuits, e.circuit, 1);
+    off += factor == 0 ? 1 : 0;
+    dimmed += factor > 0 && factor < 1 ? 1 : 0;
+    raised += factor > 1 ? 1 : 0;
+  }
+  for (const Sign& sign : scene.signs)
+    signs += sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 > 0 &&
+                     factor_of(scenario.circuits, sign.circuit, 1) == 0
+                 ? 1
+                 : 0;
+  if (off + dimmed > 0)
+    remarks.push_back(
+        fmt::format("the circuits of this state switch off {} emergency luminaires "
+                    "and dim {}: checks by the codes take them so, too",
+                    off, dimmed));
+  if (raised > 0)
+    remarks.push_back(
+        fmt::format("the circuits of this state raise the flux of {} emergency "
+                    "luminaires above what is stated: views are judged so, checks by "
+                    "the codes are not",
+                    raised));
+  if (signs > 0)
+    remarks.push_back(
+        fmt::format("the circuits of this state switch off {} signs: checks by the codes "
+                    "take them as dark",
+                    signs));
+}
+
+/// Smoke that this state has thinned, and light that no file has measured.
+void add_thinned(const SceneDescription& scene, const Scenario& scenario,
+                 std::vector<std::string>& remarks) {
+  for (const Medium& m : scene.media) {
+    const double factor = extinction_factor(scenario, m.name);
+    if (is_flame(m) || !(factor > 0 && factor < 1)) continue;
+    remarks.push_back(fmt::format(
+        "this state has {:.3g} of the extinction that the scene states of \"{}\"", factor, m.name));
+  }
+  const auto ideal = std::count_if(
+      scene.emitters.begin(), scene.emitters.end(),
+      [](const Emitter& e) { return e.emergency_flux > 0 && e.distribution != Distribution::web; });
+  if (ideal > 0)
+    remarks.push_back(
+        fmt::format("{} emergency luminaires are emitters of simple shape, without a "
+                    "photometric file: nobody has measured their intensities",
+                    ideal));
+}
+
+/// The shortest rated duration that the chosen codes ask for [h].
+double rated_hours(const std::vector<CodeChoice>& codes) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const CodeChoice& c : codes) least = std::min(least, rated_duration_h(c));
+  return least;
+}
+
+/// What is lit or glows so long after the failure by assumption alone.
+void add_time(const SceneDescription& scene, const AssessedState& state,
+              std::vector<std::string>& remarks) {
+  if (!state.seconds_after_failure) return;
+  const double seconds = *state.seconds_after_failure, rated = rated_hours(state.codes);
+  const bool unknown =
+      std::any_of(scene.emitters.begin(), scene.emitters.end(),
+                  [](const Emitter& e) { return e.emergency_flux > 0 && !e.duration_s; });
+  if (state.operation == Operation::emergency && seconds > 3600 * rated && unknown)
+    remarks.push_back(
+        fmt::format("{:g} s after the failure of the mains is later than the rated "
+                    "duration of {:g} h that the rules ask for: batteries may be "
+                    "empty, and luminaires are taken as lit",
+                    seconds, rated));
+  const auto silent =
+      std::count_if(scene.emitters.begin(), scene.emitters.end(),
+                    [](const Emitter& e) { return e.emergency_flux > 0 && e.onset.empty(); });
+  if (state.operation == Operation::emergency && seconds < adapted_after_s && silent > 0)
+    remarks.push_back(
+        fmt::format("{} emergency luminaires do not say how fast they come on "
+                    "(onset): they are taken as fully on {:g} s after the failure",
+                    silent, seconds));
+  for (const Sign& sign : scene.signs)
+    if (!sign.decay.empty() && seconds > sign.decay.back().x)
+      return remarks.push_back(
+          fmt::format("the glow of sign \"{}\" is known up to {:g} s after "
+                      "the failure, and is extrapolated",
+                      sign.name, sign.decay.back().x));
+}
+
+/// Who looks, where that is not the usual, and what nobody looks at.
+void add_people(const SceneDescription& scene, const AssessedState& state,
+                std::vector<std::string>& remarks) {
+  const AssessmentSettings& said = scene.assessment;
+  if (said.age_years < young_years)
+    remarks.push_back(fmt::format("signs are judged by eyes of {:g} years: older people see less",
+                                  said.age_years));
+  const double highest = *std::max_element(said.eye_heights_m.begin(), said.eye_heights_m.end());
+  if (highest < upright_m && !scene.routes.empty())
+    remarks.push_back(
+        fmt::format("the highest eyes on routes are {:g} m above the floor: nobody "
+                    "who walks upright is judged",
+                    highest));
+  if (said.spacing_m > far_apart_m && !scene.routes.empty())
+    remarks.push_back(
+        fmt::format("people on routes stand {:g} m apart: what is read between them "
+                    "is not judged",
+                    said.spacing_m));
+  if (scene.signs.empty())
+    remarks.emplace_back("the scene has no sign: nothing is judged of what people read");
+  const auto has_set = [&](RuleSet set) {
+    return std::any_of(state.codes.begin(), state.codes.end(),
+                       [&](const CodeChoice& c) { return c.set == set; });
+  };
+  if (has_set(RuleSet::en1838_2013) && has_set(RuleSet::en1838_2024))
+    remarks.emplace_back(
+        "two editions of EN 1838 are judged: their limits differ, and the one in force decides");
+  if (has_set(RuleSet::nfpa101) && state.codes.size() > 1)
+    remarks.emplace_back("rules of Europe and of the United States are judged beside each other");
+}
+
+void add_remarks(const SceneDescription& scene, const Scenario& scenario, AssessedState& state) {
+  auto& remarks = state.remarks;
+  const auto warn = [&state](const std::string& words) {
+    state.remarks.push_back(words);
+    state.warnings.push_back(words);
+  };
+  if (state.operation == Operation::mains)
+    remarks.emplace_back(
+        "MAINS OPERATION: views of signs are judged with the mains on, not in an emergency. Checks "
+        "by the codes are for emergency operation all the same");
+  if (state.operation == Operation::dark)
+    remarks.emplace_back(
+        "neither mains nor emergency luminaires are lit in this state. Checks by the codes are for "
+        "emergency operation all the same");
+  if (state.operation != Operation::mains && !state.seconds_after_failure)
+    remarks.emplace_back(
+        "the scenario does not say how long after the failure of the mains it is "
+        "(seconds_after_failure): luminaires are fully on, photoluminescent signs as at the "
+        "failure, and eyes adapted to this light");
+  if (state.operation != Operation::mains && state.seconds_after_failure &&
+      *state.seconds_after_failure < adapted_after_s)
+    remarks.push_back(fmt::format(
+        "{:g} s after the failure of the mains eyes are not yet adapted: verdicts are those of "
+        "adapted eyes, and people see less within the first {:g} s",
+        *state.seconds_after_failure, adapted_after_s));
+  if (!state.smoke && !state.media.empty())
+    remarks.emplace_back("flames burn in this state, but there is no smoke around them");
+  if (!state.smoke && std::any_of(scene.media.begin(), scene.media.end(),
+                                  [](const Medium& m) { return !is_flame(m); }))
+    warn("CLEAR AIR: the scene has smoke, but not in this scenario");
+  const size_t dark = static_cast<size_t>(
+      std::count_if(scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& e) {
+        return e.emergency_flux > 0 && !std::count(state.lit.begin(), state.lit.end(), e.name);
+      }));
+  if (state.operation == Operation::emergency && dark > 0)
+    warn(fmt::format("{} emergency luminaire{} not lit in this state", dark,
+                     dark == 1 ? " is" : "s are"));
+  for (const Medium& m : scene.media)
+    if (m.simulation && !m.simulation->glows && extinction_factor(scenario, m.name) > 0)
+      warn(
+          fmt::format("FLAME GLARE IS MISSING: \"{}\" is the smoke of a fire without the light of "
+                      "its flames, which dazzles and veils signs",
+                      m.name));
+  add_switched(scene, scenario, remarks);
+  add_time(scene, state, remarks);
+  add_thinned(scene, scenario, remarks);
+  add_people(scene, state, remarks);
+  for (const CodeChoice& codes : state.codes)
+    if (const NamedRules& set = named(codes.set); set.status[0] != '\0')
+      remarks.push_back(fmt::format("{}: {}", set.edition, set.status));
+  if (!scene.signs.empty() && state.light.starts_with("aged"))
+    remarks.emplace_back("luminances of signs are taken as stated, in new and in aged light");
+}
+
+}  // namespace
+
+// It lets its light out and is met by nobody; a data set of a fire holds smoke, too.
+bool is_flame(const Medium& medium) {
+  return medium.emission && medium.kind != MediumKind::data_set;
+}
+
+bool has_smoke(const SceneDescription& scene, const Scenario& scenario) {
+  return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& medium) {
+    return !is_flame(medium) && extinction_factor(scenario, medium.name) > 0 &&
+           range_of(medium).second > 0;
+  });
+}
+
+Result<Scenario> judged_scenario(const SceneDescription& scene, const std::string& named) {
+  if (!named.empty()) return find_scenario(scene, named);
+  if (scene.scenarios.empty())
+    return problem_in(
+        scene.file,
+        "there is no [[scenario]], so that it is not said which state is to be judged: "
+        "write [[scenario]] with name = \"emergency\" and operation = \"emergency\"");
+  const bool smoky = std::any_of(scene.scenarios.begin(), scene.scenarios.end(),
+                                 [&](const Scenario& s) { return has_smoke(scene, s); });
+  const char* const with = smoky ? " with smoke" : "";
+  const Scenario* one = nullptr;
+  for (const Scenario& s : scene.scenarios) {
+    if (operation_then(s) != Operation::emergency || has_smoke(scene, s) != smoky) continue;
+    if (one != nullptr)
+      return unclear(scene, s.place,
+                     fmt::format("\"{}\" and \"{}\" are both in emergency operation{}", one->name,
+                                 s.name, with));
+    one = &s;
+  }
+  if (one == nullptr)
+    return unclear(scene, scene.scenarios.front().place,
+                   fmt::format("no scenario{} is in emergency operation", with));
+  for (const Scenario& s : scene.scenarios)
+    if (operation_then(s) == Operation::mains && has_smoke(scene, s) == smoky &&
+        !differ_in_operation_alone(s, *one))
+      return unclear(scene, s.place,
+                     fmt::format("\"{}\"{} is in mains operation and differs from \"{}\" in more "
+                                 "than that: its operation may have been forgotten",
+                                 s.name, with, one->name));
+  return *one;
+}
+
+Result<std::vector<CodeChoice>> judged_codes(const SceneDescription& scene,
+                                             const std::vector<std::string>& rules,
+                                             const std::vector<std::string>& deviations) {
+  const AssessmentSettings& said = scene.assessment;
+  auto codes = chosen_codes(rules.empty() ? said.rules : rules,
+                            deviations.empty() ? said.deviations : deviations);
+  if (codes) return codes;
+  const bool by_scene = rules.empty() && deviations.empty() && said.place.line > 0;
+  return problem_in(by_scene ? said.place : SourcePlace{scene.file, 0}, codes.problem().what);
+}
+
+Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& scenario) {
+  if (scene.assessment.irritant_smoke || !has_smoke(scene, scenario)) return {};
+  const auto smoke = std::find_if(scene.media.begin(), scene.media.end(), [&](const Medium& m) {
+    return !is_flame(m) && extinction_factor(scenario, m.name) > 0;
+  });
+  return problem_in(
+      scene.assessment.place.line > 0 ? scene.assessment.place : smoke->place,
+      fmt::format("whether the smoke \"{}\" of scenario \"{}\" stings is not said, and "
+                  "verdicts on signs follow from it: write irritant_smoke = true (wood, "
+                  "plastics and most fires) or irritant_smoke = false (theatre smoke) "
+                  "in [assessment]",
+                  smoke->name, scenario.name));
+}
+
+std::vector<std::string> overruled(const SceneDescription& scene,
+                                   const std::vector<std::string>& rules,
+                                   const std::vector<std::string>& deviations) {
+  std::vector<std::string> out;
+  const auto compare = [&](const char* what, std::vector<std::string> said,
+                           std::vector<std::string> asked) {
+    std::sort(said.begin(), said.end());
+    std::sort(asked.begin(), asked.end());
+    if (said.empty() || asked.empty() || said == asked) return;
+    out.push_back(fmt::format("the scene names other {} ({}) than were asked for", what,
+                              fmt::join(said, ", ")));
+  };
+  compare("rules", scene.assessment.rules, rules);
+  compare("deviations", scene.assessment.deviations, deviations);
+  return out;
+}
+
+AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,
+                       std::vector<CodeChoice> codes) {
+  AssessedState state;
+  state.scenario = scenario.name;
+  state.operation = scenario.operation;
+  if (scenario.operation != Operation::mains && scenario.says_seconds)
+    state.seconds_after_failure = scenario.seconds_after_failure;
+  state.luminaires = scene.emitters.size();
+  for (const ActiveSource& source : active_sources(scene, scenario))
+    if (source.emitter != nullptr) state.lit.push_back(source.emitter->name);
+  for (const Medium& medium : scene.media) {
+    const double factor = extinction_factor(scenario, medium.name);
+    if (!(factor > 0)) continue;
+    const auto [low, high] = range_of(medium);
+    const bool flame = is_flame(medium);
+    state.smoke = state.smoke || (!flame && high > 0);
+    state.media.push_back({medium.name,
+                           flame ? "flame" : medium_words.at(static_cast<size_t>(medium.kind)),
+                           source_of(medium, factor), factor * low, factor * high});
+  }
+  state.codes = std::move(codes);
+  state.light = ageing_words(scene, state);
+  add_remarks(scene, scenario, state);
+  return state;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,376 @@
+#include "actors/judge/assess/sights_in_lights.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "actors/judge/inspect/building.hpp"
+#include "actors/results/run/run_executor.hpp"
+#include "scenes/emergency/veil.hpp"
+#include "scenes/light/signs/sign_face.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Batches of a round at least, whose spread is the error; paths to each part of a sign in the
+/// first round's batches, and at most in any: beyond that a round has more batches.
+constexpr int64_t min_batches = 64, first_paths = 8, max_paths = 512;
+/// compile's share of paths: 0.1 of the particles, divided among the parts.
+constexpr double paths_per_particle = 0.1;
+
+/// Each round has four times the paths of the one before.
+struct RoundSize {
+  explicit RoundSize(int round)
+      : paths(std::min(max_paths, first_paths << (2 * round))),
+        batches(min_batches * ((first_paths << (2 * round)) / paths)) {}
+  int64_t paths;  // of a batch, to each part
+  int64_t batches;
+};
+
+double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
+  return glm::degrees(
+      std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0, 1.0)));
+}
+
+/// A sign as somebody faces it, before anything is known of its light.
+SightRow row_of(const Stand& stand, const Sign& sign) {
+  SightRow row;
+  row.from = stand.from;
+  row.stands_for = stand.stands_for;
+  row.along_m = stand.along_m;
+  row.height_m = stand.height_m;
+  row.eye = stand.observer.eye;
+  row.sign = sign.name;
+  row.view = view_of_sign(sign, row.eye);
+  row.back_face = row.view.back_face;
+  row.gaze_deg = stand.looks_ahead ? angle_deg(row.view.centre - row.eye, stand.observer.gaze)
+                                   : std::numeric_limits<double>::quiet_NaN();
+  return row;
+}
+
+/// Factors of a scene's source groups, by mixture.
+using Factors = std::vector<std::vector<double>>;
+
+Factors factors_of(const CompiledScene& scene, const std::vector<GroupMixture>& mixtures) {
+  Factors out;
+  for (const GroupMixture& mixture : mixtures) {
+    auto& factors = out.emplace_back();
+    for (const Group& group : scene.groups) factors.push_back(mixture.factor_of(group.name));
+  }
+  return out;
+}
+
+/// Veiling luminance in the eye [cd/m2], by mixture, of all emitters but the sign itself. Each part
+/// of an emitter lays its veil from where it is, through the smoke before it: a flame is no point,
+/// and not in its middle.
+std::vector<double> veils_of(const Building& building, const GeometryAccess& access,
+                             const SightRow& row, uint32_t sign, double age_years,
+                             const Factors& factors) {
+  const CompiledScene& scene = building.scene();
+  const glm::dvec3 gaze = glm::normalize(row.view.centre - row.eye);
+  std::vector<double> veils(factors.size(), 0.0);
+  for (const ArrivingLight& light :
+       direct_arrivals(scene, access, building.local(row.eye), glm::vec3(gaze), {})) {
+    const CompiledEmitter& emitter = scene.emitters[light.emitter];
+    if (emitter.sign != none_index && scene.signs[emitter.sign].sign == sign) continue;
+    const double part = light.illuminance_lx *
+                        veil_per_lux(angle_deg(glm::dvec3(light.direction), gaze), age_years);
+    for (size_t m = 0; m < veils.size(); ++m)
+      veils[m] += part * factors[m][static_cast<size_t>(emitter.group)];
+  }
+  return veils;
+}
+
+/// Of independent samples, to first order.
+Uncertain plus(const Uncertain& a, const Uncertain& b) {
+  return {a.value + b.value, std::hypot(a.error, b.error)};
+}
+Uncertain product(const Uncertain& a, const Uncertain& b) {
+  return {a.value * b.value, std::hypot(a.value * b.error, a.error * b.value)};
+}
+
+/// What arrives at the eye from one sign, in one mixture of the light.
+class ViewReadout {
+ public:
+  ViewReadout(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
+              size_t mixture)
+      : readout_(readout), scene_(scene), target_(target), mixture_(mixture) {}
+
+  SignLook look(double veil) const;
+
+ private:
+  Uncertain of(uint32_t part, EyeQuantity quantity) const;
+  Uncertain whole(uint32_t part, EyeQuantity quantity) const;
+  Uncertain mixed(uint32_t part, MixtureEyeQuantity quantity) const;
+
+  const Readout& readout_;
+  const CompiledScene& scene_;
+  const EyeTarget& target_;
+  size_t mixture_;
+};
+
+Uncertain ViewReadout::whole(uint32_t part, EyeQuantity quantity) const {
+  const Estimate e = readout_.value(scene_.blocks.views, target_.first_bin + part,
+                                    static_cast<uint32_t>(quantity));
+  return {e.value, e.standard_error};
+}
+
+Uncertain ViewReadout::mixed(uint32_t part, MixtureEyeQuantity quantity) const {
+  const size_t bin = (target_.first_bin + part) * scene_.mixtures.size() + mixture_;
+  const Estimate e = readout_.value(scene_.blocks.views_by_mixture, static_cast<uint32_t>(bin),
+                                    static_cast<uint32_t>(quantity));
+  return {e.value, e.standard_error};
+}
+
+Uncertain ViewReadout::of(uint32_t part, EyeQuantity quantity) const {
+  if (scene_.mixtures.empty()) return whole(part, quantity);
+  switch (quantity) {
+    case EyeQuantity::reflected:
+      return mixed(part, MixtureEyeQuantity::reflected);
+    case EyeQuantity::at_eye:
+      return mixed(part, MixtureEyeQuantity::at_eye);
+    case EyeQuantity::own: {
+      const CompiledSign& sign = scene_.signs[target_.sign];
+      const int group = part == 0 ? sign.white_group : sign.green_group;
+      return product({scene_.mixtures[mixture_][static_cast<size_t>(group)], 0},
+                     whole(part, quantity));
+    }
+    default:  // what smoke and walls let pass is the same in all light
+      return whole(part, quantity);
+  }
+}
+
+SignLook ViewReadout::look(double veil) const {
+  const SignFace& face = scene_.description->signs[scene_.signs[target_.sign].sign].face;
+  const Uncertain white = of(0, EyeQuantity::at_eye);
+  const Uncertain green = of(1, EyeQuantity::at_eye);
+  const bool white_legend = face.legend == SignColour::white;
+  const double w = colour_share(face, SignColour::white), g = colour_share(face, SignColour::green);
+  const double all = std::max(w + g, 1e-12);
+  SignLook look;
+  look.legend = white_legend ? white : green;
+  look.ground = white_legend ? green : white;
+  look.face = {(w * white.value + g * green.value) / all,
+               std::hypot(w * white.error, g * green.error) / all};
+  look.surround = of(2, EyeQuantity::at_eye);
+  const auto mean_of_colours = [&](EyeQuantity q) {
+    return (w * of(0, q).value + g * of(1, q).value) / all;
+  };
+  look.visible_share = mean_of_colours(EyeQuantity::visible);
+  const double passed = mean_of_colours(EyeQuantity::transmission);
+  look.transmission = look.visible_share > 0 ? passed / look.visible_share : 0;
+  look.veil_cd_m2 = veil;
+  const auto arrives = [&](uint32_t part) {
+    return product(plus(of(part, EyeQuantity::own), of(part, EyeQuantity::reflected)),
+                   of(part, EyeQuantity::transmission));
+  };
+  look.difference =
+      plus(arrives(white_legend ? 0 : 1), product({-1, 0}, arrives(white_legend ? 1 : 0)));
+  return look;
+}
+
+}  // namespace
+
+SightsInLights::SightsInLights(const JudgedScene& judged, const std::vector<Observer>& observers,
+                               const OtherSmoke& smoke, const AssessOptions& options)
+    : judged_(judged),
+      observers_(observers),
+      smoke_(smoke),
+      options_(options),
+      rows_(judged.lights.size()) {}
+
+std::optional<double> SightsInLights::error_beyond_first(size_t light, size_t row) const {
+  const double error = errors_beyond_first_[light][row];
+  return std::isnan(error) ? std::nullopt : std::optional(error);
+}
+
+bool SightsInLights::is_open(size_t light) const {
+  return std::find(open_[light].begin(), open_[light].end(), true) != open_[light].end();
+}
+
+Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
+  progress("lines of sight", 0);
+  auto made = Building::make(scene_, judged_.scenario, options_.threads);
+  if (!made) return made.problem();
+  const Building& building = *made.value();
+  const Factors factors = factors_of(building.scene(), judged_.mixtures());
+  stands_ = stands_of(scene_, observers_);
+  if (stands_.size() * scene_.signs.size() > limits::sights)
+    return problem_in(scene_.file,
+                      fmt::format("{} places and {} signs make more pairs than {}: take a larger "
+                                  "spacing_m or fewer eye heights",
+                                  stands_.size(), scene_.signs.size(), limits::sights));
+  std::vector<std::vector<SightRow>> rows(stands_.size());
+  std::vector<std::vector<Faced>> faced(stands_.size());  // rows of the stand's own
+  building.each(stands_.size(), [&](const GeometryAccess& access, size_t i) {
+    const Stand& stand = stands_[i];
+    const bool stuck = building.in_solid(access, stand.observer.eye);
+    for (uint32_t s = 0; s < scene_.signs.size(); ++s) {
+      const Sign& sign = scene_.signs[s];
+      if (!options_.sign.empty() && sign.name != options_.sign) continue;
+      SightRow row = row_of(stand, sign);
+      if (row.view.behind || (options_.wanted && !options_.wanted(row))) continue;
+      const double seen = building.seen_share(access, sign, row.view, row.eye);
+      row.look.visible_share = seen;
+      row.line = line_of_sight(building, access, sign, row.view, row.eye);
+      if (seen == 0) row.sight.verdict = SightVerdict::hidden;
+      if (stuck) row.sight.reason = "the eye is in a solid thing";
+      if (seen > 0 && !stuck) {
+        row.sight.verdict = SightVerdict::undecided;
+        faced[i].push_back(
+            {rows[i].size(), i, s,
+             veils_of(building, access, row, s, scene_.assessment.age_years, factors)});
+        const std::vector<double>& veils = faced[i].back().veils_cd_m2;
+        const auto of_lights = static_cast<std::ptrdiff_t>(judged_.lights_mixtures());
+        row.look.veil_cd_m2 = *std::max_element(veils.begin(), veils.begin() + of_lights);
+      }
+      rows[i].push_back(std::move(row));
+    }
+  });
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const size_t before = rows_.front().size();
+    for (Faced& view : faced[i]) {
+      view.row += before;
+      faced_.push_back(std::move(view));
+    }
+    for (SightRow& row : rows[i]) rows_.front().push_back(std::move(row));
+  }
+  std::fill(rows_.begin() + 1, rows_.end(), rows_.front());
+  open_.assign(lights(), std::vector<bool>(faced_.size(), true));
+  errors_beyond_first_.assign(
+      lights(),
+      std::vector<double>(rows_.front().size(), std::numeric_limits<double>::quiet_NaN()));
+  return {};
+}
+
+/// Those who still have to look, and as many paths as the round has.
+RoundState SightsInLights::round_state(int round, const std::vector<size_t>& views) const {
+  RoundState out{judged_.scenario.name, scene_.at_s, smoke_, 0, {}};
+  size_t last = stands_.size();
+  for (const size_t view : views) {
+    const Faced& faced = faced_[view];
+    if (faced.stand != last) {
+      out.observers.push_back(stands_[faced.stand].observer);
+      out.observers.back().signs.emplace();
+      last = faced.stand;
+    }
+    out.observers.back().signs->push_back(faced.sign);
+  }
+  const auto paths = static_cast<double>(RoundSize(round).paths);
+  const auto parts = static_cast<double>(3 * views.size());
+  // Half a path more, so that rounding down gives this many.
+  out.eye_path_factor = (paths + 0.5) * parts /
+                        (paths_per_particle * static_cast<double>(limits::round_batch_particles));
+  return out;
+}
+
+/// In aged light and, where it differs, in new: the worse verdict counts.
+void SightsInLights::judge_view(const Readout& readout, const CompiledScene& scene,
+                                const EyeTarget& target, const Faced& faced, size_t light) {
+  const SightRules rules{{scene_.assessment.age_years},
+                         scene_.assessment.irritant_smoke.value_or(false)};
+  const Sign& sign = scene_.signs[faced.sign];
+  SightRow& row = rows_[light][faced.row];
+  const auto look_in = [&](size_t mixture) {
+    return ViewReadout(readout, scene, target, mixture).look(faced.veils_cd_m2[mixture]);
+  };
+  row.look = look_in(judged_.aged_mixture(light));
+  row.sight = judge_sight(sign, row.view, row.look, rules);
+  row.in_new_light = false;
+  row.other.reset();
+  if (!judged_.ageing.any()) return;
+  SightRow::Other as_new{look_in(judged_.new_mixture(light)), {}};
+  as_new.sight = judge_sight(sign, row.view, as_new.look, rules);
+  if (is_worse(as_new.sight, row.sight)) {
+    std::swap(row.look, as_new.look);
+    std::swap(row.sight, as_new.sight);
+    row.in_new_light = true;
+  }
+  row.other = std::move(as_new);
+}
+
+/// Where both verdicts count in the same light, aged or new. Requires: the round has judged both.
+void SightsInLights::compare_with_first(const Readout& readout, const CompiledScene& scene,
+                                        const EyeTarget& target, const Faced& faced, size_t light) {
+  const SightRow &first = rows_.front()[faced.row], &row = rows_[light][faced.row];
+  double& error = errors_beyond_first_[light][faced.row];
+  error = std::numeric_limits<double>::quiet_NaN();
+  if (row.sight.verdict != SightVerdict::undecided || first.in_new_light != row.in_new_light)
+    return;
+  const size_t mixture = judged_.mixture_beyond_first(light, row.in_new_light);
+  const SignLook beyond =
+      ViewReadout(readout, scene, target, mixture).look(faced.veils_cd_m2[mixture]);
+  error =
+      error_of_level_beyond(first.look, row.look, beyond, row.view, {scene_.assessment.age_years});
+}
+
+void SightsInLights::judge(const CompiledScene& scene, const Totals& totals,
+                           const std::vector<size_t>& views) {
+  const Readout readout(scene, totals);
+  std::map<std::tuple<size_t, uint32_t, bool>, const EyeTarget*> targets;
+  for (const EyeTarget& target : scene.eye_targets) {
+    const CompiledSign& face = scene.signs[target.sign];
+    targets[{observing_[target.observer], face.sign, face.back}] = &target;
+  }
+  for (const size_t view : views) {
+    const Faced& faced = faced_[view];
+    const auto target = targets.find({faced.stand, faced.sign, rows_.front()[faced.row].back_face});
+    for (size_t light = 0; light < lights(); ++light) {
+      if (!open_[light][view]) continue;
+      SightRow& row = rows_[light][faced.row];
+      if (target == targets.end()) {  // within rounding of the face's own plane
+        row.sight.verdict = SightVerdict::not_assessed;
+        row.sight.reason = "it is seen edge-on";
+      } else {
+        judge_view(readout, scene, *target->second, faced, light);
+        if (light > 0 && open_.front()[view])
+          compare_with_first(readout, scene, *target->second, faced, light);
+      }
+      open_[light][view] = row.sight.verdict == SightVerdict::undecided;
+    }
+  }
+}
+
+Result<void> SightsInLights::trace(int round, const std::vector<bool>& asked,
+                                   const std::atomic<bool>& interrupt,
+                                   const AssessProgress& progress) {
+  std::vector<size_t> views;
+  for (size_t view = 0; view < faced_.size(); ++view) {
+    bool open = false;
+    for (size_t light = 0; light < lights(); ++light) open |= asked[light] && open_[light][view];
+    if (open) views.push_back(view);
+  }
+  const std::string what = fmt::format("round {}: {} views", round + 1, views.size());
+  progress(what, 0);
+  observing_.clear();
+  for (const size_t view : views)
+    if (observing_.empty() || observing_.back() != faced_[view].stand)
+      observing_.push_back(faced_[view].stand);
+  const RoundState state = round_state(round, views);
+  auto compiled = compile_round(judged_, state);
+  if (!compiled) return compiled.problem();
+  const uint64_t seed = options_.seed + static_cast<uint64_t>(round);
+  LocalRun run(compiled.value(), seed, options_.threads);
+  StopRule stop;
+  stop.particles = RoundSize(round).batches * limits::round_batch_particles;
+  RunThreads threads;
+  RunExecutor& executor = options_.executor == nullptr ? threads : *options_.executor;
+  executor.enter({seed, round_text(state)});
+  const auto reason = executor.run(run, stop, interrupt, [&](const Progress& p) {
+    progress(what, static_cast<double>(p.particles) / static_cast<double>(*stop.particles));
+  });
+  if (!reason) return reason.problem();
+  if (reason.value() == StopReason::interrupted) return problem("interrupted");
+  paths_ += run.batches() * int64_t{run.scene().eye_paths_per_batch} *
+            static_cast<int64_t>(3 * run.scene().eye_targets.size());
+  judge(run.scene(), run.totals(), views);
+  progress(what, 1);
+  return {};
+}
+
+}  // namespace luxodus

@@ -1,0 +1,594 @@
+#include "actors/judge/design/design.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "actors/judge/design/alternatives.hpp"
+#include "actors/judge/design/demands.hpp"
+#include "actors/judge/design/refine_layout.hpp"
+#include "runtime/core/clock.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Layouts that an assessment rejects are solved again with more asked for, so often.
+constexpr int max_verifications = 8;
+/// Of the time of the search, the share after it that may go into what binds.
+constexpr double share_for_binding = 0.25;
+/// Of the time of the search, what may go into finding out why no layout exists [s].
+constexpr double conflict_seconds = 60;
+/// Of layouts that differ so many are made for each that is judged in smoke: most hold by the
+/// rules, and fewer when their luminaires are off their places.
+constexpr size_t tries_of_each = 4;
+constexpr double no_objective = std::numeric_limits<double>::infinity();
+
+/// A scene without scenarios is as written: to be judged it needs one in emergency operation.
+std::shared_ptr<const SceneDescription> with_scenario(
+    const std::shared_ptr<const SceneDescription>& scene) {
+  if (!scene->scenarios.empty()) return scene;
+  auto out = std::make_shared<SceneDescription>(*scene);
+  Scenario emergency;
+  emergency.name = "emergency";
+  emergency.operation = emergency.written_operation = Operation::emergency;
+  emergency.place = {scene->file, 1};
+  out->scenarios.push_back(std::move(emergency));
+  return out;
+}
+
+std::optional<Problem> cannot_design(const SceneDescription& scene) {
+  if (scene.packed || !scene.design)
+    return problem_in(
+        scene.file, "a pack has its triangles elsewhere: take the scene file that it was made of");
+  if (scene.routes.empty() && scene.open_areas.empty() && scene.task_areas.empty())
+    return problem_in(scene.file,
+                      "there is nothing to light: add [[route]], [[open_area]] or [[task_area]]");
+  return std::nullopt;
+}
+
+std::optional<Problem> first_error(const std::shared_ptr<const SceneDescription>& scene,
+                                   const Scenario& scenario, int threads) {
+  const auto found = inspect(scene, {scenario}, threads);
+  if (!found) return found.problem();
+  if (has_error(found.value())) return found->front().problem;  // errors come first
+  return std::nullopt;
+}
+
+/// The first of "L", "N", "P", ... that no luminaire's name begins with, before a number.
+std::string prefix_of_names(const SceneDescription& scene) {
+  for (const char* prefix : {"L", "N", "P", "design L"}) {
+    const bool taken =
+        std::any_of(scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& e) {
+          return e.name.starts_with(prefix) &&
+                 e.name.find_first_not_of("0123456789", std::string_view(prefix).size()) ==
+                     std::string::npos;
+        });
+    if (!taken) return prefix;
+  }
+  return "designed luminaire ";
+}
+
+/// From floor to floor, from west to east, from south to north, as a schedule is read.
+bool comes_before(const LuminaireCandidate& a, const LuminaireCandidate& b) {
+  const glm::dvec3 p = a.position, q = b.position;
+  if (std::abs(p.z - q.z) > 1) return p.z < q.z;
+  if (std::abs(p.x - q.x) > 1e-6) return p.x < q.x;
+  return p.y < q.y;
+}
+
+std::shared_ptr<const SceneDescription> variant_of(const SceneDescription& scene,
+                                                   const PlacedLayout& layout) {
+  auto out = std::make_shared<SceneDescription>(scene);
+  std::erase_if(out->emitters, [&](const Emitter& e) {
+    return std::find(layout.removed.begin(), layout.removed.end(), e.name) != layout.removed.end();
+  });
+  for (const PlacedLuminaire& one : layout.luminaires) {
+    if (!one.is_placed()) continue;
+    Emitter e = emitter_of(scene, *scene.design, one.candidate);
+    e.name = one.name;
+    const auto there = std::find_if(out->emitters.begin(), out->emitters.end(),
+                                    [&](const Emitter& other) { return other.name == one.name; });
+    if (there != out->emitters.end())
+      *there = std::move(e);
+    else
+      out->emitters.push_back(std::move(e));
+  }
+  return out;
+}
+
+/// Which luminaire of a pool goes where: the two that are nearest to each other, again and again.
+std::vector<PlacedLuminaire> moved_in(std::vector<LuminaireCandidate> leaving,
+                                      std::vector<LuminaireCandidate> places) {
+  std::vector<PlacedLuminaire> out;
+  while (!leaving.empty() && !places.empty()) {
+    double nearest = std::numeric_limits<double>::infinity();
+    size_t from = 0, to = 0;
+    for (size_t i = 0; i < leaving.size(); ++i)
+      for (size_t k = 0; k < places.size(); ++k)
+        if (const double way = glm::length(leaving[i].position - places[k].position);
+            way < nearest) {
+          nearest = way;
+          from = i;
+          to = k;
+        }
+    LuminaireCandidate one = places[to];
+    one.name = leaving[from].name;
+    out.push_back({one, one.name, leaving[from].position});
+    leaving.erase(leaving.begin() + static_cast<std::ptrdiff_t>(from));
+    places.erase(places.begin() + static_cast<std::ptrdiff_t>(to));
+  }
+  return out;
+}
+
+PlacedLayout placed(const SceneDescription& scene, const Candidates& candidates,
+                    const Layout& layout) {
+  PlacedLayout out;
+  out.removed = candidates.removed;
+  std::vector<LuminaireCandidate> fresh;
+  std::map<uint32_t, std::vector<LuminaireCandidate>> leaving, arriving;  // by pool
+  for (size_t i = 0; i < candidates.all.size(); ++i) {
+    const LuminaireCandidate& one = candidates.all[i];
+    if (one.pool && one.moved == (layout[i] != 0))
+      (one.moved ? arriving : leaving)[one.pool->number].push_back(one);
+    else if (one.moved)
+      continue;
+    else if (one.type == LuminaireCandidate::existing && layout[i] == 0)
+      out.removed.push_back(one.name);
+    else if (one.type == LuminaireCandidate::existing)
+      out.luminaires.push_back({one, one.name});
+    else if (layout[i] != 0)
+      fresh.push_back(one);
+  }
+  for (auto& [pool, places] : arriving) {
+    const auto moved = moved_in(std::move(leaving[pool]), std::move(places));
+    out.luminaires.insert(out.luminaires.end(), moved.begin(), moved.end());
+  }
+  std::stable_sort(fresh.begin(), fresh.end(), comes_before);
+  const std::string prefix = prefix_of_names(scene);
+  size_t number = 0;
+  for (LuminaireCandidate& one : fresh)
+    out.luminaires.push_back({std::move(one), prefix + std::to_string(++number)});
+  out.variant = variant_of(scene, out);
+  return out;
+}
+
+/// Of each group, how much of what it asks for is there where it is least.
+std::vector<double> tightest_of(const LayoutProblem& problem, const Layout& layout) {
+  const LayoutIndex index(problem);
+  LayoutSums sums(index);
+  sums.set(layout);
+  return sums.tightest();
+}
+
+class Designing {
+ public:
+  Designing(std::shared_ptr<const SceneDescription> scene, const DesignOptions& options,
+            const std::atomic<bool>& interrupt, const SolveProgress& progress)
+      : scene_(std::move(scene)),
+        options_(options),
+        interrupt_(interrupt),
+        progress_(progress),
+        began_(clock_.now()) {}
+
+  Result<DesignResult> run() {
+    if (auto problem = prepare()) return *problem;
+    for (out_.verifications = 1;; ++out_.verifications) {
+      solve();
+      if (out_.answer.layout.empty()) {
+        if (!nearest_) return std::move(out_);
+        out_ = *std::move(nearest_);
+        break;
+      }
+      keep_bound();
+      if (auto problem = judge()) return *problem;
+      const auto failing = failing_checks(out_, out_.assessment, &out_.others);
+      const bool last = out_.verifications == max_verifications || interrupt_;
+      if (!failing.empty()) {
+        if (!last && ask_for_more(failing)) continue;
+        if (!nearest_) return rejected(failing.front());
+        out_ = *std::move(nearest_);
+        break;
+      }
+      if (auto problem = find_tolerance()) return *problem;
+      if (out_.tolerance->holds()) {
+        if (!look_between() || last) break;
+        nearest_ = out_;
+        continue;
+      }
+      if (!nearest_ || out_.tolerance->least() > nearest_->tolerance->least()) nearest_ = out_;
+      if (!last) {
+        const auto asked = ask_for_more_off_place();
+        if (!asked) return asked.problem();
+        if (asked.value()) continue;
+      }
+      out_ = *std::move(nearest_);
+      break;
+    }
+    out_.tightest = tightest_of(demands_->problem(), out_.answer.layout);
+    if (options_.what_binds && !interrupt_) find_what_binds();
+    if ((scene_->design->refine || options_.refine) && !interrupt_)
+      if (auto problem = refine()) return *problem;
+    if (!scenarios_in_smoke().empty() && !interrupt_)
+      if (auto problem = judge_alternatives()) return *problem;
+    return std::move(out_);
+  }
+
+ private:
+  double seconds() const { return 1e-9 * static_cast<double>(clock_.now() - began_); }
+
+  std::optional<Problem> prepare() {
+    progress_("inspecting the scene", no_objective, 0);
+    if (const auto& smoke = scenarios_in_smoke(); !smoke.empty())
+      if (auto ok = check_smoke_stage(*scene_, smoke); !ok) return ok.problem();
+    auto scenario = judged_scenario(*scene_, options_.scenario);
+    if (!scenario) return scenario.problem();
+    scenario_ = std::move(scenario).value();
+    auto codes = judged_codes(*scene_, options_.rules, options_.deviations);
+    if (!codes) return codes.problem();
+    codes_ = std::move(codes).value();
+    if (auto problem = first_error(scene_, scenario_, options_.threads)) return problem;
+    switched_ = as_switched(*scene_, scenario_);
+    if (emergency_luminaires(switched_).empty())
+      if (auto problem = no_light(*switched_.design)) return *problem;
+    if (*scene_->design->place_signs && !scene_->routes.empty())
+      if (auto problem = place_signs()) return problem;
+    progress_("finding places", no_objective, 0);
+    auto candidates =
+        find_candidates(switched_, *switched_.design, codes_, scenario_, options_.threads);
+    if (!candidates) return candidates.problem();
+    candidates_ = std::move(candidates).value();
+    progress_("computing their light", no_objective, 0);
+    auto demands = Demands::make(switched_, *switched_.design, candidates_.all, codes_, scenario_,
+                                 options_.threads);
+    if (!demands) return demands.problem();
+    demands_ = std::move(demands).value();
+    out_.places = candidates_.places;
+    out_.candidates = candidates_.all.size();
+    out_.left_out = candidates_.left_out;
+    out_.unused = candidates_.unused;
+    out_.points = demands_->problem().points.size();
+    out_.groups = demands_->problem().groups;
+    out_.unlit_flights = demands_->unlit_flights();
+    for (const auto& [what, points] : demands_->hidden())
+      if (!what.first.empty()) out_.hidden.push_back({what.first, what.second, points});
+    return std::nullopt;
+  }
+
+  /// From here on the scene has the signs.
+  std::optional<Problem> place_signs() {
+    SignPlanOptions asked;
+    asked.codes = codes_;
+    asked.doors = scenario_;
+    // Signs are few beside the luminaires: their program is solved in a small part of the time.
+    constexpr double share_of_time = 0.25;
+    asked.seconds = share_of_time * options_.seconds;
+    asked.seed = options_.seed;
+    asked.threads = options_.threads;
+    auto plan = plan_signs(
+        switched_, *switched_.design, asked, interrupt_,
+        [&](const std::string& what, double, double) { progress_(what, no_objective, 0); });
+    if (!plan) return plan.problem();
+    scene_ = with_signs(*scene_, plan.value());
+    switched_ = as_switched(*scene_, scenario_);
+    out_.signs = std::move(plan).value();
+    return std::nullopt;
+  }
+
+  /// Whether signs that were placed decide a check, which then has to pass.
+  bool is_of_signs(const Check& check) const {
+    static const std::set<std::string> distances{"S4", "N8"};
+    if (!out_.signs || !distances.contains(check.rule.id)) return false;
+    return std::any_of(scene_->routes.begin(), scene_->routes.end(), [&](const EscapeRoute& route) {
+      return check.subject == "route \"" + route.name + "\"" && out_.signs->guides(route.name);
+    });
+  }
+
+  void find_what_binds() {
+    progress_("looking for what binds", out_.answer.objective, out_.answer.bound);
+    WhatBindsSettings asked;
+    asked.seconds = share_for_binding * options_.seconds;
+    asked.seed = options_.seed;
+    for (const Relaxed& one : what_binds(demands_->problem(), out_.answer, asked, interrupt_))
+      out_.because.push_back({one, name_of(one.without.never_fails)});
+  }
+
+  std::string name_of(const std::optional<uint32_t>& option) const {
+    if (!option) return "";
+    const auto at = std::find_if(
+        out_.luminaires.begin(), out_.luminaires.end(),
+        [&](const auto& one) { return one.candidate.place == candidates_.all[*option].place; });
+    return at == out_.luminaires.end() ? "" : at->name;
+  }
+
+  /// What is left of the minima with luminaires off their places.
+  std::optional<Problem> find_tolerance() {
+    out_.tolerance.emplace();
+    if (!(scene_->design->place_tolerance_m > 0)) return std::nullopt;
+    progress_("looking at luminaires off their places", out_.answer.objective, out_.answer.bound);
+    auto found = tolerance_of(switched_, *switched_.design, chosen_candidates(), codes_, scenario_,
+                              options_.threads);
+    if (!found) return found.problem();
+    out_.tolerance = std::move(found).value();
+    return std::nullopt;
+  }
+
+  /// Whether a minimum hides between the points: it is asked for there from now on.
+  bool look_between() {
+    progress_("looking between the points", out_.answer.objective, out_.answer.bound);
+    const BetweenPoints found = demands_->look_between(out_.answer.layout);
+    out_.between.least = found.least;
+    out_.between.added += found.added;
+    if (found.added > 0) rows_of_all_ = false;  // less is let be by a hundredth
+    return found.added > 0;
+  }
+
+  /// Moves what was placed; what then fails or holds less off its places stays where it was.
+  std::optional<Problem> refine() {
+    RefineOptions asked;
+    asked.codes = codes_;
+    asked.doors = scenario_;
+    asked.seconds = options_.seconds;
+    asked.threads = options_.threads;
+    auto refined = refine_layout(
+        switched_, *switched_.design, chosen_candidates(), *demands_, asked, interrupt_,
+        [&](double) { progress_("moving luminaires", out_.answer.objective, out_.answer.bound); });
+    if (!refined) return refined.problem();
+    if (refined->moved == 0) return std::nullopt;
+    Candidates moved = candidates_;
+    size_t next = 0;
+    for (size_t i = 0; i < moved.all.size(); ++i)
+      if (out_.answer.layout[i] != 0) {
+        moved.all[i].position = refined->luminaires[next].position;
+        moved.all[i].floor = refined->luminaires[next++].floor;
+      }
+    PlacedLayout layout = placed(*scene_, moved, out_.answer.layout);
+    auto assessed = assessed_by_codes(layout.variant);
+    if (!assessed) return assessed.problem();
+    if (!failing_checks(layout, assessed.value(), nullptr).empty()) return std::nullopt;
+    PlaceTolerance tolerance;
+    if (scene_->design->place_tolerance_m > 0) {
+      auto found = tolerance_of(switched_, *switched_.design, refined->luminaires, codes_,
+                                scenario_, options_.threads);
+      if (!found) return found.problem();
+      if (!found->holds() && found->least() < out_.tolerance->least()) return std::nullopt;
+      tolerance = std::move(found).value();
+    }
+    static_cast<PlacedLayout&>(out_) = std::move(layout);
+    out_.assessment = std::move(assessed).value();
+    out_.tolerance = std::move(tolerance);
+    const LayoutProblem& problem = refined->demands->problem();
+    out_.between.least =
+        refined->demands->look_between(Layout(problem.options.size(), 1), demands_.get()).least;
+    if (problem.groups.size() == out_.groups.size())
+      out_.tightest = tightest_of(problem, Layout(problem.options.size(), 1));
+    out_.refined = Refined{refined->moved, refined->before, refined->after};
+    return std::nullopt;
+  }
+
+  /// Rows that were raised for one layout may exclude others that pass, or hold off their places,
+  /// with less: the bound is the largest of searches without such rows.
+  void keep_bound() {
+    LayoutAnswer& answer = out_.answer;
+    if (rows_of_all_) known_bound_ = std::max(known_bound_, answer.bound);
+    answer.bound = std::min(known_bound_, answer.objective);
+    if (answer.end == LayoutEnd::interrupted) return;
+    if (answer.gap() == 0)
+      answer.end = LayoutEnd::optimal;
+    else if (answer.gap() <= options_.gap || answer.end == LayoutEnd::optimal)
+      answer.end = LayoutEnd::within_gap;
+  }
+
+  std::vector<LuminaireCandidate> chosen_candidates() const {
+    return chosen_candidates(out_.answer.layout);
+  }
+  std::vector<LuminaireCandidate> chosen_candidates(const Layout& layout) const {
+    std::vector<LuminaireCandidate> out;
+    for (size_t i = 0; i < candidates_.all.size(); ++i)
+      if (layout[i] != 0) out.push_back(candidates_.all[i]);
+    return out;
+  }
+
+  /// Whether another layout keeps the minima off its places as the best one does; where that does
+  /// not, none is asked to.
+  Result<bool> holds_off_place(const Layout& layout) const {
+    if (!(scene_->design->place_tolerance_m > 0) || !out_.tolerance || !out_.tolerance->holds())
+      return true;
+    auto found = tolerance_of(switched_, *switched_.design, chosen_candidates(layout), codes_,
+                              scenario_, options_.threads);
+    if (!found) return found.problem();
+    return found->holds();
+  }
+
+  /// False where nothing can be asked for, or no layout gives more: then what is there is told.
+  Result<bool> ask_for_more_off_place() {
+    const auto broken = demands_->ask_off_place(
+        {switched_, *switched_.design, scenario_, options_.threads}, candidates_.all,
+        broken_points(*out_.tolerance), out_.answer.layout);
+    if (!broken) return broken.problem();
+    if (broken.value() > 0) return true;
+    bool any = false;
+    for (const ShareOffPlace& one : out_.tolerance->demands)
+      if (one.missing > 0)
+        any = demands_->ask_for_more(one.kind, one.rule, one.subject, one.place, one.missing,
+                                     out_.answer.layout) ||
+              any;
+    if (any) rows_of_all_ = false;
+    return any;
+  }
+
+  void solve() {
+    SolveSettings settings;
+    // A layout that was rejected is solved again in what is left, and in no less than a moment.
+    constexpr double moment = 5;
+    settings.seconds = out_.verifications == 1
+                           ? options_.seconds
+                           : std::max(moment, options_.seconds - (seconds() - solving_since_));
+    settings.gap = options_.gap;
+    settings.seed = options_.seed;
+    if (out_.verifications > 1) {
+      // More is asked for now.
+      settings.start = out_.answer.layout;
+      settings.known_regions = out_.answer.regions;
+    }
+    if (out_.verifications == 1) solving_since_ = out_.prepared_seconds = seconds();
+    out_.answer = solve_layout(demands_->problem(), settings, interrupt_, progress_);
+    if (out_.answer.end == LayoutEnd::infeasible) {
+      progress_("looking for what cannot hold together", no_objective, 0);
+      out_.conflict = conflict_of(demands_->problem(), conflict_seconds, interrupt_);
+    }
+  }
+
+  std::optional<Problem> judge() {
+    progress_("assessing the layout", out_.answer.objective, out_.answer.bound);
+    static_cast<PlacedLayout&>(out_) = placed(*scene_, candidates_, out_.answer.layout);
+    auto assessed = assessed_by_codes(out_.variant);
+    if (!assessed) return assessed.problem();
+    out_.assessment = std::move(assessed).value();
+    return std::nullopt;
+  }
+
+  /// A layout that was found before an interrupt is assessed all the same: it takes seconds.
+  Result<Assessment> assessed_by_codes(const std::shared_ptr<const SceneDescription>& variant) {
+    AssessOptions asked;
+    asked.scenario = options_.scenario;
+    asked.rules = options_.rules;
+    asked.deviations = options_.deviations;
+    asked.threads = options_.threads;
+    asked.reality = false;
+    static const std::atomic<bool> never{false};
+    return assess(variant, asked, never, [](const std::string&, double) {});
+  }
+
+  /// Those that luminaires of the layout decide; others go to `others`, unless it is null.
+  std::vector<Check> failing_checks(const PlacedLayout& layout, const Assessment& assessment,
+                                    std::vector<Check>* others) {
+    std::set<std::string> ours;
+    for (const PlacedLuminaire& one : layout.luminaires)
+      if (one.is_placed()) ours.insert("luminaire \"" + one.name + "\"");
+    std::vector<Check> out;
+    if (others != nullptr) others->clear();
+    for (const Check& check : assessment.checks) {
+      if (check.verdict != CheckVerdict::fail) continue;
+      const bool of_one = check.subject.starts_with("luminaire \"");
+      const bool decided = is_of_signs(check) || (is_of_luminaires(check.rule.id) &&
+                                                  (!of_one || ours.contains(check.subject)) &&
+                                                  !demands_->is_hidden(check));
+      if (decided)
+        out.push_back(check);
+      else if (others != nullptr)
+        others->push_back(check);
+    }
+    return out;
+  }
+
+  const std::vector<std::string>& scenarios_in_smoke() const {
+    return options_.in_smoke.empty() ? scene_->design->in_smoke : options_.in_smoke;
+  }
+
+  JudgedLayout contender(std::string name, PlacedLayout layout, const Layout& chosen) const {
+    JudgedLayout out;
+    out.name = std::move(name);
+    out.objective = objective_of(demands_->problem(), chosen);
+    for (const PlacedLuminaire& one : layout.luminaires) {
+      if (!one.is_new()) continue;
+      const DesignType& type = scene_->design->types[one.candidate.type];
+      out.cost += type.cost;
+      out.watts += type.watts;
+      ++out.placed;
+    }
+    out.layout = std::move(layout);
+    return out;
+  }
+
+  /// The best by the rules, and others that pass them, race in smoke.
+  std::optional<Problem> judge_alternatives() {
+    const auto tell = [&](const std::string& what) {
+      progress_(what, out_.answer.objective, out_.answer.bound);
+    };
+    tell("looking for other layouts");
+    AlternativesWish wish;
+    wish.count = tries_of_each * scene_->design->alternatives;
+    wish.seed = options_.seed;
+    std::vector<JudgedLayout> layouts{contender("A", out_, out_.answer.layout)};
+    for (const Layout& chosen :
+         alternatives_to(demands_->problem(), out_.answer.layout, wish, interrupt_)) {
+      if (interrupt_ || layouts.size() > scene_->design->alternatives) break;
+      tell("assessing other layouts by the rules");
+      if (const auto holds = holds_off_place(chosen); !holds)
+        return holds.problem();
+      else if (!holds.value())
+        continue;
+      PlacedLayout layout = placed(*scene_, candidates_, chosen);
+      const auto assessed = assessed_by_codes(layout.variant);
+      if (!assessed) return assessed.problem();
+      if (!failing_checks(layout, assessed.value(), nullptr).empty()) continue;
+      const auto letter = static_cast<char>('A' + layouts.size());
+      layouts.push_back(contender(std::string(1, letter), std::move(layout), chosen));
+    }
+    SmokeStageOptions asked;
+    asked.scenarios = scenarios_in_smoke();
+    asked.seed = options_.seed;
+    asked.threads = options_.threads;
+    asked.seconds = options_.smoke_seconds;
+    asked.scene_at = options_.scene_at;
+    auto stage = judge_in_smoke(std::move(layouts), asked, interrupt_, tell);
+    if (!stage) return stage.problem();
+    if (!stage->layouts.empty()) out_.smoke = std::move(stage).value();
+    return std::nullopt;
+  }
+
+  bool ask_for_more(const std::vector<Check>& failing) {
+    bool any = false;
+    for (const Check& check : failing)
+      any = demands_->ask_for_more(check, out_.answer.layout) || any;
+    if (any) rows_of_all_ = false;
+    return any;
+  }
+
+  Problem rejected(const Check& check) const {
+    return problem_in(
+        scene_->file,
+        fmt::format("no layout was found that passes its own assessment: {} for {} still fails "
+                    "after {} layouts; a larger 'margin' leaves more room",
+                    check.rule.id, check.subject, out_.verifications));
+  }
+
+  std::shared_ptr<const SceneDescription> scene_;
+  const DesignOptions& options_;
+  const std::atomic<bool>& interrupt_;
+  const SolveProgress& progress_;
+  SystemClock clock_;
+  Nanoseconds began_;
+  double solving_since_ = 0;
+  Scenario scenario_;
+  std::vector<CodeChoice> codes_;
+  SceneDescription switched_;  // as the circuits of the scenario leave it, with signs
+  Candidates candidates_;
+  std::unique_ptr<Demands> demands_;
+  DesignResult out_;
+  /// The layout that passes the rules and holds best off its places, while none holds there.
+  std::optional<DesignResult> nearest_;
+  bool rows_of_all_ = true;  // every layout that passes keeps all rows that were added
+  double known_bound_ = 0;
+};
+
+}  // namespace
+
+Result<DesignResult> design(const std::shared_ptr<const SceneDescription>& scene,
+                            const DesignOptions& options, const std::atomic<bool>& interrupt,
+                            const SolveProgress& progress) {
+  if (auto problem = cannot_design(*scene)) return *problem;
+  auto result = Designing(with_scenario(scene), options, interrupt, progress).run();
+  if (!result) return result.problem();
+  result->added_scenario = scene->scenarios.empty();
+  if (scene->assessment.rules.empty()) result->rules = options.rules;
+  if (scene->assessment.deviations.empty()) result->deviations = options.deviations;
+  return result;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,69 @@
+#include "actors/judge/design/flights.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/emergency/way.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// What climbs more than this is no ramp [deg]: these have up to 10.
+constexpr double least_climb_deg = 15;
+/// Rise of a step where only a route says that there are stairs [m].
+constexpr double usual_rise_m = 0.17;
+/// A route and stairs below it are this near to each other [m].
+constexpr double same_stairs_m = 1;
+
+bool climbs(const glm::dvec3& way) {
+  return std::abs(way.z) >
+         std::tan(least_climb_deg * std::numbers::pi / 180) * glm::length(glm::dvec2(way));
+}
+
+/// Whether a leg of a route runs over stairs.
+bool runs_over(const EscapeRoute& leg, const StairFlight& stairs) {
+  const glm::dvec3 middle = (stairs.lowest + stairs.highest) / 2.0;
+  const glm::dvec3 a = leg.path[0], way = leg.path[1] - a;
+  const double square = glm::dot(glm::dvec2(way), glm::dvec2(way));
+  if (!in_plan_of(leg, glm::dvec2(middle)) || !(square > 0)) return false;
+  const double t = glm::dot(glm::dvec2(middle - a), glm::dvec2(way)) / square;
+  return std::abs(a.z + std::clamp(t, 0.0, 1.0) * way.z - middle.z) < same_stairs_m;
+}
+
+}  // namespace
+
+std::vector<StairFlight> flights_of(const SceneDescription& scene, const DesignSettings& design) {
+  std::vector<StairFlight> out = design.flights;
+  for (const EscapeRoute& route : scene.routes) {
+    int number = 0;
+    for (size_t i = 1; i < route.path.size(); ++i) {
+      EscapeRoute leg = route;
+      leg.path = {route.path[i - 1], route.path[i]};
+      if (!climbs(leg.path[1] - leg.path[0])) continue;
+      ++number;
+      if (std::any_of(design.flights.begin(), design.flights.end(),
+                      [&](const StairFlight& stairs) { return runs_over(leg, stairs); }))
+        continue;
+      StairFlight flight{route.name + ", flight " + std::to_string(number), leg.path[0],
+                         leg.path[1], 1};
+      if (flight.lowest.z > flight.highest.z) std::swap(flight.lowest, flight.highest);
+      flight.treads = std::max(
+          1, static_cast<int>(std::lround((flight.highest.z - flight.lowest.z) / usual_rise_m)));
+      out.push_back(std::move(flight));
+    }
+  }
+  return out;
+}
+
+std::vector<glm::dvec3> treads_of(const StairFlight& flight) {
+  std::vector<glm::dvec3> out;
+  for (int i = 0; i < flight.treads; ++i) {
+    const double t = flight.treads > 1 ? static_cast<double>(i) / (flight.treads - 1) : 0.5;
+    out.push_back(flight.lowest + (flight.highest - flight.lowest) * t);
+  }
+  return out;
+}
+
+}  // namespace luxodus

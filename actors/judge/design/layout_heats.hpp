@@ -1,0 +1,57 @@
+// Layouts that paths are traced for together: those of one building, whose light adds, or each by
+// itself. A heat has its views traced in rounds, and tells what is read with each of its layouts.
+// Thread rule: one thread, which has batches traced by others.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "actors/judge/assess/sights_in_lights.hpp"
+#include "actors/judge/design/layout_lights.hpp"
+
+namespace luxodus {
+
+struct JudgedLayout;
+
+namespace limits {
+/// Pairs of a view and a layout in one heat, in all its scenarios: each takes some 1000 bytes of
+/// tallies, half of them for what it has more than the first layout, and 500 for its verdict.
+inline constexpr size_t heat_views = 300'000;
+}  // namespace limits
+
+/// One state of the building in the light of a heat's layouts.
+class HeatState {
+ public:
+  /// Errors: as LayoutLights::judged and SightsInLights::look_for_lines.
+  static Result<std::unique_ptr<HeatState>> make(const LayoutLights& lights,
+                                                 const SceneDescription& scene,
+                                                 const Scenario& scenario,
+                                                 const AssessOptions& options,
+                                                 const AssessProgress& progress);
+
+  SightsInLights& sights() { return sights_; }
+  const SceneDescription& scene() const { return judged_.scene; }
+
+ private:
+  HeatState(JudgedScene judged, const AssessOptions& options)
+      : judged_(std::move(judged)), options_(options), sights_(judged_, nobody_, {}, options_) {}
+
+  const std::vector<Observer> nobody_;  // those of the scene are not on routes
+  const JudgedScene judged_;
+  const AssessOptions options_;
+  SightsInLights sights_;
+};
+
+struct Heat {
+  std::vector<size_t> members;                   // of all layouts
+  std::shared_ptr<const SceneDescription> base;  // the building, with the signs of all
+  std::unique_ptr<LayoutLights> lights;          // of the members
+};
+
+/// Which layouts share their paths: those with the same signs, or the same but brighter, whose
+/// light can be added and does not come from too many luminaires. `scenarios`: in how many they are
+/// judged. `together`: false for each by itself.
+std::vector<Heat> heats_of(const std::vector<JudgedLayout>& layouts, size_t scenarios,
+                           bool together);
+
+}  // namespace luxodus

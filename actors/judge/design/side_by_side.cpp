@@ -1,0 +1,58 @@
+#include "actors/judge/design/side_by_side.hpp"
+
+#include <algorithm>
+
+#include "actors/judge/assess/assessment_json.hpp"
+#include "actors/judge/design/design.hpp"
+#include "actors/judge/report/html.hpp"
+#include "actors/judge/report/plan_svg.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Two of them are as wide as a page.
+constexpr PlanSize small_plan{128, 84};
+
+std::string caption(const Texts& t, const Json& design, const std::string& name) {
+  const Json& smoke = design["smoke"];
+  for (const Json& one : smoke["layouts"])
+    if (text_in(one, "name") == name)
+      return t.say(
+          name == text_in(smoke, "recommended") ? "design.side_recommended" : "design.side_layout",
+          name, one["luminaires"].get<int64_t>(),
+          t.word("design.objective", text_in(design["objective"], "kind")),
+          t.number(one["objective"].get<double>(), 4));
+  return name;
+}
+
+}  // namespace
+
+std::vector<LayoutPlan> layout_plans(const DesignResult& result, const std::string& version) {
+  std::vector<LayoutPlan> out;
+  if (!result.smoke) return out;
+  for (const JudgedLayout& one : result.smoke->layouts)
+    if (one.has_usual_signs())
+      out.push_back({one.name, assessment_json(*one.layout.variant, result.assessment, version)});
+  if (out.size() < 2) out.clear();
+  return out;
+}
+
+std::string side_by_side(const Texts& t, const Json& design, const std::vector<LayoutPlan>& plans) {
+  if (plans.empty()) return "";
+  std::string out = "<h2>" + escaped(t("design.side_heading")) + "</h2>\n" +
+                    paragraph(t("design.side_note"), "note");
+  const size_t levels = Schedule(plans.front().drawn).levels();
+  for (size_t level = 0; level < levels; ++level) {
+    out += "<div class=\"maps\">\n";
+    for (const LayoutPlan& one : plans) {
+      const Schedule schedule(one.drawn);
+      out += figure(Plans(one.drawn, schedule, t, small_plan).installation(level).svg,
+                    caption(t, design, one.name));
+    }
+    out += "</div>\n";
+  }
+  return out;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,245 @@
+#include "actors/judge/design/smoke_stage.hpp"
+
+#include <algorithm>
+
+#include "actors/judge/assess/code_light.hpp"
+#include "actors/judge/assess/over_time.hpp"
+#include "actors/judge/design/smoke_race.hpp"
+#include "runtime/core/clock.hpp"
+#include "scenes/light/transport/compile.hpp"
+
+namespace luxodus {
+
+namespace {
+
+std::shared_ptr<const SceneDescription> with_bright_signs(const SceneDescription& scene) {
+  auto out = std::make_shared<SceneDescription>(scene);
+  for (Sign& sign : out->signs)
+    for (SignState* state : {&sign.mains, &sign.emergency}) {
+      state->white_cd_m2 *= brighter_signs;
+      state->green_cd_m2 *= brighter_signs;
+    }
+  return out;
+}
+
+/// Signs near the floor, where smoke is often thinner. Nothing where no wall has room for any.
+Result<std::optional<JudgedLayout>> with_signs_below(const JudgedLayout& best,
+                                                     const SmokeStageOptions& options) {
+  const SceneDescription& scene = *best.layout.variant;
+  const auto scenario = find_scenario(scene, options.scenarios.front());
+  if (!scenario) return scenario.problem();
+  const auto building = Building::make(code_scene(scene, false),
+                                       code_scenario(scene, scenario.value()), options.threads);
+  if (!building) return building.problem();
+  JudgedLayout out = best;
+  out.name += " low";
+  out.low_signs = low_signs_of(scene, *building.value());
+  if (out.low_signs.empty()) return std::optional<JudgedLayout>();
+  out.layout.variant =
+      std::make_shared<const SceneDescription>(with_low_signs(scene, out.low_signs));
+  return std::optional(std::move(out));
+}
+
+/// Of the time of a stage in a scene that changes in time, what the race may take.
+constexpr double share_of_race = 0.6;
+
+/// One race and what follows it, within a time.
+class Stage {
+ public:
+  Stage(SmokeStage& stage, const SmokeStageOptions& options, const std::atomic<bool>& interrupt,
+        const std::function<void(const std::string&)>& progress)
+      : stage_(stage), options_(options), interrupt_(interrupt), progress_(progress) {}
+
+  /// Errors: as SmokeRace::run and guidance_of, but not that time is up or a person interrupts.
+  Result<void> run() {
+    const std::vector<Heat> heats =
+        heats_of(stage_.layouts, stage_.scenarios.size(), options_.together);
+    stage_.traces = heats.size();
+    if (can_follow(heats)) stage_.times_s = times_of(*heats.front().base->time);
+    const bool followed = !stage_.times_s.empty();
+    seconds_ = followed ? share_of_race * options_.seconds : options_.seconds;
+    stops();
+    const std::function<void(const std::string&)> tell = [&](const std::string& what) {
+      stops();
+      progress_(what);
+    };
+    const auto finished = SmokeRace(stage_, heats, options_, stopped_, tell).run();
+    if (!finished) return finished.problem();
+    if (!finished.value()) stage_.end = interrupt_ ? RaceEnd::interrupted : RaceEnd::time;
+    stage_.seconds = seconds();
+    if (!followed) return {};
+    if (interrupt_ || !any_judged()) {
+      stage_.times_s.clear();
+      return {};
+    }
+    seconds_ = options_.seconds;
+    stopped_ = false;
+    return follow(heats, tell);
+  }
+
+ private:
+  double seconds() const { return 1e-9 * static_cast<double>(clock_.now() - began_); }
+  void stops() {
+    if (interrupt_ || seconds() > seconds_) stopped_ = true;
+  }
+
+  bool any_judged() const {
+    return std::any_of(stage_.layouts.begin(), stage_.layouts.end(),
+                       [](const JudgedLayout& one) { return one.rounds > 0; });
+  }
+
+  bool can_follow(const std::vector<Heat>& heats) const {
+    const SceneDescription& scene = *heats.front().base;
+    return options_.scene_at && scene.time && times_of(*scene.time).size() > 1 &&
+           check_guidance(scene).ok();
+  }
+
+  /// Of each layout, its guidance; of none where time is up or a person interrupts. What ended the
+  /// race stays as it is.
+  Result<void> follow(const std::vector<Heat>& heats,
+                      const std::function<void(const std::string&)>& tell) {
+    GuidanceOptions asked;
+    asked.times_s = stage_.times_s;
+    asked.scene_at = options_.scene_at;
+    asked.asked.seed = options_.seed;
+    asked.asked.threads = options_.threads;
+    asked.rounds = options_.rounds;
+    asked.scenarios = stage_.scenarios;
+    auto found =
+        guidance_of(heats, stage_.layouts.size(), asked, stopped_,
+                    [&](const std::string& what, double) { tell("following layouts in " + what); });
+    if (!found && !stopped_) return found.problem();
+    if (!found) {
+      stage_.times_s.clear();
+      return {};
+    }
+    for (size_t i = 0; i < stage_.layouts.size(); ++i)
+      stage_.layouts[i].guided = std::move(found.value()[i]);
+    stage_.seconds = seconds();
+    return {};
+  }
+
+  SmokeStage& stage_;
+  const SmokeStageOptions& options_;
+  const std::atomic<bool>& interrupt_;
+  const std::function<void(const std::string&)>& progress_;
+  const SystemClock clock_;
+  const Nanoseconds began_ = clock_.now();
+  double seconds_ = 0;  // since then, until it stops
+  std::atomic<bool> stopped_{false};
+};
+
+/// Which layouts with signs as they are none of the others beats.
+void mark_front(SmokeStage& stage) {
+  for (JudgedLayout& one : stage.layouts)
+    one.on_front =
+        one.has_usual_signs() &&
+        std::none_of(stage.layouts.begin(), stage.layouts.end(), [&](const JudgedLayout& other) {
+          return other.has_usual_signs() && beats(other, one);
+        });
+}
+
+}  // namespace
+
+const char* name_of(RaceEnd end) {
+  switch (end) {
+    case RaceEnd::decided:
+      return "decided";
+    case RaceEnd::rounds:
+      return "rounds";
+    case RaceEnd::time:
+      return "time";
+    case RaceEnd::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+LegibleShare JudgedLayout::worst() const {
+  LegibleShare out{1, 1};
+  for (const SmokeVerdict& verdict : smoke) {
+    out.least = std::min(out.least, verdict.all.least);
+    out.most = std::min(out.most, verdict.all.most);
+  }
+  return out;
+}
+
+ShareDifference JudgedLayout::beyond_first() const {
+  if (smoke.empty()) return {};
+  ShareDifference out = smoke.front().beyond_first;
+  for (const SmokeVerdict& verdict : smoke) {
+    out.least = std::min(out.least, verdict.beyond_first.least);
+    out.most = std::max(out.most, verdict.beyond_first.most);
+  }
+  return out;
+}
+
+ShareDifference difference_of(const JudgedLayout& from, const JudgedLayout& to) {
+  return both_of(by_ranges(from.worst(), to.worst()),
+                 chained(from.beyond_first(), to.beyond_first()));
+}
+
+const JudgedLayout& SmokeStage::recommended() const {
+  const JudgedLayout* best = &layouts.front();
+  for (const JudgedLayout& one : layouts) {
+    if (!one.has_usual_signs()) continue;
+    const ShareDifference beyond = difference_of(*best, one);
+    const bool as_good_and_cheaper = beyond.surely_no_less() && one.objective < best->objective;
+    if (beyond.surely_more() || as_good_and_cheaper) best = &one;
+  }
+  return *best;
+}
+
+const JudgedLayout* SmokeStage::with_brighter_signs() const {
+  for (const JudgedLayout& one : layouts)
+    if (one.sign_factor != 1) return &one;
+  return nullptr;
+}
+
+const JudgedLayout* SmokeStage::with_low_signs() const {
+  for (const JudgedLayout& one : layouts)
+    if (!one.low_signs.empty()) return &one;
+  return nullptr;
+}
+
+Result<void> check_smoke_stage(const SceneDescription& scene,
+                               const std::vector<std::string>& scenarios) {
+  for (const std::string& name : scenarios) {
+    const auto scenario = find_scenario(scene, name);
+    if (!scenario) return scenario.problem();
+    if (!has_smoke(scene, scenario.value()))
+      return problem_in(scene.file, "scenario \"" + name +
+                                        "\" has no smoke: name one that has, or leave out what "
+                                        "is to be judged in smoke");
+    if (auto ok = irritation_is_said(scene, scenario.value()); !ok) return ok.problem();
+  }
+  if (scene.routes.empty() || scene.signs.empty())
+    return problem_in(scene.file,
+                      "to judge layouts in smoke the scene needs routes that people walk and signs "
+                      "that they read: add [[route]] and [[sign]]");
+  return {};
+}
+
+Result<SmokeStage> judge_in_smoke(std::vector<JudgedLayout> layouts,
+                                  const SmokeStageOptions& options,
+                                  const std::atomic<bool>& interrupt,
+                                  const std::function<void(const std::string&)>& progress) {
+  SmokeStage stage;
+  stage.scenarios = options.scenarios;
+  stage.heights_m = layouts.front().layout.variant->assessment.eye_heights_m;
+  JudgedLayout bright = layouts.front();
+  bright.name += "+";
+  bright.sign_factor = brighter_signs;
+  bright.layout.variant = with_bright_signs(*bright.layout.variant);
+  auto low = with_signs_below(layouts.front(), options);
+  if (!low) return low.problem();
+  stage.layouts = std::move(layouts);
+  stage.layouts.push_back(std::move(bright));
+  if (low.value()) stage.layouts.push_back(*std::move(low).value());
+  if (auto ok = Stage(stage, options, interrupt, progress).run(); !ok) return ok.problem();
+  std::erase_if(stage.layouts, [](const JudgedLayout& one) { return one.rounds == 0; });
+  mark_front(stage);
+  return stage;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,195 @@
+// How bright surfaces and signs are stated to be: reflectances that no paint has, rooms that are
+// black all over, signs that are dark, reversed, or brighter than their kind can be.
+#include <algorithm>
+#include <cmath>
+
+#include "actors/judge/inspect/site.hpp"
+#include "scenes/light/geometry/mesh_tools.hpp"
+#include "scenes/light/signs/sign_light.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Fresh white paint reflects 0.85; more is the coating of measuring spheres.
+constexpr double max_paint = 0.9;
+/// Below this a surface reflects nothing that matters.
+constexpr double black_below = 0.01;
+/// Photoluminescent faces give some cd/m2 in the first minute and less than 1 after ten (ISO
+/// 17398); more is the luminance of a sign that is lit from within.
+constexpr double max_glow_cd_m2 = 10;
+constexpr double max_lit_cd_m2 = 5000;
+/// White over green (EN 1838: 5 to 15).
+constexpr double min_mains_contrast = 2, max_mains_contrast = 50;
+/// Of a sign's shorter side; the details of pictograms are a tenth of it.
+constexpr double large_detail = 0.34;
+/// Luminance ~ cos^n: with more, little is seen from aside.
+constexpr double max_exponent = 2;
+/// Across the longer side of a drawn face, whose details are a tenth of the shorter one.
+constexpr int min_texels = 40;
+/// A glow that lasts this long is in minutes, or that of another sign [s].
+constexpr double glow_s = 600, max_glow_share = 0.5;
+
+double luminous(const Spectrum& s) {
+  return s.integral_with(cie_y()) / cie_y().integral();
+}
+
+void tell_of(const Sign& sign, Severity severity, const std::string& what, Findings& out) {
+  out.push_back({severity, "sign light", {sign.place, "sign \"" + sign.name + "\" " + what}});
+}
+
+/// Of a sign that shines: the luminances of one operation.
+void inspect_state(const Sign& sign, const SignState& state, const char* operation, Findings& out) {
+  const double white = state.white_cd_m2, green = state.green_cd_m2;
+  if (white == 0 && green == 0) return;
+  if (green > white)
+    return tell_of(sign, Severity::warning,
+                   fmt::format("has green of {:.4g} cd/m2 and white of {:.4g} cd/m2 in {} "
+                               "operation: white is the brighter one; are they swapped?",
+                               green, white, operation),
+                   out);
+  if (green > 0 && white < min_mains_contrast * green)
+    tell_of(sign, Severity::warning,
+            fmt::format("has white only {:.3g} times as bright as green in {} operation: its "
+                        "legend hardly stands out; EN 1838 asks for 5 to 15 times",
+                        white / green, operation),
+            out);
+  if (sign.lighting == SignLighting::internal && green > 0 && white > max_mains_contrast * green)
+    tell_of(sign, Severity::warning,
+            fmt::format("has white {:.3g} times as bright as green in {} operation: EN 1838 asks "
+                        "for 5 to 15 times; is one of them in another unit?",
+                        white / green, operation),
+            out);
+  if (white > max_lit_cd_m2)
+    tell_of(sign, Severity::warning,
+            fmt::format("has white of {:.4g} cd/m2 in {} operation, as bright as a lamp: is it in "
+                        "mcd/m2?",
+                        white, operation),
+            out);
+}
+
+void inspect_internal(const Sign& sign, Findings& out) {
+  const double mains = sign.mains.white_cd_m2, emergency = sign.emergency.white_cd_m2;
+  if (emergency == 0 && sign.emergency.green_cd_m2 == 0)
+    tell_of(sign, Severity::warning,
+            "has luminances of 0 in emergency operation: it is dark when the mains fail", out);
+  else if (mains > 0 && emergency > mains)
+    tell_of(sign, Severity::warning,
+            fmt::format("is brighter in emergency operation ({:.4g} cd/m2 of white) than with the "
+                        "mains ({:.4g} cd/m2): are they swapped?",
+                        emergency, mains),
+            out);
+}
+
+void inspect_glow(const Sign& sign, Findings& out) {
+  if (sign.emergency.white_cd_m2 > max_glow_cd_m2)
+    tell_of(sign, Severity::warning,
+            fmt::format("is photoluminescent and has {:.4g} cd/m2 of white at the failure, as much "
+                        "as a sign that is lit from within: such faces give a few cd/m2 (is it in "
+                        "mcd/m2?)",
+                        sign.emergency.white_cd_m2),
+            out);
+  if (sign.decay.empty()) return;
+  if (sign.decay.front().y != 1)
+    tell_of(sign, Severity::warning,
+            fmt::format("has a 'decay' that begins with a share of {:.3g}: emergency_white is the "
+                        "luminance at the failure, where the share is 1",
+                        sign.decay.front().y),
+            out);
+  for (size_t i = 1; i < sign.decay.size(); ++i)
+    if (sign.decay[i].y > sign.decay[i - 1].y)
+      return tell_of(
+          sign, Severity::warning,
+          fmt::format("has a 'decay' that rises at {:.4g} s: a glow fades", sign.decay[i].x), out);
+  const double later = decay_share(sign.decay, glow_s);
+  if (later > max_glow_share)
+    tell_of(sign, Severity::warning,
+            fmt::format("keeps {} of its glow for ten minutes: most faces keep less than a "
+                        "tenth; are the times of 'decay' in minutes?",
+                        percent_text(later)),
+            out);
+}
+
+void inspect_face(const Sign& sign, Findings& out) {
+  const double white = luminous(sign.white_reflectance), green = luminous(sign.green_reflectance);
+  if (white <= green)
+    tell_of(sign, Severity::warning,
+            fmt::format(
+                "has colours that reflect light, and its white reflects {:.3g}, its green {:.3g}: "
+                "white is the brighter one; are they swapped?",
+                white, green),
+            out);
+  if (sign.lighting != SignLighting::external && sign.angular_exponent > max_exponent)
+    tell_of(sign, Severity::note,
+            fmt::format("shines ahead alone: at 60 degrees from its normal it has {:.2g} % of its "
+                        "luminance (angular_exponent), and checks take the luminance along the "
+                        "normal",
+                        100 * std::pow(0.5, sign.angular_exponent)),
+            out);
+  if (!sign.file.empty() && std::max(sign.face.width, sign.face.height) < min_texels)
+    tell_of(sign, Severity::warning,
+            fmt::format("is drawn with {} x {} texels, too few for the details of \"{}\": say "
+                        "texels = 96 or more",
+                        sign.face.width, sign.face.height, sign.file),
+            out);
+  const double shorter = std::min(sign.width_m, sign.height_m);
+  if (sign.smallest_detail_m > large_detail * shorter)
+    tell_of(sign, Severity::warning,
+            fmt::format("has a smallest_detail of {:.3g} m, more than a third of its shorter side "
+                        "of {:.3g} m: details of pictograms are about a tenth of it, and verdicts "
+                        "follow from the detail",
+                        sign.smallest_detail_m, shorter),
+            out);
+}
+
+}  // namespace
+
+bool judges_people(const SceneDescription& scene) {
+  return !scene.routes.empty() || !scene.open_areas.empty() ||
+         (!scene.observers.empty() && !scene.signs.empty());
+}
+
+void inspect_materials(const SceneDescription& scene, Findings& out) {
+  std::vector<double> area(scene.materials.size(), 0);
+  for (const Object& object : scene.objects)
+    area[static_cast<size_t>(object.material)] += area_of(object.mesh);
+  double all = 0, reflected = 0;
+  for (size_t i = 0; i < area.size(); ++i) {
+    const Material& m = scene.materials[i];
+    if (!(area[i] > 0) || m.kind == MaterialKind::open) continue;
+    const bool paint = m.kind == MaterialKind::lambertian || m.kind == MaterialKind::glossy;
+    const double share = paint ? luminous(m.reflectance) + luminous(m.specular)
+                         : m.kind == MaterialKind::mirror ? luminous(m.specular)
+                                                          : 1;
+    all += area[i];
+    reflected += area[i] * share;
+    if (paint && share > max_paint + 1e-9)
+      out.push_back({judges_people(scene) ? Severity::warning : Severity::note,
+                     "material",
+                     {m.place, fmt::format("material \"{}\" reflects {:.3g} of the light: fresh "
+                                           "white paint reflects 0.85, floors 0.1 to 0.4",
+                                           m.name, share)}});
+  }
+  if (all > 0 && reflected < black_below * all)
+    out.push_back({judges_people(scene) ? Severity::warning : Severity::note,
+                   "material",
+                   {{scene.file, 0},
+                    "all surfaces are black: there is direct light alone, and none of the veil "
+                    "that reflected light lays over smoke and signs; state the reflectances"}});
+}
+
+void inspect_sign_light(const SceneDescription& scene, Findings& out) {
+  for (const Sign& sign : scene.signs) {
+    inspect_face(sign, out);
+    if (sign.lighting == SignLighting::external) continue;
+    inspect_state(sign, sign.emergency, "emergency", out);
+    if (sign.lighting == SignLighting::photoluminescent) {
+      inspect_glow(sign, out);
+      continue;
+    }
+    inspect_state(sign, sign.mains, "mains", out);
+    inspect_internal(sign, out);
+  }
+}
+
+}  // namespace luxodus

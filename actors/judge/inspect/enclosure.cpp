@@ -1,0 +1,125 @@
+// Rooms that are not closed, by what matters of it: the light that gets out. A batch of particles
+// is traced with the walls, furniture and lamps of the scenario, without smoke, which would only
+// hide the hole, and with panes painted black, since light that leaves by a window is meant to.
+// These are numbers of their own: what a run tells in its results is its own traced light, smoke
+// and panes and all.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "actors/judge/inspect/site.hpp"
+#include "scenes/light/transport/trace.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr uint64_t escape_seed = 17;
+/// Of 1 % the standard error is then 0.08 %.
+constexpr int64_t particles = 1 << 14;
+constexpr size_t pieces = 16;
+constexpr double told_share = 0.01;
+/// The least that a flame can be thinned to, so that it glows and hides nothing.
+constexpr double no_smoke = 1e-9;
+
+/// One source group and one band: shares of the light are then shares of the particles.
+SceneDescription bare(const SceneDescription& scene, const Misplaced& misplaced) {
+  SceneDescription out = without_measurements(scene);
+  out.run.error_of.clear();
+  out.run.max_bands = 1;
+  out.run.band_edges_nm.clear();
+  out.run.groups = GroupRule::one;
+  out.run.batch_particles = particles;
+  for (Material& m : out.materials)
+    if (m.kind == MaterialKind::glass_pane) {
+      m.kind = MaterialKind::lambertian;
+      m.reflectance = Spectrum::constant(0);
+    }
+  std::vector<Sign> signs;
+  for (size_t i = 0; i < out.signs.size(); ++i)
+    if (misplaced.signs[i] == 0) signs.push_back(std::move(out.signs[i]));
+  out.signs = std::move(signs);
+  const std::vector<char>& outside = misplaced.emitters;
+  const bool all_outside = std::count(outside.begin(), outside.end(), 0) == 0;
+  if (all_outside) return out;
+  std::vector<Emitter> inside;
+  for (size_t i = 0; i < out.emitters.size(); ++i)
+    if (outside[i] == 0) inside.push_back(std::move(out.emitters[i]));
+  out.emitters = std::move(inside);
+  return out;
+}
+
+Scenario in_clear_air(const SceneDescription& scene, const Scenario& scenario,
+                      const std::vector<char>& misplaced) {
+  Scenario out = scenario;
+  out.smoke_factor = 0;
+  out.media.clear();
+  for (size_t i = 0; i < scene.media.size(); ++i) {
+    const Medium& m = scene.media[i];
+    const auto named = std::find_if(scenario.media.begin(), scenario.media.end(),
+                                    [&](const auto& factor) { return factor.name == m.name; });
+    const bool burns = m.emission && (named == scenario.media.end() || named->factor > 0) &&
+                       (i >= misplaced.size() || misplaced[i] == 0);
+    out.media.push_back({m.name, burns ? no_smoke : 0});
+  }
+  return out;
+}
+
+std::string percent(double share) {
+  return share >= 0.1 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.2g} %", 100 * share);
+}
+
+}  // namespace
+
+std::optional<EscapeShares> escape_shares(const SceneDescription& scene, const Scenario& scenario,
+                                          const Misplaced& misplaced, int threads) {
+  const auto building = Building::make(bare(scene, misplaced),
+                                       in_clear_air(scene, scenario, misplaced.media), threads);
+  if (!building) return std::nullopt;
+  const CompiledScene& compiled = building.value()->scene();
+  std::array<std::array<double, 6>, pieces> escaped{};
+  building.value()->each(pieces, [&](const GeometryAccess& access, size_t piece) {
+    constexpr auto each = particles / static_cast<int64_t>(pieces);
+    BatchScores scores;
+    scores.reset(compiled.layout);
+    make_batch_tracer(compiled, access, escape_seed)
+        ->trace(0, static_cast<uint64_t>(piece) * each, each, scores);
+    for (uint32_t side = 0; side < 6; ++side) {
+      const int64_t at = compiled.layout.score_index(compiled.blocks.escape, side, 0, 0);
+      escaped[piece][side] = std::ldexp(static_cast<double>(scores.scores.data()[at]), -32);
+    }
+  });
+  EscapeShares out;
+  for (const auto& piece : escaped)
+    for (size_t side = 0; side < 6; ++side)
+      out.by_side[side] += piece[side] / static_cast<double>(particles);
+  const double all = std::accumulate(out.by_side.begin(), out.by_side.end(), 0.0);
+  out.standard_error = std::sqrt(all * std::max(1 - all, 0.0) / static_cast<double>(particles));
+  return out;
+}
+
+std::optional<Finding> open_rooms(const SceneDescription& scene, const EscapeShares& shares) {
+  double undeclared = 0;
+  std::string sides, words;
+  for (size_t side = 0; side < shares.by_side.size(); ++side) {
+    const auto& open = scene.open_sides;
+    if (std::find(open.begin(), open.end(), static_cast<Side>(side)) != open.end()) continue;
+    undeclared += shares.by_side[side];
+    if (shares.by_side[side] < told_share / 10) continue;
+    sides += fmt::format("{}{} {}", sides.empty() ? "" : ", ", side_words[side],
+                         percent(shares.by_side[side]));
+    words += fmt::format("{}\"{}\"", words.empty() ? "" : ", ", side_words[side]);
+  }
+  if (undeclared <= told_share + 2 * shares.standard_error) return std::nullopt;
+  for (const Side side : scene.open_sides)
+    words = fmt::format("\"{}\", ", side_words[static_cast<size_t>(side)]) + words;
+  return Finding{
+      Severity::warning,
+      "open",
+      {{scene.file, 0},
+       fmt::format("the rooms are not closed: in clear air {} of the light leaves the scene "
+                   "({}): draw what is missing, or declare open_sides = [{}]",
+                   percent(undeclared), sides, words)}};
+}
+
+}  // namespace luxodus

@@ -1,0 +1,146 @@
+// Fire simulations: places of people, and what they look at, outside of the meshes. Nothing is
+// known of the air there, and clear air would make verdicts better than they are.
+#include <algorithm>
+
+#include "actors/judge/inspect/site.hpp"
+#include "scenes/emergency/way.hpp"
+#include "scenes/light/transport/compile_light.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Between the places of people that are tried, and the samples of a line of sight [m].
+constexpr double fire_places_m = 1, sight_step_m = 0.1;
+/// Lines of sight that are tried: so far [m], and so many.
+constexpr double farthest_sight_m = 60;
+constexpr size_t max_fire_sights = 100'000;
+/// Things that hang on a wall or ceiling may lie a little outside of the gas [m].
+constexpr double on_wall_m = 0.1;
+
+struct Tried {
+  std::string of;  // route "corridor"
+  SourcePlace place;
+  glm::dvec3 at{0};
+};
+
+/// Eyes on routes, in open areas and of observers.
+std::vector<Tried> eyes_tried(const SceneDescription& scene) {
+  std::vector<Tried> out;
+  const auto add_eyes = [&](const std::string& of, const SourcePlace& place, const glm::dvec3& p) {
+    for (const double height : scene.assessment.eye_heights_m)
+      out.push_back({of, place, p + glm::dvec3(0, 0, height)});
+  };
+  for (const EscapeRoute& route : scene.routes)
+    for (const glm::dvec3& p : along(route, 0, fire_places_m))
+      add_eyes("route \"" + route.name + "\"", route.place, p);
+  for (const AssessedArea& area : scene.open_areas)
+    for (const glm::dvec3& p : within(area, 0.5, fire_places_m))
+      add_eyes("open area \"" + area.name + "\"", area.place, p);
+  for (const Observer& o : scene.observers)
+    out.push_back({"observer \"" + o.name + "\"", o.place, o.eye});
+  return out;
+}
+
+/// The union of a simulation's meshes, asked in the coordinates of the scene.
+class KnownAir {
+ public:
+  explicit KnownAir(const FireSimulation& fire) : fire_(fire) {}
+
+  bool holds(const glm::dvec3& place, double slack_m) const {
+    const glm::dvec3 p = (place - fire_.frame.origin) * fire_.frame.axes;
+    return std::any_of(fire_.meshes.begin(), fire_.meshes.end(), [&](const Bounds& mesh) {
+      return glm::all(glm::greaterThanEqual(p, mesh.low - slack_m)) &&
+             glm::all(glm::lessThanEqual(p, mesh.high + slack_m));
+    });
+  }
+
+  /// The first place of a line where nothing is known.
+  std::optional<glm::dvec3> leaves(const glm::dvec3& from, const glm::dvec3& to) const {
+    const int steps = static_cast<int>(glm::length(to - from) / sight_step_m) + 1;
+    for (int i = 0; i <= steps; ++i) {
+      const glm::dvec3 at = from + (to - from) * (static_cast<double>(i) / steps);
+      if (!holds(at, on_wall_m)) return at;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  const FireSimulation& fire_;
+};
+
+std::string outside_words(const Medium& m) {
+  return "outside of the meshes of the fire simulation \"" + m.name +
+         "\": nothing is known of the smoke there, and clear air would be optimistic";
+}
+
+/// Eyes that stand outside, the first of each route, area and observer.
+void tell_places(const Medium& m, const KnownAir& air, const std::vector<Tried>& eyes,
+                 Findings& out) {
+  std::vector<std::string> told;
+  for (const Tried& eye : eyes) {
+    if (air.holds(eye.at, 0) || std::count(told.begin(), told.end(), eye.of) > 0) continue;
+    told.push_back(eye.of);
+    out.push_back(
+        {Severity::error,
+         "smoke",
+         {eye.place, fmt::format("an eye of the {}, at {}, is ", eye.of, place_text(eye.at)) +
+                         outside_words(m)}});
+  }
+}
+
+/// Signs that are seen from an eye along a line that leaves the meshes, once each.
+void tell_sights(const SceneDescription& scene, const Building& smoky, const Medium& m,
+                 const KnownAir& air, const std::vector<Tried>& eyes, Findings& out) {
+  struct Line {
+    size_t eye, sign;
+    glm::dvec3 outside;
+  };
+  std::vector<Line> lines;
+  for (size_t sign = 0; sign < scene.signs.size(); ++sign)
+    for (size_t eye = 0; eye < eyes.size() && lines.size() < max_fire_sights; ++eye) {
+      const glm::dvec3 to = scene.signs[sign].frame.origin;
+      if (glm::length(to - eyes[eye].at) > farthest_sight_m || !air.holds(eyes[eye].at, 0))
+        continue;
+      if (const auto outside = air.leaves(eyes[eye].at, to)) lines.push_back({eye, sign, *outside});
+    }
+  std::vector<char> seen(lines.size(), 0);
+  smoky.each(lines.size(), [&](const GeometryAccess& access, size_t i) {
+    const glm::dvec3 from = eyes[lines[i].eye].at;
+    const glm::dvec3 way = scene.signs[lines[i].sign].frame.origin - from;
+    const double length = glm::length(way) - on_wall_m;
+    if (length <= 0) return;
+    const auto stop = first_stop(smoky.scene(), access, smoky.local(from),
+                                 Vec3(way / glm::length(way)), static_cast<Real>(length),
+                                 [](const Facing& f) { return lets_light_through(f.kind); });
+    seen[i] = stop ? 0 : 1;
+  });
+  std::vector<size_t> told;
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const Line& line = lines[i];
+    if (seen[i] == 0 || std::count(told.begin(), told.end(), line.sign) > 0) continue;
+    told.push_back(line.sign);
+    const Sign& sign = scene.signs[line.sign];
+    out.push_back(
+        {Severity::error,
+         "smoke",
+         {sign.place,
+          fmt::format("the line of sight to \"{}\" from {} (the {}) passes {}, ", sign.name,
+                      place_text(eyes[line.eye].at), eyes[line.eye].of, place_text(line.outside)) +
+              outside_words(m)}});
+  }
+}
+
+}  // namespace
+
+void inspect_fire_meshes(const SceneDescription& scene, const Building& smoky, Findings& out) {
+  const auto eyes = eyes_tried(scene);
+  for (const Medium& m : scene.media) {
+    if (!m.simulation || !(factor_of_medium(smoky.scene().scenario, m) > 0)) continue;
+    const KnownAir air(*m.simulation);
+    tell_places(m, air, eyes, out);
+    tell_sights(scene, smoky, m, air, eyes, out);
+  }
+}
+
+}  // namespace luxodus

@@ -1,0 +1,399 @@
+// Luminaires and emitters: where they stand. Whether one is in a wall is asked of its light, sent
+// out as the tracer sends it, so that lamps in a ceiling's plane or in a body of their own are
+// right where the tracer gets their light out.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "actors/judge/inspect/site.hpp"
+#include "scenes/emergency/rules.hpp"
+#include "scenes/emergency/way.hpp"
+#include "scenes/light/geometry/mesh_tools.hpp"
+#include "scenes/light/optics/offset_ray.hpp"
+#include "scenes/light/transport/emitted_light.hpp"
+#include "scenes/light/transport/near_field.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Light that ends so near has not left the wall [m].
+constexpr Real near_m = 0.02_r;
+/// A lamp outside whose light ends so near on the outer side of a room was meant to be in it [m].
+constexpr Real recess_m = 0.5_r;
+constexpr Real light_reach_m = 1e5_r;
+/// Rays of a first look, by which most luminaires are right, and of a second one.
+constexpr int few_rays = 64;
+constexpr int many_rays = 1024;
+constexpr double few_share = 0.25;
+/// More than a half by two standard errors of the second look: a lamp that hangs right before a
+/// wall and shines all ways loses a half and is no mistake.
+constexpr double lost_share = 0.5 + 2 * 0.5 / 32;
+constexpr uint64_t ends_seed = 17;
+/// Two things nearer than this stand in one place [m].
+constexpr double one_place_m = 0.01;
+/// A panel that stands for the sky is a few times as large as the building, and no lamp is.
+constexpr double times_building = 5;
+/// Two directions within 8 degrees are one.
+constexpr double one_direction = 0.99;
+
+std::string emitter_text(const Emitter& e) {
+  return (e.distribution == Distribution::web ? "luminaire \"" : "emitter \"") + e.name + "\"";
+}
+
+glm::dvec3 middle_of(const Emitter& e) {
+  if (e.shape != EmitterShape::mesh || e.mesh.positions.empty()) return e.frame.origin;
+  const auto& p = e.mesh.positions;
+  return std::accumulate(p.begin(), p.end(), glm::dvec3(0)) / static_cast<double>(p.size());
+}
+
+/// Where the light of one emitter ends: shares of all that is sent out.
+struct Ends {
+  double near = 0;                // within near_m
+  double back = 0;                // on backs: the inner side of a body, or the outer of a room
+  double close_back = 0;          // of these, within recess_m
+  uint32_t surface = none_index;  // on which most of either ends
+};
+
+Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, int rays) {
+  const CompiledScene& scene = site.building.scene();
+  const CompiledEmitter& e = scene.emitters[emitter];
+  std::map<uint32_t, int> by_surface;
+  int near = 0, back = 0, close_back = 0;
+  for (const auto& [point, direction] : emitted_rays(scene, access, emitter, ends_seed, rays)) {
+    Vec3 origin = point.position;
+    if (e.distribution != Distribution::collimated) {
+      const Vec3 side = glm::dot(point.axis, direction) >= 0 ? point.axis : -point.axis;
+      origin = offset_ray(origin, side, scene.min_offset_m);
+    }
+    const auto end =
+        first_stop(scene, access, origin, direction, light_reach_m, [&](const Facing& f) {
+          return lets_light_through(f.kind) || scene.surfaces[f.surface].body_emitter == emitter;
+        });
+    if (!end) continue;
+    near += end->distance_m <= near_m ? 1 : 0;
+    back += site.is_back(*end) ? 1 : 0;
+    close_back += site.is_back(*end) && end->distance_m <= recess_m ? 1 : 0;
+    if (end->distance_m <= near_m || site.is_back(*end)) ++by_surface[end->surface];
+  }
+  const double all = rays;
+  Ends out{near / all, back / all, close_back / all};
+  const auto most =
+      std::max_element(by_surface.begin(), by_surface.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most != by_surface.end()) out.surface = most->first;
+  return out;
+}
+
+std::string surface_text(const Site& site, uint32_t surface) {
+  if (surface < site.scene.objects.size()) return object_text(site.scene.objects[surface]);
+  return surface == none_index ? "a body"
+                               : "\"" + site.building.scene().surfaces[surface].name + "\"";
+}
+
+/// Of the longest side of all that is built; 0 where nothing is.
+double building_length(const SceneDescription& scene) {
+  Bounds all;
+  for (const Object& object : scene.objects) all.extend(bounds_of(object.mesh));
+  if (all.empty()) return 0;
+  const glm::dvec3 size = all.high - all.low;
+  return std::max({size.x, size.y, size.z});
+}
+
+/// What is wrong with one emitter's place; `stands_outside` where it is outside.
+std::optional<Finding> wrong_emitter(const Site& site, const GeometryAccess& access,
+                                     uint32_t emitter, double building_m, char& stands_outside) {
+  const Emitter& e = site.scene.emitters[emitter];
+  const glm::dvec3 middle = middle_of(e);
+  const double large_m = std::max({e.size.x, e.size.y, e.size.z});
+  if (building_m > 0 && large_m > times_building * building_m) {
+    stands_outside = 1;
+    return Finding{
+        Severity::warning,
+        "unit",
+        {e.place, fmt::format("{} is {} large, and the building {}: sizes are in metres",
+                              emitter_text(e), length_text(large_m), length_text(building_m))}};
+  }
+  if (auto far = site.remote.told(emitter_text(e), middle)) {
+    stands_outside = 1;
+    return Finding{Severity::error, "far", {e.place, *far}};
+  }
+  Ends ends = ends_of(site, access, emitter, few_rays);
+  if (ends.near > few_share) ends = ends_of(site, access, emitter, many_rays);
+  if (ends.near > lost_share)
+    return Finding{Severity::error,
+                   "inside",
+                   {e.place, fmt::format("{} lies in a wall or body: {} of its light ends "
+                                         "within 2 cm, most of that on {}: move it out",
+                                         emitter_text(e), percent_text(ends.near),
+                                         surface_text(site, ends.surface))}};
+  if (ends.back > 0.5 && site.in_body(access, middle))
+    return Finding{Severity::error,
+                   "inside",
+                   {e.place, fmt::format("{} lies inside {}, where {} of its light ends: "
+                                         "move it out",
+                                         emitter_text(e), surface_text(site, ends.surface),
+                                         percent_text(ends.back))}};
+  if (!site.is_outside(access, middle)) return std::nullopt;
+  stands_outside = 1;
+  if (ends.close_back > 0.5)
+    return Finding{
+        Severity::warning,
+        "outside",
+        {e.place,
+         fmt::format("{} stands outside, and {} of its light ends on the outer side "
+                     "of {}: is it above the ceiling? Move it into the room",
+                     emitter_text(e), percent_text(ends.back), surface_text(site, ends.surface))}};
+  return Finding{
+      Severity::note,
+      "outside",
+      {e.place, emitter_text(e) + " stands outside the building, as luminaires at final exits do"}};
+}
+
+/// Both shine in one operation, alike, and to one side.
+bool same_light(const Emitter& a, const Emitter& b) {
+  const bool together =
+      (a.mains_flux > 0 && b.mains_flux > 0) || (a.emergency_flux > 0 && b.emergency_flux > 0);
+  return together && a.web == b.web && a.shape == b.shape && a.distribution == b.distribution &&
+         glm::dot(a.frame.axes[2], b.frame.axes[2]) > one_direction;
+}
+
+void find_double_emitters(const SceneDescription& scene, Findings& out) {
+  std::vector<size_t> order;
+  for (size_t i = 0; i < scene.emitters.size(); ++i)
+    if (scene.emitters[i].shape != EmitterShape::mesh) order.push_back(i);
+  const auto x = [&](size_t i) { return scene.emitters[i].frame.origin.x; };
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return x(a) < x(b); });
+  for (size_t k = 0; k < order.size(); ++k)
+    for (size_t l = k + 1; l < order.size() && x(order[l]) - x(order[k]) < one_place_m; ++l) {
+      const Emitter& first = scene.emitters[std::min(order[k], order[l])];
+      const Emitter& second = scene.emitters[std::max(order[k], order[l])];
+      if (glm::length(first.frame.origin - second.frame.origin) >= one_place_m ||
+          !same_light(first, second))
+        continue;
+      out.push_back(
+          {Severity::warning,
+           "same place",
+           {second.place, fmt::format("{} stands where {} (line {}) does, at {}: its "
+                                      "light counts twice; remove one of them",
+                                      emitter_text(second), emitter_text(first), first.place.line,
+                                      place_text(second.frame.origin))}});
+    }
+}
+
+// ---- places that are judged ---------------------------------------------------------------------
+
+/// Points of calculation are this far apart, and so far above a floor [m].
+constexpr double grid_m = 1;
+constexpr double above_floor_m = 0.02;
+constexpr size_t max_places = 4000;
+/// A fiftieth of the 0.5 lx that EN 1838 asks for: less lights nothing.
+constexpr double min_lx = 0.01;
+/// Of one route or area. A few dark places are corners; a doorway's shadow is no more.
+constexpr size_t max_places_of_way = 400;
+constexpr double dark_share = 0.05;
+/// A place of a route has its floor so near below it [m].
+constexpr double on_floor_within_m = 0.5;
+/// A luminaire farther away is not the one that is missing [m].
+constexpr double could_light_m = 8;
+/// Of fewer with one file, none is the odd one.
+constexpr size_t alike_at_least = 3;
+
+std::vector<glm::dvec3> judged_places(const SceneDescription& scene) {
+  std::vector<glm::dvec3> all;
+  const auto add = [&](const std::vector<glm::dvec3>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  for (const EscapeRoute& route : scene.routes) add(within(route, route.width_m / 4, grid_m));
+  for (const AssessedArea& area : scene.open_areas) add(within(area, 0.5, grid_m));
+  for (const AssessedArea& area : scene.task_areas) add(within(area, 0, grid_m));
+  for (glm::dvec3& p : all) p.z += above_floor_m;
+  if (all.empty()) return all;
+  std::vector<glm::dvec3> out;
+  for (const EmphasisPoint& point : scene.emphasis)
+    out.push_back(point.position + (point.facing ? *point.facing : glm::dvec3(0, 0, 1)) * 0.05);
+  for (const Sign& sign : scene.signs)
+    if (sign.lighting == SignLighting::external)
+      out.push_back(sign.frame.origin + sign.frame.axes[2] * 0.01);
+  const size_t step = all.size() / max_places + 1;
+  for (size_t i = 0; i < all.size(); i += step) out.push_back(all[i]);
+  return out;
+}
+
+/// `furnished`: furniture hides light; codes judge rooms without it, too.
+bool lights(const Site& site, const GeometryAccess& access, uint32_t emitter,
+            const std::vector<glm::dvec3>& places, bool furnished = true) {
+  const CompiledScene& scene = site.building.scene();
+  const CompiledEmitter& e = scene.emitters[emitter];
+  const double lumens = site.scene.emitters[emitter].emergency_flux;
+  const Vec3 middle =
+      e.kind == EmitterKind::mesh ? emission_point(e, 0.4_r, 0.4_r, 0.5).position : e.origin;
+  return std::any_of(places.begin(), places.end(), [&](const glm::dvec3& place) {
+    const Vec3 way = Vec3(site.building.local(place)) - middle;
+    const auto distance = static_cast<double>(glm::length(way));
+    if (!(distance > 0)) return true;
+    const Vec3 direction = way / static_cast<Real>(distance);
+    // Round bodies shine from the side that is turned to the place.
+    const bool round = e.kind == EmitterKind::sphere || e.kind == EmitterKind::tube;
+    const EmissionPoint point{middle, round ? direction : -e.axes[2]};
+    const auto density =
+        static_cast<double>(emitted_density(scene, access, emitter, point, direction));
+    const double watt_to_lm = site.scene.emitters[emitter].radiometric ? 100 : 1;
+    if (lumens * watt_to_lm * density / (distance * distance) < min_lx) return false;
+    const Vec3 before = middle + direction * std::min(0.01_r, static_cast<Real>(distance) / 2);
+    if (furnished) return clear_share(scene, access, site.building.local(place), before) > 0;
+    return !solid_ahead(site, access, place, glm::dvec3(-direction),
+                        static_cast<double>(glm::length(before - site.building.local(place))),
+                        false);
+  });
+}
+
+/// Of a route or an open area: places that no emergency luminaire shines on.
+struct DarkPlaces {
+  size_t all = 0, dark = 0;
+  glm::dvec3 first{0};
+};
+
+DarkPlaces dark_places(const Site& site, const std::vector<uint32_t>& luminaires,
+                       const std::vector<glm::dvec3>& places) {
+  const size_t step = places.size() / max_places_of_way + 1;
+  std::vector<glm::dvec3> some;
+  for (size_t i = 0; i < places.size(); i += step)
+    some.push_back(places[i] + glm::dvec3(0, 0, above_floor_m));
+  std::vector<char> dark(some.size(), 0);
+  site.building.each(some.size(), [&](const GeometryAccess& access, size_t i) {
+    // Routes off their floor and in walls are told as such.
+    if (!solid_ahead(site, access, some[i], glm::dvec3(0, 0, -1), on_floor_within_m) ||
+        site.in_body(access, some[i] + glm::dvec3(0, 0, on_floor_within_m)))
+      return;
+    std::vector<uint32_t> nearest = luminaires;
+    const auto away = [&](uint32_t e) {
+      return glm::length(middle_of(site.scene.emitters[e]) - some[i]);
+    };
+    std::sort(nearest.begin(), nearest.end(),
+              [&](uint32_t a, uint32_t b) { return away(a) < away(b); });
+    dark[i] = std::none_of(nearest.begin(), nearest.end(), [&](uint32_t e) {
+      return site.scene.emitters[e].distribution == Distribution::collimated ||
+             lights(site, access, e, {some[i]}, false);
+    });
+  });
+  DarkPlaces out{some.size(), 0, {}};
+  for (size_t i = 0; i < some.size(); ++i)
+    if (dark[i] != 0 && out.dark++ == 0) out.first = some[i];
+  return out;
+}
+
+/// The nearest luminaire that fails with the mains, and could be meant to light a dark place.
+std::string dark_lamp_near(const SceneDescription& scene, const glm::dvec3& place) {
+  const Emitter* nearest = nullptr;
+  double least = could_light_m;
+  for (const Emitter& e : scene.emitters) {
+    const double away = glm::length(middle_of(e) - place);
+    if (e.emergency_flux > 0 || !(e.mains_flux > 0) || middle_of(e).z < place.z || away >= least)
+      continue;
+    least = away;
+    nearest = &e;
+  }
+  if (nearest == nullptr) return "";
+  return fmt::format(
+      "; {} (line {}) hangs {} from there and fails with the mains: is its "
+      "'emergency' missing?",
+      emitter_text(*nearest), nearest->place.line, length_text(least));
+}
+
+void tell_dark_ways(const Site& site, const std::vector<uint32_t>& luminaires, Findings& out) {
+  const auto tell = [&](const std::string& of, const SourcePlace& place, const DarkPlaces& found) {
+    if (static_cast<double>(found.dark) <= dark_share * static_cast<double>(found.all)) return;
+    out.push_back({Severity::warning,
+                   "no emergency light",
+                   {place, fmt::format("{} gets no direct light of an emergency luminaire on {} of "
+                                       "the {} places that were tried, first at {}{}",
+                                       of, found.dark, found.all, place_text(found.first),
+                                       dark_lamp_near(site.scene, found.first))}});
+  };
+  for (const EscapeRoute& route : site.scene.routes)
+    tell("route \"" + route.name + "\"", route.place,
+         dark_places(site, luminaires, within(route, route.width_m / 4, grid_m)));
+  for (const AssessedArea& area : site.scene.open_areas)
+    tell("open area \"" + area.name + "\"", area.place,
+         dark_places(site, luminaires, within(area, 0.5, grid_m)));
+}
+
+}  // namespace
+
+void inspect_odd_ones(const SceneDescription& scene, Findings& out) {
+  struct OfFile {
+    size_t all = 0, fail = 0;
+    const Emitter* first = nullptr;  // that fails with the mains
+  };
+  std::map<std::string, OfFile> files;
+  for (const Emitter& e : scene.emitters) {
+    if (e.file.empty()) continue;
+    OfFile& file = files[e.file];
+    ++file.all;
+    if (e.emergency_flux > 0) continue;
+    if (file.fail++ == 0) file.first = &e;
+  }
+  for (const auto& [name, file] : files)
+    if (file.fail == 1 && file.all >= alike_at_least)
+      out.push_back(
+          {Severity::note,
+           "flux",
+           {file.first->place,
+            fmt::format("{} fails with the mains, and the other {} of its file \"{}\" are "
+                        "emergency luminaires: is its 'emergency' missing?",
+                        emitter_text(*file.first), file.all - 1, name)}});
+}
+
+void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outside) {
+  const size_t count = site.scene.emitters.size();
+  std::vector<std::optional<Finding>> found(count);
+  outside.assign(count, 0);
+  const double building_m = building_length(site.scene);
+  site.building.each(count, [&](const GeometryAccess& access, size_t i) {
+    found[i] = wrong_emitter(site, access, static_cast<uint32_t>(i), building_m, outside[i]);
+  });
+  for (auto& finding : found)
+    if (finding) out.push_back(std::move(*finding));
+  find_double_emitters(site.scene, out);
+}
+
+void inspect_judged_places(const Site& site, Findings& out) {
+  const auto places = judged_places(site.scene);
+  if (places.empty()) return;
+  const auto luminaires = emergency_luminaires(site.scene);
+  if (luminaires.empty()) return;  // told of the state that has none
+  tell_dark_ways(site, luminaires, out);
+  std::vector<char> useful(luminaires.size(), 0);
+  site.building.each(luminaires.size(), [&](const GeometryAccess& access, size_t i) {
+    const bool beam = site.scene.emitters[luminaires[i]].distribution == Distribution::collimated;
+    useful[i] = beam || lights(site, access, luminaires[i], places) ? 1 : 0;
+  });
+  for (size_t i = 0; i < luminaires.size(); ++i) {
+    if (useful[i] != 0) continue;
+    const Emitter& e = site.scene.emitters[luminaires[i]];
+    out.push_back({Severity::note,
+                   "no judged place",
+                   {e.place, emitter_text(e) +
+                                 " is an emergency luminaire whose direct light reaches no route, "
+                                 "area, point of emphasis or externally lit sign: nothing there "
+                                 "is judged"}});
+  }
+}
+
+void inspect_near_field(const Site& site, const Scenario& scenario, Findings& out) {
+  std::vector<NearPlace> places;
+  site.building.each(1, [&](const GeometryAccess& access, size_t) {
+    const auto sees = [&](const glm::dvec3& from, const glm::dvec3& to) {
+      return clear_share(site.building.scene(), access, site.building.local(from),
+                         site.building.local(to)) > 0;
+    };
+    places = near_field_places(site.scene, scenario, sees);
+  });
+  for (NearPlace& place : places)
+    out.push_back({place.judged ? Severity::warning : Severity::note, "near field",
+                   std::move(place.problem)});
+}
+
+}  // namespace luxodus

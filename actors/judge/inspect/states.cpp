@@ -1,0 +1,223 @@
+// Scenarios and settings of the assessment, as they are written: factors that are percentages,
+// emergency states in which nothing is lit, times that batteries and glows do not last or that are
+// not said, smoke that is scaled down to clear air, people who see more than most.
+#include <algorithm>
+
+#include "actors/judge/inspect/site.hpp"
+#include "scenes/light/transport/compile_light.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr double hour_s = 3600;
+/// The longest rated duration that codes ask for.
+constexpr double max_hours = 3;
+constexpr double young_years = 40;
+/// Nobody who walks has eyes below, and hardly anybody above [m].
+constexpr double min_standing_m = 1.4, max_standing_m = 1.9;
+constexpr double far_apart_m = 5;
+/// Tasks of high risk are done in 100 lx and more.
+constexpr double min_task_lx = 50;
+/// Lit signs are seen through this for 160 m (Jin, 8/K): no sign of a building is lost in it [1/m].
+constexpr double hides_nothing = 0.05;
+/// A factor this small is a percentage more often than a share.
+constexpr double small_factor = 0.1;
+
+void tell_state(const Scenario& s, Severity severity, const std::string& what, Findings& out) {
+  out.push_back({severity, "scenario", {s.place, "scenario \"" + s.name + "\" " + what}});
+}
+
+void tell_circuit_factors(const Scenario& s, Findings& out) {
+  for (const Scenario::Factor& f : s.circuits)
+    if (f.factor > 1)
+      tell_state(s, Severity::warning,
+                 fmt::format("gives the circuit \"{}\" {:g} times its flux: a factor of a circuit "
+                             "is a share, 0.8 for 80 %",
+                             f.name, f.factor),
+                 out);
+}
+
+/// Emergency luminaires that are off in an emergency state, and signs.
+void tell_switched_off(const SceneDescription& scene, const Scenario& s, Findings& out) {
+  if (s.operation != Operation::emergency) return;
+  std::string first;
+  size_t off = 0, all = 0;
+  const auto count = [&](const std::string& name, const std::string& circuit) {
+    ++all;
+    if (factor_of(s.circuits, circuit, 1) > 0) return;
+    if (off++ == 0) first = name;
+  };
+  for (const Emitter& e : scene.emitters)
+    if (e.emergency_flux > 0) count("luminaire \"" + e.name + "\"", e.circuit);
+  const size_t luminaires = all;
+  for (const Sign& sign : scene.signs)
+    if (sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 > 0)
+      count("sign \"" + sign.name + "\"", sign.circuit);
+  if (luminaires == 0 && !scene.emitters.empty())
+    tell_state(s, Severity::warning,
+               "is in emergency operation, and no luminaire of the scene is lit when the mains "
+               "fail: say emergency = \"maintained\" or \"non-maintained\" of those that are",
+               out);
+  if (off > 0)
+    tell_state(s, off == all ? Severity::warning : Severity::note,
+               fmt::format("has switched off {}{} by its circuits: {} dark in this state", first,
+                           off > 1 ? fmt::format(" and {} more", off - 1) : "",
+                           off > 1 ? "they are" : "it is"),
+               out);
+}
+
+/// Glows are brightest at the failure, and those who walk see them minutes later.
+void tell_fresh_glow(const SceneDescription& scene, const Scenario& s, Findings& out) {
+  if (!judges_people(scene)) return;
+  for (const Sign& sign : scene.signs) {
+    if (sign.lighting != SignLighting::photoluminescent || !(sign.emergency.white_cd_m2 > 0))
+      continue;
+    return tell_state(s, Severity::warning,
+                      "does not say how long after the failure of the mains it is: the "
+                      "photoluminescent sign \"" +
+                          sign.name +
+                          "\" is judged as bright as at the failure, which it is for seconds; say "
+                          "seconds_after_failure = 600, or how long people are on their way",
+                      out);
+  }
+}
+
+double largest_extinction(const Medium& m) {
+  double most = m.kind == MediumKind::homogeneous || m.kind == MediumKind::bounded
+                    ? m.optics.extinction.sigma_t
+                    : 0;
+  for (const Layer& layer : m.layers) most = std::max(most, layer.optics.extinction.sigma_t);
+  for (const float cell : m.data.extinction) most = std::max(most, static_cast<double>(cell));
+  return most;
+}
+
+/// Smoke that is something as it is written, and nothing in this state, without being left out.
+void tell_thinned(const SceneDescription& scene, const Scenario& s, Findings& out) {
+  if (!judges_people(scene)) return;
+  for (const Medium& m : scene.media) {
+    const double factor = factor_of_medium(s, m), written = largest_extinction(m);
+    if (m.emission || !(factor > 0) || factor > small_factor || written < hides_nothing ||
+        written * factor >= hides_nothing)
+      continue;
+    return tell_state(
+        s, Severity::warning,
+        fmt::format("leaves {:g} of the smoke \"{}\", at most {:.2g} /m, through which "
+                    "a lit sign is seen for {:.3g} m (Jin, 8/K): smoke_factor and the "
+                    "factors in 'media' are shares, 1 for all of the smoke and 0 for "
+                    "none",
+                    factor, m.name, written * factor, 8 / (written * factor)),
+        out);
+  }
+}
+
+void tell_time(const SceneDescription& scene, const Scenario& s, Findings& out) {
+  if (s.operation != Operation::mains && !s.says_seconds) tell_fresh_glow(scene, s, out);
+  if (s.operation == Operation::mains || !s.says_seconds) return;
+  const double seconds = s.seconds_after_failure;
+  if (seconds > max_hours * hour_s)
+    tell_state(s, Severity::warning,
+               fmt::format("is {:.3g} h after the failure of the mains: the rated duration of "
+                           "emergency luminaires is 1 to 3 h, and they are taken as lit; "
+                           "seconds_after_failure is in seconds",
+                           seconds / hour_s),
+               out);
+  else if (seconds > hour_s && s.operation == Operation::emergency)
+    tell_state(
+        s, Severity::note,
+        fmt::format("is {:.3g} h after the failure of the mains: batteries rated for 1 h are "
+                    "empty, and luminaires are taken as lit",
+                    seconds / hour_s),
+        out);
+  for (const Sign& sign : scene.signs) {
+    if (sign.decay.empty() || seconds <= sign.decay.back().x) continue;
+    return tell_state(
+        s, Severity::warning,
+        fmt::format("is {:g} s after the failure of the mains, and the 'decay' of sign \"{}\" is "
+                    "known up to {:g} s: its glow is extrapolated",
+                    seconds, sign.name, sign.decay.back().x),
+        out);
+  }
+}
+
+bool any_smoke(const SceneDescription& scene, const std::vector<Scenario>& scenarios) {
+  return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& m) {
+    return !m.emission && std::any_of(scenarios.begin(), scenarios.end(), [&](const Scenario& s) {
+      return factor_of_medium(s, m) > 0;
+    });
+  });
+}
+
+void tell_people(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
+                 Findings& out) {
+  const AssessmentSettings& said = scene.assessment;
+  if (said.place.line == 0 || !judges_people(scene)) return;
+  const auto tell = [&](Severity severity, std::string what) {
+    out.push_back({severity, "assessment", {said.place, std::move(what)}});
+  };
+  if (said.age_years < young_years)
+    tell(Severity::note, fmt::format("age_years = {:g}: signs are judged by young eyes; older "
+                                     "people need more contrast and are glared more (65 unless "
+                                     "said)",
+                                     said.age_years));
+  const auto [low, high] =
+      std::minmax_element(said.eye_heights_m.begin(), said.eye_heights_m.end());
+  if (*high < min_standing_m)
+    tell(any_smoke(scene, scenarios) ? Severity::warning : Severity::note,
+         fmt::format("eye_heights_m goes up to {:g} m: nobody who walks upright is "
+                     "judged, whose eyes are in denser smoke",
+                     *high));
+  if (*high > max_standing_m)
+    tell(Severity::warning, fmt::format("eye_heights_m goes up to {:g} m: eyes of people are 1.4 "
+                                        "to 1.8 m above the floor",
+                                        *high));
+  if (said.spacing_m > far_apart_m)
+    tell(Severity::note, fmt::format("spacing_m = {:g}: people on routes stand so far apart, and "
+                                     "what is read between them is not judged",
+                                     said.spacing_m));
+  const auto names = [&](const char* id) {
+    return std::count(said.rules.begin(), said.rules.end(), id) > 0;
+  };
+  if (names("en1838-2013") && names("en1838-2024"))
+    tell(Severity::note,
+         "rules names two editions of EN 1838: checks of both stand beside each other, and the one "
+         "that is in force decides");
+}
+
+/// Smoke that is described, and left out of every state.
+void tell_unused_smoke(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
+                       Findings& out) {
+  const auto first = std::find_if(scene.media.begin(), scene.media.end(),
+                                  [](const Medium& m) { return !m.emission; });
+  if (first == scene.media.end() || !judges_people(scene) ||
+      scenarios.size() < scene.scenarios.size() || any_smoke(scene, scenarios))
+    return;
+  out.push_back({Severity::warning,
+                 "scenario",
+                 {first->place, "no scenario has the smoke \"" + first->name +
+                                    "\", nor any other: signs are judged in clear air"}});
+}
+
+}  // namespace
+
+void inspect_states(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
+                    Findings& out) {
+  for (const Scenario& s : scenarios) {
+    tell_circuit_factors(s, out);
+    tell_switched_off(scene, s, out);
+    tell_time(scene, s, out);
+    tell_thinned(scene, s, out);
+  }
+  tell_people(scene, scenarios, out);
+  tell_unused_smoke(scene, scenarios, out);
+  for (const AssessedArea& area : scene.task_areas)
+    if (area.mains_lx < min_task_lx)
+      out.push_back({Severity::warning,
+                     "assessment",
+                     {area.place, fmt::format("task area \"{}\" asks for {:g} lx in mains "
+                                              "operation, less than a corridor: mains_lx is what "
+                                              "the task needs, in lx",
+                                              area.name, area.mains_lx)}});
+}
+
+}  // namespace luxodus

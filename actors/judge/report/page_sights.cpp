@@ -1,0 +1,384 @@
+// What people read of the signs, with all light and smoke, and where rules of thumb say otherwise.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "actors/judge/report/page.hpp"
+#include "actors/judge/report/plan_svg.hpp"
+#include "runtime/core/base64.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr std::array<const char*, 6> sight_order{
+    "legible",   "undecided",    "visible but not legible",
+    "invisible", "not assessed", "hidden by the building"};
+/// The smallest detail of a legend is read from this visibility level on.
+constexpr double reading_level = 7;
+constexpr size_t thumb_places = 10;
+/// Rows of the appendix: more fill a book that nobody reads; sights.csv has them all.
+constexpr size_t appendix_rows = 400;
+
+bool is_observer(const Json& sight) {
+  return text_in(sight, "from").starts_with("observer");
+}
+
+double height_of(const Json& sight) {
+  return sight["eye_height"]["value"].get<double>();
+}
+
+std::vector<double> heights_of(const Json& a) {
+  std::set<double, std::greater<>> heights;
+  for (const Json& sight : a["sights"])
+    if (!is_observer(sight)) heights.insert(height_of(sight));
+  return {heights.begin(), heights.end()};
+}
+
+/// Metres of routes and square metres of areas.
+struct Amount {
+  double metres = 0, square_metres = 0;
+  bool none() const { return metres == 0 && square_metres == 0; }
+  void take(const Json& sight) {
+    const double value = sight["stands_for"]["value"].get<double>();
+    (text_in(sight["stands_for"], "unit") == "m" ? metres : square_metres) += value;
+  }
+  std::string text(const Texts& t) const {
+    if (none()) return "–";
+    std::string out = metres > 0 ? t.number(metres) + "\u00a0m" : "";
+    if (square_metres > 0) out += (out.empty() ? "" : ", ") + t.number(square_metres) + "\u00a0m²";
+    return out;
+  }
+};
+
+size_t rank_of(const Json& sight) {
+  const auto verdict = text_in(sight, "verdict");
+  return static_cast<size_t>(std::find(sight_order.begin(), sight_order.end(), verdict) -
+                             sight_order.begin());
+}
+
+/// For each eye height: of how much of routes and areas the best sign has which verdict.
+std::string heights_table(const PageParts& parts, const std::vector<double>& heights) {
+  const Texts& t = parts.texts;
+  std::string rows;
+  for (const double height : heights) {
+    std::map<std::string, std::pair<size_t, const Json*>> best;  // by place
+    for (const Json& sight : parts.a["sights"]) {
+      if (is_observer(sight) || height_of(sight) != height) continue;
+      const std::string place = text_in(sight, "from") + sight["eye"].dump();
+      const auto known = best.try_emplace(place, rank_of(sight), &sight).first;
+      if (rank_of(sight) < known->second.first) known->second = {rank_of(sight), &sight};
+    }
+    std::array<Amount, 7> amounts;
+    for (const auto& [place, one] : best) amounts[std::min<size_t>(one.first, 6)].take(*one.second);
+    rows += "<tr>" + html_cell("<b>" + escaped(t.fixed(height)) + "\u00a0m</b>", "n");
+    for (size_t i = 0; i < sight_order.size(); ++i)
+      rows += html_cell(escaped(amounts[i].text(t)), "n");
+    rows += "</tr>\n";
+  }
+  return table(
+      t,
+      {"column.eye_height", "sight.legible", "sight.undecided", "sight.visible but not legible",
+       "sight.invisible", "sight.not assessed", "sight.hidden by the building"},
+      {10, 15, 15, 15, 15, 15, 15}, rows);
+}
+
+/// For one eye height, sign by sign.
+std::string signs_table(const PageParts& parts, double height) {
+  const Texts& t = parts.texts;
+  std::string rows;
+  const Json& signs = parts.a["signs"];
+  for (size_t i = 0; i < signs.size(); ++i) {
+    std::array<Amount, 7> amounts;
+    bool any = false;
+    for (const Json& sight : parts.a["sights"]) {
+      if (is_observer(sight) || height_of(sight) != height ||
+          text_in(sight, "sign") != text_in(signs[i], "name"))
+        continue;
+      any = true;
+      amounts[std::min<size_t>(rank_of(sight), 6)].take(sight);
+    }
+    if (!any) continue;
+    rows += "<tr>" + html_cell("<b>" + std::to_string(i + 1) + "</b>", "n") +
+            cell(text_in(signs[i], "name"));
+    for (size_t k = 0; k < sight_order.size(); ++k)
+      rows += html_cell(escaped(amounts[k].text(t)), "n");
+    rows += "</tr>\n";
+  }
+  return table(t,
+               {"column.number", "column.sign", "sight.legible", "sight.undecided",
+                "sight.visible but not legible", "sight.invisible", "sight.not assessed",
+                "sight.hidden by the building"},
+               {5, 17, 13, 13, 13, 13, 13, 13}, rows);
+}
+
+std::string observers_table(const PageParts& parts) {
+  const Texts& t = parts.texts;
+  std::string rows;
+  for (const Json& sight : parts.a["sights"]) {
+    if (!is_observer(sight) || text_in(sight, "verdict") == "hidden by the building") continue;
+    rows += "<tr>" + verdict_cell(t, "sight", text_in(sight, "verdict")) +
+            cell(subject_text(t, text_in(sight, "from"))) + cell(text_in(sight, "sign")) +
+            number_cell(t, sight["distance"]["value"], "m") +
+            (sight.contains("reading_level") ? number_cell(t, sight["reading_level"]["value"])
+                                             : html_cell("–", "n")) +
+            "</tr>\n";
+  }
+  return table(
+      t,
+      {"column.verdict", "column.from", "column.sign", "column.distance", "column.reading_level"},
+      {26, 26, 24, 12, 12}, rows);
+}
+
+/// The end of a picture's name, and its kind: what an eye sees, then luminances.
+constexpr std::array<std::pair<const char*, const char*>, 3> picture_kinds{
+    {{"_human", "view.human"}, {"_luminance", "view.luminance"}, {"", "view.plain"}}};
+
+/// A picture of another state would show as visible what is hidden by smoke in this one.
+bool is_of_another_state(const Json& a, const ReportPicture& picture) {
+  const auto scene = png_text(picture.png, "Scene"), scenario = png_text(picture.png, "Scenario");
+  return (scene && *scene != text_in(a["scene"], "name")) ||
+         (scenario && *scenario != text_in(a["scene"], "scenario"));
+}
+
+/// Pictures of this state by camera and kind.
+using CameraPictures = std::map<std::string, std::map<size_t, const ReportPicture*>>;
+
+CameraPictures pictures_by_camera(const PageParts& parts, size_t& others) {
+  CameraPictures out;
+  for (const ReportPicture& picture : parts.pictures) {
+    if (is_of_another_state(parts.a, picture)) {
+      ++others;
+      continue;
+    }
+    size_t kind = 0;
+    while (!picture.name.ends_with(picture_kinds[kind].first)) ++kind;
+    const size_t ending = std::string_view(picture_kinds[kind].first).size();
+    const std::string name = picture.name.substr(0, picture.name.size() - ending);
+    out[png_text(picture.png, "View").value_or(name)][kind] = &picture;
+  }
+  return out;
+}
+
+/// As HTML, cameras for a scene that has none: at the place from which each of the worst signs is
+/// seen worst.
+std::string suggested_cameras(const PageParts& parts) {
+  constexpr size_t most = 3;
+  std::map<std::string, const Json*> worst;  // by sign
+  for (const Json& sight : parts.a["sights"]) {
+    const size_t rank = rank_of(sight);
+    if (rank == 0 || rank > 3) continue;  // legible, or there is nothing to see
+    const auto known = worst.try_emplace(text_in(sight, "sign"), &sight).first;
+    if (rank > rank_of(*known->second)) known->second = &sight;
+  }
+  std::string out;
+  size_t count = 0;
+  for (const Json& sign : parts.a["signs"]) {
+    const auto at = worst.find(text_in(sign, "name"));
+    if (at == worst.end() || ++count > most) continue;
+    const auto vector = [](const Json& v) {
+      return fmt::format("[{:g}, {:g}, {:g}]", v[0].get<double>(), v[1].get<double>(),
+                         v[2].get<double>());
+    };
+    out += fmt::format(
+        "{}[[camera]]\nname = {}\neye = {}\ntarget = {}\nvertical_fov_deg = 30\nwidth = "
+        "640\nheight = 360\n",
+        out.empty() ? "" : "\n", escaped(Json(at->first).dump()), vector((*at->second)["eye"]),
+        vector(sign["position"]));
+  }
+  return out;
+}
+
+/// What makes pictures that are not there.
+std::string how_to_make_pictures(const PageParts& parts) {
+  const Texts& t = parts.texts;
+  std::string out;
+  if (parts.a["cameras"].empty()) {
+    out = paragraph(t("sights.no_cameras"), "note");
+    const std::string cameras = suggested_cameras(parts);
+    if (!cameras.empty())
+      out += paragraph(t("sights.add_cameras")) + "<pre>" + cameras + "</pre>\n";
+    return out;
+  }
+  const std::string run = "luxodus run " + text_in(parts.a["scene"], "file") +
+                          (text_in(parts.a["scene"], "scenario").empty()
+                               ? ""
+                               : " --scenario \"" + text_in(parts.a["scene"], "scenario") + "\"") +
+                          " --out " + parts.folder + "/run";
+  return paragraph(t("sights.no_pictures")) + "<pre>" + escaped(run) + "\n" +
+         escaped("luxodus report " + parts.folder) + "</pre>\n";
+}
+
+/// What each camera sees; one exposure only where there is nothing better.
+std::string pictures(const PageParts& parts) {
+  const Texts& t = parts.texts;
+  size_t others = 0;
+  std::string out;
+  for (const auto& [camera, kinds] : pictures_by_camera(parts, others))
+    for (const auto& [kind, picture] : kinds) {
+      const std::string name = picture_kinds[kind].second;
+      if (name == "view.plain" && kinds.size() > 1) continue;
+      out += figure("<img alt=\"" + escaped(camera) + "\" src=\"data:image/png;base64," +
+                        base64(picture->png) + "\">",
+                    camera + ": " + t(name));
+    }
+  out = out.empty() ? how_to_make_pictures(parts) : "<div class=\"pictures\">\n" + out + "</div>\n";
+  if (others > 0) out += paragraph(t.say("sights.other_pictures", others), "note");
+  return out;
+}
+
+std::string sweep_table(const PageParts& parts) {
+  const Texts& t = parts.texts;
+  std::vector<double> factors;
+  std::map<std::string, std::map<double, const Json*>> by_sign;
+  for (const Json& row : parts.a["sweep"]) {
+    const double factor = row["smoke_factor"].get<double>();
+    if (std::find(factors.begin(), factors.end(), factor) == factors.end())
+      factors.push_back(factor);
+    by_sign[text_in(row, "sign")][factor] = &row;
+  }
+  if (factors.empty()) return "";
+  std::string out = subheading(t("sights.sweep")) + paragraph(t("sights.sweep_lead")) +
+                    "<table>\n<thead><tr><th>" + escaped(t("column.sign")) + "</th>";
+  for (const double factor : factors) out += "<th>× " + escaped(t.number(factor)) + "</th>";
+  out += "</tr></thead>\n<tbody>\n";
+  for (const auto& [sign, rows] : by_sign) {
+    out += "<tr>" + cell(sign);
+    for (const double factor : factors) {
+      const auto at = rows.find(factor);
+      const bool known = at != rows.end();
+      out += html_cell(known ? escaped(t.say("sights.of", (*at->second)["legible"].get<int64_t>(),
+                                             (*at->second)["places"].get<int64_t>()))
+                             : "–",
+                       "n");
+    }
+    out += "</tr>\n";
+  }
+  return out + "</tbody>\n</table>\n";
+}
+
+/// A place where a rule of thumb and the simulation differ.
+struct Difference {
+  const Json* sight;
+  double by;  // how far the visibility level is from the one that reads, as a ratio's logarithm
+};
+
+std::vector<Difference> differences(const Json& sights) {
+  std::vector<Difference> out;
+  for (const Json& sight : sights) {
+    const std::string verdict = text_in(sight, "verdict");
+    const bool read = verdict == "legible";
+    if (!sight.contains("jin") ||
+        (!read && verdict != "visible but not legible" && verdict != "invisible"))
+      continue;
+    if (sight["jin"]["legible"].get<bool>() == read &&
+        sight["viewing_distance"]["within"].get<bool>() == read)
+      continue;
+    const Json& level = sight["reading_level"]["value"];
+    const double known = level.is_number() ? std::abs(level.get<double>()) : 0;
+    out.push_back({&sight, std::abs(std::log(std::max(known, 1e-6) / reading_level))});
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Difference& a, const Difference& b) { return a.by > b.by; });
+  return out;
+}
+
+std::string measured(const Texts& t, const Json& sight, const char* key) {
+  const auto at = sight.find(key);
+  if (at == sight.end() || !(*at)["value"].is_number()) return "–";
+  std::string out = t.number((*at)["value"].get<double>());
+  if (at->contains("standard_error") && (*at)["standard_error"].is_number())
+    out += " ± " + t.number((*at)["standard_error"].get<double>(), 2);
+  return out;
+}
+
+std::string thumb_table(const PageParts& parts, const std::vector<Difference>& all, size_t most) {
+  const Texts& t = parts.texts;
+  std::string rows;
+  for (size_t i = 0; i < std::min(all.size(), most); ++i) {
+    const Json& s = *all[i].sight;
+    const bool read = text_in(s, "verdict") == "legible";
+    const auto said = [&](bool rule, const char* yes, const char* no) {
+      return html_cell((rule != read ? "<b>" : "") + escaped(t(rule ? yes : no)) +
+                       (rule != read ? "</b>" : ""));
+    };
+    const Json& e = s["eye"];
+    rows +=
+        "<tr>" + verdict_cell(t, "sight", text_in(s, "verdict")) + cell(text_in(s, "sign")) +
+        html_cell(escaped(subject_text(t, text_in(s, "from"))) + "<br>" +
+                  escaped(t.place(e[0].get<double>(), e[1].get<double>(), e[2].get<double>()))) +
+        number_cell(t, s["distance"]["value"], "m") +
+        html_cell(escaped(measured(t, s, "reading_level")), "n") +
+        html_cell(escaped(measured(t, s, "legend") + " / " + measured(t, s, "ground")), "n") +
+        number_cell(t, s["transmission"]["value"]) +
+        said(s["jin"]["legible"].get<bool>(), "thumb.legible", "thumb.too_far") +
+        said(s["viewing_distance"]["within"].get<bool>(), "thumb.near", "thumb.too_far") +
+        "</tr>\n";
+  }
+  return table(
+      t,
+      {"column.simulated", "column.sign", "column.from", "column.distance", "column.reading_level",
+       "column.luminances", "column.transmission", "column.jin", "column.viewing"},
+      {13, 11, 16, 8, 12, 13, 8, 8, 11}, rows);
+}
+
+}  // namespace
+
+std::string sights_section(const PageParts& parts) {
+  const Texts& t = parts.texts;
+  if (parts.a["sights"].empty()) return paragraph(t("sights.none"));
+  const auto heights = heights_of(parts.a);
+  std::string out = paragraph(t("sights.lead"));
+  out += heights_table(parts, heights);
+  const Plans plans(parts.a, parts.schedule, t, {parts.paper_width_mm, 90});
+  for (const double height : heights)
+    for (size_t level = 0; level < parts.schedule.levels(); ++level)
+      out += "<figure class=\"plan\">" + plans.sights(level, height, "").svg + "<figcaption><b>" +
+             escaped(parts.schedule.levels() > 1
+                         ? t.say("plan.level", t.fixed(parts.schedule.floor(level))) + ": "
+                         : "") +
+             escaped(t.say("plan.sights", t.fixed(height))) + ".</b> " +
+             escaped(t("plan.sights_note")) + "</figcaption></figure>\n";
+  if (const std::string rows = observers_table(parts); !rows.empty())
+    out += subheading(t("sights.observers")) + rows;
+  return out + sweep_table(parts) + subheading(t("sights.pictures")) + pictures(parts);
+}
+
+std::string thumb_section(const PageParts& parts) {
+  const Texts& t = parts.texts;
+  const auto all = differences(parts.a["sights"]);
+  if (all.empty()) return paragraph(t("thumb.none"));
+  return paragraph(t.say("thumb.lead", all.size(), std::min(all.size(), thumb_places))) +
+         thumb_table(parts, all, thumb_places);
+}
+
+std::string thumb_appendix(const PageParts& parts) {
+  const auto all = differences(parts.a["sights"]);
+  if (all.size() <= thumb_places) return "";
+  std::string out = thumb_table(parts, all, appendix_rows);
+  if (all.size() > appendix_rows)
+    out += paragraph(parts.texts.say("thumb.cut", appendix_rows, all.size()), "note");
+  return out;
+}
+
+std::string signs_appendix(const PageParts& parts) {
+  const Texts& t = parts.texts;
+  const auto heights = heights_of(parts.a);
+  if (heights.empty()) return "";
+  std::string out = paragraph(t("sights.by_sign"));
+  for (const double height : heights)
+    out += subheading(t.say("sights.eyes_at", t.fixed(height))) + signs_table(parts, height);
+  const Plans plans(parts.a, parts.schedule, t, {parts.paper_width_mm / 2 - 3, 70});
+  out += subheading(t.say("sights.maps", t.fixed(heights.front()))) + "<div class=\"maps\">\n";
+  const Json& signs = parts.a["signs"];
+  for (size_t i = 0; i < signs.size(); ++i) {
+    const size_t level = parts.schedule.level_of(signs[i]["position"][2].get<double>());
+    out += figure(plans.sights(level, heights.front(), text_in(signs[i], "name")).svg,
+                  std::to_string(i + 1) + " · " + text_in(signs[i], "name"));
+  }
+  return out + "</div>\n";
+}
+
+}  // namespace luxodus

@@ -1,0 +1,637 @@
+// A drawing's units are millimetres on paper. Everything is drawn back to front; texts have a white
+// rim, so that they read on lines.
+#include "actors/judge/report/plan_svg.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "actors/judge/report/isolux.hpp"
+#include "actors/judge/report/svg_sheet.hpp"
+#include "actors/results/formats/light_colours.hpp"
+#include "runtime/core/output_text.hpp"
+
+namespace luxodus {
+
+namespace {
+
+constexpr const char* emergency_colour = "#0b6e3c";
+constexpr const char* wall_style = "stroke=\"#222\" stroke-width=\"0.35\" stroke-linecap=\"round\"";
+constexpr const char* furniture_style = "stroke=\"#b9b9b9\" stroke-width=\"0.15\"";
+constexpr const char* backdrop_style = "stroke=\"#555\" stroke-width=\"0.15\"";
+constexpr const char* route_style =
+    "fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.5\" stroke-dasharray=\"2.4 1.2\"";
+constexpr const char* area_style =
+    "fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"0.3\" stroke-dasharray=\"0.3 1\" "
+    "stroke-linecap=\"round\"";
+
+double number_of(const Json& value) {
+  return value.get<double>();
+}
+
+/// What is drawn already, so that labels stand beside it and beside each other.
+class LabelSpace {
+ public:
+  void reserve(double x, double y, double width, double height) {
+    boxes_.push_back({x - width / 2, y - height / 2, x + width / 2, y + height / 2});
+  }
+  /// Reserves a box about (x, y) [mm] and says so, unless something is there.
+  bool take(double x, double y, double width, double height) {
+    const Box box{x - width / 2, y - height / 2, x + width / 2, y + height / 2};
+    const bool is_free = std::none_of(boxes_.begin(), boxes_.end(), [&](const Box& other) {
+      return box.left < other.right && other.left < box.right && box.top < other.bottom &&
+             other.top < box.bottom;
+    });
+    if (is_free) boxes_.push_back(box);
+    return is_free;
+  }
+
+ private:
+  struct Box {
+    double left, top, right, bottom;
+  };
+  std::vector<Box> boxes_;
+};
+
+std::string lines_path(const Json& lines, const Sheet& sheet, const char* style) {
+  std::string path;
+  for (const Json& line : lines)
+    path += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", sheet.x(number_of(line[0])),
+                        sheet.y(number_of(line[1])), sheet.x(number_of(line[2])),
+                        sheet.y(number_of(line[3])));
+  return path.empty() ? "" : "<path d=\"" + path + "\" fill=\"none\" " + style + "/>\n";
+}
+
+/// A picture, whose pixels run from 0 to 1 along its edges, the upper row first.
+std::string backdrop_picture(const Json& one, const Sheet& sheet) {
+  const auto number = [&](const char* key, size_t k) { return number_of(one[key][k]); };
+  return fmt::format(
+      "<image width=\"1\" height=\"1\" preserveAspectRatio=\"none\" transform=\"matrix({:.5f} "
+      "{:.5f} {:.5f} {:.5f} {:.3f} {:.3f})\" href=\"data:image/png;base64,{}\"/>\n",
+      sheet.mm(number("across", 0)), -sheet.mm(number("across", 1)), -sheet.mm(number("up", 0)),
+      sheet.mm(number("up", 1)), sheet.x(number("corner", 0) + number("up", 0)),
+      sheet.y(number("corner", 1) + number("up", 1)), one["png"].text());
+}
+
+/// Drawings of others under a level, faint, and no farther than the drawing's edge.
+std::string backdrops(const Json& a, size_t level, const Sheet& sheet) {
+  const auto all = a["plan"].find("backdrops");
+  if (all == a["plan"].end() || all->is_null()) return "";
+  const double floor = number_of(a["plan"]["levels"][level]["floor"]);
+  std::string pictures, lines;  // which pictures do not hide
+  for (const Json& one : *all) {
+    if (floor < number_of(one["floors"][0]) || floor > number_of(one["floors"][1])) continue;
+    const auto drawing = one.find("lines");
+    if (drawing != one.end() && !drawing->is_null())
+      lines += lines_path(*drawing, sheet, backdrop_style);
+    else
+      pictures += backdrop_picture(one, sheet);
+  }
+  if (pictures.empty() && lines.empty()) return "";
+  return fmt::format(
+             "<svg class=\"backdrop\" width=\"{0:.2f}\" height=\"{1:.2f}\" viewBox=\"0 0 {0:.2f} "
+             "{1:.2f}\" overflow=\"hidden\" opacity=\"0.35\">\n",
+             sheet.width(), sheet.height()) +
+         pictures + lines + "</svg>\n";
+}
+
+std::string building(const Json& level, const Sheet& sheet) {
+  return "<g class=\"furniture\">" + lines_path(level["furniture"], sheet, furniture_style) +
+         "</g>\n<g class=\"walls\">" + lines_path(level["walls"], sheet, wall_style) + "</g>\n";
+}
+
+std::string path_of(const Json& points, const Sheet& sheet, bool closed) {
+  std::string out;
+  for (const Json& p : points)
+    out += fmt::format("{}{:.2f} {:.2f}", out.empty() ? "M" : "L", sheet.x(number_of(p[0])),
+                       sheet.y(number_of(p[1])));
+  return out + (closed ? "Z" : "");
+}
+
+std::string route_end(double x, double y, double turn) {
+  return fmt::format(
+      "<path d=\"M0 0L-2.6 -1.1V1.1Z\" fill=\"#1f5fa8\" transform=\"translate({:.2f} {:.2f}) "
+      "rotate({:.1f})\"/>\n",
+      x, y, turn);
+}
+
+/// Routes with an arrow at their ends and their names beside their middles, and areas.
+std::string places(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
+  std::string out = "<g class=\"places\">\n";
+  for (const Json& area : a["places"]["areas"]) {
+    if (schedule.level_of(number_of(area["z"])) != level) continue;
+    out += "<path d=\"" + path_of(area["outline"], sheet, true) + "\" " + area_style + "/>\n";
+  }
+  for (const Json& route : a["places"]["routes"]) {
+    const Json& path = route["path"];
+    const bool here = std::any_of(path.begin(), path.end(), [&](const Json& p) {
+      return schedule.level_of(number_of(p[2])) == level;
+    });
+    if (!here) continue;
+    out += "<path d=\"" + path_of(path, sheet, false) + "\" " + route_style + "/>\n";
+    const Json &end = path[path.size() - 1], &before = path[path.size() - 2];
+    const double dx = sheet.x(number_of(end[0])) - sheet.x(number_of(before[0]));
+    const double dy = sheet.y(number_of(end[1])) - sheet.y(number_of(before[1]));
+    out += route_end(sheet.x(number_of(end[0])), sheet.y(number_of(end[1])),
+                     std::atan2(dy, dx) * 180 / std::numbers::pi);
+  }
+  return out + "</g>\n";
+}
+
+/// Names of routes at a third of their first leg, so that those of two directions stand apart.
+std::string place_names(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet,
+                        LabelSpace& space) {
+  std::string out = "<g class=\"names\" fill=\"#1f5fa8\" font-style=\"italic\">\n";
+  for (const Json& area : a["places"]["areas"]) {
+    if (schedule.level_of(number_of(area["z"])) != level) continue;
+    // In the lower left of its outline, off the luminaires in its middle.
+    const Json* corner = &area["outline"][0];
+    for (const Json& p : area["outline"])
+      if (number_of(p[0]) + number_of(p[1]) < number_of((*corner)[0]) + number_of((*corner)[1]))
+        corner = &p;
+    out += text_at(sheet.x(number_of((*corner)[0])) + 1.5, sheet.y(number_of((*corner)[1])) - 1.5,
+                   area["name"]);
+  }
+  for (const Json& route : a["places"]["routes"]) {
+    const Json &from = route["path"][0], &to = route["path"][1];
+    if (schedule.level_of(number_of(from[2])) != level) continue;
+    const double x0 = sheet.x(number_of(from[0])), y0 = sheet.y(number_of(from[1]));
+    const double dx = sheet.x(number_of(to[0])) - x0, dy = sheet.y(number_of(to[1])) - y0;
+    double turn = std::atan2(dy, dx) * 180 / std::numbers::pi;
+    if (turn > 90.01 || turn <= -89.99) turn += 180;
+    const double radians = turn * std::numbers::pi / 180, side = 4.4;  // of the text's middle
+    const double width = text_width_mm(route["name"], text_mm);
+    const double c = std::abs(std::cos(radians)), s = std::abs(std::sin(radians));
+    double along = 0.3;
+    for (const double share : {0.3, 0.2, 0.4, 0.25, 0.35, 0.5, 0.6, 0.7, 0.8}) {
+      if (!space.take(x0 + share * dx - side * std::sin(radians),
+                      y0 + share * dy + side * std::cos(radians), width * c + text_mm * s,
+                      width * s + text_mm * c))
+        continue;
+      along = share;
+      break;
+    }
+    out += text_at(0, 5.2, route["name"],
+                   fmt::format("text-anchor=\"middle\" transform=\"translate({:.2f} {:.2f}) "
+                               "rotate({:.1f})\"",
+                               x0 + along * dx, y0 + along * dy, turn)
+                       .c_str());
+  }
+  return out + "</g>\n";
+}
+
+std::string luminaire_symbol(double x, double y, bool emergency) {
+  const double edge = emergency ? 2.2 : 1.8;
+  return fmt::format(
+      "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{}\" height=\"{}\" fill=\"{}\" stroke=\"{}\" "
+      "stroke-width=\"0.25\"/>",
+      x - edge / 2, y - edge / 2, edge, edge, emergency ? emergency_colour : "#fff",
+      emergency ? emergency_colour : "#777");
+}
+
+std::string luminaire_letters(const std::string& text, double x, double y, bool emergency) {
+  const double size = emergency ? text_mm : 1.7;
+  return text_at(x, y + 0.36 * size, text,
+                 emergency ? "text-anchor=\"middle\" font-weight=\"bold\""
+                           : "text-anchor=\"middle\" fill=\"#666\"",
+                 size);
+}
+
+/// Letter and height beside a luminaire at (x, y): where nothing else stands, above it at first.
+std::string luminaire_label(const std::string& text, double x, double y, bool emergency,
+                            LabelSpace& space) {
+  const double size = emergency ? text_mm : 1.7, width = text_width_mm(text, size);
+  const double up = 1.5 + size / 2, across = 1.8 + width / 2, first = emergency ? -up : up;
+  const double far = first + std::copysign(size + 0.6, first);  // a row further
+  const std::array<std::array<double, 2>, 14> offsets{{{0, first},
+                                                       {0, -first},
+                                                       {across, 0},
+                                                       {-across, 0},
+                                                       {across, first},
+                                                       {-across, first},
+                                                       {across, -first},
+                                                       {-across, -first},
+                                                       {0, far},
+                                                       {0, -far},
+                                                       {across, far},
+                                                       {-across, far},
+                                                       {across, -far},
+                                                       {-across, -far}}};
+  const auto* at = std::find_if(offsets.begin(), offsets.end(), [&](const auto& offset) {
+    return space.take(x + offset[0], y + offset[1], width, size);
+  });
+  if (at == offsets.end()) at = offsets.begin();
+  return luminaire_letters(text, x + (*at)[0], y + (*at)[1], emergency);
+}
+
+/// Symbols; with `labels`, letters and heights as well, placed in what `labels` leaves free.
+std::string luminaires(const Json& a, const Schedule& schedule, const Texts& texts, size_t level,
+                       const Sheet& sheet, LabelSpace* labels) {
+  std::string out = "<g class=\"luminaires\">\n";
+  struct Label {
+    std::string text;
+    double x, y;
+    bool emergency;
+  };
+  std::vector<Label> wanted;
+  const Json& all = a["luminaires"];
+  for (size_t i = 0; i < all.size(); ++i) {
+    const double z = number_of(all[i]["position"][2]);
+    if (schedule.level_of(z) != level) continue;
+    const LuminaireType& type = schedule.type_of(i);
+    const double x = sheet.x(number_of(all[i]["position"][0]));
+    const double y = sheet.y(number_of(all[i]["position"][1]));
+    const bool emergency = type.emergency();
+    out +=
+        fmt::format("<g><title>{}</title>{}</g>\n", xml_escape(all[i]["name"].get<std::string>()),
+                    luminaire_symbol(x, y, emergency));
+    if (labels == nullptr) continue;
+    labels->reserve(x, y, 2.2, 2.2);
+    wanted.push_back({type.letter + " " + texts.fixed(schedule.above_floor(z)), x, y, emergency});
+  }
+  // Emergency luminaires choose first and are drawn last: the plan is about them.
+  std::string emergency_labels;
+  for (const bool emergency : {true, false})
+    for (const Label& label : wanted)
+      if (label.emergency == emergency)
+        (emergency ? emergency_labels : out) +=
+            luminaire_label(label.text, label.x, label.y, emergency, *labels);
+  out += emergency_labels;
+  return out + "</g>\n";
+}
+
+/// Where a sign's number stands [mm]: beside the arrow, away from where the sign looks.
+std::array<double, 2> sign_number_place(const Json& sign, const Sheet& sheet) {
+  const double fx = number_of(sign["facing"][0]), fy = -number_of(sign["facing"][1]);
+  return {sheet.x(number_of(sign["position"][0])) - 2.9 * fx + (std::abs(fx) > 0.7 ? 0 : 2.6),
+          sheet.y(number_of(sign["position"][1])) - 2.9 * fy - (std::abs(fx) > 0.7 ? 2.6 : 0)};
+}
+
+void reserve_signs(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet,
+                   LabelSpace& space) {
+  for (const Json& sign : a["signs"]) {
+    if (schedule.level_of(number_of(sign["position"][2])) != level) continue;
+    const auto number = sign_number_place(sign, sheet);
+    space.reserve(number[0], number[1], 4.2, 4.2);
+    space.reserve(sheet.x(number_of(sign["position"][0])) + 2 * number_of(sign["facing"][0]),
+                  sheet.y(number_of(sign["position"][1])) - 2 * number_of(sign["facing"][1]), 4, 4);
+  }
+}
+
+/// A sign as a bar across where it looks, with an arrow there.
+std::string sign_arrow(double x, double y, double turn, bool double_sided) {
+  return fmt::format(
+      "<g transform=\"translate({:.2f} {:.2f}) rotate({:.1f})\"><path d=\"M0 -1.8V1.8M0 "
+      "0H2.2\" stroke=\"#000\" stroke-width=\"0.6\"/><path d=\"M4 0L1.9 -1V1Z\"/>{}</g>\n",
+      x, y, turn, double_sided ? "<path d=\"M-4 0L-1.9 -1V1Z\"/>" : "");
+}
+
+std::string sign_number(double x, double y, size_t number) {
+  return fmt::format(
+             "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"1.9\" fill=\"#fff\" stroke=\"#000\" "
+             "stroke-width=\"0.3\"/>",
+             x, y) +
+         text_at(x, y + 0.8, std::to_string(number),
+                 "text-anchor=\"middle\" font-weight=\"bold\" stroke=\"none\"", 2.3);
+}
+
+/// A circled number beside each sign, and an arrow from the sign to where it faces.
+std::string signs(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet,
+                  const std::string& only = "") {
+  std::string out = "<g class=\"signs\">\n";
+  const Json& all = a["signs"];
+  for (size_t i = 0; i < all.size(); ++i) {
+    const Json& position = all[i]["position"];
+    if (schedule.level_of(number_of(position[2])) != level) continue;
+    if (!only.empty() && all[i]["name"].get<std::string>() != only) continue;
+    const double x = sheet.x(number_of(position[0])), y = sheet.y(number_of(position[1]));
+    const double fx = number_of(all[i]["facing"][0]), fy = -number_of(all[i]["facing"][1]);
+    const double turn = std::atan2(fy, fx) * 180 / std::numbers::pi;
+    const auto [cx, cy] = sign_number_place(all[i], sheet);
+    out += fmt::format("<g><title>{}</title>", xml_escape(all[i]["name"].get<std::string>())) +
+           sign_arrow(x, y, turn, all[i]["double_sided"].get<bool>()) + sign_number(cx, cy, i + 1) +
+           "</g>\n";
+  }
+  return out + "</g>\n";
+}
+
+std::string emphasis_symbol(double x, double y) {
+  return fmt::format(
+      "<path d=\"M{:.2f} {:.2f}l1.3 1.3l-1.3 1.3l-1.3 -1.3Z\" fill=\"#fff\" "
+      "stroke=\"#8a2be2\" stroke-width=\"0.35\"/>",
+      x, y - 1.3);
+}
+
+std::string emphasis(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
+  std::string out;
+  for (const Json& point : a["places"]["emphasis"]) {
+    const Json& p = point["position"];
+    if (schedule.level_of(number_of(p[2])) != level) continue;
+    out += fmt::format("<g><title>{}</title>{}</g>\n", xml_escape(point["name"].get<std::string>()),
+                       emphasis_symbol(sheet.x(number_of(p[0])), sheet.y(number_of(p[1]))));
+  }
+  return out;
+}
+
+/// A scale bar in round metres, the scale, and an arrow to the north.
+std::string foot(const Json& a, const Sheet& sheet, const Texts& texts) {
+  const double y = sheet.height() + 5;
+  double bar = 1;
+  for (const double metres : {0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 1000.0})
+    if (sheet.mm(metres) <= 50) bar = metres;
+  std::string out = "<g class=\"scale\">\n";
+  for (int i = 0; i < 4; ++i)
+    out += fmt::format(
+        "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.3f}\" height=\"1.4\" fill=\"{}\" "
+        "stroke=\"#000\" stroke-width=\"0.2\"/>\n",
+        border_mm + sheet.mm(bar) * i / 4, y, sheet.mm(bar) / 4, i % 2 == 0 ? "#000" : "#fff");
+  out += text_at(border_mm, y + 4.4, "0") +
+         text_at(border_mm + sheet.mm(bar), y + 4.4, texts.number(bar) + " m",
+                 "text-anchor=\"middle\"") +
+         text_at(border_mm + sheet.mm(bar) + 6, y + 1.5, fmt::format("1:{:g}", sheet.scale()));
+  const double turn = number_of(a["project"]["north_deg"]);
+  out += fmt::format(
+             "<g class=\"north\" transform=\"translate({:.2f} {:.2f}) rotate({:g})\"><circle "
+             "r=\"3.4\" fill=\"#fff\" stroke=\"#000\" stroke-width=\"0.25\"/><path d=\"M0 "
+             "-3.4L1.5 2.4L0 1.3L-1.5 2.4Z\"/></g>\n",
+             sheet.width() - border_mm - 4, sheet.height() + 6, turn) +
+         text_at(sheet.width() - border_mm - 9.6, sheet.height() + 7, texts("plan.north"),
+                 "text-anchor=\"middle\" font-weight=\"bold\"", 3);
+  return out + "</g>\n";
+}
+
+Plan finished(const Sheet& sheet, const Legend& legend, const std::string& body) {
+  Plan plan;
+  plan.width_mm = sheet.width();
+  plan.scale = sheet.scale();
+  plan.svg = fmt::format(
+                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.2f} {1:.2f}\" "
+                 "width=\"{0:.2f}mm\" height=\"{1:.2f}mm\" font-family=\"Liberation Sans, Arial, "
+                 "Helvetica, DejaVu Sans, sans-serif\">\n<style>text {{ paint-order: stroke; "
+                 "stroke: #fff; stroke-width: 0.5px; stroke-linejoin: round }}</style>\n"
+                 "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+                 sheet.width(), sheet.height() + sheet.foot()) +
+             body + legend.svg(sheet.width(), sheet.height()) + "</svg>\n";
+  return plan;
+}
+
+/// Widths differ as well, for eyes that do not tell these colours apart.
+std::string isolux_colour(double lux) {
+  const LightColour c = colour_of_illuminance(lux);
+  return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
+}
+
+std::string isolux_style(double lux) {
+  return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{}", isolux_colour(lux),
+                     lux == 1 ? 0.6 : 0.35, lux < 0.7 ? " stroke-dasharray=\"1.6 0.8\"" : "");
+}
+
+/// The line, and its value about every 36 mm, where nothing else is labelled.
+std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& texts,
+                        LabelSpace& space) {
+  const double label_width = text_width_mm(texts.number(one.lux), 2.4) + 0.6;
+  std::string path;
+  double length = 0, labelled = -30;
+  std::string labels;
+  const auto& points = one.line.points;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double x = sheet.x(points[i].x), y = sheet.y(points[i].y);
+    path += fmt::format("{}{:.2f} {:.2f}", i == 0 ? "M" : "L", x, y);
+    if (i == 0) continue;
+    length += std::hypot(x - sheet.x(points[i - 1].x), y - sheet.y(points[i - 1].y));
+    if (length - labelled < 36 || !space.take(x, y, label_width, 2.6)) continue;
+    labelled = length;
+    labels += text_at(x, y + 0.8, texts.number(one.lux),
+                      fmt::format("text-anchor=\"middle\" font-weight=\"bold\" fill=\"{}\"",
+                                  isolux_colour(one.lux))
+                          .c_str(),
+                      2.4);
+  }
+  if (length < 3) return "";  // a speck
+  return fmt::format(
+             "<path class=\"isolux\" data-lux=\"{}\" d=\"{}\" stroke-linejoin=\"round\" {}/>\n",
+             one.lux, path, isolux_style(one.lux)) +
+         labels;
+}
+
+std::string grid_values(const Json& level, const Sheet& sheet, const Texts& texts) {
+  std::string out = "<g class=\"values\" fill=\"#333\">\n";
+  // Where numbers would lie on each other, every other one is left out.
+  std::map<std::pair<long, long>, bool> taken;
+  for (const Json& p : level["points"]) {
+    const double x = sheet.x(number_of(p[0])), y = sheet.y(number_of(p[1]));
+    const std::pair cell{std::lround(x / 4.2), std::lround(y / 2.2)};
+    if (!taken.emplace(cell, true).second) continue;
+    out += text_at(x, y + 0.6, texts.number(number_of(p[3]), 2), "text-anchor=\"middle\"", 1.6);
+  }
+  return out + "</g>\n";
+}
+
+/// From best to worst of what a place can have.
+constexpr std::array<const char*, 6> ranks{"legible",   "undecided",    "visible but not legible",
+                                           "invisible", "not assessed", "hidden by the building"};
+
+std::string legend_line(double width, const std::string& style) {
+  return fmt::format("<path d=\"M0 0h{}\" {}/>", width, style);
+}
+
+/// Luminaires of a level, with letters and heights beside them or without.
+void explain_luminaires(Legend& legend, const Json& a, const Schedule& schedule, const Texts& texts,
+                        size_t level, bool with_letters) {
+  std::string letters;  // of the first that the plan shows
+  for (const bool emergency : {true, false}) {
+    bool any = false;
+    for (size_t i = 0; i < a["luminaires"].size(); ++i) {
+      const double z = number_of(a["luminaires"][i]["position"][2]);
+      if (schedule.level_of(z) != level || schedule.type_of(i).emergency() != emergency) continue;
+      any = true;
+      if (letters.empty())
+        letters = schedule.type_of(i).letter + " " + texts.fixed(schedule.above_floor(z));
+    }
+    if (any)
+      legend.add(luminaire_symbol(1.1, 0, emergency), 2.2,
+                 texts(emergency ? "legend.emergency" : "legend.mains"));
+  }
+  if (!with_letters || letters.empty()) return;
+  const double width = text_width_mm(letters, text_mm);
+  legend.add(luminaire_letters(letters, width / 2, 0, true), width, texts("legend.letters"));
+}
+
+void explain_signs(Legend& legend, const Json& a, const Schedule& schedule, const Texts& texts,
+                   size_t level) {
+  bool any = false, double_sided = false;
+  for (const Json& sign : a["signs"]) {
+    if (schedule.level_of(number_of(sign["position"][2])) != level) continue;
+    any = true;
+    double_sided = double_sided || sign["double_sided"].get<bool>();
+  }
+  if (any)
+    legend.add(sign_number(1.9, 0, 1) + sign_arrow(4.6, 0, 0, false), 8.6, texts("legend.sign"));
+  if (double_sided) legend.add(sign_arrow(4, 0, 0, true), 8, texts("legend.double_sided"));
+}
+
+/// Routes, areas, walls and furniture.
+void explain_building(Legend& legend, const Json& a, const Schedule& schedule, const Texts& texts,
+                      size_t level, bool with_furniture) {
+  const auto here = [&](const Json& z) { return schedule.level_of(number_of(z)) == level; };
+  const Json &routes = a["places"]["routes"], &areas = a["places"]["areas"];
+  if (std::any_of(routes.begin(), routes.end(), [&](const Json& route) {
+        return std::any_of(route["path"].begin(), route["path"].end(),
+                           [&](const Json& p) { return here(p[2]); });
+      }))
+    legend.add(legend_line(8, route_style) + route_end(9.4, 0, 0), 9.4, texts("legend.route"));
+  if (std::any_of(areas.begin(), areas.end(), [&](const Json& area) { return here(area["z"]); }))
+    legend.add(legend_line(8, area_style), 8, texts("legend.area"));
+  const Json& drawn = a["plan"]["levels"][level];
+  if (!drawn["walls"].empty()) legend.add(legend_line(6, wall_style), 6, texts("legend.walls"));
+  if (with_furniture && !drawn["furniture"].empty())
+    legend.add(legend_line(6, furniture_style), 6, texts("legend.furniture"));
+}
+
+Legend installation_legend(const Json& a, const Schedule& schedule, const Texts& texts,
+                           size_t level) {
+  Legend legend;
+  explain_luminaires(legend, a, schedule, texts, level, true);
+  explain_signs(legend, a, schedule, texts, level);
+  for (const Json& point : a["places"]["emphasis"])
+    if (schedule.level_of(number_of(point["position"][2])) == level) {
+      legend.add(emphasis_symbol(1.3, 0), 2.6, texts("legend.emphasis"));
+      break;
+    }
+  explain_building(legend, a, schedule, texts, level, true);
+  return legend;
+}
+
+Legend isolux_legend(const Json& a, const Schedule& schedule, const Texts& texts, size_t level) {
+  Legend legend;
+  for (const double lux : isolux_levels)
+    legend.add(legend_line(8, isolux_style(lux)), 8, texts.number(lux) + " lx");
+  explain_luminaires(legend, a, schedule, texts, level, false);
+  explain_building(legend, a, schedule, texts, level, false);
+  return legend;
+}
+
+Legend sight_legend(const Json& a, const Schedule& schedule, const Texts& texts, size_t level,
+                    const std::string& sign) {
+  Legend legend;
+  for (const char* rank : ranks)
+    legend.add(verdict_shape(rank, 1.3, 0, 1.3), 2.6, texts.word("sight", rank));
+  // A map of one sign is small, and its caption names the sign.
+  if (sign.empty()) explain_signs(legend, a, schedule, texts, level);
+  return legend;
+}
+
+}  // namespace
+
+const char* verdict_colour(const std::string& verdict) {
+  if (verdict == "pass" || verdict == "legible") return "#1a7f3c";
+  if (verdict == "fail" || verdict == "invisible") return "#b3261e";
+  if (verdict == "undecided" || verdict == "not verified") return "#8a6100";
+  if (verdict == "visible but not legible") return "#c25700";
+  return "#5f6368";
+}
+
+std::string verdict_shape(const std::string& verdict, double x, double y, double r) {
+  const char* colour = verdict_colour(verdict);
+  std::string shape;
+  if (verdict == "pass" || verdict == "legible")  // a disc with a tick
+    shape = fmt::format(
+        "<circle r=\"1\" fill=\"{}\"/><path d=\"M-.5 0L-.12 .4L.52 -.38\" "
+        "fill=\"none\" stroke=\"#fff\" stroke-width=\".24\"/>",
+        colour);
+  else if (verdict == "fail" || verdict == "invisible")  // a square with a cross
+    shape = fmt::format(
+        "<path d=\"M-.95 -.95H.95V.95H-.95Z\" fill=\"{}\"/><path d=\"M-.48 "
+        "-.48L.48 .48M.48 -.48L-.48 .48\" stroke=\"#fff\" stroke-width=\".26\"/>",
+        colour);
+  else if (verdict == "visible but not legible")  // a half-filled diamond
+    shape = fmt::format(
+        "<path d=\"M0 -1.15L1.15 0L0 1.15L-1.15 0Z\" fill=\"#fff\" stroke=\"{0}\" "
+        "stroke-width=\".22\"/><path d=\"M0 -1.15L1.15 0L0 1.15Z\" fill=\"{0}\"/>",
+        colour);
+  else if (verdict == "undecided" || verdict == "not verified")  // a triangle with a stroke
+    shape = fmt::format(
+        "<path d=\"M0 -1.1L1.15 .9H-1.15Z\" fill=\"{}\"/><path d=\"M0 -.4V.25M0 "
+        ".45V.68\" stroke=\"#fff\" stroke-width=\".24\"/>",
+        colour);
+  else if (verdict == "information")
+    shape = fmt::format(
+        "<circle r=\".9\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".22\"/><path "
+        "d=\"M0 -.1V.55M0 -.5V-.28\" stroke=\"{0}\" stroke-width=\".24\"/>",
+        colour);
+  else if (verdict == "hidden by the building")  // a hollow square with a stroke across
+    shape = fmt::format(
+        "<path d=\"M-.8 -.8H.8V.8H-.8ZM-.8 .8L.8 -.8\" fill=\"#fff\" stroke=\"{}\" "
+        "stroke-width=\".22\"/>",
+        colour);
+  else  // a ring with a bar: no answer
+    shape = fmt::format(
+        "<circle r=\".85\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".25\"/><path "
+        "d=\"M-.45 0H.45\" stroke=\"{0}\" stroke-width=\".25\"/>",
+        colour);
+  return fmt::format("<g transform=\"translate({:.2f} {:.2f}) scale({:.2f})\">{}</g>\n", x, y, r,
+                     shape);
+}
+
+Plan Plans::installation(size_t number) const {
+  const Json& level = a_["plan"]["levels"][number];
+  const Legend legend = installation_legend(a_, schedule_, texts_, number);
+  const Sheet sheet(a_, schedule_, number, size_, legend);
+  LabelSpace space;
+  reserve_signs(a_, schedule_, number, sheet, space);
+  // Before the names of routes, which can stand elsewhere.
+  const std::string symbols = luminaires(a_, schedule_, texts_, number, sheet, &space);
+  return finished(
+      sheet, legend,
+      backdrops(a_, number, sheet) + building(level, sheet) + places(a_, schedule_, number, sheet) +
+          emphasis(a_, schedule_, number, sheet) + symbols + signs(a_, schedule_, number, sheet) +
+          place_names(a_, schedule_, number, sheet, space) + foot(a_, sheet, texts_));
+}
+
+Plan Plans::isolux(size_t number, bool values) const {
+  const Json& level = a_["plan"]["levels"][number];
+  const Legend legend = isolux_legend(a_, schedule_, texts_, number);
+  const Sheet sheet(a_, schedule_, number, size_, legend);
+  std::string lines = "<g class=\"lines\">\n";
+  LabelSpace space;
+  for (const IsoluxLine& one : isolux_lines(level)) lines += isolux_line(one, sheet, texts_, space);
+  return finished(sheet, legend,
+                  backdrops(a_, number, sheet) + building(level, sheet) +
+                      places(a_, schedule_, number, sheet) +
+                      luminaires(a_, schedule_, texts_, number, sheet, nullptr) +
+                      (values ? grid_values(level, sheet, texts_) : "") + lines + "</g>\n" +
+                      foot(a_, sheet, texts_));
+}
+
+Plan Plans::sights(size_t number, double eye_height_m, const std::string& sign) const {
+  const Json& level = a_["plan"]["levels"][number];
+  const Legend legend = sight_legend(a_, schedule_, texts_, number, sign);
+  const Sheet sheet(a_, schedule_, number, size_, legend);
+  std::map<std::pair<double, double>, size_t> best;  // by place, a number of ranks
+  for (const Json& sight : a_["sights"]) {
+    const double eye = number_of(sight["eye_height"]["value"]);
+    if (sight["from"].get<std::string>().starts_with("observer")) continue;
+    if (eye != eye_height_m || schedule_.level_of(number_of(sight["eye"][2]) - eye) != number)
+      continue;
+    if (!sign.empty() && sight["sign"].get<std::string>() != sign) continue;
+    const auto verdict = sight["verdict"].get<std::string>();
+    const auto rank =
+        static_cast<size_t>(std::find(ranks.begin(), ranks.end(), verdict) - ranks.begin());
+    const std::pair place{number_of(sight["eye"][0]), number_of(sight["eye"][1])};
+    const auto known = best.try_emplace(place, rank).first;
+    known->second = std::min(known->second, rank);
+  }
+  std::string marks = "<g class=\"sights\">\n";
+  for (const auto& [place, rank] : best)
+    marks += verdict_shape(ranks[std::min(rank, ranks.size() - 1)], sheet.x(place.first),
+                           sheet.y(place.second), 1.3);
+  return finished(sheet, legend,
+                  (sign.empty() ? backdrops(a_, number, sheet) : "") + building(level, sheet) +
+                      marks + "</g>\n" + signs(a_, schedule_, number, sheet, sign) +
+                      foot(a_, sheet, texts_));
+}
+
+}  // namespace luxodus

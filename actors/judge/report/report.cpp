@@ -1,0 +1,147 @@
+#include "actors/judge/report/report.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "actors/judge/report/guidance_map.hpp"
+#include "actors/judge/report/hand_over.hpp"
+#include "actors/judge/report/pdf.hpp"
+#include "actors/judge/report/plan_svg.hpp"
+#include "actors/results/formats/file_names.hpp"
+#include "runtime/core/regular_file.hpp"
+
+namespace luxodus {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uint64_t pdf_bytes = uint64_t{512} << 20;
+
+std::string bytes_text(const std::vector<std::byte>& bytes) {
+  return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+std::string named(const fs::path& folder, const ReportOptions& options) {
+  return options.named.empty() ? folder.string() : options.named;
+}
+
+Result<void> make_folder(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) return problem_in(folder, "cannot make this folder: " + failed.message());
+  return {};
+}
+
+/// "1.65" as it stands in a file's name.
+std::string height_name(double metres) {
+  return fmt::format("{:.2f}m", metres);
+}
+
+Result<void> write_plans(const fs::path& folder, const Json& a, const Schedule& schedule,
+                         const Texts& texts, bool values) {
+  if (auto ok = make_folder(folder); !ok) return ok.problem();
+  const Plans plans(a, schedule, texts, {});
+  std::set<double> heights;
+  for (const Json& sight : a["sights"])
+    if (!sight["from"].get<std::string>().starts_with("observer"))
+      heights.insert(sight["eye_height"]["value"].get<double>());
+  for (size_t i = 0; i < schedule.levels(); ++i) {
+    const std::string level =
+        schedule.levels() > 1 ? "level_" + std::to_string(i + 1) + "_" : std::string();
+    std::vector<std::pair<std::string, std::string>> drawings{
+        {"installation", plans.installation(i).svg}, {"isolux", plans.isolux(i, values).svg}};
+    for (const double height : heights)
+      drawings.emplace_back("legibility_" + height_name(height), plans.sights(i, height, "").svg);
+    for (const auto& [name, svg] : drawings)
+      if (auto ok = write_file_atomically(folder / (level + name + ".svg"), svg); !ok)
+        return ok.problem();
+    if (auto ok = write_plan_dxf(folder / (level + "plan.dxf"), a, schedule, i); !ok)
+      return ok.problem();
+  }
+  return {};
+}
+
+/// One map of place and time for each route and height of eyes.
+Result<void> write_guidance(const fs::path& folder, const Json& a, const Texts& texts) {
+  const auto over = a.find("over_time");
+  if (over == a.end()) return {};
+  constexpr double sheet_mm = 180;
+  std::vector<std::string> names;
+  for (const Json& route : (*over)["routes"])
+    names.push_back("guided_" + text_in(route, "route") + "_" +
+                    height_name(route["eye_height"]["value"].get<double>()));
+  names = file_names_of(names, std::array{".svg"});
+  for (size_t i = 0; i < names.size(); ++i)
+    if (auto ok = write_file_atomically(folder / (names[i] + ".svg"),
+                                        guidance_map(*over, (*over)["routes"][i], texts, sheet_mm));
+        !ok)
+      return ok.problem();
+  return {};
+}
+
+Result<void> write_schedules(const fs::path& folder, const Json& a, const Schedule& schedule) {
+  if (auto ok = make_folder(folder); !ok) return ok.problem();
+  for (const auto& [name, table] : {std::pair{"luminaires.csv", luminaires_csv(a, schedule)},
+                                    std::pair{"signs.csv", signs_csv(a, schedule)},
+                                    std::pair{"bill_of_materials.csv", materials_csv(a, schedule)},
+                                    std::pair{"checks_with_places.csv", places_csv(a)},
+                                    std::pair{"illuminance_points.csv", points_csv(a, schedule)}})
+    if (auto ok = write_csv(folder / name, table); !ok) return ok.problem();
+  return {};
+}
+
+/// Twice: the first print says on which page each heading is, the second has that in its contents.
+Result<void> print_report(const fs::path& folder, const Json& a,
+                          const std::vector<ReportPicture>& pictures,
+                          const ReportOptions& options) {
+  const fs::path pdf = folder / "report.pdf";
+  const fs::path page = folder / fmt::format(".report.{}.html", ::getpid());
+  const auto print = [&](const std::map<std::string, int>& pages) -> Result<void> {
+    const auto written = write_file_atomically(
+        page, report_html(a, pictures, named(folder, options), options, pages));
+    return written ? print_pdf(page, pdf) : written;
+  };
+  Result<void> done = print({});
+  if (done) {
+    const auto bytes = read_whole_file(pdf, pdf_bytes);
+    if (bytes) done = print(pages_of_destinations(bytes_text(bytes.value())));
+  }
+  std::error_code ignored;
+  fs::remove(page, ignored);
+  return done;
+}
+
+}  // namespace
+
+std::string report_html(const Json& a, const std::vector<ReportPicture>& pictures,
+                        const std::string& folder, const ReportOptions& options,
+                        const std::map<std::string, int>& pages) {
+  const Schedule schedule(a);
+  const Texts texts(options.language);
+  // Within margins of 15 mm aside, 20 mm above and below; a sheet across has those turned.
+  const double width = (options.letter ? 215.9 : 210) - 30;
+  const double height = (options.letter ? 279.4 : 297) - 30;
+  return report_page({a, schedule, texts, pictures, folder, width, height, options.grid_values},
+                     {options.letter, pages});
+}
+
+Result<void> write_report(const fs::path& folder, const Json& a, const ReportOptions& options) {
+  const Schedule schedule(a);
+  const Texts texts(options.language);
+  const auto pictures = pictures_in(folder);
+  if (auto ok = write_plans(folder / "plans", a, schedule, texts, options.grid_values); !ok)
+    return ok.problem();
+  if (auto ok = write_guidance(folder / "plans", a, texts); !ok) return ok.problem();
+  if (auto ok = write_schedules(folder / "schedules", a, schedule); !ok) return ok.problem();
+  if (auto ok = write_file_atomically(folder / "report.html",
+                                      report_html(a, pictures, named(folder, options), options));
+      !ok)
+    return ok;
+  return options.pdf ? print_report(folder, a, pictures, options) : Result<void>{};
+}
+
+}  // namespace luxodus

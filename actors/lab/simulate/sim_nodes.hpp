@@ -1,0 +1,95 @@
+// Workers and controllers as a simulated world drives them: the production nodes, whose clock and
+// links are the world's and whose tracing takes virtual time. Thread rule: the simulation's thread.
+#pragma once
+
+#include <string>
+
+#include "actors/cast/node/controller_node.hpp"
+#include "actors/cast/node/worker.hpp"
+#include "actors/lab/simulate/charging.hpp"
+#include "runtime/sim/sim_world.hpp"
+
+namespace luxodus {
+
+/// A node that also tells what is wrong with it.
+class CheckedNode : public SimNode {
+ public:
+  /// The first of its invariants that does not hold, for people; "" where all do. Cheap.
+  virtual std::string fault() const = 0;
+  /// Why it has left without having done its part, for people; "" where it has done it.
+  virtual std::string regret() const = 0;
+  /// For how long it takes those whom it leads to know of the end that have said so.
+  virtual Nanoseconds word_is_fresh() const { return 0; }
+};
+
+/// Has all fibers return, as they do when they are cancelled.
+void end_fibers(Fibers& fibers);
+/// What is wrong with the fibers of a node; "" where nothing is.
+std::string fault_of(const NodeShell& shell, const Fibers& fibers);
+
+/// A node's place in the world, where work is real and takes what it costs.
+NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs,
+                        const BuilderMaker& builders, Buggify* buggify = nullptr);
+
+/// Builders of all nodes of a world, on one device: a thousand devices of Embree take more memory
+/// maps than a process may have.
+BuilderMaker builders_on_one_device();
+
+class SimWorker final : public CheckedNode {
+ public:
+  /// What its cache did is added to `all` when it ends. Requires: all references outlive this;
+  /// `clock` is that of the seams.
+  SimWorker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams, SimClock& clock,
+            const SimCosts& costs, WorkerReport& all);
+  ~SimWorker() override;
+
+  Nanoseconds turn() override;
+  bool finished() const override { return worker_.shell().finished(); }
+  void die() override;
+  std::string fault() const override;
+  std::string regret() const override;
+  Nanoseconds word_is_fresh() const override {
+    return worker_.coordinator() == nullptr ? 0 : worker_.coordinator()->word_is_fresh();
+  }
+  const Worker& worker() const { return worker_; }
+
+ private:
+  const NodeSetup& node_;
+  WorkerReport& all_;
+  Meter meter_;
+  const SimCosts costs_;
+  struct Charged {
+    uint64_t resumes = 0, batches = 0, flush_bytes = 0, counted_bytes = 0;
+  };
+  Charged charged_;
+  Worker worker_;
+};
+
+class SimController final : public CheckedNode {
+ public:
+  /// Requires: all outlive this.
+  SimController(const RunSetup& setup, const NodeSetup& node, LocalRun& run, const StopRule& stop,
+                SimWorld& world, const SimCosts& costs, FlushKeeper* keeper);
+
+  Nanoseconds turn() override;
+  bool finished() const override { return node_.shell().finished(); }
+  void die() override;
+  std::string fault() const override;
+  std::string regret() const override;
+  Nanoseconds word_is_fresh() const override { return coordinator().word_is_fresh(); }
+  const RunCoordinator& coordinator() const { return node_.coordinator(); }
+  /// Of its loop [ns], of what was charged.
+  uint64_t longest_turn() const { return node_.shell().scheduler().counters().longest_turn; }
+
+ private:
+  const LocalRun& run_;
+  Meter meter_;
+  const SimCosts costs_;
+  uint64_t charged_flush_bytes_ = 0;
+  const std::atomic<bool> interrupt_{false};
+  ControllerNode node_;
+  uint64_t counted_ = 0;  // batches, before the last turn
+  bool went_back_ = false;
+};
+
+}  // namespace luxodus

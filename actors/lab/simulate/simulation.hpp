@@ -1,0 +1,38 @@
+// A run on simulated nodes: the production code of all nodes in one thread, by virtual time, under
+// the faults of a plan; checked after every event, and its flux against the plain loop's, bit for
+// bit. Thread rule: one thread.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "actors/lab/simulate/sim_options.hpp"
+
+namespace luxodus {
+
+/// A scene for many simulated runs, and what they must leave.
+class SimScene {
+ public:
+  /// Traces the reference with the plain loop. Requires: a scene of several cells where runs shall
+  /// fetch; particles >= 1.
+  SimScene(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int64_t particles);
+
+  const std::shared_ptr<const CompiledScene>& scene() const { return scene_; }
+  uint64_t seed() const { return seed_; }
+  int64_t particles() const { return particles_; }
+  /// A run that has traced nothing. `resident`: with all geometry at hand.
+  std::unique_ptr<LocalRun> fresh_run(bool resident) const;
+  /// What differs from the plain loop's result, for people; "" where no bit does.
+  std::string difference(const LocalRun& run) const;
+
+ private:
+  const std::shared_ptr<const CompiledScene> scene_;
+  const uint64_t seed_;
+  const int64_t particles_;
+  std::unique_ptr<LocalRun> reference_;
+};
+
+/// Errors: options that contradict each other or the scene.
+Result<SimReport> simulate(const SimScene& scene, const SimOptions& options);
+
+}  // namespace luxodus

@@ -1,0 +1,28 @@
+// The scene of a study, compiled for each partition and size of batch that it asks for, once.
+// Thread rule: one thread.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "actors/lab/study/study_file.hpp"
+#include "scenes/light/transport/compiled_scene.hpp"
+#include "scenes/light/world/description.hpp"
+
+namespace luxodus {
+
+class StudyScenes {
+ public:
+  /// `description`: as it was read.
+  StudyScenes(const Study& study, const SceneDescription& description);
+
+  /// Errors: a scenario that is not there; a scene that cannot be compiled.
+  Result<std::shared_ptr<const CompiledScene>> get(int cells, int64_t batch_particles);
+
+ private:
+  const std::string scenario_;
+  SceneDescription description_;
+  std::map<std::pair<int, int64_t>, std::shared_ptr<const CompiledScene>> made_;
+};
+
+}  // namespace luxodus

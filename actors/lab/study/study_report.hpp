@@ -1,0 +1,73 @@
+// A study's results for people and for other programs: a table of all runs, the same as JSON, a
+// drawing for each plot with the spread over seeds, and one page that explains them all and needs
+// nothing beside itself. Equal results give equal bytes. Files are whole or not there. Any thread.
+#pragma once
+
+#include <filesystem>
+
+#include "actors/lab/study/results.hpp"
+#include "actors/lab/study/study_file.hpp"
+#include "actors/results/formats/csv.hpp"
+#include "actors/results/formats/json_out.hpp"
+#include "actors/results/formats/output_folder.hpp"
+#include "actors/results/formats/svg_plot.hpp"
+
+namespace luxodus {
+
+struct StudyRow {
+  StudyPoint point;
+  uint64_t seed = 0;
+  std::optional<StudyResult> result;
+  std::string refused;  // why there is no result
+};
+
+/// What a study found.
+struct StudyOutcome {
+  const Study& study;
+  MeasuredCosts measured;
+  std::vector<StudyRow> rows;
+};
+
+/// Over the seeds of a point.
+struct StudySpread {
+  size_t runs = 0;
+  double mean = 0;
+  double deviation = 0;  // standard deviation of one run; 0 of a single one
+};
+StudySpread spread_of(const StudyOutcome& outcome, const StudyPoint& point,
+                      const StudyColumn& column);
+
+/// A kind of run held against another at points that are equal otherwise: simulation against real
+/// nodes, replay against tracing.
+struct StudyComparison {
+  std::string of, against;  // words of `on`
+  struct Row {
+    std::string point;  // "nodes 4, fibers 16"
+    std::string column;
+    double of = 0, against = 0;
+    double error() const { return against != 0 ? of / against - 1 : 0; }
+  };
+  std::vector<Row> rows;
+  /// The largest and the mean size of errors of a column.
+  struct Error {
+    std::string column;
+    double mean = 0, most = 0;
+  };
+  std::vector<Error> errors() const;
+};
+std::vector<StudyComparison> comparisons_of(const StudyOutcome& outcome);
+
+CsvTable study_table(const StudyOutcome& outcome);
+Json study_json(const StudyOutcome& outcome);
+SvgPlot study_plot(const StudyOutcome& outcome, const StudyPlot& plot);
+/// Errors: as svg_plot_text.
+Result<std::string> study_page(const StudyOutcome& outcome);
+
+/// What write_study writes.
+OutputPlan study_output(const Study& study);
+
+/// results.csv, results.json, NAME.svg of each plot, index.html.
+/// Errors: as write_file_atomically; a folder that cannot be made.
+Result<void> write_study(const std::filesystem::path& folder, const StudyOutcome& outcome);
+
+}  // namespace luxodus

@@ -1,0 +1,43 @@
+// Workers of a run, each in a process of its own on this machine: copies of this process as it is
+// when they start, so they have the same scene and plan. They meet through local sockets.
+// Thread rule: one thread, and no other of this process may hold a lock when workers start.
+#pragma once
+
+#include <sys/types.h>
+
+#include <vector>
+
+#include "actors/cast/node/fetching_objects.hpp"
+#include "actors/cast/process/planned_nodes.hpp"
+
+namespace luxodus {
+
+class WorkerProcesses {
+ public:
+  /// Stops those that still run.
+  ~WorkerProcesses();
+  WorkerProcesses() = default;
+  WorkerProcesses(const WorkerProcesses&) = delete;
+  WorkerProcesses& operator=(const WorkerProcesses&) = delete;
+
+  /// All workers of the plan. Requires: no context of sockets is open here yet.
+  /// Errors: the system starts no more.
+  Result<void> start(const PlannedNodes& nodes);
+  /// Whether one has ended with an error.
+  bool failed();
+  /// Waits until all have ended: what they did, together. Errors: one that failed.
+  Result<WorkerReport> join();
+
+ private:
+  struct Worker {
+    pid_t pid;
+    int report;  // a pipe's end
+    bool runs;
+  };
+  void reap(Worker& worker, int options);
+
+  std::vector<Worker> workers_;
+  bool failed_ = false;
+};
+
+}  // namespace luxodus

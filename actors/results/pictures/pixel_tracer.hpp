@@ -1,0 +1,60 @@
+// Traces the paths of pixels, whoever sums them up. A path carries all bands, and one of them, its
+// hero, decides how it goes on. Places in a pixel and heroes are drawn together by points of one
+// scrambled Sobol' set, so that the paths of a pixel are spread over its area and over the bands at
+// once. Thread rule: one thread or fiber.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "actors/results/pictures/pixel_sums.hpp"
+#include "scenes/light/transport/compiled_scene.hpp"
+#include "scenes/light/transport/trace.hpp"
+
+namespace luxodus {
+
+namespace limits {
+inline constexpr int max_paths_per_pixel = 1 << 16;  // 17 bits of a path's number
+inline constexpr int max_picture_edge = 1 << 14;     // of a scene's cameras, too
+}  // namespace limits
+
+/// A camera without a lens: every ray passes through one point.
+class Pinhole {
+ public:
+  Pinhole(const Camera& camera, const glm::dvec3& local_origin);
+
+  /// Through a place in pixels from the picture's upper left corner.
+  Ray ray(double x, double y) const;
+
+ private:
+  glm::dvec3 eye_, forward_, right_, up_;
+  double width_, height_;
+};
+
+class PixelTracer {
+ public:
+  /// `number`: of the random numbers, a camera's own; below 2^16. `flux`: where paths end, or null.
+  /// `sight`: of make_emitter_sight. Requires: what is referred to outlives this.
+  PixelTracer(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
+              const Camera& camera, uint64_t number, const KnownRadiance* flux,
+              std::shared_ptr<const EmitterSight> sight);
+
+  /// Adds paths of a pixel; `pixel`: row * width + column, below 2^28.
+  /// Requires: ends <= limits::max_paths_per_pixel.
+  void trace(int column, int row, uint64_t pixel, const PathRange& paths, PixelSums& sums);
+
+ private:
+  void start(uint64_t first, int path);
+  ChannelLight light_of(std::span<const double> radiance) const;
+  std::array<double, picture_features> features() const;
+
+  const CompiledScene& scene_;
+  std::unique_ptr<PictureTracer> tracer_;
+  Pinhole pinhole_;
+  uint64_t first_path_;
+  const KnownRadiance* flux_;
+  ChannelLight white_;  // of a reflectance of 1 in all bands
+  FirstHit first_;      // of the last path
+};
+
+}  // namespace luxodus

@@ -1,0 +1,298 @@
+// From traced pictures to files.
+#include "actors/results/pictures/view_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "actors/results/files/result_files.hpp"
+#include "actors/results/formats/false_colour_png.hpp"
+#include "scenes/light/optics/chromaticity.hpp"
+#include "scenes/light/vision/tone.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Linear sRGB from XYZ, the inverse of the standard's matrix.
+glm::dmat3 srgb_from_xyz() {
+  glm::dmat3 xyz;
+  for (int c = 0; c < 3; ++c) {
+    std::array<double, 3> primary{};
+    primary[static_cast<size_t>(c)] = 1;
+    const Xyz column = xyz_from_linear_srgb(primary);
+    xyz[c] = {column[0], column[1], column[2]};
+  }
+  return glm::inverse(xyz);
+}
+
+std::vector<ImageText> texts_of(const LocalRun& run, const Camera& camera) {
+  const CompiledScene& scene = run.scene();
+  return {{"Software", "luxodus"},
+          {"Scene", scene.description->name},
+          {"Scenario", scene.scenario.name},
+          {"View", camera.name}};
+}
+
+void add_xyz(ExrImage& image, const std::string& prefix, const XyzPicture& light) {
+  for (const size_t c : {size_t{0}, size_t{1}, size_t{2}}) {
+    std::vector<float> values(light.pixels());
+    for (size_t i = 0; i < values.size(); ++i) values[i] = light.xyz[3 * i + c];
+    image.channels.push_back({prefix + "XYZ"[c], std::move(values)});
+  }
+  image.channels.push_back({prefix + "scotopic", light.scotopic});
+}
+
+/// Features by the names that renderers and filters give them.
+void add_features(ExrImage& image, const NoisyPicture& noisy) {
+  constexpr std::array<const char*, picture_features> names{
+      "N.X", "N.Y", "N.Z", "nearness", "transmittance", "albedo.X", "albedo.Y", "albedo.Z"};
+  for (size_t k = 0; k < picture_features; ++k) {
+    std::vector<float> values(noisy.pixels());
+    for (size_t i = 0; i < values.size(); ++i) values[i] = noisy.features[picture_features * i + k];
+    image.channels.push_back({names[k], std::move(values)});
+  }
+}
+
+/// Angle of view of a pixel in the middle, from bottom to top.
+double degrees_per_pixel(const Camera& camera) {
+  return glm::degrees(2 * std::tan(glm::radians(camera.vertical_fov_deg) / 2) / camera.height);
+}
+
+ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view) {
+  const TracedPicture& traced = view.traced;
+  const FilteredView* filtered = view.filtered ? &*view.filtered : nullptr;
+  ExrImage image;
+  image.width = camera.width;
+  image.height = camera.height;
+  const size_t pixels = traced.light.pixels();
+  add_xyz(image, "", traced.light);
+  for (const char* name : {"R", "G", "B"})
+    image.channels.push_back({name, std::vector<float>(pixels)});
+  const glm::dmat3 to_rgb = srgb_from_xyz();
+  for (size_t i = 0; i < pixels; ++i) {
+    const float* xyz = &traced.light.xyz[3 * i];
+    const glm::dvec3 rgb = to_rgb * glm::dvec3(xyz[0], xyz[1], xyz[2]);
+    for (size_t c = 0; c < 3; ++c)
+      image.channels[light_channels + c].values[i] = static_cast<float>(rgb[static_cast<int>(c)]);
+  }
+  // An error needs two paths: where there are none, there is no channel of it, instead of NaN.
+  const bool has_error = view.paths >= 2;
+  if (has_error) {
+    image.channels.push_back({"standard_error.Y", traced.standard_error_y});
+    image.channels.push_back({"flux_error.Y", traced.flux_error_y});
+  }
+  if (filtered != nullptr) {
+    add_xyz(image, "filtered.", filtered->light);
+    image.channels.push_back({"filtered_error.Y", filtered->standard_error_y});
+  }
+  add_features(image, traced.noisy);
+  image.chromaticities = Chromaticities{};
+  image.white_luminance_cd_m2 = 1.0f;
+  image.text = texts_of(run, camera);
+  image.text.emplace_back(
+      "comments",
+      std::string("X, Y, Z: CIE 1931, Y in cd/m2. R, G, B: linear sRGB of the same light, not "
+                  "clipped. scotopic: scotopic cd/m2. All as traced, not filtered. ") +
+          (has_error ? "standard_error.Y: of the pixel's paths and of the flux that they end in; "
+                       "flux_error.Y: of the latter alone. "
+                     : "No standard error: it needs two paths per pixel. ") +
+          (filtered != nullptr ? "filtered: the same without most of its noise, and its error by "
+                                 "the difference of two halves. "
+                               : "") +
+          "N: normal; nearness: 1/m; transmittance of smoke up to the surface; albedo: relative to "
+          "white.");
+  image.numbers = {{"paths_per_pixel", static_cast<double>(view.paths)},
+                   {"particles", static_cast<double>(run.particles())},
+                   {"display_white_cd_m2", view.human.display.white_cd_m2},
+                   {"display_black_cd_m2", view.human.display.black_cd_m2},
+                   {"degrees_per_pixel", degrees_per_pixel(camera)}};
+  return image;
+}
+
+/// Light that an eye or a camera takes for white: within this of black bodies of these
+/// temperatures. Flames alone stay orange.
+constexpr double min_white_kelvin = 2500, max_white_kelvin = 10000, max_white_duv = 0.02;
+
+/// The picture as it looks to who is adapted to the scene's lamps, on a monitor whose white is D65.
+XyzPicture white_balanced(const CompiledScene& scene, XyzPicture picture) {
+  Xyz light{0, 0, 0};
+  for (const Group& g : scene.groups) {
+    for (int b = 0; b < scene.bands.count(); ++b) {
+      const double watts = g.power_w[static_cast<size_t>(b)];
+      light[0] += watts * scene.bands[b].x_per_w;
+      light[1] += watts * scene.bands[b].lm_per_w;
+      light[2] += watts * scene.bands[b].z_per_w;
+    }
+  }
+  const ColourTemperature white = correlated_colour_temperature(light);
+  if (white.kelvin < min_white_kelvin || white.kelvin > max_white_kelvin ||
+      white.duv > max_white_duv) {
+    return picture;
+  }
+  for (size_t i = 0; i < picture.pixels(); ++i) {
+    float* p = &picture.xyz[3 * i];
+    const Xyz colour{static_cast<double>(p[0]), static_cast<double>(p[1]),
+                     static_cast<double>(p[2])};
+    const Xyz seen = adapt_white(colour, light, d65_white);
+    // Scaled back to the pixel's own luminance: adaptation is to change colours only.
+    const double scale = seen[1] > 0 ? colour[1] / seen[1] : 0;
+    for (size_t c = 0; c < 3; ++c) p[c] = static_cast<float>(seen[c] * scale);
+  }
+  return picture;
+}
+
+PngImage png_of(SrgbPicture picture, std::vector<ImageText> texts, const std::string& description) {
+  texts.emplace_back("Description", description);
+  return {picture.width, picture.height, std::move(picture.rgb), std::move(texts)};
+}
+
+FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera, const ShownView& view) {
+  const SceneDescription& scene = *run.scene().description;
+  FalseColourPicture p;
+  p.title = "View \"" + camera.name + "\"";
+  p.subtitle = (scene.title.empty() ? scene.name : scene.title) + ", scenario \"" +
+               run.scene().scenario.name + "\"";
+  p.quantity = "Luminance";
+  p.unit = "cd/m2";
+  p.label_u = "from the left edge";
+  p.label_v = "from the lower edge";
+  p.length_unit = "px";
+  p.cells_u = camera.width;
+  p.cells_v = camera.height;
+  p.length_u_m = camera.width;
+  p.length_v_m = camera.height;
+  p.scale = ColourScale::logarithmic;
+  p.smooth = false;
+  p.mark_minimum = false;
+  const auto width = static_cast<size_t>(camera.width);
+  for (size_t row = static_cast<size_t>(camera.height); row-- > 0;) {
+    for (size_t column = 0; column < width; ++column) {
+      p.values.push_back(
+          static_cast<double>(view.traced.light.xyz[3 * (row * width + column) + 1]));
+    }
+  }
+  p.notes = {std::to_string(view.paths) + " paths per pixel, flux of " +
+             std::to_string(run.particles()) + " particles"};
+  p.text = texts_of(run, camera);
+  return p;
+}
+
+/// The limits of sight that a human view heeds.
+std::string limits_of_sight(const HumanTone& human) {
+  std::string out = "contrast";
+  if (human.glare) out += ", glare";
+  if (human.lose_acuity) out += ", acuity";
+  if (human.lose_colour) out += ", colour";
+  return out;
+}
+
+/// What an eye before the picture sees.
+PngImage human_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced,
+                   HumanTone human) {
+  human.degrees_per_pixel = degrees_per_pixel(camera);
+  const DisplayModel& display = human.display;
+  std::vector<ImageText> texts = texts_of(run, camera);
+  texts.emplace_back("Display white [cd/m2]", fmt::format("{:g}", display.white_cd_m2));
+  texts.emplace_back("Display black [cd/m2]", fmt::format("{:g}", display.black_cd_m2));
+  texts.emplace_back("Degrees per pixel", fmt::format("{:.6g}", human.degrees_per_pixel));
+  texts.emplace_back("Limits of sight", limits_of_sight(human));
+  return png_of(tone_human(balanced, human), texts,
+                fmt::format("What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko "
+                            "1997), shown on a monitor of {:g} cd/m2; luminance data is in the EXR "
+                            "file",
+                            display.white_cd_m2));
+}
+
+PngImage plain_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced) {
+  return png_of(tone_plain(balanced, {}), texts_of(run, camera),
+                "One exposure, white balanced, as a camera takes it; luminance data is in the EXR "
+                "file");
+}
+
+/// A picture of half the size, enlarged: linear between its pixels.
+XyzPicture enlarged(const XyzPicture& half, int width, int height) {
+  XyzPicture out{width, height, {}, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int x0 = x / 2, x1 = std::min(x0 + x % 2, half.width - 1);
+      const int y0 = y / 2, y1 = std::min(y0 + y % 2, half.height - 1);
+      const auto mean = [&](const std::vector<float>& values, size_t stride, size_t c) {
+        const auto at = [&](int column, int row) {
+          return values[stride * (static_cast<size_t>(row) * static_cast<size_t>(half.width) +
+                                  static_cast<size_t>(column)) +
+                        c];
+        };
+        return (at(x0, y0) + at(x1, y0) + at(x0, y1) + at(x1, y1)) / 4;
+      };
+      for (const size_t c : {size_t{0}, size_t{1}, size_t{2}})
+        out.xyz.push_back(mean(half.xyz, 3, c));
+      out.scotopic.push_back(mean(half.scotopic, 1, 0));
+    }
+  return out;
+}
+
+}  // namespace
+
+ShownView::ShownView(TracedPicture picture, int paths_per_pixel, const PictureOptions& options,
+                     int threads, const RegressionFilter& filter)
+    : traced(std::move(picture)), paths(paths_per_pixel), human(options.human) {
+  if (paths >= min_filtered_paths) filtered = filter_traced(traced, threads, filter);
+  raw = options.raw || !filtered;
+}
+
+double ShownView::error() const {
+  return raw ? relative_error(traced.light, traced.standard_error_y)
+             : relative_error(filtered->light, filtered->standard_error_y);
+}
+
+namespace {
+
+PngImage image_of(bool human, const LocalRun& run, const Camera& camera, const XyzPicture& light,
+                  const HumanTone& tone) {
+  const XyzPicture balanced = white_balanced(run.scene(), light);
+  return human ? human_png(run, camera, balanced, tone) : plain_png(run, camera, balanced);
+}
+
+}  // namespace
+
+PngImage shown_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& view) {
+  return image_of(human, run, camera, view.shown(), view.human);
+}
+
+PngImage first_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& half) {
+  return image_of(human, run, camera, enlarged(half.shown(), camera.width, camera.height),
+                  half.human);
+}
+
+Result<void> write_shown_png(const std::filesystem::path& file, bool human, const LocalRun& run,
+                             const Camera& camera, const ShownView& view) {
+  return write_png(file, shown_image(human, run, camera, view));
+}
+
+Result<void> write_view_file(const std::filesystem::path& stem, ViewFile file, const LocalRun& run,
+                             const Camera& camera, const ShownView& view) {
+  const auto path = [&](const char* ending) { return std::filesystem::path(stem) += ending; };
+  switch (file) {
+    case ViewFile::light:
+      return write_exr(path(".exr"), exr_of(run, camera, view));
+    case ViewFile::plain:
+      return write_shown_png(path(".png"), false, run, camera, view);
+    case ViewFile::human:
+      return write_shown_png(path("_human.png"), true, run, camera, view);
+    case ViewFile::luminance:
+      break;
+  }
+  if (!is_mapped(camera)) return {};
+  return write_false_colour_png(path("_luminance.png"), luminance_map(run, camera, view));
+}
+
+Result<void> write_first_view(const std::filesystem::path& stem, const LocalRun& run,
+                              const Camera& camera, const ShownView& half) {
+  return write_png(std::filesystem::path(stem) += ".png", first_image(false, run, camera, half));
+}
+
+}  // namespace luxodus

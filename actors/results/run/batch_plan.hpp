@@ -1,0 +1,42 @@
+// Which batch is what: batch k belongs to one source group and is a fixed range of its particle
+// ids. A pure function of the scene, so nodes, threads and resumed runs agree on it without
+// talking.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scenes/light/transport/compiled_scene.hpp"
+
+namespace luxodus {
+
+struct Batch {
+  int64_t number = 0;
+  int group = 0;
+  uint64_t first_particle = 0;
+};
+
+class BatchPlan {
+ public:
+  explicit BatchPlan(const CompiledScene& scene);
+
+  /// The next batch in order.
+  Batch next();
+  /// Skips to where `count` batches have been given out.
+  void skip(int64_t count);
+  int64_t given() const { return given_; }
+  /// Of all batches, those of each group [1].
+  const std::vector<double>& shares() const { return share_; }
+
+  /// Batches of the first round, and after that the end of the round that `done` batches lie in:
+  /// rounds grow by a quarter, so that a run oversteps its target by little.
+  int64_t round_end(int64_t done) const;
+
+ private:
+  std::vector<double> share_;
+  std::vector<int64_t> issued_;
+  int64_t batch_particles_;
+  int64_t given_ = 0;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,155 @@
+// A run on this machine: threads that trace batches until a stopping rule holds, all into the same
+// totals. The flux depends on (scene, seed, which batches) only; threads and timing decide how
+// fast, never what.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "actors/results/run/parallel_for.hpp"
+#include "actors/results/run/stopping_rule.hpp"
+#include "scenes/light/transport/readout.hpp"
+#include "scenes/light/transport/trace.hpp"
+
+namespace luxodus {
+
+class LocalRun {
+ public:
+  /// Takes all geometry into memory. Requires: threads >= 1.
+  /// Errors (exception): a packed scene whose triangles cannot be read.
+  LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads);
+  /// Leaves geometry where it is: others trace, and what is computed of the result reaches geometry
+  /// through `rows`.
+  LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads,
+           std::unique_ptr<ParallelFor> rows);
+
+  /// Traces until `stop` holds or `interrupt` is set; batches in flight are finished. May be called
+  /// again to go on. `report` is called about four times a second, from one thread at a time.
+  /// Requires: resident().
+  StopReason run(const StopRule& stop, const std::atomic<bool>& interrupt,
+                 const std::function<void(const Progress&)>& report);
+
+  /// Makes what traces a batch. Called once on each thread.
+  using MakeTracer = std::function<std::unique_ptr<BatchTracer>(
+      const CompiledScene&, const GeometryAccess&, uint64_t seed)>;
+  /// Has batches traced by another loop than the program's own.
+  void trace_with(MakeTracer make) { make_tracer_ = std::move(make); }
+  const MakeTracer& make_tracer() const { return make_tracer_; }
+
+  /// Has `pause` called between batches whenever `due` says so, while nobody adds to the totals and
+  /// these hold all batches() but the missing ones: by run() on its thread, by a coordinator on one
+  /// that reads for it. Until remove_pause() of the same owner. Requires: the run does not go on
+  /// meanwhile.
+  void add_pause(const void* owner, std::function<bool()> due, std::function<void()> pause) {
+    pauses_.push_back({owner, std::move(due), std::move(pause)});
+  }
+  void remove_pause(const void* owner) {
+    std::erase_if(pauses_, [owner](const Pause& pause) { return pause.owner == owner; });
+  }
+  bool pause_is_due() const {
+    return std::any_of(pauses_.begin(), pauses_.end(), [](const Pause& p) { return p.due(); });
+  }
+  void pause_if_due() {
+    for (Pause& pause : pauses_)
+      if (pause.due()) pause.take();
+  }
+
+  /// Goes on from totals that hold the first `batches` batches, but for those `missing`: these are
+  /// traced before others. Requires: `missing` ascend and are among them; batches >= batches().
+  void resume(int64_t batches, std::vector<int64_t> missing = {});
+  /// Adds time that somebody else has traced into the totals.
+  void add_seconds(double seconds) { seconds_ += seconds; }
+  /// What the totals hold took a time that is not known: rates are of what is traced from here on.
+  void forget_time() { untimed_ = {traced(), totals_.balance().rays}; }
+  /// The time that the batches resumed from took is known after all.
+  void add_earlier_seconds(double seconds) {
+    seconds_ += seconds;
+    untimed_ = {};
+  }
+
+  /// What is known of the time that the totals took, to carry over to a copy of the run.
+  struct Timing {
+    double seconds = 0;
+    int64_t untimed_batches = 0;  // resumed from, of unknown time
+    uint64_t untimed_rays = 0;
+  };
+  Timing timing() const { return {seconds_, untimed_.batches, untimed_.rays}; }
+  void set_timing(const Timing& timing) {
+    seconds_ = timing.seconds;
+    untimed_ = {timing.untimed_batches, timing.untimed_rays};
+  }
+
+  /// A run of the same scene without totals, which reaches geometry as this one does.
+  /// Requires: this outlives it.
+  std::unique_ptr<LocalRun> empty_copy() const;
+
+  /// Of the run: which batches it consists of, and where its rounds end.
+  const BatchPlan& plan() const { return plan_; }
+
+  const CompiledScene& scene() const { return *scene_; }
+  const std::shared_ptr<const CompiledScene>& shared_scene() const { return scene_; }
+  bool resident() const { return index_ != nullptr; }
+  /// Requires: resident().
+  const SceneIndex& index() const { return *index_; }
+  /// For work beside tracing that needs geometry.
+  const ParallelFor& rows() const { return *rows_; }
+  Totals& totals() { return totals_; }
+  const Totals& totals() const { return totals_; }
+  const EmbreeDevice& device() const { return device_; }
+  /// Batches given out so far; of these, those that the totals lack: of nodes that were lost.
+  int64_t batches() const { return plan_.given(); }
+  const std::vector<int64_t>& missing() const { return missing_; }
+  int64_t traced() const { return plan_.given() - static_cast<int64_t>(missing_.size()); }
+  int64_t particles() const { return traced() * scene_->batch_particles; }
+  double seconds() const { return seconds_; }
+  /// Of particles() and their rays, those that took seconds().
+  int64_t timed_particles() const {
+    return particles() - untimed_.batches * scene_->batch_particles;
+  }
+  uint64_t timed_rays() const { return totals_.balance().rays - untimed_.rays; }
+  uint64_t seed() const { return seed_; }
+  int threads() const { return threads_; }
+
+ private:
+  class Clock;
+  Batch next_batch();
+  void trace_until(int64_t end, const StopRule& stop, const std::atomic<bool>& interrupt,
+                   const std::function<void(const Progress&)>& report, const Clock& clock);
+  Progress progress(const StopRule& stop, double seconds) const {
+    return progress_of(stop, scene_->batch_particles, batches_at_start_, traced(), seconds, error_);
+  }
+
+  std::shared_ptr<const CompiledScene> scene_;
+  uint64_t seed_;
+  int threads_;
+  EmbreeDevice device_;
+  std::unique_ptr<SceneIndex> index_;
+  std::unique_ptr<ParallelFor> rows_;
+  Totals totals_;
+  BatchPlan plan_;
+  std::vector<int64_t> missing_;
+  std::mutex plan_mutex_;
+  std::atomic<bool> time_is_up_{false};
+  double seconds_ = 0;
+  struct Untimed {
+    int64_t batches = 0;
+    uint64_t rays = 0;
+  };
+  Untimed untimed_;  // resumed from, of unknown time
+  double error_ = 0;
+  int64_t batches_at_start_ = 0;
+  MakeTracer make_tracer_ = make_batch_tracer;
+  struct Pause {
+    const void* owner;
+    std::function<bool()> due;
+    std::function<void()> take;
+  };
+  std::vector<Pause> pauses_;
+};
+
+}  // namespace luxodus

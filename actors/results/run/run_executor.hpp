@@ -1,0 +1,37 @@
+// Who traces a run: threads of this process, nodes that are made for it
+// (actors/cast/process/in_process.hpp), or whoever traces states of a scene (run_in_pieces.hpp).
+// The flux is the same, bit for bit. Thread rule: one caller.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "actors/results/run/local_run.hpp"
+#include "actors/results/run/scene_state.hpp"
+#include "runtime/core/result.hpp"
+
+namespace luxodus {
+
+class RunExecutor {
+ public:
+  virtual ~RunExecutor() = default;
+  /// What those who trace elsewhere, and know the scene's file alone, make the scene of the next
+  /// runs from.
+  virtual void enter(const StateObject& /*state*/) {}
+  /// Traces until `stop` holds or `interrupt` is set, into the run's totals; as LocalRun::run.
+  /// Errors: of nodes: those of run_on_nodes.
+  virtual Result<StopReason> run(LocalRun& run, const StopRule& stop,
+                                 const std::atomic<bool>& interrupt,
+                                 const std::function<void(const Progress&)>& report) = 0;
+};
+
+/// The threads that the run was made for.
+class RunThreads final : public RunExecutor {
+ public:
+  Result<StopReason> run(LocalRun& run, const StopRule& stop, const std::atomic<bool>& interrupt,
+                         const std::function<void(const Progress&)>& report) override {
+    return run.run(stop, interrupt, report);
+  }
+};
+
+}  // namespace luxodus

@@ -1,0 +1,63 @@
+// What stands in a group of an FDS input file, with its type. The first mistake is kept; after it
+// all keys have their defaults. One thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/formats/fds_input/boxes.hpp"
+#include "scenes/formats/fds_input/namelist.hpp"
+
+namespace luxodus::fds_input {
+
+namespace limits {
+/// Coordinates and lengths [m].
+inline constexpr double farthest_m = 1e6;
+}  // namespace limits
+
+class GroupKeys {
+ public:
+  /// `problem`: where the first mistake goes.
+  GroupKeys(const Group& group, const std::string& file, std::optional<Problem>& problem)
+      : group_(group), file_(file), problem_(problem) {}
+
+  const std::string& name() const { return group_.name; }
+  int line() const { return group_.line; }
+  bool has(std::string_view key) const;
+  /// Line of a key, of the group where it has none.
+  int line_of(std::string_view key) const;
+
+  /// At the line of a key.
+  void fail(std::string_view key, const std::string& what);
+  /// "SHAPE of &OBST is not imported: WHAT TO DO", if the group has the key.
+  void refuse(std::string_view key, const std::string& what_to_do);
+
+  /// Without blanks at its end, as Fortran compares texts.
+  std::string text(std::string_view key, const std::string& otherwise = "");
+  std::vector<std::string> texts(std::string_view key);
+  bool flag(std::string_view key, bool otherwise);
+  double number(std::string_view key, double otherwise);
+  int integer(std::string_view key, int otherwise);
+  /// All numbers of a key; each finite.
+  std::vector<double> numbers(std::string_view key);
+  /// Of an array of `otherwise`'s size; elements that are not given keep it.
+  std::vector<double> array(std::string_view key, std::vector<double> otherwise);
+  /// Six coordinates, put in order. Errors: fewer.
+  std::optional<Box> box(std::string_view key);
+  /// 0 to 255 each, as 0 to 1; nothing where there is no such key.
+  std::optional<glm::dvec3> rgb(std::string_view key);
+
+ private:
+  const Parameter* last(std::string_view key) const;
+  std::optional<double> number_of(std::string_view key, const Value& value);
+
+  const Group& group_;
+  const std::string& file_;
+  std::optional<Problem>& problem_;
+};
+
+}  // namespace luxodus::fds_input

@@ -1,0 +1,29 @@
+// The groups of an FDS input file and of the files that &CATF names in it. Any thread.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scenes/formats/fds_input/namelist.hpp"
+
+namespace luxodus::fds_input {
+
+struct InputFile {
+  std::string name;
+  std::unique_ptr<const std::string> text;  // which the groups view
+  std::vector<Group> groups;
+};
+
+struct InputFiles {
+  std::string main;
+  std::vector<InputFile> files;  // the main one first
+};
+
+/// Files of &CATF lie in the folder of `file` or below it, links followed; what they say of &HEAD
+/// and behind &TAIL does not count, as for FDS.
+/// Errors: as namelist.hpp; a file that cannot be read, lies elsewhere, or names others itself.
+Result<InputFiles> read_input_files(const std::filesystem::path& file);
+
+}  // namespace luxodus::fds_input

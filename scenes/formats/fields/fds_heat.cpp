@@ -1,0 +1,103 @@
+#include "scenes/formats/fields/fds_heat.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "runtime/core/regular_file.hpp"
+#include "scenes/formats/fields/data_set_fields.hpp"
+#include "scenes/formats/fields/fds_frames.hpp"
+
+namespace luxodus::fds {
+
+namespace {
+
+/// A time behind the last line by less is taken as that line [s].
+constexpr double heat_window_s = 1;
+
+std::vector<std::string_view> comma_fields(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (size_t from = 0; from <= line.size();) {
+    const size_t comma = std::min(line.find(',', from), line.size());
+    std::string_view field = data_set::trimmed(line.substr(from, comma - from));
+    if (field.size() > 1 && field.front() == '"' && field.back() == '"')
+      field = field.substr(1, field.size() - 2);
+    fields.push_back(field);
+    from = comma + 1;
+  }
+  return fields;
+}
+
+struct HeatLine {
+  double time_s = 0;
+  double heat_kw = 0;
+};
+
+struct HeatTable {
+  std::vector<HeatLine> lines;
+};
+
+/// The first line has units, the second the names of the columns.
+Result<HeatTable> heat_table(const std::string& file, std::string_view text) {
+  HeatTable out;
+  size_t time_column = 0, heat_column = 0;
+  for (int number = 1; !text.empty(); ++number) {
+    const size_t end = text.find('\n');
+    if (end == std::string_view::npos && number > 2) break;  // cut off: of a run in progress
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    if (number == 1 || data_set::trimmed(line).empty()) continue;
+    const auto fields = comma_fields(line);
+    if (number == 2) {
+      const auto column = [&](std::string_view name) {
+        return static_cast<size_t>(std::find(fields.begin(), fields.end(), name) - fields.begin());
+      };
+      time_column = column("Time");
+      heat_column = column("HRR");
+      if (std::max(time_column, heat_column) >= fields.size())
+        return problem_in(file, number, "there are no columns Time and HRR");
+      continue;
+    }
+    const auto at = [&](size_t column) {
+      return column < fields.size() ? data_set::number_in<double>(fields[column]) : std::nullopt;
+    };
+    const auto time = at(time_column), heat = at(heat_column);
+    if (!time || !heat || !std::isfinite(*time) || !std::isfinite(*heat))
+      return problem_in(file, number, "the time or the heat release is no number");
+    if (!out.lines.empty() && *time < out.lines.back().time_s)
+      return problem_in(file, number, "its time lies before that of the line above");
+    out.lines.push_back({*time, *heat});
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<double> heat_release_kw(const Case& fire, double time_s) {
+  if (!fire.heat_release_file)
+    return problem_in(fire.file, "the index names no _hrr.csv: the power of flames is not known");
+  const std::string file = fire.heat_release_file->string();
+  if (!lies_within(fire, *fire.heat_release_file))
+    return problem_in(file, "this file is not in the folder of its index");
+  const auto text = read_regular_file(*fire.heat_release_file, limits::heat_release_bytes);
+  if (!text) return text.problem();
+  const auto table = heat_table(file, text.value());
+  if (!table) return table.problem();
+  const auto& lines = table->lines;
+  const auto next = std::find_if(lines.begin(), lines.end(),
+                                 [&](const HeatLine& l) { return l.time_s >= time_s; });
+  if (next == lines.end()) {
+    if (!lines.empty() && time_s <= lines.back().time_s + heat_window_s)
+      return lines.back().heat_kw;
+    return problem_in(file, fmt::format("it ends at {:g} s, and {:g} s are asked for",
+                                        lines.empty() ? 0 : lines.back().time_s, time_s));
+  }
+  if (next == lines.begin() || !(next->time_s > (next - 1)->time_s)) return next->heat_kw;
+  const HeatLine& before = *(next - 1);
+  const double share = (time_s - before.time_s) / (next->time_s - before.time_s);
+  return before.heat_kw + share * (next->heat_kw - before.heat_kw);
+}
+
+}  // namespace luxodus::fds

@@ -1,0 +1,75 @@
+// What an IFC model (2x3, 4, 4x3) says of a building, without its shapes: products with their
+// GlobalIds, types, storeys, materials, properties and authored volumes, in metres and scene axes
+// (z up). Entities and attributes are those of the schemas of buildingSMART. What is missing or
+// refers to nothing is left out and told by its number; nothing is guessed. Immutable; any thread.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+#include "scenes/formats/ifc/step_file.hpp"
+#include "scenes/light/geometry/transform.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Placements relative to each other, spatial parts within each other.
+inline constexpr int ifc_chain = 64;
+/// Faults of instances that are kept; those of the text are bounded by step_faults.
+inline constexpr size_t ifc_faults = 10'000;
+}  // namespace limits
+
+/// What a photometric light source of a product says (IfcLightSourceGoniometric).
+struct IfcLightSource {
+  glm::dvec3 position{0};  // in scene coordinates [m]
+  glm::dvec3 axis{0, 0, -1};
+  std::string document;  // name of the photometric file that it refers to; "" where none
+};
+
+struct IfcProduct {
+  uint64_t id = 0;   // of the instance: "#38"
+  std::string guid;  // GlobalId, 22 characters
+  std::string kind;  // "WALL" of IFCWALLSTANDARDCASE: without IFC and without what narrows it
+  std::string name, long_name, object_type, tag;
+  std::string type_name;               // of its type object
+  std::string type_class;              // "IFCLIGHTFIXTURETYPE"
+  std::string predefined;              // SECURITYLIGHTING; of the product or its type
+  std::string operation;               // SINGLE_SWING_LEFT, of doors
+  std::string storey;                  // name of the storey that contains it; "" where none does
+  std::vector<std::string> materials;  // layers from the outside in, or all that are named
+  std::string layer;                   // of the presentation (CAD)
+  Transform placement;
+  bool has_shape = false;           // or what should become one
+  std::optional<double> volume_m3;  // as authored; net where both are said
+  uint64_t fills = 0, voids = 0;    // id of the opening it fills, of the element it voids
+  std::map<std::string, std::string> properties;  // "Pset_DoorCommon.FireExit" -> "T"
+  std::optional<IfcLightSource> light;
+
+  /// Of a property set's property, "SET.NAME"; "" where it is not said.
+  std::string property(const std::string& path) const;
+};
+
+struct IfcStorey {
+  std::string name;
+  double elevation_m = 0;
+};
+
+struct IfcModel {
+  std::string file, schema, project;
+  double metres_per_unit = 1;
+  std::vector<IfcStorey> storeys;    // upwards
+  std::vector<IfcProduct> products;  // in the order of the file
+  std::vector<Problem> faults;       // what could not be read, with lines or numbers
+  size_t more_faults = 0;            // that are not among them: there are too many
+};
+
+/// Reads a model from its bytes; `reading`, where given, hears how far it is.
+/// Errors: no such file, no unit of length, more than the limits.
+Result<IfcModel> ifc_model_of(std::string bytes, const std::string& file,
+                              ReadingShare* reading = nullptr);
+
+}  // namespace luxodus

@@ -1,0 +1,158 @@
+#include "scenes/formats/photometry/photometric_table.hpp"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace luxodus {
+namespace {
+
+// Width of the step from the last listed value to darkness. Its light is below 1e-5 of a full
+// cell's, and a double still resolves it to eight digits.
+constexpr double edge_deg = 1e-5;
+
+// Two planes closer than this are one plane, written twice or met by its own mirror image.
+constexpr double same_plane_deg = 1e-6;
+
+double on_circle(double azimuth) {
+  const double turned = azimuth - 360 * std::floor(azimuth / 360);
+  return turned >= 360 - same_plane_deg ? 0.0 : turned;
+}
+
+using Planes = std::map<double, const std::vector<double>*>;
+
+void put(Planes& planes, double azimuth, const std::vector<double>* values) {
+  const double at = on_circle(azimuth);
+  const auto next = planes.lower_bound(at - same_plane_deg);
+  if (next != planes.end() && next->first <= at + same_plane_deg) return;
+  planes.emplace(at, values);
+}
+
+/// Mirror images of a plane, itself first.
+std::vector<double> images(double azimuth, WebSymmetry symmetry) {
+  switch (symmetry) {
+    case WebSymmetry::about_0_180:
+      return {azimuth, 360 - azimuth};
+    case WebSymmetry::about_90_270:
+      return {azimuth, 180 - azimuth};
+    case WebSymmetry::about_both:
+      return {azimuth, 360 - azimuth, 180 - azimuth, 180 + azimuth};
+    case WebSymmetry::none:
+    case WebSymmetry::rotational:
+      break;
+  }
+  return {azimuth};
+}
+
+}  // namespace
+
+glm::dmat3 type_c_axes() {
+  return glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1));
+}
+
+glm::dmat3 type_b_axes() {
+  return glm::dmat3(glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0));
+}
+
+PhotometricTable around(const PhotometricTable& table, WebSymmetry symmetry, double gap_deg) {
+  PhotometricTable whole;
+  whole.polar_deg = table.polar_deg;
+  if (symmetry == WebSymmetry::rotational) {
+    whole.azimuth_deg = {0, 360};
+    whole.columns = {table.columns.front(), table.columns.front()};
+    return whole;
+  }
+  Planes planes;
+  for (size_t a = 0; a < table.columns.size(); ++a) {
+    for (double image : images(table.azimuth_deg[a], symmetry)) {
+      put(planes, image, &table.columns[a]);
+    }
+  }
+  const std::vector<double> dark(table.polar_deg.size(), 0.0);
+  const Planes listed = planes;
+  for (auto it = listed.begin(); it != listed.end(); ++it) {
+    const bool last = std::next(it) == listed.end();
+    const double following = last ? listed.begin()->first + 360 : std::next(it)->first;
+    if (following - it->first <= gap_deg) continue;
+    put(planes, it->first + edge_deg, &dark);
+    put(planes, following - edge_deg, &dark);
+  }
+  // The circle must be cut at 0: where no plane stands there, both neighbours' interpolation gives
+  // it.
+  std::vector<double> seam;
+  if (planes.begin()->first > 0) {
+    const auto [after, near] = *planes.begin();
+    const auto [before, far] = *planes.rbegin();
+    const double s = (360 - before) / (360 - before + after);
+    for (size_t p = 0; p < dark.size(); ++p) {
+      seam.push_back((1 - s) * (*far)[p] + s * (*near)[p]);
+    }
+    planes.emplace(0.0, &seam);
+  }
+  for (const auto& [azimuth, values] : planes) {
+    whole.azimuth_deg.push_back(azimuth);
+    whole.columns.push_back(*values);
+  }
+  whole.azimuth_deg.push_back(360);
+  whole.columns.push_back(whole.columns.front());
+  return whole;
+}
+
+PhotometricTable pole_to_pole(PhotometricTable table) {
+  std::vector<double>& polar = table.polar_deg;
+  const auto add = [&table](bool in_front, double angle) {
+    std::vector<double>& angles = table.polar_deg;
+    angles.insert(in_front ? angles.begin() : angles.end(), angle);
+    for (auto& column : table.columns) {
+      column.insert(in_front ? column.begin() : column.end(), 0.0);
+    }
+  };
+  if (polar.front() > 2 * edge_deg) {
+    add(true, polar.front() - edge_deg);
+    add(true, 0);
+  }
+  if (polar.back() < 180 - 2 * edge_deg) {
+    add(false, polar.back() + edge_deg);
+    add(false, 180);
+  }
+  polar.front() = 0;
+  polar.back() = 180;
+  return table;
+}
+
+Result<std::shared_ptr<const PhotometricWeb>> web_of(const PhotometricTable& table,
+                                                     const glm::dmat3& axes,
+                                                     const SourcePlace& where) {
+  std::vector<double> candela;
+  candela.reserve(table.azimuth_deg.size() * table.polar_deg.size());
+  for (const auto& column : table.columns) {
+    candela.insert(candela.end(), column.begin(), column.end());
+  }
+  auto web = PhotometricWeb::make(table.azimuth_deg, table.polar_deg, std::move(candela), axes);
+  if (!web) return problem_in(where, web.problem().what);
+  return std::shared_ptr<const PhotometricWeb>(
+      std::make_shared<PhotometricWeb>(std::move(web).value()));
+}
+
+double down_share_of(const PhotometricWeb& web) {
+  constexpr int polar_steps = 360;
+  constexpr int azimuth_steps = 360;
+  constexpr double pi = std::numbers::pi;
+  double down = 0;
+  double all = 0;
+  for (int p = 0; p < polar_steps; ++p) {
+    const double polar = (p + 0.5) * pi / polar_steps;
+    double ring = 0;
+    for (int a = 0; a < azimuth_steps; ++a) {
+      const double azimuth = (a + 0.5) * 2 * pi / azimuth_steps;
+      ring += web.intensity({std::sin(polar) * std::cos(azimuth),
+                             std::sin(polar) * std::sin(azimuth), -std::cos(polar)});
+    }
+    all += ring * std::sin(polar);
+    if (polar < pi / 2) down += ring * std::sin(polar);
+  }
+  return all > 0 ? down / all : 0;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,47 @@
+// From the part of the sphere that a photometric file lists to a web over all of it: planes
+// mirrored as the file's symmetry says, angles that it leaves out dark. Shared by the EULUMDAT and
+// the IES reader. Pure functions; any thread.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+#include "scenes/light/optics/photometric_web.hpp"
+
+namespace luxodus {
+
+/// Listed half-planes: `columns[a][p]` [cd] at azimuth a and polar angle p, polar angles ascending.
+struct PhotometricTable {
+  std::vector<double> azimuth_deg;
+  std::vector<double> polar_deg;
+  std::vector<std::vector<double>> columns;
+};
+
+/// The planes in which a table is mirrored to cover the circle.
+enum class WebSymmetry { none, rotational, about_0_180, about_90_270, about_both };
+
+/// C-type tables: pole -Z, azimuth 0 along +X, azimuth 90 along +Y.
+glm::dmat3 type_c_axes();
+/// B-type tables, polar angle = 90 + H, azimuth = V: pole +Y, azimuth 0 along -Z, azimuth 90 along
+/// +X.
+glm::dmat3 type_b_axes();
+
+/// Whole circle of planes from 0 to 360 degrees. Where the table leaves a gap wider than `gap_deg`
+/// between two neighbouring planes, the gap is dark; 360 and above: planes are always joined.
+PhotometricTable around(const PhotometricTable& table, WebSymmetry symmetry, double gap_deg = 360);
+
+/// Whole range of polar angles from 0 to 180 degrees: dark where the table says nothing.
+PhotometricTable pole_to_pole(PhotometricTable table);
+
+/// The web of a whole table. `where`: for messages about it.
+Result<std::shared_ptr<const PhotometricWeb>> web_of(const PhotometricTable& table,
+                                                     const glm::dmat3& axes,
+                                                     const SourcePlace& where);
+
+/// Share of the web's flux below the horizontal plane of the luminaire, to the accuracy of a
+/// 0.5 degree midpoint rule (about 1e-4).
+double down_share_of(const PhotometricWeb& web);
+
+}  // namespace luxodus

@@ -1,0 +1,111 @@
+// Routes, areas, points of emphasis, and how people are taken to be.
+#include <algorithm>
+#include <span>
+
+#include "scenes/emergency/rule_sets.hpp"
+#include "scenes/formats/scene_file/scene_readers.hpp"
+#include "scenes/light/geometry/polygon.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Two points of a path nearer than this are one, which has no direction [m].
+constexpr double shortest_leg_m = 0.01;
+
+AssessedArea read_area(KeyReader& keys, const char* kind) {
+  AssessedArea area;
+  area.name = read_name(keys, kind);
+  area.place = keys.place();
+  area.ifc_guid = keys.text("ifc_guid");
+  area.z_m = keys.number("z");
+  const auto outline = keys.corners("outline");
+  if (!keys.clean()) return area;
+  auto checked = checked_outline(outline);
+  if (!checked)
+    keys.problem("outline", checked.problem().what);
+  else
+    area.outline = std::move(checked).value();
+  return area;
+}
+
+/// Names that are none are told here, with their line; what goes with what, where all files are
+/// read.
+void check_names(KeyReader& keys, const char* key, const std::vector<std::string>& names,
+                 std::span<const NamedRules> known) {
+  std::string all;
+  for (const NamedRules& one : known) all += (all.empty() ? "" : ", ") + std::string(one.id);
+  for (const std::string& name : names)
+    if (std::none_of(known.begin(), known.end(),
+                     [&](const NamedRules& one) { return one.id == name; }))
+      keys.problem(key, "there is no \"" + name + "\" in '" + key + "'; there are: " + all);
+}
+
+}  // namespace
+
+void read_assessment(const toml::Table& table, SceneReading& reading) {
+  KeyReader keys(table, {"assessment"}, reading);
+  AssessmentSettings& s = reading.scene.assessment;
+  // Of several files of a scene each may say a part: what one leaves out stands.
+  const auto says = [&](const char* key) { return keys.has(key); };
+  s.place = keys.place();
+  if (says("age_years")) s.age_years = keys.number("age_years");
+  if (says("eye_heights_m")) {
+    s.eye_heights_m = keys.numbers("eye_heights_m");
+    if (keys.clean() && s.eye_heights_m.empty())
+      keys.problem("eye_heights_m", "'eye_heights_m' names no height");
+  }
+  if (says("spacing_m")) s.spacing_m = keys.number("spacing_m");
+  if (says("smoke_expected")) s.smoke_expected = keys.flag("smoke_expected");
+  if (says("irritant_smoke")) s.irritant_smoke = keys.flag("irritant_smoke");
+  if (says("rules")) {
+    s.rules = keys.texts("rules");
+    check_names(keys, "rules", s.rules, rule_sets());
+  }
+  if (says("deviations")) {
+    s.deviations = keys.texts("deviations");
+    check_names(keys, "deviations", s.deviations, deviations());
+  }
+}
+
+void read_route(const toml::Table& table, SceneReading& reading) {
+  KeyReader keys(table, {"route"}, reading);
+  EscapeRoute r;
+  r.name = read_name(keys, "route");
+  r.place = keys.place();
+  r.path = keys.points("path");
+  r.width_m = keys.number("width");
+  if (keys.clean() && r.path.size() < 2) keys.problem("path", "'path' needs two points at least");
+  for (size_t i = 1; i < r.path.size() && keys.clean(); ++i)
+    if (glm::length(glm::dvec2(r.path[i] - r.path[i - 1])) < shortest_leg_m)
+      keys.problem("path", "points " + std::to_string(i) + " and " + std::to_string(i + 1) +
+                               " of 'path' are less than 1 cm apart, seen from above");
+  reading.scene.routes.push_back(std::move(r));
+}
+
+void read_open_area(const toml::Table& table, SceneReading& reading) {
+  KeyReader keys(table, {"open_area"}, reading);
+  reading.scene.open_areas.push_back(read_area(keys, "open_area"));
+}
+
+void read_task_area(const toml::Table& table, SceneReading& reading) {
+  KeyReader keys(table, {"task_area"}, reading);
+  AssessedArea area = read_area(keys, "task_area");
+  area.mains_lx = keys.number("mains_lx");
+  reading.scene.task_areas.push_back(std::move(area));
+}
+
+void read_emphasis(const toml::Table& table, SceneReading& reading) {
+  KeyReader keys(table, {"emphasis"}, reading);
+  EmphasisPoint p;
+  p.name = read_name(keys, "emphasis");
+  p.place = keys.place();
+  p.position = keys.point("position");
+  p.facing = keys.maybe_direction("facing");
+  const auto word = std::find(emphasis_words.begin(), emphasis_words.end(), keys.choice("kind"));
+  if (word != emphasis_words.end())
+    p.kind = static_cast<EmphasisKind>(word - emphasis_words.begin());
+  reading.scene.emphasis.push_back(std::move(p));
+}
+
+}  // namespace luxodus

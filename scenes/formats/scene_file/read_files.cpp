@@ -1,0 +1,124 @@
+#include "scenes/formats/scene_file/read_files.hpp"
+
+#include <fmt/format.h>
+
+#include "runtime/core/reading_share.hpp"
+#include "scenes/formats/images/image_file.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Of a mesh that is kept after it was read: furniture that stands in every room is smaller, and a
+/// building is placed once.
+constexpr size_t kept_vertices = 100'000;
+
+struct ReadMesh {
+  std::vector<ImportedPart> parts;
+  std::vector<std::string> files;
+};
+
+bool is_small(const std::vector<ImportedPart>& parts) {
+  size_t vertices = 0;
+  for (const ImportedPart& part : parts) vertices += part.mesh.positions.size();
+  return vertices <= kept_vertices;
+}
+
+}  // namespace
+
+void take_problem(const Problem& problem, const SourcePlace& place, SceneReading& reading) {
+  if (problem.where.file.empty()) {
+    reading.problem(place, problem.what);
+  } else {
+    reading.problem(problem.where, problem.what + " (named at " + place.file + ":" +
+                                       std::to_string(place.line) + ")");
+  }
+}
+
+bool take_hash(const std::filesystem::path& path, const SourcePlace& place, SceneReading& reading,
+               FileLife life) {
+  const auto failed = reading.hash_file(path, life);
+  if (failed) take_problem(*failed, place, reading);
+  return !failed;
+}
+
+std::shared_ptr<const Image> read_image(const std::filesystem::path& path, const SourcePlace& place,
+                                        SceneReading& reading) {
+  const auto [it, fresh] = reading.cache.try_emplace("image " + path.string());
+  auto& kept = it->second;  // null where it failed before: said once is enough
+  if (fresh) {
+    if (!take_hash(path, place, reading)) return nullptr;
+    auto image = read_png(path.string());
+    if (!image) {
+      take_problem(image.problem(), place, reading);
+      return nullptr;
+    }
+    kept = std::make_shared<const Image>(std::move(image).value());
+  }
+  return std::static_pointer_cast<const Image>(kept);
+}
+
+std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::path& path,
+                                                       const SourcePlace& place,
+                                                       SceneReading& reading) {
+  const auto [it, fresh] = reading.cache.try_emplace("photometry " + path.string());
+  auto& kept = it->second;  // null where it failed before: said once is enough
+  if (fresh) {
+    if (!take_hash(path, place, reading)) return nullptr;
+    auto file = read_photometric_file(path);
+    if (!file) {
+      take_problem(file.problem(), place, reading);
+      return nullptr;
+    }
+    for (const auto& other : file->files_read) take_hash(other, place, reading);
+    for (const auto& w : file->warnings) reading.warning(w.where, w.what);
+    kept = std::make_shared<const PhotometricFile>(std::move(file).value());
+  }
+  return std::static_pointer_cast<const PhotometricFile>(kept);
+}
+
+std::shared_ptr<const GldfProduct> read_container(const std::filesystem::path& path,
+                                                  const SourcePlace& place, SceneReading& reading) {
+  const auto [it, fresh] = reading.cache.try_emplace("container " + path.string());
+  auto& kept = it->second;  // null where it failed before: said once is enough
+  if (fresh) {
+    if (!take_hash(path, place, reading)) return nullptr;
+    auto product = read_gldf(path);
+    if (!product) {
+      take_problem(product.problem(), place, reading);
+      return nullptr;
+    }
+    kept = std::make_shared<const GldfProduct>(std::move(product).value());
+  }
+  return std::static_pointer_cast<const GldfProduct>(kept);
+}
+
+std::optional<std::vector<ImportedPart>> read_mesh(const std::filesystem::path& path,
+                                                   double metres_per_unit, UpAxis up,
+                                                   const SourcePlace& place,
+                                                   SceneReading& reading) {
+  if (!take_hash(path, place, reading)) return std::nullopt;
+  const std::string name =
+      fmt::format("mesh {} {} {}", metres_per_unit, static_cast<int>(up), path.string());
+  if (const auto it = reading.cache.find(name); it != reading.cache.end()) {
+    const auto kept = std::static_pointer_cast<const ReadMesh>(it->second);
+    std::error_code gone;
+    const uint64_t bytes = std::filesystem::file_size(path, gone);
+    const ReadingPart foreseen(reading.share, gone ? 0 : bytes);
+    for (const auto& file : kept->files) take_hash(file, place, reading);
+    return kept->parts;
+  }
+  std::vector<std::string> files;
+  auto parts = import_mesh(path.string(), metres_per_unit, up, &files, reading.share);
+  for (const auto& file : files) take_hash(file, place, reading);
+  if (!parts) {
+    take_problem(parts.problem(), place, reading);
+    return std::nullopt;
+  }
+  if (is_small(parts.value()))
+    reading.cache[name] =
+        std::make_shared<const ReadMesh>(ReadMesh{parts.value(), std::move(files)});
+  return std::move(parts).value();
+}
+
+}  // namespace luxodus

@@ -1,0 +1,37 @@
+// The files that a scene file names: read once each, hashed, their problems taken over. Nothing is
+// returned where a file could not be read; the problem is then in the SceneReading.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "scenes/formats/photometry/gldf.hpp"
+#include "scenes/formats/photometry/photometric_file.hpp"
+#include "scenes/formats/scene_file/scene_reading.hpp"
+#include "scenes/light/geometry/import.hpp"
+
+namespace luxodus {
+
+/// A PNG picture, linear. `place`: where the scene names it.
+std::shared_ptr<const Image> read_image(const std::filesystem::path& path, const SourcePlace& place,
+                                        SceneReading& reading);
+/// An LDT or IES file. Its warnings become the scene's.
+std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::path& path,
+                                                       const SourcePlace& place,
+                                                       SceneReading& reading);
+/// A GLDF container.
+std::shared_ptr<const GldfProduct> read_container(const std::filesystem::path& path,
+                                                  const SourcePlace& place, SceneReading& reading);
+/// Parts of an OBJ or glTF file. A small one is read once, however often the scene places it.
+std::optional<std::vector<ImportedPart>> read_mesh(const std::filesystem::path& path,
+                                                   double metres_per_unit, UpAxis up,
+                                                   const SourcePlace& place, SceneReading& reading);
+/// Hashes a file that is read next; false and a problem where it cannot be read.
+bool take_hash(const std::filesystem::path& path, const SourcePlace& place, SceneReading& reading,
+               FileLife life = FileLife::settled);
+/// A problem of another reader, with the place that named its file.
+void take_problem(const Problem& problem, const SourcePlace& place, SceneReading& reading);
+
+}  // namespace luxodus

@@ -1,0 +1,257 @@
+// Safety signs.
+#include "scenes/formats/scene_file/read_signs.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "runtime/core/output_text.hpp"
+#include "scenes/formats/images/image_file.hpp"
+#include "scenes/formats/scene_file/read_files.hpp"
+#include "scenes/formats/scene_file/read_placement.hpp"
+#include "scenes/formats/scene_file/read_spectrum.hpp"
+#include "scenes/formats/scene_file/read_types.hpp"
+#include "scenes/formats/scene_file/scene_readers.hpp"
+#include "scenes/light/signs/sign_face.hpp"
+
+namespace luxodus {
+
+namespace {
+
+/// Green of signs in public drawings, sRGB #237F52 (ISO 3864-4 region of safety green), as a film
+/// before the lamp that gives white: beside that white it has this colour, whatever the lamp is.
+Spectrum safety_green_shape(const Spectrum& white) {
+  const Spectrum light = white * reflectance_from_linear_srgb(linear_from_srgb(0x23 / 255.0),
+                                                              linear_from_srgb(0x7F / 255.0),
+                                                              linear_from_srgb(0x52 / 255.0));
+  return light * (1 / light.integral());
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string e = path.extension().string();
+  for (char& c : e) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return e;
+}
+
+Result<SignFace> drawn_face(const std::filesystem::path& path, const Sign& sign, int texels) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".svg") return face_from_svg(path, sign.width_m, sign.height_m, texels);
+  if (extension == ".png") return face_from_png(path, sign.width_m, sign.height_m, texels);
+  return problem("a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'");
+}
+
+/// Lengths of a sign in millimetres are no smaller.
+constexpr double min_slip = 1;
+
+/// A length of a sign that is written and longer than `most` is a slip of the unit more often than
+/// not, and would make small details large.
+void bound_length(KeyReader& keys, const char* key, double value, double most, const char* of,
+                  const Sign& sign) {
+  if (!keys.has(key) || !keys.clean() || value <= most) return;
+  keys.problem(key, "'" + std::string(key) + "' is " + shortest_number(value) +
+                        " m but must not exceed " + shortest_number(most) + " m, " + of +
+                        " of a face of " + shortest_number(sign.width_m) + " x " +
+                        shortest_number(sign.height_m) + " m" +
+                        (value >= min_slip ? "; metres? " + shortest_number(value) + " mm is " +
+                                                 shortest_number(value / 1000)
+                                           : ""));
+}
+
+/// Every length of a sign is bounded by its face.
+void bound_lengths(KeyReader& keys, const Sign& sign) {
+  const double shorter = std::min(sign.width_m, sign.height_m);
+  const double longer = std::max(sign.width_m, sign.height_m);
+  bound_length(keys, "smallest_detail", sign.smallest_detail_m, shorter, "the shorter side", sign);
+  bound_length(keys, "thickness", sign.thickness_m, longer, "the longer side", sign);
+  if (!sign.letters) return;
+  bound_length(keys, "letter_height", sign.letters->height_m, sign.height_m, "the height", sign);
+  bound_length(keys, "stroke", sign.letters->stroke_m, shorter, "the shorter side", sign);
+  bound_length(keys, "spacing", keys.number("spacing"), sign.width_m, "the width", sign);
+}
+
+void read_face(KeyReader& keys, Sign& sign) {
+  const std::string given = keys.exactly_one({"file", "text", "plain"}, true);
+  const int texels = static_cast<int>(keys.integer("texels"));
+  const double letter = keys.number("letter_height"), stroke = keys.number("stroke");
+  const double spacing = keys.number("spacing");
+  const std::string legend_word = keys.choice("legend");
+  const SignColour legend = legend_word == "green" ? SignColour::green : SignColour::white;
+  const auto detail = keys.maybe_number("smallest_detail");
+  const auto path = given == "file" ? keys.file("file") : std::nullopt;
+  const std::string plain = given == "plain" ? keys.choice("plain") : "";
+  const auto map = keys.file("luminance_map");
+  if (given != "text") {
+    for (const char* key : {"letter_height", "stroke", "spacing"}) {
+      if (keys.has(key)) {
+        keys.problem(key, "'" + std::string(key) + "' belongs to a sign with 'text'");
+        break;
+      }
+    }
+  }
+  if (!given.empty() && given != "text" && !keys.has("smallest_detail")) {
+    keys.problem(
+        "'smallest_detail' [m] is needed where the face is no 'text': what must be seen to "
+        "understand the sign?");
+  }
+  sign.smallest_detail_m = detail.value_or(stroke);
+  if (given == "text") {
+    sign.letters = SignLetters{letter, stroke};
+    sign.text = keys.text("text");
+  }
+  if (path) sign.file = *keys.value("file")->as_text();
+  bound_lengths(keys, sign);
+  if (!keys.clean()) return;
+  if (path && !take_hash(*path, keys.place("file"), keys.reading())) return;
+  auto face = given == "file" ? drawn_face(*path, sign, texels)
+              : given == "text"
+                  ? face_from_text(sign.text, sign.width_m, sign.height_m, letter, stroke, spacing,
+                                   legend, texels)
+                  : uniform_face(plain == "green" ? SignColour::green : SignColour::white,
+                                 sign.width_m, sign.height_m, texels);
+  if (!face) {
+    SourcePlace at = keys.place(given);
+    return take_problem(face.problem(), at, keys.reading());
+  }
+  sign.face = std::move(face).value();
+  if (given == "file" && keys.has("legend")) sign.face.legend = legend;
+  if (!map) return;
+  const auto image = read_image(*map, keys.place("luminance_map"), keys.reading());
+  if (!image) return;
+  auto with_map = with_luminance_map(std::move(sign.face), *image);
+  if (!with_map)
+    return take_problem(with_map.problem(), keys.place("luminance_map"), keys.reading());
+  sign.face = std::move(with_map).value();
+}
+
+void read_luminances(KeyReader& keys, Sign& sign) {
+  const std::string lighting = keys.choice("lighting");
+  const auto mains_white = keys.maybe_number("mains_white");
+  const auto mains_green = keys.maybe_number("mains_green");
+  const auto emergency_white = keys.maybe_number("emergency_white");
+  const auto emergency_green = keys.maybe_number("emergency_green");
+  sign.mains = {mains_white.value_or(0), mains_green.value_or(0)};
+  sign.emergency = {emergency_white.value_or(0), emergency_green.value_or(0)};
+  sign.decay = keys.pairs("decay");
+  sign.duration_s = duration_s(keys);
+  if (keys.has("duration_h") && lighting != "internal")
+    keys.problem("duration_h", "'duration_h' belongs to a sign with lighting = \"internal\"");
+  const auto needed = [&](const char* key) {
+    if (!keys.has(key)) {
+      keys.problem("the key '" + std::string(key) + "' is missing: a sign with lighting = \"" +
+                   lighting + "\" shines of itself");
+    }
+  };
+  if (lighting == "external") {
+    sign.lighting = SignLighting::external;
+    for (const char* key : {"mains_white", "mains_green", "emergency_white", "emergency_green"}) {
+      if (keys.has(key)) {
+        keys.problem(key, "'" + std::string(key) +
+                              "' is given, but an externally lit sign shows only "
+                              "what falls on it");
+        break;
+      }
+    }
+  } else {
+    if (lighting == "internal") needed("mains_white"), needed("mains_green");
+    needed("emergency_white"), needed("emergency_green");
+  }
+  if (lighting != "photoluminescent") {
+    if (keys.has("decay")) keys.problem("decay", "'decay' belongs to a photoluminescent sign");
+    return;
+  }
+  sign.lighting = SignLighting::photoluminescent;
+  if (!keys.has("decay")) {
+    keys.problem(
+        "the key 'decay' is missing: rows [seconds after failure, share of the luminance]");
+  } else if (keys.clean()) {
+    bool good = sign.decay.size() >= 2 && sign.decay.front().x == 0;
+    for (size_t i = 1; i < sign.decay.size(); ++i) good &= sign.decay[i].x > sign.decay[i - 1].x;
+    if (!good) keys.problem("decay", "'decay' needs two or more rows, times ascending from 0");
+  }
+}
+
+}  // namespace
+
+SignArrow arrow_named(const std::string& word) {
+  return word == "left" ? SignArrow::left : word == "right" ? SignArrow::right : SignArrow::ahead;
+}
+
+void read_leads_to(KeyReader& keys, Sign& sign) {
+  for (const toml::Table* table : keys.tables("leads_to")) {
+    KeyReader way(*table, {"sign.leads_to"}, keys.reading());
+    const std::string route = way.text("route");
+    const SignArrow arrow = arrow_named(way.choice("arrow"));
+    const auto same = [&](const LeadsTo& one) { return one.route == route; };
+    if (std::any_of(sign.leads_to.begin(), sign.leads_to.end(), same))
+      way.problem("route", "this sign leads to the route '" + route + "' already");
+    sign.leads_to.push_back({route, arrow});
+    keys.reading().routes_named.push_back({route, way.place("route")});
+  }
+}
+
+void read_sign_itself(KeyReader& keys, Sign& sign) {
+  sign.width_m = keys.number("width");
+  sign.height_m = keys.number("height");
+  sign.thickness_m = keys.number("thickness");
+  sign.double_sided = keys.flag("double_sided");
+  sign.angular_exponent = keys.number("angular_exponent");
+  if (const auto circuit = keys.maybe_text("circuit")) {
+    sign.circuit = *circuit;
+    keys.reading().note("circuit", sign.circuit, keys.place("circuit"));
+  }
+  sign.group = keys.text("group");
+  sign.white_shape = emission_shape(keys, "white_spectrum");
+  sign.green_shape = keys.has("green_spectrum") ? emission_shape(keys, "green_spectrum")
+                                                : safety_green_shape(sign.white_shape);
+  sign.white_reflectance = property(keys, "white_reflectance");
+  sign.green_reflectance = property(keys, "green_reflectance");
+  read_luminances(keys, sign);
+  read_face(keys, sign);
+}
+
+void make_generic_sign(Sign& sign) {
+  // The letters of NFPA 101, a height that EN 1838 lets be read from 40 m, and luminances that both
+  // ask for where smoke may occur.
+  constexpr double width_m = 0.5, height_m = 0.2, letter_m = 0.1524, stroke_m = 0.01905;
+  constexpr double spacing_m = 0.009525;
+  constexpr int texels = 256;
+  sign.width_m = width_m;
+  sign.height_m = height_m;
+  sign.text = "EXIT";
+  sign.letters = SignLetters{letter_m, stroke_m};
+  sign.smallest_detail_m = stroke_m;
+  sign.mains = {500, 50};
+  sign.emergency = {200, 20};
+  sign.white_shape = emission_shape_from_linear_srgb(1, 1, 1);
+  sign.green_shape = safety_green_shape(sign.white_shape);
+  // The text fits: letters, stroke and face are those above.
+  sign.face = face_from_text(sign.text, width_m, height_m, letter_m, stroke_m, spacing_m,
+                             SignColour::white, texels)
+                  .value();
+}
+
+void read_sign(const toml::Table& stated, SceneReading& reading) {
+  const toml::Table table = with_type(stated, "sign_type", reading);
+  KeyReader keys(table, {"sign"}, reading);
+  Sign sign;
+  sign.ifc_guid = keys.text("ifc_guid");
+  sign.place = keys.place();
+  sign.name = read_name(keys, "sign");
+  const glm::dvec3 position = keys.point("position");
+  const auto facing = keys.maybe_direction("facing");
+  const glm::dvec3 up = keys.direction("up");
+  if (facing && keys.clean()) {
+    if (glm::length(glm::cross(*facing, up)) < 1e-6) {
+      keys.problem("up",
+                   "'up' must not be parallel to 'facing'; a sign that lies flat must say it");
+    } else if (auto frame = frame_facing(position, *facing, up)) {
+      sign.frame = frame.value();
+    } else {
+      adopt_problem(keys, frame.problem());
+    }
+  }
+  read_sign_itself(keys, sign);
+  read_leads_to(keys, sign);
+  reading.scene.signs.push_back(std::move(sign));
+}
+
+}  // namespace luxodus

@@ -1,0 +1,79 @@
+// A medium cut out by a horizontal polygon: an upright prism of one or many slabs. Any simple
+// polygon, either orientation; a ray may cross it many times. Crossings are decided by signs that
+// every vertex has once, so a ray through a vertex or along a wall enters and leaves equally often:
+// nothing leaks. Immutable once made; any thread.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "scenes/light/optics/layer_stack.hpp"
+#include "scenes/light/optics/medium.hpp"
+#include "scenes/light/optics/ray_interval.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Vertices of a footprint. A floor plan has tens; crossings are kept on the stack of the tracing
+/// loop (8 bytes each), and every flight looks at every edge.
+inline constexpr int max_footprint_vertices = 256;
+}  // namespace limits
+
+/// What is wrong with a polygon, or "" where it is simple and has an area.
+std::string polygon_fault(const std::vector<glm::dvec2>& polygon);
+
+class FootprintPrism {
+ public:
+  /// Polygon and parts in coordinates of the tracer (relative to the local origin); parts do not
+  /// overlap. Requires: polygon_fault(polygon) is empty.
+  FootprintPrism(std::vector<glm::dvec2> polygon, std::vector<LayerStack::Part> parts);
+
+  const std::vector<LayerStack::Part>& parts() const { return parts_; }
+  const glm::dvec3& low() const { return low_; }
+  const glm::dvec3& high() const { return high_; }
+  /// The most stretches a ray can have in it.
+  int max_stretches() const {
+    return static_cast<int>(polygon_.size()) / 2 + static_cast<int>(parts_.size());
+  }
+
+  bool covers(const glm::dvec2& p) const;
+
+  /// Calls add(t0, t1, component) for each stretch of the ray inside, within `within`.
+  template <class Add>
+  void for_each_stretch(const glm::dvec3& o, const glm::dvec3& d, RayInterval within,
+                        Add&& add) const;
+
+ private:
+  using Crossings = std::array<double, limits::max_footprint_vertices>;
+  int crossings(const glm::dvec2& o, const glm::dvec2& d, Crossings& t) const;
+
+  std::vector<glm::dvec2> polygon_;
+  std::vector<LayerStack::Part> parts_;
+  glm::dvec3 low_{0};
+  glm::dvec3 high_{0};
+};
+
+template <class Add>
+void FootprintPrism::for_each_stretch(const glm::dvec3& o, const glm::dvec3& d, RayInterval within,
+                                      Add&& add) const {
+  const auto add_parts = [&](RayInterval covered) {
+    for (const LayerStack::Part& p : parts_) {
+      const RayInterval piece = between_planes(p.z_low, p.z_high, o.z, d.z, covered);
+      if (!piece.empty()) add(piece.t0, piece.t1, p.component);
+    }
+  };
+  const glm::dvec2 across(d);
+  if (across == glm::dvec2(0)) {
+    if (covers(glm::dvec2(o))) add_parts(within);
+    return;
+  }
+  Crossings t;
+  const int n = crossings(glm::dvec2(o), across, t);
+  for (int i = 0; i + 1 < n; i += 2) {
+    const RayInterval covered =
+        common(within, {t[static_cast<size_t>(i)], t[static_cast<size_t>(i) + 1]});
+    if (!covered.empty()) add_parts(covered);
+  }
+}
+
+}  // namespace luxodus

@@ -1,0 +1,91 @@
+// Straight connections between two places: what share of the light passes unscattered. Thin panes
+// and open surfaces let it through; everything else solid stops it, refracting solids too, because
+// light that they bend does not arrive along this line. Suspends: where the resolver does.
+#pragma once
+
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+
+#include "scenes/light/geometry/real.hpp"
+#include "scenes/light/optics/offset_ray.hpp"
+#include "scenes/light/transport/compiled_scene.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Panes one straight line may cross; more count as opaque.
+inline constexpr int panes_per_line = 64;
+}  // namespace limits
+
+/// False: something within `length` of the ray stops light. Calls pane(material, cosine) for every
+/// pane before that.
+template <class Resolver, class Pane>
+bool passes_solids(const CompiledScene& scene, Ray ray, Real length, Resolver& resolver,
+                   Pane&& pane_met) {
+  ray.length = length;
+  if (!scene.features.surfaces) return !resolver.occluded(ray);
+  for (int pane = 0; pane < limits::panes_per_line; ++pane) {
+    const Hit hit = resolver.nearest(ray);
+    if (!hit.found()) return true;
+    const TriangleRecord& t = *hit.triangle;
+    const Real cosine = glm::dot(t.unit_normal(), ray.direction);
+    const size_t side = cosine < 0 ? 0 : 1;
+    const CompiledMaterial& material = scene.materials[scene.surfaces[t.surface].material[side]];
+    if (material.kind == MaterialKind::glass_pane) {
+      pane_met(material, cosine);
+    } else if (material.kind != MaterialKind::open) {
+      return false;
+    }
+    const Vec3 end = ray.origin + ray.direction * ray.length;
+    ray.origin = offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.unit_normal() : t.unit_normal(),
+                            scene.min_offset_m);
+    ray.length = glm::dot(end - ray.origin, ray.direction);
+    if (ray.length <= 0) return true;
+  }
+  return false;
+}
+
+/// Product of the transmittances of all panes within `length` of the ray, per band; 0 when blocked.
+template <class Resolver>
+double solid_transmittance(const CompiledScene& scene, const Ray& ray, Real length, int band,
+                           Resolver& resolver) {
+  double share = 1;
+  const bool passes = passes_solids(
+      scene, ray, length, resolver, [&](const CompiledMaterial& material, Real cosine) {
+        share *= static_cast<double>(
+            pane_transmittance(material.by_band[static_cast<size_t>(band)], cosine));
+      });
+  return passes ? share : 0;
+}
+
+/// exp(-optical depth) along the ray.
+template <class Resolver>
+double medium_transmittance(const CompiledScene& scene, const Ray& ray, Real length, int band,
+                            Resolver& resolver) {
+  if (scene.features.media == MediaNeed::none) return 1;
+  return std::exp(-optical_depth<MediaNeed::general>(scene.media, band, ray.origin, ray.direction,
+                                                     length, resolver));
+}
+
+/// A straight line from a place to a point of an emitter.
+struct ShadowRay {
+  Ray ray;            // ends where solid things may begin that are not in the way
+  Real distance = 0;  // of the two places: what smoke and the inverse square know
+};
+
+/// `axis` is the emitting side's normal; a target on a solid face is met just in front of it.
+inline ShadowRay connect(const CompiledScene& scene, const Vec3& from, const Vec3& to,
+                         const Vec3& axis, bool on_surface) {
+  Vec3 target = to;
+  if (on_surface) {
+    const Vec3 side = glm::dot(from - to, axis) >= 0 ? axis : -axis;
+    target = offset_ray(to, side, scene.min_offset_m);
+  }
+  const Vec3 difference = target - from;
+  const Real length = glm::length(difference);
+  // The last millionth belongs to the emitter's own surface.
+  return {{from, difference / length, length * (1 - 1e-6_r)}, glm::length(to - from)};
+}
+
+}  // namespace luxodus

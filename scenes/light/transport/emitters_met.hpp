@@ -1,0 +1,252 @@
+// Emitters that a path from the eye meets on its way: emitting faces, faces of signs, flames, each
+// by its weight against next-event estimation (next_event.hpp). One thread or fiber at a time;
+// suspends where the resolver does.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "scenes/light/transport/emission.hpp"
+#include "scenes/light/transport/flame_boxes.hpp"
+#include "scenes/light/transport/flame_line.hpp"
+#include "scenes/light/transport/group_light.hpp"
+#include "scenes/light/transport/next_event.hpp"
+#include "scenes/light/transport/textures.hpp"
+
+namespace luxodus {
+
+namespace limits {
+inline constexpr int emitters_per_line = 16;  // emitting faces that one straight line may cross
+/// Of the size of a scene: where a stretch ends on which places are drawn by an emitter's light.
+inline constexpr Real longest_line = 4;
+}  // namespace limits
+
+/// Where a stretch of that length ends for emitters that are near it.
+inline Real line_end(const CompiledScene& scene, Real length) {
+  return std::min(length, limits::longest_line * scene.diagonal_m);
+}
+
+/// Which emitters count when a path meets them on its way.
+enum class EmitterHits {
+  none,      // somebody else holds all direct light of this place
+  weighted,  // emitters were sampled too: by the balance heuristic
+  all,       // none was sampled
+};
+
+/// A path on its way from the eye.
+struct EyePath {
+  Ray ray;
+  PathBands bands;
+  EmitterHits counted;
+  double weight;
+  GroupLight& into;
+  PathTurn turn{};               // where `counted` is weighted
+  Real travelled = 0;            // from the last event to the ray's origin, through panes
+  bool diffused = false;         // a surface or a medium has spread it
+  bool scattered_known = false;  // light from collisions on the ray has been counted already
+
+  /// Light of the band in place `i`.
+  void add(size_t i, const SourceLight& light) {
+    into.add(light.group, bands.band(i), weight * bands.light(i) * light.radiance);
+  }
+};
+
+template <class Resolver>
+class EmittersMet {
+ public:
+  /// Requires: what is referred to outlives this.
+  EmittersMet(const CompiledScene& scene, Resolver& resolver, Random& random,
+              NextEvent<Resolver>& next_event)
+      : scene_(scene),
+        resolver_(resolver),
+        random_(random),
+        next_event_(next_event),
+        flames_(flame_boxes(scene)) {}
+
+  /// Expected radiance of what emits along the ray up to the surface it hits: emitting faces, the
+  /// sign that was hit, flames; each weighted by what passes the media before it.
+  void add_along(EyePath& p, const Hit& hit) {
+    const Real slack = 1 + 1e-5_r;  // a body's own face lies as far as the emitter on it
+    Real reach = hit.distance * slack;
+    Ray rest = p.ray;
+    Real before = 0;
+    for (int k = 0; k < limits::emitters_per_line; ++k) {
+      const EmitterHit e = nearest_emitter(scene_, rest, reach);
+      if (e.emitter == none_index) break;
+      const CompiledEmitter& emitter = scene_.emitters[e.emitter];
+      const Real distance = before + e.distance;
+      const double weight = weight_of_face(p, e.emitter, e.point, distance);
+      next_event_.media().transmittances(p.ray, distance, p.bands, through_, resolver_);
+      for (size_t i = 0; i < p.bands.count(); ++i) {
+        const double sent =
+            emitted_radiance(emitter, e.point, -p.ray.direction, p.bands.band(i), resolver_);
+        p.add(i, {emitter.group, weight * sent * through_[i]});
+      }
+      // Past it by more than rounding, or the same face would be hit again.
+      const Real step = e.distance * slack + scene_.min_offset_m;
+      rest.origin += rest.direction * step;
+      before += step;
+      reach -= step;
+      if (!(reach > 0)) break;
+    }
+    add_emitted_by_sign(p, hit);
+    add_flames_met(p, hit.distance);
+  }
+
+  /// Own light of a point of a sign's face towards an eye, without path or room light.
+  SourceLight texel_light(const CompiledSign& sign, const Vec2& uv, const Vec3& to_eye,
+                          int band) const {
+    const Sign& d = scene_.description->signs[sign.sign];
+    const SignColour colour = d.face.colour[texel_at(d.face, uv)];
+    if (colour == SignColour::other) return {};
+    const bool white = colour == SignColour::white;
+    const auto& radiance = white ? sign.white_radiance : sign.green_radiance;
+    const double cosine = std::max(0.0, static_cast<double>(glm::dot(sign.axes[2], to_eye)));
+    const double angular = d.angular_exponent == 0 ? 1 : std::pow(cosine, d.angular_exponent);
+    return {white ? sign.white_group : sign.green_group,
+            radiance[static_cast<size_t>(band)] * angular * face_relative(d.face, uv)};
+  }
+
+  /// Adds `weight` times the emission of flames along `length` of the ray, of one medium or of all
+  /// (-1). False where the ray meets none of them.
+  bool add_flames(const Ray& ray, Real length, int band, int medium, double weight,
+                  GroupLight& into) {
+    double depth = 0;
+    bool met = false;
+    for_each_segment(
+        scene_.media, band, ray.origin, ray.direction, std::min(length, 4 * scene_.diagonal_m),
+        resolver_, [&](const MediaSegment& s) {
+          const double tau = s.sigma_t * s.length;
+          const double through = s.sigma_t > 0 ? -std::expm1(-tau) / s.sigma_t : s.length;
+          for (const EmissionPart& part : s.emission) {
+            if (medium >= 0 && part.medium != medium) continue;
+            met = true;
+            const CompiledEmitter* flame = flame_of(part.medium);
+            if (flame == nullptr) continue;  // the scenario has put it out
+            const double power = flame->power_w[static_cast<size_t>(band)] * part.density;
+            into.add(flame->group, band,
+                     weight * power * std::exp(-depth) * through / (4 * static_cast<double>(pi_f)));
+          }
+          depth += tau;
+          return depth < 50;
+        });
+    return met || depth >= 50;
+  }
+
+ private:
+  /// Weight of a point of an emitting face that the path hits, `distance` along its ray.
+  double weight_of_face(const EyePath& p, uint32_t emitter, const EmissionPoint& point,
+                        Real distance) {
+    if (p.counted == EmitterHits::all) return 1;
+    const double apparent_sr =
+        apparent_face(scene_.emitters[emitter], point, -p.ray.direction, p.travelled + distance);
+    return next_event_.weight_of_hit(p.turn, emitter, point.position, apparent_sr, p.bands);
+  }
+
+  void add_emitted_by_sign(EyePath& p, const Hit& hit) {
+    if (!hit.found()) return;
+    const uint32_t index = scene_.surfaces[hit.triangle->surface].sign;
+    if (index == none_index || glm::dot(hit.triangle->unit_normal(), p.ray.direction) >= 0) return;
+    const CompiledSign& sign = scene_.signs[index];
+    const Vec2 uv = texture_uv(*hit.cell, hit);
+    const int group = texel_light(sign, uv, -p.ray.direction, p.bands.hero()).group;
+    const EmissionPoint point{hit.triangle->at(hit.u, hit.v), sign.axes[2]};
+    double weight = -1;  // not known yet
+    for (size_t i = 0; i < p.bands.count(); ++i) {
+      const SourceLight own = texel_light(sign, uv, -p.ray.direction, p.bands.band(i));
+      if (own.radiance <= 0) continue;
+      if (weight < 0) {
+        weight = weight_of_sign(p, index, group, point, hit.distance);
+        next_event_.media().transmittances(p.ray, hit.distance, p.bands, through_, resolver_);
+      }
+      p.add(i, {group, weight * own.radiance * through_[i]});
+    }
+  }
+
+  /// Of a sign's face, each colour is an emitter.
+  double weight_of_sign(const EyePath& p, uint32_t sign, int group, const EmissionPoint& point,
+                        Real distance) {
+    for (uint32_t i = 0; i < scene_.emitters.size(); ++i) {
+      const CompiledEmitter& e = scene_.emitters[i];
+      if (e.kind == EmitterKind::sign_face && e.sign == sign && e.group == group &&
+          sampled_area_m2(e, point.position) > 0)
+        return weight_of_face(p, i, point, distance);
+    }
+    return 1;  // nothing that is sampled: hits count alone
+  }
+
+  /// Flames on the line, up to the surface: all of their light, or what the weight leaves of it.
+  void add_flames_met(const EyePath& p, Real length) {
+    if (scene_.volume_points.empty()) return;
+    if (p.counted == EmitterHits::all) {
+      bool met = true;
+      for (size_t i = 0; i < p.bands.count() && met; ++i)
+        met = add_flames(p.ray, length, p.bands.band(i), -1, p.weight * p.bands.light(i), p.into);
+      return;
+    }
+    for (const FlameBox& flame : flames_) add_flame_hit(p, flame, length);
+  }
+
+  void add_flame_hit(const EyePath& p, const FlameBox& box, Real length) {
+    const uint32_t emitter = box.emitter;
+    const CompiledEmitter& flame = scene_.emitters[emitter];
+    const auto power = [&](size_t i) {
+      return flame.power_w[static_cast<size_t>(p.bands.band(i))];
+    };
+    const size_t hero = p.bands.hero_place();
+    if (!p.bands.many() && !(power(hero) > 0)) return;
+    const double u = random_.uniform_double();
+    if (!box.may_meet(p.ray, length)) return;
+    const auto place_of = [&](int band) {
+      return place_in_flame(scene_, p.ray, line_end(scene_, length), band, flame.medium, u,
+                            resolver_);
+    };
+    const FlamePlace place = place_of(p.bands.hero());
+    if (place.missed) return;
+    for (size_t i = 0; i < p.bands.count(); ++i) {
+      if (!(power(i) > 0)) continue;
+      // Bands see the flame through different depths of smoke.
+      const bool same = i == hero || next_event_.media().grey();
+      add_flame_place(p, i, emitter, power(i), same ? place : place_of(p.bands.band(i)));
+    }
+  }
+
+  void add_flame_place(const EyePath& p, size_t i, uint32_t emitter, double power,
+                       const FlamePlace& place) {
+    if (!(place.light > 0)) return;
+    const CompiledEmitter& flame = scene_.emitters[emitter];
+    const EmissionPoint point{p.ray.origin + p.ray.direction * place.t, Vec3(0, 0, -1)};
+    const double density =
+        scene_.media.emission_density(static_cast<int>(flame.medium), point.position, resolver_);
+    const double apparent_sr =
+        next_event_.apparent_solid_angle(flame, point, -p.ray.direction, p.travelled + place.t);
+    const double weight =
+        next_event_.weight_of_hit(p.turn, emitter, point.position, apparent_sr, p.bands);
+    p.into.add(flame.group, p.bands.band(i),
+               p.weight * p.bands.light(i) * weight * power * place.light *
+                   (density / place.density) / (4 * static_cast<double>(pi_f)));
+  }
+
+  /// The emitter that stands for a medium's glow; null where the scenario has put it out.
+  const CompiledEmitter* flame_of(int medium) const {
+    for (const CompiledEmitter& e : scene_.emitters) {
+      if (e.kind == EmitterKind::volume && e.medium == static_cast<uint32_t>(medium)) return &e;
+    }
+    return nullptr;
+  }
+
+  static double face_relative(const SignFace& face, const Vec2& uv) {
+    if (face.relative_luminance.empty()) return 1;
+    return static_cast<double>(face.relative_luminance[texel_at(face, uv)]);
+  }
+
+  const CompiledScene& scene_;
+  Resolver& resolver_;
+  Random& random_;
+  NextEvent<Resolver>& next_event_;
+  std::vector<FlameBox> flames_;
+  BandValues through_;
+};
+
+}  // namespace luxodus

@@ -1,0 +1,300 @@
+// What signs and probes are asked for, from paths that start at the eye or at the probe: of a sign,
+// its surround and the veil between, the luminance at the eye; of a point, the light that reaches
+// it after at least one event. Everything is the mean of a batch, and beside the whole each source
+// group's part, or each mixture of groups. Paths have a particle range, batches and standard errors
+// of their own. Thread rule: one EyeScores per thread or fiber.
+#pragma once
+
+#include <vector>
+
+#include "scenes/light/geometry/real.hpp"
+#include "scenes/light/transport/path_tracer.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Of a value score [its unit]: 2^-40, so int64 holds up to 8 million cd/m2 per batch mean.
+inline constexpr double value_quantum = 0x1p-40;
+}  // namespace limits
+
+/// A batch's mean as a score; clamped at 2^62 quanta.
+int64_t value_score(double mean);
+
+/// Texels of each colour of a face, to aim at.
+struct FaceTexels {
+  std::vector<uint32_t> white, green;
+};
+FaceTexels list_texels(const SignFace& face);
+
+template <class Resolver>
+class EyeScores {
+ public:
+  EyeScores(const CompiledScene& scene, Resolver& resolver, uint64_t seed)
+      : scene_(scene),
+        resolver_(resolver),
+        eye_(scene, resolver, seed, RandomStream::eye),
+        random_(eye_.random()),
+        set_(seed, RandomStream::eye),
+        by_group_(scene.groups.size() > 1),
+        light_(scene.groups.size()),
+        reflected_(scene.groups.size()),
+        path_(scene.groups.size()),
+        at_eye_(scene.groups.size()),
+        illuminance_(scene.groups.size()),
+        fluence_(scene.groups.size()) {
+    for (const CompiledSign& s : scene.signs)
+      texels_.push_back(list_texels(scene.description->signs[s.sign].face));
+  }
+
+  /// Parts of signs, white, green and surround of each target, then probes: each with its own paths
+  /// and bins, so that they may be traced in any order.
+  uint32_t units() const {
+    return static_cast<uint32_t>(3 * scene_.eye_targets.size() + scene_.description->probes.size());
+  }
+
+  /// Eye paths of one batch for one unit, into its value bins. Requires: unit < units().
+  void score(int64_t batch, uint32_t unit, BatchScores& scores) {
+    const auto paths = static_cast<uint64_t>(scene_.eye_paths_per_batch);
+    const uint64_t first = (static_cast<uint64_t>(batch) << 28) + unit * paths;
+    const auto parts = static_cast<uint32_t>(3 * scene_.eye_targets.size());
+    start_sums();
+    const bool stratified = scene_.description->run.stratified;
+    if (stratified) set_.choose(first, static_cast<uint32_t>(paths));
+    for (uint64_t k = 0; k < paths; ++k) {
+      if (stratified)
+        random_.start(first + k, set_, static_cast<uint32_t>(k));
+      else
+        random_.start(first + k);
+      if (unit < parts)
+        look_at_sign(scene_.eye_targets[unit / 3], unit % 3);
+      else
+        look_around_probe(unit - parts);
+    }
+    if (unit < parts)
+      store_sign(scene_.eye_targets[unit / 3].first_bin + unit % 3, scores);
+    else
+      store_probe(unit - parts, scores);
+  }
+
+ private:
+  /// A band, and the lumens per watt that a path in it stands for.
+  struct PathBand {
+    int band;
+    double lm_per_w;
+  };
+  PathBand choose_band() {
+    const int band = eye_.choose_band(random_.uniform_double());
+    return {band, scene_.bands[band].lm_per_w / eye_.band_probability(band)};
+  }
+
+  void start_sums() {
+    paths_ = 0;
+    own_ = transmission_ = visible_ = 0;
+    for (GroupLight* l : {&reflected_, &path_, &at_eye_, &illuminance_, &fluence_}) l->clear();
+  }
+
+  /// Writes sums over the paths as the means of values `first` and on in a bin of `block`.
+  void store(uint32_t block, uint32_t bin, std::initializer_list<double> sums,
+             BatchScores& scores) const {
+    int64_t* score = scores.scores.data() + scene_.layout.score_index(block, bin, 0, 0);
+    for (const double sum : sums) *score++ = value_score(sum / static_cast<double>(paths_));
+  }
+
+  // ---- a sign seen by an observer
+  // ----------------------------------------------------------------
+
+  void store_sign(uint32_t bin, BatchScores& scores) const {
+    if (paths_ == 0) return;
+    store(scene_.blocks.views, bin,
+          {own_, reflected_.total(), at_eye_.total(), path_.total(), transmission_, visible_},
+          scores);
+    store_mixtures(bin, scores);
+    if (scene_.blocks.views_by_group == none_index) return;
+    const size_t groups = scene_.groups.size();
+    for (size_t g = 0; g < groups; ++g) {
+      store(scene_.blocks.views_by_group, static_cast<uint32_t>(bin * groups + g),
+            {reflected_.of(g), at_eye_.of(g), path_.of(g)}, scores);
+    }
+  }
+
+  void store_mixtures(uint32_t bin, BatchScores& scores) const {
+    const size_t mixtures = scene_.mixtures.size();
+    for (size_t m = 0; m < mixtures; ++m) {
+      const std::vector<double>& factors = scene_.mixtures[m];
+      store(scene_.blocks.views_by_mixture, static_cast<uint32_t>(bin * mixtures + m),
+            {reflected_.sum(factors), at_eye_.sum(factors)}, scores);
+    }
+  }
+
+  /// A point of the wanted part in face coordinates, u to the reader's right, v up, the face is
+  /// [0, 1]^2.
+  bool aim(const EyeTarget& target, uint32_t part, Vec2& uv) {
+    const SignFace& face = scene_.description->signs[scene_.signs[target.sign].sign].face;
+    if (part == 2) {  // the ring as wide as half the face on each side
+      for (int attempt = 0; attempt < 64; ++attempt) {
+        uv.x = 2 * random_.uniform() - 0.5_r;
+        uv.y = 2 * random_.uniform() - 0.5_r;
+        if (uv.x < 0 || uv.x >= 1 || uv.y < 0 || uv.y >= 1) return true;
+      }
+      return false;
+    }
+    const std::vector<uint32_t>& texels =
+        part == 0 ? texels_[target.sign].white : texels_[target.sign].green;
+    if (texels.empty()) return false;
+    const uint64_t r = random_.bits();
+    const uint32_t texel = texels[(r * texels.size()) >> 32];
+    const Real x = static_cast<Real>(texel % static_cast<uint32_t>(face.width)) + random_.uniform();
+    const Real y = static_cast<Real>(texel / static_cast<uint32_t>(face.width)) + random_.uniform();
+    uv = {x / static_cast<Real>(face.width), 1 - y / static_cast<Real>(face.height)};
+    return true;
+  }
+
+  void look_at_sign(const EyeTarget& target, uint32_t part) {
+    Vec2 uv;
+    if (!aim(target, part, uv)) return;
+    ++paths_;
+    const CompiledSign& sign = scene_.signs[target.sign];
+    const Sign& d = scene_.description->signs[sign.sign];
+    const Vec3 eye(scene_.description->observers[target.observer].eye - scene_.local_origin);
+    const Vec3 aimed = sign.origin +
+                       sign.axes[0] * ((uv.x - 0.5_r) * static_cast<Real>(d.width_m)) +
+                       sign.axes[1] * ((uv.y - 0.5_r) * static_cast<Real>(d.height_m));
+    const ShadowRay c = connect(scene_, eye, aimed, sign.axes[2], true);
+    const PathBand chosen = choose_band();
+    if (part == 2) return look_along(c, chosen);
+    const double solid = solid_transmittance(scene_, c.ray, c.ray.length, chosen.band, resolver_);
+    const OwnLight own = own_light(sign, uv, c, chosen.band);
+    own_ += own.at_face;
+    reflect_room_light(sign, part, aimed, c.ray.direction, chosen);
+    reflected_.add_scaled(light_, 1);
+    if (solid <= 0) return look_along(c, chosen);
+    visible_ += 1;
+    // Of the sign's own light: every band is known here, so none is left to chance.
+    transmission_ += solid * (own.at_face > 0 ? own.at_eye / own.at_face : own.through_scene);
+    at_eye_.add(own.group, solid * own.at_eye);
+    at_eye_.add_scaled(light_, solid * own.through);
+    gather_path_light(c, chosen);
+    path_.add_scaled(light_, 1);
+    at_eye_.add_scaled(light_, 1);
+  }
+
+  /// What the eye receives along a line on which nothing of the sign is to be seen.
+  void look_along(const ShadowRay& c, const PathBand& chosen) {
+    eye_.radiance({c.ray.origin, c.ray.direction}, chosen.band, EmitterHits::all, chosen.lm_per_w,
+                  at_eye_);
+  }
+
+  /// The face's own luminance [cd/m2] before and after the medium, over all bands, and what the
+  /// medium passes: of the chosen band, and of the scene's light for faces without their own.
+  struct OwnLight {
+    int group = 0;
+    double at_face = 0, at_eye = 0, through = 0, through_scene = 0;
+  };
+  OwnLight own_light(const CompiledSign& sign, const Vec2& uv, const ShadowRay& c,
+                     int chosen_band) {
+    OwnLight own;
+    for (int b = 0; b < scene_.bands.count(); ++b) {
+      const double t = medium_transmittance(scene_, c.ray, c.distance, b, resolver_);
+      const SourceLight texel = eye_.emitters().texel_light(sign, uv, -c.ray.direction, b);
+      const double luminance = scene_.bands[b].lm_per_w * texel.radiance;
+      own.group = texel.group;
+      own.at_face += luminance;
+      own.at_eye += luminance * t;
+      own.through_scene += eye_.band_probability(b) * t;
+      if (b == chosen_band) own.through = t;
+    }
+    return own;
+  }
+
+  /// Room light that the face sends back to the eye, into light_.
+  void reflect_room_light(const CompiledSign& sign, uint32_t part, const Vec3& place,
+                          const Vec3& direction, const PathBand& chosen) {
+    light_.clear();
+    const auto& rho = part == 0 ? sign.white_reflectance : sign.green_reflectance;
+    const SurfaceModel model =
+        make_surface(SurfaceKind::lambertian,
+                     static_cast<double>(rho[static_cast<size_t>(chosen.band)]), 0, 1, 1, 1);
+    const Vec3 normal = sign.axes[2];
+    const Vec3 start = offset_ray(place, normal, scene_.min_offset_m);
+    eye_.add_reflected_light(start, direction, normal, model, chosen.band, chosen.lm_per_w, light_);
+    const Real u = random_.uniform();
+    const Real v = random_.uniform();
+    const Ray onward{start, to_world(normal, cosine_hemisphere(u, v))};
+    eye_.radiance_after_reflection(onward, normal, chosen.band,
+                                   chosen.lm_per_w * static_cast<double>(model.reflectance),
+                                   light_);
+  }
+
+  /// Light scattered, or emitted by flames, into the line of sight, into light_: one collision is
+  /// forced on it.
+  void gather_path_light(const ShadowRay& c, const PathBand& chosen) {
+    light_.clear();
+    if (scene_.features.media == MediaNeed::none) return;
+    const int band = chosen.band;
+    if (!scene_.volume_points.empty())
+      eye_.emitters().add_flames(c.ray, c.ray.length, band, -1, chosen.lm_per_w, light_);
+    const double depth = optical_depth<MediaNeed::general>(scene_.media, band, c.ray.origin,
+                                                           c.ray.direction, c.distance, resolver_);
+    if (!(depth > 0)) return;
+    const double collided = -std::expm1(-depth);
+    const double tau = -std::log1p(-random_.uniform_double() * collided);
+    const Real choice = random_.uniform();
+    const FreeFlight flight = free_flight<MediaNeed::general>(
+        scene_.media, band, c.ray.origin, c.ray.direction, c.distance, tau, choice, resolver_);
+    eye_.add_single_scattering(c.ray, c.distance, flight, collided, band, chosen.lm_per_w, light_);
+    if (!flight.collided || flight.albedo <= 0) return;
+    const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
+    const Real u = random_.uniform();
+    const Real v = random_.uniform();
+    const Vec3 direction = sample(phase, c.ray.direction, u, v);
+    eye_.radiance_after_scattering(c.ray, c.distance, flight, collided, direction, band,
+                                   chosen.lm_per_w * collided * flight.albedo, light_);
+  }
+
+  // ---- probes
+  // ------------------------------------------------------------------------------------
+
+  void look_around_probe(uint32_t p) {
+    const ProbeMeasure& probe = scene_.description->probes[p];
+    const Vec3 normal(probe.normal);
+    const Vec3 start =
+        offset_ray(Vec3(probe.position - scene_.local_origin), normal, scene_.min_offset_m);
+    ++paths_;
+    const PathBand chosen = choose_band();
+    const double pi = static_cast<double>(pi_f);
+    const Real u = random_.uniform();
+    const Real v = random_.uniform();
+    eye_.radiance({start, to_world(normal, cosine_hemisphere(u, v))}, chosen.band,
+                  EmitterHits::none, pi * chosen.lm_per_w, illuminance_);
+    const Real s = random_.uniform();
+    const Real t = random_.uniform();
+    eye_.radiance({start, uniform_sphere(s, t)}, chosen.band, EmitterHits::none,
+                  4 * pi * chosen.lm_per_w, fluence_);
+  }
+
+  void store_probe(uint32_t p, BatchScores& scores) const {
+    store(scene_.blocks.probes, p, {illuminance_.total(), fluence_.total()}, scores);
+    if (!by_group_) return;
+    const size_t groups = scene_.groups.size();
+    for (size_t g = 0; g < groups; ++g) {
+      store(scene_.blocks.probes_by_group, static_cast<uint32_t>(p * groups + g),
+            {illuminance_.of(g), fluence_.of(g)}, scores);
+    }
+  }
+
+  const CompiledScene& scene_;
+  Resolver& resolver_;
+  PathTracer<Resolver> eye_;
+  Random& random_;  // the tracer's
+  SobolSet set_;
+  const bool by_group_;
+  std::vector<FaceTexels> texels_;
+
+  // Sums over the paths of one bin and batch.
+  int64_t paths_ = 0;
+  double own_ = 0, transmission_ = 0, visible_ = 0;
+  GroupLight light_;  // of one path
+  GroupLight reflected_, path_, at_eye_, illuminance_, fluence_;
+};
+
+}  // namespace luxodus

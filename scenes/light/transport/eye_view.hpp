@@ -1,0 +1,118 @@
+// What a ray of a picture meets on its way from the eye to the first surface that ends it, all of
+// it without chance: the light that emitters send straight, features for filters, and what media
+// pass. A path's first stretch uses the same answers. One thread or fiber at a time; suspends where
+// the resolver does.
+#pragma once
+
+#include <span>
+
+#include "scenes/light/geometry/real.hpp"
+#include "scenes/light/transport/connect.hpp"
+#include "scenes/light/transport/emitters_met.hpp"
+#include "scenes/light/transport/first_hit.hpp"
+#include "scenes/light/transport/group_light.hpp"
+#include "scenes/light/transport/media_bands.hpp"
+#include "scenes/light/transport/path_bands.hpp"
+#include "scenes/light/transport/textures.hpp"
+
+namespace luxodus {
+
+/// A ray from the eye as it was met.
+struct EyeRay {
+  Hit hit;
+  BandValues passed;  // what the media pass up to there, by the bands of the path
+};
+
+template <class Resolver>
+class EyeView {
+ public:
+  /// Requires: what is referred to outlives this.
+  EyeView(const CompiledScene& scene, Resolver& resolver, const MediaBands& media,
+          EmittersMet<Resolver>& emitters)
+      : scene_(scene),
+        resolver_(resolver),
+        media_(media),
+        emitters_(emitters),
+        straight_(scene.groups.size(), static_cast<size_t>(scene.bands.count())) {
+    for (int b = 0; b < scene.bands.count(); ++b)
+      if (scene.bands[b].lm_per_w > scene.bands[brightest_band_].lm_per_w) brightest_band_ = b;
+  }
+
+  /// The hit is good until the resolver's next one.
+  EyeRay meet(const Ray& ray, const PathBands& bands) {
+    EyeRay met;
+    met.hit = resolver_.nearest(ray);
+    media_.transmittances(ray, line_end(scene_, met.hit.distance), bands, met.passed, resolver_);
+    return met;
+  }
+
+  /// What is known of a ray that was met just before. `bands`: all, before the ray. `first` keeps
+  /// its memory.
+  void describe(const Ray& ray, const PathBands& bands, EyeRay& met, FirstHit& first) {
+    straight_.clear();
+    PathBands through = bands;  // what panes and media let pass
+    Ray rest = ray;
+    Hit hit = met.hit;
+    Real before = 0;
+    int panes = 0;
+    for (; panes < limits::panes_per_line; ++panes) {
+      EyePath path{rest, through, EmitterHits::all, 1, straight_};
+      emitters_.add_along(path, hit);
+      if (!hit.found() || !pass_straight(rest, hit, through)) break;
+      before += hit.distance;
+      hit = resolver_.nearest(rest);
+    }
+    const std::span<const double> emitted = straight_.by_band();
+    first.emitted.assign(emitted.begin(), emitted.end());
+    describe_surface(hit, rest, before, first);
+    first.transmittance = met.passed[static_cast<size_t>(brightest_band_)];
+    if (panes == 0) return;
+    first.transmittance = medium_transmittance(scene_, ray, line_end(scene_, before + hit.distance),
+                                               brightest_band_, resolver_);
+    met.hit = resolver_.nearest(ray);
+  }
+
+ private:
+  /// Through a pane or an open surface, on the same line; false: something else ends the line.
+  bool pass_straight(Ray& ray, const Hit& hit, PathBands& through) {
+    const TriangleRecord& t = *hit.triangle;
+    const Real cosine = glm::dot(t.unit_normal(), ray.direction);
+    const CompiledMaterial& material = material_at(scene_, hit, cosine < 0);
+    if (material.kind != MaterialKind::glass_pane && material.kind != MaterialKind::open)
+      return false;
+    media_.transmittances(ray, line_end(scene_, hit.distance), through, passed_, resolver_);
+    for (size_t b = 0; b < through.count(); ++b) {
+      if (material.kind == MaterialKind::glass_pane)
+        passed_[b] *= static_cast<double>(pane_transmittance(material.by_band[b], cosine));
+      through.scale(b, passed_[b]);
+    }
+    ray.origin = offset_ray(t.at(hit.u, hit.v), cosine < 0 ? -t.unit_normal() : t.unit_normal(),
+                            scene_.min_offset_m);
+    return true;
+  }
+
+  void describe_surface(const Hit& hit, const Ray& ray, Real before, FirstHit& first) {
+    first.reflectance.assign(static_cast<size_t>(scene_.bands.count()), 0.0);
+    first.normal = Vec3(0);
+    first.nearness = 0;
+    if (!hit.found()) return;
+    const Vec3 normal = hit.triangle->unit_normal();
+    const bool front = glm::dot(normal, ray.direction) < 0;
+    first.normal = front ? normal : -normal;
+    first.nearness = 1 / static_cast<double>(before + hit.distance);
+    const CompiledMaterial& material = material_at(scene_, hit, front);
+    for (size_t b = 0; b < first.reflectance.size(); ++b)
+      first.reflectance[b] = static_cast<double>(
+          surface_at(scene_, hit, front, static_cast<int>(b), material, resolver_).reflectance);
+  }
+
+  const CompiledScene& scene_;
+  Resolver& resolver_;
+  const MediaBands& media_;
+  EmittersMet<Resolver>& emitters_;
+  int brightest_band_ = 0;  // of the most lumens a watt
+  GroupLight straight_;
+  BandValues passed_;
+};
+
+}  // namespace luxodus

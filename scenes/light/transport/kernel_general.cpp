@@ -1,0 +1,9 @@
+#include "scenes/light/transport/kernels.hpp"
+
+namespace luxodus {
+
+template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::general>(const CompiledScene&,
+                                                                            const GeometryAccess&,
+                                                                            uint64_t);
+
+}  // namespace luxodus

@@ -1,0 +1,91 @@
+// Places that stand for all those of a cell of space where paths have events: in its air, or on
+// surfaces in it that face one way. What lights the two sides of a wall is unlike, and so is what
+// lights a desk and the air beside it. Suspends: where the resolver does.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "runtime/core/random.hpp"
+#include "scenes/light/geometry/real.hpp"
+#include "scenes/light/optics/offset_ray.hpp"
+#include "scenes/light/transport/compiled_scene.hpp"
+#include "scenes/light/transport/learned_cells.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Of a cell and a side: with half as many, emitters that a part of a cell sees are missed too
+/// often.
+inline constexpr size_t sight_places = 16;
+/// Of these, at most so many on surfaces, and what one in the air counts beside them: a part of the
+/// surfaces that no line has met may see what the rest does not.
+inline constexpr size_t surface_places = 12;
+inline constexpr double air_beside_surfaces = 0.1;
+/// Lines along which surfaces of a side are looked for.
+inline constexpr int surface_lines = 64;
+}  // namespace limits
+
+/// The sides of a cell that places are told by: its air, and surfaces that face along x, y or z, or
+/// against them.
+inline constexpr size_t cell_sides = 7;
+
+/// That of a place, by the normal of its surface; zero: it is in the air.
+inline size_t cell_side(const Vec3& normal) {
+  if (normal == Vec3(0)) return 0;
+  const Vec3 size = glm::abs(normal);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  return 1 + 2 * static_cast<size_t>(axis) + (normal[axis] < 0 ? 1 : 0);
+}
+
+struct SightPlace {
+  Vec3 at{0};         // off the surface
+  Vec3 normal{0};     // of the surface; zero in the air
+  double weight = 1;  // beside the others
+  /// Whether light that arrives against the direction could be seen here.
+  bool faces(const Vec3& direction) const {
+    return normal == Vec3(0) || glm::dot(normal, direction) > 0;
+  }
+};
+
+/// Root mean square of what places see, by the sum of its squares times their weights.
+inline double root_mean(double squares, std::span<const SightPlace> places) {
+  double weights = 0;
+  for (const SightPlace& place : places) weights += place.weight;
+  return std::sqrt(squares / weights);
+}
+
+/// limits::sight_places of them. Where no surface is found, places in the air.
+template <class Resolver>
+std::vector<SightPlace> sight_places(const CompiledScene& scene, const CellGrid& grid, size_t cell,
+                                     size_t side, Random& random, Resolver& resolver) {
+  std::vector<SightPlace> out;
+  const auto random_place = [&] {
+    const Real x = random.uniform();
+    const Real y = random.uniform();
+    const Real z = random.uniform();
+    return grid.low_of(cell) + Vec3(x, y, z) * grid.edge();
+  };
+  Vec3 facing(0);
+  if (side > 0) facing[static_cast<int>((side - 1) / 2)] = side % 2 == 1 ? 1.0_r : -1.0_r;
+  // From the cell, and from the one that the surfaces face, which may hold most of their air.
+  for (int i = 0; side > 0 && i < limits::surface_lines && out.size() < limits::surface_places;
+       ++i) {
+    const Vec3 place = random_place();
+    const Ray ray{place + facing * (random.uniform() * grid.edge()), -facing};
+    const Hit hit = resolver.nearest(ray);
+    if (!hit.found()) continue;
+    const Vec3 met = hit.triangle->at(hit.u, hit.v);
+    const Vec3 front = hit.triangle->unit_normal();
+    const Vec3 normal = glm::dot(front, facing) > 0 ? front : -front;
+    if (grid.cell_of(met) == cell && cell_side(normal) == side)
+      out.push_back({offset_ray(met, normal, scene.min_offset_m), normal});
+  }
+  const double weight = out.empty() ? 1 : limits::air_beside_surfaces;
+  while (out.size() < limits::sight_places) out.push_back({random_place(), Vec3(0), weight});
+  return out;
+}
+
+}  // namespace luxodus

@@ -1,0 +1,36 @@
+// Pictures of the display: light per pixel on the one side, sRGB bytes on the other. Plain values;
+// any thread. Written to files by scenes/formats/images and actors/results/files; made here by
+// tone.hpp.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace luxodus {
+
+/// Row-major, top row first. XYZ per pixel with Y in cd/m2 (X and Z on the same scale).
+struct XyzPicture {
+  int width = 0;
+  int height = 0;
+  std::vector<float> xyz;       // 3 per pixel
+  std::vector<float> scotopic;  // [scotopic cd/m2], 1 per pixel, or empty: estimated from XYZ
+
+  size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
+};
+
+/// Whether a pixel is light, if it be none: no number that went wrong.
+inline bool is_light(const XyzPicture& picture, size_t i) {
+  const float* xyz = &picture.xyz[3 * i];
+  return std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]) && xyz[1] >= 0;
+}
+
+/// Row-major, top row first, 3 bytes per pixel, sRGB (IEC 61966-2-1).
+struct SrgbPicture {
+  int width = 0;
+  int height = 0;
+  std::vector<uint8_t> rgb;
+};
+
+}  // namespace luxodus

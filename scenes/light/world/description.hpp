@@ -1,0 +1,447 @@
+// What a scene says, after everything it names has been read: plain values in SI units (m, sr, W,
+// lm, cd/m2, 1/m, nm), one struct per TOML table, each with the place it stands at, for messages.
+// Made by scenes/formats/scene_file, compiled for the tracer by scenes/light/transport/compile.*.
+// Immutable once read; any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+#include "scenes/light/geometry/mesh.hpp"
+#include "scenes/light/optics/medium.hpp"
+#include "scenes/light/optics/photometric_web.hpp"
+#include "scenes/light/optics/spectrum.hpp"
+
+namespace luxodus {
+
+/// Row-major picture, top row first, linear values in [0, 1]. channels: 1, 3 or 4.
+struct Image {
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  std::vector<float> texels;
+};
+
+// ---- materials and objects ---------------------------------------------------------------------
+
+enum class MaterialKind {
+  lambertian,  // reflectance
+  glossy,      // reflectance (diffuse part) + specular through a GGX lobe of given roughness
+  mirror,      // specular
+  glass_pane,  // thin pane: ior, transmittance of the glass itself (internal), no deviation
+  dielectric,  // smooth refracting boundary of a solid: ior inside (behind the front side)
+  open,        // not there: light passes, fluxes are counted
+};
+
+struct Material {
+  std::string name;
+  SourcePlace place;
+  MaterialKind kind = MaterialKind::lambertian;
+  Spectrum reflectance = Spectrum::constant(0.5);  // diffuse, [0, 1]
+  Spectrum specular = Spectrum::constant(0);       // [0, 1], reflectance + specular <= 1
+  double roughness = 0.3;                          // GGX alpha, (0, 1]
+  double ior = 1.52;
+  Spectrum internal_transmittance = Spectrum::constant(1);  // one pass, glass_pane
+  std::shared_ptr<const Image> reflectance_image;           // multiplies reflectance; needs uv
+};
+
+struct Door {
+  bool open = false;         // state unless a scenario says otherwise
+  glm::dvec3 hinge{0};       // a point of the hinge [m]
+  glm::dvec3 axis{0, 0, 1};  // of the hinge
+  double open_angle_deg = 90;
+};
+
+struct Object {
+  std::string name;
+  SourcePlace place;
+  Mesh mesh;  // placed: scene coordinates
+  int material = 0;
+  int back_material = 0;    // seen from behind the triangles; same as material unless said
+  double patch_edge_m = 0;  // maximum edge of a flux patch; 0: one patch per triangle
+  bool one_patch = false;   // one patch a side for all of it
+  std::vector<std::string> tags;
+  std::string group;  // surface group, "" for none
+  std::optional<Door> door;
+};
+
+// ---- emitters ---------------------------------------------------------------------------------
+
+enum class EmitterShape { point, rectangle, disc, sphere, tube, mesh };
+enum class Distribution { lambertian, isotropic, cosine_power, spot, collimated, web };
+
+/// One emitter, analytic or a luminaire of a photometric file. Surfaces emit along local -Z (the
+/// luminaire frame: -Z is down); rectangle and disc lie in the local xy plane; a tube's axis is
+/// local x.
+struct Emitter {
+  std::string name;
+  SourcePlace place;
+  std::string circuit;  // "" for none
+  std::string group;    // source group; "" takes the scene's rule
+  EmitterShape shape = EmitterShape::point;
+  Frame frame;
+  glm::dvec3 size{
+      0};     // rectangle: x, y; disc, sphere: x = diameter; tube: x = length, y = diameter
+  Mesh mesh;  // shape mesh: scene coordinates, emits to the front side
+  Distribution distribution = Distribution::lambertian;
+  double cosine_power = 1;  // intensity ~ cos^n about -Z
+  double spot_inner_deg =
+      0;  // half angles about -Z: full inside, smooth cosine fall-off, zero outside
+  double spot_outer_deg = 0;
+  std::shared_ptr<const PhotometricWeb> web;
+  Spectrum spectrum = equal_energy_shape();  // integral 1 over 380..780 nm
+  // Flux emitted in each operating state, all factors applied. Photometric input is in lm,
+  // radiometric in W.
+  bool radiometric = false;
+  double mains_flux = 0;              // [lm] or [W]
+  double emergency_flux = 0;          // [lm] or [W]; 0 for a luminaire that fails with the mains
+  double emergency_ageing = 1;        // maintenance x end of duration: contained in emergency_flux
+  double maintenance_factor = 1;      // contained in both fluxes
+  double end_of_duration_factor = 1;  // contained in emergency_flux
+  bool maintained = false;            // of an emergency luminaire: lit with the mains, too
+  std::string file;         // of the photometric data, as the scene writes it; "" for none
+  std::string product;      // what that file calls the luminaire
+  std::string ifc_guid;     // GlobalId in the model that it came from; "" for none
+  glm::dvec3 opening_m{0};  // luminous opening: length, width, height; 0 where not said
+  /// After a failure of the mains: time [s], share of emergency_flux; ascending in both, linear
+  /// between, the last holds. Empty: not said.
+  std::vector<glm::dvec2> onset;
+  std::optional<double> duration_s;  // of the emergency supply, after which it is dark
+  std::string body_material;         // "" for none: returning light passes
+};
+
+// ---- signs ------------------------------------------------------------------------------------
+
+enum class SignLighting { internal, external, photoluminescent };
+
+/// What each texel of a face is. White and green are the colours of the legend and its ground;
+/// which of them is the legend is `legend`. `other` is neither (a border, a lamp cover).
+enum class SignColour : uint8_t { white, green, other };
+
+struct SignFace {
+  int width = 0;  // texels; square texels up to rounding
+  int height = 0;
+  std::vector<SignColour> colour;  // top row first, seen by a reader
+  std::vector<float>
+      relative_luminance;  // empty: uniform in each colour; else per texel, mean 1 per colour
+  SignColour legend = SignColour::white;
+};
+
+/// Where the arrow of a sign's front points, as its reader sees it.
+enum class SignArrow { left, right, ahead };
+
+/// A route that a sign belongs to.
+struct LeadsTo {
+  std::string route;
+  SignArrow arrow = SignArrow::ahead;
+};
+
+struct SignState {
+  double white_cd_m2 = 0;  // luminance of each colour along the normal
+  double green_cd_m2 = 0;
+};
+
+/// Of a sign with words.
+struct SignLetters {
+  double height_m = 0;
+  double stroke_m = 0;
+};
+
+struct Sign {
+  std::string name;
+  SourcePlace place;
+  std::string circuit;
+  std::string group;
+  Frame frame;  // origin: centre of the face; local z: viewing direction (out of the face); local
+                // y: up
+  double width_m = 0;
+  double height_m = 0;
+  double smallest_detail_m = 0;
+  std::optional<SignLetters> letters;
+  std::string file;      // of the drawing of its face, as the scene writes it; "" for none
+  std::string text;      // of its face, if that is words
+  std::string ifc_guid;  // GlobalId in the model that it came from; "" for none
+  bool double_sided = false;
+  double thickness_m = 0.03;  // distance between the two faces
+  SignFace face;
+  SignLighting lighting = SignLighting::internal;
+  SignState mains;
+  SignState emergency;
+  std::optional<double> duration_s;  // of the emergency supply, after which it is dark
+  std::vector<LeadsTo> leads_to;     // routes that it belongs to
+  double angular_exponent = 0;       // luminance ~ cos^n from the normal; 0: Lambertian
+  std::vector<glm::dvec2>
+      decay;  // photoluminescent: time after excitation [s], share of the luminance
+  Spectrum white_shape = equal_energy_shape();
+  Spectrum green_shape = equal_energy_shape();
+  Spectrum white_reflectance = Spectrum::constant(0.7);
+  Spectrum green_reflectance = Spectrum::constant(0.15);
+};
+
+// ---- measurements -----------------------------------------------------------------------------
+
+struct PlaneMeasure {
+  std::string name;
+  SourcePlace place;
+  glm::dvec3 corner{0};  // cells run from here along the two edges; normal = normalize(cross(u, v))
+  glm::dvec3 edge_u{1, 0, 0};
+  glm::dvec3 edge_v{0, 1, 0};
+  int cells_u = 1;
+  int cells_v = 1;
+};
+
+struct ProbeMeasure {
+  std::string name;
+  SourcePlace place;
+  glm::dvec3 position{0};
+  glm::dvec3 normal{0, 0, 1};
+};
+
+struct SurfaceGroupMeasure {
+  std::string name;
+  SourcePlace place;
+  std::vector<std::string> objects;  // names or tags
+};
+
+struct VolumeGroupMeasure {
+  enum class Shape { box, sphere, shell, layer };
+  std::string name;
+  SourcePlace place;
+  Shape shape = Shape::box;
+  glm::dvec3 low{0}, high{0};  // box; layer: z only
+  glm::dvec3 centre{0};
+  double radius = 0;
+  double inner_radius = 0;  // shell
+};
+
+struct CountingPlaneMeasure {
+  std::string name;
+  SourcePlace place;
+  glm::dvec3 corner{0};
+  glm::dvec3 edge_u{1, 0, 0};
+  glm::dvec3 edge_v{0, 1, 0};
+};
+
+struct Observer {
+  std::string name;
+  SourcePlace place;
+  glm::dvec3 eye{0};
+  glm::dvec3 gaze{1, 0, 0};
+  std::optional<std::vector<uint32_t>> signs;  // numbers of those looked at; all unless said
+};
+
+struct Camera {
+  std::string name;
+  SourcePlace place;
+  glm::dvec3 eye{0};
+  glm::dvec3 target{1, 0, 0};
+  glm::dvec3 up{0, 0, 1};
+  double vertical_fov_deg = 60;
+  int width = 640;
+  int height = 360;
+};
+
+// ---- what an assessment is of ------------------------------------------------------------------
+
+/// A defined way out, along the floor.
+struct EscapeRoute {
+  std::string name;
+  SourcePlace place;
+  std::vector<glm::dvec3> path;  // the centre line, in the direction of escape; at least two points
+  double width_m = 0;
+};
+
+/// A floor that people cross on no defined way (open area), or a plane on which they work at a risk
+/// that outlasts the lights (task area).
+struct AssessedArea {
+  std::string name;
+  SourcePlace place;
+  std::vector<glm::dvec2> outline;  // counter-clockwise
+  double z_m = 0;
+  double mains_lx = 0;   // of a task area: the illuminance maintained in mains operation
+  std::string ifc_guid;  // GlobalId of its space in the model that it came from; "" for none
+};
+
+/// What an emergency luminaire has to be near to.
+enum class EmphasisKind {
+  exit_door,
+  final_exit,
+  stairs,
+  level_change,
+  direction_change,
+  intersection,
+  first_aid,
+  fire_equipment,
+  call_point,
+  alarm_panel,
+  refuge
+};
+
+/// The kinds as they are written, in their order.
+inline constexpr std::array<std::string_view, 11> emphasis_words{
+    "exit_door",        "final_exit",   "stairs",    "level_change",
+    "direction_change", "intersection", "first_aid", "fire_equipment",
+    "call_point",       "alarm_panel",  "refuge"};
+
+struct EmphasisPoint {
+  std::string name;
+  SourcePlace place;
+  EmphasisKind kind = EmphasisKind::exit_door;
+  glm::dvec3 position{0};
+  std::optional<glm::dvec3> facing;  // where the front of equipment looks
+};
+
+/// How people and smoke are taken to be.
+struct AssessmentSettings {
+  double age_years = 65;
+  std::vector<double> eye_heights_m = {1.65, 1.2, 0.6};
+  double spacing_m = 2;                 // of observers along routes
+  bool smoke_expected = true;           // smoke may occur where signs are (EN 1838)
+  std::optional<bool> irritant_smoke;   // it stings: people see less than their eyes could
+  std::vector<std::string> rules;       // rule sets, by name; empty: not said
+  std::vector<std::string> deviations;  // national deviations from them, by name
+  SourcePlace place;
+};
+
+namespace limits {
+/// States of one assessment over time: each is traced.
+inline constexpr int max_states = 1000;
+}  // namespace limits
+
+/// The states that are assessed one after another, and the clock that all of them go by.
+struct TimeSettings {
+  SourcePlace place;
+  double from_s = 0, to_s = 0, step_s = 1;
+  std::optional<double> mains_fail_at_s;    // never unless said
+  std::optional<double> walking_speed_m_s;  // nobody walks unless said
+};
+
+/// What a report says of the project, on its first page and in its footers. "" where not said.
+struct ProjectSettings {
+  std::string name, client, address, document, revision, date, author, checker;
+  std::string logo;      // the picture's file, as the scene writes it
+  double north_deg = 0;  // of north, from +y towards +x, seen from above
+  SourcePlace place;
+};
+
+/// A drawing that lies under plans of some floors: what others have drawn of the building. It is no
+/// geometry, and light knows nothing of it.
+struct Backdrop {
+  SourcePlace place;
+  std::string file;      // as it was found
+  bool picture = false;  // PNG; else lines of a DXF
+  glm::dvec2 corner{0};  // of a picture: its lower left one [m]
+  glm::dvec2 across{0};  // and its lower and left edges from there [m]
+  glm::dvec2 up{0};
+  std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;  // of a drawing [m]
+  double low_m = -1e7, high_m = 1e7;                     // heights of its floors
+
+  bool lies_under(double floor_m) const { return floor_m >= low_m && floor_m <= high_m; }
+};
+
+/// A side of the scene's bounding box.
+enum class Side { west, east, south, north, bottom, top };  // -x, +x, -y, +y, -z, +z
+inline constexpr std::array<std::string_view, 6> side_words{"west",  "east",   "south",
+                                                            "north", "bottom", "top"};
+
+// ---- scenarios and run ------------------------------------------------------------------------
+
+enum class Operation { mains, emergency, dark };
+inline constexpr std::array<const char*, 3> operation_words{"mains", "emergency", "dark"};
+constexpr const char* name_of(Operation operation) {
+  return operation_words[static_cast<size_t>(operation)];
+}
+
+struct Scenario {
+  struct Factor {
+    std::string name;
+    double factor;
+  };
+  std::string name;
+  SourcePlace place;
+  Operation operation = Operation::mains;          // at the time of the state
+  Operation written_operation = Operation::mains;  // once the mains have failed
+  double seconds_after_failure = 0;                // photoluminescent decay, onset of luminaires
+  bool says_seconds = false;            // it is written; else luminaires are taken as fully on
+  std::vector<Factor> circuits;         // by circuit name; others 1
+  std::vector<Factor> media;            // extinction factor by medium name; 0 removes it
+  double smoke_factor = 1;              // for every medium not named
+  double emission_factor = 1;           // flames
+  std::vector<std::string> doors_open;  // by object name
+  std::vector<std::string> doors_closed;
+};
+
+enum class GroupRule { one, by_circuit, by_emitter };
+
+struct RunSettings {
+  uint64_t seed = 1;
+  int max_bands = 8;                  // 1 forces one band
+  std::vector<double> band_edges_nm;  // empty: told apart automatically
+  double band_tolerance = 0.02;
+  int64_t batch_particles = 0;  // 0: follows from the scene
+  double voxel_edge_m = 0;      // 0: follows from the scene; only where a medium is
+  bool voxels = true;
+  bool analogue = false;   // sampled absorption instead of weighted survival
+  bool stratified = true;  // low-discrepancy points for the first draws of histories and eye paths
+  GroupRule groups = GroupRule::one;
+  double eye_path_factor = 1.0;  // paths from the eye per batch, relative to the default
+  std::vector<std::string>
+      error_of;  // what the error is judged by: see scenes/light/transport/error_target.hpp
+  SourcePlace error_of_place;
+};
+
+/// Of a scene out of a pack: see scenes/light/transport/packed_scene.hpp.
+struct PackedScene;
+
+/// What `luxodus design` may place: see design.hpp.
+struct DesignSettings;
+
+/// See files_as_read.hpp.
+class FilesAsRead;
+
+struct SceneDescription {
+  std::string name;
+  std::string title;
+  std::string file;
+  RunSettings run;
+  std::vector<Material> materials;
+  std::vector<Object> objects;
+  std::vector<Emitter> emitters;
+  std::vector<Medium> media;
+  std::vector<Sign> signs;
+  std::vector<PlaneMeasure> planes;
+  std::vector<ProbeMeasure> probes;
+  std::vector<SurfaceGroupMeasure> surface_groups;
+  std::vector<VolumeGroupMeasure> volume_groups;
+  std::vector<CountingPlaneMeasure> counting_planes;
+  std::vector<Observer> observers;
+  std::vector<Camera> cameras;
+  std::vector<EscapeRoute> routes;
+  std::vector<AssessedArea> open_areas;
+  std::vector<AssessedArea> task_areas;
+  std::vector<EmphasisPoint> emphasis;
+  AssessmentSettings assessment;
+  ProjectSettings project;
+  std::vector<Backdrop> backdrops;  // none in a pack
+  std::optional<TimeSettings> time;
+  std::optional<double> at_s;                    // of the state that this is, where a time was said
+  std::shared_ptr<const DesignSettings> design;  // null in a pack, and in scenes made by programs
+  std::vector<Side> open_sides;                  // through which light is meant to leave
+  std::vector<Scenario> scenarios;               // empty: mains, as written
+  uint64_t content_hash = 0;                     // of every file read
+  std::shared_ptr<const FilesAsRead> files;      // null in a pack, and in scenes made by programs
+  int64_t degenerate_triangles = 0;              // dropped on reading
+  std::vector<Problem> warnings;                 // said by `check`, not fatal
+  std::vector<Problem> notes;  // said by `check`: what a reader of the results should know
+  /// Where the triangles are, if not in the objects; null where they are.
+  std::shared_ptr<const PackedScene> packed;
+};
+
+}  // namespace luxodus

@@ -1,9 +1,0 @@
-#include "scenes/transport/kernels.hpp"
-
-namespace luxodus {
-
-template std::unique_ptr<ParticleBatches> choose_kernel<MediaNeed::general>(const CompiledScene&,
-                                                                            const GeometryAccess&,
-                                                                            uint64_t);
-
-}  // namespace luxodus

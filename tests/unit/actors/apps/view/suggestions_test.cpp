@@ -1,0 +1,115 @@
+// Suggestions of a live view: of the building with what was moved and added, and what is refused.
+#include "actors/apps/view/suggestions.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/kit/described.hpp"
+#include "tests/kit/temporary_folder.hpp"
+
+namespace luxodus {
+namespace {
+
+using test::TemporaryFolder;
+
+const std::atomic<bool> goes_on{false};
+
+std::shared_ptr<const SceneDescription> emergency_room(const TemporaryFolder& folder) {
+  return test::described(folder.write("scene.toml", R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [14, 3, 3]
+material = "white50"
+[assessment]
+rules = ["en1838-2013"]
+[[scenario]]
+name = "failed"
+operation = "emergency"
+[[emitter]]
+name = "lamp"
+shape = "disc"
+diameter = 0.1
+position = [3, 1.5, 2.97]
+flux_lm = 200
+emergency = "maintained"
+emergency_flux = 200
+maintenance_factor = 0.8
+end_of_duration_factor = 0.7
+[[route]]
+name = "way"
+path = [[1, 1.5, 0], [13, 1.5, 0]]
+width = 1
+)"));
+}
+
+SceneEdits with_copy(const glm::dvec3& position) {
+  SceneEdits edits;
+  edits.scenario = "failed";
+  edits.added.push_back({false, "lamp", "lamp copy"});
+  edits.luminaires["lamp copy"] = {position, std::nullopt};
+  return edits;
+}
+
+Json suggested(const SceneDescription& scene, const SceneEdits& edits,
+               const std::vector<std::string>& free = {}) {
+  LiveOptions options;
+  options.threads = 2;
+  return suggestion(scene, edits, free, options, goes_on);
+}
+
+}  // namespace
+
+TEST_CASE("what is suggested depends on what was added, and stays within the scene's types",
+          "[view][suggest]") {
+  const TemporaryFolder folder;
+  const auto scene = emergency_room(folder);
+  SceneEdits none;
+  none.scenario = "failed";
+  const Json alone = suggested(*scene, none);
+  INFO(alone.dump());
+  REQUIRE(alone["type"] == "suggested");
+  REQUIRE(alone["luminaires"].size() >= 1);
+  CHECK(alone["luminaires"][0]["of"] == "lamp");
+  CHECK(alone["words"].get<std::string>().find("more would do") != std::string::npos);
+  // One that stands far off is one fewer to add, or none.
+  const Json helped = suggested(*scene, with_copy({10, 1.5, 2.97}));
+  REQUIRE(helped["type"] == "suggested");
+  CHECK(helped["missing"].get<double>() < alone["missing"].get<double>());
+  CHECK(helped["luminaires"].size() <= alone["luminaires"].size());
+  // Where it need not stay it is as if it were not there.
+  const Json freed = suggested(*scene, with_copy({10, 1.5, 2.97}), {"lamp copy"});
+  CHECK(freed["luminaires"] == alone["luminaires"]);
+  CHECK(freed["instead_of"] == Json(std::vector<std::string>{"lamp copy"}));
+}
+
+TEST_CASE("only what was added in the view need not stay", "[view][suggest]") {
+  const TemporaryFolder folder;
+  const auto scene = emergency_room(folder);
+  const Json answer = suggested(*scene, with_copy({10, 1.5, 2.97}), {"lamp"});
+  CHECK(answer["type"] == "refused");
+  CHECK(answer["why"].get<std::string>().find("\"lamp\"") != std::string::npos);
+}
+
+TEST_CASE("a scene in which nothing is to be lit gets no suggestion", "[view][suggest]") {
+  const TemporaryFolder folder;
+  const auto scene = test::described(folder.write("scene.toml", R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [6, 4, 3]
+material = "grey50"
+[[emitter]]
+name = "left"
+shape = "point"
+distribution = "isotropic"
+position = [2, 2, 2]
+flux_lm = 1000
+)"));
+  const Json answer = suggested(*scene, {});
+  CHECK(answer["type"] == "refused");
+  CHECK(answer["why"].get<std::string>().find("nothing to light") != std::string::npos);
+}
+
+}  // namespace luxodus

@@ -1,0 +1,68 @@
+// Nodes whose tally may not hold all bins: they flush when it is full, and change no bit.
+#include <spdlog/spdlog.h>
+
+#include <catch2/catch.hpp>
+
+#include "actors/cast/node/node_plan.hpp"
+#include "actors/cast/process/in_process.hpp"
+#include "tests/unit/actors/cast/process/equal_bits.hpp"
+#include "tests/unit/actors/cast/process/library_scene.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+/// A tank of smoke in voxels so small that all bins take tens of megabytes.
+std::shared_ptr<const CompiledScene> fine_tank(double voxel_edge_m) {
+  auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/smoke_tank.toml");
+  REQUIRE(read.scene);
+  auto description = std::make_shared<SceneDescription>(*read.scene);
+  description->run.batch_particles = 2048;
+  description->run.voxel_edge_m = voxel_edge_m;
+  auto compiled = compile_scene(description, find_scenario(*description, "").value(), {1});
+  REQUIRE(compiled.ok());
+  return compiled.value();
+}
+
+}  // namespace
+
+TEST_CASE("a tally that is full flushes, takes no more than its budget, and changes no bit",
+          "[nodes][tally]") {
+  spdlog::set_level(spdlog::level::err);
+  const auto scene = fine_tank(0.05);
+  StopRule stop;
+  stop.particles = 40'000;
+  LocalRun plain(scene, 1, 2);
+  plain.run(stop, nobody, ignore);
+  NodesOptions options;
+  options.nodes = 2;
+  options.fibers = 3;
+  options.tally_bytes = uint64_t{128} << 20;
+  REQUIRE(options.tally_bytes < tally_need(*scene, 2).all());
+  LocalRun run(scene, 1, 1);
+  NodesReport report;
+  const auto ended = run_on_nodes(run, options, stop, nobody, ignore, &report);
+  INFO((ended.ok() ? "" : ended.problem().what));
+  REQUIRE(ended.ok());
+  CHECK(differences(plain, run) == 0);
+  CHECK(report.flushes > 4);  // one a round of each node without a budget
+  CHECK(report.workers.max_tally_bytes > 0);
+  CHECK(report.workers.max_tally_bytes <= options.tally_bytes);
+}
+
+TEST_CASE("a batch that is more than the budget by itself ends the run with the key to change",
+          "[nodes][tally]") {
+  spdlog::set_level(spdlog::level::off);
+  const auto scene = fine_tank(0.05);
+  StopRule stop;
+  stop.particles = 40'000;
+  NodesOptions options;
+  options.nodes = 1;
+  options.tally_bytes = min_tally_bytes(*scene) + (1 << 18);
+  LocalRun run(scene, 1, 1);
+  const auto ended = run_on_nodes(run, options, stop, nobody, ignore);
+  REQUIRE_FALSE(ended.ok());
+  CHECK(ended.problem().what.find("n0: ") == 0);
+  CHECK(ended.problem().what.find("raise tally_bytes") != std::string::npos);
+  CHECK(ended.problem().what.find("batch_particles") != std::string::npos);
+}

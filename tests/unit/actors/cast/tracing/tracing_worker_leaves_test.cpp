@@ -1,0 +1,150 @@
+// A tracer whose coordinator is lost: it joins another one, and takes leave of the first when the
+// other knows of it. Of one of them it hears of the end. The test is both coordinators.
+#include <catch2/catch.hpp>
+
+#include "actors/cast/tracing/tracing_worker.hpp"
+#include "actors/results/run/particle_worker.hpp"
+#include "tests/kit/lone_actor.hpp"
+#include "tests/unit/actors/cast/process/library_scene.hpp"
+
+using namespace luxodus;
+
+namespace {
+
+constexpr NodeId own{0}, first{1}, second{2};
+constexpr Nanoseconds rejoin_after = seconds(3);
+
+/// Always wants a batch, and never traces one.
+struct IdleWork final : LeasedWork {
+  explicit IdleWork(const CompiledScene& scene) : nothing(empty_totals(scene)) {}
+
+  void add(uint64_t, int64_t) override { ++added; }
+  void drop(std::span<const uint64_t>) override {}
+  void drop_all() override { ++dropped; }
+  void look_again() override { port->want_leases(1); }
+  Totals& give_totals() override { return *nothing; }
+  const Totals& totals() const override { return *nothing; }
+  size_t at_hand() const override { return 0; }
+  void end(const std::string&) override { ++ended; }
+
+  LeasePort* port = nullptr;
+  std::unique_ptr<Totals> nothing;
+  int added = 0, dropped = 0, ended = 0;
+};
+
+TracingWorkerConfig led_by_first() {
+  TracingWorkerConfig config;
+  config.self = own;
+  config.coordinators = {{first, ActorName::coordinator}, {second, ActorName::coordinator}};
+  config.rejoin = rejoin_after;
+  return config;
+}
+
+struct Led : test::LoneNode {
+  Led() {
+    work.port = &tracer;
+    tracer.start(work);
+    work.look_again();
+  }
+  ~Led() { end_fibers(); }
+  void say(NodeId node, const MessageId& id, const Message& message) {
+    Message copy = message;
+    REQUIRE(tracer.accept({{node, ActorName::coordinator}, id, copy, Payload()}) == Offered::taken);
+    settle();
+  }
+  /// The answer to its last question, or word, to a node.
+  void grant(NodeId node) { say(node, sender.sent.at(node).back().id, LeaseGranted{}); }
+  size_t leaves(NodeId node) const { return sender.told<EnterPhase>(node).size(); }
+  /// Its coordinator is out of reach until it has joined the other, and then is back.
+  void lose_first() {
+    cluster.stop(first.value);
+    run(rejoin_after + seconds(4));
+    cluster.start(test::config_of(first.value, 3, test::ring(3), 2001));
+    run(seconds(6));
+  }
+
+  const std::shared_ptr<const CompiledScene> scene = scene_of("empty_room", "", 1);
+  IdleWork work{*scene};
+  ShardPlan one_shard;
+  test::NotedSender sender{own};
+  TracingWorker tracer{led_by_first(), one_shard, scheduler, network(), sender};
+  uint64_t words = 0;
+};
+
+}  // namespace
+
+TEST_CASE("a tracer takes leave of the coordinator that it lost when another one knows of it",
+          "[tracer]") {
+  Led led;
+  const MessageId asked = led.sender.sent.at(first).back().id;
+  led.grant(first);
+  led.lose_first();
+  REQUIRE_FALSE(led.sender.told<RequestLease>(second).empty());
+  CHECK(led.leaves(first) == 0);
+  led.grant(second);
+  led.run(seconds(2));
+  CHECK(led.leaves(first) > 0);
+  SECTION("an answer to what it asked before is no answer to that") {
+    led.say(first, asked, LeaseGranted{});
+    const size_t before = led.leaves(first);
+    led.run(seconds(2));
+    CHECK(led.leaves(first) > before);
+  }
+  SECTION("it is said again until it is answered, and no more") {
+    led.grant(first);
+    const size_t before = led.leaves(first);
+    led.run(seconds(2));
+    CHECK(led.leaves(first) == before);
+  }
+}
+
+TEST_CASE("a tracer hears of the end from the coordinator that it lost while none other knows it",
+          "[tracer]") {
+  Led led;
+  led.grant(first);
+  led.lose_first();
+  const bool known = GENERATE(false, true);
+  if (known) led.grant(second);
+  led.say(first, {first, {2001}, 1}, RunEnded{});
+  CHECK(led.tracer.over() == !known);
+  CHECK(led.work.ended == (known ? 0 : 1));
+  REQUIRE_FALSE(led.sender.told<RequestLease>(first).empty());
+  CHECK(led.sender.told<RequestLease>(first).back().batches == 0);
+}
+
+TEST_CASE("questions are put again when a way leads to the coordinator again", "[tracer]") {
+  Led led;
+  led.grant(first);
+  const auto asked = [&] { return led.sender.told<RequestLease>(first).size(); };
+  led.run(seconds(10));  // what it asks is asked ever more seldom
+  led.cluster.stop(first.value);
+  led.run(milliseconds(2500));  // down, and not lost yet
+  const size_t before = asked();
+  led.cluster.start(test::config_of(first.value, 3, test::ring(3), 2001));
+  led.run(seconds(1));
+  CHECK(asked() > before);
+}
+
+TEST_CASE("who was answered that there is nothing asks again after a rest", "[tracer]") {
+  Led led;
+  led.grant(first);
+  const auto asked = [&] { return led.sender.told<RequestLease>(first).size(); };
+  const size_t before = asked();
+  led.run(milliseconds(1500));
+  CHECK(asked() == before);
+  led.run(seconds(1));
+  REQUIRE(asked() == before + 1);  // after the patience: this answer took no time
+  led.run(seconds(1));
+  led.grant(first);  // this one took a second, and some
+  led.run(seconds(6));
+  CHECK(asked() == before + 1);
+  led.run(seconds(7));
+  CHECK(asked() == before + 2);
+}
+
+TEST_CASE("a tracer that ends before the run says that it leaves", "[tracer]") {
+  Led led;
+  led.grant(first);
+  led.tracer.say_goodbye();
+  CHECK(led.leaves(first) == 1);
+}

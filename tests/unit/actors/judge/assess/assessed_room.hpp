@@ -1,0 +1,73 @@
+// A room with one luminaire and one sign, for tests of what an assessment says of it.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <memory>
+#include <string>
+
+#include "actors/judge/assess/assessment.hpp"
+#include "tests/kit/described.hpp"
+#include "tests/kit/replaced.hpp"
+#include "tests/kit/room_texts.hpp"
+
+namespace luxodus::test {
+
+/// 12 m by 4 m by 3 m, black; a lamp above the middle, a sign at the end.
+inline const std::string room = R"(
+[[object]]
+name = "room"
+shape = "room"
+low = [0, -2, 0]
+high = [12, 2, 3]
+material = "black5"
+
+[[object]]
+name = "table"
+shape = "box"
+low = [8.6, -0.4, 0.7]
+high = [9.4, 0.4, 0.75]
+material = "grey50"
+tags = ["furniture"]
+)" + middle_lamp + exit_sign_at("[11.95, 0, 2.2]") +
+                                R"(lighting = "internal"
+
+[assessment]
+irritant_smoke = false
+spacing_m = 4
+eye_heights_m = [1.65]
+
+[[route]]
+name = "way"
+path = [[1, 0, 0], [11, 0, 0]]
+width = 1.6
+
+[[scenario]]
+name = "failed"
+operation = "emergency"
+)";
+
+inline Result<Assessment> tried(const std::string& text, AssessOptions options = {}) {
+  static const std::atomic<bool> nobody{false};
+  if (options.rules.empty()) options.rules = {"en1838-2013"};
+  return assess(described_text(text), options, nobody, [](const std::string&, double) {});
+}
+
+inline Assessment assessed(const std::string& text, const AssessOptions& options = {}) {
+  auto result = tried(text, options);
+  INFO((result.ok() ? "" : result.problem().text()));
+  REQUIRE(result.ok());
+  return std::move(result).value();
+}
+
+inline std::string with_smoke(double extinction, double albedo) {
+  return room + "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nextinction = " +
+         std::to_string(extinction) + "\nalbedo = " + std::to_string(albedo) + "\n";
+}
+
+inline AssessOptions codes_alone() {
+  AssessOptions options;
+  options.reality = false;
+  return options;
+}
+
+}  // namespace luxodus::test

@@ -1,0 +1,33 @@
+#include "actors/judge/assess/check_words.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace luxodus;
+
+TEST_CASE("a check is said without empty brackets, units of nothing, or values that are none",
+          "[assess]") {
+  Json check = {{"subject", "route \"stairs\""},
+                {"title", "Largest over smallest illuminance"},
+                {"rule", "E4"},
+                {"condition", ""},
+                {"value", 116.0},
+                {"unit", "1"},
+                {"limit", 40.0},
+                {"sense", "at most"}};
+  CHECK(check_words(check) ==
+        "route \"stairs\": Largest over smallest illuminance: 116, at most 40 (E4)");
+  check["value"] = nullptr;
+  CHECK(check_words(check) ==
+        "route \"stairs\": Largest over smallest illuminance: no value, at most 40 (E4)");
+  check["reason"] = "a part of it is dark";
+  check["condition"] = "without furniture";
+  CHECK(check_words(check) ==
+        "route \"stairs\": Largest over smallest illuminance: a part of it is dark, at most 40 "
+        "(E4, without furniture)");
+  check["value"] = 1.25;
+  check["unit"] = "of the viewing distance";
+  check["limit"] = nullptr;
+  CHECK(check_words(check).find("1.25 of the viewing distance (E4") != std::string::npos);
+  check["unit"] = "lx";
+  CHECK(check_words(check).find("1.25 lx (E4") != std::string::npos);
+}

@@ -1,0 +1,44 @@
+// What an assessment says before its verdicts of smoke that a fire simulation has computed.
+#include <catch2/catch.hpp>
+
+#include "actors/judge/assess/judged_state.hpp"
+
+namespace luxodus {
+namespace {
+
+SceneDescription scene_of_fire(bool glows) {
+  Medium smoke;
+  smoke.name = "fire";
+  smoke.kind = MediumKind::data_set;
+  smoke.optics.extinction.sigma_t = 1;
+  smoke.data.nx = smoke.data.ny = smoke.data.nz = 1;
+  smoke.data.extent = glm::dvec3(1);
+  smoke.data.extinction = {0.5F};
+  smoke.simulation = FireSimulation{"fire.smv", 60.0264, "Smoke3D", glows, Frame{}, {}};
+  SceneDescription scene;
+  scene.media = {smoke};
+  return scene;
+}
+
+bool warns_of_glare(const AssessedState& state) {
+  for (const std::string& words : state.warnings)
+    if (words.find("FLAME GLARE IS MISSING: \"fire\"") != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("verdicts in the smoke of a fire say that its flames are missing, where they are",
+          "[assess][fds]") {
+  Scenario smoky, cleared;
+  cleared.media = {{"fire", 0}};
+  CHECK(warns_of_glare(state_of(scene_of_fire(false), smoky, {})));
+  CHECK_FALSE(warns_of_glare(state_of(scene_of_fire(true), smoky, {})));
+  CHECK_FALSE(warns_of_glare(state_of(scene_of_fire(false), cleared, {})));
+  const AssessedState state = state_of(scene_of_fire(true), smoky, {});
+  REQUIRE(state.media.size() == 1);
+  CHECK(state.media[0].source.find("a fire simulation at 60.0264 s (Smoke3D)") !=
+        std::string::npos);
+}
+
+}  // namespace luxodus

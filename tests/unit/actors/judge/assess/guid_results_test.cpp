@@ -1,0 +1,54 @@
+// Results by GlobalId, for the program that a model came from.
+#include "actors/judge/assess/guid_results.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace luxodus;
+
+namespace {
+
+/// An assessment with what this table is made of.
+Json small_assessment() {
+  return {{"luminaires",
+           {{{"name", "lamp"},
+             {"ifc_guid", "L1"},
+             {"emergency_flux", {{"value", 120.0}, {"unit", "lm"}}}},
+            {{"name", "other"}, {"emergency_flux", {{"value", 5.0}, {"unit", "lm"}}}}}},
+          {"signs", {{{"name", "exit"}, {"ifc_guid", "S1"}}}},
+          {"places", {{"areas", {{{"name", "hall"}, {"kind", "open"}, {"ifc_guid", "R1"}}}}}},
+          {"checks",
+           {{{"subject", "open area \"hall\""},
+             {"rule", "E6"},
+             {"title", "core"},
+             {"value", 0.75},
+             {"limit", 0.5},
+             {"unit", "lx"},
+             {"verdict", "pass"}},
+            {{"subject", "luminaire \"other\""}, {"rule", "E14"}, {"verdict", "fail"}}}},
+          {"sights",
+           {{{"sign", "exit"}, {"verdict", "legible"}},
+            {{"sign", "exit"}, {"verdict", "hidden"}},
+            {{"sign", "other"}, {"verdict", "legible"}}}}};
+}
+
+}  // namespace
+
+TEST_CASE("checks, fluxes and views stand by the GlobalId of their thing", "[assess]") {
+  const auto table = results_by_guid(small_assessment());
+  REQUIRE(table);
+  CHECK(table->text() ==
+        "ifc_guid,kind,name,rule_set,rule,edition,clause,title,condition,value,unit,sense,limit,"
+        "verdict,reason\n"
+        "L1,luminaire,lamp,,,,,emergency flux,,120,lm,,,information,\n"
+        "R1,space,hall,,E6,,,core,,0.75,lx,,0.5,pass,\n"
+        "S1,sign,exit,,,,,views from which it is legible,,1,of 2,,,information,"
+        "\"1 hidden, 1 legible\"\n");
+}
+
+TEST_CASE("without GlobalIds there is no table of them", "[assess]") {
+  Json assessment = small_assessment();
+  assessment["luminaires"][0].erase("ifc_guid");
+  assessment["signs"][0].erase("ifc_guid");
+  assessment["places"]["areas"][0].erase("ifc_guid");
+  CHECK_FALSE(results_by_guid(assessment));
+}

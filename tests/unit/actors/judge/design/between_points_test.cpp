@@ -1,0 +1,84 @@
+// Minima between the points of the grid: where light ends sharply a gap may lie between two of
+// them, and a layout has none there.
+#include <catch2/catch.hpp>
+
+#include "tests/kit/temporary_folder.hpp"
+#include "tests/unit/actors/judge/design/design_scenes.hpp"
+
+namespace luxodus {
+namespace {
+
+/// A corridor under spots of 45 degrees at 2.97 m, which light 2.95 m to each side of them. Points
+/// are 0.25 m apart from `from` on; between the first two places lie 0.1 m without light, from
+/// 5.95 m to 6.05 m.
+std::string corridor_with_gap(double from) {
+  return test::box_room(12, 2, 3) + test::judged_2013 + test::spot_of_45_deg +
+         fmt::format(R"(
+[[route]]
+name = "corridor"
+path = [[{}, 1, 0], [{}, 1, 0]]
+width = 0.3
+
+[design]
+existing = "removed"
+place_signs = false
+failure = "none"
+margin = 1
+place_tolerance_m = 0
+places = [[3, 1, 2.97], [9, 1, 2.97], [6, 1, 2.97]]
+)",
+                     from, from + 10.75);
+}
+
+}  // namespace
+
+TEST_CASE("no minimum hides between the points of the grid", "[design][between]") {
+  const test::TemporaryFolder folder;
+  // Here a point lies in the gap, at 6 m.
+  const auto seen = test::designed(folder.write("seen.toml", corridor_with_gap(0.5)));
+  CHECK(seen.luminaires.size() == 3);
+  CHECK(seen.between.added == 0);
+  // And here the gap is between the points at 5.875 m and 6.125 m.
+  const auto hidden = test::designed(folder.write("hidden.toml", corridor_with_gap(0.625)));
+  CHECK(hidden.between.added > 0);
+  CHECK(hidden.luminaires.size() == 3);
+  CHECK(hidden.between.least >= 1);
+  CHECK(hidden.verifications == 2);
+}
+
+TEST_CASE("where light is smooth nothing is added between the points", "[design][between]") {
+  const test::TemporaryFolder folder;
+  const auto result = test::designed(folder.write(
+      "scene.toml", test::box_room(9, 3, 3) + test::judged_2013 + test::way_along(1, 8, 1.5) +
+                        "[design]\nplace_signs = false\nfailure = \"none\"\n"));
+  CHECK(result.between.added == 0);
+  CHECK(result.between.least > 0.99);
+  CHECK(result.between.least < 5);
+}
+
+TEST_CASE("moving luminaires opens no gap between the points", "[design][between][refine]") {
+  // Spots at 3.06 m and 8.94 m light all of the way. Its ends and the points at 5.875 m and 6.125 m
+  // would be brightest under spots at 3 m and 9 m, which leave 0.1 m in the middle dark.
+  const test::TemporaryFolder folder;
+  DesignOptions options;
+  options.refine = true;
+  const auto result = test::designed(
+      folder.write("scene.toml", test::box_room(12, 2, 3) + test::judged_2013 +
+                                     test::spot_of_45_deg +
+                                     test::route("corridor", "[0.125, 1, 0], [11.875, 1, 0]", 0.3) +
+                                     "[design]\nexisting = \"removed\"\nplace_signs = false\n"
+                                     "failure = \"none\"\nmargin = 1\nplace_tolerance_m = 0\n"
+                                     "places = [[3.06, 1, 2.97], [8.94, 1, 2.97]]\n"
+                                     "spacing_m = 0.5\n"),
+      options);
+  REQUIRE(result.luminaires.size() == 2);
+  REQUIRE(result.refined);
+  constexpr double lit_m = 2.95;  // to each side of a spot
+  double nearest = lit_m;
+  for (const PlacedLuminaire& one : result.luminaires)
+    nearest = std::min(nearest, std::abs(one.candidate.position.x - 6));
+  CHECK(nearest < lit_m);
+  CHECK(result.between.least > 0.99);
+}
+
+}  // namespace luxodus

@@ -1,0 +1,186 @@
+// Luminaires, emitters and signs are read field by field, with the conversions that their words ask
+// for.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/formats/scene_file/scene_file.hpp"
+#include "tests/unit/scenes/formats/scene_file/scene_fixture.hpp"
+
+namespace luxodus {
+
+TEST_CASE("a luminaire's fluxes are the file's times the factors it states", "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(f, R"(
+[[luminaire]]
+name = "both"
+file = "lamp.ies"
+position = [1, 2, 3]
+target = [1, 5, 3]
+circuit = "c1"
+group = "g"
+mains_factor = 0.5
+emergency = true
+emergency_factor = 0.2
+maintenance_factor = 0.8
+end_of_duration_factor = 0.75
+onset = [[0, 0], [0.5, 0.5], [5, 1]]
+spectrum = "2700 K"
+body_material = "grey50"
+[[luminaire]]
+name = "only then"
+file = "lamp.ies"
+position = [0, 0, 0]
+rotation_deg = 90
+point_source = true
+emergency = "non-maintained"
+emergency_flux = 120
+maintenance_factor = 0.8
+end_of_duration_factor = 0.5
+[[luminaire]]
+name = "plain"
+file = "lamp.ies"
+position = [0, 0, 0]
+maintenance_factor = 0.9
+)");
+  const Emitter& both = named(s.emitters, "both");
+  REQUIRE(both.web != nullptr);
+  const double flux = both.web->flux_lm();
+  CHECK(both.distribution == Distribution::web);
+  CHECK(both.shape == EmitterShape::disc);
+  CHECK(both.size.x == near(0.2));
+  CHECK(same(both.frame.origin, {1, 2, 3}));
+  CHECK(same(both.frame.axes * glm::dvec3(0, 0, -1), {0, 1, 0}));
+  CHECK(same(both.frame.axes * glm::dvec3(0, 1, 0), {0, 0, 1}));
+  CHECK(both.mains_flux == near(flux * 0.5 * 0.8));
+  CHECK(both.emergency_flux == near(flux * 0.2 * 0.8 * 0.75));
+  CHECK(both.onset == std::vector<glm::dvec2>{{0, 0}, {0.5, 0.5}, {5, 1}});
+  CHECK_FALSE(both.radiometric);
+  CHECK(both.circuit == "c1");
+  CHECK(both.group == "g");
+  CHECK(both.body_material == "grey50");
+  CHECK(both.spectrum.integral() == Approx(1));
+  CHECK(both.spectrum.at(700) > 2 * both.spectrum.at(450));
+  const Emitter& only = named(s.emitters, "only then");
+  CHECK(only.web == both.web);  // read once
+  CHECK(only.shape == EmitterShape::point);
+  CHECK(only.mains_flux == 0);
+  CHECK(only.emergency_flux == near(120 * 0.8 * 0.5));
+  CHECK(same(only.frame.axes * glm::dvec3(1, 0, 0), {0, 1, 0}));
+  CHECK(named(s.emitters, "plain").mains_flux == near(flux * 0.9));
+  CHECK(named(s.emitters, "plain").emergency_flux == 0);
+}
+
+TEST_CASE("emitters of every shape have their size, distribution and flux", "[format][scene]") {
+  SceneFolder f;
+  const std::string head = "position = [0, 0, 1]\n";
+  const auto s =
+      good(f,
+           "[[emitter]]\nname = \"p\"\nshape = \"point\"\ndistribution = \"isotropic\"\n"
+           "flux_w = 3\n" +
+               head +
+               "[[emitter]]\nname = \"r\"\nshape = \"rectangle\"\nsize = [2, 3]\n"
+               "luminance_cd_m2 = 100\n" +
+               head +
+               "[[emitter]]\nname = \"d\"\nshape = \"disc\"\ndiameter = 2\n"
+               "luminance_cd_m2 = 100\n" +
+               head +
+               "[[emitter]]\nname = \"s\"\nshape = \"sphere\"\ndiameter = 2\n"
+               "luminance_cd_m2 = 100\n" +
+               head +
+               "[[emitter]]\nname = \"t\"\nshape = \"tube\"\nlength = 2\ndiameter = 0.1\n"
+               "luminance_cd_m2 = 100\n" +
+               head +
+               "[[emitter]]\nname = \"m\"\nshape = \"mesh\"\nfile = \"cube.obj\"\n"
+               "units = \"cm\"\nup = \"z\"\nluminance_cd_m2 = 100\n"
+               "[[emitter]]\nname = \"spot\"\nshape = \"disc\"\ndiameter = 0.1\n"
+               "distribution = \"spot\"\nspot_inner_deg = 5\nspot_outer_deg = 12\n"
+               "flux_lm = 800\ndirection = [2, 0, 0]\n" +
+               head +
+               "[[emitter]]\nname = \"c\"\nshape = \"point\"\n"
+               "distribution = \"cosine_power\"\ncosine_power = 4\nflux_lm = 1\n" +
+               head);
+  CHECK(named(s.emitters, "p").radiometric);
+  CHECK(named(s.emitters, "p").mains_flux == 3);
+  CHECK(named(s.emitters, "p").distribution == Distribution::isotropic);
+  CHECK(named(s.emitters, "r").mains_flux == near(pi * 100 * 6));
+  CHECK(named(s.emitters, "d").mains_flux == near(pi * 100 * pi));
+  CHECK(named(s.emitters, "s").mains_flux == near(pi * 100 * 4 * pi));
+  CHECK(named(s.emitters, "t").mains_flux == near(pi * 100 * pi * 0.2));
+  CHECK(named(s.emitters, "m").mains_flux == near(pi * 100 * 2));
+  CHECK(named(s.emitters, "m").mesh.triangles.size() == 2);
+  CHECK(named(s.emitters, "spot").spot_outer_deg == 12);
+  CHECK(named(s.emitters, "spot").spot_inner_deg == 5);
+  CHECK(same(named(s.emitters, "spot").frame.axes * glm::dvec3(0, 0, -1), {1, 0, 0}));
+  CHECK(named(s.emitters, "c").cosine_power == 4);
+}
+
+TEST_CASE("signs have a face, luminances in both states, and a detail to be seen",
+          "[format][scene]") {
+  SceneFolder f;
+  const auto s = good(f, R"(
+[[sign]]
+name = "exit"
+position = [5, 1, 2]
+facing = [-2, 0, 0]
+width = 0.6
+height = 0.3
+text = "EXIT"
+letter_height = 0.15
+stroke = 0.02
+spacing = 0.01
+legend = "green"
+double_sided = true
+mains_white = 500
+mains_green = 60
+emergency_white = 50
+emergency_green = 6
+angular_exponent = 0.5
+circuit = "signs"
+[[sign]]
+name = "glow"
+position = [5, 1, 2]
+facing = [0, 0, 1]
+up = [0, 1, 0]
+width = 0.6
+height = 0.3
+plain = "white"
+smallest_detail = 0.05
+lighting = "photoluminescent"
+emergency_white = 0.3
+emergency_green = 0.03
+decay = [[0, 1], [600, 0.2], [3600, 0.05]]
+[[sign]]
+name = "board"
+position = [5, 1, 2]
+facing = [1, 0, 0]
+width = 0.6
+height = 0.3
+plain = "green"
+smallest_detail = 0.05
+lighting = "external"
+white_reflectance = 0.8
+[[scenario]]
+name = "dim"
+circuits = { signs = 0.5 }
+)");
+  const Sign& exit = named(s.signs, "exit");
+  CHECK(exit.smallest_detail_m == 0.02);
+  CHECK(exit.face.legend == SignColour::green);
+  CHECK(exit.face.width == 256);
+  CHECK(exit.double_sided);
+  CHECK(exit.mains.white_cd_m2 == 500);
+  CHECK(exit.emergency.green_cd_m2 == 6);
+  CHECK(exit.angular_exponent == 0.5);
+  CHECK(same(exit.frame.axes[2], {-1, 0, 0}));
+  CHECK(same(exit.frame.axes[1], {0, 0, 1}));
+  CHECK(exit.green_shape.at(520) > exit.green_shape.at(650));
+  const Sign& glow = named(s.signs, "glow");
+  CHECK(glow.lighting == SignLighting::photoluminescent);
+  CHECK(glow.decay.size() == 3);
+  CHECK(glow.emergency.white_cd_m2 == 0.3);
+  CHECK(named(s.signs, "board").lighting == SignLighting::external);
+  CHECK(named(s.signs, "board").white_reflectance.at(500) == 0.8);
+}
+
+}  // namespace luxodus
