@@ -1,5 +1,6 @@
 #include "scenes/emergency/check.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace luxodus {
@@ -20,12 +21,17 @@ const char* name_of(CheckVerdict verdict) {
   return "";
 }
 
+bool Rule::recollected() const {
+  return std::any_of(sources.begin(), sources.end(),
+                     [](const Remark& r) { return r.id == RemarkId::source_recollection; });
+}
+
 std::optional<double> Check::margin() const {
   if (!value || !limit || *limit == 0) return std::nullopt;
   return (at_least ? *value - *limit : *limit - *value) / std::abs(*limit);
 }
 
-Check judged(Rule rule, std::string subject, double value, double limit, bool at_least,
+Check judged(Rule rule, Subject subject, double value, double limit, bool at_least,
              std::string unit, std::optional<glm::dvec3> worst) {
   Check check;
   check.rule = std::move(rule);
@@ -35,27 +41,26 @@ Check judged(Rule rule, std::string subject, double value, double limit, bool at
   check.at_least = at_least;
   check.unit = std::move(unit);
   check.worst = worst;
-  if (std::isinf(value)) check.reason = "beyond all measure: there is none, or no light at all";
+  if (std::isinf(value)) check.reasons = {remark(RemarkId::beyond_measure)};
   if (std::isnan(value)) {
-    check.reason = "no value could be computed";
+    check.reasons = {remark(RemarkId::no_value)};
     return check;
   }
   const bool holds = at_least ? value >= limit : value <= limit;
   check.verdict = holds ? CheckVerdict::pass : CheckVerdict::fail;
-  if (check.rule.recollected) {
+  if (check.rule.recollected()) {
     check.verdict = CheckVerdict::not_verified;
-    check.reason += (check.reason.empty() ? "" : "; ") +
-                    std::string(holds ? "the value keeps" : "the value breaks") +
-                    " a limit that was read nowhere: look it up";
+    check.reasons.push_back(
+        remark(holds ? RemarkId::keeps_unread_limit : RemarkId::breaks_unread_limit));
   }
   return check;
 }
 
-Check not_assessed(Rule rule, std::string subject, std::string reason) {
+Check not_assessed(Rule rule, Subject subject, Remark reason) {
   Check check;
   check.rule = std::move(rule);
   check.subject = std::move(subject);
-  check.reason = std::move(reason);
+  check.reasons = {std::move(reason)};
   return check;
 }
 

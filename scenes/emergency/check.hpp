@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "scenes/emergency/remark.hpp"
+
 namespace luxodus {
 
 /// not_verified: a value was found, but the limit that it was held against is known from memory
@@ -18,36 +20,39 @@ const char* name_of(CheckVerdict verdict);
 
 /// A rule of a code.
 struct Rule {
-  std::string set;        // "en1838-2024"; "" for what is of no code
-  std::string deviation;  // "de-asr-a3.4-3"; "" where the set itself has it
-  std::string id;         // of ours: "E1"
-  std::string edition;    // "EN 1838:2013"
-  std::string clause;     // "4.2.1"; "" where it is not known
-  std::string title;
-  std::string source;        // what it is quoted from: the codes themselves are not at hand
-  std::string status;        // "superseded by EN 1838:2024"; "" where there is nothing to say
-  bool recollected = false;  // its limit was read nowhere
+  std::string set;               // "en1838-2024"; "" for what is of no code
+  std::string deviation;         // "de-asr-a3.4-3"; "" where the set itself has it
+  std::string id;                // of ours: "E1"
+  std::string edition;           // "EN 1838:2013"
+  std::string clause;            // "4.2.1"; "" where it is not known
+  Remarks sources;               // what it is quoted from: the codes themselves are not at hand
+  std::optional<Remark> status;  // where there is something to say
+
+  /// Whether its limit was read nowhere.
+  bool recollected() const;
+  /// Whether the set of 2024 has it from that of 2013, whose clause it names.
+  bool carried_over() const { return status && status->id == RemarkId::carried_over; }
 };
 
 struct Check {
   Rule rule;
-  std::string subject;    // route "corridor"
-  std::string condition;  // "without furniture"
+  Subject subject;
+  Remarks conditions;  // under which it holds
   std::optional<double> value, limit;
   bool at_least = true;  // the value shall not be below its limit; else not above
   std::string unit;
   std::optional<glm::dvec3> worst;  // where [m]
   CheckVerdict verdict = CheckVerdict::not_assessed;
-  std::string reason;
+  Remarks reasons;
 
   /// How far the value is on the right side of its limit, as a share of it; negative on the wrong.
   std::optional<double> margin() const;
 };
 
 /// Judged by its limit; not verified where that is known from memory alone.
-Check judged(Rule rule, std::string subject, double value, double limit, bool at_least,
+Check judged(Rule rule, Subject subject, double value, double limit, bool at_least,
              std::string unit, std::optional<glm::dvec3> worst = std::nullopt);
-Check not_assessed(Rule rule, std::string subject, std::string reason);
+Check not_assessed(Rule rule, Subject subject, Remark reason);
 
 /// How many of each verdict, by CheckVerdict.
 using CheckCounts = std::array<size_t, 5>;

@@ -55,26 +55,23 @@ bool unseen(const Uncertain& pattern, const Uncertain& silhouette) {
   return surely_below(pattern, level_seen) && no_silhouette;
 }
 
-constexpr const char* visible_or_not = "visible or invisible: more paths tell (--rounds)";
-
 /// Between which verdicts chance has left a view open, the better first.
-const char* open_between(const Uncertain& reading, const Uncertain& pattern,
-                         const Uncertain& silhouette) {
+RemarkId open_between(const Uncertain& reading, const Uncertain& pattern,
+                      const Uncertain& silhouette) {
   const bool may_be_read = !surely_below(reading, level_read);
   const bool seen = surely_above(pattern, level_seen) || surely_above(silhouette, level_seen);
-  if (!may_be_read) return visible_or_not;
-  return seen ? "legible or not: more paths tell (--rounds)"
-              : "legible or even invisible: more paths tell (--rounds)";
+  if (!may_be_read) return RemarkId::visible_or_invisible;
+  return seen ? RemarkId::legible_or_not : RemarkId::legible_or_invisible;
 }
 
 /// Of what light alone would let be read, or perhaps.
 void judge_in_irritant_smoke(Sight& sight) {
   const bool undecided = sight.verdict == SightVerdict::undecided;
   if (undecided && !surely_above(sight.seeing_level, level_seen)) {
-    sight.reason = visible_or_not;
+    sight.reason = remark(RemarkId::visible_or_invisible);
   } else if (undecided || sight.verdict == SightVerdict::legible) {
     sight.verdict = SightVerdict::visible;
-    sight.reason = "irritant smoke: too far for eyes that sting (Jin and Yamada 1985)";
+    sight.reason = remark(RemarkId::irritant_smoke);
   }
 }
 
@@ -96,7 +93,7 @@ void judge_by_light(Sight& sight, const SignView& view, const SignLook& look, co
     sight.verdict = SightVerdict::visible;
   } else {
     sight.verdict = SightVerdict::undecided;
-    sight.reason = open_between(sight.reading_level, pattern, silhouette);
+    sight.reason = remark(open_between(sight.reading_level, pattern, silhouette));
   }
 }
 
@@ -134,11 +131,11 @@ Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
     return sight;
   }
   if (look.visible_share < whole_share) {
-    sight.reason = "the building hides a part of it: what is left may be read or not";
+    sight.reason = remark(RemarkId::partly_hidden);
     return sight;
   }
   if (!has_legend(sign.face)) {
-    sight.reason = "its face has one colour: there is nothing to read";
+    sight.reason = remark(RemarkId::one_colour);
     return sight;
   }
   judge_by_light(sight, view, look, rules.eye);

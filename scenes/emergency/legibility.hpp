@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "scenes/emergency/remark.hpp"
 #include "scenes/emergency/sight.hpp"
 #include "scenes/emergency/sign_geometry.hpp"
 
@@ -35,11 +36,11 @@ const char* name_of(SightVerdict verdict);
 
 struct Sight {
   SightVerdict verdict = SightVerdict::not_assessed;
-  std::string reason;       // where there is one to give
-  Uncertain reading_level;  // visibility level of the smallest detail of the legend
-  Uncertain seeing_level;   // of the face as a whole, by its pattern or before its surround
-  double extinction = 0;    // mean on the line of sight [1/m]
-  double jin_m = 0;         // how far Jin's law would have it legible
+  std::optional<Remark> reason;  // where there is one to give
+  Uncertain reading_level;       // visibility level of the smallest detail of the legend
+  Uncertain seeing_level;        // of the face as a whole, by its pattern or before its surround
+  double extinction = 0;         // mean on the line of sight [1/m]
+  double jin_m = 0;              // how far Jin's law would have it legible
   bool jin_legible = false;
   bool stings = false;      // irritant smoke and the distance forbid reading it, whatever its light
   ViewingDistance viewing;  // what the code's rule would say

@@ -54,11 +54,11 @@ std::vector<double> as_new(const SceneDescription& scene) {
   return factors;
 }
 
-Check at_least(const Rule& rule, const std::string& subject, const Spread& spread, double limit) {
+Check at_least(const Rule& rule, const Subject& subject, const Spread& spread, double limit) {
   return judged(rule, subject, spread.least, limit, true, "lx", spread.darkest);
 }
 
-Check even(const Rule& rule, const std::string& subject, const Spread& spread) {
+Check even(const Rule& rule, const Subject& subject, const Spread& spread) {
   return judged(rule, subject, spread.diversity(), max_diversity, false, "1", spread.darkest);
 }
 
@@ -82,25 +82,21 @@ std::optional<LampFailure> worst_failure(const SceneDescription& scene,
   return worst;
 }
 
-constexpr const char* no_american_areas =
-    "this code judges paths of egress: name them as [[route]]";
-constexpr const char* no_luminaire = "there is no emergency luminaire";
-
 /// Of hospitals: what is left must be enough.
 Check enough_with_one_failed(const Rule& rule, const SceneDescription& scene,
-                             const std::string& subject, const std::vector<LitPoint>& points) {
+                             const Subject& subject, const std::vector<LitPoint>& points) {
   const auto worst = worst_failure(scene, points);
   if (!worst) {
     Check check = judged(rule, subject, 0, min_failed_lx, true, "lx");
-    check.reason = no_luminaire;
+    check.reasons = {remark(RemarkId::no_emergency_luminaire)};
     return check;
   }
   Check check = at_least(rule, subject, worst->spread, min_failed_lx);
-  check.condition = "\"" + worst->luminaire + "\" has failed";
+  check.conditions = {remark(RemarkId::luminaire_failed, worst->luminaire)};
   return check;
 }
 
-std::vector<Check> american_checks(const SceneDescription& scene, const std::string& subject,
+std::vector<Check> american_checks(const SceneDescription& scene, const Subject& subject,
                                    const Spread& centre, const std::vector<LitPoint>& points,
                                    const CodeChoice& codes) {
   const bool ibc = codes.has(Deviation::us_ibc);
@@ -130,7 +126,7 @@ std::vector<uint32_t> emergency_luminaires(const SceneDescription& scene) {
   return out;
 }
 
-Check check_of_failure(const SceneDescription& scene, const std::string& subject,
+Check check_of_failure(const SceneDescription& scene, const Subject& subject,
                        const std::vector<LitPoint>& points) {
   Check check;
   check.rule = own_rule("F1");
@@ -139,14 +135,14 @@ Check check_of_failure(const SceneDescription& scene, const std::string& subject
   check.verdict = CheckVerdict::information;
   const auto worst = worst_failure(scene, points);
   if (!worst || points.empty()) {
-    check.reason = worst ? "there is no place to assess" : no_luminaire;
+    check.reasons = {
+        remark(worst ? RemarkId::nowhere_to_assess : RemarkId::no_emergency_luminaire)};
     return check;
   }
   check.value = worst->spread.least;
   check.worst = worst->spread.darkest;
-  check.condition = "\"" + worst->luminaire + "\" has failed";
-  check.reason =
-      "the worst of " + std::to_string(emergency_luminaires(scene).size()) + " single failures";
+  check.conditions = {remark(RemarkId::luminaire_failed, worst->luminaire)};
+  check.reasons = {remark(RemarkId::worst_of_failures, emergency_luminaires(scene).size())};
   return check;
 }
 
@@ -170,7 +166,7 @@ RoutePoints points_of(const EscapeRoute& route) {
 
 std::vector<Check> checks_of_route(const SceneDescription& scene, const EscapeRoute& route,
                                    const RouteLight& light, const CodeChoice& codes) {
-  const std::string subject = "route \"" + route.name + "\"";
+  const Subject subject = subject_of(route);
   const Spread centre = spread_of(light.centre, all_lit(light.centre));
   std::vector<Check> out;
   const auto rule = [&](const char* id) { return rule_of(id, codes); };
@@ -193,12 +189,11 @@ std::vector<Check> checks_of_route(const SceneDescription& scene, const EscapeRo
 
 std::vector<Check> checks_of_open_area(const SceneDescription& scene, const AssessedArea& area,
                                        const std::vector<LitPoint>& core, const CodeChoice& codes) {
-  const std::string subject = "open area \"" + area.name + "\"";
-  if (!codes.european()) return {not_assessed(rule_of("N1", codes), subject, no_american_areas)};
+  const Subject subject{SubjectKind::open_area, area.name};
+  if (!codes.european())
+    return {not_assessed(rule_of("N1", codes), subject, remark(RemarkId::routes_alone_judged))};
   const auto rule = [&](const char* id) { return rule_of(id, codes); };
-  if (core.empty())
-    return {not_assessed(rule("E6"), subject,
-                         "it is narrower than its two borders of 0.5 m: it has no core")};
+  if (core.empty()) return {not_assessed(rule("E6"), subject, remark(RemarkId::no_core))};
   const Spread spread = spread_of(core, all_lit(core));
   std::vector<Check> out{at_least(rule("E6"), subject, spread, open_lx),
                          even(rule("E6d"), subject, spread)};
@@ -212,8 +207,9 @@ std::vector<Check> checks_of_open_area(const SceneDescription& scene, const Asse
 std::vector<Check> checks_of_task_area(const SceneDescription& scene, const AssessedArea& area,
                                        const std::vector<LitPoint>& plane,
                                        const CodeChoice& codes) {
-  const std::string subject = "task area \"" + area.name + "\"";
-  if (!codes.european()) return {not_assessed(rule_of("N1", codes), subject, no_american_areas)};
+  const Subject subject{SubjectKind::task_area, area.name};
+  if (!codes.european())
+    return {not_assessed(rule_of("N1", codes), subject, remark(RemarkId::routes_alone_judged))};
   const Spread spread = spread_of(plane, all_lit(plane));
   const double limit = std::max(task_lx, task_share * area.mains_lx);
   std::vector<Check> out{

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
@@ -25,16 +26,18 @@ std::vector<double> shares_after(const SceneDescription& scene, double seconds) 
   return out;
 }
 
-/// "\"a\" and 2 more"; "" where all state their onset.
-std::string silent(const SceneDescription& scene) {
+/// Which luminaires state no onset; none where all do.
+std::optional<Remark> silent(const SceneDescription& scene) {
   std::string first;
   int more = -1;
   for (const uint32_t number : emergency_luminaires(scene)) {
     const Emitter& e = scene.emitters[number];
     if (!e.onset.empty()) continue;
-    if (++more == 0) first = "\"" + e.name + "\"";
+    if (++more == 0) first = e.name;
   }
-  return more > 0 ? first + " and " + std::to_string(more) + " more" : first;
+  if (more < 0) return std::nullopt;
+  return more == 0 ? remark(RemarkId::onset_unsaid, first)
+                   : remark(RemarkId::onset_unsaid_of_more, first, more);
 }
 
 bool none_states(const SceneDescription& scene) {
@@ -43,11 +46,7 @@ bool none_states(const SceneDescription& scene) {
                      [&](uint32_t number) { return scene.emitters[number].onset.empty(); });
 }
 
-std::string seconds_text(double seconds) {
-  return seconds < 1 ? "0.5 s" : std::to_string(static_cast<int>(seconds)) + " s";
-}
-
-Check in_time(const Rule& rule, const SceneDescription& scene, const std::string& subject,
+Check in_time(const Rule& rule, const SceneDescription& scene, const Subject& subject,
               const std::vector<LitPoint>& points, double seconds, double limit_lx) {
   const std::vector<double> shares = shares_after(scene, seconds);
   double least = std::numeric_limits<double>::infinity();
@@ -58,18 +57,17 @@ Check in_time(const Rule& rule, const SceneDescription& scene, const std::string
     least = lux;
     darkest = point.place;
   }
-  if (points.empty()) return not_assessed(rule, subject, "there is no place to assess");
-  const std::string unsaid = silent(scene);
-  if (least < limit_lx && !unsaid.empty())
-    return not_assessed(rule, subject, "how fast they come on ('onset') is not said of " + unsaid);
+  if (points.empty()) return not_assessed(rule, subject, remark(RemarkId::nowhere_to_assess));
+  if (least < limit_lx)
+    if (auto unsaid = silent(scene)) return not_assessed(rule, subject, *std::move(unsaid));
   Check check = judged(rule, subject, least, limit_lx, true, "lx", darkest);
-  check.condition = seconds_text(seconds) + " after the mains have failed";
+  check.conditions = {remark(RemarkId::after_mains_failure, seconds)};
   return check;
 }
 
 }  // namespace
 
-std::vector<Check> checks_of_onset(const SceneDescription& scene, const std::string& subject,
+std::vector<Check> checks_of_onset(const SceneDescription& scene, const Subject& subject,
                                    const std::vector<LitPoint>& points, double demanded_lx,
                                    const CodeChoice& codes) {
   if (none_states(scene)) return {};
@@ -87,7 +85,7 @@ std::vector<Check> checks_of_onset(const SceneDescription& scene, const std::str
   return out;
 }
 
-std::vector<Check> checks_of_task_onset(const SceneDescription& scene, const std::string& subject,
+std::vector<Check> checks_of_task_onset(const SceneDescription& scene, const Subject& subject,
                                         const std::vector<LitPoint>& plane, double demanded_lx,
                                         const CodeChoice& codes) {
   if (none_states(scene) || !codes.european()) return {};
@@ -122,49 +120,44 @@ SupplyHours supply_of(const SceneDescription& scene) {
 
 std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice& codes) {
   std::vector<Check> out;
-  const auto add = [&](const char* id, const char* subject, const char* reason) {
-    out.push_back(not_assessed(rule_of(id, codes), subject, reason));
+  const auto add = [&](const char* id, SubjectKind subject, RemarkId reason) {
+    out.push_back(not_assessed(rule_of(id, codes), {subject}, remark(reason)));
   };
+  constexpr SubjectKind all = SubjectKind::all_luminaires_and_signs;
   const auto add_duration = [&](const char* id) {
     const double hours = rated_duration_h(codes);
     const SupplyHours supply = supply_of(scene);
-    const char* const what = "all luminaires and signs";
     if (supply.said > 0 && supply.unsaid == 0) {
-      out.push_back(judged(rule_of(id, codes), what, supply.shortest, hours, true, "h"));
+      out.push_back(judged(rule_of(id, codes), {all}, supply.shortest, hours, true, "h"));
       return;
     }
-    add(id, what,
-        supply.said == 0 ? "a scene says nothing of how long their batteries last"
-                         : "not all of them say how long their supply lasts (duration_h)");
+    add(id, all, supply.said == 0 ? RemarkId::no_duration : RemarkId::some_durations_unsaid);
     out.back().limit = hours;
     out.back().unit = "h";
   };
-  const char* const all = "all luminaires and signs";
   if (scene.routes.empty())
-    add(codes.european() ? (codes.set == RuleSet::en1838_2013 ? "E1" : "E5") : "N1", "the building",
-        "the scene names no escape route ([[route]])");
+    add(codes.european() ? (codes.set == RuleSet::en1838_2013 ? "E1" : "E5") : "N1",
+        SubjectKind::building, RemarkId::no_route);
   if (codes.european() && emphasis_of(scene).empty())
-    add("E12", "the building",
-        "the scene names no place that a luminaire must be near to ([[emphasis]]): exits, stairs, "
-        "equipment");
+    add("E12", SubjectKind::building, RemarkId::no_emphasis);
   const bool unsaid = none_states(scene);
-  const char* const no_onset = "no luminaire says how fast it comes on ('onset')";
   if (!codes.european()) {
-    if (unsaid) add("N5", "all luminaires", no_onset);
+    if (unsaid) add("N5", SubjectKind::all_luminaires, RemarkId::no_onset);
     add_duration("N10");
     return out;
   }
-  add("E9", all, "a scene says how its light is spread over wavelengths only roughly");
-  if (unsaid) add("E10", "all luminaires", no_onset);
-  if (unsaid && codes.has(Deviation::de_asr)) add("E10g", "all luminaires", no_onset);
-  add("E10", "all signs", "a sign says nothing of how fast it comes on");
+  add("E9", all, RemarkId::spectrum_rough);
+  if (unsaid) add("E10", SubjectKind::all_luminaires, RemarkId::no_onset);
+  if (unsaid && codes.has(Deviation::de_asr))
+    add("E10g", SubjectKind::all_luminaires, RemarkId::no_onset);
+  add("E10", SubjectKind::all_signs, RemarkId::sign_onset_unsaid);
   if (codes.has(Deviation::uk_bs_5266))
     add_duration("E11u");
   else if (codes.has(Deviation::duration_3h))
     add_duration("E11n");
   else
     add_duration("E11");
-  add("S8", all, "the boxes of the standard are not at hand");
+  add("S8", all, RemarkId::colour_boxes_unknown);
   return out;
 }
 

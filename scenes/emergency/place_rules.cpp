@@ -1,6 +1,4 @@
 // Glare of luminaires, and what they must be near to.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,8 +10,6 @@
 #include "scenes/emergency/rules.hpp"
 
 namespace luxodus {
-
-using namespace std::string_literals;
 
 using namespace rule_limit;
 
@@ -173,13 +169,12 @@ std::vector<Check> checks_of_height(const SceneDescription& scene, const CodeCho
   if (!codes.european()) return out;
   for (const uint32_t number : emergency_luminaires(scene)) {
     const Emitter& e = scene.emitters[number];
-    const std::string subject = "luminaire \"" + e.name + "\"";
+    const Subject subject = subject_of(e);
     const auto floor = floor_of(scene, floor_under, e.frame.origin);
-    out.push_back(floor ? judged(rule_of("E14", codes), subject, e.frame.origin.z - *floor,
-                                 min_height_m, true, "m", e.frame.origin)
-                        : not_assessed(rule_of("E14", codes), subject,
-                                       "no route or open area lies below it: its height is not "
-                                       "known"));
+    out.push_back(
+        floor ? judged(rule_of("E14", codes), subject, e.frame.origin.z - *floor, min_height_m,
+                       true, "m", e.frame.origin)
+              : not_assessed(rule_of("E14", codes), subject, remark(RemarkId::height_unknown)));
   }
   return out;
 }
@@ -190,7 +185,7 @@ std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoi
   if (!codes.european()) return out;
   for (const uint32_t number : emergency_luminaires(scene)) {
     const Emitter& e = scene.emitters[number];
-    const std::string subject = "luminaire \"" + e.name + "\"";
+    const Subject subject = subject_of(e);
     const auto floor = floor_of(scene, floor_under, e.frame.origin);
     const double lumens =
         e.radiometric ? e.emergency_flux * efficacy_lm_per_w(e.spectrum) : e.emergency_flux;
@@ -198,18 +193,15 @@ std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoi
     const Zone zone = zone_alone ? Zone{zone_low_deg, zone_high_deg} : Zone{};
     const auto candela = glaring(e, lumens / e.emergency_ageing, zone);
     if (!floor) {
-      out.push_back(not_assessed(rule_of("E8", codes), subject,
-                                 "no route or open area lies below it: its height is not known"));
+      out.push_back(not_assessed(rule_of("E8", codes), subject, remark(RemarkId::height_unknown)));
     } else if (!candela) {
-      out.push_back(not_assessed(rule_of("E8", codes), subject,
-                                 "a beam of parallel light has no intensity, and it points where "
-                                 "glare counts"));
+      out.push_back(not_assessed(rule_of("E8", codes), subject, remark(RemarkId::parallel_beam)));
     } else {
       Check check = judged(rule_of("E8", codes), subject, *candela,
                            glare_limit(e.frame.origin.z - *floor), false, "cd", e.frame.origin);
       if (e.shape == EmitterShape::mesh && check.verdict == CheckVerdict::fail)
-        check.reason = "as if no part of the mesh hid another";
-      check.condition = zone_alone ? "60 to 90 degrees from straight down" : "all directions";
+        check.reasons = {remark(RemarkId::mesh_unhidden)};
+      check.conditions = {remark(zone_alone ? RemarkId::glare_zone : RemarkId::all_directions)};
       out.push_back(std::move(check));
     }
   }
@@ -233,7 +225,7 @@ std::vector<EmphasisPoint> emphasis_of(const SceneDescription& scene) {
   return out;
 }
 
-Check luminaire_near(const Rule& rule, const SceneDescription& scene, const std::string& subject,
+Check luminaire_near(const Rule& rule, const SceneDescription& scene, const Subject& subject,
                      const glm::dvec3& place, bool above, const LinesOfSight& seen) {
   constexpr double none = std::numeric_limits<double>::infinity();
   struct Near {
@@ -249,21 +241,19 @@ Check luminaire_near(const Rule& rule, const SceneDescription& scene, const std:
     const bool here = !floor || !its_floor || std::abs(*floor - *its_floor) < storey_m;
     Near& nearest = !here ? upstairs : seen.empty() || seen[i] ? open : hidden;
     if ((!above || e.frame.origin.z >= place.z) && distance < nearest.distance_m)
-      nearest = {distance, "\"" + e.name + "\""};
+      nearest = {distance, e.name};
   }
   Check check = judged(rule, subject, open.distance_m, near_m, false, "m", place);
-  const std::string there = above ? "above it " : "";
-  check.reason = !open.name.empty() ? "the nearest is " + open.name
-                 : hidden.name.empty() && upstairs.name.empty()
-                     ? "no emergency luminaire is " + (above ? "above it"s : "there"s)
-                     : "no emergency luminaire " + there + "is in sight";
+  if (!open.name.empty())
+    check.reasons = {remark(RemarkId::nearest_luminaire, open.name)};
+  else if (hidden.name.empty() && upstairs.name.empty())
+    check.reasons = {remark(above ? RemarkId::none_above : RemarkId::none_there)};
+  else
+    check.reasons = {remark(above ? RemarkId::none_above_in_sight : RemarkId::none_in_sight)};
   if (hidden.distance_m < open.distance_m)
-    check.reason +=
-        fmt::format("; {} is {:.2f} m away, but behind something solid, or shining elsewhere",
-                    hidden.name, hidden.distance_m);
+    check.reasons.push_back(remark(RemarkId::behind_something, hidden.name, hidden.distance_m));
   if (upstairs.distance_m < std::min(open.distance_m, near_m))
-    check.reason += fmt::format("; {} is {:.2f} m away, but on another storey", upstairs.name,
-                                upstairs.distance_m);
+    check.reasons.push_back(remark(RemarkId::other_storey, upstairs.name, upstairs.distance_m));
   return check;
 }
 
@@ -271,15 +261,14 @@ std::vector<Check> checks_of_emphasis(const SceneDescription& scene, const Empha
                                       const LinesOfSight& seen, std::optional<double> vertical_lx,
                                       const CodeChoice& codes) {
   if (!codes.european()) return {};
-  const std::string subject = "\"" + point.name + "\" (" +
-                              std::string(emphasis_words[static_cast<size_t>(point.kind)]) + ")";
+  const Subject subject = subject_of(point);
   std::vector<Check> out = {
       luminaire_near(rule_of("E12", codes), scene, subject, point.position, true, seen)};
   if (!is_equipment(point.kind)) return out;
-  out.push_back(vertical_lx
-                    ? judged(rule_of("E13", codes), subject, *vertical_lx, equipment_lx, true, "lx",
-                             point.position)
-                    : not_assessed(rule_of("E13", codes), subject, "'facing' is not given"));
+  out.push_back(
+      vertical_lx ? judged(rule_of("E13", codes), subject, *vertical_lx, equipment_lx, true, "lx",
+                           point.position)
+                  : not_assessed(rule_of("E13", codes), subject, remark(RemarkId::facing_unsaid)));
   return out;
 }
 

@@ -11,33 +11,28 @@ namespace luxodus {
 namespace {
 
 constexpr std::array sets{
-    NamedRules{"en1838-2013", "EN 1838:2013", "emergency lighting, European",
+    NamedRules{"en1838-2013", "EN 1838:2013", RemarkId::asks_european,
                "secondary texts: BSI excerpt, licht.wissen 10, makers' guides",
-               "superseded by EN 1838:2024"},
-    NamedRules{"en1838-2024", "EN 1838:2024", "emergency lighting for buildings, European",
+               RemarkId::superseded},
+    NamedRules{"en1838-2024", "EN 1838:2024", RemarkId::asks_european_buildings,
                "liteplan.com on the draft FprEN 1838 of June 2024; what the draft is not known to "
                "change is carried over from EN 1838:2013",
-               "not verified against the text of 2024"},
-    NamedRules{"nfpa101", "NFPA 101", "life safety code, United States",
-               "secondary texts: Signify, NYC code, UBC", ""},
+               RemarkId::not_verified},
+    NamedRules{"nfpa101", "NFPA 101", RemarkId::asks_united_states,
+               "secondary texts: Signify, NYC code, UBC"},
 };
 
 constexpr std::array deviation_rows{
     NamedRules{"duration-3h", "national practice, United Kingdom and Germany",
-               "three hours of rated duration instead of one", "fernkorn, table of durations", ""},
-    NamedRules{"de-asr-a3.4-3", "ASR A3.4/3 (Germany)",
-               "all of the light asked for within 15 s, beside the onset of EN 1838",
-               "messefrankfurt", ""},
-    NamedRules{"de-din4844-1", "DIN 4844-1 (Germany)",
-               "signs lit from within have 500 cd/m2 of white in mains operation",
-               "licht.wissen 10", ""},
-    NamedRules{"uk-bs5266-1", "BS 5266-1 (United Kingdom)",
-               "1 lx on the core of open areas instead of 0.5 lx, and three hours of duration",
-               "recollection of the 1 lx; fernkorn for the duration", "1 lx is not verified"},
-    NamedRules{"us-ibc", "IBC 1008.3.5", "11 lx and 1 lx at first, 6 lx and 0.6 lx at the end",
-               "NYC code", ""},
-    NamedRules{"us-ibc-group-i2", "IBC 1008.3.5, group I-2",
-               "2.2 lx with any one luminaire failed (hospitals)", "NYC code", ""},
+               RemarkId::asks_three_hours, "fernkorn, table of durations"},
+    NamedRules{"de-asr-a3.4-3", "ASR A3.4/3 (Germany)", RemarkId::asks_fifteen_seconds,
+               "messefrankfurt"},
+    NamedRules{"de-din4844-1", "DIN 4844-1 (Germany)", RemarkId::asks_white_500, "licht.wissen 10"},
+    NamedRules{"uk-bs5266-1", "BS 5266-1 (United Kingdom)", RemarkId::asks_one_lux,
+               "recollection of the 1 lx; fernkorn for the duration",
+               RemarkId::one_lux_not_verified},
+    NamedRules{"us-ibc", "IBC 1008.3.5", RemarkId::asks_ibc, "NYC code"},
+    NamedRules{"us-ibc-group-i2", "IBC 1008.3.5, group I-2", RemarkId::asks_one_failed, "NYC code"},
 };
 
 std::string listed(std::span<const NamedRules> rows) {

@@ -2,12 +2,14 @@
 // named by whoever asks, none is a default. Constant data and pure functions; any thread.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "scenes/emergency/remark.hpp"
 
 namespace luxodus {
 
@@ -20,9 +22,9 @@ enum class Deviation { duration_3h, de_asr, de_din_4844, uk_bs_5266, us_ibc, us_
 struct NamedRules {
   const char* id;       // as it is written in scenes and options: "en1838-2024"
   const char* edition;  // "EN 1838:2024"
-  const char* what;     // what it asks; of a set, "" where its edition says it
+  RemarkId asks;        // what it asks
   const char* source;   // what it is quoted from
-  const char* status;   // "superseded by EN 1838:2024"; "" where there is nothing to say
+  std::optional<RemarkId> status = std::nullopt;  // where there is something to say
 };
 
 /// In the order of RuleSet, of Deviation.

@@ -58,7 +58,7 @@ std::vector<Check> checks_of_task_area(const SceneDescription& scene, const Asse
                                        const std::vector<LitPoint>& plane, const CodeChoice& codes);
 /// The least of the illuminance when one luminaire fails, whichever is worst: `luminaires` are
 /// those of the columns of lux. Information; no code's.
-Check check_of_failure(const SceneDescription& scene, const std::string& subject,
+Check check_of_failure(const SceneDescription& scene, const Subject& subject,
                        const std::vector<LitPoint>& points);
 /// Disability glare of a luminaire by its intensity, with the highest emergency flux.
 std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoice& codes,
@@ -72,7 +72,7 @@ std::vector<EmphasisPoint> emphasis_of(const SceneDescription& scene);
 /// A luminaire is near by its distance in plan, if it is on the storey of the place, in sight of it
 /// and shines there, and higher where `above` asks for it; one that is nearer and does not is
 /// named.
-Check luminaire_near(const Rule& rule, const SceneDescription& scene, const std::string& subject,
+Check luminaire_near(const Rule& rule, const SceneDescription& scene, const Subject& subject,
                      const glm::dvec3& place, bool above, const LinesOfSight& seen);
 /// `vertical_lx`: on the front of equipment; none where it says no facing.
 std::vector<Check> checks_of_emphasis(const SceneDescription& scene, const EmphasisPoint& point,
@@ -102,11 +102,11 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
 /// Whether what is asked for on a route or in an area, `demanded_lx`, is there in time, by the
 /// onset of each luminaire. One that states none counts as dark: with light enough from others a
 /// check passes all the same, else it is not assessed. Nothing where no luminaire states any.
-std::vector<Check> checks_of_onset(const SceneDescription& scene, const std::string& subject,
+std::vector<Check> checks_of_onset(const SceneDescription& scene, const Subject& subject,
                                    const std::vector<LitPoint>& points, double demanded_lx,
                                    const CodeChoice& codes);
 /// Of high-risk tasks: all of it, nearly at once.
-std::vector<Check> checks_of_task_onset(const SceneDescription& scene, const std::string& subject,
+std::vector<Check> checks_of_task_onset(const SceneDescription& scene, const Subject& subject,
                                         const std::vector<LitPoint>& plane, double demanded_lx,
                                         const CodeChoice& codes);
 

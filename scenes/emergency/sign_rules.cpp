@@ -39,15 +39,14 @@ bool lies_ahead(const Walker& walker, const SignView& view) {
   return glm::dot(glm::dvec2(view.centre - walker.foot), glm::dvec2(walker.ahead)) > 0;
 }
 
-constexpr const char* no_sign_ahead = "no sign ahead faces this place";
-constexpr const char* glows =
-    "a photoluminescent face is classed by its glow (ISO 16069, ISO 17398), which are not at hand";
-constexpr const char* one_number =
-    "one luminance for each colour is known, not how it varies over the face: give a luminance_map";
+Remark smoke_condition(const SceneDescription& scene) {
+  return remark(scene.assessment.smoke_expected ? RemarkId::smoke_may_occur
+                                                : RemarkId::no_smoke_expected);
+}
 
 /// A mean that is too low is too low somewhere; one that is high enough says nothing of the dimmest
 /// place.
-Check smallest_green(const SceneDescription& scene, const Sign& sign, const std::string& subject,
+Check smallest_green(const SceneDescription& scene, const Sign& sign, const Subject& subject,
                      const CodeChoice& codes) {
   const double limit = scene.assessment.smoke_expected ? min_green_in_smoke : min_green;
   const double mean = sign.emergency.green_cd_m2;
@@ -55,17 +54,17 @@ Check smallest_green(const SceneDescription& scene, const Sign& sign, const std:
   Check check = judged(rule_of("S1", codes), subject,
                        mapped ? mean * pattern_of(sign.face, SignColour::green).least : mean, limit,
                        true, "cd/m2", sign.frame.origin);
-  check.condition = scene.assessment.smoke_expected ? "smoke may occur" : "no smoke is expected";
+  check.conditions = {smoke_condition(scene)};
   if (!mapped && check.verdict == CheckVerdict::pass) {
     check.verdict = CheckVerdict::not_assessed;
-    check.reason = one_number;
+    check.reasons = {remark(RemarkId::one_luminance)};
   }
   return check;
 }
 
-Check evenness(const Sign& sign, const std::string& subject, const CodeChoice& codes) {
+Check evenness(const Sign& sign, const Subject& subject, const CodeChoice& codes) {
   if (sign.face.relative_luminance.empty())
-    return not_assessed(rule_of("S2", codes), subject, one_number);
+    return not_assessed(rule_of("S2", codes), subject, remark(RemarkId::one_luminance));
   double worst = 0;
   for (const SignColour colour : {SignColour::white, SignColour::green}) {
     const Extremes e = pattern_of(sign.face, colour);
@@ -82,28 +81,26 @@ double luminous_mean(const Spectrum& s) {
 }
 
 /// By the means of the colours.
-std::vector<Check> contrast(const Sign& sign, const std::string& subject, const CodeChoice& codes) {
+std::vector<Check> contrast(const Sign& sign, const Subject& subject, const CodeChoice& codes) {
   const double green = sign.emergency.green_cd_m2;
-  if (!(green > 0)) return {not_assessed(rule_of("S3", codes), subject, "green has no luminance")};
+  if (!(green > 0))
+    return {not_assessed(rule_of("S3", codes), subject, remark(RemarkId::green_dark))};
   const double ratio = sign.emergency.white_cd_m2 / green;
   const bool low = ratio < min_contrast;
   Check check = judged(rule_of("S3", codes), subject, ratio, low ? min_contrast : max_contrast, low,
                        "1", sign.frame.origin);
-  check.condition = "5 to 15, of the means";
+  check.conditions = {remark(RemarkId::contrast_of_means)};
   return {check};
 }
 
-std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign,
-                            const std::string& subject, const FloorUnder& floor_under,
-                            const CodeChoice& codes) {
+std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign, const Subject& subject,
+                            const FloorUnder& floor_under, const CodeChoice& codes) {
   const auto floor = floor_of(scene, floor_under, sign.frame.origin);
   if (!floor)
-    return {not_assessed(rule_of("S6", codes), subject,
-                         "no route or open area lies below it: its height is not known")};
+    return {not_assessed(rule_of("S6", codes), subject, remark(RemarkId::height_unknown))};
   const double height = sign.frame.origin.z - sign.height_m / 2 - *floor;
   if (height < low_level_m)
-    return {not_assessed(rule_of("S6", codes), subject,
-                         "it is a low one, which may stand beside those above (ISO 16069)")};
+    return {not_assessed(rule_of("S6", codes), subject, remark(RemarkId::low_sign))};
   SignView from_ahead;
   const double farthest = viewing_distance(sign, from_ahead).allowed_m;
   const double above = sign.frame.origin.z - *floor - standing_eye_m;
@@ -115,34 +112,35 @@ std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign,
 }
 
 /// Of a face that shows what falls on it.
-Check lit_green(const SceneDescription& scene, const Sign& sign, const std::string& subject,
-                double lux, const CodeChoice& codes) {
+Check lit_green(const SceneDescription& scene, const Sign& sign, const Subject& subject, double lux,
+                const CodeChoice& codes) {
   const double limit = scene.assessment.smoke_expected ? min_green_in_smoke : min_green;
   const double mean = lux * luminous_mean(sign.green_reflectance) / std::numbers::pi;
   Check check =
       judged(rule_of("S1", codes), subject, mean, limit, true, "cd/m2", sign.frame.origin);
-  check.condition = scene.assessment.smoke_expected ? "smoke may occur" : "no smoke is expected";
+  check.conditions = {smoke_condition(scene)};
   if (check.verdict == CheckVerdict::pass) {
     check.verdict = CheckVerdict::not_assessed;
-    check.reason = one_number;
+    check.reasons = {remark(RemarkId::one_luminance)};
   }
   return check;
 }
 
-Check reflected_contrast(const Sign& sign, const std::string& subject, const CodeChoice& codes) {
+Check reflected_contrast(const Sign& sign, const Subject& subject, const CodeChoice& codes) {
   const double green = luminous_mean(sign.green_reflectance);
-  if (!(green > 0)) return not_assessed(rule_of("S3", codes), subject, "green has no luminance");
+  if (!(green > 0))
+    return not_assessed(rule_of("S3", codes), subject, remark(RemarkId::green_dark));
   // Reflectances are written to some digits, means are sums of many.
   const double ratio = std::round(luminous_mean(sign.white_reflectance) / green * 1e9) / 1e9;
   const bool low = ratio < min_contrast;
   Check check = judged(rule_of("S3", codes), subject, ratio, low ? min_contrast : max_contrast, low,
                        "1", sign.frame.origin);
-  check.condition = "5 to 15, of the means";
+  check.conditions = {remark(RemarkId::contrast_of_means)};
   return check;
 }
 
 std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
-                             const std::string& subject, double lux, const LinesOfSight& seen,
+                             const Subject& subject, double lux, const LinesOfSight& seen,
                              const FloorUnder& floor_under, const CodeChoice& codes) {
   std::vector<Check> out;
   if (sign.lighting == SignLighting::internal) {
@@ -155,7 +153,8 @@ std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
   }
   if (sign.lighting == SignLighting::photoluminescent)
     for (const char* id : {"S1", "S3"})
-      out.push_back(not_assessed(rule_of(id, codes), subject, glows));
+      out.push_back(
+          not_assessed(rule_of(id, codes), subject, remark(RemarkId::glow_class_unknown)));
   if (sign.lighting == SignLighting::external) {
     out.push_back(lit_green(scene, sign, subject, lux, codes));
     out.push_back(reflected_contrast(sign, subject, codes));
@@ -173,7 +172,7 @@ std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
 std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sign, double lux,
                                   const LinesOfSight& seen, const CodeChoice& codes,
                                   const FloorUnder& floor_under) {
-  const std::string subject = "sign \"" + sign.name + "\"";
+  const Subject subject = subject_of(sign);
   std::vector<Check> out;
   if (codes.european()) return en_checks(scene, sign, subject, lux, seen, floor_under, codes);
   if (sign.lighting == SignLighting::external)
@@ -185,7 +184,7 @@ std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sig
     out.push_back(judged(rule_of("N7s", codes), subject, sign.letters->stroke_m, min_stroke_m, true,
                          "m", sign.frame.origin));
   } else {
-    out.push_back(not_assessed(rule_of("N7", codes), subject, "it has no letters"));
+    out.push_back(not_assessed(rule_of("N7", codes), subject, remark(RemarkId::no_letters)));
   }
   return out;
 }
@@ -194,7 +193,7 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
                                       const std::vector<Walker>& walkers,
                                       const std::vector<std::vector<ClearSign>>& clear,
                                       const CodeChoice& codes) {
-  const std::string subject = "route \"" + route.name + "\"";
+  const Subject subject = subject_of(route);
   // Of the best sign, as a share of what its rule allows; and the nearest in metres.
   double worst_share = 0, worst_distance = 0;
   glm::dvec3 where_share(0), where_distance(0);
@@ -224,17 +223,15 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
   if (codes.european()) {
     out.push_back(judged(rule_of("S4", codes), subject, worst_share, 1, false,
                          "of the viewing distance", where_share));
-    if (std::isinf(worst_share)) out.back().reason = no_sign_ahead;
+    if (std::isinf(worst_share)) out.back().reasons = {remark(RemarkId::no_sign_ahead)};
   }
   if (!codes.european()) {
     out.push_back(judged(rule_of("N8", codes), subject, worst_distance, max_nearest_m, false, "m",
                          where_distance));
-    if (std::isinf(worst_distance)) out.back().reason = no_sign_ahead;
+    if (std::isinf(worst_distance)) out.back().reasons = {remark(RemarkId::no_sign_ahead)};
   }
-  if (through_glass > 0 && out.back().reason.empty())
-    out.back().reason =
-        "from " + std::to_string(through_glass) + " of " + std::to_string(walkers.size()) +
-        " places signs are seen through glass alone, where reflections may hide them";
+  if (through_glass > 0 && out.back().reasons.empty())
+    out.back().reasons = {remark(RemarkId::through_glass, through_glass, walkers.size())};
   return out;
 }
 

@@ -23,6 +23,7 @@
 #include "actors/judge/assess/over_time.hpp"
 #include "actors/judge/assess/over_time_json.hpp"
 #include "actors/judge/assess/state_words.hpp"
+#include "actors/judge/texts/remark_json.hpp"
 #include "actors/results/formats/file_names.hpp"
 #include "actors/results/formats/output_folder.hpp"
 #include "runtime/core/log.hpp"
@@ -57,7 +58,7 @@ void print_check(const Json& check) {
     std::printf("  fails: %s\n", check_words(check).c_str());
   else
     std::printf("  not verified: %s: %s\n", check_words(check).c_str(),
-                check.value("reason", "").c_str());
+                english_in(check, "reasons").c_str());
 }
 
 /// Views of signs that the people on routes have behind them: read when they turn round.
@@ -82,9 +83,9 @@ void print_summary(const Json& a) {
       if (check["verdict"] == verdict) print_check(check);
   for (const Json& check : a["checks"])
     if (check["verdict"] == "pass" && (check["rule"] == "S4" || check["rule"] == "N8") &&
-        !check.value("reason", "").empty())
+        !english_in(check, "reasons").empty())
       std::printf("  passes, but: %s: %s\n", check_words(check).c_str(),
-                  check["reason"].get<std::string>().c_str());
+                  english_in(check, "reasons").c_str());
   std::string seen;
   for (const auto& [word, count] : a["sight_counts"].items())
     seen += fmt::format("{}{} {}", seen.empty() ? "" : ", ", count.get<int>(), word);
@@ -189,10 +190,10 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
     return ExitCode::interrupted;
   }
   tell_findings(assessed->findings);
-  for (const Problem& warning : assessed->warnings)
-    if (std::none_of(assessed->findings.begin(), assessed->findings.end(),
-                     [&](const Finding& f) { return f.problem.text() == warning.text(); }))
-      warn(warning);
+  for (const StateWarning& one : assessed->warnings) {
+    if (one.by_inspection) continue;  // told above
+    warn(problem_in(one.place, one.remark ? english().remark(*one.remark) : one.words));
+  }
   const Json json = assessment_json(*job.scene, assessed.value(), build.version);
   if (auto ok = write_assessment(out->path(), json); !ok) return ok.problem();
   print_summary(json);

@@ -97,7 +97,7 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
         name.c_str());
   for (const HiddenByFurniture& one : joined_by_subject(result.hidden))
     std::printf("  planned without furniture, which hides %zu points from all candidates: %s, %s\n",
-                one.points, one.subject.c_str(), one.rule.c_str());
+                one.points, english().subject(one.subject).c_str(), one.rule.c_str());
   for (size_t i = 0; i < result.groups.size(); ++i) {
     constexpr double binding = 0.05;
     const double share = answer.share_of_group.empty() ? 0 : answer.share_of_group[i];

@@ -41,7 +41,7 @@ file(GLOB examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/actors/apps/cli/examp
 foreach(example ${examples})
   get_filename_component(name ${example} NAME)
   file(READ ${example} text)
-  string(REPLACE "../../../scenes/" "../scenes/" text "${text}")
+  string(REPLACE "../../../../scenes/" "../scenes/" text "${text}")
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/examples/${name} CONTENT "${text}" @ONLY)
 endforeach()
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${examples})

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "actors/judge/assess/reality_mode.hpp"
+#include "actors/judge/texts/texts.hpp"
 
 namespace luxodus {
 
@@ -24,7 +25,7 @@ Result<SceneDescription> as_it_stands(const SceneDescription& scene, const Scene
 
 /// Why, and in which light, where that decides.
 std::string reason_of(const SightRow& row) {
-  std::string out = row.sight.reason;
+  std::string out = row.sight.reason ? english().remark(*row.sight.reason) : "";
   if (row.other && row.other->sight.verdict != row.sight.verdict)
     out += std::string(out.empty() ? "" : "; ") + "in " + (row.in_new_light ? "new" : "aged") +
            " light; in " + (row.in_new_light ? "aged" : "new") + " light it is " +
@@ -45,11 +46,12 @@ std::string frames_note(const SceneDescription& scene) {
 /// The state that verdicts are of, and what limits them. Its time is that of the view.
 std::string state_note(const SceneDescription& scene, const Scenario& scenario) {
   const AssessedState state = state_of(scene, scenario, {});
-  if (state.operation == Operation::mains) return state.remarks.front() + "." + frames_note(scene);
+  if (state.operation == Operation::mains)
+    return english()("remark.mains_operation") + std::string(".") + frames_note(scene);
   return fmt::format(
              "{} operation. Light: {}. Eyes are taken as adapted to it: within {:g} s of a failure "
              "of the mains people see less.",
-             name_of(state.operation), state.light, adapted_after_s) +
+             name_of(state.operation), english().remark(state.light), adapted_after_s) +
          frames_note(scene);
 }
 
@@ -82,7 +84,7 @@ Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
   if (!done) return refused(done.problem().what);
   Json rows = Json::array();
   for (const SightRow& row : found.sights)
-    rows.push_back({{"from", row.from},
+    rows.push_back({{"from", english().subject(row.from)},
                     {"along", row.along_m},
                     {"eye_height", row.height_m},
                     {"distance", row.view.distance_m},

@@ -53,7 +53,8 @@ std::optional<Problem> inspected(const std::shared_ptr<const SceneDescription>& 
     return first;
   }
   for (const Finding& finding : found.value())
-    if (finding.severity == Severity::warning) out.warnings.push_back(finding.problem);
+    if (finding.severity == Severity::warning)
+      out.warnings.push_back({finding.problem.where, std::nullopt, finding.problem.what, true});
   out.findings = std::move(found).value();
   return std::nullopt;
 }
@@ -74,13 +75,12 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   const Nanoseconds began = clock.now();
   Assessment out;
   out.state = state_of(*scene, scenario.value(), codes.value());
-  for (std::string& words : overruled(*scene, options.rules, options.deviations))
-    out.state.remarks.push_back(std::move(words));
+  for (Remark& one : overruled(*scene, options.rules, options.deviations))
+    out.state.remarks.push_back(std::move(one));
   out.reality = options.reality;
   if (scenario->operation == Operation::mains)
-    out.warnings.push_back({scenario->place, out.state.remarks.front()});
-  for (const std::string& words : out.state.warnings)
-    out.warnings.push_back({scenario->place, words});
+    out.warnings.push_back({scenario->place, remark(RemarkId::mains_operation)});
+  for (const Remark& one : out.state.warnings) out.warnings.push_back({scenario->place, one});
   out.seed = options.seed;
   out.scene_hash = scene->content_hash;
   out.levels = plan_levels(*scene, scenario.value());

@@ -45,7 +45,7 @@ struct AssessOptions {
 
 /// One sign from one place.
 struct SightRow {
-  std::string from;       // route "corridor", open area "hall", observer "walker"
+  Subject from;           // a route, an open area or an observer
   double stands_for = 0;  // metres of a route, or square metres of an area; 0 of an observer
   double along_m = 0;
   double height_m = 0;  // of the eye above the floor; of an observer above z = 0
@@ -135,6 +135,14 @@ struct OverTime {
   int64_t paths = 0;                       // from eyes
 };
 
+/// What a designer is warned of.
+struct StateWarning {
+  SourcePlace place;
+  std::optional<Remark> remark;  // none: `words` say it
+  std::string words = {};        // in English
+  bool by_inspection = false;    // is among the findings, too
+};
+
 struct Assessment {
   AssessedState state;
   bool reality = true;  // views were judged
@@ -143,7 +151,7 @@ struct Assessment {
   std::vector<SweepRow> sweep;
   std::optional<OverTime> over_time;
   std::vector<PlanLevel> levels;  // from below; at least one
-  std::vector<Problem> warnings;
+  std::vector<StateWarning> warnings;
   std::vector<Finding> findings;  // of the inspection; its warnings are among the above
   int64_t paths = 0;              // from eyes, of all rounds
   double seconds = 0;

@@ -7,6 +7,8 @@
 #include <map>
 #include <string_view>
 
+#include "actors/judge/texts/remark_json.hpp"
+
 namespace luxodus {
 
 namespace {
@@ -22,7 +24,12 @@ enum class Kind {
   list,
   place2,
   place3,
-  place4
+  place4,
+  // What sentences are made of
+  remark,
+  remark_or_null,
+  remarks,
+  subject
 };
 
 /// A key that is read. "a.b" is b of a; "a[].b" is b of every entry of a. What may be absent ends
@@ -73,28 +80,40 @@ constexpr RequiredKey keys[] = {
     {"state.smoke?.extinction.unit", Kind::text},
     {"state.smoke?.extinction.wavelength_nm", Kind::number},
     {"state.smoke?.media[].name", Kind::text},
+    {"state.smoke?.media[].place", Kind::text},
+    {"state.smoke?.media[].notes", Kind::remarks},
     {"state.smoke?.media[].extinction_min", Kind::number},
     {"state.smoke?.media[].extinction_max", Kind::number},
     {"state.rules[].id", Kind::text},
     {"state.rules[].edition", Kind::text},
+    {"state.rules[].what", Kind::remark},
+    {"state.rules[].status", Kind::remark_or_null},
     {"state.deviations[].id", Kind::text},
-    {"state.light", Kind::text},
-    {"state.remarks[]", Kind::text},
+    {"state.deviations[].what", Kind::remark},
+    {"state.deviations[].status", Kind::remark_or_null},
+    {"state.light", Kind::remark},
+    {"state.remarks", Kind::remarks},
     {"verdict.words", Kind::text},
     {"verdict.pass", Kind::number},
     {"verdict.fail", Kind::number},
     {"verdict.not_assessed", Kind::number},
     {"verdict.not_verified", Kind::number},
     {"not_assessed[].what", Kind::text},
-    {"not_assessed[].why", Kind::text},
+    {"not_assessed[].rule", Kind::text},
+    {"not_assessed[].edition", Kind::text},
+    {"not_assessed[].undecided", Kind::flag},
+    {"not_assessed[].why", Kind::remarks},
     {"not_assessed[].count", Kind::number},
     {"checks[].rule", Kind::text},
     {"checks[].edition", Kind::text},
     {"checks[].clause", Kind::text},
     {"checks[].title", Kind::text},
-    {"checks[].quoted_from", Kind::text},
-    {"checks[].subject", Kind::text},
-    {"checks[].condition", Kind::text},
+    {"checks[].clause_number", Kind::text},
+    {"checks[].quoted_from", Kind::remarks},
+    {"checks[].status", Kind::remark_or_null},
+    {"checks[].subject", Kind::subject},
+    {"checks[].conditions", Kind::remarks},
+    {"checks[].reasons?", Kind::remarks},
     {"checks[].verdict", Kind::text},
     {"checks[].value", Kind::number_or_null},
     {"checks[].unit", Kind::text},
@@ -102,7 +121,7 @@ constexpr RequiredKey keys[] = {
     {"checks[].sense", Kind::text},
     {"checks[].margin", Kind::number_or_null},
     {"checks[].worst_place?", Kind::place3},
-    {"sights[].from", Kind::text},
+    {"sights[].from", Kind::subject},
     {"sights[].stands_for.value", Kind::number},
     {"sights[].stands_for.unit", Kind::text},
     {"sights[].along.value", Kind::number},
@@ -110,6 +129,7 @@ constexpr RequiredKey keys[] = {
     {"sights[].eye", Kind::place3},
     {"sights[].sign", Kind::text},
     {"sights[].verdict", Kind::text},
+    {"sights[].reason?", Kind::remark},
     {"sights[].distance.value", Kind::number_or_null},
     {"sights[].legend?.value", Kind::number_or_null},
     {"sights[].ground?.value", Kind::number_or_null},
@@ -155,7 +175,10 @@ constexpr RequiredKey keys[] = {
     {"over_time?.routes[].walks[].end", Kind::text},
     {"over_time?.routes[].walks[].at.value", Kind::number},
     {"over_time?.routes[].walks[].at_time.value", Kind::number},
-    {"warnings[]", Kind::text},
+    {"warnings[].text", Kind::text},
+    {"warnings[].file", Kind::text},
+    {"warnings[].line", Kind::number},
+    {"warnings[].remark", Kind::remark_or_null},
     {"cameras[]", Kind::text},
     {"scenario.media[].name", Kind::text},
     {"scenario.media[].factor", Kind::number},
@@ -281,13 +304,30 @@ bool is_kind(const Json& value, Kind kind) {
       return is_place(value, 3);
     case Kind::place4:
       return is_place(value, 4);
+    case Kind::remark:
+    case Kind::remark_or_null:
+    case Kind::remarks:
+    case Kind::subject:
+      return false;  // fault_in_words says what is wrong with them
   }
   return false;
 }
 
 using Fault = std::optional<std::string>;
 
+/// What is wrong with a value that sentences are made of.
+Fault fault_in_words(const Json& value, Kind kind, const std::string& where) {
+  const auto fault = [&](const auto& read) -> Fault {
+    if (read) return std::nullopt;
+    return where + ": " + read.problem().what;
+  };
+  if (kind == Kind::remark_or_null && value.is_null()) return std::nullopt;
+  if (kind == Kind::remarks) return fault(read_remarks(value));
+  return kind == Kind::subject ? fault(read_subject(value)) : fault(read_remark(value));
+}
+
 Fault missing(const Json& value, std::string_view path, Kind kind, const std::string& where) {
+  if (path.empty() && kind >= Kind::remark) return fault_in_words(value, kind, where);
   if (path.empty())
     return is_kind(value, kind) ? Fault() : Fault(where + " is not " + type_word(kind));
   if (path.starts_with("[]")) {

@@ -10,6 +10,7 @@
 #include "actors/judge/assess/guid_results.hpp"
 #include "actors/judge/assess/over_time_json.hpp"
 #include "actors/judge/assess/state_words.hpp"
+#include "actors/judge/texts/remark_json.hpp"
 #include "actors/results/formats/csv.hpp"
 #include "runtime/core/regular_file.hpp"
 
@@ -32,12 +33,13 @@ Json check_json(const Check& check) {
               {"rule_set", check.rule.set},
               {"deviation", check.rule.deviation},
               {"edition", check.rule.edition},
-              {"clause", check.rule.clause},
-              {"title", check.rule.title},
-              {"quoted_from", check.rule.source},
-              {"status", check.rule.status},
-              {"subject", check.subject},
-              {"condition", check.condition},
+              {"clause", english().clause(check.rule)},
+              {"clause_number", check.rule.clause},
+              {"title", english().rule_title(check.rule.id)},
+              {"quoted_from", remarks_json(check.rule.sources)},
+              {"status", check.rule.status ? remark_json(*check.rule.status) : Json()},
+              {"subject", subject_json(check.subject)},
+              {"conditions", remarks_json(check.conditions)},
               {"verdict", name_of(check.verdict)},
               {"value", optional_json(check.value)},
               {"unit", check.unit},
@@ -45,7 +47,7 @@ Json check_json(const Check& check) {
               {"sense", check.at_least ? "at least" : "at most"},
               {"margin", optional_json(check.margin())}};
   if (check.worst) out["worst_place"] = vector_json(*check.worst);
-  if (!check.reason.empty()) out["reason"] = check.reason;
+  if (!check.reasons.empty()) out["reasons"] = remarks_json(check.reasons);
   return out;
 }
 
@@ -62,15 +64,16 @@ Json look_json(const SignLook& look, const Sight& sight) {
 }
 
 Json sight_json(const SightRow& row) {
-  Json out = {{"from", row.from},
-              {"stands_for", exact_json(row.stands_for, row.from[0] == 'r' ? "m" : "m2")},
-              {"along", exact_json(row.along_m, "m")},
-              {"eye_height", exact_json(row.height_m, "m")},
-              {"eye", vector_json(row.eye)},
-              {"sign", row.sign},
-              {"back_face", row.back_face},
-              {"verdict", name_of(row.sight.verdict)}};
-  if (!row.sight.reason.empty()) out["reason"] = row.sight.reason;
+  Json out = {
+      {"from", subject_json(row.from)},
+      {"stands_for", exact_json(row.stands_for, row.from.kind == SubjectKind::route ? "m" : "m2")},
+      {"along", exact_json(row.along_m, "m")},
+      {"eye_height", exact_json(row.height_m, "m")},
+      {"eye", vector_json(row.eye)},
+      {"sign", row.sign},
+      {"back_face", row.back_face},
+      {"verdict", name_of(row.sight.verdict)}};
+  if (row.sight.reason) out["reason"] = remark_json(*row.sight.reason);
   out["distance"] = exact_json(row.view.distance_m, "m");
   out["angle_from_normal"] = exact_json(row.view.angle_deg, "deg");
   out["angle_from_gaze"] = exact_json(row.gaze_deg, "deg");
@@ -93,31 +96,54 @@ Json sight_json(const SightRow& row) {
   if (!row.other) return out;
   Json& other = out["other_light"] = {{"light", row.in_new_light ? "aged" : "new"},
                                       {"verdict", name_of(row.other->sight.verdict)}};
-  if (!row.other->sight.reason.empty()) other["reason"] = row.other->sight.reason;
+  if (row.other->sight.reason) other["reason"] = remark_json(*row.other->sight.reason);
   other.update(look_json(row.other->look, row.other->sight));
   return out;
 }
 
-/// What was not judged and why, each reason once, the most frequent first.
+/// What was not judged: a rule, or views of signs where it has no id; and why.
+struct NotAssessed {
+  std::string rule, edition;
+  bool undecided = false;  // chance has left views open
+  Remarks reasons;
+
+  friend auto operator<=>(const NotAssessed&, const NotAssessed&) = default;
+  /// "E8, EN 1838:2013: Disability glare: intensity of a luminaire"
+  std::string words() const {
+    return rule.empty() ? english()("views.of_signs")
+                        : rule + ", " + edition + ": " + english().rule_title(rule);
+  }
+};
+
+/// Each reason once, the most frequent first.
 Json not_assessed_json(const Assessment& assessment) {
-  std::map<std::pair<std::string, std::string>, size_t> groups;
+  std::map<NotAssessed, size_t> groups;
   for (const Check& check : assessment.checks)
     if (check.verdict == CheckVerdict::not_assessed)
-      ++groups[{check.rule.id + ", " + check.rule.edition + ": " + check.rule.title, check.reason}];
+      ++groups[{check.rule.id, check.rule.edition, false, check.reasons}];
   for (const SightRow& row : assessment.sights) {
-    if (row.sight.verdict == SightVerdict::not_assessed)
-      ++groups[{"views of signs", row.sight.reason}];
-    if (row.sight.verdict == SightVerdict::undecided)
-      ++groups[{"views of signs", "undecided: " + row.sight.reason}];
+    const bool undecided = row.sight.verdict == SightVerdict::undecided;
+    if (!undecided && row.sight.verdict != SightVerdict::not_assessed) continue;
+    Remarks reasons;
+    if (row.sight.reason) reasons.push_back(*row.sight.reason);
+    ++groups[{"", "", undecided, std::move(reasons)}];
   }
-  if (!assessment.reality) groups[{"views of signs", "only the codes were asked for"}] = 1;
-  std::vector<std::pair<std::pair<std::string, std::string>, size_t>> rows(groups.begin(),
-                                                                           groups.end());
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  if (!assessment.reality) groups[{"", "", false, {remark(RemarkId::codes_alone)}}] = 1;
+  std::vector<std::pair<NotAssessed, size_t>> rows(groups.begin(), groups.end());
+  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    if (a.second != b.second) return a.second > b.second;
+    const std::string x = a.first.words(), y = b.first.words();
+    if (x != y) return x < y;
+    return english().remarks(a.first.reasons) < english().remarks(b.first.reasons);
+  });
   Json out = Json::array();
   for (const auto& [what, count] : rows)
-    out.push_back({{"what", what.first}, {"why", what.second}, {"count", count}});
+    out.push_back({{"rule", what.rule},
+                   {"edition", what.edition},
+                   {"what", what.words()},
+                   {"undecided", what.undecided},
+                   {"why", remarks_json(what.reasons)},
+                   {"count", count}});
   return out;
 }
 
@@ -138,20 +164,31 @@ const Json* value_at(const Json& row, std::string path) {
   return row.at_path(path);
 }
 
-/// A row of every entry, with the values at these paths.
+/// A row of every entry, with the values at these paths; remarks and subjects as their English
+/// sentences. A column whose name is not its path is "name=path".
 CsvTable csv_of(const Json& rows, const std::vector<std::string>& columns) {
-  CsvTable table(columns);
+  std::vector<std::string> names, paths;
+  for (const std::string& column : columns) {
+    names.push_back(column.substr(0, column.find('=')));
+    paths.push_back(column.substr(column.find('=') + 1));
+  }
+  CsvTable table(names);
   for (const Json& row : rows) {
-    for (const std::string& column : columns) {
-      const Json* value = value_at(row, column);
+    for (const std::string& path : paths) {
+      const Json* value = value_at(row, path);
       if (value == nullptr || value->is_null())
         table.empty_cell();
       else if (value->is_boolean())
         table.cell(value->get<bool>());
       else if (value->is_number())
         table.cell(value->get<double>());
+      else if (value->is_string())
+        table.cell(value->text());
+      else if (const std::string words = english_in(row, path.c_str());
+               !words.empty() || path == "conditions")
+        table.cell(words);
       else
-        table.cell(value->get<std::string>());
+        table.empty_cell();
     }
     table.end_row();
   }
@@ -199,7 +236,13 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
   out["sweep"] = sweep_json(assessment);
   if (assessment.over_time) out["over_time"] = over_time_json(*assessment.over_time);
   Json& warnings = out["warnings"] = Json::array();
-  for (const Problem& warning : assessment.warnings) warnings.push_back(warning.text());
+  for (const StateWarning& one : assessment.warnings) {
+    const std::string words = one.remark ? english().remark(*one.remark) : one.words;
+    warnings.push_back({{"text", problem_in(one.place, words).text()},
+                        {"file", one.place.file},
+                        {"line", one.place.line},
+                        {"remark", one.remark ? remark_json(*one.remark) : Json()}});
+  }
   out["project"] = project_json(scene.project);
   out["scenario"] = scenario_json(scene, assessment.state.scenario);
   out["luminaires"] = luminaires_json(scene);
@@ -220,9 +263,9 @@ Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
   if (failed) return problem_in(folder, "cannot make this folder: " + failed.message());
   if (auto ok = write_json(folder / "assessment.json", assessment); !ok) return ok.problem();
   const auto checks =
-      csv_of(assessment["checks"],
-             {"rule", "rule_set", "deviation", "edition", "clause", "status", "title", "subject",
-              "condition", "verdict", "value", "unit", "sense", "limit", "margin", "reason"});
+      csv_of(assessment["checks"], {"rule", "rule_set", "deviation", "edition", "clause", "status",
+                                    "title", "subject", "condition=conditions", "verdict", "value",
+                                    "unit", "sense", "limit", "margin", "reason=reasons"});
   if (auto ok = write_csv(folder / "checks.csv", checks); !ok) return ok.problem();
   const auto sights = csv_of(assessment["sights"], {"from",
                                                     "along.value",

@@ -15,7 +15,7 @@ namespace limits {
 inline constexpr uint64_t assessment_bytes = uint64_t{256} << 20;
 }  // namespace limits
 
-inline constexpr const char* assessment_format = "luxodus assessment 1";
+inline constexpr const char* assessment_format = "luxodus assessment 2";
 
 Json assessment_json(const SceneDescription& scene, const Assessment& assessment,
                      const std::string& version);

@@ -1,5 +1,6 @@
 #include "actors/judge/assess/check_words.hpp"
 
+#include "actors/judge/texts/remark_json.hpp"
 #include "runtime/core/output_text.hpp"
 
 namespace luxodus {
@@ -16,7 +17,7 @@ std::string value_words(const Json& check) {
   const Json value = check.value("value", Json());
   if (value.is_number())
     return readable_number(value.get<double>()) + unit_words(text_in(check, "unit"));
-  const std::string reason = text_in(check, "reason");
+  const std::string reason = english_in(check, "reasons");
   return reason.empty() ? "no value" : reason;
 }
 
@@ -24,10 +25,10 @@ std::string value_words(const Json& check) {
 
 std::string check_words(const Json& check) {
   std::string text =
-      text_in(check, "subject") + ": " + text_in(check, "title") + ": " + value_words(check);
+      english_in(check, "subject") + ": " + text_in(check, "title") + ": " + value_words(check);
   if (const Json limit = check.value("limit", Json()); limit.is_number())
     text += ", " + text_in(check, "sense") + " " + readable_number(limit.get<double>());
-  const std::string condition = text_in(check, "condition");
+  const std::string condition = english_in(check, "conditions");
   return text + " (" + text_in(check, "rule") + (condition.empty() ? "" : ", ") + condition + ")";
 }
 

@@ -1,7 +1,5 @@
 #include "actors/judge/assess/code_mode.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 
@@ -18,8 +16,8 @@ void append(std::vector<Check>& out, const std::vector<Check>& more) {
   out.insert(out.end(), more.begin(), more.end());
 }
 
-void add_condition(std::vector<Check>& checks, const std::string& condition) {
-  for (Check& check : checks) check.condition += (check.condition.empty() ? "" : "; ") + condition;
+void add_condition(std::vector<Check>& checks, const Remark& condition) {
+  for (Check& check : checks) check.conditions.push_back(condition);
 }
 
 class CodeMode {
@@ -66,7 +64,7 @@ std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
     append(out, checks_of_route(scene_, route, light, codes));
     append(out, checks_of_distance(scene_, route, people, clear, codes));
   }
-  out.push_back(check_of_failure(scene_, "route \"" + route.name + "\"", light.centre));
+  out.push_back(check_of_failure(scene_, subject_of(route), light.centre));
   return out;
 }
 
@@ -82,8 +80,8 @@ std::vector<Check> CodeMode::of_area(
   std::vector<Check> out;
   for (const CodeChoice& codes : codes_) append(out, checks(points, codes));
   if (all.in_bodies > 0)
-    add_condition(out, fmt::format("{} of {} points lie in bodies and are left out", all.in_bodies,
-                                   all.in_bodies + all.places.size()));
+    add_condition(
+        out, remark(RemarkId::points_in_bodies, all.in_bodies, all.in_bodies + all.places.size()));
   return out;
 }
 
@@ -94,12 +92,13 @@ std::vector<Check> CodeMode::checks_by_light() const {
   };
   for (const EscapeRoute& route : scene_.routes) append(out, of_route(route));
   for (const AssessedArea& area : scene_.open_areas)
-    append(out, of_area(area, 0.5, [&](const auto& core, const CodeChoice& codes) {
-             auto checks = checks_of_open_area(scene_, area, core, codes);
-             if (&codes == &codes_.front())
-               checks.push_back(check_of_failure(scene_, "open area \"" + area.name + "\"", core));
-             return checks;
-           }));
+    append(
+        out, of_area(area, 0.5, [&](const auto& core, const CodeChoice& codes) {
+          auto checks = checks_of_open_area(scene_, area, core, codes);
+          if (&codes == &codes_.front())
+            checks.push_back(check_of_failure(scene_, {SubjectKind::open_area, area.name}, core));
+          return checks;
+        }));
   for (const AssessedArea& area : scene_.task_areas)
     append(out, of_area(area, 0, [&](const auto& plane, const CodeChoice& codes) {
              return checks_of_task_area(scene_, area, plane, codes);
@@ -171,7 +170,9 @@ Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scen
     const CodeMode mode(switched, *building.value(), out.state.codes);
     if (!furnished) mode.fill_plan(out.levels);
     auto checks = mode.checks_by_light();
-    if (has_furniture) add_condition(checks, furnished ? "with furniture" : "without furniture");
+    if (has_furniture)
+      add_condition(checks,
+                    remark(furnished ? RemarkId::with_furniture : RemarkId::without_furniture));
     append(out.checks, checks);
     if (!furnished) append(out.checks, mode.checks_of_parts());
   }

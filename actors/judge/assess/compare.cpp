@@ -7,6 +7,7 @@
 
 #include "actors/judge/assess/assessment_json.hpp"
 #include "actors/judge/assess/state_words.hpp"
+#include "actors/judge/texts/remark_json.hpp"
 
 namespace luxodus {
 
@@ -21,13 +22,13 @@ using Key = std::string;
 /// By the edition, too: of two sets each has its own check of the same rule.
 Key check_key(const Json& check) {
   return fmt::format("{} ({}) {} {}", check["rule"].get<std::string>(),
-                     check["edition"].get<std::string>(), check["subject"].get<std::string>(),
-                     check["condition"].get<std::string>());
+                     check["edition"].get<std::string>(), english_in(check, "subject"),
+                     english_in(check, "conditions"));
 }
 
 Key sight_key(const Json& sight) {
-  return fmt::format("{}, {:.2f} m along, eye {:.2f} m, sign \"{}\"{}",
-                     sight["from"].get<std::string>(), sight["along"]["value"].get<double>(),
+  return fmt::format("{}, {:.2f} m along, eye {:.2f} m, sign \"{}\"{}", english_in(sight, "from"),
+                     sight["along"]["value"].get<double>(),
                      sight["eye_height"]["value"].get<double>(), sight["sign"].get<std::string>(),
                      sight["back_face"].get<bool>() ? " (back)" : "");
 }
@@ -104,7 +105,10 @@ std::string shown(const Json& value, const char* where) {
 Json changed_state(const Json& before, const Json& after) {
   const auto rows_of = [](Json assessment) {
     if (Json* const media = assessment.at_path("state/smoke/media"))
-      for (Json& medium : *media) medium.erase("source");
+      for (Json& medium : *media) {
+        medium.erase("place");
+        medium.erase("notes");
+      }
     std::map<std::string, std::string> out;
     for (const auto& [what, words] : state_rows(assessment))
       if (!what.empty() && what != "not assessed") out[what] = words;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "actors/judge/texts/remark_json.hpp"
 #include "scenes/emergency/legibility.hpp"
 
 namespace luxodus {
@@ -25,20 +26,21 @@ std::string guid_of(const Json& row) {
   return guid.is_string() ? guid.get<std::string>() : std::string();
 }
 
-/// Things with a GlobalId by the subject that checks call them.
-std::map<std::string, ModelThing> things_by_subject(const Json& a) {
-  std::map<std::string, ModelThing> out;
-  const auto add = [&](const Json& rows, const char* subject, const char* kind) {
+/// Things with a GlobalId by the subject that checks call them, in the order of its name.
+std::map<std::pair<std::string, std::string>, ModelThing> things_by_subject(const Json& a) {
+  std::map<std::pair<std::string, std::string>, ModelThing> out;
+  const auto add = [&](const Json& rows, SubjectKind subject, const char* kind) {
     for (const Json& row : rows) {
       const std::string name = row["name"].get<std::string>();
       if (const std::string guid = guid_of(row); !guid.empty())
-        out[fmt::format("{} \"{}\"", subject, name)] = {guid, kind, name};
+        out[{std::string(name_of(subject)), name}] = {guid, kind, name};
     }
   };
-  add(a["luminaires"], "luminaire", "luminaire");
-  add(a["signs"], "sign", "sign");
+  add(a["luminaires"], SubjectKind::luminaire, "luminaire");
+  add(a["signs"], SubjectKind::sign, "sign");
   for (const Json& area : a["places"]["areas"])
-    add(Json::array({area}), area["kind"] == "task" ? "task area" : "open area", "space");
+    add(Json::array({area}),
+        area["kind"] == "task" ? SubjectKind::task_area : SubjectKind::open_area, "space");
   return out;
 }
 
@@ -49,7 +51,10 @@ void begin_row(CsvTable& table, const ModelThing& thing) {
 /// A cell of a check; empty where the check does not say it.
 void put_value(CsvTable& table, const Json& check, const char* key) {
   const Json value = check.value(key, Json());
-  if (value.is_number())
+  const std::string words = english_in(check, key);
+  if (!words.empty())
+    table.cell(words);
+  else if (value.is_number())
     table.cell(value.get<double>());
   else if (value.is_string() && !value.get<std::string>().empty())
     table.cell(value.get<std::string>());
@@ -59,8 +64,8 @@ void put_value(CsvTable& table, const Json& check, const char* key) {
 
 void put_check(CsvTable& table, const ModelThing& thing, const Json& check) {
   begin_row(table, thing);
-  for (const char* key : {"rule_set", "rule", "edition", "clause", "title", "condition", "value",
-                          "unit", "sense", "limit", "verdict", "reason"})
+  for (const char* key : {"rule_set", "rule", "edition", "clause", "title", "conditions", "value",
+                          "unit", "sense", "limit", "verdict", "reasons"})
     put_value(table, check, key);
   table.end_row();
 }
@@ -73,7 +78,7 @@ void put_information(CsvTable& table, const ModelThing& thing, const std::string
              {"value", value},
              {"unit", unit},
              {"verdict", "information"},
-             {"reason", reason}});
+             {"reasons", reason}});
 }
 
 void put_flux(CsvTable& table, const ModelThing& thing, const Json& luminaires) {
@@ -108,7 +113,8 @@ std::optional<CsvTable> results_by_guid(const Json& assessment) {
   CsvTable table(guid_columns);
   for (const auto& [subject, thing] : things) {
     for (const Json& check : assessment["checks"])
-      if (check["subject"] == subject) put_check(table, thing, check);
+      if (check["subject"]["kind"] == subject.first && check["subject"]["name"] == subject.second)
+        put_check(table, thing, check);
     if (thing.kind == "luminaire") put_flux(table, thing, assessment["luminaires"]);
     if (thing.kind == "sign") put_views(table, thing, assessment["sights"]);
   }

@@ -4,15 +4,11 @@
 
 namespace luxodus {
 
-std::string from_route(const EscapeRoute& route) {
-  return "route \"" + route.name + "\"";
-}
-
 GuidingViews::GuidingViews(const SceneDescription& scene) : scene_(scene) {
   for (const EscapeRoute& route : scene.routes) {
     const auto& people = people_.emplace_back(walkers(route, scene.assessment.spacing_m));
     for (const Walker& walker : people)
-      places_[{from_route(route), walker.along_m}] = {&route, walker};
+      places_[{subject_of(route), walker.along_m}] = {&route, walker};
   }
 }
 

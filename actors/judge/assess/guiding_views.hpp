@@ -3,16 +3,12 @@
 #pragma once
 
 #include <map>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "actors/judge/assess/assessment.hpp"
 
 namespace luxodus {
-
-/// As rows of an assessment name it: route "corridor".
-std::string from_route(const EscapeRoute& route);
 
 /// The pairs of place and sign of a scene that may guide, of all its routes.
 class GuidingViews {
@@ -26,7 +22,7 @@ class GuidingViews {
  private:
   const SceneDescription& scene_;
   std::vector<std::vector<Walker>> people_;
-  std::map<std::pair<std::string, double>, std::pair<const EscapeRoute*, Walker>> places_;
+  std::map<std::pair<Subject, double>, std::pair<const EscapeRoute*, Walker>> places_;
 };
 
 }  // namespace luxodus

@@ -48,18 +48,22 @@ std::pair<double, double> range_of(const Medium& medium) {
   return {shift * static_cast<double>(*low), shift * static_cast<double>(*high)};
 }
 
-std::string source_of(const Medium& medium, double factor) {
-  std::string out = medium.place.line > 0
-                        ? fmt::format("{}:{}", medium.place.file, medium.place.line)
-                        : medium.place.file;
+std::string place_of(const Medium& medium) {
+  return medium.place.line > 0 ? fmt::format("{}:{}", medium.place.file, medium.place.line)
+                               : medium.place.file;
+}
+
+Remarks notes_on(const Medium& medium, double factor) {
+  Remarks out;
   if (medium.kind == MediumKind::layered)
-    out += fmt::format(", {} layer{}", medium.layers.size(), medium.layers.size() == 1 ? "" : "s");
+    out.push_back(remark(medium.layers.size() == 1 ? RemarkId::one_layer : RemarkId::layers,
+                         medium.layers.size()));
   if (medium.kind == MediumKind::data_set)
-    out += fmt::format(", {} x {} x {} cells", medium.data.nx, medium.data.ny, medium.data.nz);
+    out.push_back(remark(RemarkId::grid_cells, medium.data.nx, medium.data.ny, medium.data.nz));
   if (medium.simulation)
-    out += fmt::format(", a fire simulation at {:.6g} s ({})", medium.simulation->time_s,
-                       medium.simulation->source);
-  if (factor != 1) out += fmt::format(", times {:g} in this scenario", factor);
+    out.push_back(
+        remark(RemarkId::fire_simulation, medium.simulation->time_s, medium.simulation->source));
+  if (factor != 1) out.push_back(remark(RemarkId::scenario_factor, factor));
   return out;
 }
 
@@ -108,25 +112,25 @@ Problem unclear(const SceneDescription& scene, const SourcePlace& place, const s
 }
 
 /// What views are judged with, of a state whose lit luminaires are known.
-std::string ageing_words(const SceneDescription& scene, const AssessedState& state) {
+Remark light_of(const SceneDescription& scene, const AssessedState& state) {
   double least = 1;
   for (const Emitter& e : scene.emitters) {
     if (!std::count(state.lit.begin(), state.lit.end(), e.name)) continue;
     least = std::min(least, aged_share(e, state.operation));
   }
-  if (state.lit.empty()) return "no luminaire is lit";
-  if (least == 1) return "as stated: no lit luminaire says that its light falls with age";
-  return fmt::format(
-      "aged light ({} down to {:.3g} of new light) and new light of the luminaires; the worse "
-      "verdict counts. Signs and flames as stated",
-      state.operation == Operation::mains ? "maintenance factor"
-                                          : "maintenance factor times end-of-duration factor",
-      least);
+  if (state.lit.empty()) return remark(RemarkId::no_luminaire_lit);
+  if (least == 1) return remark(RemarkId::light_as_stated);
+  return remark(state.operation == Operation::mains ? RemarkId::light_aged_mains
+                                                    : RemarkId::light_aged_emergency,
+                least);
+}
+
+bool is_aged(const Remark& light) {
+  return light.id == RemarkId::light_aged_mains || light.id == RemarkId::light_aged_emergency;
 }
 
 /// Emergency luminaires and signs whose circuits this state has dimmed or switched off.
-void add_switched(const SceneDescription& scene, const Scenario& scenario,
-                  std::vector<std::string>& remarks) {
+void add_switched(const SceneDescription& scene, const Scenario& scenario, Remarks& remarks) {
   if (scenario.operation == Operation::mains) return;
   size_t off = 0, dimmed = 0, raised = 0, signs = 0;
   for (const Emitter& e : scene.emitters) {
@@ -141,41 +145,22 @@ void add_switched(const SceneDescription& scene, const Scenario& scenario,
                      factor_of(scenario.circuits, sign.circuit, 1) == 0
                  ? 1
                  : 0;
-  if (off + dimmed > 0)
-    remarks.push_back(
-        fmt::format("the circuits of this state switch off {} emergency luminaires "
-                    "and dim {}: checks by the codes take them so, too",
-                    off, dimmed));
-  if (raised > 0)
-    remarks.push_back(
-        fmt::format("the circuits of this state raise the flux of {} emergency "
-                    "luminaires above what is stated: views are judged so, checks by "
-                    "the codes are not",
-                    raised));
-  if (signs > 0)
-    remarks.push_back(
-        fmt::format("the circuits of this state switch off {} signs: checks by the codes "
-                    "take them as dark",
-                    signs));
+  if (off + dimmed > 0) remarks.push_back(remark(RemarkId::circuits_switch_off, off, dimmed));
+  if (raised > 0) remarks.push_back(remark(RemarkId::circuits_raise, raised));
+  if (signs > 0) remarks.push_back(remark(RemarkId::circuits_switch_off_signs, signs));
 }
 
 /// Smoke that this state has thinned, and light that no file has measured.
-void add_thinned(const SceneDescription& scene, const Scenario& scenario,
-                 std::vector<std::string>& remarks) {
+void add_thinned(const SceneDescription& scene, const Scenario& scenario, Remarks& remarks) {
   for (const Medium& m : scene.media) {
     const double factor = extinction_factor(scenario, m.name);
     if (is_flame(m) || !(factor > 0 && factor < 1)) continue;
-    remarks.push_back(fmt::format(
-        "this state has {:.3g} of the extinction that the scene states of \"{}\"", factor, m.name));
+    remarks.push_back(remark(RemarkId::thinned_smoke, factor, m.name));
   }
   const auto ideal = std::count_if(
       scene.emitters.begin(), scene.emitters.end(),
       [](const Emitter& e) { return e.emergency_flux > 0 && e.distribution != Distribution::web; });
-  if (ideal > 0)
-    remarks.push_back(
-        fmt::format("{} emergency luminaires are emitters of simple shape, without a "
-                    "photometric file: nobody has measured their intensities",
-                    ideal));
+  if (ideal > 0) remarks.push_back(remark(RemarkId::unmeasured_luminaires, ideal));
 }
 
 /// The shortest rated duration that the chosen codes ask for [h].
@@ -186,118 +171,83 @@ double rated_hours(const std::vector<CodeChoice>& codes) {
 }
 
 /// What is lit or glows so long after the failure by assumption alone.
-void add_time(const SceneDescription& scene, const AssessedState& state,
-              std::vector<std::string>& remarks) {
+void add_time(const SceneDescription& scene, const AssessedState& state, Remarks& remarks) {
   if (!state.seconds_after_failure) return;
   const double seconds = *state.seconds_after_failure, rated = rated_hours(state.codes);
   const bool unknown =
       std::any_of(scene.emitters.begin(), scene.emitters.end(),
                   [](const Emitter& e) { return e.emergency_flux > 0 && !e.duration_s; });
   if (state.operation == Operation::emergency && seconds > 3600 * rated && unknown)
-    remarks.push_back(
-        fmt::format("{:g} s after the failure of the mains is later than the rated "
-                    "duration of {:g} h that the rules ask for: batteries may be "
-                    "empty, and luminaires are taken as lit",
-                    seconds, rated));
+    remarks.push_back(remark(RemarkId::later_than_rated, seconds, rated));
   const auto silent =
       std::count_if(scene.emitters.begin(), scene.emitters.end(),
                     [](const Emitter& e) { return e.emergency_flux > 0 && e.onset.empty(); });
   if (state.operation == Operation::emergency && seconds < adapted_after_s && silent > 0)
-    remarks.push_back(
-        fmt::format("{} emergency luminaires do not say how fast they come on "
-                    "(onset): they are taken as fully on {:g} s after the failure",
-                    silent, seconds));
+    remarks.push_back(remark(RemarkId::onset_assumed, silent, seconds));
   for (const Sign& sign : scene.signs)
     if (!sign.decay.empty() && seconds > sign.decay.back().x)
-      return remarks.push_back(
-          fmt::format("the glow of sign \"{}\" is known up to {:g} s after "
-                      "the failure, and is extrapolated",
-                      sign.name, sign.decay.back().x));
+      return remarks.push_back(remark(RemarkId::glow_extrapolated, sign.name, sign.decay.back().x));
 }
 
 /// Who looks, where that is not the usual, and what nobody looks at.
-void add_people(const SceneDescription& scene, const AssessedState& state,
-                std::vector<std::string>& remarks) {
+void add_people(const SceneDescription& scene, const AssessedState& state, Remarks& remarks) {
   const AssessmentSettings& said = scene.assessment;
-  if (said.age_years < young_years)
-    remarks.push_back(fmt::format("signs are judged by eyes of {:g} years: older people see less",
-                                  said.age_years));
+  if (said.age_years < young_years) remarks.push_back(remark(RemarkId::young_eyes, said.age_years));
   const double highest = *std::max_element(said.eye_heights_m.begin(), said.eye_heights_m.end());
   if (highest < upright_m && !scene.routes.empty())
-    remarks.push_back(
-        fmt::format("the highest eyes on routes are {:g} m above the floor: nobody "
-                    "who walks upright is judged",
-                    highest));
+    remarks.push_back(remark(RemarkId::low_eyes, highest));
   if (said.spacing_m > far_apart_m && !scene.routes.empty())
-    remarks.push_back(
-        fmt::format("people on routes stand {:g} m apart: what is read between them "
-                    "is not judged",
-                    said.spacing_m));
-  if (scene.signs.empty())
-    remarks.emplace_back("the scene has no sign: nothing is judged of what people read");
+    remarks.push_back(remark(RemarkId::far_apart, said.spacing_m));
+  if (scene.signs.empty()) remarks.push_back(remark(RemarkId::no_sign));
   const auto has_set = [&](RuleSet set) {
     return std::any_of(state.codes.begin(), state.codes.end(),
                        [&](const CodeChoice& c) { return c.set == set; });
   };
   if (has_set(RuleSet::en1838_2013) && has_set(RuleSet::en1838_2024))
-    remarks.emplace_back(
-        "two editions of EN 1838 are judged: their limits differ, and the one in force decides");
+    remarks.push_back(remark(RemarkId::two_editions));
   if (has_set(RuleSet::nfpa101) && state.codes.size() > 1)
-    remarks.emplace_back("rules of Europe and of the United States are judged beside each other");
+    remarks.push_back(remark(RemarkId::two_continents));
 }
 
 void add_remarks(const SceneDescription& scene, const Scenario& scenario, AssessedState& state) {
   auto& remarks = state.remarks;
-  const auto warn = [&state](const std::string& words) {
-    state.remarks.push_back(words);
-    state.warnings.push_back(words);
+  const auto warn = [&state](const Remark& one) {
+    state.remarks.push_back(one);
+    state.warnings.push_back(one);
   };
-  if (state.operation == Operation::mains)
-    remarks.emplace_back(
-        "MAINS OPERATION: views of signs are judged with the mains on, not in an emergency. Checks "
-        "by the codes are for emergency operation all the same");
-  if (state.operation == Operation::dark)
-    remarks.emplace_back(
-        "neither mains nor emergency luminaires are lit in this state. Checks by the codes are for "
-        "emergency operation all the same");
+  if (state.operation == Operation::mains) remarks.push_back(remark(RemarkId::mains_operation));
+  if (state.operation == Operation::dark) remarks.push_back(remark(RemarkId::dark_operation));
   if (state.operation != Operation::mains && !state.seconds_after_failure)
-    remarks.emplace_back(
-        "the scenario does not say how long after the failure of the mains it is "
-        "(seconds_after_failure): luminaires are fully on, photoluminescent signs as at the "
-        "failure, and eyes adapted to this light");
+    remarks.push_back(remark(RemarkId::time_unsaid));
   if (state.operation != Operation::mains && state.seconds_after_failure &&
       *state.seconds_after_failure < adapted_after_s)
-    remarks.push_back(fmt::format(
-        "{:g} s after the failure of the mains eyes are not yet adapted: verdicts are those of "
-        "adapted eyes, and people see less within the first {:g} s",
-        *state.seconds_after_failure, adapted_after_s));
+    remarks.push_back(
+        remark(RemarkId::eyes_unadapted, *state.seconds_after_failure, adapted_after_s));
   if (!state.smoke && !state.media.empty())
-    remarks.emplace_back("flames burn in this state, but there is no smoke around them");
+    remarks.push_back(remark(RemarkId::flames_without_smoke));
   if (!state.smoke && std::any_of(scene.media.begin(), scene.media.end(),
                                   [](const Medium& m) { return !is_flame(m); }))
-    warn("CLEAR AIR: the scene has smoke, but not in this scenario");
+    warn(remark(RemarkId::clear_air));
   const size_t dark = static_cast<size_t>(
       std::count_if(scene.emitters.begin(), scene.emitters.end(), [&](const Emitter& e) {
         return e.emergency_flux > 0 && !std::count(state.lit.begin(), state.lit.end(), e.name);
       }));
   if (state.operation == Operation::emergency && dark > 0)
-    warn(fmt::format("{} emergency luminaire{} not lit in this state", dark,
-                     dark == 1 ? " is" : "s are"));
+    warn(remark(dark == 1 ? RemarkId::luminaire_unlit : RemarkId::luminaires_unlit, dark));
   for (const Medium& m : scene.media)
     if (m.simulation && !m.simulation->glows && extinction_factor(scenario, m.name) > 0)
-      warn(
-          fmt::format("FLAME GLARE IS MISSING: \"{}\" is the smoke of a fire without the light of "
-                      "its flames, which dazzles and veils signs",
-                      m.name));
+      warn(remark(RemarkId::flame_glare_missing, m.name));
   add_switched(scene, scenario, remarks);
   add_time(scene, state, remarks);
   add_thinned(scene, scenario, remarks);
   add_people(scene, state, remarks);
   for (const CodeChoice& codes : state.codes)
-    if (const NamedRules& set = named(codes.set); set.status[0] != '\0')
-      remarks.push_back(fmt::format("{}: {}", set.edition, set.status));
-  if (!scene.signs.empty() && state.light.starts_with("aged"))
-    remarks.emplace_back("luminances of signs are taken as stated, in new and in aged light");
+    if (const NamedRules& set = named(codes.set); set.status)
+      remarks.push_back(remark(*set.status == RemarkId::superseded ? RemarkId::edition_superseded
+                                                                   : RemarkId::edition_not_verified,
+                               set.edition));
+  if (!scene.signs.empty() && is_aged(state.light))
+    remarks.push_back(remark(RemarkId::sign_luminance_stated));
 }
 
 }  // namespace
@@ -371,20 +321,18 @@ Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& s
                   smoke->name, scenario.name));
 }
 
-std::vector<std::string> overruled(const SceneDescription& scene,
-                                   const std::vector<std::string>& rules,
-                                   const std::vector<std::string>& deviations) {
-  std::vector<std::string> out;
-  const auto compare = [&](const char* what, std::vector<std::string> said,
+Remarks overruled(const SceneDescription& scene, const std::vector<std::string>& rules,
+                  const std::vector<std::string>& deviations) {
+  Remarks out;
+  const auto compare = [&](RemarkId id, std::vector<std::string> said,
                            std::vector<std::string> asked) {
     std::sort(said.begin(), said.end());
     std::sort(asked.begin(), asked.end());
     if (said.empty() || asked.empty() || said == asked) return;
-    out.push_back(fmt::format("the scene names other {} ({}) than were asked for", what,
-                              fmt::join(said, ", ")));
+    out.push_back(remark(id, fmt::format("{}", fmt::join(said, ", "))));
   };
-  compare("rules", scene.assessment.rules, rules);
-  compare("deviations", scene.assessment.deviations, deviations);
+  compare(RemarkId::other_rules, scene.assessment.rules, rules);
+  compare(RemarkId::other_deviations, scene.assessment.deviations, deviations);
   return out;
 }
 
@@ -404,12 +352,12 @@ AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,
     const auto [low, high] = range_of(medium);
     const bool flame = is_flame(medium);
     state.smoke = state.smoke || (!flame && high > 0);
-    state.media.push_back({medium.name,
-                           flame ? "flame" : medium_words.at(static_cast<size_t>(medium.kind)),
-                           source_of(medium, factor), factor * low, factor * high});
+    state.media.push_back(
+        {medium.name, flame ? "flame" : medium_words.at(static_cast<size_t>(medium.kind)),
+         place_of(medium), notes_on(medium, factor), factor * low, factor * high});
   }
   state.codes = std::move(codes);
-  state.light = ageing_words(scene, state);
+  state.light = light_of(scene, state);
   add_remarks(scene, scenario, state);
   return state;
 }

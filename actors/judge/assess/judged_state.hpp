@@ -21,8 +21,9 @@ inline constexpr double stated_nm = 633;
 /// Smallest and largest extinction of a medium where it is, at stated_nm, scenario applied [1/m].
 struct StatedMedium {
   std::string name;
-  std::string kind;    // "layered", "flame"
-  std::string source;  // "office.toml:22, 6 layers, times 0.5 in this scenario"
+  std::string kind;   // "layered", "flame"
+  std::string place;  // "office.toml:22"
+  Remarks notes;      // 6 layers, times 0.5 in this scenario
   double extinction_min = 0, extinction_max = 0;
 };
 
@@ -36,9 +37,9 @@ struct AssessedState {
   bool smoke = false;                           // media that are no flames
   std::vector<StatedMedium> media;              // flames too
   std::vector<CodeChoice> codes;
-  std::string light;  // what views were judged with
-  std::vector<std::string> remarks;
-  std::vector<std::string> warnings;  // those of the remarks that a designer is warned of at once
+  Remark light{RemarkId::no_luminaire_lit};  // what views were judged with
+  Remarks remarks;
+  Remarks warnings;  // those of the remarks that a designer is warned of at once
 };
 
 /// The state that is judged: the one that is named, in whatever operation. Without a name, the one
@@ -65,10 +66,9 @@ bool is_flame(const Medium& medium);
 /// Errors: there is smoke, and the scene does not say whether it stings.
 Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& scenario);
 
-/// What was asked for by options, and the scene says otherwise: a sentence for each.
-std::vector<std::string> overruled(const SceneDescription& scene,
-                                   const std::vector<std::string>& rules,
-                                   const std::vector<std::string>& deviations);
+/// What was asked for by options, and the scene says otherwise.
+Remarks overruled(const SceneDescription& scene, const std::vector<std::string>& rules,
+                  const std::vector<std::string>& deviations);
 
 AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,
                        std::vector<CodeChoice> codes);

@@ -25,7 +25,7 @@ constexpr double first_share = 0.6;
 
 /// A view of the assessment: who looks at what.
 struct ViewKey {
-  std::string from;
+  Subject from;
   double along_m, height_m;
   std::string sign;
   auto operator<=>(const ViewKey&) const = default;
@@ -197,7 +197,7 @@ struct BestSign {
 };
 
 void StateOfTime::add_to(OverTime& out) const {
-  std::map<std::tuple<std::string, double, double>, BestSign> best;  // route, eyes, place
+  std::map<std::tuple<Subject, double, double>, BestSign> best;  // route, eyes, place
   const SlicesOfFires slices(*scene_, out.warnings);
   for (const SightRow& row : nominal_.sights)
     best[{row.from, row.height_m, row.along_m}].take(row, doubted_.contains(key_of(row)),
@@ -219,7 +219,7 @@ void StateOfTime::add_to(OverTime& out) const {
       std::vector<std::string> signs;
       std::vector<std::optional<double>> visibility;
       for (const Walker& walker : views_.people(r)) {
-        const BestSign one = best[{from_route(scene_->routes[r]), height, walker.along_m}];
+        const BestSign one = best[{subject_of(scene_->routes[r]), height, walker.along_m}];
         fds.push_back(one.fds);
         visibility.push_back(slices.at(walker.foot + glm::dvec3(0, 0, height)));
         guided.push_back(one.guidance);
@@ -305,7 +305,7 @@ Result<Assessment> assess_states(const StatesToAssess& states, const AssessOptio
   if (!followed) return followed.problem();
   out->over_time = std::move(followed).value();
   for (const std::string& warning : out->over_time->warnings)
-    out->warnings.push_back(problem(warning));
+    out->warnings.push_back({{}, std::nullopt, warning});
   return out;
 }
 

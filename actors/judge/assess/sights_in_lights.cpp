@@ -219,7 +219,7 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
       row.look.visible_share = seen;
       row.line = line_of_sight(building, access, sign, row.view, row.eye);
       if (seen == 0) row.sight.verdict = SightVerdict::hidden;
-      if (stuck) row.sight.reason = "the eye is in a solid thing";
+      if (stuck) row.sight.reason = remark(RemarkId::eye_in_solid);
       if (seen > 0 && !stuck) {
         row.sight.verdict = SightVerdict::undecided;
         faced[i].push_back(
@@ -325,7 +325,7 @@ void SightsInLights::judge(const CompiledScene& scene, const Totals& totals,
       SightRow& row = rows_[light][faced.row];
       if (target == targets.end()) {  // within rounding of the face's own plane
         row.sight.verdict = SightVerdict::not_assessed;
-        row.sight.reason = "it is seen edge-on";
+        row.sight.reason = remark(RemarkId::seen_edge_on);
       } else {
         judge_view(readout, scene, *target->second, faced, light);
         if (light > 0 && open_.front()[view])

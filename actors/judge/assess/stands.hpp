@@ -2,16 +2,16 @@
 // observers. Pure; any thread.
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "scenes/emergency/remark.hpp"
 #include "scenes/light/world/description.hpp"
 
 namespace luxodus {
 
 /// Somebody at a place.
 struct Stand {
-  std::string from;  // route "corridor", open area "hall", observer "walker"
+  Subject from;  // a route, an open area or an observer
   double along_m = 0, stands_for = 0, height_m = 0;
   Observer observer;
   bool looks_ahead = true;  // else anywhere

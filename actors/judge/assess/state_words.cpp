@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "actors/judge/texts/remark_json.hpp"
 #include "scenes/emergency/legibility.hpp"
 
 namespace luxodus {
@@ -32,9 +33,9 @@ Json rules_json(const AssessedState& state) {
     const NamedRules& set = named(codes.set);
     out.push_back({{"id", set.id},
                    {"edition", set.edition},
-                   {"what", set.what},
+                   {"what", remark_json(remark(set.asks))},
                    {"source", set.source},
-                   {"status", set.status}});
+                   {"status", set.status ? remark_json(remark(*set.status)) : Json()}});
   }
   return out;
 }
@@ -47,9 +48,9 @@ Json deviations_json(const AssessedState& state) {
       out.push_back({{"id", one.id},
                      {"from", named(codes.set).id},
                      {"edition", one.edition},
-                     {"what", one.what},
+                     {"what", remark_json(remark(one.asks))},
                      {"source", one.source},
-                     {"status", one.status}});
+                     {"status", one.status ? remark_json(remark(*one.status)) : Json()}});
     }
   return out;
 }
@@ -64,7 +65,8 @@ Json smoke_json(const AssessedState& state) {
   for (const StatedMedium& m : state.media) {
     media.push_back({{"name", m.name},
                      {"kind", m.kind},
-                     {"source", m.source},
+                     {"place", m.place},
+                     {"notes", remarks_json(m.notes)},
                      {"extinction_min", m.extinction_min},
                      {"extinction_max", m.extinction_max}});
     if (m.kind == "flame") continue;
@@ -121,8 +123,9 @@ std::string smoke_row(const Json& state) {
     out += fmt::format(
         "; {} \"{}\" {}", text_in(medium, "kind"), text_in(medium, "name"),
         range_words(number_at(medium, "extinction_min"), number_at(medium, "extinction_max")));
-    if (const std::string source = text_in(medium, "source"); !source.empty())
-      out += " (" + source + ")";
+    std::string source = text_in(medium, "place");
+    for (const Json& note : list_at(medium, "notes")) source += ", " + text_in(note, "text");
+    if (!source.empty()) out += " (" + source + ")";
   }
   return out;
 }
@@ -132,7 +135,7 @@ std::string named_row(const Json& rows) {
   for (const Json& row : rows) {
     out += (out.empty() ? "" : "; ") + text_in(row, "edition") + " (" + text_in(row, "id") + ")";
     for (const char* key : {"what", "status"})
-      if (const std::string text = text_in(row, key); !text.empty()) out += ", " + text;
+      if (const std::string text = english_in(row, key); !text.empty()) out += ", " + text;
   }
   return out.empty() ? "none" : out;
 }
@@ -142,7 +145,9 @@ void add_unassessed(const Json& assessment, std::vector<StateRow>& rows) {
   const char* what = "not assessed";
   for (const Json& group : list_at(assessment, "not_assessed")) {
     const double count = number_at(group, "count");
-    rows.emplace_back(what, fmt::format("{}: {}{}", text_in(group, "what"), text_in(group, "why"),
+    std::string why = english_in(group, "why");
+    if (group.value("undecided", false)) why = english().say("views.undecided", why);
+    rows.emplace_back(what, fmt::format("{}: {}{}", text_in(group, "what"), why,
                                         count > 1 ? fmt::format(" ({:.0f} times)", count) : ""));
     what = "";
   }
@@ -187,8 +192,8 @@ Json state_json(const AssessedState& state) {
           {"smoke", smoke_json(state)},
           {"rules", rules_json(state)},
           {"deviations", deviations_json(state)},
-          {"light", state.light},
-          {"remarks", state.remarks}};
+          {"light", remark_json(state.light)},
+          {"remarks", remarks_json(state.remarks)}};
 }
 
 Json verdict_json(const AssessedState& state, const CheckCounts& counts,
@@ -209,7 +214,7 @@ std::vector<StateRow> state_rows(const Json& assessment) {
   std::vector<StateRow> rows{
       {"scenario", text_in(state, "scenario")}, {"operation", operation_row(state)},
       {"luminaires", luminaire_row(state)},     {"smoke", smoke_row(state)},
-      {"light", text_in(state, "light")},       {"rules", named_row(list_at(state, "rules"))}};
+      {"light", english_in(state, "light")},    {"rules", named_row(list_at(state, "rules"))}};
   if (!list_at(state, "deviations").empty())
     rows.emplace_back("deviations", named_row(list_at(state, "deviations")));
   add_unassessed(assessment, rows);
@@ -223,7 +228,7 @@ std::string state_text(const Json& assessment) {
   const auto state = assessment.find("state");
   if (state == assessment.end()) return out;
   for (const Json& remark : list_at(*state, "remarks"))
-    if (remark.is_string()) out += fmt::format("  note: {}\n", remark.get<std::string>());
+    out += fmt::format("  note: {}\n", text_in(remark, "text"));
   return out;
 }
 

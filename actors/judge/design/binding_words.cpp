@@ -14,7 +14,7 @@ std::string demand_of(const Texts& t, const Json& design, const Json& one) {
   if (what == "failure") return t.say("design.because_failure", text_in(one, "luminaire"));
   const Json& group = design["constraints"][one["constraint"].get<size_t>()];
   const std::string rule = text_in(group, "rule");
-  return subject_text(t, text_in(group, "subject")) + ": " + demand_text(t, group) +
+  return subject_text(t, group["subject"]) + ": " + demand_text(t, group) +
          (rule.empty() ? "" : " (" + rule + ")");
 }
 

@@ -116,7 +116,7 @@ class Demands::Builder {
 
   /// Routes and areas that share candidates are one region: a corridor with its side corridors.
   void find_regions() {
-    const auto join = [&](const std::string& subject, const std::vector<size_t>& above) {
+    const auto join = [&](const Subject& subject, const std::vector<size_t>& above) {
       const auto fresh = static_cast<uint32_t>(regions_.size());
       regions_[subject] = fresh;
       std::set<uint32_t> met;
@@ -131,18 +131,11 @@ class Demands::Builder {
         if (met.contains(region)) region = fresh;
     };
     for (const EscapeRoute& route : scene_.routes)
-      join(name_of_subject(route), over(route, route.path.front().z));
+      join(subject_of(route), over(route, route.path.front().z));
     for (const AssessedArea& area : scene_.open_areas)
-      join(name_of_subject("open area", area), over(area, area.z_m));
+      join({SubjectKind::open_area, area.name}, over(area, area.z_m));
     for (const AssessedArea& area : scene_.task_areas)
-      join(name_of_subject("task area", area), over(area, area.z_m));
-  }
-
-  static std::string name_of_subject(const EscapeRoute& route) {
-    return "route \"" + route.name + "\"";
-  }
-  static std::string name_of_subject(const char* kind, const AssessedArea& area) {
-    return std::string(kind) + " \"" + area.name + "\"";
+      join({SubjectKind::task_area, area.name}, over(area, area.z_m));
   }
 
   /// A luminaire that is there has been paid for, and one that stays in any case is not counted.
@@ -229,7 +222,7 @@ class Demands::Builder {
 
   /// The points at which so much light is asked for: with furniture, unless some of them get less
   /// from all candidates together. Then no layout passes with furniture, and none is asked to.
-  const Points& reachable(const char* rule, const std::string& subject, const Both& both,
+  const Points& reachable(const char* rule, const Subject& subject, const Both& both,
                           double asked_lx) {
     if (both.furnished.empty()) return both.bare;
     const auto hidden =
@@ -247,7 +240,7 @@ class Demands::Builder {
         bare, out_.furnished_ ? out_.furnished_->light.points_of(area, border_m).places : bare);
   }
 
-  uint32_t add_group(DemandKind kind, const char* rule, const std::string& subject, double asked) {
+  uint32_t add_group(DemandKind kind, const char* rule, const Subject& subject, double asked) {
     const auto region = regions_.find(subject);
     problem_.groups.push_back(
         {kind, rule, subject, asked, region == regions_.end() ? no_region : region->second});
@@ -258,7 +251,7 @@ class Demands::Builder {
     problem_.covers.push_back({group, std::move(terms), least, place});
   }
 
-  void add_minima(DemandKind kind, const char* rule, const std::string& subject, const Both& both,
+  void add_minima(DemandKind kind, const char* rule, const Subject& subject, const Both& both,
                   double limit_lx, const std::vector<double>& factors = {}) {
     if (both.bare.empty()) return;
     const double asked = limit_lx * design_.margin;
@@ -272,7 +265,7 @@ class Demands::Builder {
   }
 
   /// With furniture, which only takes light away.
-  void add_mean(const char* rule, const std::string& subject, const Both& both, double limit_lx,
+  void add_mean(const char* rule, const Subject& subject, const Both& both, double limit_lx,
                 const std::vector<double>& factors = {}) {
     const Points& points = both.furnished.empty() ? both.bare : both.furnished;
     if (points.empty()) return;
@@ -288,7 +281,7 @@ class Demands::Builder {
 
   /// In time: `seconds` after the failure of the mains. Nothing where all light is there by then:
   /// as much is asked for at all times.
-  void add_early(const char* rule, const std::string& subject, const Both& both, double seconds,
+  void add_early(const char* rule, const Subject& subject, const Both& both, double seconds,
                  double limit_lx) {
     const auto shares = after(seconds);
     if (all_one(shares)) {
@@ -301,7 +294,7 @@ class Demands::Builder {
 
   /// Brightest places are looked for straight below luminaires, too, so that no peak hides between
   /// the points of the grid. `limit_lx`: what is asked for at every point, anyway.
-  void add_spread(const char* rule, const std::string& subject, const Both& both,
+  void add_spread(const char* rule, const Subject& subject, const Both& both,
                   const std::vector<glm::dvec3>& peaks, double ratio, double limit_lx) {
     if (both.bare.empty()) return;
     const uint32_t group = add_group(DemandKind::spread, rule, subject, ratio);
@@ -316,7 +309,7 @@ class Demands::Builder {
     if (all && !both.furnished.empty()) add(both.furnished);
   }
 
-  void add_failures(const char* rule, const std::string& subject, const Points& points,
+  void add_failures(const char* rule, const Subject& subject, const Points& points,
                     double least_lx) {
     if (points.empty()) return;
     const uint32_t group = add_group(DemandKind::failed, rule, subject, least_lx);
@@ -335,7 +328,7 @@ class Demands::Builder {
   }
 
   /// What holds when any one luminaire has failed. `limit_lx`: of the rules, at the same points.
-  void add_single_failures(const std::string& subject, const std::vector<size_t>& above,
+  void add_single_failures(const Subject& subject, const std::vector<size_t>& above,
                            const Both& both, double limit_lx) {
     if (design_.failure == FailureDemand::none || both.bare.empty()) return;
     const Points& points = reachable("", subject, both, limit_lx * design_.margin);
@@ -376,7 +369,7 @@ class Demands::Builder {
   }
 
   void add_route(const EscapeRoute& route) {
-    const std::string subject = name_of_subject(route);
+    const Subject subject = subject_of(route);
     const RoutePoints points = points_of(route);
     const Both centre = both_at(points.centre);
     const auto above = over(route, route.path.front().z);
@@ -404,7 +397,7 @@ class Demands::Builder {
     add_single_failures(subject, above, walked, walked_lx);
   }
 
-  void add_american(const std::string& subject, const Both& centre,
+  void add_american(const Subject& subject, const Both& centre,
                     const std::vector<glm::dvec3>& peaks, const CodeChoice& codes) {
     const bool ibc = codes.has(Deviation::us_ibc);
     const auto fresh = as_new();
@@ -420,7 +413,7 @@ class Demands::Builder {
                    min_failed_lx * design_.margin);
   }
 
-  void add_onset(const std::string& subject, const Both& points, double limit_lx,
+  void add_onset(const Subject& subject, const Both& points, double limit_lx,
                  const CodeChoice& codes) {
     if (codes.european()) {
       add_early("E10h", subject, points, half_s, limit_lx / 2);
@@ -432,7 +425,7 @@ class Demands::Builder {
   }
 
   void add_open_area(const AssessedArea& area) {
-    const std::string subject = name_of_subject("open area", area);
+    const Subject subject{SubjectKind::open_area, area.name};
     const Both core = both_of(area, open_border_m);
     const auto above = over(area, area.z_m);
     auto peaks = places_of(above);
@@ -454,7 +447,7 @@ class Demands::Builder {
   }
 
   void add_task_area(const AssessedArea& area) {
-    const std::string subject = name_of_subject("task area", area);
+    const Subject subject{SubjectKind::task_area, area.name};
     const Both plane = both_of(area, 0);
     auto peaks = places_of(over(area, area.z_m));
     for (glm::dvec3& p : peaks) p.z = area.z_m;
@@ -468,7 +461,7 @@ class Demands::Builder {
   }
 
   /// A luminaire near a place, by the rule of luminaire_near.
-  void add_near(const char* rule, const std::string& subject, const glm::dvec3& place, bool above,
+  void add_near(const char* rule, const Subject& subject, const glm::dvec3& place, bool above,
                 const LinesOfSight& seen) {
     const auto floor = floor_below(scene_, place);
     std::vector<double> near(candidates_.size(), 0);
@@ -486,8 +479,7 @@ class Demands::Builder {
     if (std::none_of(codes_.begin(), codes_.end(),
                      [](const CodeChoice& codes) { return codes.european(); }))
       return;
-    const std::string subject = "\"" + point.name + "\" (" +
-                                std::string(emphasis_words[static_cast<size_t>(point.kind)]) + ")";
+    const Subject subject = subject_of(point);
     LinesOfSight seen = out_.bare_->light.seen_from(beside(point));
     if (out_.furnished_) {
       const LinesOfSight past = out_.furnished_->light.seen_from(beside(point));
@@ -522,8 +514,8 @@ class Demands::Builder {
       return true;
     });
     if (dark) return out_.unlit_flights_.push_back(flight.name);
-    const uint32_t group = add_group(DemandKind::flight, "E12",
-                                     "flight of stairs \"" + flight.name + "\"", lit_tread_lx);
+    const uint32_t group =
+        add_group(DemandKind::flight, "E12", {SubjectKind::stairs, flight.name}, lit_tread_lx);
     std::vector<double> all(candidates_.size(), 1);
     for (const LitPoint& tread : treads)
       for (size_t i = 0; i < all.size(); ++i)
@@ -539,7 +531,7 @@ class Demands::Builder {
 
   void add_sign(const Sign& sign) {
     if (sign.lighting != SignLighting::external) return;
-    const std::string subject = "sign \"" + sign.name + "\"";
+    const Subject subject = subject_of(sign);
     for (const CodeChoice& codes : codes_) {
       if (codes.european()) {
         add_near("S6l", subject, sign.frame.origin, false,
@@ -560,7 +552,7 @@ class Demands::Builder {
   const std::vector<LuminaireCandidate>& candidates_;
   const std::vector<CodeChoice>& codes_;
   std::vector<std::optional<double>> floors_;  // below each candidate
-  std::map<std::string, uint32_t> regions_;    // by subject
+  std::map<Subject, uint32_t> regions_;
 };
 
 Result<std::unique_ptr<Demands>> Demands::make(const SceneDescription& scene,
@@ -585,7 +577,8 @@ Result<std::unique_ptr<Demands>> Demands::make(const SceneDescription& scene,
 }
 
 bool Demands::is_hidden(const Check& check) const {
-  return check.condition.find("with furniture") != std::string::npos &&
+  return std::count(check.conditions.begin(), check.conditions.end(),
+                    remark(RemarkId::with_furniture)) > 0 &&
          hidden_.contains({check.rule.id, check.subject});
 }
 

@@ -31,7 +31,8 @@ struct BetweenPoints {
 /// A point where a minimum does not hold with luminaires off their places.
 struct PointOffPlace {
   DemandKind kind = DemandKind::minimum;
-  std::string rule, subject;
+  std::string rule;
+  Subject subject;
   glm::dvec3 place{0};
   double least = 0;  // what is asked for there [lx]
 };
@@ -67,7 +68,7 @@ class Demands {
 
   /// Rules and subjects that are asked for without furniture alone, and how many points furniture
   /// hides from all candidates.
-  using Hidden = std::map<std::pair<std::string, std::string>, size_t>;
+  using Hidden = std::map<std::pair<std::string, Subject>, size_t>;
   const Hidden& hidden() const { return hidden_; }
 
   /// Flights of stairs with a tread that no candidate lights: nothing is asked for there.
@@ -90,7 +91,7 @@ class Demands {
                                const std::vector<PointOffPlace>& points, const Layout& layout);
   /// As ask_for_more of a check, of a minimum that does not hold elsewhere: `missing` at `place`,
   /// in its unit. Of a demand on failures everywhere.
-  bool ask_for_more(DemandKind kind, const std::string& rule, const std::string& subject,
+  bool ask_for_more(DemandKind kind, const std::string& rule, const Subject& subject,
                     const glm::dvec3& place, double missing, const Layout& layout);
 
  private:

@@ -134,7 +134,7 @@ bool Demands::ask_for_more(const Check& check, const Layout& layout) {
   return raise_nearest(problem_, is_it, *check.worst, *check.limit - *check.value, layout);
 }
 
-bool Demands::ask_for_more(DemandKind kind, const std::string& rule, const std::string& subject,
+bool Demands::ask_for_more(DemandKind kind, const std::string& rule, const Subject& subject,
                            const glm::dvec3& place, double missing, const Layout& layout) {
   const auto is_it = [&](const auto& rows) {
     const ConstraintGroup& group = problem_.groups[rows.group];

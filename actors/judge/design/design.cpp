@@ -284,7 +284,7 @@ class Designing {
     static const std::set<std::string> distances{"S4", "N8"};
     if (!out_.signs || !distances.contains(check.rule.id)) return false;
     return std::any_of(scene_->routes.begin(), scene_->routes.end(), [&](const EscapeRoute& route) {
-      return check.subject == "route \"" + route.name + "\"" && out_.signs->guides(route.name);
+      return check.subject == subject_of(route) && out_.signs->guides(route.name);
     });
   }
 
@@ -467,14 +467,14 @@ class Designing {
   /// Those that luminaires of the layout decide; others go to `others`, unless it is null.
   std::vector<Check> failing_checks(const PlacedLayout& layout, const Assessment& assessment,
                                     std::vector<Check>* others) {
-    std::set<std::string> ours;
+    std::set<Subject> ours;
     for (const PlacedLuminaire& one : layout.luminaires)
-      if (one.is_placed()) ours.insert("luminaire \"" + one.name + "\"");
+      if (one.is_placed()) ours.insert({SubjectKind::luminaire, one.name});
     std::vector<Check> out;
     if (others != nullptr) others->clear();
     for (const Check& check : assessment.checks) {
       if (check.verdict != CheckVerdict::fail) continue;
-      const bool of_one = check.subject.starts_with("luminaire \"");
+      const bool of_one = check.subject.kind == SubjectKind::luminaire;
       const bool decided = is_of_signs(check) || (is_of_luminaires(check.rule.id) &&
                                                   (!of_one || ours.contains(check.subject)) &&
                                                   !demands_->is_hidden(check));
@@ -555,7 +555,7 @@ class Designing {
         scene_->file,
         fmt::format("no layout was found that passes its own assessment: {} for {} still fails "
                     "after {} layouts; a larger 'margin' leaves more room",
-                    check.rule.id, check.subject, out_.verifications));
+                    check.rule.id, english().subject(check.subject), out_.verifications));
   }
 
   std::shared_ptr<const SceneDescription> scene_;

@@ -40,7 +40,8 @@ struct DesignOptions {
 
 /// A rule that is asked for without furniture alone: with it no layout passes.
 struct HiddenByFurniture {
-  std::string rule, subject;
+  std::string rule;
+  Subject subject;
   size_t points = 0;  // that furniture hides from all candidates
 };
 

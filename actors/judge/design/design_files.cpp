@@ -13,6 +13,7 @@
 #include "actors/judge/design/smoke_section.hpp"
 #include "actors/judge/report/hand_over.hpp"
 #include "actors/judge/report/plan_svg.hpp"
+#include "actors/judge/texts/remark_json.hpp"
 #include "runtime/core/output_text.hpp"
 
 namespace luxodus {
@@ -65,7 +66,7 @@ Json groups_json(const DesignResult& result) {
     const ConstraintGroup& group = result.groups[i];
     out.push_back({{"kind", word_of(group.kind)},
                    {"rule", group.rule},
-                   {"subject", group.subject},
+                   {"subject", subject_json(group.subject)},
                    {"asked", number_json(group.asked)},
                    {"words", demand_words(group)},
                    {"least_share", number_json(result.tightest[i])},
@@ -113,9 +114,9 @@ Json others_json(const DesignResult& result) {
   Json out = Json::array();
   for (const Check& check : result.others)
     out.push_back({{"rule", check.rule.id},
-                   {"subject", check.subject},
-                   {"title", check.rule.title},
-                   {"reason", check.reason}});
+                   {"subject", subject_json(check.subject)},
+                   {"title", english().rule_title(check.rule.id)},
+                   {"reasons", remarks_json(check.reasons)}});
   return out;
 }
 
@@ -124,7 +125,7 @@ Json tolerance_json(const PlaceTolerance& tolerance) {
   for (const ShareOffPlace& one : tolerance.demands)
     demands.push_back({{"kind", word_of(one.kind)},
                        {"rule", one.rule},
-                       {"subject", one.subject},
+                       {"subject", subject_json(one.subject)},
                        {"share", number_json(one.share)},
                        {"place", vector_json(one.place)}});
   return {{"distance_m", number_json(tolerance.distance_m)},
@@ -238,7 +239,7 @@ std::string demand_words(const ConstraintGroup& group) {
       what = "a luminaire whose light falls directly on it, " + value + " lx on each tread";
       break;
   }
-  return fmt::format("{}: {}{}", group.subject, what,
+  return fmt::format("{}: {}{}", english().subject(group.subject), what,
                      group.rule.empty() ? "" : " (" + group.rule + ")");
 }
 
@@ -248,9 +249,9 @@ std::string tolerance_words(const PlaceTolerance& tolerance) {
   return fmt::format(
       "mounted up to {} m off their places, all luminaires at once: the least is {} of the minimum "
       "of the rules, {}{} at {}{}",
-      readable_number(tolerance.distance_m, 2), percent(least.share), least.subject,
-      least.rule.empty() ? "" : " (" + least.rule + ")", at_words(least.place),
-      tolerance.holds() ? "" : "; no layout was found whose minima hold");
+      readable_number(tolerance.distance_m, 2), percent(least.share),
+      english().subject(least.subject), least.rule.empty() ? "" : " (" + least.rule + ")",
+      at_words(least.place), tolerance.holds() ? "" : "; no layout was found whose minima hold");
 }
 
 std::string outcome_words(const SceneDescription& scene, const DesignResult& result) {
@@ -306,13 +307,14 @@ std::vector<std::string> others_words(const std::vector<Check>& others) {
   for (const Check& check : others) {
     const auto of_rule =
         static_cast<size_t>(std::count_if(others.begin(), others.end(), [&](const Check& one) {
-          return one.rule.title == check.rule.title;
+          return one.rule.id == check.rule.id;
         }));
     const bool together = of_rule > told_one_by_one;
-    if (together && !told.insert(check.rule.title).second) continue;
-    out.push_back(fmt::format("fails, and is not decided here: {}{}: {}", check.subject,
+    if (together && !told.insert(check.rule.id).second) continue;
+    out.push_back(fmt::format("fails, and is not decided here: {}{}: {}",
+                              english().subject(check.subject),
                               together ? fmt::format(" and {} others", of_rule - 1) : "",
-                              check.rule.title));
+                              english().rule_title(check.rule.id)));
   }
   return out;
 }
@@ -477,7 +479,7 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
   out["hidden_by_furniture"] = Json::array();
   for (const HiddenByFurniture& one : result.hidden)
     out["hidden_by_furniture"].push_back(
-        {{"rule", one.rule}, {"subject", one.subject}, {"points", one.points}});
+        {{"rule", one.rule}, {"subject", subject_json(one.subject)}, {"points", one.points}});
   out["types_not_placed"] = Json::array();
   for (const UnusedType& one : result.unused)
     out["types_not_placed"].push_back({{"name", one.name},

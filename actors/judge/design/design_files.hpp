@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "actors/judge/design/design.hpp"
-#include "actors/judge/report/texts.hpp"
+#include "actors/judge/texts/texts.hpp"
 #include "actors/results/formats/csv.hpp"
 #include "actors/results/formats/json_out.hpp"
 

@@ -185,7 +185,7 @@ std::string binding(const Texts& t, const Json& d) {
                              : tight               ? std::string(t("design.tight"))
                                                    : std::string(t("design.slack"));
     rows +=
-        "<tr>" + cell(text_in(group, "rule")) + cell(subject_text(t, text_in(group, "subject"))) +
+        "<tr>" + cell(text_in(group, "rule")) + cell(subject_text(t, group["subject"])) +
         cell(demand_text(t, group)) +
         (least.is_number() ? fixed_cell(t, 100 * least.get<double>(), 0) : html_cell("–", "n")) +
         cell(said) + "</tr>\n";
@@ -201,9 +201,9 @@ std::string binding(const Texts& t, const Json& d) {
 std::string others(const Texts& t, const Json& d) {
   std::string rows;
   for (const Json& check : d["failing_otherwise"])
-    rows += "<tr>" + cell(text_in(check, "rule")) +
-            cell(subject_text(t, text_in(check, "subject"))) + cell(text_in(check, "title")) +
-            cell(text_in(check, "reason")) + "</tr>\n";
+    rows += "<tr>" + cell(text_in(check, "rule")) + cell(subject_text(t, check["subject"])) +
+            cell(t.rule_title(text_in(check, "rule"))) + cell(said(t, check["reasons"])) +
+            "</tr>\n";
   if (rows.empty()) return "";
   return heading(t, "design.others") + paragraph(t("design.others_note"), "note") +
          table(t, {"design.rule", "design.subject", "column.check", "column.remark"},
@@ -213,10 +213,11 @@ std::string others(const Texts& t, const Json& d) {
 std::string hidden(const Texts& t, const Json& d) {
   std::vector<HiddenByFurniture> all;
   for (const Json& one : d["hidden_by_furniture"])
-    all.push_back({text_in(one, "rule"), text_in(one, "subject"), one["points"].get<size_t>()});
+    all.push_back(
+        {text_in(one, "rule"), read_subject(one["subject"]).value(), one["points"].get<size_t>()});
   std::string out;
   for (const HiddenByFurniture& one : joined_by_subject(all))
-    out += paragraph(t.say("design.hidden", one.rule, subject_text(t, one.subject), one.points));
+    out += paragraph(t.say("design.hidden", one.rule, t.subject(one.subject), one.points));
   return out;
 }
 
@@ -228,8 +229,7 @@ std::string off_place(const Texts& t, const Json& d) {
   const Json& p = least["place"];
   return paragraph(
       t.say("design.off_place", t.number(off["distance_m"].get<double>(), 2),
-            t.number(100 * least["share"].get<double>(), 3),
-            subject_text(t, text_in(least, "subject")),
+            t.number(100 * least["share"].get<double>(), 3), subject_text(t, least["subject"]),
             t.place(p[0].get<double>(), p[1].get<double>(), p[2].get<double>())) +
       (off["holds"].get<bool>() ? std::string() : std::string(" ") + t("design.off_place_fails")));
 }

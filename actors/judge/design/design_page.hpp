@@ -6,7 +6,7 @@
 #include <string>
 
 #include "actors/judge/design/side_by_side.hpp"
-#include "actors/judge/report/texts.hpp"
+#include "actors/judge/texts/texts.hpp"
 #include "actors/results/formats/json_out.hpp"
 
 namespace luxodus {

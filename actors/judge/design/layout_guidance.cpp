@@ -59,7 +59,7 @@ class Following {
  private:
   static void add_row(const SceneDescription& scene, const GuidingViews& views,
                       const std::vector<SightRow>& rows, std::vector<RouteTables>& tables) {
-    std::map<std::tuple<std::string, double, double>, Guidance> best;  // route, height, place
+    std::map<std::tuple<Subject, double, double>, Guidance> best;  // route, height, place
     for (const SightRow& row : rows) {
       auto& at =
           best.insert({{row.from, row.height_m, row.along_m}, Guidance::not_guided}).first->second;
@@ -78,7 +78,7 @@ class Following {
         RouteTables& table = tables[next++];
         std::vector<Guidance> least, most;
         for (const Walker& walker : views.people(r)) {
-          const auto found = best.find({from_route(scene.routes[r]), height, walker.along_m});
+          const auto found = best.find({subject_of(scene.routes[r]), height, walker.along_m});
           const Guidance here = found == best.end() ? Guidance::not_guided : found->second;
           least.push_back(here == Guidance::guided ? here : Guidance::not_guided);
           most.push_back(here == Guidance::not_guided ? here : Guidance::guided);

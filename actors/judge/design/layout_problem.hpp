@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "scenes/emergency/remark.hpp"
+
 namespace luxodus {
 
 /// What one option adds to a sum, such as illuminance at a point [lx].
@@ -72,9 +74,9 @@ constexpr bool is_minimum(DemandKind kind) {
 /// Constraints that stand and fall together: one rule for one subject.
 struct ConstraintGroup {
   DemandKind kind = DemandKind::minimum;
-  std::string rule;     // "E5"; "" of what is no code's
-  std::string subject;  // route "corridor"
-  double asked = 0;     // the planned value, margin included
+  std::string rule;  // "E5"; "" of what is no code's
+  Subject subject;
+  double asked = 0;  // the planned value, margin included
   uint32_t region = no_region;
 };
 

@@ -14,7 +14,8 @@ namespace luxodus {
 /// Of one demand, where it is tightest.
 struct ShareOffPlace {
   DemandKind kind = DemandKind::minimum;
-  std::string rule, subject;
+  std::string rule;
+  Subject subject;
   double share = 0;  // of the minimum of the rule, without the planning margin
   glm::dvec3 place{0};
   double missing = 0;  // to that minimum, in the unit of the demand; 0 where it holds

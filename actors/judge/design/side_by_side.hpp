@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "actors/judge/report/texts.hpp"
+#include "actors/judge/texts/texts.hpp"
 #include "actors/results/formats/json_out.hpp"
 
 namespace luxodus {

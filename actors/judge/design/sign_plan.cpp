@@ -363,8 +363,7 @@ class SignPlanning {
     }
     out_.places = places.size();
     for (const EscapeRoute& route : scene_.routes)
-      problem_.groups.push_back(
-          {DemandKind::near, "", "route \"" + route.name + "\"", 1, no_region});
+      problem_.groups.push_back({DemandKind::near, "", subject_of(route), 1, no_region});
     std::vector<std::vector<Term>> furnished(asked_.size()), bare(asked_.size());
     for (uint32_t i = 0; i < sign_options_.size(); ++i) {
       for (const uint32_t p : sign_options_[i].furnished) furnished[p].push_back({i, 1});

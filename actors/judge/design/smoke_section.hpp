@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "actors/judge/design/design.hpp"
-#include "actors/judge/report/texts.hpp"
+#include "actors/judge/texts/texts.hpp"
 #include "actors/results/formats/json_out.hpp"
 
 namespace luxodus {

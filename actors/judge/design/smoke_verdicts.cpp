@@ -20,7 +20,7 @@ SeenPlaces places_of(const SceneDescription& scene, const std::vector<SightRow>&
     const auto people = walkers(route, scene.assessment.spacing_m);
     for (const Walker& walker : people)
       for (const double height : scene.assessment.eye_heights_m)
-        out[{"route \"" + route.name + "\"", walker.along_m, height}].stands_for =
+        out[{subject_of(route), walker.along_m, height}].stands_for =
             length_of(route) / static_cast<double>(people.size());
   }
   for (const SightRow& row : rows) {

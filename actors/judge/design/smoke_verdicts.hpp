@@ -25,7 +25,7 @@ struct LegibleShare {
 enum class Read { nothing, undecided, a_sign };
 
 /// A place: route, metres along it, height of the eye [m].
-using RoutePlace = std::tuple<std::string, double, double>;
+using RoutePlace = std::tuple<Subject, double, double>;
 
 struct SeenPlace {
   double stands_for = 0;  // metres of the route

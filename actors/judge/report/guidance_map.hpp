@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "actors/judge/report/texts.hpp"
+#include "actors/judge/texts/texts.hpp"
 #include "actors/results/formats/json_out.hpp"
 
 namespace luxodus {

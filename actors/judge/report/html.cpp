@@ -71,7 +71,7 @@ std::string html_cell(const std::string& html, const char* css_class) {
 
 std::string unit_text(const Texts& texts, const std::string& unit) {
   if (unit == "1") return "";
-  std::string out = texts.remark(unit).value_or(unit);
+  std::string out = texts.word("unit", unit);
   for (const auto& [plain, raised] : {std::pair{"m2", "m²"}, std::pair{"m3", "m³"}})
     if (const size_t at = out.find(plain); at != std::string::npos) out.replace(at, 2, raised);
   if (out == "deg") return "°";
@@ -132,52 +132,35 @@ std::string subheading(const std::string& text) {
   return "<h3>" + escaped(text) + "</h3>\n";
 }
 
-std::string remark(const Texts& texts, const std::string& text) {
-  if (text.empty()) return "";
-  const auto said = texts.remark(text);
-  return said ? "<i>" + escaped(*said) + "</i>" : "<i lang=\"en\">" + escaped(text) + "</i>";
+std::string said(const Texts& texts, const Json& remarks) {
+  if (remarks.is_null()) return "";
+  const auto read =
+      read_remarks(remarks.is_array() ? remarks : Json::array({remarks}));  // were checked
+  return read ? texts.remarks(read.value()) : "";
 }
 
-std::string subject_text(const Texts& texts, const std::string& subject) {
-  // A point of emphasis: its name, and its kind in brackets.
-  const size_t bracket = subject.rfind(" (");
-  if (subject.starts_with('"') && subject.ends_with(')') && bracket != std::string::npos) {
-    const std::string kind = subject.substr(bracket + 2, subject.size() - bracket - 3);
-    return subject.substr(0, bracket + 2) + texts.word("emphasis", kind) + ")";
-  }
-  const size_t quote = subject.find(" \"");
-  if (quote == std::string::npos) return texts.word("subject", subject);
-  return texts.word("subject", subject.substr(0, quote)) + subject.substr(quote);
+std::string remark_html(const Texts& texts, const Json& remarks) {
+  const std::string words = said(texts, remarks);
+  return words.empty() ? "" : "<i>" + escaped(words) + "</i>";
 }
 
-std::string condition_text(const Texts& texts, const std::string& condition) {
-  constexpr std::string_view failed = "\" has failed";
-  std::string out;
-  for (size_t from = 0; from < condition.size();) {
-    const size_t to = std::min(condition.find("; ", from), condition.size());
-    const std::string piece = condition.substr(from, to - from);
-    if (!out.empty()) out += "; ";
-    if (piece.size() > failed.size() && piece.front() == '"' && piece.ends_with(failed))
-      out += texts.say("condition.failed", piece.substr(1, piece.size() - 1 - failed.size()));
-    else
-      out += texts.remark(texts.word("condition", piece)).value_or(texts.word("condition", piece));
-    from = to + 2;
-  }
-  return out;
+std::string subject_text(const Texts& texts, const Json& subject) {
+  const auto read = read_subject(subject);
+  return read ? texts.subject(read.value()) : "";
 }
 
-std::string rule_title(const Texts& texts, const Json& check) {
-  const ReportText* row = find_text("rule." + text_in(check, "rule"));
-  return texts.language() == Language::en || row == nullptr
-             ? text_in(check, "title")
-             : texts(std::string_view("rule." + text_in(check, "rule")));
+std::string clause_text(const Texts& texts, const Json& check) {
+  Rule rule;
+  rule.clause = text_in(check, "clause_number");
+  if (const auto status = read_remark(check["status"])) rule.status = status.value();
+  return texts.clause(rule);
 }
 
 std::string source_status(const Json& check) {
-  const std::string source = text_in(check, "quoted_from");
-  if (source.empty()) return "none";
-  if (source.starts_with("recollection")) return "recollection";
-  return source.starts_with("the standard") ? "verified" : "secondary";
+  Rule rule;
+  if (const auto sources = read_remarks(check["quoted_from"])) rule.sources = sources.value();
+  if (rule.sources.empty()) return "none";
+  return rule.recollected() ? "recollection" : "secondary";
 }
 
 }  // namespace luxodus

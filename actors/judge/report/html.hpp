@@ -7,7 +7,7 @@
 
 #include "actors/judge/report/eye_pictures.hpp"
 #include "actors/judge/report/schedule.hpp"
-#include "actors/judge/report/texts.hpp"
+#include "actors/judge/texts/remark_json.hpp"
 
 namespace luxodus {
 
@@ -47,15 +47,15 @@ std::string heading_row(const std::string& html, size_t columns);
 std::string paragraph(const std::string& text, const char* css_class = "");
 std::string figure(const std::string& html, const std::string& caption);
 std::string subheading(const std::string& text);
-/// What the program's checks say in English.
-std::string remark(const Texts& texts, const std::string& text);
+/// Sentences of remarks, as JSON holds them: of a list, or of one. Empty where there is none.
+std::string said(const Texts& texts, const Json& remarks);
+/// The same, set apart as remarks are.
+std::string remark_html(const Texts& texts, const Json& remarks);
 
 /// 'route "corridor"' with its kind in the language.
-std::string subject_text(const Texts& texts, const std::string& subject);
-/// "with furniture; "lamp" has failed", piece by piece.
-std::string condition_text(const Texts& texts, const std::string& condition);
-/// The title of a check's rule.
-std::string rule_title(const Texts& texts, const Json& check);
+std::string subject_text(const Texts& texts, const Json& subject);
+/// "4.2.1 of 2013" of a check.
+std::string clause_text(const Texts& texts, const Json& check);
 /// "verified", "secondary", "recollection" or "none": how well the limit of a check is known.
 std::string source_status(const Json& check);
 

@@ -177,12 +177,11 @@ std::string place_text(const Texts& t, const Json& check) {
 }
 
 std::string check_row(const Texts& t, const Json& check, bool with_subject) {
-  std::string what = escaped(rule_title(t, check));
-  if (with_subject)
-    what = "<b>" + escaped(subject_text(t, text_in(check, "subject"))) + "</b><br>" + what;
-  std::string notes = escaped(condition_text(t, text_in(check, "condition")));
-  if (const std::string reason = text_in(check, "reason"); !reason.empty())
-    notes += (notes.empty() ? "" : "<br>") + remark(t, reason);
+  std::string what = escaped(t.rule_title(text_in(check, "rule")));
+  if (with_subject) what = "<b>" + escaped(subject_text(t, check["subject"])) + "</b><br>" + what;
+  std::string notes = escaped(said(t, check["conditions"]));
+  if (check.contains("reasons"))
+    notes += (notes.empty() ? "" : "<br>") + remark_html(t, check["reasons"]);
   return "<tr>" + verdict_cell(t, "verdict", text_in(check, "verdict")) +
          html_cell(what + " <span class=\"id\">" + escaped(text_in(check, "rule")) + "</span>") +
          number_cell(t, check["value"], text_in(check, "unit")) +
@@ -201,18 +200,33 @@ std::string check_table(const PageParts& parts, const std::string& rows) {
                {13, 22, 11, 10, 8, 15, 21}, rows, "checks");
 }
 
-bool is_place(const std::string& subject) {
-  return subject.starts_with("route \"") || subject.starts_with("open area \"") ||
-         subject.starts_with("task area \"") || subject.starts_with("area \"");
+/// A row for each check, under a heading for each subject, in the order of their first check.
+/// `places`: of routes and areas alone, else of all others.
+std::string rows_by_subject(const PageParts& parts, bool places) {
+  std::vector<Subject> subjects;
+  for (const Json& check : parts.a["checks"]) {
+    const Subject subject = read_subject(check["subject"]).value();
+    if (std::find(subjects.begin(), subjects.end(), subject) == subjects.end())
+      subjects.push_back(subject);
+  }
+  std::string rows;
+  for (const Subject& subject : subjects) {
+    if (subject.is_place() != places) continue;
+    rows += heading_row(escaped(parts.texts.subject(subject)), std::size(check_columns));
+    for (const Json& check : parts.a["checks"])
+      if (read_subject(check["subject"]).value() == subject)
+        rows += check_row(parts.texts, check, false);
+  }
+  return rows;
 }
 
-/// Subjects in the order of their first check.
-std::vector<std::string> subjects_of(const Json& checks) {
-  std::vector<std::string> out;
-  for (const Json& check : checks)
-    if (std::find(out.begin(), out.end(), text_in(check, "subject")) == out.end())
-      out.push_back(text_in(check, "subject"));
-  return out;
+/// What the inspection found is English.
+std::string warning_html(const Texts& t, const Json& warning) {
+  if (warning["remark"].is_null())
+    return (t.language() == Language::en ? "<i>" : "<i lang=\"en\">") +
+           escaped(text_in(warning, "text")) + "</i>";
+  const SourcePlace place{text_in(warning, "file"), warning["line"].get<int>()};
+  return "<i>" + escaped(problem_in(place, said(t, warning["remark"])).text()) + "</i>";
 }
 
 }  // namespace
@@ -247,26 +261,13 @@ std::string schedules_section(const PageParts& parts) {
 }
 
 std::string places_section(const PageParts& parts) {
-  std::string rows;
-  for (const std::string& subject : subjects_of(parts.a["checks"])) {
-    if (!is_place(subject)) continue;
-    rows += heading_row(escaped(subject_text(parts.texts, subject)), std::size(check_columns));
-    for (const Json& check : parts.a["checks"])
-      if (text_in(check, "subject") == subject) rows += check_row(parts.texts, check, false);
-  }
+  const std::string rows = rows_by_subject(parts, true);
   if (rows.empty()) return paragraph(parts.texts("places.none"));
   return paragraph(parts.texts("places.lead")) + check_table(parts, rows);
 }
 
 std::string other_checks_appendix(const PageParts& parts) {
-  std::string rows;
-  for (const std::string& subject : subjects_of(parts.a["checks"])) {
-    if (is_place(subject)) continue;
-    rows += heading_row(escaped(subject_text(parts.texts, subject)), std::size(check_columns));
-    for (const Json& check : parts.a["checks"])
-      if (text_in(check, "subject") == subject) rows += check_row(parts.texts, check, false);
-  }
-  return check_table(parts, rows);
+  return check_table(parts, rows_by_subject(parts, false));
 }
 
 std::string verdict_section(const PageParts& parts) {
@@ -284,7 +285,7 @@ std::string verdict_section(const PageParts& parts) {
   if (!parts.a["warnings"].empty()) {
     out += subheading(t("verdict.warnings")) + "<ul>\n";
     for (const Json& warning : parts.a["warnings"])
-      out += "<li>" + remark(t, warning.get<std::string>()) + "</li>\n";
+      out += "<li>" + warning_html(t, warning) + "</li>\n";
     out += "</ul>\n";
   }
   return out + paragraph(t("verdict.remarks_english"), "note");

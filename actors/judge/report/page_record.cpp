@@ -56,8 +56,9 @@ std::string smoke_html(const Texts& t, const Json& smoke) {
   for (const Json& medium : smoke["media"]) {
     out += "<br>" + escaped(text_in(medium, "name")) + ": " +
            escaped(extinction_text(t, medium["extinction_min"], medium["extinction_max"], "1/m"));
-    if (const std::string source = text_in(medium, "source"); !source.empty())
-      out += " (" + remark(t, source) + ")";
+    std::string source = escaped(text_in(medium, "place"));
+    for (const Json& note : medium["notes"]) source += ", " + escaped(said(t, note));
+    if (!source.empty()) out += " (<i>" + source + "</i>)";
   }
   return out;
 }
@@ -69,7 +70,7 @@ std::string rules_html(const Texts& t, const Json& rules) {
     out += (out.empty() ? "<b>" : "<br><b>") + escaped(text_in(rule, "edition")) + "</b> (" +
            escaped(text_in(rule, "id")) + ")";
     for (const char* key : {"what", "status"})
-      if (const std::string text = text_in(rule, key); !text.empty()) out += ": " + remark(t, text);
+      if (const std::string text = remark_html(t, rule[key]); !text.empty()) out += ": " + text;
   }
   return out;
 }
@@ -129,14 +130,17 @@ std::string media_table(const PageParts& parts) {
       {20, 12, 12, 12, 10, 9, 8, 8, 9}, rows);
 }
 
-/// "S8, ISO 3864-4: Chromaticity of safety colours", the title in the report's language.
-std::string group_text(const Texts& t, const std::string& what) {
-  const size_t comma = what.find(", "), colon = what.find(": ");
-  const ReportText* row =
-      comma == std::string::npos ? nullptr : find_text("rule." + what.substr(0, comma));
-  if (t.language() == Language::en || row == nullptr || colon == std::string::npos)
-    return t.remark(what).value_or(what);
-  return what.substr(0, colon + 2) + t("rule." + what.substr(0, comma));
+/// "S8, ISO 3864-4: Chromaticity of safety colours", "views of signs"
+std::string group_text(const Texts& t, const Json& group) {
+  const std::string rule = text_in(group, "rule");
+  return rule.empty() ? t("views.of_signs")
+                      : rule + ", " + text_in(group, "edition") + ": " + t.rule_title(rule);
+}
+
+std::string why_html(const Texts& t, const Json& group) {
+  const std::string why = said(t, group["why"]);
+  return "<i>" + escaped(group["undecided"].get<bool>() ? t.say("views.undecided", why) : why) +
+         "</i>";
 }
 
 }  // namespace
@@ -163,10 +167,8 @@ std::string state_section(const PageParts& parts) {
                                                              : rules_html(t, s["deviations"]));
   facts.add("state.doors_open", list_text(scenario["doors_open"]));
   facts.add("state.doors_closed", list_text(scenario["doors_closed"]));
-  std::string remarks = remark(t, text_in(s, "light"));
-  for (const Json& one : s["remarks"])
-    if (one.is_string())
-      remarks += (remarks.empty() ? "" : "<br>") + remark(t, one.get<std::string>());
+  std::string remarks = remark_html(t, s["light"]);
+  for (const Json& one : s["remarks"]) remarks += "<br>" + remark_html(t, one);
   facts.add_html("state.remarks", remarks);
   return facts.table();
 }
@@ -198,9 +200,9 @@ std::string inputs_section(const PageParts& parts) {
   return out;
 }
 
-/// What is said of a rule's source, in the report's language; names stay. A dash where nothing is.
-std::string said(const Texts& t, const std::string& text) {
-  return text.empty() ? "–" : t.remark(text).value_or(text);
+/// A dash where nothing is said.
+std::string or_dash(const std::string& text) {
+  return text.empty() ? "–" : text;
 }
 
 std::string clauses_section(const PageParts& parts) {
@@ -215,14 +217,14 @@ std::string clauses_section(const PageParts& parts) {
   }
   std::string rows;
   for (const auto& [key, check] : rules) {
-    const std::string clause = text_in(*check, "clause"), source = text_in(*check, "quoted_from");
     std::string counts;
     for (const auto& [verdict, count] : verdicts[key])
       counts += (counts.empty() ? "" : "<br>") + std::to_string(count) + " " +
                 escaped(t.word("verdict", verdict));
     rows += "<tr>" + html_cell("<b>" + escaped(text_in(*check, "rule")) + "</b>") +
-            cell(said(t, text_in(*check, "edition"))) + cell(said(t, clause)) +
-            cell(rule_title(t, *check)) + cell(said(t, source)) +
+            cell(t.word("edition", text_in(*check, "edition"))) +
+            cell(or_dash(clause_text(t, *check))) + cell(t.rule_title(text_in(*check, "rule"))) +
+            cell(or_dash(said(t, (*check)["quoted_from"]))) +
             cell(t.word("status", source_status(*check))) + html_cell(counts) + "</tr>\n";
   }
   if (rows.empty()) return paragraph(t("clauses.none"));
@@ -237,9 +239,8 @@ std::string not_assessed_section(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::string rows;
   for (const Json& one : parts.a["not_assessed"])
-    rows += "<tr>" + cell(group_text(t, text_in(one, "what"))) +
-            html_cell(remark(t, text_in(one, "why"))) + number_cell(t, one["count"], "", 9) +
-            "</tr>\n";
+    rows += "<tr>" + cell(group_text(t, one)) + html_cell(why_html(t, one)) +
+            number_cell(t, one["count"], "", 9) + "</tr>\n";
   std::string out = paragraph(t("not_assessed.lead"));
   out += rows.empty() ? paragraph(t("not_assessed.nothing"))
                       : table(t, {"column.what", "column.why", "column.count"}, {38, 52, 10}, rows);

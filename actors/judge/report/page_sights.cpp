@@ -23,7 +23,7 @@ constexpr size_t thumb_places = 10;
 constexpr size_t appendix_rows = 400;
 
 bool is_observer(const Json& sight) {
-  return text_in(sight, "from").starts_with("observer");
+  return text_in(sight["from"], "kind") == name_of(SubjectKind::observer);
 }
 
 double height_of(const Json& sight) {
@@ -67,7 +67,7 @@ std::string heights_table(const PageParts& parts, const std::vector<double>& hei
     std::map<std::string, std::pair<size_t, const Json*>> best;  // by place
     for (const Json& sight : parts.a["sights"]) {
       if (is_observer(sight) || height_of(sight) != height) continue;
-      const std::string place = text_in(sight, "from") + sight["eye"].dump();
+      const std::string place = sight["from"].dump() + sight["eye"].dump();
       const auto known = best.try_emplace(place, rank_of(sight), &sight).first;
       if (rank_of(sight) < known->second.first) known->second = {rank_of(sight), &sight};
     }
@@ -120,7 +120,7 @@ std::string observers_table(const PageParts& parts) {
   for (const Json& sight : parts.a["sights"]) {
     if (!is_observer(sight) || text_in(sight, "verdict") == "hidden by the building") continue;
     rows += "<tr>" + verdict_cell(t, "sight", text_in(sight, "verdict")) +
-            cell(subject_text(t, text_in(sight, "from"))) + cell(text_in(sight, "sign")) +
+            cell(subject_text(t, sight["from"])) + cell(text_in(sight, "sign")) +
             number_cell(t, sight["distance"]["value"], "m") +
             (sight.contains("reading_level") ? number_cell(t, sight["reading_level"]["value"])
                                              : html_cell("–", "n")) +
@@ -307,7 +307,7 @@ std::string thumb_table(const PageParts& parts, const std::vector<Difference>& a
     const Json& e = s["eye"];
     rows +=
         "<tr>" + verdict_cell(t, "sight", text_in(s, "verdict")) + cell(text_in(s, "sign")) +
-        html_cell(escaped(subject_text(t, text_in(s, "from"))) + "<br>" +
+        html_cell(escaped(subject_text(t, s["from"])) + "<br>" +
                   escaped(t.place(e[0].get<double>(), e[1].get<double>(), e[2].get<double>()))) +
         number_cell(t, s["distance"]["value"], "m") +
         html_cell(escaped(measured(t, s, "reading_level")), "n") +

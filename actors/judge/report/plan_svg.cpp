@@ -613,7 +613,7 @@ Plan Plans::sights(size_t number, double eye_height_m, const std::string& sign) 
   std::map<std::pair<double, double>, size_t> best;  // by place, a number of ranks
   for (const Json& sight : a_["sights"]) {
     const double eye = number_of(sight["eye_height"]["value"]);
-    if (sight["from"].get<std::string>().starts_with("observer")) continue;
+    if ((text_in(sight["from"], "kind") == name_of(SubjectKind::observer))) continue;
     if (eye != eye_height_m || schedule_.level_of(number_of(sight["eye"][2]) - eye) != number)
       continue;
     if (!sign.empty() && sight["sign"].get<std::string>() != sign) continue;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "actors/judge/report/schedule.hpp"
-#include "actors/judge/report/texts.hpp"
+#include "actors/judge/texts/texts.hpp"
 
 namespace luxodus {
 

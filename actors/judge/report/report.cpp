@@ -47,7 +47,7 @@ Result<void> write_plans(const fs::path& folder, const Json& a, const Schedule& 
   const Plans plans(a, schedule, texts, {});
   std::set<double> heights;
   for (const Json& sight : a["sights"])
-    if (!sight["from"].get<std::string>().starts_with("observer"))
+    if (!(text_in(sight["from"], "kind") == name_of(SubjectKind::observer)))
       heights.insert(sight["eye_height"]["value"].get<double>());
   for (size_t i = 0; i < schedule.levels(); ++i) {
     const std::string level =

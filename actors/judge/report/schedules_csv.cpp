@@ -125,9 +125,9 @@ CsvTable places_csv(const Json& a) {
                   "limit", "sense", "unit", "margin [1]", "worst x [m]", "worst y [m]",
                   "worst z [m]", "quoted from", "remark"});
   for (const Json& check : a["checks"]) {
-    for (const char* key :
-         {"subject", "rule", "edition", "clause", "title", "condition", "verdict"})
-      table.cell(text(check, key));
+    table.cell(english_in(check, "subject"));
+    for (const char* key : {"rule", "edition", "clause", "title"}) table.cell(text(check, key));
+    table.cell(english_in(check, "conditions")).cell(text(check, "verdict"));
     number(table, check["value"]);
     number(table, check["limit"]);
     table.cell(text(check, "sense")).cell(text(check, "unit"));
@@ -136,7 +136,7 @@ CsvTable places_csv(const Json& a) {
       place(table, *at);
     else
       table.empty_cell().empty_cell().empty_cell();
-    table.cell(text(check, "quoted_from")).cell(text(check, "reason")).end_row();
+    table.cell(english_in(check, "quoted_from")).cell(english_in(check, "reasons")).end_row();
   }
   return table;
 }

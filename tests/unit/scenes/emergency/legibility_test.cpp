@@ -62,7 +62,7 @@ TEST_CASE("what chance may have made is undecided", "[emergency][legibility]") {
       0.6 * 40 * (sure.reading_level.value - level_read) / sure.reading_level.value;
   const Sight unsure = judged_at(10, noisy);
   CHECK(unsure.verdict == SightVerdict::undecided);
-  CHECK_FALSE(unsure.reason.empty());
+  CHECK(unsure.reason);
 }
 
 TEST_CASE("what may be read is what is read, or what chance leaves open",
@@ -138,7 +138,7 @@ TEST_CASE("hidden signs, half-hidden ones and faces of one colour get no verdict
   CHECK(judged_at(10, look).verdict == SightVerdict::hidden);
   look.visible_share = 0.5;
   CHECK(judged_at(10, look).verdict == SightVerdict::not_assessed);
-  CHECK_FALSE(judged_at(10, look).reason.empty());
+  CHECK(judged_at(10, look).reason);
   Sign plain = two_coloured();
   plain.face.colour = {SignColour::white, SignColour::white};
   const Sight sight = judge_sight(plain, view_of_sign(plain, {0, 0, 10}), clear(), {});
@@ -153,7 +153,7 @@ TEST_CASE("irritant smoke caps what optics would allow", "[emergency][legibility
   CHECK(stung.extinction == Approx(0.5756).epsilon(1e-3));
   // 8 / 0.576 (0.133 - 1.47 lg 0.576) = 6.7 m.
   CHECK(stung.verdict == SightVerdict::visible);
-  CHECK(stung.reason.find("Jin and Yamada") != std::string::npos);
+  CHECK(stung.reason == remark(RemarkId::irritant_smoke));
   CHECK(judged_at(6, look, {{65}, true}).verdict != SightVerdict::undecided);
   // What light leaves open is not read there either.
   look.difference.error = 20;

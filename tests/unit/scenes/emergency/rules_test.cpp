@@ -108,10 +108,11 @@ TEST_CASE("at first light is what it was before batteries and lamps have aged",
 
 TEST_CASE("each luminaire fails in turn, and the worst is told", "[emergency][rules]") {
   const SceneDescription scene = corridor();
-  const Check failed = check_of_failure(scene, "corridor", {at(0, 5, 0.2), at(10, 0.1, 5)});
+  const Check failed =
+      check_of_failure(scene, {SubjectKind::route, "corridor"}, {at(0, 5, 0.2), at(10, 0.1, 5)});
   CHECK(failed.verdict == CheckVerdict::information);
   CHECK(*failed.value == Approx(0.1));
-  CHECK(failed.condition == "\"b\" has failed");
+  CHECK(failed.conditions == Remarks{remark(RemarkId::luminaire_failed, "b")});
 }
 
 TEST_CASE("wide routes are strips of 2 m at most", "[emergency][rules]") {
@@ -178,9 +179,9 @@ TEST_CASE("glare is judged by the new luminaire's intensity and its height", "[e
   CHECK(*checks[0].value == Approx(501));
   CHECK(checks[0].verdict == CheckVerdict::fail);  // 500 cd below 2.5 m
   CHECK(checks[1].verdict == CheckVerdict::pass);  // 900 cd below 3 m
-  CHECK(checks[0].condition.find("60 to 90") != std::string::npos);
+  CHECK(checks[0].conditions == Remarks{remark(RemarkId::glare_zone)});
   scene.routes.front().path[1].z = 1;  // no level route any more
-  CHECK(checks_of_glare(scene, {})[0].condition == "all directions");
+  CHECK(checks_of_glare(scene, {})[0].conditions == Remarks{remark(RemarkId::all_directions)});
 }
 
 TEST_CASE("a spot glares where its cone reaches, a beam where it points", "[emergency][rules]") {
@@ -223,7 +224,7 @@ TEST_CASE("tubes and meshes have the intensity of their surfaces", "[emergency][
   CHECK(*checks_of_glare(scene, {})[0].value == Approx(200 / pi * 0.5));
   lamp.emergency_flux = 1e4;
   CHECK(checks_of_glare(scene, {})[0].verdict == CheckVerdict::fail);
-  CHECK(checks_of_glare(scene, {})[0].reason.find("no part of the mesh") != std::string::npos);
+  CHECK(checks_of_glare(scene, {})[0].reasons == Remarks{remark(RemarkId::mesh_unhidden)});
 }
 
 TEST_CASE("a luminaire behind a wall is not near, and is named", "[emergency][rules]") {
@@ -236,12 +237,12 @@ TEST_CASE("a luminaire behind a wall is not near, and is named", "[emergency][ru
   const auto hidden = checks_of_emphasis(scene, door, {false, true}, std::nullopt, {});
   CHECK(of(hidden, "E12").verdict == CheckVerdict::fail);
   CHECK(*of(hidden, "E12").value == Approx(5));
-  CHECK(of(hidden, "E12").reason ==
-        "the nearest is \"b\"; \"a\" is 1.00 m away, but behind something solid, or shining "
-        "elsewhere");
+  CHECK(of(hidden, "E12").reasons == Remarks{remark(RemarkId::nearest_luminaire, "b"),
+                                             remark(RemarkId::behind_something, "a", 1)});
   const auto none = checks_of_emphasis(scene, door, {false, false}, std::nullopt, {});
   CHECK(of(none, "E12").verdict == CheckVerdict::fail);
-  CHECK(of(none, "E12").reason.find("no emergency luminaire above it is in sight; \"a\"") == 0);
+  CHECK(of(none, "E12").reasons ==
+        Remarks{remark(RemarkId::none_above_in_sight), remark(RemarkId::behind_something, "a", 1)});
   Sign sign = sign_of(0, 0);
   sign.lighting = SignLighting::external;
   CHECK(*of(checks_of_sign(scene, sign, 60, {false, true}, {}), "S6l").value ==
@@ -325,7 +326,7 @@ TEST_CASE("a sign behind the walker is none", "[emergency][rules]") {
   for (const auto& [codes, id] : {std::pair(en13, "S4"), std::pair(nfpa, "N8")}) {
     const auto checks = checks_of_distance(scene, scene.routes.front(), people, clear, codes);
     CHECK(of(checks, id).verdict == CheckVerdict::fail);
-    CHECK(of(checks, id).reason == "no sign ahead faces this place");
+    CHECK(of(checks, id).reasons == Remarks{remark(RemarkId::no_sign_ahead)});
   }
 }
 
@@ -361,7 +362,7 @@ TEST_CASE("light in time is judged where luminaires say how they come on", "[eme
     return checks_of_route(scene, route, light, codes);
   };
   CHECK_FALSE(has(of_route(en13), "E10h"));
-  CHECK(of(checks_beyond(scene, en13), "E10").subject == "all luminaires");
+  CHECK(of(checks_beyond(scene, en13), "E10").subject == Subject{SubjectKind::all_luminaires});
   scene.emitters[0].onset = scene.emitters[1].onset = {{0, 0}, {5, 0.3}, {10, 1}};
   auto checks = of_all_codes(of_route);
   CHECK(*of(checks, "E10h").value == Approx(0.42));
@@ -369,12 +370,12 @@ TEST_CASE("light in time is judged where luminaires say how they come on", "[eme
   CHECK(of(checks, "E10h").verdict == CheckVerdict::fail);
   CHECK(of(checks, "E10f").verdict == CheckVerdict::pass);
   CHECK(of(checks, "N5").verdict == CheckVerdict::pass);
-  CHECK(of(checks_beyond(scene, en13), "E10").subject == "all signs");
+  CHECK(of(checks_beyond(scene, en13), "E10").subject == Subject{SubjectKind::all_signs});
   // What does not say it counts as dark: without it there is too little to tell.
   scene.emitters[1].onset.clear();
   checks = of_route(en13);
   CHECK(of(checks, "E10f").verdict == CheckVerdict::not_assessed);
-  CHECK(of(checks, "E10f").reason == "how fast they come on ('onset') is not said of \"b\"");
+  CHECK(of(checks, "E10f").reasons == Remarks{remark(RemarkId::onset_unsaid, "b")});
   light.centre = {at(0, 2, 0)};
   CHECK(of(of_route(en13), "E10f").verdict == CheckVerdict::pass);
   AssessedArea bench;
@@ -393,7 +394,7 @@ TEST_CASE("what a scene says nothing of is never a pass", "[emergency][rules]") 
   CHECK_FALSE(checks.empty());
   for (const Check& check : checks) {
     CHECK(check.verdict == CheckVerdict::not_assessed);
-    CHECK_FALSE(check.reason.empty());
+    CHECK_FALSE(check.reasons.empty());
   }
   const CheckCounts counts = counts_of(checks);
   CHECK(words_of(counts) ==
@@ -432,7 +433,7 @@ TEST_CASE("a luminaire on another storey is not near, and is named", "[emergency
   door.position = {3, 1, 0};
   const Check check = of(checks_of_emphasis(scene, door, {true, true}, std::nullopt, {}), "E12");
   CHECK(check.verdict == CheckVerdict::fail);
-  CHECK(check.reason.find("\"above\" is 1.50 m away, but on another storey") != std::string::npos);
+  CHECK(check.reasons.back() == remark(RemarkId::other_storey, "above", 1.5));
 }
 
 TEST_CASE("luminaires hang 2 m above the floor that is met below them", "[emergency][rules]") {

@@ -6,6 +6,7 @@
 
 #include "actors/judge/assess/assessment_json.hpp"
 #include "actors/judge/report/report.hpp"
+#include "actors/judge/texts/texts.hpp"
 #include "tests/unit/actors/judge/assess/assessed_room.hpp"
 
 using namespace luxodus;
@@ -15,7 +16,9 @@ namespace {
 
 const Check& check_of(const Assessment& a, const std::string& id, const std::string& condition) {
   for (const Check& check : a.checks)
-    if (check.rule.id == id && check.condition.find(condition) != std::string::npos) return check;
+    if (check.rule.id == id &&
+        english().remarks(check.conditions).find(condition) != std::string::npos)
+      return check;
   FAIL("no check " << id);
   return a.checks.front();
 }
@@ -60,7 +63,7 @@ TEST_CASE("people stand on routes and in areas, for all of their length and area
   const Assessment a = assessed(room + hall, options);
   double metres = 0, square_metres = 0;
   for (const SightRow& row : a.sights) {
-    const bool on_route = row.from == "route \"way\"";
+    const bool on_route = row.from == Subject{SubjectKind::route, "way"};
     (on_route ? metres : square_metres) += row.stands_for;
     CHECK(std::isnan(row.gaze_deg) != on_route);
   }
@@ -141,10 +144,10 @@ TEST_CASE("a route through a wall is refused, through a closed door told, with b
   const Assessment closed = assessed(across(door), codes_alone());
   // And what lies behind it is dark.
   REQUIRE(closed.warnings.size() == 2);
-  CHECK(closed.warnings.front().what.find("route \"way\" leads through the closed door \"leaf\"") ==
-        0);
-  CHECK(closed.warnings.front().where.line > 0);
-  CHECK(closed.warnings.back().what.find("gets no direct light of an emergency luminaire") !=
+  CHECK(closed.warnings.front().words.find(
+            "route \"way\" leads through the closed door \"leaf\"") == 0);
+  CHECK(closed.warnings.front().place.line > 0);
+  CHECK(closed.warnings.back().words.find("gets no direct light of an emergency luminaire") !=
         std::string::npos);
   AssessOptions options = codes_alone();
   const Assessment open = assessed(across("door = { open = true, hinge = [4, -2, 0] }\n"), options);
@@ -158,16 +161,16 @@ TEST_CASE("a luminaire is near to a point only where a straight line leads to it
       "[[emphasis]]\nname = \"call\"\nkind = \"call_point\"\nposition = [4.6, 1.9, 1.2]\n"
       "facing = [0, -1, 0]\n";
   const Assessment open = assessed(room + point, codes_alone());
-  CHECK(check_of(open, "E12", "without furniture").reason == "the nearest is \"lamp\"");
+  CHECK(check_of(open, "E12", "without furniture").reasons ==
+        Remarks{remark(RemarkId::nearest_luminaire, "lamp")});
   const std::string wall =
       "[[object]]\nname = \"screen\"\nshape = \"quad\"\ncorner = [5, 1, 0]\n"
       "edge_u = [0, 1, 0]\nedge_v = [0, 0, 3]\nmaterial = \"grey50\"\n";
   const Assessment hidden = assessed(room + point + wall, codes_alone());
   const Check& near = check_of(hidden, "E12", "without furniture");
   CHECK(near.verdict == CheckVerdict::fail);
-  CHECK(near.reason.find(
-            "\"lamp\" is 2.36 m away, but behind something solid, or shining elsewhere") !=
-        std::string::npos);
+  CHECK(english().remark(near.reasons.back()) ==
+        "\"lamp\" is 2.36 m away, but behind something solid, or shining elsewhere");
 }
 
 TEST_CASE("a sign that faces a wall is told", "[assess]") {
@@ -176,7 +179,7 @@ TEST_CASE("a sign that faces a wall is told", "[assess]") {
   text.replace(text.find(facing), facing.size(), "facing = [1, 0, 0]");
   const Assessment a = assessed(text, codes_alone());
   REQUIRE_FALSE(a.warnings.empty());
-  CHECK(a.warnings.front().what.find("sign \"exit\" faces a wall") == 0);
+  CHECK(a.warnings.front().words.find("sign \"exit\" faces a wall") == 0);
   CHECK(check_of(a, "S4", "without furniture").verdict == CheckVerdict::fail);
 }
 

@@ -2,14 +2,16 @@
 
 #include <catch2/catch.hpp>
 
+#include "actors/judge/texts/remark_json.hpp"
+
 using namespace luxodus;
 
 TEST_CASE("a check is said without empty brackets, units of nothing, or values that are none",
           "[assess]") {
-  Json check = {{"subject", "route \"stairs\""},
+  Json check = {{"subject", subject_json({SubjectKind::route, "stairs"})},
                 {"title", "Largest over smallest illuminance"},
                 {"rule", "E4"},
-                {"condition", ""},
+                {"conditions", Json::array()},
                 {"value", 116.0},
                 {"unit", "1"},
                 {"limit", 40.0},
@@ -19,11 +21,11 @@ TEST_CASE("a check is said without empty brackets, units of nothing, or values t
   check["value"] = nullptr;
   CHECK(check_words(check) ==
         "route \"stairs\": Largest over smallest illuminance: no value, at most 40 (E4)");
-  check["reason"] = "a part of it is dark";
-  check["condition"] = "without furniture";
+  check["reasons"] = remarks_json({remark(RemarkId::no_sign_ahead)});
+  check["conditions"] = remarks_json({remark(RemarkId::without_furniture)});
   CHECK(check_words(check) ==
-        "route \"stairs\": Largest over smallest illuminance: a part of it is dark, at most 40 "
-        "(E4, without furniture)");
+        "route \"stairs\": Largest over smallest illuminance: no sign ahead faces this place, at "
+        "most 40 (E4, without furniture)");
   check["value"] = 1.25;
   check["unit"] = "of the viewing distance";
   check["limit"] = nullptr;

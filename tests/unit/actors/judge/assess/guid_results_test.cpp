@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "actors/judge/texts/remark_json.hpp"
+
 using namespace luxodus;
 
 namespace {
@@ -17,14 +19,16 @@ Json small_assessment() {
           {"signs", {{{"name", "exit"}, {"ifc_guid", "S1"}}}},
           {"places", {{"areas", {{{"name", "hall"}, {"kind", "open"}, {"ifc_guid", "R1"}}}}}},
           {"checks",
-           {{{"subject", "open area \"hall\""},
+           {{{"subject", subject_json({SubjectKind::open_area, "hall"})},
              {"rule", "E6"},
              {"title", "core"},
              {"value", 0.75},
              {"limit", 0.5},
              {"unit", "lx"},
              {"verdict", "pass"}},
-            {{"subject", "luminaire \"other\""}, {"rule", "E14"}, {"verdict", "fail"}}}},
+            {{"subject", subject_json({SubjectKind::luminaire, "other"})},
+             {"rule", "E14"},
+             {"verdict", "fail"}}}},
           {"sights",
            {{{"sign", "exit"}, {"verdict", "legible"}},
             {{"sign", "exit"}, {"verdict", "hidden"}},

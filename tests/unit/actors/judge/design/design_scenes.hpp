@@ -11,6 +11,7 @@
 #include "actors/judge/design/demands.hpp"
 #include "actors/judge/design/design.hpp"
 #include "actors/judge/design/design_files.hpp"
+#include "actors/judge/texts/texts.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/judge/design/silent.hpp"
@@ -95,12 +96,14 @@ inline std::vector<std::string> failing_on_disk(const TemporaryFolder& folder,
   for (const Check& check : assessed->checks) {
     if (check.verdict != CheckVerdict::fail || !is_of_luminaires(check.rule.id)) continue;
     // Furniture may hide points from all candidates: the result names these, and no others.
-    const bool furnished = check.condition.find("with furniture") != std::string::npos;
+    const bool furnished = std::count(check.conditions.begin(), check.conditions.end(),
+                                      remark(RemarkId::with_furniture)) > 0;
     const bool told =
         std::any_of(result.hidden.begin(), result.hidden.end(), [&](const HiddenByFurniture& one) {
           return one.rule == check.rule.id && one.subject == check.subject;
         });
-    if (!(furnished && told)) out.push_back(check.rule.id + " of " + check.subject);
+    if (!(furnished && told))
+      out.push_back(check.rule.id + " of " + english().subject(check.subject));
   }
   return out;
 }

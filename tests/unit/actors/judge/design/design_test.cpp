@@ -321,25 +321,29 @@ TEST_CASE("a type counts with what its circuit leaves of it in the judged scenar
 
 TEST_CASE("what a design does not decide is told once for many subjects", "[design][files]") {
   std::vector<Check> others;
-  const auto add = [&](const std::string& title, const std::string& subject) {
+  const auto add = [&](const std::string& rule, const Subject& subject) {
     others.emplace_back();
-    others.back().rule.title = title;
+    others.back().rule.id = rule;
     others.back().subject = subject;
   };
-  add("Height", "luminaire \"a\"");
+  add("E14", {SubjectKind::luminaire, "a"});
   for (int storey = 0; storey < 4; ++storey)
-    add("A sign in sight", "route \"" + std::to_string(storey) + "\"");
-  CHECK(others_words(others) ==
-        std::vector<std::string>{
-            "fails, and is not decided here: luminaire \"a\": Height",
-            "fails, and is not decided here: route \"0\" and 3 others: A sign in sight"});
+    add("N8", {SubjectKind::route, std::to_string(storey)});
+  CHECK(
+      others_words(others) ==
+      std::vector<std::string>{
+          "fails, and is not decided here: luminaire \"a\": Height of an emergency luminaire above "
+          "the floor",
+          "fails, and is not decided here: route \"0\" and 3 others: Distance to the nearest sign, "
+          "everywhere on a route"});
   others.pop_back();
   CHECK(others_words(others).size() == 4);
-  const auto joined = joined_by_subject(
-      {{"E10f", "hall", 4}, {"E6", "hall", 4}, {"E5", "way", 4}, {"E7", "hall", 9}});
+  const Subject hall{SubjectKind::open_area, "hall"}, way{SubjectKind::route, "way"};
+  const auto joined =
+      joined_by_subject({{"E10f", hall, 4}, {"E6", hall, 4}, {"E5", way, 4}, {"E7", hall, 9}});
   REQUIRE(joined.size() == 3);
   CHECK(joined[0].rule == "E10f, E6");
-  CHECK(joined[1].subject == "way");
+  CHECK(joined[1].subject == way);
   CHECK(joined[2].points == 9);
 }
 

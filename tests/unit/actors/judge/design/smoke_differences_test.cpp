@@ -25,7 +25,7 @@ using test::nobody;
 /// A view straight ahead from so many metres along the route, whose level of reading is this one.
 SightRow seen_from(double along_m, double level, double error) {
   SightRow row;
-  row.from = "route \"way\"";
+  row.from = {SubjectKind::route, "way"};
   row.along_m = along_m;
   row.height_m = 1.65;
   row.gaze_deg = 0;
@@ -47,10 +47,10 @@ Looked looked(const std::vector<Uncertain>& levels) {
     const double along = 1 + 2 * static_cast<double>(i);
     out.rows.push_back(seen_from(along, levels[i].value, levels[i].error));
     const SightVerdict verdict = out.rows.back().sight.verdict;
-    out.places[{"route \"way\"", along, 1.65}] = {2, verdict == SightVerdict::legible ? Read::a_sign
-                                                     : verdict == SightVerdict::undecided
-                                                         ? Read::undecided
-                                                         : Read::nothing};
+    out.places[{Subject{SubjectKind::route, "way"}, along, 1.65}] = {
+        2, verdict == SightVerdict::legible     ? Read::a_sign
+           : verdict == SightVerdict::undecided ? Read::undecided
+                                                : Read::nothing};
   }
   return out;
 }

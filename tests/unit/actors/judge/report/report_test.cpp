@@ -73,12 +73,6 @@ bool runs(const std::string& command) {
   return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-/// {0}, {1}, ... of a text, sorted.
-std::multiset<std::string> gaps(const std::string& text) {
-  static const std::regex gap("\\{[0-9]\\}");
-  return {std::sregex_token_iterator(text.begin(), text.end(), gap), {}};
-}
-
 /// What dxflib reads of a drawing.
 class Read : public DL_CreationAdapter {
  public:
@@ -165,55 +159,6 @@ TEST_CASE("a drawing of others lies faintly under plans of its floors, and nothi
   CHECK(fault_of_assessment(a));
   a["plan"]["backdrops"][0].erase("png");
   CHECK(fault_of_assessment(a));
-}
-
-TEST_CASE("every text of a report is there in every language, with the same gaps", "[report]") {
-  size_t count = 0;
-  for (const auto rows :
-       {page_texts(), section_texts(), word_texts(), rule_texts(), remark_texts()})
-    for (const ReportText& row : rows) {
-      INFO(row.key << ": " << row.text[0]);
-      ++count;
-      for (const char* text : row.text) {
-        REQUIRE(text != nullptr);
-        CHECK(*text != '\0');
-        CHECK(gaps(text) == gaps(row.text[0]));
-      }
-    }
-  CHECK(count > 200);
-}
-
-TEST_CASE("the program's own sentences are said in each language", "[report]") {
-  const Texts de(Language::de), fr(Language::fr), en(Language::en);
-  CHECK(de.remark("5 s after the mains have failed") == "5 s nach dem Netzausfall");
-  CHECK(fr.remark("7 of 351 points lie in bodies and are left out") ==
-        "7 points sur 351 se trouvent dans des corps et sont omis");
-  CHECK(en.remark("5 s after the mains have failed") == "5 s after the mains have failed");
-  // Names stay; numbers have the decimal sign; two sentences in one; one within another.
-  CHECK(de.remark("the nearest is \"north; lamp\"; \"near\" is 1.25 m away, but behind something "
-                  "solid, or shining elsewhere") ==
-        "die nächste ist \"north; lamp\"; \"near\" ist 1,25 m entfernt, aber hinter etwas Festem "
-        "oder anderswohin strahlend");
-  CHECK(de.remark("beyond all measure: there is none, or no light at all; the value breaks a limit "
-                  "that was read nowhere: look it up") ==
-        "über alle Maßen: es gibt keines, oder gar kein Licht; der Wert verletzt einen Grenzwert, "
-        "der nirgends gelesen wurde: nachschlagen");
-  CHECK(fr.remark("undecided: legible or not: more paths tell (--rounds)") ==
-        "indécis : lisible ou non : plus de chemins le diront (--rounds)");
-  CHECK(de.remark("only the codes were asked for") ==
-        "nur die Prüfung nach den Codes war verlangt");
-  CHECK(de.remark("the nearest is \"a\"; \"b\" is 1.5 m away, but on another storey") ==
-        "die nächste ist \"a\"; \"b\" ist 1,5 m entfernt, aber auf einem anderen Geschoss");
-  CHECK(de.remark("floor.toml:7, 2 layers, times 0.5 in this scenario") ==
-        "floor.toml:7, 2 Schichten, mal 0,5 in diesem Szenario");
-  CHECK(fr.remark("fire.toml:7, 8 x 8 x 4 cells, a fire simulation at 60 s (SOOT)") ==
-        "fire.toml:7, 8 x 8 x 4 cellules, une simulation d’incendie à 60 s (SOOT)");
-  CHECK(de.remark("4.1.2 of 2013") == "4.1.2 von 2013");
-  CHECK_FALSE(de.remark("a sentence that nobody says"));
-  for (const ReportText& row : remark_texts()) {
-    INFO(row.text[0]);
-    CHECK(de.remark(row.text[0]) == std::string(row.text[1]));
-  }
 }
 
 TEST_CASE("faces of signs keep their letters, and paths break after folders", "[report]") {

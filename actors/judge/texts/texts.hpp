@@ -1,37 +1,24 @@
-// Every sentence of a report in every language that it can be written in, by key: one table, so
-// that no language lacks one. Numbers for people in the custom of the language. What the scene says
-// in free words (names) stays as it is. Constant data and pure
-// functions; any thread.
+// Every text of assessments, reports and designs in every language that they are written in, by
+// key. Numbers are written in the custom of the language. Names that a scene gives stay as they
+// are. Constant data and pure functions; any thread.
 #pragma once
 
-#include <fmt/args.h>
 #include <fmt/format.h>
 
 #include <array>
-#include <optional>
-#include <span>
+#include <map>
 #include <string>
 #include <string_view>
+
+#include "scenes/emergency/check.hpp"
 
 namespace luxodus {
 
 enum class Language { en, de, fr };
 inline constexpr std::array<std::string_view, 3> language_words{"en", "de", "fr"};
 
-struct ReportText {
-  const char* key;
-  std::array<const char*, 3> text;  // by Language; {0}, {1}, ... are filled in
-};
-
-/// Pieces of the table, one per source file.
-std::span<const ReportText> page_texts();
-std::span<const ReportText> section_texts();
-std::span<const ReportText> word_texts();
-std::span<const ReportText> rule_texts();
-std::span<const ReportText> design_texts();
-/// Sentences of the program itself, which have no key: the English one, as checks and states hold
-/// it, is what they are found by.
-std::span<const ReportText> remark_texts();
+/// All texts of a language by key. Read once, from what the program holds.
+const std::map<std::string, std::string, std::less<>>& texts_of(Language language);
 
 class Texts {
  public:
@@ -48,11 +35,19 @@ class Texts {
     return fmt::format(fmt::runtime((*this)(key)), values...);
   }
   /// A word of a list such as the verdicts ("verdict", "not assessed"); the word itself where the
-  /// table has none: it is a name then.
+  /// list has none: it is a name then.
   std::string word(std::string_view list, std::string_view word) const;
-  /// A sentence of the program itself, with its names and numbers; none where the table does not
-  /// have it.
-  std::optional<std::string> remark(std::string_view english) const;
+
+  /// The sentence of a remark.
+  std::string remark(const Remark& remark) const;
+  /// The sentences of several, joined.
+  std::string remarks(const Remarks& remarks) const;
+  /// 'route "corridor"', '"lobby" (first aid)'.
+  std::string subject(const Subject& subject) const;
+  /// What a rule asks: "Illuminance on the centre line of an escape route".
+  std::string rule_title(std::string_view id) const;
+  /// "4.2.1", "4.2.1 of 2013".
+  std::string clause(const Rule& rule) const;
 
   /// `digits` significant digits with the language's decimal sign: "0.0421", "12,5".
   std::string number(double value, int digits = 3) const;
@@ -68,7 +63,9 @@ class Texts {
   Language language_;
 };
 
-/// The row of a key; null where there is none.
-const ReportText* find_text(std::string_view key);
+/// The English texts, of which the console and JSON have their sentences.
+inline Texts english() {
+  return Texts(Language::en);
+}
 
 }  // namespace luxodus

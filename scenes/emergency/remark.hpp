@@ -1,0 +1,217 @@
+// What is said of a check, a view or a state: an id with arguments, never a sentence. Sentences are
+// made where people read them, in their language (actors/judge/texts). Plain values; any thread.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "scenes/light/world/description.hpp"
+
+namespace luxodus {
+
+enum class RemarkId {
+  // Conditions of checks
+  after_mains_failure,
+  luminaire_failed,
+  points_in_bodies,
+  with_furniture,
+  without_furniture,
+  all_directions,
+  glare_zone,
+  smoke_may_occur,
+  no_smoke_expected,
+  contrast_of_means,
+  // Reasons of checks
+  beyond_measure,
+  no_value,
+  keeps_unread_limit,
+  breaks_unread_limit,
+  no_emergency_luminaire,
+  nowhere_to_assess,
+  worst_of_failures,
+  no_core,
+  onset_unsaid,
+  onset_unsaid_of_more,
+  no_onset,
+  some_durations_unsaid,
+  no_duration,
+  spectrum_rough,
+  sign_onset_unsaid,
+  colour_boxes_unknown,
+  one_luminance,
+  green_dark,
+  height_unknown,
+  low_sign,
+  no_sign_ahead,
+  parallel_beam,
+  mesh_unhidden,
+  nearest_luminaire,
+  none_in_sight,
+  none_above_in_sight,
+  none_there,
+  none_above,
+  behind_something,
+  other_storey,
+  facing_unsaid,
+  glow_class_unknown,
+  through_glass,
+  no_letters,
+  routes_alone_judged,
+  no_route,
+  no_emphasis,
+  codes_alone,
+  // Reasons of views
+  visible_or_invisible,
+  legible_or_not,
+  legible_or_invisible,
+  partly_hidden,
+  eye_in_solid,
+  seen_edge_on,
+  one_colour,
+  irritant_smoke,
+  // The judged state
+  no_luminaire_lit,
+  light_as_stated,
+  light_aged_emergency,
+  light_aged_mains,
+  mains_operation,
+  dark_operation,
+  time_unsaid,
+  eyes_unadapted,
+  flames_without_smoke,
+  clear_air,
+  luminaire_unlit,
+  luminaires_unlit,
+  flame_glare_missing,
+  circuits_switch_off,
+  circuits_raise,
+  circuits_switch_off_signs,
+  thinned_smoke,
+  unmeasured_luminaires,
+  later_than_rated,
+  onset_assumed,
+  glow_extrapolated,
+  young_eyes,
+  low_eyes,
+  far_apart,
+  no_sign,
+  two_editions,
+  two_continents,
+  edition_not_verified,
+  edition_superseded,
+  sign_luminance_stated,
+  other_rules,
+  other_deviations,
+  // Where a medium comes from
+  one_layer,
+  layers,
+  grid_cells,
+  fire_simulation,
+  scenario_factor,
+  // Rule sets, deviations and rules
+  not_verified,
+  superseded,
+  one_lux_not_verified,
+  carried_over,
+  asks_european,
+  asks_european_buildings,
+  asks_united_states,
+  asks_three_hours,
+  asks_fifteen_seconds,
+  asks_white_500,
+  asks_one_lux,
+  asks_ibc,
+  asks_one_failed,
+  source_bsi,
+  source_secondary,
+  source_makers,
+  source_guides,
+  source_liteplan,
+  source_fernkorn,
+  source_named,
+  source_recollection,
+  count  // of the ids before
+};
+
+/// An id as files write it, and what its arguments are, in their order.
+struct RemarkKind {
+  RemarkId id;
+  std::string_view name;       // "points_in_bodies"
+  std::string_view arguments;  // "left out, of points"; "" for none
+};
+
+/// All kinds of remarks, in the order of RemarkId.
+std::span<const RemarkKind> remark_kinds();
+const RemarkKind& kind_of(RemarkId id);
+/// How many arguments a remark of this kind has.
+size_t arity_of(const RemarkKind& kind);
+
+/// A name that the scene gives, or a number in the unit that its kind states.
+using RemarkArgument = std::variant<std::string, double>;
+
+struct Remark {
+  RemarkId id = RemarkId::no_value;
+  std::vector<RemarkArgument> arguments = {};
+
+  friend auto operator<=>(const Remark&, const Remark&) = default;
+};
+
+using Remarks = std::vector<Remark>;
+
+/// remark(RemarkId::points_in_bodies, 3, 40). Requires: as many arguments as its kind has (a
+/// programmer's mistake throws).
+Remark remark_of(RemarkId id, std::vector<RemarkArgument> arguments);
+template <class T>
+RemarkArgument argument_of(const T& value) {
+  if constexpr (std::is_arithmetic_v<T>)
+    return static_cast<double>(value);
+  else
+    return std::string(value);
+}
+template <class... Arguments>
+Remark remark(RemarkId id, const Arguments&... arguments) {
+  return remark_of(id, {argument_of(arguments)...});
+}
+
+/// What a check is of, and where people look from, in the order in which lists name them.
+enum class SubjectKind {
+  emphasis,
+  all_luminaires,
+  all_luminaires_and_signs,
+  all_signs,
+  stairs,
+  luminaire,
+  observer,
+  open_area,
+  route,
+  sign,
+  task_area,
+  building,
+  count  // of the kinds before
+};
+/// As files write it: "open area".
+std::string_view name_of(SubjectKind kind);
+
+struct Subject {
+  SubjectKind kind = SubjectKind::building;
+  std::string name = {};                            // "" where the kind says it all
+  EmphasisKind emphasis = EmphasisKind::exit_door;  // of a point of emphasis
+
+  /// A route or an area: light on it is judged.
+  bool is_place() const {
+    return kind == SubjectKind::route || kind == SubjectKind::open_area ||
+           kind == SubjectKind::task_area;
+  }
+  friend auto operator<=>(const Subject&, const Subject&) = default;
+};
+
+Subject subject_of(const EscapeRoute& route);
+Subject subject_of(const EmphasisPoint& point);
+Subject subject_of(const Sign& sign);
+Subject subject_of(const Emitter& luminaire);
+
+}  // namespace luxodus
