@@ -1,6 +1,6 @@
 // The loop of a node, which is one OS thread. A turn serves what may be waiting, the most urgent
 // first and each with a budget, so that nothing starves and heartbeats are on time:
-// timers > what arrives > control messages > results of other threads > ready fibers
+//   timers > what arrives > control messages > results of other threads > ready fibers
 // When nothing is ready it waits for arrivals. A node's parts are owned by its scheduler and used
 // only on its thread, except handoff().give(). The scheduler reads time only from its Clock and
 // keeps no global state, so a simulation can run many schedulers on one thread.

@@ -152,7 +152,7 @@ class TableReader {
 };
 
 /// The word of the choice `key` of a table, before a reader exists: it decides which further specs
-/// hold. "" where it is absent without default, or none of the words; nothing is reported.
+/// apply. "" if it is absent without default, or no valid word; nothing is reported.
 std::string chosen_kind(const Table& table, const Schema& schema, std::string_view spec,
                         std::string_view key);
 

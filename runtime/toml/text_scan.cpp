@@ -54,7 +54,7 @@ size_t after_quiet(std::string_view text, size_t at) {
   return text[at] == '"' || text[at] == '\'' ? after_string(text, at) : at;
 }
 
-/// Behind the bare word that starts at `at`; `at` where none does.
+/// End of the bare word that starts at `at`; `at` if there is none.
 size_t after_word(std::string_view text, size_t at) {
   const auto bare = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||

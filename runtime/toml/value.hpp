@@ -49,7 +49,7 @@ class Table {
 /// A date, a time, or both, as TOML writes it.
 struct Moment {
   std::string text;
-  bool is_date = false;  // and no time
+  bool is_date = false;  // without a time
 };
 
 class Value {
