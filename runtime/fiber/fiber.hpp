@@ -75,8 +75,7 @@ class WaitList {
 struct FiberLimits {
   size_t count = 256;                          // at once
   size_t stack_bytes = default_stack_bytes();  // each
-  size_t max_maps =
-      16'384;  // of the process's 65 530, for guards: four such nodes fit in a process
+  size_t max_maps = 16'384;  // of the process's 65 530, for guards: four such nodes in a process
 };
 
 /// All fibers of a node.
