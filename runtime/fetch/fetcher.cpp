@@ -225,8 +225,8 @@ bool Fetcher::ask_holder(PendingFetch& flight, NodeId holder) {
   return true;
 }
 
-/// No holder that has a try left can be reached: that costs each of them one, and as much time as
-/// a question on a route of which nothing is known; meanwhile routes may be made anew.
+/// No holder with a try left can be reached: this costs each of them one try, and the timeout of an
+/// unknown route; meanwhile routes may be updated.
 void Fetcher::wait_for_ways(PendingFetch& flight) {
   uint8_t used = 0;
   for (size_t at = 0; at < objects_[flight.wish.object].holders.size(); ++at)

@@ -92,7 +92,7 @@ class Fetcher {
   /// Requires: no fetch of it is in flight, and its room was released; `client` outlives the fetch.
   /// `traced`: its times are written to the trace.
   void fetch(uint32_t object, FetchClient& client, bool traced = false);
-  /// The bytes of a fetched object are no longer needed: their room is free for others.
+  /// Releases the room of a fetched object's bytes.
   void release(uint32_t object);
 
   // ---- what others answer ------------------------------------------------------------------

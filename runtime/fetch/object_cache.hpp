@@ -56,7 +56,7 @@ struct CacheConfig {
   /// cache.
   SharedObjects* shared = nullptr;
 
-  /// For resident objects: what the budget leaves beside one build.
+  /// For resident objects: the budget minus one build.
   size_t max_resident_bytes() const { return budget_bytes - largest_build_bytes; }
   size_t max_pinned_bytes() const {
     return static_cast<size_t>(pinned_share * static_cast<double>(budget_bytes));

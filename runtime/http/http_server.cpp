@@ -129,8 +129,8 @@ class OpenSocket final : public WebSocket, public std::enable_shared_from_this<O
     return messages;
   }
 
-  /// Nothing is sent or heard from now on. Its own listener may have asked for what ends it, and
-  /// may still be asked to send, so that is destroyed later, and this with it.
+  /// Stops sending and receiving. The listener may be the caller, and may still call send(), so it
+  /// is destroyed later, together with this.
   void leave() {
     if (!std::exchange(open_, false)) return;
     asio::post(socket_.get_executor(), [self = shared_from_this()] { self->end(); });

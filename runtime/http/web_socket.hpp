@@ -16,7 +16,7 @@ class WebSocket {
   enum class Kind { text, binary };
 
   virtual ~WebSocket() = default;
-  /// Queues a message. A `revocable` one may be taken back while it waits. A socket whose other end
+  /// Queues a message. A `revocable` message may be taken back while it waits. A socket whose peer
   /// leaves too much unread is closed. Does nothing once the socket is closed.
   virtual void send(Bytes message, Kind kind, bool revocable) = 0;
   /// Removes the revocable messages that wait, and returns them in order.

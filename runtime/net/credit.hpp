@@ -58,7 +58,7 @@ class CreditIn {
   /// The total up to which the sender may send.
   uint64_t limit() const { return arrived_ + (window_ - held_); }
 
-  /// The limit, to be told now; remembered as told.
+  /// Returns the limit to announce now, and remembers it as announced.
   uint64_t announce() { return announced_ = limit(); }
 
   /// Whether half the window has become free since the last announcement: worth a frame of its own.

@@ -34,7 +34,7 @@ inline constexpr Nanoseconds held_back_for = seconds(60);
 struct FaultyConfig {
   NodeId self;
   FaultPlan plan;
-  /// All nodes tell the time alike: they are on one host.
+  /// All nodes share one clock: they are on one host.
   bool one_clock = true;
   size_t max_held = limits::held_back_bytes;
   /// Replace a real pause and the abrupt end of the process. Null: real ones.

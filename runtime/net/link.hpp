@@ -128,8 +128,8 @@ class Link {
   std::string refusal_;  // the last one, in words
   RefusalReason refused_for_ = RefusalReason::protocol;
   bool parted_ = false;  // refused and disconnected: reconnect before the next hello
-  /// Where the results go of the run that this node works for, as the neighbour said; "": it has
-  /// not. Once said, it holds until the neighbour says bye.
+  /// Where the run that this node works for writes its results, as the neighbour said; "" if it has
+  /// not. Once set, it holds until the neighbour says bye.
   std::string works_for_;
   /// Rate limits of refusals in the log, by reason: ours, and the neighbour's.
   std::array<OnceAMinute, refusal_reasons> log_refusal_, log_being_refused_;

@@ -73,7 +73,7 @@ class LinkState {
   void forgive(Nanoseconds span);
 
   bool hello_due(Nanoseconds now) const;
-  /// When tick() or hello_due() may say something new.
+  /// When tick() or hello_due() may next change something.
   Nanoseconds next_deadline() const;
 
  private:

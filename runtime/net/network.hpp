@@ -119,7 +119,7 @@ class Network {
   // ---- seen from outside
 
   const NetCounters& counters() const { return counters_; }
-  /// Registers all that is counted; `name_of_node` says under which name a neighbour is known.
+  /// Registers all counters; `name_of_node` gives the name of a neighbour.
   void add_metrics(Metrics& metrics, const std::function<std::string(NodeId)>& name_of_node);
   /// Updates the samples of links and outboxes, before metrics are published.
   void sample();

@@ -38,12 +38,12 @@ class Transport {
   virtual Sent send(NodeId neighbour, Lane lane, std::span<const std::byte> head,
                     std::span<const std::byte> body) = 0;
 
-  /// The neighbour has fallen silent: a connection to it that was begun here begins anew, since the
-  /// old one may take bytes that will never make a frame again. What it held is lost.
+  /// The neighbour is silent: reconnects if the connection was opened here, since the old stream
+  /// may have lost its framing. Frames queued in it are lost.
   virtual void renew(NodeId neighbour) = 0;
 
-  /// The neighbour has refused this node: a connection to it that was begun here ends, until
-  /// renew(). Where another process has this node's name, it would take that one's connection away.
+  /// The neighbour has refused this node: closes a connection that was opened here, until renew().
+  /// If another process uses this node's name, reconnecting would take over its connection.
   virtual void part(NodeId) {}
 
   /// The next frame received, control before bulk; nothing if there is none. Never blocks.
