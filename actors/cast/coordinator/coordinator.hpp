@@ -196,7 +196,7 @@ class Coordinator
   bool take_turns();
   void note_book();
 
-  /// Stops leasing and counting, and tells all workers.
+  /// Stops leasing and counting; tell_end() may follow.
   void end_work();
   void tell_end();
   /// The end differs from the one that was told.
