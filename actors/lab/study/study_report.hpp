@@ -1,4 +1,4 @@
-// A study's results: a table of all runs, the same as JSON, a plot for each question with the
+// A study's results: a table of all runs, the same as JSON, a drawing for each plot with the
 // spread over seeds, and one self-contained page that explains them. Equal results give equal
 // bytes. Files are written atomically. Any thread.
 #pragma once
