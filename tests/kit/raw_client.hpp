@@ -1,5 +1,5 @@
-// A client of a server in the same process that sends bytes as they are, with raw sockets: also
-// what no honest client would send.
+// A client of a server in the same process that sends arbitrary bytes over raw sockets, including
+// invalid ones. Any thread.
 #pragma once
 
 #include <arpa/inet.h>
