@@ -110,8 +110,7 @@ void print_allocation(const char* scenario, double share) {
              std::exp(patches / std::max(1, lit)));
 }
 
-// ---- two variants
-// --------------------------------------------------------------------------------
+// ---- two variants -------------------------------------------------------------------------------
 
 struct Edit {
   const char* name;
