@@ -32,9 +32,9 @@ Result<Graph> make_chordal_ring(uint32_t nodes);
 /// order is lost. Errors: also if nodes x links is odd, or links >= nodes.
 Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed);
 
-/// The same workers plus a controller that forwards nothing and is linked to `links` of them,
-/// spread over their numbers; these workers get one link more. Errors: a controller exists, or the
-/// vertex limit is reached.
+/// Adds a controller that forwards nothing and is linked to `links` workers, spread over their
+/// numbers; these workers get one link more. Errors: a controller exists, or the vertex limit is
+/// reached.
 Result<Graph> with_controller(const Graph& graph, uint32_t links);
 
 }  // namespace luxodus

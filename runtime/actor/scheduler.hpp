@@ -83,7 +83,7 @@ class Scheduler {
   /// Has `receiver` called in this turn if control is still to be handled, else in the next.
   void call_for_control(ControlReceiver& receiver);
 
-  // ---- from inside a fiber -----------------------------------------------------------------
+  // ---- called on a fiber -------------------------------------------------------------------
 
   /// Sleeps until `deadline` and returns timed_out, unless cancelled before. Suspends.
   [[nodiscard]] Wake sleep_until(Nanoseconds deadline);

@@ -1,7 +1,7 @@
 // A node's memory, planned before it is used: one term per consumer, with the sentence that derives
 // its size. The sum is compared with the node's budget at start, and the table is printed, so that
 // the user sees which setting to change when memory is short. Allocates none of the memory it
-// plans. A plain value, made at start.
+// plans. A plain value, made at start; one thread at a time.
 #pragma once
 
 #include <cstdint>

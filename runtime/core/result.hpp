@@ -22,8 +22,8 @@ struct Problem {
   SourcePlace where;
   std::string what;
 
-  /// "file:line: what" in one line, the form editors understand. Control characters, which names and
-  /// contents of files may carry and a terminal would obey, become \xNN.
+  /// "file:line: what" in one line, the form editors understand. Control characters, which names
+  /// and contents of files may carry and a terminal would obey, become \xNN.
   std::string text() const;
 };
 

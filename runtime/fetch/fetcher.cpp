@@ -107,7 +107,7 @@ void Fetcher::add_metrics(Metrics& metrics) const {
                           delay_[hops]);
 }
 
-// ---- flights begin and end
+// ---- begin and end of fetches
 
 void Fetcher::fetch(uint32_t object, FetchClient& client, bool traced) {
   LUX_CHECK(object < objects_.size(), "fetched an object that the run does not have");

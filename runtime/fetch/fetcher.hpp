@@ -95,7 +95,7 @@ class Fetcher {
   /// Releases the room of a fetched object's bytes.
   void release(uint32_t object);
 
-  // ---- what others answer ------------------------------------------------------------------
+  // ---- answers of others -------------------------------------------------------------------
 
   void found(const MessageId& id, uint8_t hops, const ObjectFound& answer, SharedBytes bytes);
   void not_here(const MessageId& id, const ObjectNotHere& answer);

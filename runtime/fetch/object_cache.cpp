@@ -124,7 +124,7 @@ void ObjectCache::request(uint32_t object, bool traced) {
   fetcher_.fetch(object, *this, entry.traced);
 }
 
-// ---- objects come
+// ---- arrival of objects
 
 void ObjectCache::fetched(uint32_t object, SharedBytes bytes) {
   Entry& entry = entries_[object];

@@ -34,7 +34,7 @@ namespace luxodus {
 ///             get, prefetch, pin               bytes                       it comes in
 ///   absent ───────────────────────► requested ───────► building ─────────────────────► resident
 ///     ▲ ▲                               │                 │                                │
-///     │ └───────── unobtainable ────────┴─ no such thing ─┘                                │
+///     │ └───────── unobtainable ────────┴─ build failed ──┘                                │
 ///     └──────────────────────────────── room is needed ────────────────────────────────────┘
 ///
 /// Building lasts from the arrival of the bytes: in the builder's queue, in the builder, and then
@@ -138,7 +138,7 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
     uint64_t pinned_bytes = 0;  // of those
   };
   const Counters& counters() const { return counters_; }
-  /// Of fibers: from asking for an object that was not resident until they go on.
+  /// Waits of fibers, from asking for an object that was not resident until they go on.
   const Histogram& wait_time() const { return wait_time_; }
   void add_metrics(Metrics& metrics) const;
 

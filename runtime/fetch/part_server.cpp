@@ -67,7 +67,7 @@ void PartServer::add_metrics(Metrics& metrics) const {
                       c.dropped);
 }
 
-// ---- what others ask for ------------------------------------------------------------------------
+// ---- requests of others -------------------------------------------------------------------------
 
 /// The object if it is resident and shared with others, else null.
 const BuiltObject* PartServer::ready(ObjectId object) const {
@@ -127,7 +127,7 @@ void PartServer::serve_waiting() {
   if (!waiting_.empty()) try_again_soon();
 }
 
-// ---- what others answer -------------------------------------------------------------------------
+// ---- answers of others --------------------------------------------------------------------------
 
 void PartServer::on(Letter<ObjectFound>&& answer) {
   fetcher_.found(answer.id, answer.hops, answer.body, std::move(answer.payload).shared());

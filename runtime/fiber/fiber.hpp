@@ -88,7 +88,7 @@ class Fibers {
   /// the caller waits or refuses. `tag` is a literal. The body may throw nothing.
   [[nodiscard]] std::optional<FiberId> start(const char* tag, const Task& body);
 
-  // ---- from inside a fiber -----------------------------------------------------------------
+  // ---- called on a fiber -------------------------------------------------------------------
 
   /// Suspends until wake() or cancel(); returns `cancelled` at once if it was cancelled before.
   /// `reason` is a literal. Requires: on a fiber; no exception in flight, since a handler belongs
@@ -103,7 +103,7 @@ class Fibers {
   /// Sets what the running fiber works on, for the stall report.
   void set_subject(uint64_t subject);
 
-  // ---- from anywhere on the node's thread --------------------------------------------------
+  // ---- called anywhere on the node's thread ------------------------------------------------
 
   /// The running fiber; null on the scheduler's stack.
   const Fiber* current() const { return current_; }

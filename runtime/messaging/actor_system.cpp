@@ -48,7 +48,7 @@ std::optional<Offered> ActorSystem::put(Place& place, Incoming incoming) {
   return offered;
 }
 
-// ---- what the network brings --------------------------------------------------------------------
+// ---- deliveries of the network ------------------------------------------------------------------
 
 /// A payload that came in pieces is in its room already; others are copied into one.
 std::optional<Payload> ActorSystem::payload_of(const Delivery& delivery) {

@@ -93,7 +93,7 @@ class ActorSystem final : public Sender {
   void forget(const MessageId& id, Kind kind) override { network_.forget(id, kind); }
   void take_back(std::vector<uint64_t>&& leases) override { network_.take_back(std::move(leases)); }
 
-  // ---- what the network brings --------------------------------------------------------------
+  // ---- deliveries of the network ------------------------------------------------------------
 
   void deliver(const Delivery& delivery);
   /// Room for a message in pieces to this actor; empty if there is none.

@@ -55,7 +55,7 @@ uint64_t Link::held_bytes() const {
   return sum;
 }
 
-// ---- what is said
+// ---- sending
 
 Sent Link::give(const Envelope& envelope, std::span<const std::byte> body, Lane lane) {
   alignas(8) std::array<std::byte, limits::frame_head_bytes> head;
@@ -180,7 +180,7 @@ Link::Gone Link::send(Envelope envelope, std::span<const std::byte> body, Nanose
   return Gone::not_now;
 }
 
-// ---- what is heard
+// ---- receiving
 
 bool Link::take(const Envelope& envelope, Lane lane, const Message& message, Nanoseconds now) {
   const bool was_usable = state_.usable();

@@ -299,7 +299,7 @@ void Network::malformed(NodeId neighbour, const std::string& what, Nanoseconds n
   }
 }
 
-// ---- messages whose way ends here
+// ---- messages for this node
 
 bool Network::take_here(const Envelope& envelope, std::span<const std::byte> body,
                         Nanoseconds now) {
@@ -360,7 +360,7 @@ bool Network::deliver(const Envelope& envelope, std::span<const std::byte> bytes
   return true;
 }
 
-// ---- links that change
+// ---- link changes
 
 void Network::learn(const LinkChanges& told, const Link& by) {
   LinkChanges news;

@@ -116,7 +116,7 @@ class Network {
   /// Tells the neighbours that this node leaves.
   void say_bye();
 
-  // ---- seen from outside
+  // ---- observation
 
   const NetCounters& counters() const { return counters_; }
   /// Registers all counters; `name_of_node` gives the name of a neighbour.

@@ -4,7 +4,7 @@
 // records is an error, and then nothing is truncated. The journal does not interpret records.
 //
 //   head:    "LUXJRNL1" ‖ identity (8 B) ‖ check (8 B)
-//   record:  bytes (8 B) ‖ check of bytes and content, chained to the place (8 B) ‖ content
+//   record:  bytes (8 B) ‖ check of offset, bytes and content (8 B) ‖ content
 //
 // Numbers are little-endian. Thread rule: one node's thread.
 #pragma once

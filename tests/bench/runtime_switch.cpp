@@ -63,7 +63,7 @@ void print_switches(int repeats) {
   }
 }
 
-/// The same cost under the scheduler, which reads the clock after each resume.
+/// The cost under the scheduler, which reads the clock after each resume.
 void print_scheduled(int repeats) {
   const SystemClock clock;
   QuietSource source(clock);

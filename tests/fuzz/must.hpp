@@ -1,4 +1,4 @@
-// Assertions of the fuzzers.
+// Assertions of the fuzzers. Any thread.
 #pragma once
 
 #include <cstdio>

@@ -13,7 +13,7 @@ bool allocations_are_counted();
 /// Calls of malloc, calloc, realloc and the aligned ones on this thread so far.
 uint64_t allocations_of_this_thread();
 
-/// Those made by libzmq: it allocates for each message longer than 33 bytes.
+/// Allocations by libzmq, which allocates for each message longer than 33 bytes.
 uint64_t allocations_by_zmq();
 
 }  // namespace luxodus::test

@@ -14,7 +14,7 @@ inline const std::string box_obj =
     "v 0 0 0\nv 200 0 0\nv 200 100 0\nv 0 100 0\nv 0 0 40\nv 200 0 40\nv 200 100 40\nv 0 100 40\n"
     "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
-/// The same box, three sides with the material "white", and three with "red".
+/// The box with three sides of the material "white", and three of "red".
 inline std::string coloured_box_obj(const std::string& library) {
   std::string out = box_obj;
   out.replace(out.find("absent.mtl"), 10, library);

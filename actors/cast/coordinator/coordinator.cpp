@@ -40,7 +40,7 @@ void Coordinator::start() {
   set_timer();
 }
 
-// ---- workers that come and go ------------------------------------------------------------------
+// ---- arrival and loss of workers ---------------------------------------------------------------
 
 /// Registers a worker and its incarnation. Returns false for a message of an incarnation that has
 /// ended.
@@ -384,7 +384,7 @@ std::string Coordinator::who_lacks_end() const {
   return text;
 }
 
-// ---- what passes with time -------------------------------------------------------------------
+// ---- timers ----------------------------------------------------------------------------------
 
 /// Fires after `look_every`, or as soon as a lease is late.
 void Coordinator::set_timer() {

@@ -153,7 +153,7 @@ class LeaseBook {
   uint64_t last_id_;
   int64_t look_ahead_;
   Nanoseconds slowest_ = 0;  // from the lease of a batch to its commit
-  int64_t next_;             // the first never leased in turn
+  int64_t next_;             // the lowest number never leased
   int64_t end_;
   int64_t committed_;
 };

@@ -55,7 +55,7 @@ bool RunCoordinator::nothing_left() const {
   return stop_.error_is_reached(Readout(run_.scene(), run_.totals()).worst_relative_error());
 }
 
-// ---- workers that come and go ------------------------------------------------------------------
+// ---- arrival and loss of workers ---------------------------------------------------------------
 
 void RunCoordinator::life_ended(NodeId worker, Incarnation life) {
   shards_.end_life(worker, life);
@@ -290,7 +290,7 @@ void RunCoordinator::wait_for_farewells(Nanoseconds now) {
            who_lacks_end(), seconds_in(config_.lost));
 }
 
-// ---- what passes with time -------------------------------------------------------------------
+// ---- timers ----------------------------------------------------------------------------------
 
 void RunCoordinator::look_at_work(Nanoseconds now) {
   if (!begun_) return await_workers(now);

@@ -24,7 +24,7 @@ class SubCoordinator final : public Coordinator, public LeasedWork {
   /// Begins to wait for its workers. Requires: the scheduler has a fiber for it.
   void start();
 
-  // ---- upwards ----------------------------------------------------------------------------------
+  // ---- towards the coordinator above ------------------------------------------------------------
 
   void enter_round(uint32_t round) override { counters_.round = round; }
   void add(uint64_t lease, int64_t batch) override;

@@ -49,7 +49,7 @@ class DisplayActor final
   void on(const Letter<TotalsShown>& shown);
   void on(const Letter<RunEnded>& ended);
 
-  /// Reports to the coordinator that it has failed for good.
+  /// Reports to the coordinator, if a message gets through, that it has failed for good.
   void tell_failure(const std::string& what);
 
   /// Whether everything is written, or nothing will be: the run failed, or the coordinator was

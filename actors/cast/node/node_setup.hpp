@@ -92,7 +92,7 @@ using BuilderMaker = std::function<std::unique_ptr<ObjectBuilder>(const Compiled
 std::unique_ptr<ObjectBuilder> make_part_builder(const CompiledScene& scene,
                                                  const SceneParts& parts);
 
-/// Makes the thread for an actor's blocking calls.
+/// Makes the BlockingCalls of an actor.
 using CallsMaker = std::function<std::unique_ptr<BlockingCalls>(Scheduler&)>;
 inline std::unique_ptr<BlockingCalls> calls_on_a_thread(Scheduler& scheduler) {
   return std::make_unique<BlockingThread>(scheduler.handoff());

@@ -22,7 +22,7 @@ struct ShellConfig {
   SchedulerLimits scheduler;
   size_t max_payload_bytes = 1 << 30;       // of messages that wait in mailboxes
   Nanoseconds shutdown_phase = seconds(5);  // for each phase of its shutdown
-  /// Of the whole graph, if computed once for all nodes of the process.
+  /// Routes of the whole graph, if computed once for all nodes of the process.
   const Routes* routes = nullptr;
 };
 

@@ -108,7 +108,7 @@ void Supervisor::add_metrics(Metrics& metrics) const {
   }
 }
 
-// ---- rehearsals ---------------------------------------------------------------------------------
+// ---- fault injection ----------------------------------------------------------------------------
 
 void Supervisor::rehearse(const FaultPlan& plan) {
   began_ = scheduler().clock().now();

@@ -95,7 +95,7 @@ class TallyShard final
 
   const TallyShardConfig config_;
   Totals totals_;
-  /// Of slices: a finished one leaves its memory to the next.
+  /// Memory of slices: a finished one leaves its memory to the next.
   std::pmr::unsynchronized_pool_resource memory_;
   std::pmr::map<Life, std::shared_ptr<Slice>> slices_{&memory_};
   std::map<Life, uint64_t> decided_;  // sequence number of the last decided flush

@@ -270,7 +270,7 @@ TracingFibers::OpenBatch* TracingFibers::open_next() {
   return &*free;
 }
 
-// ---- a tally that may be full ----------------------------------------------------------------
+// ---- limits of the tally ---------------------------------------------------------------------
 
 void TracingFibers::count_totals() {
   for (size_t i = 0; i < 2; ++i) totals_bytes_[i] = totals_[i].bytes();

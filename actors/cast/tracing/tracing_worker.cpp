@@ -182,7 +182,7 @@ void TracingWorker::cannot_enter(const Problem& why) {
   work_->look_again();
 }
 
-// ---- giving results --------------------------------------------------------------------------
+// ---- flushes ---------------------------------------------------------------------------------
 
 void TracingWorker::leases_done(std::span<const uint64_t> leases) {
   for (const uint64_t lease : leases)

@@ -1,5 +1,5 @@
 // Observes how a piece of code ends the process: it runs in a forked child, whose standard error
-// and exit status are returned. For tests of assertions that abort.
+// and exit status are returned. For tests of assertions that abort. One thread.
 #pragma once
 
 #include <fcntl.h>
