@@ -1,6 +1,6 @@
 // A coordinator that leads some of a run's nodes on behalf of another coordinator. Downwards it
 // behaves like the run's coordinator. Upwards it behaves like a tracing node: the node's tracer
-// asks for batches and flushes what is merged, but here leases are lent on instead of traced. Work
+// asks for batches and flushes what is merged, but here leases are passed on, not traced. Work
 // merged since its last flush upwards is nowhere else: if the node is lost, it is traced again. It
 // has two sets of totals: one is filled while the other is packed. Thread rule: its node's thread.
 #pragma once
