@@ -53,8 +53,9 @@ inline constexpr int gltf_node_depth = 1000;
 inline constexpr double mesh_coordinate_step_m = 0.01;
 }  // namespace limits
 
-/// What reading a file of this size may take in addition to the limits that hold for any file: OBJ
-/// and glTF take about five times their size in memory, and a slow processor a second for 10 MiB.
+/// Memory and time for reading a file of this size, in addition to the limits that hold for any
+/// file: OBJ and glTF take about five times their size in memory, and a slow processor a second for
+/// 10 MiB.
 inline IsolatedLimits import_limits(uint64_t bytes) {
   return {16 * bytes, static_cast<uint32_t>(bytes >> 20)};
 }

@@ -52,7 +52,7 @@ bool is_finite(std::string_view word) {
   return error == std::errc() && std::isfinite(static_cast<float>(value));
 }
 
-/// What is wrong with the words of a vertex or texture vertex; "" if nothing is.
+/// The fault in the words of a vertex or texture vertex, as a message; "" if there is none.
 std::string fault_of_vertex(std::string_view rest, int numbers, bool must_be_finite) {
   for (int i = 0; i < numbers; ++i) {
     const std::string_view word = take_word(rest);

@@ -18,7 +18,7 @@ namespace luxodus {
 /// The extension of a file name in lower case: ".obj".
 std::string mesh_ending(const std::string& path);
 
-/// What an OBJ and its material libraries (MTL) say about materials. For a material without a
+/// Facts about materials from an OBJ and its material libraries (MTL). For a material without a
 /// colour Assimp would make up a grey.
 class ObjMaterials {
  public:
@@ -29,7 +29,7 @@ class ObjMaterials {
   void uses(std::string_view rest, int line);
   /// Reads an existing MTL file.
   void add_library(const std::string& path);
-  /// Why the libraries give no colour for this material, and where; nothing if they do.
+  /// The reason why the libraries give no colour for this material, and where; nothing if they do.
   std::optional<Problem> no_colour(const std::string& material) const;
 
  private:
