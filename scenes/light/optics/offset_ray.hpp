@@ -1,10 +1,10 @@
 // The origin of a ray that leaves a surface: far enough from it that rounding cannot make the ray
 // hit the surface again, and no farther. The offset grows with the position, in units in the last
-// place (the idea of Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection",
-// Ray Tracing Gems ch. 6). Promise: for points interpolated on a triangle whose extent is at most
-// its distance from the origin, or at most the size given to `min_offset`, the ray's origin lies on
-// the normal's side of the exact plane, and a ray from it to that side does not hit the triangle
-// again. Pure functions; any thread.
+// place (after Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray
+// Tracing Gems ch. 6). Promise: for points interpolated on a triangle whose extent is at most its
+// distance from the origin, or at most the size given to `min_offset`, the ray's origin lies on the
+// normal's side of the exact plane, and a ray from it to that side does not hit the triangle again.
+// Pure functions; any thread.
 #pragma once
 
 #include <algorithm>

@@ -183,7 +183,7 @@ inline Real evaluate_spread(const PhaseFunction& phase, Real cos_theta, Real mea
                                                   one_minus_g);
 }
 
-/// As above if the light's second moment is known, too: `mean_second` is the mean of (3 cos^2 - 1)
+/// Variant for light whose second moment is known, too: `mean_second` is the mean of (3 cos^2 - 1)
 /// / 2 of the angles to the outgoing direction. Never negative.
 inline Real evaluate_spread(const PhaseFunction& phase, Real cos_theta, Real mean_cosine,
                             Real mean_second) {
