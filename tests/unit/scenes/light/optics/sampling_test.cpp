@@ -161,7 +161,7 @@ TEST_CASE("triangle samples are uniform in area and never outside", "[optics][sa
   CHECK(product.distance(1.0 / 12) < allowed);
 }
 
-TEST_CASE("cosine-power samples follow (n+1) cos^n / 2 pi for every n, also as narrow as n = 1e6",
+TEST_CASE("cosine-power samples follow their density for every n, also as narrow as n = 1e6",
           "[optics][sampling]") {
   for (const double n : {0.0, 1.0, 2.5, 80.0, 1e6}) {
     const uint32_t seed = seed_or(16);
