@@ -1,5 +1,5 @@
 // Different methods for one number agree: analogue and weighted, eyes and planes, shadow rays and
-// tracing. And the error bars that these tests rely on are honest.
+// tracing. The error bars that these tests rely on are honest, too.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

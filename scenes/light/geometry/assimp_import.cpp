@@ -310,8 +310,7 @@ Result<std::vector<ImportedPart>> import_by_assimp(const std::string& path, doub
   if (files->fault()) return *files->fault();
   if (scene == nullptr) {
     const std::string why = importer.GetErrorString();
-    if (why.find("bad_alloc") != std::string::npos)
-      throw std::bad_alloc();  // Assimp caught it and kept only the text
+    if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // Assimp kept the text
     return problem_in(path, "cannot be read: " + excerpt(why, 200));
   }
   for (const std::string& file : files_read)

@@ -86,8 +86,7 @@ class CellScene {
  private:
   const GeometryCell* cell_;
   RTCSceneTy* scene_ = nullptr;
-  std::vector<PlainBox>
-      boxes_;  // groups' boxes, if a double-precision build intersects the triangles itself
+  std::vector<PlainBox> boxes_;  // of groups; used by builds in double
 };
 
 /// A cell that a ray may enter, and the distance at which it enters the cell's box.

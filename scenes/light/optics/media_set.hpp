@@ -47,7 +47,7 @@ using BandAverage = std::function<double(const Spectrum&, int band)>;
 
 class MediaSet {
  public:
-  /// No media at all.
+  /// An empty set.
   MediaSet();
 
   /// Errors: a value of a medium that is not finite, negative, out of range or beyond the limits,

@@ -17,7 +17,7 @@ struct QuadricShape {
 
 /// Centre at the origin. Requires (here and below): every length > 0 and finite.
 QuadricShape ellipsoid(const glm::dvec3& radii);
-/// From z = 0 to z = height.
+/// A cylinder from z = 0 to z = height.
 QuadricShape cylinder(double radius, double height);
 /// Base of the given radius at z = 0, apex at z = height.
 QuadricShape cone(double base_radius, double height);

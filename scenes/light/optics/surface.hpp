@@ -115,8 +115,7 @@ inline Vec3 sample_ggx_visible_normal(const Vec3& wo, Real alpha, Real u, Real v
 /// Density of microfacet normals of GGX [1/sr] (Trowbridge and Reitz 1975).
 inline Real ggx_density(Real alpha, const Vec3& h, const Vec3& normal) {
   const Real cos_h = glm::dot(h, normal);
-  const Vec3 flat =
-      glm::cross(h, normal);  // sin^2 from the cross product: 1 - cos^2 would lose a narrow lobe
+  const Vec3 flat = glm::cross(h, normal);  // for sin^2: 1 - cos^2 would lose a narrow lobe
   const Real alpha_square = alpha * alpha;
   const Real spread = cos_h * cos_h * alpha_square + glm::dot(flat, flat);
   return inverse_pi_f * alpha_square / (spread * spread);

@@ -13,7 +13,7 @@ namespace luxodus {
 namespace limits {
 inline constexpr int64_t voxels = 50'000'000;
 inline constexpr int64_t all_plane_cells = 1 << 28;  // 17 GB of totals; bin indices have 32 bits
-inline constexpr int64_t default_voxels = 20'000;    // for the grid of a scene that gives no edge
+inline constexpr int64_t default_voxels = 20'000;    // if a scene gives no edge
 }  // namespace limits
 
 namespace {
@@ -157,8 +157,7 @@ void choose_eye_targets(CompiledScene& scene) {
     for (uint32_t s = 0; s < scene.signs.size(); ++s) {
       if (wanted && std::count(wanted->begin(), wanted->end(), scene.signs[s].sign) == 0) continue;
       const glm::dvec3 to_eye = d.observers[o].eye - scene.signs[s].frame.origin;
-      if (glm::dot(to_eye, scene.signs[s].frame.axes[2]) <= 0)
-        continue;  // the observer sees its back
+      if (glm::dot(to_eye, scene.signs[s].frame.axes[2]) <= 0) continue;  // its back
       scene.eye_targets.push_back({o, s, bin});
       bin += 3;  // white, green, surround
     }

@@ -1,6 +1,7 @@
 // Shadow rays: the visibility and transmittance between two points. Thin panes and open surfaces
 // transmit; all other solids block, refracting ones too, because the light that they bend does not
-// arrive along this line. Functions without state; suspends where the resolver does.
+// arrive along this line. Functions without state; one thread or fiber
+// per resolver; suspends where the resolver does.
 #pragma once
 
 #include <cmath>

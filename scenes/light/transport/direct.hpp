@@ -225,11 +225,10 @@ class DirectSum {
       else if (solid < 0 || (scene_.features.surfaces && solid > 0))
         solid = solid_transmittance(scene_, c.ray, c.ray.length, b, resolver_);
       min_solid = std::min(min_solid, solid);
-      const double passes =
-          !in_media_  ? 1
-          : solid > 0 ? medium_transmittance(scene_, c.ray, c.distance, b, resolver_)
-                      : std::exp(-sigma_t *
-                                 distance);  // approximate: only estimates what a shadow may hide
+      const double passes = !in_media_ ? 1
+                            : solid > 0
+                                ? medium_transmittance(scene_, c.ray, c.distance, b, resolver_)
+                                : std::exp(-sigma_t * distance);  // nearly: only bounds shadows
       clear += power * solid;
       in_media += power * solid * passes;
       open += power * passes;
@@ -435,9 +434,8 @@ class DirectSum {
     }
   }
 
-  static constexpr double fine = 2e-3;  // up to this tolerance corners are tested, too
-  static constexpr double quarter =
-      0.25;  // possible error of a cell with a shadow edge, as a share of its light
+  static constexpr double fine = 2e-3;     // up to this tolerance corners are tested, too
+  static constexpr double quarter = 0.25;  // error of a cell with a shadow edge, of its light
 
   const CompiledScene& scene_;
   const Vec3 place_, from_, normal_;

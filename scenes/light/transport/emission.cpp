@@ -167,8 +167,7 @@ EmitterBound emitter_bound(const CompiledScene& scene, uint32_t emitter) {
   } else {
     bound.radius = 0.5_r * glm::length(e.size);  // at least half the diagonal of any shape
   }
-  bound.radius =
-      bound.radius * 1.001_r + scene.diagonal_m * 0x1p-18_r;  // larger than all roundings
+  bound.radius = bound.radius * 1.001_r + scene.diagonal_m * 0x1p-18_r;  // over all roundings
   return bound;
 }
 

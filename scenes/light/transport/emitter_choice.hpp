@@ -82,9 +82,8 @@ class EmitterChoice {
   static double share_of(size_t emitter, const Cumulative& cumulative);
 
   const CompiledScene& scene_;
-  std::vector<double>
-      seen_power_;       // of each emitter, in all bands, weighted by luminance and colour
-  Cumulative by_power_;  // of all emitters
+  std::vector<double> seen_power_;  // in all bands, by luminance and colour
+  Cumulative by_power_;             // of all emitters
   SphereSet bounds_;
   const CellSight* seen_ = nullptr;  // of the last weigh_at
   double bright_ = 0;                // probability of choosing among its bright emitters

@@ -1,6 +1,6 @@
-// Which emitters light a place, approximately: learned for the cell of space around it and the side
-// that its surface faces, by a few shadow rays from places there (sight_places.hpp) to points of
-// each emitter. The rays account for walls, for luminaires' directions and for smoke on the way.
+// The emitters that light a place, approximately: learned for the cell of space around it and the
+// side that its surface faces, by a few shadow rays from places there (sight_places.hpp) to points
+// of each emitter. The rays account for walls, for luminaires' directions and for smoke on the way.
 // Pictures use it for the light sampler (emitter_choice.hpp) and for path guiding (glow_guide.hpp);
 // its errors cost variance but cause no bias. A side of a cell is learned at its first use, from
 // random numbers of its own, so the result does not depend on who uses it first. Any thread;

@@ -42,11 +42,10 @@ struct EyePath {
   EmitterHits counted;
   double weight;
   GroupLight& into;
-  PathTurn turn{};        // the last scattering event; valid if `counted` is weighted
-  Real travelled = 0;     // from the last event to the ray's origin, through panes
-  bool diffused = false;  // a surface or a medium has scattered it diffusely
-  bool scattered_known =
-      false;  // scattered light on the ray was taken from the radiance cache already
+  PathTurn turn{};               // the last scattering event; valid if `counted` is weighted
+  Real travelled = 0;            // from the last event to the ray's origin, through panes
+  bool diffused = false;         // a surface or a medium has scattered it diffusely
+  bool scattered_known = false;  // in-scattered light is from the cache
 
   /// Adds light of the band in place `i`.
   void add(size_t i, const SourceLight& light) {

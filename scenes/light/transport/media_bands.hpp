@@ -96,9 +96,8 @@ class MediaBands {
   }
 
   const CompiledScene& scene_;
-  std::vector<double>
-      ratio_;  // by band, common to the extinctions of all media; empty: there is no common one
-  bool grey_ = false;  // all ratios are 1
+  std::vector<double> ratio_;  // by band, common to all media; empty: there is none
+  bool grey_ = false;          // all ratios are 1
   double most_scattered_ = 0;
 };
 

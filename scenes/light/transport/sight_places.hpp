@@ -1,6 +1,7 @@
 // Places that represent a cell of space: in its air, or on its surfaces that face one way. They are
 // kept apart because the two sides of a wall receive different light, and so do a desk and the air
-// beside it. Functions without state; suspends where the resolver does.
+// beside it. Functions without state; one thread or fiber per resolver; suspends
+// where the resolver does.
 #pragma once
 
 #include <cmath>

@@ -107,9 +107,8 @@ double burnt_share(const Exposure& exposure, double lead, const std::array<doubl
 
 // ---- human --------------------------------------------------------------------------------------
 
-constexpr int histogram_bins = 100;  // Ward Larson et al. 1997
-constexpr double trim_tolerance =
-    0.025;  // the paper's share of the histogram that a pass may still cut
+constexpr int histogram_bins = 100;       // Ward Larson et al. 1997
+constexpr double trim_tolerance = 0.025;  // their share that a pass may still cut
 constexpr int max_passes = 200;
 
 struct LogHistogram {

@@ -113,9 +113,8 @@ struct Emitter {
   /// Run-up after a failure of the mains: time [s], share of emergency_flux; ascending in both,
   /// linear between rows, constant after the last. Empty: not given.
   std::vector<glm::dvec2> onset;
-  std::optional<double>
-      duration_s;             // duration of the emergency supply, after which the luminaire is dark
-  std::string body_material;  // "" if none: returning light passes
+  std::optional<double> duration_s;  // of the emergency supply; dark afterwards
+  std::string body_material;         // "" if none: returning light passes
 };
 
 // ---- signs ------------------------------------------------------------------------------------
@@ -175,10 +174,9 @@ struct Sign {
   SignLighting lighting = SignLighting::internal;
   SignState mains;
   SignState emergency;
-  std::optional<double>
-      duration_s;                 // duration of the emergency supply, after which the sign is dark
-  std::vector<LeadsTo> leads_to;  // routes that it marks
-  double angular_exponent = 0;    // luminance ~ cos^n from the normal; 0: Lambertian
+  std::optional<double> duration_s;  // of the emergency supply; dark afterwards
+  std::vector<LeadsTo> leads_to;     // routes that it marks
+  double angular_exponent = 0;       // luminance ~ cos^n from the normal; 0: Lambertian
   std::vector<glm::dvec2>
       decay;  // photoluminescent: time after excitation [s], share of the luminance
   Spectrum white_shape = equal_energy_shape();

@@ -183,8 +183,7 @@ TEST_CASE(
     const double d = distance_to(shape.mesh, normal_of(shape.mesh, i));
     worst = std::max(worst, d);
   }
-  CHECK(worst <=
-        shape.discretisation_bound_m + 2e-3);  // distance_to samples, so it is slightly too large
+  CHECK(worst <= shape.discretisation_bound_m + 2e-3);  // distance_to is slightly too large
   CHECK(worst >= 0.95 * shape.discretisation_bound_m);
 }
 

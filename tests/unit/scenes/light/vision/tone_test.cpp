@@ -398,8 +398,7 @@ TEST_CASE("a grey ramp is shown as a ramp", "[vision][tone]") {
   for (const DisplayModel& display : displays) {
     HumanTone tone;
     tone.display = display;
-    tone.glare =
-        false;  // seven decades in 25 degrees are dazzling: the dark end would be only veil
+    tone.glare = false;  // seven decades in 25 degrees dazzle: only veil at the dark end
     const SrgbPicture out = tone_human(p, tone);
     for (size_t x = 1; x < 256; ++x) CHECK(at(out, 4 * 256 + x).g >= at(out, 4 * 256 + x - 1).g);
     CHECK(at(out, 4 * 256 + 255).g > at(out, 4 * 256).g + 100);
