@@ -36,7 +36,7 @@ async function load_api() {
   }
   const lite = await import(main);
   lite.initSync({ module: readFileSync(join(dirname(main), 'ifc-lite_bg.wasm')) });
-  // Its own words, a few for each batch, are of no use to anybody here.
+  // The library's own messages, a few for each batch, are of no use here.
   console.info = console.warn = () => {};
   return new lite.IfcAPI();
 }
