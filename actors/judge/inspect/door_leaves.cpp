@@ -25,7 +25,7 @@ constexpr double off_leaf_m = 5e-3;
 /// Of three by three sample places: more than half, and nearly all.
 constexpr int many_places = 5;
 constexpr int nearly_all_places = 8;
-/// Share of the way from hinge to edge beyond which a wall obstructs an opening leaf.
+/// Range of the way from hinge to edge, as shares, in which a wall obstructs an opening leaf.
 constexpr double from_hinge = 0.03;
 constexpr double to_edge = 0.95;
 

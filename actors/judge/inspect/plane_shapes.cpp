@@ -12,8 +12,8 @@ namespace luxodus {
 
 namespace {
 
-/// A plane with a smaller tilt than this, but a larger one than rounding gives, was meant to be
-/// horizontal or vertical [deg], as was one whose ends differ in height by less [m].
+/// A plane tilted by less than the first [deg], with a rise of more than the second [m], which
+/// rounding does not explain, was meant horizontal or vertical.
 constexpr double slight_tilt_deg = 5;
 constexpr double slight_rise_m = 2e-3;
 /// Planes along ramps and raked floors are tilted: tolerance of the heights of their corners above
