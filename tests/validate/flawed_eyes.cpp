@@ -28,7 +28,7 @@ void brighten_webs(CompiledScene& scene) {
   }
 }
 
-/// Compiled anew, so that media and probes are those of the changed description.
+/// Compiled again, so that media and probes are those of the changed description.
 std::shared_ptr<const CompiledScene> changed(const CompiledScene& scene,
                                              const std::function<void(SceneDescription&)>& change) {
   SceneDescription description = *scene.description;
@@ -71,7 +71,7 @@ std::shared_ptr<const CompiledScene> spoiled(const CompiledScene& scene, EyeFlaw
   return out;
 }
 
-/// Meets nothing, if it is blind.
+/// Reports no hits, if it is blind.
 class MaybeBlind : public MergedResolver {
  public:
   MaybeBlind(const CompiledScene& scene, const SceneIndex& index, bool blind)
@@ -127,7 +127,7 @@ class RepeatedBatches final : public BatchTracer {
   explicit RepeatedBatches(std::unique_ptr<BatchTracer> tracer) : tracer_(std::move(tracer)) {}
 
   void trace(int group, uint64_t first, int64_t count, BatchScores& scores) override {
-    // Of every four batches the first: numbers within a group begin at a power of two.
+    // The first of every four batches: numbers within a group begin at a power of two.
     const auto four = 4 * static_cast<uint64_t>(count);
     tracer_->trace(group, first - first % four, count, scores);
   }

@@ -69,7 +69,7 @@ CompiledScene only_panel(const std::string& shape) {
   return scene;
 }
 
-/// The same, with a photometric web.
+/// One emitter with the photometric web of a file.
 CompiledScene with_web(const std::string& shape) {
   CompiledScene scene = only_panel(shape);
   scene.webs.push_back(downlight());
