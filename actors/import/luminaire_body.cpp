@@ -82,7 +82,7 @@ Result<LuminaireBody> luminaire_body(const L3dModel& model, ReadingShare* readin
   for (const L3dShape& shape : model.shapes) {
     auto body = shape_body(shape, folder.path() / std::to_string(shapes.size()), reading);
     if (!body) {
-      // Those after it are not read any more.
+      // Shapes after it are not read any more.
       for (size_t i = shapes.size() + 1; i < model.shapes.size(); ++i)
         ReadingPart(reading, model.shapes[i].obj.size());
       return body.problem();

@@ -1,5 +1,5 @@
 // Files of tables that the user edits and an import extends at the end: the names in them, and what
-// is to be added. Existing text is never changed. One import at a time.
+// is to be added. Existing text is never changed. Any thread, one import at a time.
 #pragma once
 
 #include <filesystem>

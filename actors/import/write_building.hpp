@@ -2,7 +2,7 @@
 //   building/*.glb, building.toml, import.txt   overwritten by every import
 //   materials.toml, fixtures.toml, scene.toml   the user's: made if missing; what is new in a
 //                                               model is added at the end of the first two
-// Files are written atomically. One import at a time writes to a folder.
+// Files are written atomically. Any thread; one import at a time writes to a folder.
 #pragma once
 
 #include <filesystem>

@@ -3,7 +3,7 @@
 //                                 triangles
 //   materials.toml, scene.toml    the user's: made if missing; new surfaces are added at the end
 //                                 of the first
-// Files are written atomically. One import at a time writes to a folder.
+// Files are written atomically. Any thread; one import at a time writes to a folder.
 #pragma once
 
 #include <optional>

@@ -2,8 +2,8 @@
 //   building.toml    overwritten by every import
 //   plan.toml        the user's: what each layer and block becomes; new ones are added at its end
 //   scene.toml, materials.toml, fixtures.toml    the user's, made if missing
-// Nothing is guessed: until plan.toml says otherwise, layers and blocks become nothing. One import
-// at a time writes to a folder.
+// Nothing is guessed: until plan.toml says otherwise, layers and blocks become nothing. Any thread;
+// one import at a time writes to a folder.
 #pragma once
 
 #include <string>

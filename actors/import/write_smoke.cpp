@@ -44,7 +44,7 @@ std::vector<std::byte> nrrd_of(const VdbSmoke& smoke, const SmokeOrigin& origin)
   return out;
 }
 
-/// The same after every import: an existing file is kept.
+/// Equal after every import: an existing file is kept.
 constexpr std::string_view medium_text =
     R"(# Made by `luxodus import vdb`, and yours from now on: name it in the 'include' of a scene.
 # smoke.nrrd beside it is written anew by every import; its head says of which grid it is.

@@ -1,6 +1,6 @@
 // Writes imported smoke: its cells as NRRD (smoke.nrrd, overwritten by every import) and the table
-// of a scene that names it (smoke.toml, the user's: made if missing). One import at a time writes
-// to a folder.
+// of a scene that names it (smoke.toml, the user's: made if missing). Any thread; one import at a
+// time writes to a folder.
 #pragma once
 
 #include <filesystem>

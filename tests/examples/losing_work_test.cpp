@@ -157,7 +157,7 @@ TEST_CASE("a longer run of the same scene is not replaced by a shorter one witho
     CHECK_THAT(refused.err, Contains("--resume") && Contains("--overwrite"));
     CHECK(slurp(place.out / "flux.lux") == long_run);
   }
-  // The same command again, as in ./run.sh, and a longer one.
+  // Repeats the command, as in ./run.sh, then runs a longer one.
   CHECK(place.run("--no-views --particles 100k").code == 0);
   CHECK(slurp(place.out / "flux.lux") == long_run);
   CHECK(place.run("--no-views --particles 100k --seed 9").code == 0);

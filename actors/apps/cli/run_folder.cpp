@@ -71,7 +71,7 @@ bool is_surely_as_long(const StopRule& stop, const EarlierRun& earlier, int64_t 
   if (stop.seconds) {
     const double took = number_at(earlier.result, "seconds", "value");
     const double asked = number_at(earlier.result, "stop_rule", "seconds");
-    // The same rule as an earlier run that was not resumed, or that had less time.
+    // An equal rule of an earlier run that was not resumed, or that had less time.
     const bool again = asked <= *stop.seconds && took <= *stop.seconds * time_slack + time_slack_s;
     if (!again && !(took <= *stop.seconds)) return false;
   }

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a file that a pod needs: a cluster's file, a key.
+/// Size of a file that a pod needs: a cluster's file, a key.
 constexpr uint64_t max_manifest_file_bytes = uint64_t{1} << 20;  // the limit of a ConfigMap
 
 std::string service_of(const ClusterConfig& cluster) {

@@ -55,7 +55,7 @@ FrameHead head_of(const LiveFrame& frame);
 /// Whether a frame is light of a group: then `a` is the group's number.
 bool is_light(const FrameHead& head);
 bool is_surface_light(const FrameHead& head);
-/// The same content for another generation; light becomes that of the group `a`.
+/// The frame's content for another generation; light becomes that of the group `a`.
 LiveFrame readdressed(const LiveFrame& frame, uint32_t generation, uint32_t a);
 
 /// The triangle of before that corresponds to each triangle of now, or none_index.

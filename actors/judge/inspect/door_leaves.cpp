@@ -22,7 +22,7 @@ constexpr double behind_leaf_m = 0.3;
 /// A frame is this close to a leaf's edge [m].
 constexpr double to_frame_m = 0.3;
 constexpr double off_leaf_m = 5e-3;
-/// Of three by three sample places: more than half, and nearly all.
+/// Numbers of three by three sample places: more than half, and nearly all.
 constexpr int many_places = 5;
 constexpr int nearly_all_places = 8;
 /// Range of the way from hinge to edge, as shares, in which a wall obstructs an opening leaf.

@@ -191,7 +191,7 @@ constexpr double above_floor_m = 0.02;
 constexpr size_t max_places = 4000;
 /// A fiftieth of the 0.5 lx that EN 1838 requires: less counts as dark.
 constexpr double min_lx = 0.01;
-/// Of one route or area. A few dark places may be corners, or the shadow of a doorway.
+/// Limits for one route or area: a few dark places may be corners, or a doorway's shadow.
 constexpr size_t max_places_of_way = 400;
 constexpr double dark_share = 0.05;
 /// A place of a route has its floor within this distance below it [m].

@@ -1,5 +1,5 @@
 // Runs cases: each with growing numbers of particles, reading every quantity at the end of each.
-// The same seed and options give the same estimates, but other times. Thread rule: one caller.
+// Equal seeds and options give equal estimates, but other times. Thread rule: one caller.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,6 @@
 // Exports a finished run as glTF: surfaces with reflected light as vertex colours, luminaires as
-// punctual lights, cameras. Reads the run only. One call at a time per run.
+// punctual lights, cameras. Reads the run only. Any thread, one call at a
+// time per run.
 #pragma once
 
 #include "actors/results/formats/write_glb.hpp"

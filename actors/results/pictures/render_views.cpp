@@ -136,7 +136,7 @@ class GrowingViews {
     for (const GrowingView& view : views_) fewest = std::min(fewest, view.passes.paths());
     return fewest;
   }
-  /// Of the worst view; NaN if one is not known.
+  /// Error of the worst view; NaN if one is not known.
   double error() const {
     double worst = 0;
     for (const GrowingView& view : views_)

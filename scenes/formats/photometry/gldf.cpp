@@ -365,7 +365,7 @@ Result<double> emergency_flux(const GldfProduct& product, const GldfVariant& var
                                       "'emergency_flux' or 'emergency_factor'");
 }
 
-/// The same web scaled to another flux.
+/// Scales a web to another flux.
 Result<std::shared_ptr<const PhotometricWeb>> with_flux(const PhotometricWeb& web, double flux_lm,
                                                         const std::string& file) {
   std::vector<double> candela = web.candela();

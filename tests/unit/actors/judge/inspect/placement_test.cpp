@@ -166,7 +166,7 @@ TEST_CASE("luminaires nearer than five openings give a warning where codes judge
   check_found(found(way + emergency), Severity::warning, sentence);
   check_found(found("[[probe]]\nname = \"spot\"\nposition = [3, 0, 0.2]\n"), Severity::note,
               "probe \"spot\" is 0.7 m from luminaire \"low lamp\"");
-  // Of two states of light with the same doors, the one with the lamp on.
+  // Only the state with the lamp on, of two states of light with the same doors.
   const std::string dark = replaced(emergency, "lit", "dark") + "circuits = { low = 0 }\n";
   check_found(found(way + emergency + dark), Severity::warning, "(in scenario \"lit\")");
   check_no_alarm(found(replaced(way, "[[1, 0, 0]", "[[5, 0, 0]") + emergency));
