@@ -3,8 +3,8 @@
 
 Traces a scene (the office floor in smoke, 1 million particles) into a folder of its own and prints,
 for flux.lux, which ends the tracing, and the first picture of each view: seconds of the clock since
-the flux, and processor seconds of the program since then, which hardly depend on the machine's load.
-Ends the program when all exist. Linux.
+the flux, and processor seconds of the program since then, which hardly depend on the machine's
+load. Ends the program when all exist. Linux.
 """
 import json
 import os
