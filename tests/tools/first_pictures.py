@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures when first pictures exist: first_pictures.py PROGRAM [SCENE [OPTIONS of luxodus run ...]]
+"""Measures when first pictures come: first_pictures.py PROGRAM [SCENE [OPTIONS of luxodus run ...]]
 
 Traces a scene (the office floor in smoke, 1 million particles) into a folder of its own and prints,
 for flux.lux, which ends the tracing, and the first picture of each view: seconds of the clock since

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""large_fire.py FOLDER [FRAMES]: writes results like those of FDS for a building of 5 million cells in
-16 meshes, with Smoke3D of soot and HRRPUV in 1000 frames by default (1.2 GB), and a scene of them.
+"""large_fire.py FOLDER [FRAMES]: writes results like those of FDS for a building of 5 million cells
+in 16 meshes, with Smoke3D of soot and HRRPUV in 1000 frames by default (1.2 GB), and a scene of
+them.
 To measure the cost of opening it:
 
     tests/tools/large_fire.py /tmp/large
