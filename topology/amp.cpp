@@ -16,20 +16,20 @@
 namespace luxodus {
 namespace {
 
-// Base vertices of a rotational search: more symmetry forces short cycles, less costs time and
-// misses (40 nodes meet the bound at once with 8 or 10, and within 8 s not with 40).
+// Base vertices of a rotational search: more symmetry forces short cycles; less takes longer and
+// may miss the optimum (40 nodes meet the bound at once with 8 or 10, but not within 8 s with 40).
 constexpr uint32_t min_base = 8;
 constexpr uint32_t max_base = 16;
-// Up to so many nodes every rotation is tried: runs are short.
+// Up to this many nodes every rotation is tried: runs are short.
 constexpr uint32_t small_nodes = 16;
 
-// Temperatures [hops of the base vertices]. Of 100 runs with 128 nodes those from 3 to 0.8 met the
-// shortest 4 times, from 1.5 to 0.8 three times, from 3 to 1.2 once.
+// Temperatures [hops of the base vertices]. Of 100 runs with 128 nodes, those from 3 to 0.8 found
+// the shortest graph 4 times, from 1.5 to 0.8 three times, from 3 to 1.2 once.
 constexpr double hottest = 3.0;
 constexpr double coldest = 0.8;
 
-// Of graphs that meet the bound so many are compared. With 32 nodes 47 of 52 searches found among
-// them one with balanced routes whose diameter is 4 after any failure, the least there is.
+// Number of graphs at the bound that are compared. With 32 nodes, 47 of 52 searches found among
+// them one with balanced routes whose diameter is 4 after any failure, the minimum.
 constexpr uint32_t compared_at_bound = 24;
 
 constexpr uint64_t moves_between_questions = 4096;
@@ -46,7 +46,7 @@ std::optional<std::string> refusal(const AmpRequest& request) {
     return fmt::format("a vertex has at most {} links", limits::vertex_links);
   if (controller > nodes)
     return fmt::format("a controller with {} links needs as many nodes", controller);
-  // A node has n - 1 partners; what it has beyond them only the controller can take.
+  // A node has n - 1 partners among the nodes; only the controller can use further links.
   const uint64_t ends = nodes * std::min(links, nodes - 1 + (controller > 0 ? 1 : 0));
   const uint64_t needed = 2 * (nodes - 1) + controller;
   if (ends < needed)
@@ -57,7 +57,7 @@ std::optional<std::string> refusal(const AmpRequest& request) {
   return std::nullopt;
 }
 
-/// Ways to see the nodes as copies of fewer: one run after another takes the next.
+/// Decompositions of the nodes into rotated copies of base vertices; runs take them in turn.
 std::vector<LiftShape> shapes_for(const AmpRequest& request) {
   std::vector<LiftShape> shapes, larger;
   for (uint32_t turns = request.nodes; turns >= 1; --turns) {
@@ -71,7 +71,7 @@ std::vector<LiftShape> shapes_for(const AmpRequest& request) {
   return shapes;
 }
 
-/// Hops of all ordered pairs that no lift can beat: those of HopCounter, times turns.
+/// Lower bound on the hops of all ordered pairs of any lift, in HopCounter's units times turns.
 uint64_t bound_of(const AmpRequest& request) {
   uint64_t hops =
       hop_bound(full_worker_degrees(request.nodes, request.links, request.controller_links)).hops;
@@ -80,7 +80,7 @@ uint64_t bound_of(const AmpRequest& request) {
   return hops;
 }
 
-/// Runs, and moves in each, that are useful for a size: what finds the graphs of the README.
+/// Useful number of runs and of moves per run for a size: enough to find the graphs of the README.
 struct Effort {
   uint64_t runs;
   uint64_t moves;
@@ -91,8 +91,8 @@ Effort effort_for(const LiftShape& costliest) {
   const uint32_t nodes = costliest.workers();
   if (nodes <= small_nodes) return {24, 20'000};
   if (nodes <= 40) return {24, 100'000};
-  // Joints are read once a hop for each 64 sources. So many reads take from half a minute to two,
-  // the larger the base the longer; a size without a useful rotation, a large prime, has fewer
+  // Each joint is read once per hop for each 64 sources. This many reads take half a minute to two,
+  // longer for larger bases; a size without a useful rotation, such as a large prime, gets fewer
   // moves.
   constexpr uint64_t max_reads = 5'000'000'000;
   constexpr uint64_t min_runs = 8;
@@ -102,7 +102,7 @@ Effort effort_for(const LiftShape& costliest) {
   return {std::min<uint64_t>(80, all_moves / moves), moves};
 }
 
-/// A graph that was found, and all by which it is compared.
+/// A graph that was found, with its criteria of comparison.
 class Candidate {
  public:
   explicit Candidate(Graph graph) : graph_(std::move(graph)) {
@@ -125,8 +125,8 @@ class Candidate {
   }
 
  private:
-  /// Heaviest link; diameter and average after the worst failure; and, less being better, how far
-  /// from the most symmetric graph.
+  /// Heaviest link; diameter and average after the worst failure; distance from the most symmetric
+  /// graph. Less is better.
   using Sturdiness = std::tuple<uint64_t, uint32_t, double, uint32_t>;
 
   const Sturdiness& sturdiness() {
@@ -143,7 +143,8 @@ class Candidate {
   Graph graph_;
   uint32_t diameter_ = 0;
   uint64_t hops_ = 0;
-  std::optional<Sturdiness> sturdiness_;  // takes a while, so only once and where it decides
+  // expensive, so computed at most once and only if it decides
+  std::optional<Sturdiness> sturdiness_;
 };
 
 class AmpSearch {
@@ -184,7 +185,8 @@ class AmpSearch {
         temperature =
             hottest * std::exp(cooling * static_cast<double>(move) / static_cast<double>(moves));
       }
-      // Metropolis: so many hops more are taken with a chance of exp(-more / temperature).
+      // Metropolis criterion: `more` additional hops are accepted with probability exp(-more /
+      // temperature).
       const double more = -temperature * std::log(1.0 - random.uniform_double());
       const uint64_t enough = hops + static_cast<uint64_t>(more);
       lift.change(random);
@@ -222,7 +224,7 @@ class AmpSearch {
   uint64_t moves_ = 0;
 };
 
-/// Everyone with everyone, and the controller with the first few, where there are links for that.
+/// The complete graph, with the controller linked to the first nodes, if there are enough links.
 std::optional<Graph> complete_graph(const AmpRequest& request) {
   const bool controller = request.controller_links > 0;
   if (request.links + 1 < request.nodes + (controller ? 1 : 0)) return std::nullopt;

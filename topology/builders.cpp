@@ -17,7 +17,7 @@ std::optional<Problem> size_problem(uint32_t nodes) {
   return problem(fmt::format("{} nodes: a graph has from 1 to {}", nodes, limits::graph_vertices));
 }
 
-/// The graph of these links, with as many links a node as the busiest has.
+/// The graph of these links; its link limit is the largest degree.
 Result<Graph> graph_of(uint32_t nodes, uint32_t rotation, std::vector<GraphLink> links) {
   std::vector<uint32_t> degree(nodes);
   for (const GraphLink& link : links) {
@@ -30,7 +30,7 @@ Result<Graph> graph_of(uint32_t nodes, uint32_t rotation, std::vector<GraphLink>
   return Graph(std::move(plan));
 }
 
-/// Links from node 0 to these distances, turned all the way round.
+/// Links from node 0 to these distances, and all their rotations.
 std::vector<GraphLink> circulant(uint32_t nodes, const std::vector<uint32_t>& distances) {
   std::vector<GraphLink> once;
   for (const uint32_t distance : distances) {
@@ -39,7 +39,7 @@ std::vector<GraphLink> circulant(uint32_t nodes, const std::vector<uint32_t>& di
   return turned(nodes, nodes, once);
 }
 
-/// The greatest divisor that is at most the root: the rows of the grid nearest to a square.
+/// The greatest divisor up to the square root: the rows of the most nearly square grid.
 uint32_t rows_of(uint32_t nodes) {
   uint32_t rows = 1;
   for (uint32_t r = 1; r * r <= nodes; ++r) {
@@ -118,9 +118,9 @@ Result<Graph> make_chordal_ring(uint32_t nodes) {
 }
 
 Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed) {
-  // Links are exchanged so often each: after 10 nothing of the order is left to be measured.
+  // Exchanges per link: after 10 no trace of the initial order is measurable.
   constexpr uint64_t exchanges_per_link = 50;
-  // At random a graph of 3 links and more falls apart once in many thousand times.
+  // A random graph of 3 or more links per node is disconnected once in many thousand times.
   constexpr uint64_t max_attempts = 100;
   if (auto problem = size_problem(nodes)) return *problem;
   if (links >= nodes || links > limits::vertex_links || uint64_t{nodes} * links % 2 == 1) {

@@ -26,7 +26,7 @@ std::vector<uint16_t> hops_from(const Graph& graph, Vertex source) {
   return hops;
 }
 
-/// The vertex nearest to the leader, and then always the one that is farthest from those chosen.
+/// The vertex nearest to the leader, then repeatedly the one farthest from those chosen.
 std::vector<Vertex> centres_of(const Graph& graph, Vertex leader, const std::vector<Vertex>& among,
                                size_t count) {
   std::vector<uint16_t> far = hops_from(graph, leader);
@@ -64,7 +64,7 @@ CoordinationTree::CoordinationTree(const Graph& graph, uint32_t fan_out)
   measure(root());
 }
 
-/// Gives each of these vertices a place below the leader.
+/// Places each of these vertices below the leader.
 void CoordinationTree::lead(const Graph& graph, Vertex leader, std::vector<Vertex> below,
                             uint32_t fan_out) {
   hops_[leader] = hops_from(graph, leader);

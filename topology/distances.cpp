@@ -8,7 +8,7 @@ namespace luxodus {
 PathLengths path_lengths(const Adjacency& graph) {
   const size_t n = graph.vertices();
   const size_t words = (n + 63) / 64;
-  // Row v holds who has reached v so far.
+  // Row v holds the sources that have reached v so far.
   std::vector<uint64_t> reached(n * words);
   for (size_t v = 0; v < n; ++v) reached[v * words + v / 64] |= uint64_t{1} << (v % 64);
   std::vector<uint64_t> next(reached);
@@ -28,7 +28,7 @@ PathLengths path_lengths(const Adjacency& graph) {
     }
     const uint64_t still = lengths.pairs + n - have;
     if (still == missing) break;
-    // A pair first met after k hops was missing k times before.
+    // A pair first reached after k hops was missing k times before.
     lengths.hops += missing;
     missing = still;
     ++lengths.diameter;
@@ -47,10 +47,10 @@ PathLengths hop_bound(std::span<const uint32_t> degrees) {
     uint64_t layer = 0;
     for (size_t v = 0; v < degrees.size(); ++v) {
       layer += walks[v];
-      // No more than all pairs counts, and so no power overflows.
+      // Capped at all pairs, so that no power overflows.
       walks[v] = std::min(walks[v] * (std::max(degrees[v], 1u) - 1), bound.pairs);
     }
-    if (layer == 0) break;  // too few links to connect them: no walk goes on
+    if (layer == 0) break;  // too few links to connect them: no walk continues
     layer = std::min(layer, left);
     ++bound.diameter;
     bound.hops += layer * bound.diameter;
@@ -63,7 +63,7 @@ std::vector<uint32_t> full_worker_degrees(uint32_t nodes, uint32_t links,
                                           uint32_t controller_links) {
   const uint32_t most = std::min(links, nodes - 1);
   std::vector<uint32_t> degrees(nodes, most);
-  // A node whose links are more than it has partners gives the controller a spare one.
+  // A node with more links than partners gives a spare one to the controller.
   if (links < nodes) {
     for (uint32_t i = 0; i < controller_links; ++i) --degrees[i % nodes];
   }

@@ -13,10 +13,10 @@
 namespace luxodus {
 namespace {
 
-constexpr double picture_px = 900;  // wide and high, of which the drawing takes all but the border
+constexpr double picture_px = 900;  // width and height, including the border
 constexpr double border_px = 60;
 
-/// Colours of the links, by the family of turned copies each belongs to.
+/// Colours of the links, one for each rotation family.
 std::vector<std::string> link_colours(const Graph& graph) {
   if (graph.rotation() == 1) return std::vector<std::string>(graph.links().size(), "#7a8aa0");
   std::map<GraphLink, size_t> families;
@@ -27,7 +27,7 @@ std::vector<std::string> link_colours(const Graph& graph) {
   }
   std::vector<std::string> colours;
   for (const size_t f : family) {
-    // Hues evenly apart, of one lightness.
+    // Evenly spaced hues of one lightness.
     const double hue = 6.0 * double(f) / double(families.size());
     const auto channel = [&](double at) {
       const double k = std::fmod(at + hue, 6.0);
@@ -38,7 +38,7 @@ std::vector<std::string> link_colours(const Graph& graph) {
   return colours;
 }
 
-/// Text for XML and for quoted strings of DOT.
+/// Escapes text for XML and for quoted strings of DOT.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : xml_escape(text)) out += c == '\\' ? std::string("&#92;") : std::string(1, c);
@@ -54,7 +54,7 @@ double px(double along) {
 std::string graph_svg(const Graph& graph, std::string_view title) {
   const std::vector<DrawnPlace> places = layout(graph);
   const std::vector<std::string> colours = link_colours(graph);
-  // Vertices stay apart on the circle, and numbers readable, as far as there is room.
+  // Keeps vertices apart on the circle and numbers readable, as far as there is room.
   const double radius = std::clamp(800.0 / graph.vertices(), 3.0, 17.0);
   // A letter is about half as wide as high.
   const double title_px = std::min(16.0, 1.8 * picture_px / static_cast<double>(title.size() + 1));
@@ -85,7 +85,7 @@ std::string graph_svg(const Graph& graph, std::string_view title) {
 }
 
 std::string graph_dot(const Graph& graph, std::string_view title) {
-  constexpr double points = 500;  // from the middle to the border [pt]
+  constexpr double points = 500;  // from the centre to the border [pt]
   const std::vector<DrawnPlace> places = layout(graph);
   const std::vector<std::string> colours = link_colours(graph);
   std::string dot = fmt::format(

@@ -1,6 +1,5 @@
-// A graph as a picture: SVG to look at, DOT for Graphviz and other tools. Copies of one link by
-// rotation have one colour. Equal graphs, equal bytes; no scripts, nothing from outside. Any
-// thread.
+// Drawings of a graph: SVG, and DOT for Graphviz and other tools. Links of one rotation family have
+// one colour. Equal graphs give equal bytes; no scripts, no external resources. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -10,10 +9,10 @@
 
 namespace luxodus {
 
-/// `title` stands above the drawing, as it is.
+/// `title` is printed above the drawing.
 std::string graph_svg(const Graph& graph, std::string_view title);
 
-/// With the same places, pinned: `neato -n` keeps them.
+/// DOT with the same positions, pinned: `neato -n` keeps them.
 std::string graph_dot(const Graph& graph, std::string_view title);
 
 }  // namespace luxodus

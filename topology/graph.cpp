@@ -63,8 +63,7 @@ std::optional<std::string> fault_of_sizes(const GraphPlan& plan, uint32_t vertic
   return std::nullopt;
 }
 
-/// The first link that leaves the graph, returns to where it starts, stands twice, or is one too
-/// many for its vertex.
+/// The first link that is out of range, a loop, a duplicate, or beyond its vertex's limit.
 std::optional<GraphFault> fault_of_links(const GraphPlan& plan, uint32_t vertices) {
   std::vector<std::vector<Vertex>> neighbours(vertices);
   for (size_t i = 0; i < plan.links.size(); ++i) {

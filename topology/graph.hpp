@@ -1,8 +1,8 @@
-// A graph: who has a link to whom. `workers` nodes, numbered from 0, and at most one controller,
-// which then is the last vertex. A Graph is whole: simple, within its limits, and connected,
-// without the controller's help unless it forwards. It may be rotational: turning its picture by
-// one part in `rotation` maps links to links. It knows no routes (routes.hpp) and no places
-// (layout.hpp). Immutable values; any thread.
+// A graph of links. It has `workers` nodes, numbered from 0, and at most one controller, which is
+// then the last vertex. A Graph is valid: simple, within its limits, and connected (without the
+// controller unless it forwards). It may be rotational: turning it by one part in `rotation` maps
+// links to links. It has no routes (routes.hpp) and no positions (layout.hpp). Immutable values;
+// any thread.
 #pragma once
 
 #include <compare>
@@ -15,14 +15,14 @@
 namespace luxodus {
 
 namespace limits {
-/// Vertices of a graph. Tables take 3 bytes a pair of them, 3 MB here, and so many words to send at
-/// most; ten times as many take a hundred times that, and minutes to measure.
+/// Most vertices. Tables take 3 bytes per pair of them, 3 MB at this limit; ten times as many would
+/// take a hundred times that, and minutes to measure.
 inline constexpr uint32_t graph_vertices = 1024;
-/// Links of one vertex. A port is one byte in the tables; the hypercube of 1024 has 10.
+/// Most links of one vertex. A port is one byte in the tables; the hypercube of 1024 has 10.
 inline constexpr uint32_t vertex_links = 64;
 }  // namespace limits
 
-/// A node of the graph, or its controller: from 0.
+/// A node of the graph, or its controller, numbered from 0.
 using Vertex = uint32_t;
 
 /// A link in both directions; a < b.
@@ -33,17 +33,16 @@ struct GraphLink {
   friend auto operator<=>(const GraphLink&, const GraphLink&) = default;
 };
 
-/// The link between two vertices, whichever is named first.
+/// The link between two vertices, in either order.
 constexpr GraphLink link_between(Vertex a, Vertex b) {
   return a < b ? GraphLink{a, b} : GraphLink{b, a};
 }
 
-/// Neighbours of every vertex, in ascending order, without any further meaning. The place of a
-/// neighbour among those of its vertex is its port; all ports in a row are the arcs, directed
-/// links.
+/// Neighbours of every vertex, in ascending order. The index of a neighbour among those of its
+/// vertex is its port; all ports in sequence are the arcs (directed links).
 class Adjacency {
  public:
-  /// Requires: every link between two different vertices < vertices, none twice.
+  /// Requires: every link joins two different vertices < vertices, and none is a duplicate.
   Adjacency(uint32_t vertices, std::span<const GraphLink> links);
 
   uint32_t vertices() const { return static_cast<uint32_t>(first_.size() - 1); }
@@ -60,21 +59,21 @@ class Adjacency {
 };
 
 enum class ControllerRole {
-  none,      // there is none
-  endpoint,  // sends and receives, but passes nothing on
-  forwards,  // a vertex as all others
+  none,      // no controller
+  endpoint,  // sends and receives, but forwards nothing
+  forwards,  // an ordinary vertex
 };
 
-/// What a graph is made from.
+/// Input from which a graph is made.
 struct GraphPlan {
   uint32_t workers = 0;
-  uint32_t max_links = 0;  // of a worker; the controller may have more or fewer
+  uint32_t max_links = 0;  // per worker; the controller may have more or fewer
   ControllerRole controller = ControllerRole::none;
   uint32_t rotation = 1;
   std::vector<GraphLink> links;
 };
 
-/// Why a plan is no graph, and the first link that is wrong, where it is a link's fault.
+/// Why a plan is invalid, and the first wrong link if a link is the cause.
 struct GraphFault {
   std::string what;
   std::optional<size_t> link;
@@ -99,7 +98,7 @@ class Graph {
   /// Requires: has_controller().
   Vertex controller() const { return plan_.workers; }
   uint32_t controller_links() const { return has_controller() ? all_.degree(controller()) : 0; }
-  /// Whether messages of others may pass through this vertex.
+  /// Whether messages between other vertices may pass through this one.
   bool forwards(Vertex v) const {
     return v != plan_.workers || plan_.controller != ControllerRole::endpoint;
   }
@@ -109,7 +108,7 @@ class Graph {
   /// The workers and the links among them.
   Adjacency among_workers() const;
 
-  /// Equal graphs, equal hashes, in every process: of all that is asked above.
+  /// Equal graphs have equal hashes in every process.
   uint64_t hash() const;
 
  private:
@@ -117,11 +116,11 @@ class Graph {
   Adjacency all_;
 };
 
-/// The links among the workers of a plan or graph, that is, without the controller.
+/// The links among the workers, without the controller's.
 std::vector<GraphLink> links_among(uint32_t workers, std::span<const GraphLink> links);
 
-/// `links` and all their turned copies: worker v goes to v + workers / rotation, modulo workers,
-/// and the controller stays. Sorted, none twice. Requires: rotation divides workers.
+/// `links` and all their rotations: worker v maps to v + workers / rotation, modulo workers; the
+/// controller is fixed. Sorted, without duplicates. Requires: rotation divides workers.
 std::vector<GraphLink> turned(uint32_t workers, uint32_t rotation,
                               std::span<const GraphLink> links);
 

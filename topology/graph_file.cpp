@@ -14,8 +14,6 @@
 namespace luxodus {
 namespace {
 
-// Characters of a file that are repeated in a message about it.
-
 constexpr std::string_view format_name = "luxodus graph 1";
 
 constexpr std::array<std::pair<std::string_view, ControllerRole>, 3> roles{{
@@ -60,7 +58,7 @@ std::string graph_text(const Graph& graph) {
 
 namespace {
 
-/// Reads the text from front to back. The first fault is kept, and after it everything fails.
+/// Parses the text from front to back. The first fault is kept, and all later calls fail.
 class GraphParser {
  public:
   GraphParser(std::string_view text, const std::string& file) : text_(text), file_(file) {}
@@ -106,7 +104,7 @@ class GraphParser {
     for (skip_blanks(); !fault_ && at_ < text_.size(); skip_blanks()) {
       const int line = line_;
       std::string_view name = word();
-      if (name == "links_most") name = "max_links";  // as files of earlier releases say
+      if (name == "links_most") name = "max_links";  // the name in files of earlier releases
       size_t key = 0;
       while (key < keys && key_names[key] != name) ++key;
       if (key == keys) return fail(fmt::format("there is no key \"{}\" in a graph", excerpt(name)));
@@ -222,7 +220,7 @@ class GraphParser {
     return true;
   }
 
-  /// Letters and underscores; empty where there are none.
+  /// Letters and underscores; empty if there are none.
   std::string_view word() {
     const size_t start = at_;
     while (at_ < text_.size() && ((text_[at_] >= 'a' && text_[at_] <= 'z') || text_[at_] == '_')) {

@@ -1,8 +1,8 @@
 // For every worker there is a word with one bit for each source that has reached it: the base
-// vertices, and the controller. The words of the turned copies of one base vertex lie side by side,
-// once round and once more, so that a step of all sources over all copies of a joint is one loop of
-// `or` without a wrap, over whole vector registers. A register may reach beyond the first round:
-// what it leaves there is written over when the round is repeated. (One bit for each source: Nakao,
+// vertices, and the controller. The words of the rotated copies of one base vertex are contiguous,
+// one round and then repeated once, so that a step of all sources over all copies of a joint is one
+// loop of `or` without a wrap, over whole vector registers. A register may extend beyond the first
+// round: its excess is overwritten when the round is repeated. (One bit for each source: Nakao,
 // Murai, Sato 2020.)
 #include <algorithm>
 #include <bit>
@@ -13,10 +13,10 @@
 namespace luxodus {
 namespace {
 
-// More than any way has.
+// More than the hops of any path.
 constexpr uint64_t hops_of_no_way = 2 * limits::graph_vertices;
 
-/// A register's worth of words.
+/// One vector register of words.
 template <size_t bytes>
 struct ChunkOf {
   using Type [[gnu::vector_size(bytes)]] = uint64_t;
@@ -36,7 +36,7 @@ uint64_t bits_in(const Chunk& chunk) {
   return bits;
 }
 
-/// Works on so many bytes at a time.
+/// Works on this many bytes at a time.
 template <size_t chunk_bytes>
 class HopCounterOf final : public HopCounter {
  public:
@@ -66,15 +66,16 @@ class HopCounterOf final : public HopCounter {
  private:
   using Chunk = typename ChunkOf<chunk_bytes>::Type;
 
-  /// From the sources first .. end - 1, of which number `base` is the controller.
+  /// Hops from the sources first .. end - 1; source number `base` is the controller.
   uint64_t hops_of_sources(const Lift& lift, uint32_t first, uint32_t end, uint64_t enough) {
     const uint32_t base = shape_.base;
     const bool controller = end > base;
     const uint64_t base_sources = std::min(end, base) - first;
     start(first, std::min(end, base));
 
-    // Pairs not yet met: from base sources to workers, and from the controller to base vertices. As
-    // pairs that meet after k hops are missing k times, the sum of what is missing is that of hops.
+    // Pairs not yet reached: from base sources to workers, and from the controller to base
+    // vertices. A pair reached after k hops is missing k times, so the sum of missing pairs is the
+    // sum of hops.
     uint64_t missing = base_sources * (shape_.workers() - 1);
     uint64_t missing_controller = controller ? base : 0;
     uint64_t hops = 0;
@@ -109,8 +110,8 @@ class HopCounterOf final : public HopCounter {
     }
   }
 
-  /// One hop of all, into next_; the controller, if its bit is given, reaches whom it is linked to.
-  /// Returns how many bits are set then.
+  /// Advances all sources by one hop, into next_; the controller, if its bit is given, reaches its
+  /// neighbours. Returns the number of bits set afterwards.
   uint64_t step(const Lift& lift, uint32_t controller_bit) {
     const std::vector<Lift::Joint>& joints = lift.joints();
     uint64_t have = 0;
@@ -131,7 +132,7 @@ class HopCounterOf final : public HopCounter {
     return have;
   }
 
-  /// Returns how many bits are set in the round.
+  /// Returns the number of bits set in the round.
   uint64_t repeat_round(std::byte* row) const {
     uint64_t have = 0;
     for (size_t at = 0; at < round_bytes_; at += sizeof(Chunk)) {
@@ -159,7 +160,7 @@ class HopCounterOf final : public HopCounter {
     for (uint32_t t = 0; linked && t < shape_.turns; ++t) set_bit(row + t * word_bytes_, bit);
   }
 
-  /// Base vertices that the controller has reached.
+  /// Number of base vertices that the controller has reached.
   uint64_t controller_has(uint32_t bit) const {
     uint64_t count = 0;
     for (uint32_t b = 0; b < shape_.base; ++b) {

@@ -11,24 +11,24 @@
 namespace luxodus {
 namespace {
 
-// Half turns look the same in every drawing; from thirds on a circle says more.
+// Half turns look alike in every drawing; from thirds on a circle shows the symmetry better.
 constexpr uint32_t min_circle_rotation = 3;
 
-/// Places of a rotational graph on its circle: base vertex b stands at place slot(b) of each part,
-/// and its copies begin some parts later. Both are exchanged while the links get shorter.
+/// Positions of a rotational graph on its circle: base vertex b is at position slot(b) of each
+/// part, and its copies begin some parts later. Both are exchanged while the links get shorter.
 class CircleOrder {
  public:
   explicit CircleOrder(const Graph& graph)
       : nodes_(graph.workers()), base_(nodes_ / graph.rotation()), links_of_(base_) {
     for (const GraphLink& link : links_among(nodes_, graph.links())) {
-      // Every copy of a link is as long: those at the first part stand for all.
+      // All copies of a link have equal length: those at the first part represent the rest.
       if (link.a < base_) links_of_[link.a].push_back(link);
       if (link.b < base_ || (link.b % base_ != link.a % base_ && link.a < base_))
         links_of_[link.b % base_].push_back(link);
     }
   }
 
-  /// The place of each worker around the circle, from 0 to workers - 1.
+  /// The position of each worker around the circle, from 0 to workers - 1.
   std::vector<uint32_t> best() {
     constexpr uint64_t starts = 30;
     uint64_t least = UINT64_MAX;
@@ -97,13 +97,12 @@ class CircleOrder {
 };
 
 std::vector<DrawnPlace> on_circle(const Graph& graph) {
-  // Links between neighbours would lie on the rim, one over the other: every second vertex steps
-  // in.
+  // Links between neighbours would overlap on the rim: every second vertex moves inwards.
   constexpr uint32_t min_zigzag_base = 4;
   constexpr double inner_radius = 0.78;
   const uint32_t base = graph.workers() / graph.rotation();
   const std::vector<uint32_t> order = CircleOrder(graph).best();
-  std::vector<DrawnPlace> places(graph.vertices());  // the controller stays in the middle
+  std::vector<DrawnPlace> places(graph.vertices());  // the controller stays in the centre
   for (Vertex v = 0; v < graph.workers(); ++v) {
     const double angle = 2 * std::numbers::pi * order[v] / graph.workers();
     const double radius = order[v] % base % 2 == 0 || base < min_zigzag_base ? 1 : inner_radius;
@@ -215,7 +214,7 @@ std::vector<DrawnPlace> layout(const Graph& graph) {
   if (graph.rotation() >= min_circle_rotation) return on_circle(graph);
   const std::vector<double> hops = hops_of_all(graph.all());
   std::vector<DrawnPlace> places = main_axes(hops, graph.vertices());
-  // Points of the axes have length 1 together; hops are as long as the graph is wide.
+  // Coordinates on the axes have total length 1: scaled to the size of hops.
   for (DrawnPlace& p : places) {
     p.x *= std::sqrt(double(graph.vertices()));
     p.y *= std::sqrt(double(graph.vertices()));

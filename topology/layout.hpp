@@ -1,6 +1,6 @@
-// Where to draw the vertices so that a person sees the structure: a rotational graph on a circle
-// that shows its turns, neighbours near each other; every other graph where distances on paper are
-// nearest to hops. Deterministic; any thread.
+// Positions of the vertices that show the structure: a rotational graph on a circle that shows its
+// symmetry, with neighbours close together; any other graph so that distances approximate hops.
+// Pure and deterministic; any thread.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace luxodus {
 
-/// In the unit disc, y up.
+/// A position in the unit disc, y up.
 struct DrawnPlace {
   double x = 0;
   double y = 0;

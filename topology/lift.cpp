@@ -34,7 +34,7 @@ void Lift::leave_alone(Dart dart) {
 }
 
 void Lift::change(Random& random) {
-  // One change in eight keeps the joints and changes a turn, where there is something to turn.
+  // One change in eight keeps the joints and changes a turn, if there are turns.
   constexpr uint32_t turns_alone_one_in = 8;
   former_.clear();
   const Dart a = random_below(random, darts());
@@ -53,7 +53,7 @@ void Lift::change(Random& random) {
   }
 }
 
-/// The 2-opt move: each dart takes what the other was joined to.
+/// The 2-opt move: the two darts exchange their partners.
 void Lift::exchange(Dart a, Dart b, Random& random) {
   const Joint of_a = joints_[a];
   const Joint of_b = joints_[b];

@@ -1,9 +1,10 @@
-// A rotational graph in the making: `base` vertices and their links once, turned `turns` times.
-// Each base vertex has `links` darts, ends of links. A dart is joined to another with a turn t:
-// then (b, i) is linked to (c, i + t) for every i; or to the controller; or to none, and then it
-// links (b, i) with (b, i + turns / 2) where turns are even, and stays free where they are odd.
-// (These are the voltage graphs of Gross and Tucker, "Topological Graph Theory", with semi-edges.)
-// Links that coincide are wasted, not forbidden: the search finds that out by itself. Plain values.
+// A rotational graph during the search: `base` vertices and one copy of their links, rotated
+// `turns` times. Each base vertex has `links` darts (ends of links). A dart may be joined to
+// another with a turn t: then (b, i) is linked to (c, i + t) for every i. Or it is joined to the
+// controller. Or to none: then it links (b, i) with (b, i + turns / 2) if turns are even, and stays
+// free if they are odd. (These are the voltage graphs of Gross and Tucker, "Topological Graph
+// Theory", with semi-edges.) Links that coincide are wasted, not forbidden: the search avoids them
+// by itself. Plain values; one thread per object.
 #pragma once
 
 #include <cstdint>
@@ -35,26 +36,26 @@ class Lift {
   using Dart = uint32_t;
   static constexpr Dart to_controller = 0xFFFF'FFFF;
 
-  /// Where a dart leads.
+  /// The other end of a dart.
   struct Joint {
     Dart mate = 0;
     uint32_t base = 0;  // the mate's base vertex
     uint32_t turn = 0;
   };
 
-  /// Joined at random, a pure function of the draws.
+  /// Joined at random, as a pure function of the draws.
   Lift(const LiftShape& shape, Random& random);
 
   const LiftShape& shape() const { return shape_; }
   /// Dart d belongs to the base vertex d / shape().links.
   const std::vector<Joint>& joints() const { return joints_; }
 
-  /// Changes a few joints at random, and remembers how they were.
+  /// Changes a few joints at random, and remembers the previous ones.
   void change(Random& random);
-  /// Takes the last change back; does nothing where it was taken back already.
+  /// Undoes the last change; does nothing if it was undone already.
   void take_back();
 
-  /// All links, each once, as a Graph numbers them: (b, i) is i * base + b.
+  /// All links, each once, in a Graph's numbering: (b, i) is i * base + b.
   std::vector<GraphLink> links() const;
 
  private:
@@ -74,15 +75,15 @@ class Lift {
   std::vector<Former> former_;
 };
 
-/// Counts hops in lifts of one shape, some million times a second. One thread at a time; takes
-/// memory only when it is made.
+/// Counts hops in lifts of one shape, some million times a second. One thread at a time; allocates
+/// only on construction.
 class HopCounter {
  public:
   virtual ~HopCounter() = default;
-  /// Hops from the base vertices to all workers, without the controller's help, and twice those
-  /// from the controller to the base vertices: the hops of all ordered pairs, divided by turns. A
-  /// pair without a way counts as more hops than any way has. Any number above `enough` may come
-  /// back where the truth is above it too.
+  /// Hops from the base vertices to all workers without the controller, plus twice those from the
+  /// controller to the base vertices: the hops of all ordered pairs, divided by turns. A
+  /// disconnected pair counts as more hops than any path has. If the result exceeds `enough`, only
+  /// that fact is reliable, not its value.
   virtual uint64_t hops(const Lift& lift, uint64_t enough) = 0;
 };
 

@@ -29,7 +29,7 @@ FailureHarm harm_of_any_link(const Adjacency& graph) {
   FailureHarm harm;
   std::vector<GraphLink> links = links_of(graph);
   for (size_t i = 0; i < links.size(); ++i) {
-    // The last link stands in for the one that fails.
+    // The last link takes the index of the one that fails.
     const GraphLink failed = links[i];
     links[i] = links.back();
     take_worse(harm, path_lengths(Adjacency(graph.vertices(), {links.data(), links.size() - 1})));

@@ -1,7 +1,6 @@
-// What a graph is worth: how far it is, how far it must be, what holds it together, what is left
-// when something fails, and what its links carry. Every figure stands beside the bound that no
-// wiring of so many nodes and links can beat. Pure and deterministic; seconds for 1024 vertices.
-// Any thread.
+// Properties of a graph: distances, connectivity, robustness against failures, and link loads.
+// Every figure comes with the bound that no wiring of this many nodes and links can beat. Pure and
+// deterministic; any thread. Takes seconds for 1024 vertices.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +12,18 @@
 
 namespace luxodus {
 
-/// The worst of many graphs, each with one thing failed.
+/// The worst case over many graphs, each with one failure.
 struct FailureHarm {
-  bool falls_apart = false;  // and then the rest speaks of the pairs still connected
+  bool falls_apart = false;  // then the other figures count only connected pairs
   uint32_t diameter = 0;
-  double average = 0;  // hops a pair
+  double average = 0;  // hops per pair
 };
 
 FailureHarm harm_of_any_link(const Adjacency& graph);
-/// Pairs of the vertices that are left count.
+/// Counts pairs of the remaining vertices.
 FailureHarm harm_of_any_vertex(const Adjacency& graph);
 
-/// Of one set of vertices and the links among them.
+/// Properties of one set of vertices and the links among them.
 struct PartMeasures {
   PathLengths paths;
   PathLengths bound;
@@ -37,19 +36,18 @@ struct PartMeasures {
 };
 
 struct Measures {
-  /// All vertices, the controller forwarding like all others.
+  /// All vertices; the controller forwards like all others.
   PartMeasures all;
-  /// With a controller: the workers, which it does not help.
+  /// With a controller: the workers without its help.
   std::optional<PartMeasures> workers;
   /// With a controller: from it to the workers.
   std::optional<PathLengths> from_controller, from_controller_bound;
 
-  /// What links carry over the balanced routes, where the controller forwards only if the graph
-  /// says so.
+  /// Link loads over the balanced routes; the controller forwards only if the graph says so.
   LinkLoads all_to_all;
   std::optional<LinkLoads> gather;  // with a controller
-  /// Classes of buffers that keep routes free of deadlock: as many as the longest has hops; and
-  /// with one spare after the worst failure of one link or vertex.
+  /// Buffer classes that keep routes free of deadlock: the hops of the longest; and one more than
+  /// after the worst failure of one link or vertex.
   uint32_t hop_classes = 0;
   uint32_t hop_classes_after_failure = 0;
   uint64_t routes_hash = 0;

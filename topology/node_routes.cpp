@@ -1,6 +1,7 @@
-// Why nodes need not agree on ties. Let all know of the same failures, and let h be the hops to a
-// destination over what works. Whoever takes whichever shortest way hands to a neighbour with h -
-// 1, so h falls at each step and a message arrives after h of them. Ties matter for loads alone.
+// Why nodes need not agree on ties. Assume that all know of the same failures, and let h be the
+// hops to a destination over what works. Whichever shortest path a node takes, it forwards to a
+// neighbour with h - 1, so h falls at each step and a message arrives after h steps. Ties affect
+// only loads.
 #include "topology/node_routes.hpp"
 
 #include <algorithm>
@@ -54,8 +55,8 @@ void NodeRoutes::take_out_arc(Vertex from, Vertex to) {
   arc_works_[graph_.all().arc(from, static_cast<uint32_t>(at - neighbours.begin()))] = 0;
 }
 
-/// Breadth first from this node. A vertex inherits the first ports of all its nearer neighbours,
-/// which are complete when its turn comes.
+/// Breadth-first search from this node. A vertex inherits the first ports of all its nearer
+/// neighbours, which are complete when its turn comes.
 void NodeRoutes::find_first_ports() {
   const Adjacency& all = graph_.all();
   std::fill(hops_.begin(), hops_.end(), not_reached);
@@ -79,8 +80,8 @@ void NodeRoutes::find_first_ports() {
   }
 }
 
-/// The balanced port, if it still begins a shortest way; else one by the hash of both ends, so that
-/// destinations spread over what is left. Requires: `to` is reached.
+/// The balanced port if it still begins a shortest path; otherwise one by the hash of both ends, so
+/// that destinations spread over the remaining ones. Requires: `to` is reached.
 uint32_t NodeRoutes::choose(Vertex to) const {
   PortSet ports = first_ports_[to];
   const uint32_t balanced = balanced_port_[to];

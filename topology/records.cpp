@@ -13,7 +13,7 @@ constexpr KnownSource bound = KnownSource::meets_bound;
 constexpr KnownSource published = KnownSource::published;
 constexpr KnownSource searched = KnownSource::searched;
 
-// Nodes, links a node; diameter, average path length, and who says so.
+// Nodes, links per node; diameter, average path length, and source.
 constexpr BestKnown best_known[] = {
     {8, 3, {2, 1.571429, bound}},       {13, 3, {3, 2.038462, bound}},
     {16, 3, {3, 2.200000, bound}},      {32, 3, {4, 2.935484, bound}},

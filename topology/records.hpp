@@ -1,7 +1,7 @@
-// The shortest graphs known for some sizes, so that a search can say where it stands: from the
-// tables of Graph Golf (research.nii.ac.jp/graphgolf, 2016 to 2018) and of the degree/diameter
-// problem (combinatoricswiki.org, 2024), and from searches of our own, before the graphs of
-// shipped.hpp were found, where no table was at hand. Constant values; any thread.
+// The shortest graphs known for some sizes, for comparison with a search: from the tables of Graph
+// Golf (research.nii.ac.jp/graphgolf, 2016 to 2018) and of the degree/diameter problem
+// (combinatoricswiki.org, 2024); for sizes without a table from our own searches, before the graphs
+// of shipped.hpp were found. Constant data; any thread.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 namespace luxodus {
 
 enum class KnownSource {
-  meets_bound,  // and so cannot be beaten
+  meets_bound,  // optimal
   published,    // by others
-  searched,     // by a search of our own; others may know better
+  searched,     // by our own search; better ones may be known elsewhere
 };
 
 struct KnownBest {
   uint32_t diameter = 0;
-  double average = 0;  // hops a pair, to six digits or as many as were published
+  double average = 0;  // hops per pair, to six digits or as published
   KnownSource source = KnownSource::searched;
 };
 

@@ -1,9 +1,9 @@
-// All routes to one destination form a tree. A vertex that has several neighbours nearer to the
-// destination may hang, with all that hangs below it, on any of them: a move takes its weight (the
-// messages that pass it) from the links of the one way and puts it on those of the other, up to
-// where both meet. A move is taken if the sum of squared loads does not grow; moves that change
-// nothing lead over plateaus. The sum of squares, not the maximum, is what is followed: it tells
-// even of moves far from the heaviest link whether they help.
+// All routes to one destination form a tree. A vertex with several neighbours nearer to the
+// destination may be attached, with its subtree, to any of them: a move takes its weight (the
+// messages that pass it) from the links of one path and adds it to those of the other, up to where
+// both meet. A move is accepted if the sum of squared loads does not grow; neutral moves cross
+// plateaus. The objective is the sum of squares and not the maximum, since it shows even for moves
+// far from the heaviest link whether they help.
 #include "topology/routes.hpp"
 
 #include <algorithm>
@@ -16,15 +16,15 @@
 namespace luxodus {
 namespace {
 
-// Every choice is looked at so often at most. Twice as often changes the heaviest links of graphs
-// of 6 to 1024 vertices by one message at most.
+// Most passes over all choices. Twice as many change the heaviest links of graphs of 6 to 1024
+// vertices by at most one message.
 constexpr uint64_t max_passes = 100;
-// The same for large graphs: a pass takes the square of the vertices, and the first ten passes make
+// Most passes for large graphs: a pass takes time quadratic in the vertices, and the first ten make
 // all but a millionth of the gain. With a hundred, 1024 vertices took seconds, and their heaviest
-// links were lighter by 0.4 % at most.
+// links were lighter by at most 0.4 %.
 constexpr uint64_t min_passes = 10;
-constexpr uint64_t fully_searched = 256;  // workers: up to here all passes
-// So many passes in a row without gain end the search.
+constexpr uint64_t fully_searched = 256;  // workers: up to this many all passes are made
+// Consecutive passes without gain that end the search.
 constexpr int max_idle_passes = 20;
 
 uint64_t passes_for(uint64_t workers) {
@@ -32,7 +32,7 @@ uint64_t passes_for(uint64_t workers) {
   return std::clamp(affordable, min_passes, max_passes);
 }
 
-/// Ports of a vertex.
+/// A set of a vertex's ports.
 using PortSet = uint64_t;
 static_assert(limits::vertex_links <= 64, "a port is a bit of a word");
 
@@ -42,7 +42,7 @@ uint32_t Routes::longest() const {
   return hops_.empty() ? 0 : *std::max_element(hops_.begin(), hops_.end());
 }
 
-/// Fills Routes. One use.
+/// Fills Routes. Used once.
 class RouteBalancer {
  public:
   explicit RouteBalancer(const Graph& graph)
@@ -86,7 +86,7 @@ class RouteBalancer {
  private:
   static constexpr uint16_t unseen = 0xFFFF;
 
-  /// A choice among several arcs that begin a shortest way: of `from`, on the way to `to`.
+  /// A choice among several arcs that begin a shortest path from `from` to `to`.
   struct Choice {
     Vertex from;
     Vertex to;
@@ -94,7 +94,7 @@ class RouteBalancer {
     uint32_t options;
   };
   struct Choices {
-    /// Where there is none, nothing is added.
+    /// Adds nothing if there is no choice.
     void add(const Graph& graph, Vertex from, Vertex to, PortSet ports) {
       const auto options = static_cast<uint32_t>(std::popcount(ports));
       if (options < 2) return;
@@ -104,10 +104,10 @@ class RouteBalancer {
       }
     }
     std::vector<Choice> all;
-    std::vector<uint32_t> arcs;  // options of all choices, one choice after another
+    std::vector<uint32_t> arcs;  // the choices' options in sequence
   };
 
-  /// Hops to `to` from everywhere, all neighbours that are nearer, and of these the first.
+  /// Computes hops to `to` from everywhere, all nearer neighbours, and the first of these.
   void plant_tree(Vertex to) {
     const Adjacency& all = graph_.all();
     uint16_t* const hops = &routes_.hops_[routes_.at(0, to)];
@@ -133,8 +133,8 @@ class RouteBalancer {
     }
   }
 
-  /// A message from each worker: what passes a vertex is its own and all that hangs below it. The
-  /// queue of plant_tree() has the farthest last.
+  /// A message from each worker: a vertex forwards its own and those of its subtree. The queue of
+  /// plant_tree() has the farthest last.
   void send_from_all_workers(Vertex to) {
     for (size_t i = queue_.size() - 1; i > 0; --i) {
       const Vertex from = queue_[i];
@@ -146,7 +146,7 @@ class RouteBalancer {
     }
   }
 
-  /// From the controller only its own first step is left to choose: the rest is the workers' way.
+  /// Only the controller's own first hop is a choice: the rest are the workers' routes.
   void balance_controller(const std::vector<PortSet>& from_controller) {
     std::fill(weight_.begin(), weight_.end(), 0);
     std::fill(load_.begin(), load_.end(), 0);
@@ -162,7 +162,7 @@ class RouteBalancer {
     search(choices);
   }
 
-  /// One message, along the present routes.
+  /// Sends one message along the present routes.
   void send(Vertex from, Vertex to) {
     for (Vertex v = from; v != to; v = routes_.next_hop(v, to)) {
       ++weight_[routes_.at(v, to)];
@@ -184,7 +184,7 @@ class RouteBalancer {
     }
   }
 
-  /// Takes another next hop, unless the sum of squares grows. True if it shrinks.
+  /// Changes a next hop unless the sum of squares grows. Returns true if it shrinks.
   bool try_arc(Vertex from, Vertex to, uint32_t new_arc) {
     const uint32_t old_arc = routes_.next_arc(from, to);
     if (new_arc == old_arc) return false;
@@ -196,8 +196,7 @@ class RouteBalancer {
     return growth < 0;
   }
 
-  /// Calls `both(arc, arc)` for each step of two ways to `to` until they meet: they are as long as
-  /// each other.
+  /// Calls `both(arc, arc)` for each step of two paths of equal length to `to`, until they meet.
   template <class Both>
   void along(uint32_t a, uint32_t b, Vertex to, Both both) const {
     while (true) {
@@ -210,7 +209,7 @@ class RouteBalancer {
     }
   }
 
-  /// By how much the sum of squares grows: (load + w)^2 - load^2, and the same with -w.
+  /// Growth of the sum of squares: (load + w)^2 - load^2, and the same with -w.
   int64_t reroute_growth(uint32_t old_arc, uint32_t new_arc, Vertex to, int64_t weight) const {
     int64_t growth = 0;
     along(old_arc, new_arc, to, [&](uint32_t from, uint32_t onto) {
@@ -242,11 +241,12 @@ class RouteBalancer {
   const Graph& graph_;
   Random random_;
   Routes routes_;
-  std::vector<uint8_t> port_back_;  // of an arc: its port at the vertex that it leads to
-  std::vector<PortSet> nearer_;     // ports that begin a shortest way to the last planted: [from]
-  std::vector<Vertex> queue_;       // of plant_tree()
-  std::vector<int32_t> weight_;     // messages that pass a vertex on the way to another: [to][from]
-  std::vector<int64_t> load_;       // of an arc
+  std::vector<uint8_t> port_back_;  // by arc: its port at its target
+  // ports that begin a shortest path in the last planted tree: [from]
+  std::vector<PortSet> nearer_;
+  std::vector<Vertex> queue_;    // of plant_tree()
+  std::vector<int32_t> weight_;  // messages that pass a vertex on the way to another: [to][from]
+  std::vector<int64_t> load_;    // by arc
 };
 
 Routes balanced_routes(const Graph& graph) {
@@ -255,7 +255,7 @@ Routes balanced_routes(const Graph& graph) {
 
 namespace {
 
-/// Sends a message from each worker to each destination, and gives what each arc then carried.
+/// Sends a message from each worker to each destination, and returns the load of each arc.
 std::vector<uint64_t> carried(const Graph& graph, const Routes& routes, Vertex first_destination,
                               Vertex end_destination) {
   std::vector<uint64_t> load(graph.all().arcs());

@@ -6,7 +6,7 @@
 namespace luxodus {
 namespace {
 
-/// A graph, as one link of each family that turns into each other.
+/// A graph, as one link of each rotation family.
 struct ShippedRow {
   ShippedSize size;
   uint32_t rotation;

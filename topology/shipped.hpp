@@ -1,5 +1,5 @@
-// Minimum-path graphs of common sizes, found by long searches (amp.hpp) and compiled into the
-// program, so that a start needs neither a search nor a file. Constant values; any thread.
+// Minimum-path graphs of common sizes, found by long searches (amp.hpp) and compiled in, so that a
+// start needs neither a search nor a file. Constant data; any thread.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace luxodus {
 
-/// A size that ships.
+/// A size with a compiled-in graph.
 struct ShippedSize {
   uint32_t nodes = 0;
   uint32_t links = 0;
@@ -19,16 +19,15 @@ struct ShippedSize {
   friend bool operator==(const ShippedSize&, const ShippedSize&) = default;
 };
 
-/// All of them.
+/// All sizes.
 std::vector<ShippedSize> shipped_sizes();
 
-/// The graph of this size, if it ships. `role` is that of its controller, where it has one: then it
-/// is not `none`.
+/// The compiled-in graph of this size, if there is one. `role` is that of its controller; not
+/// `none` if it has one.
 std::optional<Graph> shipped_graph(const ShippedSize& size,
                                    ControllerRole role = ControllerRole::endpoint);
 
-/// The graph that ships for this request, else one that is searched for.
-/// Errors: as find_amp.
+/// The compiled-in graph for this request, or one found by a search. Errors: those of find_amp.
 Result<Graph> minimum_path_graph(const AmpRequest& request);
 
 }  // namespace luxodus

@@ -9,8 +9,8 @@
 namespace luxodus {
 namespace {
 
-/// Unit flows between two points of a directed network, one augmenting path after another
-/// (Ford and Fulkerson). Flows are at most a vertex's links, so few paths are sought.
+/// Unit flows between two vertices of a directed network, by augmenting paths (Ford and Fulkerson).
+/// A flow is at most a vertex's degree, so few paths are searched.
 class FlowNetwork {
  public:
   explicit FlowNetwork(uint32_t points) : edges_of_(points) {}
@@ -22,7 +22,7 @@ class FlowNetwork {
     edges_.push_back({from, 0});
   }
 
-  /// The maximum flow, or `enough` if it is not less.
+  /// The maximum flow, or `enough` if the flow is at least that.
   uint32_t flow(uint32_t source, uint32_t sink, uint32_t enough) {
     for (size_t e = 0; e < edges_.size(); ++e) edges_[e].room = e % 2 == 0 ? 1 : 0;
     uint32_t found = 0;
@@ -78,7 +78,7 @@ uint32_t edge_connectivity(const Adjacency& graph) {
   for (Vertex v = 0; v < graph.vertices(); ++v) {
     for (const Vertex to : graph.of(v)) network.add(v, to);
   }
-  // Some vertex lies on the other side of the least cut than vertex 0 does.
+  // Some vertex is on the other side of the minimum cut than vertex 0.
   uint32_t least = min_degree(graph);
   for (Vertex v = 1; v < graph.vertices(); ++v) least = std::min(least, network.flow(0, v, least));
   return least;
@@ -91,7 +91,7 @@ uint32_t vertex_connectivity(const Adjacency& graph) {
     network.add(2 * v, 2 * v + 1);
     for (const Vertex to : graph.of(v)) network.add(2 * v + 1, 2 * to);
   }
-  // Of the first k + 1 vertices one at least is outside a least cut of k.
+  // At least one of the first k + 1 vertices is outside a minimum cut of k.
   uint32_t least = min_degree(graph);
   for (Vertex from = 0; from <= least && from < graph.vertices(); ++from) {
     for (Vertex to = from + 1; to < graph.vertices(); ++to) {
@@ -118,7 +118,7 @@ std::optional<uint32_t> girth(const Adjacency& graph) {
           parent[to] = v;
           queue.push_back(to);
         } else if (parent[v] != to) {
-          // A closed walk, which from some root is the shortest cycle itself.
+          // A closed walk; from some root it is the shortest cycle itself.
           shortest = std::min(shortest, hops[v] + hops[to] + 1);
         }
       }
@@ -130,7 +130,7 @@ std::optional<uint32_t> girth(const Adjacency& graph) {
 
 namespace {
 
-/// Two halves of a graph, and what moving a vertex to the other would save.
+/// Two halves of a graph, and the gain of moving each vertex to the other half.
 class Halves {
  public:
   Halves(const Adjacency& graph, std::vector<bool> right)
@@ -140,8 +140,8 @@ class Halves {
     }
   }
 
-  /// One pass of Kernighan and Lin: swaps the best pair that is not locked, again and again, and
-  /// keeps the best prefix of these swaps. Returns the links that it saved.
+  /// One pass of Kernighan and Lin: repeatedly swaps the best unlocked pair, and keeps the best
+  /// prefix of these swaps. Returns the number of links saved.
   int improve() {
     const uint32_t swaps = graph_.vertices() / 2;
     std::vector<bool> locked(graph_.vertices());
@@ -174,7 +174,7 @@ class Halves {
   }
 
  private:
-  /// The vertex of the half `side` with the greatest gain. Requires: one there is not locked.
+  /// The vertex of the half `side` with the greatest gain. Requires: one is not locked.
   Vertex best_of(bool side, const std::vector<bool>& locked) const {
     std::optional<Vertex> best;
     for (Vertex v = 0; v < graph_.vertices(); ++v) {
@@ -198,7 +198,7 @@ class Halves {
 }  // namespace
 
 uint32_t bisection_upper_bound(const Adjacency& graph) {
-  // On the graphs of 32 that ship more starts find nothing better; large graphs cost n^2 a pass.
+  // More starts find nothing better on the shipped graphs of 32; large graphs cost n^2 per pass.
   constexpr uint64_t starts = 24;
   const uint32_t n = graph.vertices();
   uint32_t fewest = std::numeric_limits<uint32_t>::max();
@@ -207,7 +207,7 @@ uint32_t bisection_upper_bound(const Adjacency& graph) {
     random.start(start);
     std::vector<Vertex> order(n);
     std::iota(order.begin(), order.end(), Vertex{0});
-    // The first start keeps the order of the numbers, in which a mesh is cut well.
+    // The first start keeps the numbers' order, in which a mesh is cut well.
     for (uint32_t i = n; start > 0 && i > 1; --i) std::swap(order[i - 1], order[random.bits() % i]);
     std::vector<bool> right(n);
     for (uint32_t i = 0; i < n / 2; ++i) right[order[i]] = true;

@@ -1,5 +1,5 @@
-// What holds a graph together: how many links or vertices must fail before it falls apart, its
-// shortest cycle, and how many links join its halves. Pure and deterministic; any thread.
+// Connectivity of a graph: how many links or vertices must fail to disconnect it, its shortest
+// cycle, and how many links join its halves. Pure and deterministic; any thread.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace luxodus {
 
-/// The least number of links whose loss disconnects the graph (Menger: the least maximum flow);
-/// 0 for one vertex.
+/// The least number of links whose loss disconnects the graph (Menger: the least maximum flow); 0
+/// for one vertex.
 uint32_t edge_connectivity(const Adjacency& graph);
 
 /// The least number of vertices whose loss disconnects the graph or leaves one vertex; n - 1 for a
@@ -18,12 +18,12 @@ uint32_t edge_connectivity(const Adjacency& graph);
 /// least k", SIAM J. Comput. 4, 1975).
 uint32_t vertex_connectivity(const Adjacency& graph);
 
-/// Links of the shortest cycle; nothing for a tree.
+/// Length of the shortest cycle; nothing for a tree.
 std::optional<uint32_t> girth(const Adjacency& graph);
 
 /// Links between two halves (their sizes differ by at most one), as few as a heuristic finds: an
-/// upper bound of the bisection width, which is NP-hard (Kernighan and Lin 1970, from several
-/// fixed starts).
+/// upper bound of the bisection width, which is NP-hard to compute (Kernighan and Lin 1970, from
+/// several fixed starts).
 uint32_t bisection_upper_bound(const Adjacency& graph);
 
 }  // namespace luxodus

@@ -1,5 +1,6 @@
-// Whoever needs a folder holds a lock (flock) on it, which the system takes back from whoever dies:
-// a folder that can be locked is nobody's. One that was made a moment ago may not be locked yet.
+// The process that needs a folder holds a lock (flock) on it, which the system releases when the
+// process dies: a folder that can be locked is abandoned. A folder that was just made may not be
+// locked yet.
 #include "actors/import/answer_folder.hpp"
 
 #include <fcntl.h>
@@ -20,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* prefix = "luxodus-ifc-";
-/// From making a folder to locking it takes microseconds; a machine may be suspended between [s].
+/// Time from making a folder to locking it: microseconds, but a machine may be suspended between
+/// [s].
 constexpr time_t locked_after_s = 60;
 
 fs::path base_folder() {
@@ -29,8 +31,8 @@ fs::path base_folder() {
   return failed ? fs::path("/tmp") : base;
 }
 
-/// An open folder of ours that holds the lock; invalid where another process has it, or it is no
-/// folder of this user.
+/// An open folder of ours with the lock; invalid if another process holds it, or it is not a folder
+/// of this user.
 FileDescriptor locked(const fs::path& folder, struct stat& about) {
   FileDescriptor file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   const bool ours = file.valid() && ::fstat(file.number(), &about) == 0 &&

@@ -1,6 +1,5 @@
-// A folder for the answer of another process, among those of the system for temporary files. It is
-// removed with all that is in it at the end; where this process is killed before, by the next that
-// makes one. Any thread.
+// A temporary folder for the answer of another process. It is removed with its contents at the end;
+// if this process is killed, the next process that makes one removes it. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +10,8 @@ namespace luxodus {
 
 class AnswerFolder {
  public:
-  /// Removes those that killed processes of this user have left, and makes one. The system's reason
-  /// is in errno where path() is empty: none could be made.
+  /// Removes folders left by killed processes of this user, and makes one. If none could be made,
+  /// path() is empty and errno has the system's reason.
   AnswerFolder();
   ~AnswerFolder();
   AnswerFolder(const AnswerFolder&) = delete;
@@ -21,7 +20,7 @@ class AnswerFolder {
 
  private:
   std::filesystem::path path_;
-  FileDescriptor held_;  // locked for as long as the folder is needed
+  FileDescriptor held_;  // locked as long as the folder is needed
 };
 
 }  // namespace luxodus

@@ -1,4 +1,4 @@
-// Products are taken in the order of the file, so that the same model gives the same bytes.
+// Products are processed in file order, so that the same model gives the same bytes.
 #include "actors/import/building.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace luxodus {
 namespace {
 
-/// Opacity below which a part is taken for glass.
+/// A part below this opacity is taken for glass.
 constexpr double clear_below = 0.95;
 
 std::string small(std::string_view text) {
@@ -35,7 +35,7 @@ bool is_furniture(const IfcProduct& p) {
          p.kind == "SYSTEMFURNITUREELEMENT";
 }
 
-/// What has a shape and is nothing to stand in the light's way.
+/// Whether a product has a shape but does not block light.
 bool is_no_body(const IfcProduct& p) {
   static const std::set<std::string, std::less<>> kinds{
       "OPENINGELEMENT", "OPENING",     "VIRTUALELEMENT", "SPACE", "GRID",
@@ -43,7 +43,7 @@ bool is_no_body(const IfcProduct& p) {
   return kinds.contains(p.kind);
 }
 
-/// Its name, or what kind it is, with its GlobalId: unique, and found again in the model.
+/// Its name, or its kind, with its GlobalId: unique, and identifiable in the model.
 std::string part_name(const IfcProduct& p, std::string_view word) {
   std::string name = as_name(p.name, "");
   if (name.size() > 60) name = as_name(name.substr(0, 60), "");
@@ -61,7 +61,7 @@ bool within(const std::vector<glm::dvec2>& outline, const glm::dvec2& p) {
   return inside;
 }
 
-/// Relative luminance of a display colour (IEC 61966-2-1 primaries), kept to what paints reach.
+/// Relative luminance of a display colour (IEC 61966-2-1 primaries), limited to what paints reach.
 double grey_of(const ImportedPart& part) {
   const glm::dvec3 c = part.base_colour.value_or(glm::dvec3(0.5));
   return std::clamp(0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b, 0.05, 0.85);
@@ -125,8 +125,8 @@ class Assembly {
     return out_.storeys[it == storey_at_.end() ? storey_at_[""] : it->second];
   }
 
-  /// By the product's material, else its layer, else its kind. Of several materials a clear part
-  /// has the first that is called glass, another one the first that is not.
+  /// Chosen by the product's material, else its layer, else its kind. Of several materials, a clear
+  /// part takes the first one called glass, others the first that is not.
   std::string material_of(const IfcProduct& p, const ImportedPart& part) {
     const bool clear = opacity_of(part) < clear_below;
     const auto fits = [&](const std::string& name) {
@@ -173,7 +173,7 @@ class Assembly {
 
   void take(const IfcProduct& p) {
     const bool has_shape = shapes_of_.contains(p.guid);
-    // Volumes of spaces are of what they say of themselves; many are in other units.
+    // Spaces state their own volumes; many are in other units.
     if (has_shape && !is_no_body(p)) compare_volume(p);
     if (p.kind == "SPACE") return take_room(p, has_shape);
     if (is_no_body(p)) return;
@@ -224,7 +224,7 @@ class Assembly {
     take_exit(p);
   }
 
-  /// One part a material; from the second part on (`number`) its name ends in a number.
+  /// One part for each material; from the second one on (`number`) its name ends in a number.
   static std::vector<BuildingPart> joined_by_material(std::vector<DoorPiece> pieces,
                                                       const std::string& name, int& number) {
     std::vector<BuildingPart> parts;
@@ -257,7 +257,7 @@ class Assembly {
     out_.exits.push_back(std::move(exit));
   }
 
-  /// Out of the door and the wall, to the side of a room, on its floor.
+  /// Moves out of the door and the wall, to the side of a room, onto its floor.
   void step_into_room(BuildingExit& exit) {
     constexpr double step_m = 0.5, level_m = 0.5;
     for (const glm::dvec2 way : {glm::dvec2(step_m, 0), glm::dvec2(-step_m, 0),
@@ -326,7 +326,7 @@ class Assembly {
     unique_names();
   }
 
-  /// Rooms and fixtures whose names repeat bear their GlobalId, too.
+  /// Rooms and fixtures with repeated names get their GlobalId appended.
   void unique_names() {
     const auto tell_apart = [](auto& things) {
       std::map<std::string, int> count;
@@ -350,7 +350,7 @@ class Assembly {
   Building out_;
 };
 
-/// Words of a person's interest, as the model has them.
+/// Properties of interest to the user, with the model's words.
 std::vector<std::string> fixture_words(const IfcProduct& p) {
   std::vector<std::string> out;
   if (!p.predefined.empty() && p.predefined != "NOTDEFINED") out.push_back("kind " + p.predefined);
@@ -362,8 +362,8 @@ std::vector<std::string> fixture_words(const IfcProduct& p) {
   return out;
 }
 
-/// What fixtures of one kind have in common. Some exporters name the type alone ("100W") and have
-/// its family in the name of the product ("Sconce:100W:575376"): both together tell types apart.
+/// The type of fixtures of one kind. Some exporters give only the type ("100W") and put its family
+/// into the product's name ("Sconce:100W:575376"): both together distinguish types.
 std::string fixture_type(const IfcProduct& p) {
   const std::string stated = p.type_name.empty() ? p.object_type : p.type_name;
   const size_t colon = p.name.find(':');
@@ -397,7 +397,7 @@ void Assembly::take_fixture(const IfcProduct& p) {
   fixture.storey = storey_of(p).name;
   const Mesh mesh = shapes_of_.contains(p.guid) ? whole_mesh(p) : Mesh{};
   const Bounds bounds = bounds_of(mesh);
-  // Without a shape and a light source of its own it hangs where it is placed.
+  // Without a shape and a light source it hangs at its placement.
   constexpr double below_m = 2e-3;
   fixture.position = p.placement.offset;
   if (!bounds.empty())
@@ -416,7 +416,8 @@ void Assembly::take_fixture(const IfcProduct& p) {
   out_.fixtures.push_back(std::move(fixture));
 }
 
-/// A sign's face is across the thinnest of its three extents, in the axes of its placement.
+/// A sign's face is perpendicular to the thinnest of its three extents, in the axes of its
+/// placement.
 void Assembly::place_sign(const IfcProduct& p, const Mesh& mesh, BuildingFixture& fixture) {
   Bounds local;
   const glm::dmat3 to_local = glm::transpose(p.placement.linear);
@@ -428,11 +429,11 @@ void Assembly::place_sign(const IfcProduct& p, const Mesh& mesh, BuildingFixture
   fixture.direction = p.placement.linear[across];
   fixture.width_m = size[1 - across];
   fixture.height_m = size.z;
-  // The face is the body's, so that what stands behind it counts from there.
+  // The face lies on the body's front, and distances behind it count from there.
   fixture.double_sided = false;
 }
 
-/// To the side where there is more room; to both where there is room.
+/// Faces the side with more room; both sides if both have room.
 void Assembly::turn_sign(const PartRays& rays, BuildingFixture& fixture) {
   constexpr double room_m = 0.5;
   const auto free = [&](const glm::dvec3& way) {

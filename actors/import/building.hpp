@@ -1,7 +1,7 @@
-// A building as an import makes it of an IFC model and its shapes: bodies by storey and material,
-// door leaves with their hinges, rooms as outlines, fixtures with the place and way of their light,
-// and all that a person must know of it. Plain values in scene axes [m]; nothing is written here.
-// Any thread.
+// A building that an import makes from an IFC model and its shapes: bodies by storey and material,
+// door leaves with their hinges, rooms as outlines, fixtures with place and direction of their
+// light, and notes for the user. Plain values in scene axes [m]; nothing is written here. Any
+// thread.
 #pragma once
 
 #include <functional>
@@ -18,17 +18,17 @@
 namespace luxodus {
 
 namespace limits {
-/// Relative difference of a shape's volume from its authored one that is told.
+/// Relative difference of a shape's volume from its authored one that is reported.
 inline constexpr double volume_difference = 0.02;
 }  // namespace limits
 
-/// A hinge and how far the leaf turns about the vertical through it.
+/// A hinge, and the angle by which the leaf turns about the vertical through it.
 struct DoorHinge {
   glm::dvec3 point{0};
   double open_angle_deg = 90;
 };
 
-/// A body of one material.
+/// A body with one material.
 struct BuildingPart {
   std::string name;  // "wall South 184YnOisRDcpvyUltx0008"
   std::string material;
@@ -43,7 +43,7 @@ struct BuildingStorey {
   std::vector<BuildingPart> parts;
 };
 
-/// How a material shows on a screen, which is all that a model knows of its optics.
+/// The display colour of a material, which is all that a model says about its optics.
 struct BuildingMaterial {
   double grey = 0.5;  // luminance of its display colour
   bool clear = false;
@@ -53,29 +53,30 @@ struct BuildingRoom {
   std::string name, guid;
   std::vector<glm::dvec2> outline;
   double z_m = 0, height_m = 0;
-  /// Share of rays from its middle that meet nothing, and where most of them go; 0: it is closed.
+  /// Share of rays from its middle that hit nothing, and the direction of most of them; 0: it is
+  /// closed.
   double open_share = 0;
   std::string open_towards;
-  bool has_floor = false;  // something is under its middle, at its level
+  bool has_floor = false;  // whether there is a floor under its middle, at its level
 };
 
 struct BuildingFixture {
   std::string name, guid, type;
   bool is_sign = false;
-  std::string document;            // photometric file that the model names; "" where none
-  std::vector<std::string> says;   // "SecurityLightingType SAFETYLIGHT": for the person who goes on
-  glm::dvec3 position{0};          // of the light, or the middle of the sign
-  glm::dvec3 direction{0, 0, -1};  // where the light goes, or the sign's face looks
+  std::string document;            // photometric file that the model names; "" if none
+  std::vector<std::string> says;   // "SecurityLightingType SAFETYLIGHT": shown to the user
+  glm::dvec3 position{0};          // of the light, or the centre of the sign
+  glm::dvec3 direction{0, 0, -1};  // direction of the light, or of the sign's face
   double rotation_deg = 0;
   double width_m = 0, height_m = 0;  // of a sign
   bool double_sided = false;
-  std::vector<BuildingPart> body;  // left out where its light comes from a photometric file
+  std::vector<BuildingPart> body;  // empty if its light comes from a photometric file
   std::string storey;
 };
 
 struct BuildingExit {
   std::string name, guid;
-  glm::dvec3 position{0};   // before the door, on the side of a room
+  glm::dvec3 position{0};   // in front of the door, on the side of a room
   bool final_exit = false;  // leads outside
 };
 
@@ -87,31 +88,31 @@ struct VolumeDifference {
 
 struct Building {
   std::string title, file, schema;
-  std::vector<BuildingStorey> storeys;  // upwards; those without parts are not there
+  std::vector<BuildingStorey> storeys;  // upwards; only those with parts
   std::map<std::string, BuildingMaterial> materials;
   std::vector<BuildingRoom> rooms;
   std::vector<BuildingFixture> fixtures;
   std::vector<BuildingExit> exits;
   std::vector<VolumeDifference> differences;  // largest first
   size_t volumes_compared = 0;
-  std::vector<std::string> unread;  // what could not be read, with its number
-  std::vector<std::string> notes;   // what else a person must know
+  std::vector<std::string> unread;  // what could not be read, with its instance number
+  std::vector<std::string> notes;   // other notes for the user
 };
 
-/// Puts a model and its shapes together. Nothing is guessed: what is missing is in `unread`.
-/// `told`, where given, hears what is done and which share of that is.
+/// Combines a model and its shapes. Nothing is guessed: what is missing is in `unread`. `told`,
+/// where given, receives the current step and its share done.
 using ImportProgress = std::function<void(const std::string& what, double share)>;
 Building building_of(const IfcModel& model, IfcShapes shapes, const ImportProgress& told = {});
 
 // ---- steps of it, apart for tests
 // ----------------------------------------------------------------
 
-/// The connected pieces of a mesh; vertices of one place are one.
+/// The connected pieces of a mesh; vertices at one place are merged.
 std::vector<Mesh> connected_pieces(const Mesh& mesh);
 
-/// The leaves of a door, each with its hinge by the door's operation and with what is within it
-/// (panes, handles), and the rest, which stays. `place`: local x or y along the width; a leaf opens
-/// towards the other one.
+/// A leaf of a door, with its hinge by the door's operation and the pieces within it (panes,
+/// handles); or the fixed rest. `place`: local x or y along the width; a leaf opens towards the
+/// other one.
 struct DoorPiece {
   Mesh mesh;
   std::string material;
@@ -127,17 +128,17 @@ struct DoorPieces {
 DoorPieces door_pieces(const std::vector<DoorPiece>& parts, const Transform& place,
                        const std::string& operation);
 
-/// The floor of a closed body: the boundary of what lies in its lowest plane, counter-clockwise,
-/// without points on straight lines. Empty where there is none.
+/// The floor of a closed body: the boundary of its lowest plane, counter-clockwise, without points
+/// on straight lines. Empty if there is none.
 std::vector<glm::dvec2> floor_outline(const Mesh& mesh);
 
-/// Rays at the parts of storeys, which outlive it. Parts are found by a tree of their boxes, in
-/// double precision: a model may stand far from its origin.
+/// Casts rays at the parts of storeys, which outlive it. A tree of their boxes in double precision
+/// finds parts: a model may be far from its origin.
 class PartRays {
  public:
   explicit PartRays(const std::vector<BuildingStorey>& storeys);
 
-  /// Distance to the first part that a ray meets; nothing where it meets none.
+  /// Distance to the first part that a ray hits; nothing if it hits none.
   std::optional<double> first(const glm::dvec3& from, const glm::dvec3& direction) const;
 
  private:
@@ -145,7 +146,7 @@ class PartRays {
     const Mesh* mesh;
     Bounds box;
   };
-  /// A leaf has parts. The first child of any other stands behind it.
+  /// A leaf node has parts. The first child of an inner node follows it directly.
   struct Node {
     Bounds box;
     size_t first = 0, end = 0;  // parts of a leaf
@@ -159,8 +160,8 @@ class PartRays {
   std::vector<Node> nodes_;
 };
 
-/// Share of rays from the middle of a room that meet none of the parts, the way most of them go,
-/// and whether it has a floor.
+/// The share of rays from the middle of a room that hit no part, the direction of most of them, and
+/// whether it has a floor.
 void look_for_openings(const PartRays& rays, BuildingRoom& room);
 
 }  // namespace luxodus

@@ -1,5 +1,5 @@
 // Geometry of an import: pieces of meshes, door leaves, floors of rooms, and whether rooms are
-// closed. All in double, since models stand far from their origin.
+// closed. All in double precision, since models may be far from their origin.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,10 +14,10 @@
 namespace luxodus {
 namespace {
 
-/// Vertices nearer than this are one [m]: shapes come in single precision.
+/// Vertices closer than this are merged [m]: shapes come in single precision.
 constexpr double one_place_m = 1e-4;
 
-/// For each vertex the first one of its place, on a grid.
+/// For each vertex the first vertex at its place, found on a grid.
 std::vector<uint32_t> places_of(const Mesh& mesh) {
   std::map<std::array<int64_t, 3>, uint32_t> first;
   std::vector<uint32_t> out;
@@ -40,7 +40,7 @@ uint32_t root_of(std::vector<uint32_t>& parent, uint32_t i) {
 /// Distance along a ray to a triangle; nothing where it misses (Moeller and Trumbore 1997).
 std::optional<double> meets(const glm::dvec3& from, const glm::dvec3& way, const glm::dvec3& a,
                             const glm::dvec3& b, const glm::dvec3& c) {
-  constexpr double edge = 1e-9;  // taken in on both sides: a crack is no opening
+  constexpr double edge = 1e-9;  // tolerance on both sides: a crack is not an opening
   const glm::dvec3 u = b - a, v = c - a, p = glm::cross(way, v);
   const double det = glm::dot(u, p);
   if (std::abs(det) < 1e-14) return std::nullopt;
@@ -53,13 +53,13 @@ std::optional<double> meets(const glm::dvec3& from, const glm::dvec3& way, const
   return distance > 1e-6 ? std::optional(distance) : std::nullopt;
 }
 
-/// Whether a ray comes into a box before it has gone so far.
+/// Whether a ray enters a box within `way`.
 bool passes_box(const glm::dvec3& from, const glm::dvec3& way, const Bounds& box, double within) {
   double enter = 0, leave = within;
   for (glm::length_t i = 0; i < 3; ++i) {
     const double a = (box.low[i] - 1e-6 - from[i]) / way[i];
     const double b = (box.high[i] + 1e-6 - from[i]) / way[i];
-    if (std::isnan(a) || std::isnan(b)) continue;  // along the plane: not told apart by it
+    if (std::isnan(a) || std::isnan(b)) continue;  // parallel to the plane, which does not limit it
     enter = std::max(enter, std::min(a, b));
     leave = std::min(leave, std::max(a, b));
   }
@@ -86,7 +86,7 @@ std::vector<std::vector<uint32_t>> loops_of(std::multimap<uint32_t, uint32_t> ed
   return loops;
 }
 
-/// Without points that lie on the straight line between their neighbours.
+/// Removes points on the straight line between their neighbours.
 std::vector<glm::dvec2> without_straight_points(const std::vector<glm::dvec2>& loop) {
   constexpr double off_line_m = 1e-3;
   std::vector<glm::dvec2> out = loop;
@@ -140,7 +140,7 @@ namespace {
 struct MeasuredPiece {
   DoorPiece piece;
   Bounds bounds;
-  double covered_m2 = 0;  // of the opening, seen from the front
+  double covered_m2 = 0;  // projected onto the opening, seen from the front
 };
 
 /// Axes of a door: columns are width, thickness and height in scene coordinates.
@@ -150,7 +150,7 @@ glm::dmat3 door_axes(const std::vector<DoorPiece>& parts, const Transform& place
   for (const DoorPiece& part : parts)
     for (const glm::dvec3& p : part.mesh.positions) local.extend(to_local * (p - place.offset));
   const glm::dvec3 size = local.high - local.low;
-  // By the schema the width runs along x; some write it along y.
+  // By the schema the width runs along x; some exporters use y.
   const bool along_x = size.x >= size.y;
   return {place.linear[along_x ? 0 : 1], place.linear[along_x ? 1 : 0], place.linear[2]};
 }
@@ -174,8 +174,8 @@ std::vector<MeasuredPiece> measured_pieces(const std::vector<DoorPiece>& parts,
   return out;
 }
 
-/// Whether a piece is a leaf: it covers much of the opening, or it is a frame of panes that is not
-/// as wide as the whole.
+/// Whether a piece is a leaf: it covers much of the opening, or it is a frame of panes narrower
+/// than the whole.
 bool is_leaf(const MeasuredPiece& piece, const glm::dvec3& whole) {
   constexpr double least_cover = 0.3, least_width = 0.3, most_width = 0.95, least_height = 0.7;
   const glm::dvec3 size = piece.bounds.high - piece.bounds.low;
@@ -184,7 +184,7 @@ bool is_leaf(const MeasuredPiece& piece, const glm::dvec3& whole) {
           size.z > least_height * whole.z);
 }
 
-/// Whether a piece lies within a leaf, as panes do, or on it, as handles do.
+/// Whether a piece lies within a leaf, like a pane, or on it, like a handle.
 bool is_on(const Bounds& leaf, const Bounds& piece) {
   const glm::dvec3 margin(0.02, 0.15, 0.02);
   return glm::all(glm::greaterThanEqual(piece.low, leaf.low - margin)) &&
@@ -206,7 +206,7 @@ DoorPieces door_pieces(const std::vector<DoorPiece>& parts, const Transform& pla
       others.push_back(std::move(piece));
       continue;
     }
-    // Layers of one leaf lie on each other.
+    // Overlapping pieces are layers of one leaf.
     const auto at = std::find_if(leaves.begin(), leaves.end(), [&](const auto& leaf) {
       return is_on(leaf.second, piece.bounds) || is_on(piece.bounds, leaf.second);
     });
@@ -221,7 +221,7 @@ DoorPieces door_pieces(const std::vector<DoorPiece>& parts, const Transform& pla
     });
     (at != leaves.end() ? at->first.pieces : out.frame).push_back(std::move(piece.piece));
   }
-  if (leaves.empty() && !out.frame.empty()) {  // nothing is told apart: all of it turns
+  if (leaves.empty() && !out.frame.empty()) {  // no frame can be distinguished: all of it turns
     leaves.emplace_back(DoorLeaf{std::move(out.frame), {}}, whole);
     out.frame.clear();
   }
@@ -229,11 +229,11 @@ DoorPieces door_pieces(const std::vector<DoorPiece>& parts, const Transform& pla
   for (auto& [leaf, bounds] : leaves) {
     const bool right = leaves.size() > 1 ? (bounds.low.x + bounds.high.x) / 2 > middle
                                          : operation.ends_with("_RIGHT");
-    // The hinge's line runs in the leaf, at the edge that it is hung by.
+    // The hinge's line runs through the leaf, along its hinged edge.
     leaf.hinge.point =
         place.offset + axes * glm::dvec3(right ? bounds.high.x : bounds.low.x,
                                          (bounds.low.y + bounds.high.y) / 2, bounds.low.z);
-    // Of axes that are right-handed a left leaf turns from width to thickness.
+    // In right-handed axes a left leaf turns from width to thickness.
     const double turn = glm::determinant(axes) > 0 ? 90 : -90;
     leaf.hinge.open_angle_deg = right ? -turn : turn;
     out.leaves.push_back(std::move(leaf));
@@ -247,7 +247,7 @@ std::vector<glm::dvec2> floor_outline(const Mesh& mesh) {
   const double floor = bounds_of(mesh).low.z;
   const std::vector<uint32_t> place = places_of(mesh);
   const auto low = [&](uint32_t i) { return mesh.positions[i].z < floor + level_m; };
-  // Edges that two triangles share run both ways and go; the boundary stays.
+  // Edges shared by two triangles run both ways and cancel; the boundary remains.
   std::map<std::pair<uint32_t, uint32_t>, int> count;
   for (const glm::uvec3& t : mesh.triangles) {
     if (!low(t.x) || !low(t.y) || !low(t.z)) continue;
@@ -287,7 +287,7 @@ PartRays::PartRays(const std::vector<BuildingStorey>& storeys) {
   if (!parts_.empty()) grow(0, parts_.size());
 }
 
-/// The tree of these parts: halves along the axis in which their middles are farthest apart.
+/// Builds the tree: halves along the axis in which the parts' centres spread most.
 void PartRays::grow(size_t first, size_t end) {
   constexpr size_t leaf_parts = 4;
   const size_t at = nodes_.size();
@@ -346,7 +346,7 @@ std::optional<double> PartRays::first(const glm::dvec3& from, const glm::dvec3& 
 void look_for_openings(const PartRays& solids, BuildingRoom& room) {
   const auto triangles = triangulate(room.outline);
   if (!triangles) return;
-  // The middle of the largest triangle of the floor is within the room, whatever its shape.
+  // The centre of the floor's largest triangle is within the room, whatever its shape.
   glm::dvec2 middle(0);
   double largest = -1;
   for (const glm::uvec3& t : triangles.value()) {

@@ -27,15 +27,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of what the process says: a line for each thing that it could not compute.
+/// Size of the process' output: a line for each thing that it could not compute.
 constexpr uint64_t max_said_bytes = uint64_t{4} << 20;
 constexpr size_t max_notes = 200;
 /// Exit codes of ifc_shapes.mjs.
 constexpr int no_package = 3, no_shapes = 4;
-/// posix_spawnp: the shell's code of a program that is not there.
+/// posix_spawnp reports a missing program by the shell's exit code.
 constexpr int not_found = 127;
 
-/// Exit code of a process; nothing where it did not end in time and was killed. `waits` is called
+/// Exit code of a process; nothing if it did not end in time and was killed. `waits` is called
 /// twice a second.
 Result<std::optional<int>> run_process(const std::vector<std::string>& words, const fs::path& out,
                                        const fs::path& err, double seconds,
@@ -77,7 +77,7 @@ Result<std::optional<int>> run_process(const std::vector<std::string>& words, co
 }
 
 struct Said {
-  std::optional<glm::dvec3> offset;  // glTF axes; none where it was not told
+  std::optional<glm::dvec3> offset;  // glTF axes; none if the process did not state it
   std::vector<std::string> notes;
 };
 
@@ -115,8 +115,8 @@ Said said_by(const fs::path& file) {
   return said;
 }
 
-/// The share of products in the last whole line that the process has said of it; 0 before the
-/// first.
+/// The share of products in the last complete line that the process has written about it; 0 before
+/// the first.
 double share_said_in(const fs::path& file) {
   const auto text = read_regular_file(file, max_said_bytes);
   if (!text) return 0;
@@ -130,7 +130,7 @@ double share_said_in(const fs::path& file) {
   return share >= 0 && share <= 1 ? share : 0;
 }
 
-/// The first line of what the process complained about.
+/// The first line of the process' error output.
 std::string complaint(const fs::path& file) {
   const auto text = read_regular_file(file, max_said_bytes);
   if (!text) return "it said nothing";

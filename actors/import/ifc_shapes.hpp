@@ -1,6 +1,6 @@
-// The shapes of an IFC model, computed by a library of others (@ifc-lite/wasm) under Node.js in a
-// process of its own that is ended when it takes too long. Its answer is a binary glTF, which is
-// read like any other mesh of others. Any thread.
+// Computes the shapes of an IFC model with an external library (@ifc-lite/wasm) under Node.js, in a
+// process of its own that is killed at a time limit. Its answer is a binary glTF, which is read
+// like any other untrusted mesh. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -15,18 +15,19 @@ namespace luxodus {
 class ReadingShare;
 
 struct IfcShapes {
-  /// By product: `name` begins with its GlobalId, up to a '#'. Scene axes [m], in double.
+  /// One part or several for each product: `name` begins with its GlobalId, up to a '#'. Scene axes
+  /// [m], in double.
   std::vector<ImportedPart> parts;
-  std::vector<std::string> notes;  // what could not be computed, in words
+  std::vector<std::string> notes;  // messages about what could not be computed
 };
 
-/// Opacity of a part, from the name of its material; 1 where it says none.
+/// Opacity of a part, from the name of its material; 1 if that states none.
 double opacity_of(const ImportedPart& part);
 
-/// `script`: ifc_shapes.mjs, with node_modules beside it. `seconds`: until the process is ended.
-/// `reading`, where given, hears twice a second how much of the model's products is done.
-/// Errors: no Node.js, no package, more time, a model without shapes, an answer that is none or
-/// does not say where the shapes are.
+/// `script`: ifc_shapes.mjs, with node_modules beside it. `seconds`: time limit of the process.
+/// `reading`, where given, receives twice a second the share of the model's products that are done.
+/// Errors: no Node.js, no package, time limit exceeded, a model without shapes, an answer that is
+/// malformed or lacks the position of the shapes.
 Result<IfcShapes> ifc_shapes(const std::filesystem::path& model,
                              const std::filesystem::path& script, double seconds,
                              ReadingShare* reading = nullptr);

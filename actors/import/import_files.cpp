@@ -16,7 +16,7 @@ std::string toml_text(std::string_view text) {
     const size_t length = utf8_length(text.substr(i));
     const auto c = static_cast<unsigned char>(text[i]);
     if (length == 0) {
-      out += '?';  // no UTF-8: no text of TOML
+      out += '?';  // not UTF-8, so not allowed in TOML
     } else if (c < 0x20 || c == 0x7f) {
       out += fmt::format("\\u{:04x}", c);
     } else if (c == '"' || c == '\\') {

@@ -27,7 +27,7 @@ void add(LuminaireBody& body, const Mesh& mesh, const std::optional<glm::dvec3>&
   append(body.mesh, mesh);
 }
 
-/// The triangles of a shape, in metres, with its files in a folder of their own.
+/// The triangles of a shape, in metres, read from its files in a temporary folder.
 Result<LuminaireBody> shape_body(const L3dShape& shape, const fs::path& folder,
                                  ReadingShare* reading) {
   const std::string who = "the shape \"" + excerpt(shape.name) + "\" of its model: ";
@@ -40,7 +40,9 @@ Result<LuminaireBody> shape_body(const L3dShape& shape, const fs::path& folder,
     if (auto ok = write_file_atomically(folder / l3d_library, std::string_view(shape.colours)); !ok)
       return ok.problem();
   const auto parts = import_mesh(file.string(), shape.metres_per_unit, UpAxis::z, nullptr, reading);
-  if (!parts) return problem(who + parts.problem().what);  // the file is ours, for a moment
+  if (!parts)
+    return problem(who + parts.problem().what);  // the file is temporary, so its name is
+                                                 // omitted
   LuminaireBody body;
   for (ImportedPart part : parts.value()) {
     part.mesh.texture_uv.clear();
@@ -80,7 +82,7 @@ Result<LuminaireBody> luminaire_body(const L3dModel& model, ReadingShare* readin
   for (const L3dShape& shape : model.shapes) {
     auto body = shape_body(shape, folder.path() / std::to_string(shapes.size()), reading);
     if (!body) {
-      // Those after it are not read any more.
+      // Shapes after it are not read any more.
       for (size_t i = shapes.size() + 1; i < model.shapes.size(); ++i)
         ReadingPart(reading, model.shapes[i].obj.size());
       return body.problem();
@@ -116,7 +118,7 @@ BodyPlace body_place(const L3dModel& model, const Mesh& body, const std::string&
   if (at->down.z < straight_down && reach <= largest_lift_m) {
     place.offset_m.z = std::max(-at->centre_m.z, gap_m - low);
   } else {
-    place.offset_m -= gap_m * at->down;  // off the face that shines
+    place.offset_m -= gap_m * at->down;  // away from the luminous face
     place.below_m = std::max(0.0, reach);
   }
   return place;
@@ -135,7 +137,7 @@ Result<void> write_body(const LuminaireBody& body, const fs::path& file) {
   const auto out = std::back_inserter(text);
   for (const glm::dvec3& p : body.mesh.positions)
     fmt::format_to(out, "v {:.7g} {:.7g} {:.7g}\n", p.x, p.y, p.z);
-  // Each material once: readers make an object of every run of one.
+  // Each material only once: readers make an object for every change of material.
   std::map<std::string, std::string> faces;  // of each material, by its words
   std::string* faces_here = &faces[""];
   auto next = body.colours.begin();

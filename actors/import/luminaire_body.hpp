@@ -1,6 +1,6 @@
 // The body of a luminaire from the parts of its model (L3D): their shapes are OBJ files, which the
-// reader of meshes takes in, placed and joined to one mesh, with the diffuse colours of their
-// materials. Any thread.
+// mesh reader reads, placed and joined to one mesh, with the diffuse colours of their materials.
+// Plain values; any thread.
 #pragma once
 
 #include <filesystem>
@@ -16,50 +16,52 @@ namespace luxodus {
 class ReadingShare;
 
 namespace limits {
-/// Of a body: many luminaires hang in a building, each with its own.
+/// Triangles of a body: a building has many luminaires, each with its own.
 inline constexpr size_t luminaire_body_triangles = 200'000;
 }  // namespace limits
 
-/// The files of a body that luminaire_body() is to read later.
+/// Announces the files of a body that luminaire_body() will read.
 void foresee_body(const L3dModel& model, ReadingShare& reading);
 
 struct LuminaireBody {
   Mesh mesh;  // metres, z up
-  /// Diffuse colours of the model as linear RGB, each of all triangles up to the next.
+  /// Diffuse colours of the model as linear RGB, each for all triangles up to the next.
   struct Colour {
-    std::optional<glm::dvec3> value;  // none where the model says none
+    std::optional<glm::dvec3> value;  // none if the model states none
     size_t first_triangle = 0;
   };
   std::vector<Colour> colours;
 
-  /// Whether the model says any.
+  /// Whether the model states any colour.
   bool is_coloured() const;
 };
 
-/// The body in the model's metres, z up. `reading`, where given, hears how far it is.
-/// Errors: a shape that cannot be read, by its name; more triangles than the limit; a place for the
-/// shapes' files cannot be had.
+/// The body in the model's metres, z up. `reading`, where given, receives the progress.
+/// Errors: a shape that cannot be read, by its name; more triangles than the limit; no temporary
+/// folder for the shapes' files.
 Result<LuminaireBody> luminaire_body(const L3dModel& model, ReadingShare* reading = nullptr);
 
-/// z of directions that are straight down, to within a degree, are below this.
+/// Directions within a degree of straight down have a z below this.
 inline constexpr double straight_down = -0.9998;
 
-/// How far the body is moved, so that the middle of its luminous opening lies at the origin, and
-/// whether it then hides light that goes down from there.
+/// How far to move the body, so that the centre of its luminous opening is at the origin, and
+/// whether it then blocks light that goes down from there.
 struct BodyPlace {
   glm::dvec3 offset_m{0};
-  double below_m = 0;         // how far it reaches below the opening; 0: nothing is hidden
-  glm::dvec3 down{0, 0, -1};  // where the opening shines
+  double below_m = 0;         // how far it extends below the opening; 0: it blocks nothing
+  glm::dvec3 down{0, 0, -1};  // direction of the opening
 };
 
-/// `opening`: its name in the model; where there is none of it, the one there is, else the lowest
-/// point below the model's own origin. What reaches below an opening that shines straight down by
-/// less than 0.1 m, as frames do, is raised to a millimetre above it, since intensities hold its
-/// shadow already; nothing is lowered. Of other openings the body is a millimetre behind them.
+/// `opening`: its name in the model; if it does not exist, the only one, else the lowest point
+/// below the model's own origin. If a body extends less than 0.1 m below an opening that shines
+/// straight down, like a frame, it is raised to a millimetre above it, since the photometric web
+/// already includes its shadow; it is never lowered. For other directions the body is moved a
+/// millimetre behind the opening.
 BodyPlace body_place(const L3dModel& model, const Mesh& body, const std::string& opening);
 
-/// Writes it as an OBJ file in metres, z up; of a coloured body with its material library beside
-/// it, FILE.mtl. No colour reflects more than 0.9, as no paint does; what has none is grey of 0.7.
+/// Writes it as an OBJ file in metres, z up; for a coloured body also its material library,
+/// FILE.mtl. Reflectances are at most 0.9, like those of paints; without a colour they are grey,
+/// 0.7.
 /// Errors: as write_file_atomically.
 Result<void> write_body(const LuminaireBody& body, const std::filesystem::path& file);
 

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// As of every scene file.
+/// The limit of every scene file.
 constexpr size_t max_table_bytes = size_t{16} << 20;
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// To a tenth of a millimetre, which is what shapes are good for.
+/// Rounds to a tenth of a millimetre, the precision of shapes.
 double rounded(double metres) {
   return std::round(metres * 1e4) / 1e4 + 0.0;  // no negative zero
 }
@@ -61,8 +61,8 @@ constexpr const char* fixtures_head =
 // ---- fixtures
 // --------------------------------------------------------------------------------------
 
-/// The photometric file of a type: by the name that the model gives it, or by names of the type and
-/// of its fixtures.
+/// The photometric file of a type: by the name in the model, or by names of the type and of its
+/// fixtures.
 std::optional<fs::path> photometry_of(const std::map<std::string, fs::path>& files,
                                       const std::vector<const BuildingFixture*>& of_type) {
   std::vector<std::string> names;
@@ -78,7 +78,8 @@ std::optional<fs::path> photometry_of(const std::map<std::string, fs::path>& fil
   return std::nullopt;
 }
 
-/// Why a file says no luminaire by itself: it is damaged, or a container in which one is chosen.
+/// Why a file alone is not a luminaire: it is damaged, or a container from which one must be
+/// chosen.
 std::optional<Problem> fault_of_photometry(const fs::path& file) {
   if (letters_and_digits(file.extension().string()) != "gldf") {
     const auto read = read_photometric_file(file);
@@ -123,7 +124,7 @@ std::string sign_type_text(const BuildingFixture& fixture, size_t count) {
 
 using FixtureTypes = std::map<std::pair<bool, std::string>, std::vector<const BuildingFixture*>>;
 
-/// Of which kind the table of a type is: a sign and a luminaire may have types of the same name.
+/// The kind of a type's table: a sign and a luminaire may have types with the same name.
 const char* table_of(bool is_sign) {
   return is_sign ? "sign_type" : "luminaire_type";
 }
@@ -190,7 +191,7 @@ std::string door_text(const BuildingPart& part) {
       toml_text(part.name), point_text(part.hinge->point), part.hinge->open_angle_deg);
 }
 
-/// The table of a storey; its materials are those of the scene that have the same name.
+/// The table of a storey; its materials are those of the scene with the same names.
 std::string storey_text(const BuildingStorey& storey, const std::string& file,
                         const glm::dvec3& origin) {
   std::set<std::string> materials;
@@ -226,8 +227,7 @@ std::string exit_text(const BuildingExit& exit) {
                      point_text(exit.position));
 }
 
-/// Of points all over the first room, or the building, the one that is farthest from what is
-/// around.
+/// The point, of a grid over the first room or the building, that is farthest from all surfaces.
 glm::dvec3 free_place(const Building& building) {
   Bounds box;
   if (!building.rooms.empty()) {
@@ -246,7 +246,7 @@ glm::dvec3 free_place(const Building& building) {
   for (int i = 0; i < steps * steps * steps; ++i) {
     const glm::dvec3 share(i % steps + 1, i / steps % steps + 1, i / steps / steps + 1);
     const glm::dvec3 at = box.low + (box.high - box.low) * share / (steps + 1.0);
-    double nearest = 10;  // beyond which nothing is gained
+    double nearest = 10;  // a larger distance is no better
     for (glm::length_t axis = 0; axis < 3; ++axis)
       for (const double sign : {1.0, -1.0}) {
         glm::dvec3 way(0);
@@ -257,7 +257,7 @@ glm::dvec3 free_place(const Building& building) {
     farthest = nearest;
     best = at;
   }
-  // A single body has no place within: above it.
+  // A single body has no place inside; takes one above it.
   constexpr double near_m = 0.2;
   return farthest < near_m ? glm::dvec3(best.x, best.y, box.high.z + 1) : best;
 }
@@ -280,7 +280,7 @@ std::string scene_head(const Building& building, bool any_light) {
   out +=
       "\n# Doors of the building stand as drawn, closed, until a scenario opens them:\n"
       "# [[scenario]]\n# name = \"doors open\"\n# doors_open = [\n";
-  // Names of parts open with that of their import.
+  // Names of parts begin with that of their import.
   constexpr size_t most = 50;
   size_t leaves = 0;
   for (const BuildingStorey& storey : building.storeys)
@@ -315,7 +315,7 @@ std::string report_text(const Building& building, const WrittenBuilding& written
          lines_of("Also", building.notes);
 }
 
-/// What is asked of numbers of single precision: a tenth of a millimetre, up to a kilometre.
+/// Single precision must resolve a tenth of a millimetre, which it does up to a kilometre.
 glm::dvec3 origin_of(const Building& building) {
   constexpr double far_m = 1000;
   Bounds bounds;
@@ -362,7 +362,7 @@ Result<std::map<std::string, fs::path>> photometry_by_name(const std::string& fo
 
 namespace {
 
-/// Shapes of storeys with what their fixtures leave behind: bodies of those that are not placed.
+/// Shapes of storeys, and the bodies of fixtures that are not placed.
 std::vector<BuildingStorey> with_bodies(const Building& building, const OwnTables& fixtures) {
   std::vector<BuildingStorey> storeys = building.storeys;
   for (const BuildingFixture& fixture : building.fixtures) {

@@ -1,8 +1,8 @@
-// An imported building on disk: a scene that a person goes on with.
-//   building/*.glb, building.toml, import.txt   written anew by every import
-//   materials.toml, fixtures.toml, scene.toml   a person's: made where they are not there; what is
-//                                               new in a model is added at the end of the first two
-// Files appear whole or not at all. One import at a time writes to a folder.
+// Writes an imported building as a scene that the user goes on with.
+//   building/*.glb, building.toml, import.txt   overwritten by every import
+//   materials.toml, fixtures.toml, scene.toml   the user's: made if missing; what is new in a
+//                                               model is added at the end of the first two
+// Files are written atomically. Any thread; one import at a time writes to a folder.
 #pragma once
 
 #include <filesystem>
@@ -16,31 +16,31 @@
 namespace luxodus {
 
 namespace limits {
-/// Photometric files of a folder that are looked through.
+/// Photometric files of a folder that are searched.
 inline constexpr size_t photometric_files = 10'000;
 }  // namespace limits
 
 struct WrittenBuilding {
   size_t parts = 0, doors = 0, rooms = 0, luminaires = 0, signs = 0;
-  std::vector<std::string> asked;  // types of fixtures that need a person, in words
+  std::vector<std::string> asked;  // messages about types of fixtures that the user must complete
   std::vector<std::string> open_rooms;
-  bool kept_scene = false;  // scene.toml was there
+  bool kept_scene = false;  // scene.toml existed
 };
 
-/// `photometry`: folder of photometric files; "" where there is none.
-/// Errors: a folder or file that cannot be read or written, a fixtures.toml that is no TOML.
+/// `photometry`: folder of photometric files; "" for none.
+/// Errors: a folder or file that cannot be read or written, a malformed fixtures.toml.
 Result<WrittenBuilding> write_building(const Building& building, const std::string& out,
                                        const std::string& photometry);
 
 // ---- steps of it, apart for tests
 // ----------------------------------------------------------------
 
-/// The parts as a binary glTF 2.0 about `origin`, one node a part, one material a name; in single
-/// precision, since the scene moves the whole by numbers of double precision.
+/// The parts as a binary glTF 2.0 about `origin`, one node for each part, one material for each
+/// name; in single precision, since the scene translates the whole in double precision.
 /// Errors: as glb_bytes_of.
 Result<std::string> glb_of(const std::vector<BuildingPart>& parts, const glm::dvec3& origin);
 
-/// Photometric files by the letters and digits of their stems, in small ones.
+/// Photometric files by the letters and digits of their stems, in lower case.
 Result<std::map<std::string, std::filesystem::path>> photometry_by_name(const std::string& folder);
 std::string letters_and_digits(std::string_view text);
 

@@ -21,14 +21,14 @@ constexpr const char* fire_materials_head =
     "# Colours are those of Smokeview, which are for display: FDS knows no reflectances. State "
     "them.\n";
 
-/// Written as comments, so without what would end a line.
+/// Writes lines as comments, without characters that would end a line.
 std::string comment_lines(const char* what, const std::vector<std::string>& lines) {
   std::string out;
   for (const std::string& line : lines) out += fmt::format("# {}{}\n", what, printable(line));
   return out;
 }
 
-/// `[[import]]` of the bodies, whose materials are those of the scene that have the same name.
+/// `[[import]]` of the bodies, whose materials are those of the scene with the same names.
 std::string bodies_table(const std::vector<FireBody>& bodies) {
   std::set<std::string> materials;
   for (const FireBody& body : bodies) materials.insert(body.material);
@@ -84,7 +84,7 @@ angstrom = 1      # extinction follows 1/wavelength
                      index);
 }
 
-/// Smoke and obstructions go by it.
+/// The clock of smoke and obstructions.
 std::string clock_text(double at_s) {
   return fmt::format(R"(
 # The state that is taken; --at gives another. With a later 'to', `assess` follows routes over the
@@ -102,7 +102,7 @@ constexpr const char* no_smoke_text =
     "# its index:\n# [[medium]]\n# name = \"fire\"\n# kind = \"fds\"\n# file = \"CASE.smv\"\n"
     "# albedo = 0.2\n# g = 0.6\n# angstrom = 1\n";
 
-/// What a person goes on with: the smoke, a light, and what is left to do.
+/// The scene that the user goes on with: the smoke, a light, and what is left to do.
 std::string fire_scene(const FireBuilding& building, const FireOrigin& source,
                        const std::string& index) {
   std::string sides, exits;

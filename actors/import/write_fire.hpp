@@ -1,10 +1,9 @@
-// The folder of a fire simulation's building: a scene that a person goes on with.
-//   geometry.toml, geometry.glb   written anew by every import; the latter where there are bodies
-//   of
+// Writes a fire simulation's building as a scene that the user goes on with.
+//   geometry.toml, geometry.glb   overwritten by every import; the latter if there are bodies of
 //                                 triangles
-//   materials.toml, scene.toml    a person's: made where they are not there; new surfaces are added
-//                                 at the end of the first
-// Files appear whole or not at all. One import at a time writes to a folder.
+//   materials.toml, scene.toml    the user's: made if missing; new surfaces are added at the end
+//                                 of the first
+// Files are written atomically. Any thread; one import at a time writes to a folder.
 #pragma once
 
 #include <optional>
@@ -18,14 +17,14 @@ namespace luxodus {
 struct FireOrigin {
   std::string title;
   std::string made_of;  // "The building of corridor.smv as FDS computed it"
-  /// The index of the results, for the smoke; none where there are none.
+  /// The index of the results, for the smoke; none without results.
   std::optional<std::string> index;
   std::string at_text;  // "60s"
   double at_s = 0;
 };
 
-/// Whether scene.toml was there, and is as it was.
-/// Errors: a folder or file that cannot be read or written, a materials.toml that is no TOML.
+/// Returns whether scene.toml existed, and was kept.
+/// Errors: a folder or file that cannot be read or written, a malformed materials.toml.
 Result<bool> write_fire(const FireBuilding& building, const FireOrigin& source,
                         const std::string& out);
 

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t max_plan_bytes = size_t{16} << 20;
-/// Shorter lines are no walls [m], but joints of drawings.
+/// Shorter lines are joints of drawings, not walls [m].
 constexpr double shortest_wall_m = 0.02;
 /// Larger plans are in another unit [m].
 constexpr double largest_plan_m = 10'000;
@@ -42,7 +42,7 @@ struct PlanRules {
   std::map<std::string, BlockRule> blocks;
 };
 
-/// plan.toml as it will stand: what a person wrote, and what was added.
+/// The future plan.toml: the user's text, and what was added.
 Result<PlanRules> rules_of(const OwnTables& tables) {
   PlanRules rules;
   const std::string text = tables.text + tables.added;
@@ -76,7 +76,7 @@ Result<PlanRules> rules_of(const OwnTables& tables) {
   return rules;
 }
 
-/// How often each name occurs, in their order.
+/// Number of occurrences of each name, in their order.
 template <class Things, class Name>
 std::map<std::string, size_t> counted(const Things& things, const Name& name) {
   std::map<std::string, size_t> out;
@@ -140,7 +140,7 @@ std::string wall_text(const std::string& name, const LayerRule& rule, glm::dvec2
   if (rule.as == "sheet")
     return head + fmt::format("shape = \"quad\"\ncorner = {}\nedge_u = {}\nedge_v = [0, 0, {:g}]\n",
                               at_text(from, floor_m), at_text(to - from, 0), rule.height_m);
-  // A wall stands to the left of its way; the line is its middle.
+  // A wall stands to the left of its direction; the line is its middle.
   const glm::dvec2 way = glm::normalize(to - from);
   const glm::dvec2 right = glm::dvec2(way.y, -way.x) * (rule.thickness_m / 2);
   return head +
@@ -161,7 +161,7 @@ std::string level_text(const char* name, const Bounds& bounds, double z, bool up
 std::string placed_text(const std::string& name, const DxfInsert& insert, const BlockRule& rule,
                         const glm::dvec2& at, double floor_m) {
   const double turn = insert.rotation_deg * std::numbers::pi / 180;
-  if (rule.as == "sign")  // looks along the block's own y axis
+  if (rule.as == "sign")  // faces along the block's own y axis
     return fmt::format(
         "\n[[sign]]\nname = {}\ntype = {}\nposition = {}\nfacing = [{:.6f}, {:.6f}, 0]\n",
         toml_text(name), toml_text(rule.type), at_text(at, floor_m + rule.height_m),
@@ -273,7 +273,7 @@ const toml::Schema& plan_schema() {
 
 namespace {
 
-/// Layers and blocks with names that a scene takes.
+/// Renames layers and blocks to names that scenes accept.
 DxfPlan named(DxfPlan plan) {
   for (DxfSegment& s : plan.segments) s.layer = as_name(s.layer, "0");
   for (DxfInsert& i : plan.inserts) {

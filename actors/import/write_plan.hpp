@@ -1,8 +1,9 @@
-// A plan on disk: a scene that a person goes on with.
-//   building.toml    written anew by every import
-//   plan.toml        a person's: what each layer and block becomes; new ones are added at its end
-//   scene.toml, materials.toml, fixtures.toml    a person's, made where they are not there
-// Nothing is guessed: until plan.toml says otherwise, layers and blocks become nothing.
+// Writes a plan as a scene that the user goes on with.
+//   building.toml    overwritten by every import
+//   plan.toml        the user's: what each layer and block becomes; new ones are added at its end
+//   scene.toml, materials.toml, fixtures.toml    the user's, made if missing
+// Nothing is guessed: until plan.toml says otherwise, layers and blocks become nothing. Any thread;
+// one import at a time writes to a folder.
 #pragma once
 
 #include <string>
@@ -16,7 +17,8 @@ namespace luxodus {
 
 struct WrittenPlan {
   size_t walls = 0, luminaires = 0, signs = 0;
-  std::vector<std::string> asked;  // layers, blocks and types that need a person, in words
+  std::vector<std::string> asked;  // messages about layers, blocks and types that the user must
+                                   // complete
   bool kept_scene = false;
 };
 

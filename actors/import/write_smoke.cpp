@@ -15,12 +15,12 @@
 namespace luxodus {
 namespace {
 
-static_assert(std::endian::native == std::endian::little);  // as the header says
+static_assert(std::endian::native == std::endian::little);  // as the header states
 
 /// A file of NRRD: its header, an empty line, and the extinction of each cell.
 std::vector<std::byte> nrrd_of(const VdbSmoke& smoke, const SmokeOrigin& origin) {
   const glm::dvec3 edge = smoke.spacing * origin.metres_per_unit;
-  // The origin of NRRD is the middle of its first cell.
+  // NRRD's origin is the middle of its first cell.
   const glm::dvec3 first = smoke.origin * origin.metres_per_unit + 0.5 * edge;
   const std::string head = fmt::format(
       "NRRD0005\n# Made by luxodus import vdb: grid {} of {},\n"
@@ -44,7 +44,7 @@ std::vector<std::byte> nrrd_of(const VdbSmoke& smoke, const SmokeOrigin& origin)
   return out;
 }
 
-/// The same after every import: it is kept by the next one.
+/// Equal after every import: an existing file is kept.
 constexpr std::string_view medium_text =
     R"(# Made by `luxodus import vdb`, and yours from now on: name it in the 'include' of a scene.
 # smoke.nrrd beside it is written anew by every import; its head says of which grid it is.

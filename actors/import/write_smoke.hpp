@@ -1,6 +1,6 @@
-// The folder of imported smoke: its cells as NRRD (smoke.nrrd, written anew by every import) and
-// the table of a scene that names it (smoke.toml, a person's: made where it is not there). One
-// import at a time writes to a folder.
+// Writes imported smoke: its cells as NRRD (smoke.nrrd, overwritten by every import) and the table
+// of a scene that names it (smoke.toml, the user's: made if missing). Any thread; one import at a
+// time writes to a folder.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@
 namespace luxodus {
 
 struct SmokeOrigin {
-  std::string file;  // where it came from, for people
+  std::string file;  // file that it came from, for comments
   std::string grid;
-  double extinction_per_unit = 0;  // [1/m] of a value of 1
-  double metres_per_unit = 1;      // of its lengths
+  double extinction_per_unit = 0;  // [1/m] for a value of 1
+  double metres_per_unit = 1;      // unit of its lengths
 };
 
-/// Whether smoke.toml was there and is kept.
+/// Returns whether smoke.toml existed and was kept.
 /// Errors: an extinction beyond limits::extinction_per_m, a file that cannot be written.
 Result<bool> write_smoke(const VdbSmoke& smoke, const SmokeOrigin& origin, const std::string& out);
 

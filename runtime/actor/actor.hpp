@@ -1,17 +1,17 @@
 // An actor: state that only its own handlers touch, and a mailbox of two lanes. A control message
-// is handled in the turn that brings it, on the scheduler's stack: it overtakes all data, needs no
-// fiber, cannot be starved, and its handler may not suspend. A data message is handled on
-// the actor's own fiber, one after another, and its handler may suspend; control may come meanwhile
-// and find the actor between two of its suspends. A class declares what it accepts, and has a
-// handler `void on(Message&&)` or `void on(const Message&)` for each:
+// is handled in the turn in which it arrives, on the scheduler's stack: it overtakes all data,
+// needs no fiber and cannot be starved, but its handler may not suspend. Data messages are handled
+// one after another on the actor's own fiber, and their handlers may suspend; while one is
+// suspended, a control message may be handled. A class declares what it accepts, and has a handler
+// `void on(Message&&)` or `void on(const Message&)` for each:
 //
 //   struct Stop {};
 //   struct Square { int number; WaitList* answered; };
 //   class Squarer final : public Actor<Squarer, ControlLane<Accepts<Stop, 1, WhenFull::coalesce>>,
 //                                      DataLane<Accepts<Square, 64, WhenFull::wait>>> { ... };
 //
-// What leaves a handler is a failure of the actor (supervised.hpp).
-// Belongs to one node: all calls are made on its thread.
+// An exception that leaves a handler is a failure of the actor (supervised.hpp). Thread rule:
+// belongs to one node; all calls are made on its thread.
 #pragma once
 
 #include "runtime/actor/mailbox.hpp"
@@ -32,15 +32,15 @@ class Actor : public Supervised {
   Actor(const Actor&) = delete;
   Actor& operator=(const Actor&) = delete;
 
-  /// Begins to handle data; what was sent before has waited. Requires: called once, before the
-  /// scheduler is sealed; the limits of the scheduler count this fiber.
+  /// Begins to handle data, including messages sent before. Requires: called once, before the
+  /// scheduler is sealed; the scheduler's limits count this fiber.
   void start() {
     LUX_CHECK(!scheduler_.sealed(), "an actor started after the seal");
     const auto fiber = scheduler_.fibers().start(name_, [this] { handle_data(); });
     LUX_CHECK(fiber.has_value(), "no fiber for an actor; the limits must count one for each");
   }
 
-  /// Sends without waiting; `rejected` where the kind is full and does not coalesce.
+  /// Sends without waiting. Returns `rejected` if the kind is full and does not coalesce.
   template <class Message>
   [[nodiscard]] Offered offer(Message message) {
     if constexpr (is_control<Message>) {
@@ -51,8 +51,8 @@ class Actor : public Supervised {
     }
   }
 
-  /// Sends, after a wait where the kind is full and waits; `cancelled` where the sender should end
-  /// instead. Requires: on a fiber. Suspends.
+  /// Sends; waits if the kind is full and its reaction is `wait`. Returns `cancelled` if the
+  /// sending fiber was cancelled. Requires: on a fiber. Suspends.
   template <class Message>
   [[nodiscard]] Offered send(Message message) {
     if constexpr (is_control<Message>)
@@ -63,11 +63,11 @@ class Actor : public Supervised {
 
   size_t waiting() const { return control_.size() + data_.size(); }
 
-  /// Whether the actor is sent messages of this type.
+  /// Whether the actor accepts messages of this type.
   template <class Message>
   static constexpr bool accepts =
       Control::template accepts<Message> || Data::template accepts<Message>;
-  /// What its mailbox takes.
+  /// Memory of the mailbox.
   static constexpr size_t memory_bytes() { return Control::memory_bytes() + Data::memory_bytes(); }
 
  protected:
@@ -78,7 +78,7 @@ class Actor : public Supervised {
   static_assert(!Control::any_waits, "who sends control may be the loop itself, which never waits");
   template <class Message>
   static constexpr bool is_control = Control::template accepts<Message>;
-  // A long queue of messages that need no wait still lets other fibers run in between.
+  // Yields after this many messages, so that a long queue does not starve other fibers.
   static constexpr size_t messages_at_once = 32;
 
   void handle_control() final {

@@ -1,6 +1,6 @@
-// Calls that may block for long, such as fdatasync, made off the node's thread: a node that waited
-// for a disk would miss its beats. One call at a time; an actor that makes them has its own.
-// Thread rule: the node's thread.
+// Calls that may block for long, such as fdatasync, run off the node's thread: a node that waited
+// for a disk would miss its heartbeats. One call at a time; each actor that makes such calls has
+// its own instance. Thread rule: the node's thread.
 #pragma once
 
 #include <condition_variable>
@@ -15,14 +15,14 @@ namespace luxodus {
 class BlockingCalls {
  public:
   virtual ~BlockingCalls() = default;
-  /// Begins `call`; when it has returned, `done` runs on the node's thread. Requires: none is under
-  /// way; what `call` refers to lives until it has returned. It may let no exception out.
+  /// Begins `call`; after it has returned, `done` runs on the node's thread. Requires: no call is
+  /// in progress; what `call` refers to outlives it; `call` throws nothing.
   virtual void begin(std::function<void()> call, const Task& done) = 0;
-  /// Returns when no call is under way any more. Blocks: for a node that ends.
+  /// Blocks until no call is in progress: for shutdown.
   virtual void finish() = 0;
 };
 
-/// On a thread of its own.
+/// Runs the calls on a thread of its own.
 class BlockingThread final : public BlockingCalls {
  public:
   /// Requires: `handoff` outlives it, with room for one task.
@@ -38,10 +38,10 @@ class BlockingThread final : public BlockingCalls {
   Handoff& handoff_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::function<void()> call_;  // empty: none is under way
+  std::function<void()> call_;  // empty: none in progress
   Task done_;
   bool ends_ = false;
-  std::thread thread_;  // the last: it begins when all else is there
+  std::thread thread_;  // last member: starts when all others exist
 };
 
 }  // namespace luxodus

@@ -24,7 +24,7 @@ QuietSource::~QuietSource() {
 }
 
 void QuietSource::wait_until(Nanoseconds deadline) {
-  // A day at most: a deadline of `never` has no timespec, and waking for nothing costs nothing.
+  // One day at most: `never` does not fit a timespec, and a spurious wake-up is harmless.
   const Nanoseconds left =
       std::clamp<Nanoseconds>(deadline - clock_.now(), 0, seconds(24 * 60 * 60));
   const timespec wait{left / seconds(1), left % seconds(1)};

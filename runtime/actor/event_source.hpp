@@ -1,5 +1,5 @@
-// What comes to a node from outside its thread, and where it waits when it has nothing to do: the
-// seam at which a simulation takes the place of sockets.
+// Where a node receives from outside its thread and waits when it is idle. A simulation replaces
+// sockets here.
 #pragma once
 
 #include "runtime/core/clock.hpp"
@@ -10,25 +10,25 @@ class EventSource {
  public:
   virtual ~EventSource() = default;
 
-  /// Takes in what has arrived, without waiting, a bounded part at a time; true where there may be
+  /// Takes in a bounded part of what has arrived, without waiting. Returns true if there may be
   /// more. On the node's thread.
   virtual bool poll() = 0;
 
-  /// Sends what was given away since poll(). On the node's thread.
+  /// Sends what was queued since poll(). On the node's thread.
   virtual void send_out() {}
 
-  /// Waits until something arrives, `deadline` passes, or wake() was called since the last wait; it
+  /// Waits until something arrives, `deadline` passes, or wake() was called since the last wait;
   /// may return earlier. On the node's thread.
   virtual void wait_until(Nanoseconds deadline) = 0;
 
-  /// Ends the wait that is on, or else the next. Any thread.
+  /// Ends the current wait, or the next one if there is none. Any thread.
   virtual void wake() noexcept = 0;
 };
 
-/// For a node without a network: nothing ever arrives but wake().
+/// For a node without a network: only wake() ends a wait.
 class QuietSource final : public EventSource {
  public:
-  /// Throws std::runtime_error where the system refuses.
+  /// Throws std::runtime_error if the system gives no eventfd.
   explicit QuietSource(const Clock& clock);
   QuietSource(const QuietSource&) = delete;
   QuietSource& operator=(const QuietSource&) = delete;

@@ -1,5 +1,5 @@
-// The one door into a node for other threads: builders and readers of files hand over what the node
-// shall do with their results. Bounded; a lock is held for a copy only. Everything else of a node
+// The only way into a node for other threads: threads that build or read files hand over tasks for
+// the node to run. Bounded; the lock is held only while a task is copied. Everything else of a node
 // belongs to its thread.
 #pragma once
 
@@ -17,9 +17,9 @@ class Handoff {
   /// Requires: `source` outlives this.
   Handoff(size_t capacity, EventSource& source) : tasks_(capacity), source_(source) {}
 
-  /// Has `task` run on the node's thread, in the order of handing over, and wakes the node; false,
-  /// and nothing is taken, where the handoff is full: whoever gives out work gives out no more than
-  /// its results find room. Any thread.
+  /// Queues `task` to run on the node's thread, in order, and wakes the node. Returns false, and
+  /// queues nothing, if it is full: do not start more work than there is room for its results. Any
+  /// thread.
   [[nodiscard]] bool give(const Task& task) {
     {
       const std::lock_guard lock(mutex_);
@@ -30,7 +30,7 @@ class Handoff {
     return true;
   }
 
-  /// Runs what was handed over before the call. Returns how many. On the node's thread.
+  /// Runs the tasks queued before the call and returns their number. On the node's thread.
   size_t run() {
     const size_t count = waiting();
     for (size_t i = 0; i < count; ++i) take()();
@@ -49,7 +49,7 @@ class Handoff {
 
   std::mutex mutex_;
   Ring<Task> tasks_;
-  std::atomic<size_t> waiting_{0};  // so that a turn looks without taking the lock
+  std::atomic<size_t> waiting_{0};  // lets a turn check without taking the lock
   EventSource& source_;
 };
 

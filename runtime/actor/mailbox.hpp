@@ -1,8 +1,8 @@
-// One lane of an actor's mailbox. Messages are small structs that can be moved, kept by value in an
-// array whose size is the sum of the limits of their kinds, so sending takes no memory: what is
-// large is a handle in its message. They come out in the order in which they went in. Every kind
-// has a limit and says what becomes of one more: nothing is ever dropped in silence. Belongs to one
-// node: senders and receiver are on its thread.
+// One lane of an actor's mailbox. Messages are small movable structs, kept by value in an array
+// whose size is the sum of the limits of their kinds, so sending allocates nothing; large data is
+// sent by a handle. Messages come out in the order in which they went in. Every kind has a limit
+// and declares what happens beyond it: nothing is dropped silently. Thread rule: belongs to one
+// node; sender and receiver are on its thread.
 #pragma once
 
 #include <array>
@@ -18,17 +18,17 @@
 
 namespace luxodus {
 
-/// What becomes of a message whose kind has reached its limit.
+/// What happens to a message whose kind has reached its limit.
 enum class WhenFull {
-  wait,      // its sender waits, first come, first served
-  reject,    // its sender is told, and decides
-  coalesce,  // it takes the place of the one of its kind that was sent last
-  fail,      // our own arithmetic forbids it: the process ends
+  wait,      // the sender waits; senders are served in order
+  reject,    // the sender is told, and decides
+  coalesce,  // it replaces the message of its kind that was sent last
+  fail,      // the memory plan rules it out: the process aborts
 };
 
 enum class Offered { taken, rejected, cancelled };
 
-/// A kind of message, as an actor declares it: at most `most` wait in the mailbox.
+/// A kind of message that an actor accepts: at most `most` wait in the mailbox.
 template <class MessageType, size_t most, WhenFull reaction>
 struct Accepts {
   using Message = MessageType;
@@ -44,7 +44,7 @@ struct Accepts {
 template <class... Kinds>
 class MailboxLane {
  public:
-  /// Any message of the lane; monostate is none.
+  /// Any message of the lane; monostate means none.
   using Any = std::variant<std::monostate, typename Kinds::Message...>;
   static constexpr size_t capacity = (Kinds::limit + ... + 0);
   static constexpr bool any_waits = ((Kinds::when_full == WhenFull::wait) || ...);
@@ -59,7 +59,7 @@ class MailboxLane {
   /// For a memory plan.
   static constexpr size_t memory_bytes() { return capacity * sizeof(Any); }
 
-  /// Takes `message` in without waiting: a kind whose reaction is `wait` rejects instead.
+  /// Takes `message` without waiting: a kind whose reaction is `wait` rejects instead.
   template <class Message>
   [[nodiscard]] Offered offer(Message message) {
     constexpr size_t kind = kind_of<Message>();
@@ -78,7 +78,7 @@ class MailboxLane {
     }
   }
 
-  /// Takes `message` in, after a wait if need be. Requires: on a fiber. Suspends where the kind's
+  /// Takes `message`, after a wait if necessary. Requires: on a fiber. Suspends if the kind's
   /// reaction is `wait`.
   template <class Message>
   [[nodiscard]] Offered send(Fibers& fibers, Message message) {
@@ -87,15 +87,15 @@ class MailboxLane {
       if (counts_[kind].held == limits[kind]) {
         if (fibers.wait(counts_[kind].senders, "mailbox full") != Wake::woken)
           return Offered::cancelled;
-        append(kind, std::move(message));  // in the place that take() left to us
+        append(kind, std::move(message));  // the slot that take() freed for us
         return Offered::taken;
       }
     }
     return offer(std::move(message));
   }
 
-  /// The oldest message, taken out; its place goes to the sender that waits the longest for one of
-  /// the kind, so that no later sender overtakes him. Requires: !empty().
+  /// Removes and returns the oldest message. Its slot goes to the sender that has waited longest
+  /// for this kind, so that no later sender overtakes it. Requires: !empty().
   Any take(Fibers& fibers) {
     LUX_CHECK(!empty(), "took from an empty mailbox");
     Any oldest = std::exchange(slots_[first_ % capacity], Any());
@@ -111,8 +111,8 @@ class MailboxLane {
   static constexpr std::array<WhenFull, sizeof...(Kinds)> reactions{Kinds::when_full...};
 
   struct Count {
-    size_t held = 0;    // in the lane, or promised to a sender that was woken
-    uint64_t last = 0;  // the number of the one sent last
+    size_t held = 0;    // in the lane, or reserved for a sender that was woken
+    uint64_t last = 0;  // number of the message sent last
     WaitList senders;
   };
 
@@ -136,7 +136,7 @@ class MailboxLane {
 
   std::vector<Any> slots_;
   std::array<Count, sizeof...(Kinds)> counts_{};
-  uint64_t first_ = 0;  // messages are numbered as they come
+  uint64_t first_ = 0;  // messages are numbered in order of arrival
   size_t size_ = 0;
 };
 

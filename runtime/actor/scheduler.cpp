@@ -65,8 +65,8 @@ void Scheduler::call_for_control(ControlReceiver& receiver) {
   if (!receiver.linked()) controls_.push_back(receiver);
 }
 
-// On the scheduler's stack, when the deadline has come. The fiber may have been woken just before,
-// in the same turn: then it is not suspended any more, and that wake stands.
+// Runs on the scheduler's stack at the deadline. The fiber may have been woken just before, in the
+// same turn: then it is no longer suspended, and that wake counts.
 Task Scheduler::wake_by_deadline() {
   LUX_CHECK(fibers_.current() != nullptr, "waited for a deadline outside of any fiber");
   return [this, id = fibers_.current()->id()] { fibers_.time_out(id); };
@@ -90,7 +90,7 @@ Nanoseconds Scheduler::turn() {
   const Nanoseconds at = clock_.now();
   const Nanoseconds began = clock_.processor();
   const Nanoseconds due = take_turn();
-  // A thread computes for no longer than passes meanwhile: most turns need not be looked at again.
+  // CPU time never exceeds elapsed time, so most turns need only this cheap check.
   if (clock_.now() - at <= static_cast<Nanoseconds>(counters_.longest_turn)) return due;
   const auto took = static_cast<uint64_t>(clock_.processor() - began);
   counters_.longest_turn = std::max(counters_.longest_turn, took);
@@ -102,7 +102,7 @@ Nanoseconds Scheduler::take_turn() {
   const size_t timers = rarely(Buggify::Site::few_timers) ? 1 : limits_.timers_per_turn;
   counters_.timers_fired += timers_.run_due(clock_.now(), timers);
   const bool more_arrives = source_.poll();
-  // What has come is answered before fibers take their time.
+  // Replies are sent before fibers take their time.
   if (handle_controls()) source_.send_out();
   counters_.handed_over += handoff_.run();
   run_fibers();
@@ -115,8 +115,8 @@ Nanoseconds Scheduler::take_turn() {
   return std::min(timers_.next(), shutdown_due);
 }
 
-/// Those who wait now, once each: an actor that sends control to itself is called in the next turn.
-/// False: nobody waits.
+/// Calls each receiver that waits now once: an actor that sends control to itself is called in the
+/// next turn. Returns false if none waits.
 bool Scheduler::handle_controls() {
   if (controls_.empty()) return false;
   IntrusiveList<ControlReceiver> waiting;

@@ -1,9 +1,9 @@
-// The loop of a node, which is one OS thread. A turn goes through what may be waiting, the urgent
+// The loop of a node, which is one OS thread. A turn serves what may be waiting, the most urgent
 // first and each with a budget, so that nothing starves and heartbeats are on time:
 //   timers > what arrives > control messages > results of other threads > ready fibers
-// With nothing ready it waits where things arrive. Everything of a node is owned by its scheduler
-// and touched by its thread alone, but for handoff().give(). It knows time by its Clock only and
-// keeps nothing outside itself, so many schedulers can take turns on one thread, simulated.
+// When nothing is ready it waits for arrivals. A node's parts are owned by its scheduler and used
+// only on its thread, except handoff().give(). The scheduler reads time only from its Clock and
+// keeps no global state, so a simulation can run many schedulers on one thread.
 #pragma once
 
 #include <cstdint>
@@ -24,18 +24,18 @@ namespace luxodus {
 
 struct SchedulerLimits {
   FiberLimits fibers;
-  size_t timers_beside_fibers = 64;  // of the node's parts; every fiber has one of its own
+  size_t timers_beside_fibers = 64;  // for the node's parts; every fiber has one more
   size_t handoffs = 64;              // results of other threads that wait at once
-  // A turn of fibers ends at either: short against a heartbeat of 250 ms, long against the 100 ns
-  // that a turn costs by itself.
+  // A turn of fibers ends at either limit: short against a heartbeat of 250 ms, long against the
+  // 100 ns overhead of a turn.
   size_t resumes_per_turn = 256;
   Nanoseconds fibers_per_turn = milliseconds(1);
   size_t timers_per_turn = 256;
-  Nanoseconds stall = milliseconds(20);  // a fiber that runs for longer is reported
-  Buggify* buggify = nullptr;            // rare ways of all that runs here; null: none
+  Nanoseconds stall = milliseconds(20);  // a fiber that runs longer is reported
+  Buggify* buggify = nullptr;            // rare paths of everything that runs here, or null
 };
 
-/// What has control messages to handle. The scheduler calls back once a turn.
+/// A receiver of control messages. The scheduler calls it back once a turn.
 class ControlReceiver : public ListHook {
  public:
   virtual ~ControlReceiver() = default;
@@ -43,22 +43,22 @@ class ControlReceiver : public ListHook {
   virtual void handle_control() = 0;
 };
 
-/// A fiber that ran for too long.
+/// A fiber that ran for too long without suspending.
 struct Stall {
   FiberId fiber;
   const char* tag = "";
-  const char* reason = "";  // where it suspended at last
+  const char* reason = "";  // where it last suspended
   uint64_t subject = 0;
   Nanoseconds ran = 0;
 };
 
 class Scheduler {
  public:
-  /// Takes all memory there will be. Requires: `clock` and `source` outlive this.
-  /// Throws std::runtime_error where the system refuses.
+  /// Allocates everything it will need. Requires: `clock` and `source` outlive this. Throws
+  /// std::runtime_error if the system refuses.
   Scheduler(const SchedulerLimits& limits, const Clock& clock, EventSource& source);
 
-  /// Adds what a scheduler of these limits takes.
+  /// Adds the memory of a scheduler with these limits.
   static void plan_memory(MemoryPlan& plan, const SchedulerLimits& limits);
 
   // ---- the node's parts --------------------------------------------------------------------
@@ -73,30 +73,30 @@ class Scheduler {
 
   /// Registers the scheduler's own numbers.
   void add_metrics(Metrics& metrics) const;
-  /// The last phase of an end: cancels all fibers and waits until they have returned.
+  /// The last phase of a shutdown: cancels all fibers and waits until they have returned.
   ShutdownPhase end_all_fibers(Nanoseconds most);
-  /// Ends the start: parts are made, actors started, metrics registered before it. From here on the
-  /// node's thread takes no memory.
+  /// Ends the start-up, in which parts are made, actors started and metrics registered. After it
+  /// the node's thread allocates nothing.
   void seal() { sealed_ = true; }
   bool sealed() const { return sealed_; }
 
-  /// Has `receiver` called in the next turn, or in this one if what arrives is still to come.
+  /// Has `receiver` called in this turn if control is still to be handled, else in the next.
   void call_for_control(ControlReceiver& receiver);
 
-  // ---- from inside a fiber -----------------------------------------------------------------
+  // ---- called on a fiber -------------------------------------------------------------------
 
-  /// Rests until `deadline`: timed_out, unless cancelled before. Suspends.
+  /// Sleeps until `deadline` and returns timed_out, unless cancelled before. Suspends.
   [[nodiscard]] Wake sleep_until(Nanoseconds deadline);
-  /// As Fibers::wait, but no longer than until `deadline`. Suspends.
+  /// Fibers::wait with a deadline. Suspends.
   [[nodiscard]] Wake wait_until(WaitList& list, Nanoseconds deadline, const char* reason);
 
   // ---- the loop ----------------------------------------------------------------------------
 
-  /// One turn, which never waits. Returns when the next is due: not after now where there is more
-  /// to do at once, `never` where only the source can bring work.
+  /// One turn, which never waits. Returns when the next is due: now or earlier if there is more to
+  /// do, `never` if only the source can bring work.
   Nanoseconds turn();
 
-  /// Turns and waits until the shutdown has finished.
+  /// Runs turns and waits until the shutdown has finished.
   void run();
 
   struct Counters {
@@ -106,15 +106,15 @@ class Scheduler {
     uint64_t timers_fired = 0;
     uint64_t handed_over = 0;
     uint64_t stalls = 0;
-    uint64_t waited = 0;            // [ns] with nothing to do
-    uint64_t longest_turn = 0;      // [ns] of processor time
+    uint64_t waited = 0;            // [ns] idle
+    uint64_t longest_turn = 0;      // [ns] of CPU time
     uint64_t fibers_live = 0;       // at the end of the last turn
     uint64_t fibers_suspended = 0;  // of those
   };
   const Counters& counters() const { return counters_; }
   const Stall& last_stall() const { return last_stall_; }
 
-  /// Whether what runs here shall take a rare way now: in simulations alone.
+  /// Whether to take a rare path now; only in simulations.
   bool rarely(Buggify::Site site) const { return luxodus::rarely(limits_.buggify, site); }
 
  private:

@@ -10,7 +10,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr Nanoseconds between_words = seconds(1);  // of a phase that waits
+constexpr Nanoseconds between_words = seconds(1);  // interval of progress lines of a waiting phase
 
 }  // namespace
 

@@ -1,7 +1,7 @@
-// How a node ends: in named phases, one after another, each with a deadline. A phase that is not
-// done at its deadline is given up with a warning that says what it still waited for, and the next
-// begins: a node that shall end, ends. While a phase lasts it says every second what it waits for.
-// Belongs to one node; the scheduler drives it.
+// Shutdown of a node: in named phases, one after another, each with a deadline. A phase that misses
+// its deadline is abandoned with a warning that says what it still waited for, and the next begins:
+// the shutdown always ends. A phase in progress logs every second what it waits for. Thread rule:
+// belongs to one node; the scheduler drives it.
 #pragma once
 
 #include <functional>
@@ -12,12 +12,12 @@
 
 namespace luxodus {
 
-/// One step of the end. All three are called on the node's thread, outside of any fiber.
+/// One phase. All three functions are called on the node's thread, outside of any fiber.
 struct ShutdownPhase {
   std::string name;                              // "flush commits"
-  Nanoseconds most = 0;                          // time for it
-  std::function<void()> begin;                   // asks for what shall happen; may be empty
-  std::function<bool()> done;                    // whether it has
+  Nanoseconds most = 0;                          // its deadline, from its beginning
+  std::function<void()> begin;                   // requests what shall happen; may be empty
+  std::function<bool()> done;                    // whether it has happened
   std::function<std::string()> still_waits_for;  // "3 flushes unacknowledged", for the log
 };
 
@@ -26,21 +26,21 @@ class Shutdown {
   /// Requires: not begun.
   void add(ShutdownPhase phase);
 
-  /// Begins the first phase at the next step; a second call changes nothing. `why` is for the log.
+  /// Begins the first phase at the next step; further calls have no effect. `why` is for the log.
   void begin(const std::string& why);
 
-  /// Goes on as far as it can. Returns when to call it again at the latest: `never` before it has
-  /// begun and after it has finished.
+  /// Advances as far as possible. Returns when to call it again at the latest: `never` before
+  /// begin() and after the end.
   Nanoseconds step(Nanoseconds now);
 
   bool begun() const { return begun_; }
   bool finished() const { return begun_ && current_ == phases_.size(); }
 
-  /// What became of the phases so far, in order.
+  /// Outcomes of the phases so far, in order.
   struct Outcome {
     std::string phase;
     bool done = false;       // before its deadline
-    std::string waited_for;  // where it was given up
+    std::string waited_for;  // if it was abandoned
   };
   const std::vector<Outcome>& outcomes() const { return outcomes_; }
 

@@ -1,8 +1,7 @@
-// What all actors have in common when one of them fails: an exception has left one of its handlers,
-// or a task of its own (a timer, the end of a call). A failed actor handles nothing more. Who
-// supervises it is told, and may have it begin anew: with an empty mailbox and the state that it
-// had at its start. Without a supervisor exceptions leave, as from any function.
-// Belongs to one node: all calls are made on its thread.
+// Failure of actors: an exception has left a handler, or one of the actor's own tasks (a timer, the
+// completion of a call). A failed actor handles nothing more. Its supervisor is notified and may
+// restart it, with an empty mailbox and its initial state. Without a supervisor the exception
+// propagates. Thread rule: belongs to one node; all calls are made on its thread.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +15,16 @@ namespace luxodus {
 
 class Supervised;
 
-/// Is told of failures.
+/// Receives failures.
 class FailureListener {
  public:
   virtual ~FailureListener() = default;
-  /// The actor has failed, and does nothing until it begins anew. Called where it failed: on its
+  /// The actor has failed, and does nothing until it is restarted. Called where it failed: on its
   /// fiber, or on the scheduler's stack. It may not suspend.
   virtual void on_failure(Supervised& actor, const std::exception_ptr& why) noexcept = 0;
 };
 
-/// A failure on purpose, for rehearsals.
+/// An injected failure, for tests and drills.
 class FailedOnPurpose final : public std::runtime_error {
  public:
   FailedOnPurpose() : std::runtime_error("a failure on purpose") {}
@@ -37,26 +36,26 @@ class Supervised : public ControlReceiver {
   void supervise_by(FailureListener& listener) { listener_ = &listener; }
 
   bool failed() const { return failed_; }
-  /// Its lives so far; the first is 1.
+  /// Number of the current life; the first is 1.
   uint32_t life() const { return life_; }
-  /// Requires: the actor can, which is one whose handlers do not suspend.
+  /// Restarts the actor. Requires: its handlers do not suspend.
   void begin_anew() {
     ++life_;
     failed_ = false;
     forget_mailbox();
     reset();
   }
-  /// What it does next fails, on purpose.
+  /// Makes the next handler or task fail.
   void fail_next() { fails_next_ = true; }
 
-  /// Of who works for the actor elsewhere: this has left its work. Not within a catch block.
+  /// Reports an exception of code that works for the actor elsewhere. Not within a catch block.
   void fail_with(const std::exception_ptr& why) {
     if (listener_ == nullptr) std::rethrow_exception(why);
     if (std::exchange(failed_, true)) return;
     listener_->on_failure(*this, why);
   }
 
-  /// Does `work` as a part of the actor: what leaves it is a failure. A failed actor does nothing.
+  /// Runs `work` as part of the actor: an exception is a failure. A failed actor does nothing.
   template <class Work>
   void guarded(Work&& work) {
     if (failed_) return;
@@ -71,7 +70,8 @@ class Supervised : public ControlReceiver {
     if (why) fail_with(why);
   }
 
-  /// The same later: on a timer, or when a call has returned. Not done by a later life.
+  /// A task that runs guarded(work) later, on a timer or after a call. It does nothing in a later
+  /// life.
   template <class Work>
   Task own_task(Work work) {
     return [this, work, life = life_] {
@@ -80,7 +80,7 @@ class Supervised : public ControlReceiver {
   }
 
  protected:
-  /// Gives the actor the state that it had at its start.
+  /// Restores the actor's initial state.
   virtual void reset();
   virtual void forget_mailbox() {}
 

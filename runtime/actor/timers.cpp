@@ -1,9 +1,8 @@
-// The invariant: a timer lies at the level of the highest six-bit group in which its deadline
-// differs from now_, in the slot that this group of the deadline names (level 0 where none
-// differs). So all timers of a level are due before those of the levels above, the first occupied
-// slot of the lowest occupied level comes next, and equal deadlines always share a slot, in the
-// order of their setting. now_ may move freely up to the start of that slot; there its timers move
-// down, or fire.
+// Invariant: a timer lies at the level of the highest six-bit group in which its deadline differs
+// from now_, in the slot that this group of the deadline names (level 0 if none differs). So all
+// timers of a level are due before those of the levels above, the first occupied slot of the lowest
+// occupied level comes next, and equal deadlines always share a slot, in the order in which they
+// were set. now_ may move freely up to the start of that slot; there its timers move down, or fire.
 #include "runtime/actor/timers.hpp"
 
 #include <algorithm>
@@ -59,7 +58,7 @@ Nanoseconds Timers::start_of(Place place) const {
   if (place.level == levels) return never;
   const size_t below = place.level * level_bits;
   const size_t above = below + level_bits;
-  // The groups of the top level reach past the 63 bits of a time: nothing stands above them.
+  // The groups of the top level reach beyond the 63 bits of a time: there is no prefix above them.
   const Nanoseconds prefix = above < 63 ? now_ >> above << above : 0;
   return prefix | static_cast<Nanoseconds>(place.slot << below);
 }

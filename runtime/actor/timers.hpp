@@ -1,8 +1,8 @@
-// What shall happen later: a hierarchical timing wheel (Varghese, Lauck, "Hashed and hierarchical
-// timing wheels", SOSP 1987, scheme 7) with a tick of one nanosecond. Setting and cancelling are
-// O(1) and take no memory; timers fire in the exact order of their deadlines, equal ones in the
-// order in which they were set, so that a simulated run repeats itself. Never early; late only as
-// the caller is. Belongs to one node.
+// Timers: a hierarchical timing wheel (Varghese, Lauck, "Hashed and hierarchical timing wheels",
+// SOSP 1987, scheme 7) with a tick of one nanosecond. Setting and cancelling are O(1) and allocate
+// nothing. Timers fire in the exact order of their deadlines, equal ones in the order in which they
+// were set, so that simulated runs are reproducible. They never fire early; they are late only if
+// the caller is. Thread rule: belongs to one node.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace luxodus {
 
-/// A timer from its setting until it fires or is cancelled.
+/// A timer, until it fires or is cancelled.
 using TimerId = Id<struct TimerTag, Loan>;
 
 /// Later than every deadline.
@@ -34,21 +34,20 @@ class Timers {
   /// For a memory plan.
   static constexpr size_t bytes_each = sizeof(Timer) + FixedPool<Timer>::bytes_beside;
 
-  /// At most `capacity` timers at once: one for each fiber that waits with a deadline, and those of
-  /// the parts of the node; one more is a mistake. Requires: now >= 0.
+  /// At most `capacity` timers at once: one for each fiber that waits with a deadline, plus those
+  /// of the node's parts; one more aborts the process. Requires: now >= 0.
   Timers(size_t capacity, Nanoseconds now);
 
-  /// Calls `task` from run_due() at or after `deadline`; one that has passed counts as now.
+  /// Calls `task` from run_due() at or after `deadline`; a deadline in the past counts as now.
   TimerId set(Nanoseconds deadline, const Task& task);
-  /// False, and nothing happens, where it has fired or was cancelled.
+  /// Returns false, and does nothing, if the timer has fired or was cancelled.
   bool cancel(TimerId id);
 
-  /// Fires what is due, `most` at the most; what a task sets for now is due in the same call.
-  /// Returns how many fired. Requires: now never goes back.
+  /// Fires due timers, at most `most`; what a task sets for now is due in the same call. Returns
+  /// the number fired. Requires: now never goes back.
   size_t run_due(Nanoseconds now, size_t most);
 
-  /// When to call run_due() next: not after the earliest deadline, though it may be before it;
-  /// `never` where no timer is set.
+  /// When to call run_due() next: at or before the earliest deadline; `never` if no timer is set.
   Nanoseconds next() const;
 
   size_t set_now() const { return pool_.in_use(); }

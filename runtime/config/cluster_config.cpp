@@ -14,7 +14,7 @@ bool is_loopback(const std::string& address) {
   return address == "localhost" || (is_ipv4(address) && address.starts_with("127."));
 }
 
-/// Local sockets are known by a name in the network namespace, which no file outlives.
+/// Local sockets have a name in the network namespace, so no file is left behind.
 Endpoints local_endpoints(const ClusterConfig& cluster, const ClusterNode& node,
                           std::string_view scheme) {
   const std::string base =

@@ -1,4 +1,4 @@
-// What of a cluster's file shall go wrong, on purpose.
+// Reads the fault events of a cluster file.
 #include <cmath>
 
 #include "runtime/config/cluster_reading.hpp"
@@ -14,7 +14,7 @@ Nanoseconds span_of_ms(double ms) {
 Fault::Kind kind_of(const std::string& word) {
   for (int k = 0; k < fault_kinds; ++k)
     if (word == name_of(static_cast<Fault::Kind>(k))) return static_cast<Fault::Kind>(k);
-  return Fault::Kind::pause;  // a word that was reported
+  return Fault::Kind::pause;  // the invalid word was reported
 }
 
 bool is_between_two(Fault::Kind kind) {
@@ -28,7 +28,7 @@ NodeId named(TableReader& keys, std::string_view key, const ClusterConfig& clust
   return {};
 }
 
-/// Of what happens to an actor of the node, and of nothing else.
+/// Reads `actor`, which only failures have.
 void read_actor(TableReader& keys, Fault& fault) {
   const bool of_actor = fault.kind == Fault::Kind::failure;
   fault.actor = keys.choice("actor");

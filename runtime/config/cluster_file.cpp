@@ -16,7 +16,7 @@ namespace {
 using config::ClusterReading;
 using toml::TableReader;
 
-/// What ZeroMQ and the envelope add to a chunk; net_config.hpp counts the same.
+/// Bytes that ZeroMQ and the envelope add to a chunk; net_config.hpp counts the same.
 constexpr size_t chunk_overhead_bytes = 128;
 
 Nanoseconds span_of(double seconds_said) {
@@ -108,7 +108,7 @@ void read_services(TableReader& top, ClusterReading& reading) {
     keys.problem("insecure", "'folder' names keys and 'insecure' forgoes them; keep one of them");
 }
 
-/// Returns the port of each host's first process.
+/// Returns the metrics port of each host's first process.
 uint16_t read_observe(TableReader& top, ClusterReading& reading) {
   TableReader keys = reader_of(top, "observe");
   ObserveChoice& observe = reading.cluster.observe;
@@ -131,7 +131,7 @@ void read_view(TableReader& top, ClusterReading& reading) {
   view.save_folder = keys.path("save_folder");
 }
 
-/// An assessment traces until its verdicts are there.
+/// An assessment traces until its verdicts are decided.
 void read_assess(TableReader& top, ClusterReading& reading) {
   AssessChoice& assess = reading.cluster.assess;
   assess.asked = top.has("assess");
@@ -150,7 +150,7 @@ void read_assess(TableReader& top, ClusterReading& reading) {
         "'relative_error' and 'time_s' in [run], and say 'rounds' here");
 }
 
-/// Pictures are of a run that has ended.
+/// Pictures are made of a finished run.
 void read_render(TableReader& top, ClusterReading& reading) {
   RenderChoice& render = reading.cluster.render;
   render.asked = top.has("render");
@@ -223,7 +223,7 @@ Problems only(const Problem& problem) {
   return problems;
 }
 
-/// Parses a text and has `read(top)` go through it. Returns all that is wrong with it.
+/// Parses a text and calls `read(top)`. Returns all problems.
 Problems read_document(std::string_view text, ClusterReading& reading, const auto& read) {
   const auto document = toml::parse(text, reading.start.file, limits::cluster_file_bytes);
   if (!document) return only(document.problem());

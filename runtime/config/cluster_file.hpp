@@ -1,7 +1,6 @@
-// Reads the one file that describes a whole cluster. Every problem in it is reported with its line;
-// a cluster comes out only where there is none. Keys are those of cluster_schema.hpp. It reads that
-// file and no other: paths in it are made whole, relative to its folder, and not looked at. Any
-// thread.
+// Reads a cluster file. Every problem in it is reported with its line; a cluster is returned only
+// if there is none. Keys are those of cluster_schema.hpp. It reads no other file: paths are
+// resolved relative to the file's folder, and their targets are not checked. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +14,11 @@
 namespace luxodus {
 
 namespace limits {
-/// A cluster's file [bytes]: 1024 nodes and as many links one by one take a tenth of it.
+/// Longest cluster file [bytes]: 1024 nodes and as many single links take a tenth of it.
 inline constexpr size_t cluster_file_bytes = size_t{1} << 20;
 }  // namespace limits
 
-/// Either a cluster, with warnings that do not hinder, or problems.
+/// A cluster, possibly with warnings, or problems.
 struct ReadCluster {
   std::optional<ClusterConfig> cluster;
   Problems problems;
@@ -28,16 +27,16 @@ struct ReadCluster {
 
 ReadCluster read_cluster(const std::filesystem::path& file);
 
-/// The same of a text; `file` is named in problems, and paths are relative to its folder.
+/// Parses a text; problems name `file`, and paths are relative to its folder.
 ReadCluster parse_cluster(std::string_view text, const std::filesystem::path& file);
 
-/// Either faults, or problems.
+/// A fault plan, or problems.
 struct ReadFaults {
   std::optional<FaultPlan> plan;
   Problems problems;
 };
 
-/// A file that holds the table of faults and nothing else, for nodes of these names, by number.
+/// Reads a file that holds only the table of faults, for nodes with these names, by number.
 ReadFaults read_fault_file(const std::filesystem::path& file,
                            const std::vector<std::string>& names);
 

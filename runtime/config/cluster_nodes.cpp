@@ -1,4 +1,4 @@
-// Machines, nodes, the processes that nodes share, and their ports.
+// Reads machines, nodes, shared processes, and ports.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace luxodus::config {
 
 namespace {
 
-/// A node as one [[node]] says it, before all are known.
+/// A node of one [[node]] table, before all are known.
 struct Draft {
   ClusterNode node;
   std::string process;
@@ -20,10 +20,10 @@ struct Draft {
 
 std::string listen_address(const std::string& address) {
   if (address == "localhost") return "127.0.0.1";
-  return is_ipv4(address) ? address : "*";  // only numbers can be listened on
+  return is_ipv4(address) ? address : "*";  // only numeric addresses can be bound
 }
 
-/// What a budget says; of `base`, where there is one, what it does not say.
+/// Reads a budget; missing keys come from `base` if it is given.
 NodeBudget read_budget(TableReader keys, const NodeBudget* base) {
   NodeBudget budget = base ? *base : NodeBudget{};
   const auto says = [&](std::string_view key) { return !base || keys.has(key); };
@@ -37,7 +37,7 @@ NodeBudget read_budget(TableReader keys, const NodeBudget* base) {
   return budget;
 }
 
-/// The number of the host that a node names, or of the only one.
+/// Index of the host that a node names, or of the only one.
 size_t read_host(TableReader& keys, const ClusterReading& reading) {
   const std::string name = keys.text("host");
   const auto& hosts = reading.cluster.hosts;
@@ -56,7 +56,7 @@ size_t read_host(TableReader& keys, const ClusterReading& reading) {
   return 0;
 }
 
-/// What one [[node]] says: a node, or `count` of them.
+/// Reads one [[node]] table: a node, or `count` of them.
 void read_node(const toml::Table& table, const NodeBudget& usual, ClusterReading& reading,
                std::vector<Draft>& drafts) {
   std::vector<std::string> specs{"node"};
@@ -92,7 +92,7 @@ void read_node(const toml::Table& table, const NodeBudget& usual, ClusterReading
   }
 }
 
-/// A controller that traces does so by a worker in its process.
+/// Adds the worker by which a controller traces, in its process.
 void add_tracer(std::vector<Draft>& drafts, ClusterReading& reading) {
   const auto controller = std::find_if(drafts.begin(), drafts.end(), [](const Draft& draft) {
     return draft.node.role == NodeRole::controller && draft.node.traces;
@@ -187,7 +187,7 @@ void read_nodes(TableReader& top, ClusterReading& reading) {
   for (const toml::Table* table : top.tables("node", limits::cluster_nodes)) {
     read_node(*table, usual, reading, drafts);
   }
-  if (drafts.empty()) return;  // which was told
+  if (drafts.empty()) return;  // the problem was reported
   add_tracer(drafts, reading);
   check_names(drafts, reading);
   check_roles(drafts, reading);
@@ -235,7 +235,7 @@ void form_processes(ClusterReading& reading, uint16_t metrics_port) {
 
 namespace {
 
-/// TCP ports in use, by address: hosts of one address share them.
+/// TCP ports in use, by address: hosts with the same address share them.
 class PortBook {
  public:
   explicit PortBook(ClusterReading& reading) : reading_(reading) {}

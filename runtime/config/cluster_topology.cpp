@@ -1,4 +1,4 @@
-// Who is linked to whom, as far as the cluster's file says it.
+// Reads the links of a cluster file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ void read_topology(TableReader& top, ClusterReading& reading) {
     read_sizes(keys, choice);
   } else {
     TableReader keys = reader("topology.amp");
-    keys.choice("kind");  // told, where it is no kind
+    keys.choice("kind");  // reports an invalid kind
     read_sizes(keys, choice);
   }
 }
@@ -68,7 +68,7 @@ void read_topology(TableReader& top, ClusterReading& reading) {
 void place_shards(ClusterReading& reading) {
   const ClusterConfig& cluster = reading.cluster;
   std::vector<NodeId>& shards = reading.cluster.tally.shards;
-  // As many as a flush names, the controller's aside (proto: limits::tally_shards).
+  // The most that a flush can name, without the controller's (proto: limits::tally_shards).
   if (reading.shards.size() > limits::tally_shards)
     return reading.findings.problem(reading.shards.front().place,
                                     fmt::format("there are {} shards; at most {} are allowed",

@@ -3,9 +3,9 @@
 // of a process that is killed; (3) write, fsync: the data is on the disk before any name points to
 // it; (4) give it a temporary name and rename that over the target; (5) fsync the folder: the name
 // is on the disk. Until (4) the target is untouched.
-// Where the file system has no files without names, a temporary name stands from step (2) on, and
-// every failure removes it. Who is killed leaves it; the file is locked while its writer lives, so
-// that others see which are stale.
+// Where the file system does not support O_TMPFILE, the file has a temporary name from step (2) on,
+// and every failure removes it. A process that is killed leaves it behind; the file is locked while
+// its writer lives, so that others can tell which are stale.
 #include "runtime/core/atomic_file.hpp"
 
 #include <fcntl.h>
@@ -33,7 +33,7 @@ constexpr int max_temporary_name_attempts = 1000;
 constexpr size_t transfer_bytes = size_t{1} << 26;
 constexpr std::string_view temporary_prefix = ".luxodus-", temporary_suffix = ".tmp";
 
-/// What to do where a file cannot be written.
+/// Advice for a file that cannot be written, by errno.
 std::string_view advice(int error) {
   switch (error) {
     case ENOENT:
@@ -65,7 +65,7 @@ bool holds_nul(const std::filesystem::path& path) {
   return path.native().find('\0') != std::string::npos;
 }
 
-/// Writes all bytes; 0 or the errno.
+/// Writes all bytes. Returns 0 or the errno.
 int write_all(int fd, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::write(fd, bytes.data(), std::min(bytes.size(), transfer_bytes));
@@ -78,7 +78,7 @@ int write_all(int fd, std::span<const std::byte> bytes) {
   return 0;
 }
 
-/// The same at a place of the file; what was written in order goes on where it was.
+/// Writes all bytes at an offset; the file position does not move. Returns 0 or the errno.
 int write_all_at(int fd, uint64_t offset, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::pwrite(fd, bytes.data(), std::min(bytes.size(), transfer_bytes),
@@ -93,7 +93,7 @@ int write_all_at(int fd, uint64_t offset, std::span<const std::byte> bytes) {
   return 0;
 }
 
-/// The file that is to be replaced; `mode` is set when it is there already.
+/// The file to be replaced; `mode` is set if it exists.
 struct Target {
   std::filesystem::path path;
   mode_t mode = 0;
@@ -113,8 +113,8 @@ Result<Target> find_target(const std::filesystem::path& path) {
   return target;
 }
 
-/// The folder of a file, without following a link that stands in its place: where results lie in
-/// subfolders, a link among them would lead out of the folder that was named.
+/// Opens the folder of a file without following a link in its place: results may lie in subfolders,
+/// and a link among them would lead out of the folder that the user named.
 Result<int> open_parent(const std::filesystem::path& path) {
   std::filesystem::path parent = path.parent_path();
   if (parent.empty()) parent = ".";
@@ -129,7 +129,8 @@ Result<int> open_parent(const std::filesystem::path& path) {
   return write_problem(path, error);
 }
 
-/// Does not hold the target's name, whose length may be at the system's limit already.
+/// A temporary name. It does not contain the target's name, which may already be of the maximum
+/// length.
 std::string next_temporary_name() {
   static std::atomic<uint64_t> counter{0};
   std::string name(temporary_prefix);
@@ -137,8 +138,8 @@ std::string next_temporary_name() {
   return name.append(temporary_suffix);
 }
 
-/// Makes a new file in the folder, if possible without a name; else `name` is set to what it is
-/// called. Returns the descriptor, or -1 with errno set.
+/// Makes a new file in the folder, without a name if possible; otherwise sets `name`. Returns the
+/// descriptor, or -1 with errno set.
 int create_temporary(int folder, std::string& name) {
   name.clear();
   const int unnamed = ::openat(folder, ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
@@ -148,7 +149,7 @@ int create_temporary(int folder, std::string& name) {
     name = next_temporary_name();
     const int fd = ::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd < 0 && errno == EEXIST) continue;
-    // Between the two, somebody who removes stale files may have taken it for one.
+    // Between open and flock, a cleaner of stale files may have removed it.
     struct stat about {};
     if (fd < 0 || ::flock(fd, LOCK_EX | LOCK_NB) != 0 || ::fstat(fd, &about) != 0 ||
         about.st_nlink > 0)
@@ -159,7 +160,7 @@ int create_temporary(int folder, std::string& name) {
   return -1;
 }
 
-/// Gives a file without a name a temporary one. 0 or the errno.
+/// Gives an unnamed file a temporary name. Returns 0 or the errno.
 int name_file(int fd, int folder, std::string& name) {
   const std::string handle = "/proc/self/fd/" + std::to_string(fd);
   for (int attempt = 0; attempt < max_temporary_name_attempts; ++attempt) {
@@ -196,7 +197,7 @@ struct AtomicFile::State {
   Target target;
   FileDescriptor folder;
   FileDescriptor file;
-  std::string temporary;  // "" while it has no name, and once it has the target's
+  std::string temporary;  // empty while it has no name, and once it has the target's
   int failed = 0;         // errno of the first piece that could not be written
 };
 
@@ -237,7 +238,7 @@ Result<void> AtomicFile::commit() {
     return write_problem(s.asked_for, error);
   }
   s.temporary.clear();
-  // EINVAL: the file system has no notion of syncing a folder, and nothing better can be done.
+  // EINVAL: the file system does not support syncing a folder, and nothing better can be done.
   if (::fsync(s.folder.number()) != 0 && errno != EINVAL) {
     return system_problem(s.asked_for, "the file is written, but its folder could not be synced",
                           errno);
@@ -245,7 +246,7 @@ Result<void> AtomicFile::commit() {
   return {};
 }
 
-/// Steps 3 and 4; 0 or the errno of what failed.
+/// Steps 3 and 4. Returns 0 or the errno of the step that failed.
 int AtomicFile::finish(State& s) {
   if (s.target.exists && ::fchmod(s.file.number(), s.target.mode) != 0) return errno;
   if (::fsync(s.file.number()) != 0) return errno;

@@ -1,7 +1,7 @@
-// Whole files in, whole files out. A file written here is either the old one or the new one, also
-// after a full disk, a crash or a power cut: the bytes go to a temporary name in the same folder,
-// are synced, and take the target's name in one rename. Every failure is a Problem with the path
-// and the system's reason. Any thread; two writers of one path do not disturb each other, the later
+// Atomic replacement of files. A file written here is either the old one or the new one, even after
+// a full disk, a crash or a power cut: the bytes go to a temporary name in the same folder, are
+// synced, and take the target's name in one rename. Every failure is a Problem with the path and
+// the system's reason. Any thread; two writers of one path do not disturb each other, the later
 // rename wins.
 #pragma once
 
@@ -17,20 +17,20 @@
 
 namespace luxodus {
 
-/// A file that is written piece by piece, and is there only once it is whole: without commit() it
-/// leaves no trace. The first piece that cannot be written is told by commit().
+/// A file that is written piece by piece and appears only when it is complete: without commit() it
+/// leaves no trace. commit() reports the first write that failed.
 class AtomicFile {
  public:
-  /// Errors: as write_file_atomically.
+  /// Errors: those of write_file_atomically.
   static Result<AtomicFile> create(const std::filesystem::path& path);
   AtomicFile(AtomicFile&&) noexcept;
   ~AtomicFile();
 
-  /// Behind what was written last by this.
+  /// Appends to what write() wrote before.
   void write(std::span<const std::byte> bytes);
-  /// At a place of the file, such as a head that is known at the end.
+  /// Writes at an offset, such as a header that is known only at the end.
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
-  /// Makes it the target. To be called once, and nothing after it.
+  /// Replaces the target. Call it once, as the last call.
   Result<void> commit();
 
  private:
@@ -41,9 +41,9 @@ class AtomicFile {
   std::unique_ptr<State> state_;
 };
 
-/// Replaces or makes the file `path`, keeping its permissions. What is no regular file (a symbolic
-/// link, a folder, a device) is refused, and so is a folder that is a link: see output_path.hpp.
-/// Errors: the folder is missing or not writable, no space, a name the system does not take. The
+/// Replaces or makes the file `path` and keeps its permissions. A target that is not a regular file
+/// (a symbolic link, a folder, a device) is rejected, and so is a folder that is a link: see
+/// output_path.hpp. Errors: the folder is missing or not writable, no space, an invalid name. The
 /// old file is then untouched and no temporary file is left.
 Result<void> write_file_atomically(const std::filesystem::path& path,
                                    std::span<const std::byte> bytes);

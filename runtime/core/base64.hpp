@@ -1,5 +1,4 @@
-// Bytes as text (RFC 4648), for pages and messages that hold everything in themselves. Pure; any
-// thread.
+// Base64 (RFC 4648), for pages and messages that embed binary data. Pure; any thread.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// Checks that stay on in every build. What they test is true unless the program itself is wrong, so
-// a failed one says where and why in one line and ends the process with a core: going on would give
-// numbers that nobody should trust. What may be wrong from outside is a Result instead.
+// Assertions that stay on in every build. Their conditions hold unless the program itself is wrong,
+// so a failure prints where and why in one line and aborts with a core dump: continuing would give
+// numbers that nobody should trust. For errors in input use Result.
 // Any thread, any fiber; a passed check costs a comparison.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace luxodus {
 
 }  // namespace luxodus
 
-/// `what` is a sentence for whoever reads the last line of the log, made only on failure: a literal
+/// `what` is a sentence for the reader of the log's last line, evaluated only on failure: a literal
 /// or anything else that converts to const char*.
 #define LUX_CHECK(condition, what) \
   ((condition) ? static_cast<void>(0) : ::luxodus::end_by_mistake(__FILE__, __LINE__, what))

@@ -1,6 +1,6 @@
-// Time as the runtime knows it: nanoseconds since a start of no meaning. Everything that waits,
-// times out or measures asks a Clock, so that a test or a simulation can move time by hand.
-// Thread rule: a Clock belongs to the node that asks it; the system's may be asked by any.
+// Time in the runtime: nanoseconds since an arbitrary start. Everything that waits, times out or
+// measures asks a Clock, so that a test or a simulation can advance time. Thread rule: a Clock
+// belongs to one node; SystemClock may be used by any thread.
 #pragma once
 
 #include <cstdint>
@@ -20,18 +20,18 @@ constexpr Nanoseconds seconds(std::int64_t n) {
   return n * 1'000'000'000;
 }
 
-/// For people [s].
+/// In seconds, for messages.
 constexpr double seconds_in(Nanoseconds span) {
   return static_cast<double>(span) * 1e-9;
 }
 
-/// Tells the time; never goes back.
+/// Monotonic time.
 class Clock {
  public:
   virtual ~Clock() = default;
   virtual Nanoseconds now() const = 0;
-  /// Processor time of the thread that asks, since a start of no meaning; of a node whose time is
-  /// virtual what it was charged.
+  /// CPU time of the calling thread since an arbitrary start; in virtual time, what the node was
+  /// charged.
   virtual Nanoseconds processor() const { return now(); }
 };
 
@@ -42,7 +42,7 @@ class SystemClock final : public Clock {
   Nanoseconds processor() const override;
 };
 
-/// Stands still until it is moved: for tests and simulation.
+/// Advances only by advance(): for tests and simulation.
 class ManualClock final : public Clock {
  public:
   explicit ManualClock(Nanoseconds start = 0) : now_(start) {}

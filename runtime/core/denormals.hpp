@@ -1,14 +1,14 @@
-// The arithmetic of threads that trace: floating-point numbers below the smallest normal one are
-// zero, as operands and as results. A weight never needs them, and they cost a hundred times a
-// multiplication. Set on each thread of ours at its start, never on a caller's; results depend on
-// it, so every thread that computes them has it.
+// Floating-point mode of threads that trace: denormal numbers are treated as zero, as operands and
+// as results. A weight never needs them, and they cost a hundred times a multiplication. Each
+// thread of ours sets it at its start; a caller's thread is left alone. Results depend on the mode,
+// so every thread that computes them sets it. Affects the calling thread only.
 #pragma once
 
 #include <xmmintrin.h>
 
 namespace luxodus {
 
-/// For the calling thread, from here on.
+/// Sets the mode of the calling thread.
 inline void flush_denormals() {
   _mm_setcsr(_mm_getcsr() | 0x8040);  // flush to zero, and denormals are zero
 }

@@ -1,6 +1,6 @@
-// What shall go wrong, on purpose: what every link does to frames, and what happens to nodes and
-// links at given moments. The same on real links (faulty_transport.hpp) and in a simulated world.
-// Plain values, read from a file or drawn from a seed.
+// Fault injection: what every link does to frames, and what happens to nodes and links at given
+// moments. It works on real links (faulty_transport.hpp) and in a simulated world. Plain values,
+// read from a file or drawn from a seed; LinkTroubles belongs to one thread.
 #pragma once
 
 #include <cstddef>
@@ -17,21 +17,21 @@
 
 namespace luxodus {
 
-/// Of every link, each way. Shares are of frames.
+/// Behaviour of every link, in each direction. Shares are fractions of frames.
 struct LinkTraits {
-  Nanoseconds delay = 0;   // one way, at least
-  Nanoseconds jitter = 0;  // on top, uniform
-  double tail_share = 0;   // of frames that take up to `tail` longer
+  Nanoseconds delay = 0;   // one way, minimum
+  Nanoseconds jitter = 0;  // uniform, on top of `delay`
+  double tail_share = 0;   // frames that take up to `tail` longer
   Nanoseconds tail = 0;
-  double bytes_per_second = 0;   // 0: as fast as may be
-  size_t queue_bytes = 4 << 20;  // on the way at once; beyond it a link is full
+  double bytes_per_second = 0;   // 0: unlimited
+  size_t queue_bytes = 4 << 20;  // in flight at once; beyond it a link is full
   double loss = 0;
   double duplication = 0;
-  double reordering = 0;  // overtaken by what is sent within `tail`
-  double corruption = 0;  // with a few bits turned
-  double ghosts = 0;      // come once more, seconds later, to whoever has the name by then
+  double reordering = 0;  // overtaken by frames sent within `tail`
+  double corruption = 0;  // with a few bits flipped
+  double ghosts = 0;      // delivered once more, seconds later, to the name's owner by then
 
-  /// Whether a link does anything of its own.
+  /// Whether a link deviates from a perfect one.
   bool any() const {
     return delay > 0 || jitter > 0 || tail_share > 0 || bytes_per_second > 0 || loss > 0 ||
            duplication > 0 || reordering > 0 || corruption > 0 || ghosts > 0;
@@ -40,14 +40,15 @@ struct LinkTraits {
 
 struct Fault {
   enum class Kind : uint8_t {
-    crash,        // node: it is gone with all it knew; a simulated one begins anew after `lasts`
-    pause,        // node: it stands still and its clock goes on
-    slow,         // node: all its work takes `factor` as long
-    cut,          // node to peer: frames are lost, nobody is told
-    clog,         // node to peer: frames wait until it is over
-    disconnect,   // node and peer: the connection breaks, frames on the way are lost, both are told
-    full_disk,    // node: what it keeps for a crash finds no room
-    failed_read,  // node: of the scene it reads nothing, as from a broken disk
+    crash,  // node: loses its state and goes; in a simulation it restarts after `lasts`
+    pause,  // node: it stops while its clock goes on
+    slow,   // node: all its work takes `factor` times as long
+    cut,    // node to peer: frames are lost silently
+    clog,   // node to peer: frames wait until the fault is over
+    // node and peer: the connection breaks, frames in flight are lost, both are notified
+    disconnect,
+    full_disk,    // node: its writes to the journal fail
+    failed_read,  // node: its reads of scene parts fail, as from a broken disk
     failure       // node: the next handler of its `actor` throws
   };
   Kind kind = Kind::crash;
@@ -56,15 +57,15 @@ struct Fault {
   NodeId node;  // or the sender
   NodeId peer;  // the receiver
   double factor = 1;
-  /// In a simulated world, instead of `at`: after so many events.
+  /// In a simulated world, instead of `at`: after this number of events.
   std::optional<uint64_t> after_events = {};
-  std::string actor = {};  // of `failure`: its name on the node
+  std::string actor = {};  // for `failure`: the actor's name on the node
 
   bool holds(Nanoseconds moment) const { return moment >= at && moment < at + lasts; }
 };
 
 inline constexpr int fault_kinds = 9;
-/// Those that swarm() draws: all but the last.
+/// The kinds that swarm() draws: all but the last.
 inline constexpr int drawn_fault_kinds = 8;
 constexpr const char* name_of(Fault::Kind kind) {
   constexpr const char* names[] = {"crash",      "pause",     "slow",        "cut",    "clog",
@@ -76,24 +77,24 @@ struct FaultPlan {
   uint64_t seed = 1;
   LinkTraits links;
   std::vector<Fault> faults;  // in any order
-  /// In a simulated world: one frame, counted from 0 as they are sent, that is lost.
+  /// In a simulated world: the index of one frame to lose, counted from 0 in the order of sending.
   std::optional<uint64_t> lost_frame = {};
-  /// From here on links only delay, and nothing new happens.
+  /// From this moment on links only delay, and no new fault begins.
   Nanoseconds healed_at = std::numeric_limits<Nanoseconds>::max();
 
   bool any() const { return links.any() || !faults.empty(); }
-  /// Whether a fault of this kind holds at a node, that far from the start.
+  /// Whether a fault of this kind holds at a node at `moment` since the start.
   bool holds(Fault::Kind kind, NodeId node, Nanoseconds moment) const;
 };
 
-/// What a link does to one frame that was given to it.
+/// What a link does to one frame.
 struct FrameFate {
-  Nanoseconds hold = 0;  // until it arrives, beside what is before it on the wire
+  Nanoseconds hold = 0;  // until it arrives, beside the frames ahead of it on the wire
   bool lost = false;
   bool harmed = false;
-  bool overtaken = false;            // it keeps no order
-  std::optional<Nanoseconds> again;  // a copy arrives so much later
-  std::optional<Nanoseconds> ghost;  // likewise, whatever has become of the connection
+  bool overtaken = false;            // exempt from the order of frames
+  std::optional<Nanoseconds> again;  // a copy arrives this much later
+  std::optional<Nanoseconds> ghost;  // likewise, even on a later connection
 };
 
 /// Draws fates, in the order in which frames are sent.
@@ -104,11 +105,11 @@ class LinkTroubles {
     random_.start(stream);
   }
 
-  /// `healed`: it is only delayed.
+  /// `healed`: the frame is only delayed.
   FrameFate next(bool healed);
-  /// Turns a few bits.
+  /// Flips a few bits.
   void harm(std::span<std::byte> bytes);
-  /// How long a frame of so many bytes keeps the wire busy.
+  /// How long a frame of `bytes` occupies the wire.
   Nanoseconds wire_time(size_t bytes) const;
 
  private:

@@ -21,7 +21,8 @@ class FileDescriptor {
 
   int number() const { return number_; }
   bool valid() const { return number_ >= 0; }
-  /// Closes now and tells whether that went well: network file systems report a full disk here.
+  /// Closes now and returns whether close() succeeded: network file systems report a full disk
+  /// here.
   bool close() { return ::close(std::exchange(number_, -1)) == 0; }
 
  private:

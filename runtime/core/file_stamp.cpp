@@ -9,7 +9,7 @@ namespace luxodus {
 namespace {
 FileStamp stamp_from(const struct stat& is) {
   using namespace std::chrono;
-  // Times of files come in steps, the coarsest that are known of 2 s.
+  // File times have a resolution, at worst 2 s.
   constexpr int64_t coarsest_ns = 2'000'000'000, second_ns = 1'000'000'000;
   const int64_t now = nanoseconds(system_clock::now().time_since_epoch()).count();
   FileStamp out;

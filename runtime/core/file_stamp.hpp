@@ -1,5 +1,4 @@
-// Whether a file is still what it was, by what the file system says of it: without reading it anew.
-// Any thread.
+// Tells from a file's metadata whether it has changed, without reading it again. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +6,12 @@
 
 namespace luxodus {
 
-/// What the file system says of a file. Two that are equal are of the same bytes, unless the file
-/// had been written so shortly before the first that a later write has the same time.
+/// Metadata of a file. Equal stamps mean equal bytes, unless the file was written so shortly before
+/// the first stamp that a later write got the same time.
 struct FileStamp {
   uint64_t device = 0, inode = 0, bytes = 0;
-  int64_t changed_ns = 0;  // of the status, which every write changes and no program sets
-  bool sure = false;       // the file was last written well before
+  int64_t changed_ns = 0;  // ctime, which every write changes and no program can set
+  bool sure = false;       // the last write is older than the clock's resolution
 
   bool same_as(const FileStamp& later) const {
     return sure && device == later.device && inode == later.inode && bytes == later.bytes &&
@@ -20,7 +19,7 @@ struct FileStamp {
   }
 };
 
-/// Of an open file. A stamp that cannot be had is that of no file, and not sure.
+/// Stamp of an open file. If it cannot be read, the stamp is that of no file, and not sure.
 FileStamp stamp_of(int descriptor);
 FileStamp stamp_at(const std::string& path);
 

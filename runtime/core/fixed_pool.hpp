@@ -1,7 +1,7 @@
 // Objects that are made once, at start, and lent: taking and giving back touch no allocator. The
-// last one given back is the next one taken, so that it is still in the caches, and so that a run
-// repeats itself. Objects keep their state while they rest: whoever takes one sets what he needs.
-// Belongs to one node; no locks.
+// object given back last is taken next, since it is still in the caches and since runs stay
+// reproducible. Objects keep their state between loans: the taker sets what it needs. Thread rule:
+// belongs to one node; no locks.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,14 @@
 
 namespace luxodus {
 
-/// What an empty pool means, said once per pool.
+/// What to do when the pool is empty.
 enum class WhenEmpty {
-  mistake,  // our own arithmetic forbids it: the process ends and names the pool
-  wait,     // load can cause it: take() gives null, and the caller waits or says no
+  mistake,  // the memory plan rules it out: the process aborts and names the pool
+  wait,     // load can cause it: take() gives null, and the caller waits or refuses
 };
 
-/// Names one loan of one object: the place in the low bits, above it how often that place has
-/// changed hands. A name that is kept for longer than its loan finds nothing.
+/// Names one loan of one object: the index in the low bits, above it how often that slot has
+/// changed hands. A Loan kept longer than its loan finds nothing.
 using Loan = uint64_t;
 
 template <class T>
@@ -39,7 +39,8 @@ class FixedPool {
     for (size_t i = capacity; i > 0; --i) resting_.push_back(i - 1);
   }
 
-  /// An object as it was last given back; null where none rests and the pool's reaction is `wait`.
+  /// An object in the state in which it was last given back; null if none is left and the reaction
+  /// is `wait`.
   [[nodiscard]] T* take() {
     if (resting_.empty()) {
       LUX_CHECK(reaction_ == WhenEmpty::wait, empty_line_.c_str());
@@ -60,7 +61,7 @@ class FixedPool {
     resting_.push_back(i);
   }
 
-  /// Bytes that the pool adds to each object, for a memory plan.
+  /// Bookkeeping bytes per object, for a memory plan.
   static constexpr size_t bytes_beside = sizeof(size_t) + sizeof(uint64_t);
 
   size_t capacity() const { return capacity_; }
@@ -73,13 +74,13 @@ class FixedPool {
     LUX_CHECK(lent(i), "named a loan of an object that rests");
     return changes_[i] << place_bits | i;
   }
-  /// The object, while that loan lasts; null after it.
+  /// The object while that loan lasts; afterwards null.
   T* find(Loan loan) {
     const size_t i = loan & place_mask;
     return i < capacity_ && lent(i) && changes_[i] == loan >> place_bits ? &objects_[i] : nullptr;
   }
 
-  /// Where an object lies, 0 to capacity() - 1.
+  /// Index of an object in the pool, 0 to capacity() - 1.
   size_t index_of(const T& object) const {
     const auto i = static_cast<size_t>(&object - objects_.get());
     LUX_CHECK(i < capacity_, "an object of another pool");
@@ -96,13 +97,13 @@ class FixedPool {
   }
 
  private:
-  // 16 million objects, and 2^39 loans of each before a name comes again.
+  // 16 million objects, and 2^39 loans of each before a Loan repeats.
   static constexpr int place_bits = 24;
   static constexpr Loan place_mask = (Loan{1} << place_bits) - 1;
 
   bool lent(size_t i) const { return changes_[i] % 2 == 1; }
 
-  std::string empty_line_;  // whole, since a failing check should not need memory
+  std::string empty_line_;  // complete, since a failing check must not allocate
   WhenEmpty reaction_;
   size_t capacity_;
   std::unique_ptr<T[]> objects_;

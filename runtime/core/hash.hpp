@@ -1,4 +1,5 @@
-// Content hashes: XXH3 of Debian's xxhash, 64 bits. Equal content, equal hash, on every machine.
+// Content hashes: XXH3 of Debian's xxhash, 64 bits. Equal content has an equal hash on every
+// machine. Thread rule: a Hasher belongs to one thread; object_id_of() is pure.
 #pragma once
 
 #include <xxhash.h>
@@ -22,7 +23,7 @@ class Hasher {
 
   void add(const void* bytes, size_t count) { XXH3_64bits_update(state_.get(), bytes, count); }
   void add(uint64_t v) { add(&v, sizeof v); }
-  /// Length first, so that two strings never run together.
+  /// The length is hashed first, so that two strings never run together.
   void add(std::string_view text) {
     add(static_cast<uint64_t>(text.size()));
     add(text.data(), text.size());
@@ -33,7 +34,7 @@ class Hasher {
   std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
 
-/// The name of an object with these bytes, by which they are known to be right.
+/// The id of an object with these bytes; a receiver verifies the bytes by it.
 inline ObjectId object_id_of(std::span<const std::byte> bytes) {
   return {XXH3_64bits(bytes.data(), bytes.size())};
 }

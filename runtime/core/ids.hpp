@@ -1,5 +1,5 @@
-// Names of things as numbers, one type each, so that a node is never taken for an object.
-// Plain values; any thread.
+// Numeric ids, one type for each kind of thing, so that a node's id cannot be passed as an
+// object's. Plain values; any thread.
 #pragma once
 
 #include <compare>
@@ -8,7 +8,7 @@
 
 namespace luxodus {
 
-/// A number that names one kind of thing. Tag is only a type; Number is what travels.
+/// A numeric id. Tag only tells types apart; Number is what is sent.
 template <class Tag, class Number>
 struct Id {
   Number value{};
@@ -16,10 +16,10 @@ struct Id {
   friend constexpr auto operator<=>(Id, Id) = default;
 };
 
-/// A node of a run, from 0; the same for every process, whatever hosts they run on.
+/// A node of a run, from 0; every process and host uses the same numbers.
 using NodeId = Id<struct NodeTag, std::uint16_t>;
 
-/// One start of one node: drawn at random, so that what an earlier life sent is known as such.
+/// One start of one node: a random number, by which messages of an earlier start are recognised.
 using Incarnation = Id<struct IncarnationTag, std::uint64_t>;
 
 /// An immutable object, named by the hash of its bytes.

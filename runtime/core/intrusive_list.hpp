@@ -1,11 +1,11 @@
-// A list through its members: each carries its own link, so joining and leaving cost a few pointers
-// and no memory. An object is in at most one list per hook; it leaves by itself when it is
-// destroyed. The list owns nothing. Belongs to one node; no locks.
+// An intrusive list: each member carries its own link, so insertion and removal cost a few pointer
+// writes and no memory. An object is in at most one list per hook and leaves it when it is
+// destroyed. The list owns nothing. Thread rule: belongs to one node; no locks.
 #pragma once
 
 namespace luxodus {
 
-/// What an object inherits to be in lists. Requires: the object stays where it is (not movable).
+/// Base class of list members. Requires: the object is not moved.
 class ListHook {
  public:
   ListHook() = default;
@@ -26,7 +26,7 @@ class ListHook {
   template <class T>
   friend class IntrusiveList;
 
-  // A ring: a lone hook, and the head of an empty list, point to themselves.
+  // A ring: an unlinked hook, and the head of an empty list, point to themselves.
   ListHook* previous_ = this;
   ListHook* next_ = this;
 };
@@ -52,7 +52,7 @@ class IntrusiveList {
   /// Requires: !empty().
   T& front() { return static_cast<T&>(*head_.next_); }
 
-  /// The first, taken out; null where there is none.
+  /// Removes and returns the first; null if the list is empty.
   T* pop_front() {
     if (empty()) return nullptr;
     T& first = front();

@@ -1,7 +1,7 @@
-// The other process sets its own limits before it looks at anything: a limit on address space that
-// is set from outside would have to know how much the program and its libraries map. An answer
-// counts only if the process ended well, and begins with a mark: a program whose main() does not
-// serve jobs would otherwise be taken at its word.
+// The other process sets its own limits before it reads any input: a limit on address space set
+// from outside would have to know how much the program and its libraries map. An answer counts only
+// if the process ended well and the answer begins with a mark: otherwise the output of a program
+// whose main() does not serve jobs would be taken for an answer.
 #include "runtime/core/isolated_job.hpp"
 
 #include <fcntl.h>
@@ -35,19 +35,19 @@ namespace {
 constexpr char own_program[] = "/proc/self/exe";
 constexpr char verb[] = "--isolated-job";
 constexpr uint64_t mark = 0x31424F4A'5855'4CULL;  // "LUXJOB1"
-constexpr uint32_t waits = 10;                    // times as long as it computes, at most
+constexpr uint32_t waits = 10;                    // wall-clock time over CPU time, at most
 // Exit codes of the other process.
 constexpr int out_of_memory = 3, no_such_job = 4, has_thrown = 5;
-constexpr int not_begun = 127;  // of one whose libraries are not found: ld.so(8)
+constexpr int not_begun = 127;  // its libraries were not found: ld.so(8)
 #ifdef LUX_UNDER_SANITIZERS
 constexpr bool limits_memory = false;
-constexpr uint32_t slower = 20;  // than a release build, at most
+constexpr uint32_t slower = 20;  // factor over a release build, at most
 #else
 constexpr bool limits_memory = true;
 constexpr uint32_t slower = 1;
 #endif
 
-/// All jobs, the youngest first; constant at start-up, so that no order of globals matters.
+/// All jobs, the newest first; constant-initialised, so that the order of globals does not matter.
 constinit const IsolatedJob* first_job = nullptr;
 
 std::string of_system(int error) {
@@ -80,25 +80,25 @@ void raise(Resource what, uint64_t by) {
 }
 
 void limit_this_process(const IsolatedLimits& most) {
-  (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits for it any more
+  (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);  // without a parent nobody reads the answer
   limit(RLIMIT_CORE, 0);
   if (const uint64_t mapped = mapped_bytes(); limits_memory && mapped > 0)
     limit(RLIMIT_AS, mapped + most.memory_bytes);
   limit(RLIMIT_FSIZE, most.memory_bytes);
   limit(RLIMIT_CPU, uint64_t{most.processor_s} * slower);
   ::alarm(waits * most.processor_s * slower);
-  ::signal(SIGINT, SIG_IGN);  // the terminal's: its parent decides
+  ::signal(SIGINT, SIG_IGN);  // a signal from the terminal is the parent's to handle
 }
 
 // ---- in this process ---------------------------------------------------------------------------
 
-/// A file in memory, not among the three first descriptors, which the other process gets anew.
+/// A memory file whose descriptor is not 0, 1 or 2, which the other process replaces.
 FileDescriptor memory_file() {
   const FileDescriptor file(::memfd_create("luxodus job", MFD_CLOEXEC));
   return FileDescriptor(file.valid() ? ::fcntl(file.number(), F_DUPFD_CLOEXEC, 3) : -1);
 }
 
-/// Where the other process tells its share: behind the question, in the file of which it is.
+/// Where the other process writes its progress: after the question, in the same file.
 void put_share(int file, off_t at, double share) {
   (void)!::pwrite(file, &share, sizeof share, at);
 }
@@ -109,7 +109,7 @@ std::optional<double> share_at(int file, off_t at) {
   return share >= 0 && share <= 1 ? std::optional(share) : std::nullopt;
 }
 
-/// Ends when the process does; tells its share meanwhile.
+/// Waits until the process ends; meanwhile reports its progress.
 void wait_and_tell(pid_t process, int question, off_t share_place,
                    const std::function<void(double)>& told) {
   constexpr int pause_ms = 200;
@@ -123,27 +123,27 @@ void wait_and_tell(pid_t process, int question, off_t share_place,
   }
 }
 
-/// In a job: the place of its share in descriptor 0; elsewhere -1.
+/// In a job: the offset of its progress in descriptor 0; elsewhere -1.
 off_t& share_place_of_job() {
   static off_t place = -1;
   return place;
 }
 
-/// The words that begin the other process: the running program, also where its file was replaced or
-/// removed since, unless begin_isolated_jobs_by() said others.
+/// The command line prefix that starts the other process: the running program (even if its file has
+/// been replaced or removed since), unless begin_isolated_jobs_by() set another.
 std::vector<std::string>& begun_by() {
   static std::vector<std::string> words{own_program};
   return words;
 }
 
-/// What posix_spawn has to do and to reset, freed at the end.
+/// Actions and attributes for posix_spawn, freed in the destructor.
 class Orders {
  public:
   Orders(int question, int answer) {
     posix_spawn_file_actions_init(&actions_);
     posix_spawn_file_actions_adddup2(&actions_, question, 0);
     posix_spawn_file_actions_adddup2(&actions_, answer, 1);
-    if (limits_memory)  // what a sanitizer has found is worth reading
+    if (limits_memory)  // a sanitizer's findings are worth reading
       posix_spawn_file_actions_addopen(&actions_, 2, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addclosefrom_np(&actions_, 3);
     posix_spawnattr_init(&attributes_);
@@ -160,7 +160,7 @@ class Orders {
   }
   Orders(const Orders&) = delete;
 
-  /// 0 or an errno.
+  /// Returns 0 or an errno.
   int spawn(pid_t& process, std::vector<std::string> words, const char* name) const {
     words.insert(words.end(), {verb, name});
     std::vector<char*> argv;
@@ -178,14 +178,13 @@ std::string told(uint64_t bytes) {
   return std::to_string(bytes >> 20) + " MiB of memory";
 }
 
-/// Whether jobs are done by copies of this process.
+/// Whether jobs run in copies of this process.
 bool& forking() {
   static bool forks = false;
   return forks;
 }
 
-/// Does the job as a process of its own would: with its descriptors, and with the signals that a
-/// new process has.
+/// Runs the job as a new process would: with its descriptors and default signal handling.
 [[noreturn]] void be_the_other_process(int question, int answer, const char* name) {
   constexpr int not_served = 1;
   for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
@@ -196,7 +195,7 @@ bool& forking() {
   ::_exit(serve_isolated_job(3, argv).value_or(not_served));
 }
 
-/// 0 or an errno.
+/// Returns 0 or an errno.
 int begin_process(pid_t& process, int question, int answer, const std::vector<std::string>& words,
                   const char* name) {
   if (!forking()) return Orders(question, answer).spawn(process, words, name);
@@ -205,7 +204,7 @@ int begin_process(pid_t& process, int question, int answer, const std::vector<st
   return process < 0 ? errno : 0;
 }
 
-/// How the other process ended, where not well.
+/// How the other process failed; nothing if it succeeded.
 std::optional<Problem> end_of(int status, const IsolatedLimits& most) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
   if (WIFEXITED(status) && WEXITSTATUS(status) == out_of_memory)
@@ -223,7 +222,7 @@ std::optional<Problem> end_of(int status, const IsolatedLimits& most) {
   return problem("reading it failed without a reason: it is damaged; write it anew");
 }
 
-/// What the program of another file, begun instead of this one, has to be told of.
+/// What to tell the user when the other program could not do the job.
 std::optional<Problem> fault_of_program(int status, const OtherProgram& other) {
   const std::string name = other.path.substr(other.path.rfind('/') + 1);
   if (WIFEXITED(status) && WEXITSTATUS(status) == not_begun)
@@ -237,7 +236,7 @@ std::optional<Problem> fault_of_program(int status, const OtherProgram& other) {
   return std::nullopt;
 }
 
-/// `words` begin the program that does the job; `other`, where it is not this one.
+/// `words` start the program that does the job; `other` is set if that is another program.
 Result<PlainReader> ask_process(const std::vector<std::string>& words, const char* job,
                                 const std::function<void(PlainWriter& question)>& ask,
                                 const IsolatedLimits& most,
@@ -329,7 +328,7 @@ std::optional<int> serve_isolated_job(int argc, char** argv) {
   PlainReader question(FileDescriptor(::fcntl(0, F_DUPFD_CLOEXEC, 3)));
   IsolatedLimits most;
   if (job == nullptr) return no_such_job;
-  // What libraries print is no part of the answer.
+  // Output of libraries must not get into the answer.
   const FileDescriptor answer_place(::fcntl(1, F_DUPFD_CLOEXEC, 3));
   (void)::dup2(2, 1);
   if (!question.get(most)) return has_thrown;
@@ -348,7 +347,7 @@ std::optional<int> serve_isolated_job(int argc, char** argv) {
   } catch (...) {
     code = has_thrown;
   }
-  ::_exit(code);  // nothing of it is worth tidying up
+  ::_exit(code);  // no destructors: nothing needs tidying up
 }
 
 }  // namespace luxodus

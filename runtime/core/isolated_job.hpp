@@ -1,10 +1,10 @@
-// Work on bytes that nobody vouches for, by code of others (Assimp, librsvg), in a process of its
-// own with limits on memory and time: what such code does with a damaged file, be it a crash, a
-// loop or all the memory there is, becomes one Problem here. The process is this program again, or
-// by ask_program() another one, begun anew (posix_spawn, not fork: other threads may hold locks),
-// which finds the job by its name in main(). Beside its answer a job writes its share of the work
-// back, behind the question. It is no defence against code that breaks out on purpose: it may read
-// what we may.
+// Runs third-party code (Assimp, librsvg) on untrusted bytes in a process of its own, with limits
+// on memory and time. Whatever such code does with a damaged file - a crash, an endless loop,
+// exhausted memory - becomes one Problem here. The process is this program again, or with
+// ask_program() another one. It is started anew (posix_spawn, not fork: other threads may hold
+// locks) and finds the job by its name in main(). A job also reports its progress, after the
+// question in the same file. This is no defence against code that attacks on purpose: the process
+// may read what we may.
 //
 //   this process                        the other one
 //   question -> memory file ----------> 0
@@ -27,26 +27,26 @@
 namespace luxodus {
 
 struct IsolatedLimits {
-  /// Beyond what the program has mapped when it begins. Builds with sanitizers have none: their
-  /// shadow is all the address space there is.
+  /// Beyond what the program has mapped at its start. Not enforced under sanitizers: their shadow
+  /// memory takes all address space.
   uint64_t memory_bytes = uint64_t{512} << 20;
-  /// Of one processor; waiting for a disk may take ten times as long.
+  /// CPU time; the wall-clock limit is ten times as long, for a slow disk.
   uint32_t processor_s = 20;
 };
 
 class IsolatedJob {
  public:
-  /// Runs in the other process. What it throws is an error of the job.
+  /// Runs in the other process. An exception is reported as an error of the job.
   using Work = void (*)(PlainReader& question, PlainWriter& answer);
 
-  /// Requires: a name of its own; a global, so that it is there when main() begins.
+  /// Requires: a unique name; a global, so that it exists when main() begins.
   IsolatedJob(const char* name, Work work);
   IsolatedJob(const IsolatedJob&) = delete;
 
-  /// Asks, waits, and gives what was answered; the answer is to be read without trust.
-  /// Errors: more memory or time than the limits, a crash, an exception, a process that cannot be
-  /// started. No file is named: the caller knows it.
-  /// `told`, where given, hears while it waits, and once at the end, the share that the job tells.
+  /// Asks, waits, and returns the answer, which the caller must validate. Errors: memory or time
+  /// beyond the limits, a crash, an exception, a process that cannot be started. The Problem names
+  /// no file: the caller knows it. `told`, if given, receives the job's progress while it waits and
+  /// once at the end.
   Result<PlainReader> run(const std::function<void(PlainWriter& question)>& ask,
                           const IsolatedLimits& limits,
                           const std::function<void(double share)>& told = {}) const;
@@ -56,42 +56,40 @@ class IsolatedJob {
 
   const char* name_;
   Work work_;
-  const IsolatedJob* next_;  // of all jobs
+  const IsolatedJob* next_;  // in the list of all jobs
 };
 
-/// A program other than this one, whose main() serves jobs: for what needs libraries that this
-/// program is not linked with.
+/// Another program whose main() serves jobs: for libraries that this program does not link.
 struct OtherProgram {
   std::string path;
-  std::string packages;  // have its libraries
-  std::string renewal;   // what to do where it is of another build: "build it again"
+  std::string packages;  // packages that provide its libraries
+  std::string renewal;   // what to do if it comes from another build: "build it again"
 };
 
-/// IsolatedJob::run by another program. The name of the job tells the builds that understand each
-/// other: where it is not served, that program is of another build.
-/// Errors: as of IsolatedJob::run; libraries that are missing, and another build, both at the path
-/// of the program.
+/// Runs a job in another program. The job's name identifies compatible builds: a program that does
+/// not serve it comes from another build. Errors: those of IsolatedJob::run, missing libraries, and
+/// another build; the last two name the program's path.
 Result<PlainReader> ask_program(const OtherProgram& program, const char* job,
                                 const std::function<void(PlainWriter& question)>& ask,
                                 const IsolatedLimits& limits,
                                 const std::function<void(double share)>& told = {});
 
-/// In a job that has found how much there is to do: so much more than it was given. Elsewhere it
-/// does nothing.
+/// Called in a job that has found how much there is to do: raises its limits by `more`. Elsewhere
+/// it does nothing.
 void allow_more(const IsolatedLimits& more);
 
-/// In a job: how much of it is done, from 0 to 1. Elsewhere it does nothing.
+/// In a job: reports its progress, from 0 to 1. Elsewhere it does nothing.
 void tell_share(double share);
 
-/// Has the processes of jobs begun by this program with these words before its own, which is to
-/// call serve_isolated_job: a library does, which is not the running program. Once, before any job.
-/// Requires: a program at least.
+/// Sets the command line prefix of processes that run jobs; that program must call
+/// serve_isolated_job(). For a library, which is not the running program. Call it once, before any
+/// job. Requires: at least the program's path.
 void begin_isolated_jobs_by(std::vector<std::string> words);
 
-/// As long as one lives, jobs are done by copies of this process (fork), also those of other
-/// programs, which it has to have as its own: a process is begun in milliseconds, whatever its
-/// libraries take to load. Limits and ends of jobs are the same. For tests of many files.
-/// Requires: no other thread that holds a lock.
+/// While an instance exists, jobs run in copies of this process (fork), including jobs of other
+/// programs, which this process must then define. A fork takes milliseconds, however long its
+/// libraries take to load. Limits and errors are the same. For tests with many files. Requires: no
+/// other thread holds a lock.
 class ForkedJobs {
  public:
   ForkedJobs();
@@ -99,8 +97,8 @@ class ForkedJobs {
   ForkedJobs(const ForkedJobs&) = delete;
 };
 
-/// To be called first in main(): where this process was begun for a job, does it and gives the exit
-/// code; otherwise nothing.
+/// Call it first in main(): if this process was started for a job, runs it and returns the exit
+/// code; otherwise returns nothing.
 std::optional<int> serve_isolated_job(int argc, char** argv);
 
 }  // namespace luxodus

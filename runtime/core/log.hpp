@@ -1,6 +1,6 @@
-// Lines for the log. Sources that write some include this and not spdlog, whose calls cost four
-// seconds of compiling in every source that makes one. Where lines go, how they look and which are
-// wanted, main and the tests tell spdlog. Any thread.
+// Logging. Sources include this instead of spdlog, whose calls cost four seconds of compile time in
+// every source that makes one. main and the tests configure spdlog: destination, format, level. Any
+// thread.
 #pragma once
 
 #include <fmt/core.h>
@@ -11,9 +11,9 @@ namespace luxodus {
 
 enum class LogLevel { debug, info, warning, error };
 
-/// Whether lines of a level are written at all.
+/// Whether lines of this level are logged.
 bool log_wants(LogLevel level);
-/// Writes a line as it is.
+/// Writes a line unformatted.
 void log_line(LogLevel level, std::string_view line);
 
 template <class... Values>

@@ -1,7 +1,7 @@
-// Where a node's memory goes, said before it is used: one term per consumer, with the sentence that
-// derives its size. The sum is held against the node's budget at start, and the table is printed,
-// so that whoever runs out of memory sees which number to change. It allocates nothing itself.
-// A plain value, made at start.
+// A node's memory, planned before it is used: one term per consumer, with the sentence that derives
+// its size. The sum is compared with the node's budget at start, and the table is printed, so that
+// the user sees which setting to change when memory is short. Allocates none of the memory it
+// plans. A plain value, made at start; one thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -23,18 +23,18 @@ class MemoryPlan {
 
   void add(std::string name, uint64_t bytes, std::string derivation);
 
-  /// Adds all terms of another.
+  /// Adds all terms of another plan.
   void add(const MemoryPlan& other);
 
   const std::vector<Term>& terms() const { return terms_; }
   uint64_t total_bytes() const;
 
-  /// What is wrong where the sum passes the budget: by how much, and the largest term.
+  /// The problem if the sum exceeds the budget: by how much, and the largest term.
   std::optional<Problem> against(uint64_t budget_bytes) const;
 
-  /// One line per term, the largest first, and the sum.
+  /// One line per term, the largest first, then the sum.
   std::string table() const;
-  /// The same, with the sum beside the budget.
+  /// table() with the sum beside the budget.
   std::string table(uint64_t budget_bytes) const;
 
  private:

@@ -1,5 +1,5 @@
-// Lets one line of a kind into the log each minute: what comes from outside cannot fill it.
-// Plain value; one node's thread.
+// Rate limit for one kind of log line, so that peers cannot flood the log. Plain value; one node's
+// thread.
 #pragma once
 
 #include "runtime/core/clock.hpp"
@@ -8,7 +8,7 @@ namespace luxodus {
 
 class OnceAMinute {
  public:
-  /// Whether the line may be written now; then no other may for a minute.
+  /// Whether the line may be written now; if so, not again for a minute.
   bool may(Nanoseconds now) {
     if (now < next_) return false;
     next_ = now + seconds(60);

@@ -1,5 +1,5 @@
-// Where files are written: never through a symbolic link that stands in the place of a result, and
-// what that means for files that a person has named. Any thread.
+// Checks of output paths: nothing is written through a symbolic link in place of a result. Any
+// thread.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,15 @@ struct stat;
 
 namespace luxodus {
 
-/// Why what stands at a file's place cannot be replaced; nothing where it is a regular file.
+/// Why an existing target cannot be replaced; nothing if it is a regular file.
 std::optional<std::string> fault_of_target(const struct stat& about);
 
-/// The same file by a folder without symbolic links, for a file that a person has named: behind a
-/// link of his own is where he wants it. What has no folder stays as it is.
+/// Resolves symbolic links in the folder of a path that the user named: he may place his results
+/// behind a link of his own. A path without a folder is returned unchanged.
 std::filesystem::path behind_links(const std::filesystem::path& path);
 
-/// Removes temporary files of writers that were killed; those of living ones are locked and stay.
+/// Removes temporary files of writers that were killed; files of living writers are locked and
+/// stay.
 void remove_stale_temporaries(const std::filesystem::path& folder);
 
 }  // namespace luxodus

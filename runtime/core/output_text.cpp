@@ -57,8 +57,7 @@ std::string readable_number(double value, int digits) {
   if (exponent < -3 || exponent > 4) {
     return sign + without_zeros(mantissa) + "·" + power_of_ten(exponent);
   }
-  // Rounded to the significant digits first, so that 1234 shows as 1230, not with digits that mean
-  // nothing.
+  // Rounded to significant digits first, so that 1234 becomes 1230.
   const double rounded = std::stod(mantissa + "e" + std::to_string(exponent));
   const auto fixed = std::to_chars(buffer.data(), buffer.data() + buffer.size(), rounded,
                                    std::chars_format::fixed, std::max(0, digits - 1 - exponent));

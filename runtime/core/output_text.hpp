@@ -1,6 +1,5 @@
-// Text as the writers of this room need it: numbers in the shortest form that reads back to the
-// same bits, numbers for people, text that is valid UTF-8, and text escaped for XML. Pure
-// functions; any thread.
+// Numbers and text for output files: numbers in the shortest form that reads back to the same bits,
+// rounded numbers for people, valid UTF-8, and text escaped for XML. Pure functions; any thread.
 #pragma once
 
 #include <string>
@@ -8,8 +7,8 @@
 
 namespace luxodus {
 
-/// The shortest decimal that reads back to the very same double; "nan", "inf", "-inf" otherwise.
-/// Never depends on the locale.
+/// The shortest decimal that reads back to the same double; else "nan", "inf" or "-inf".
+/// Independent of the locale.
 std::string shortest_number(double value);
 
 /// For people: `digits` significant digits, plain between 0.001 and 99999 ("0.0421", "1230"), else
@@ -19,8 +18,8 @@ std::string readable_number(double value, int digits = 3);
 /// "10⁻³" for -3.
 std::string power_of_ten(int exponent);
 
-/// The same text with every byte that is not part of well-formed UTF-8, and every control character
-/// except tab and line feed, replaced by U+FFFD.
+/// Replaces every byte that is not part of well-formed UTF-8, and every control character except
+/// tab and line feed, by U+FFFD.
 std::string clean_utf8(std::string_view text);
 
 /// clean_utf8, then & < > " ' escaped: safe as XML text and inside an attribute in quotes. Tabs and

@@ -11,7 +11,7 @@ namespace luxodus {
 
 namespace {
 
-/// Held back or read ahead: a system call for each number would cost more than all the rest.
+/// Buffer size: a system call for each number would cost more than all the rest.
 constexpr size_t block_bytes = size_t{1} << 16;
 
 }  // namespace

@@ -1,7 +1,7 @@
-// Plain values through a file descriptor, in the order they were put: what two processes of one
-// program tell each other. The reader trusts nothing: no list is longer than the bytes that are
-// left, and after the first value that is not there every other is missing, too.
-// Not a format for files: layout and byte order are those of this build. One thread.
+// Plain values through a file descriptor, in the order they were put: for two processes of one
+// program. The reader validates: no list is longer than the bytes that are left, and after the
+// first missing value all others count as missing. Not a file format: layout and byte order are
+// those of this build. Thread rule: one thread per object.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace luxodus {
 
 class PlainWriter {
  public:
-  /// Writes to a descriptor of somebody else's.
+  /// Writes to a descriptor that it does not own.
   explicit PlainWriter(int descriptor) : descriptor_(descriptor) {}
 
   template <class T>
@@ -34,7 +34,7 @@ class PlainWriter {
     put(static_cast<uint64_t>(text.size()));
     add(std::as_bytes(std::span(text.data(), text.size())));
   }
-  /// Writes what is still held back. False: not all could be written, now or before.
+  /// Writes the buffer. False if any write failed, now or before.
   bool flush();
 
  private:
@@ -47,10 +47,10 @@ class PlainWriter {
 
 class PlainReader {
  public:
-  /// Reads a file from its beginning to where it ends now.
+  /// Reads a file from its beginning to its present end.
   explicit PlainReader(FileDescriptor file);
 
-  /// Each is false, and leaves the value as it was, where the bytes that are left do not hold it.
+  /// Returns false, and leaves the value unchanged, if the remaining bytes do not hold it.
   template <class T>
   requires std::is_trivially_copyable_v<T>
   [[nodiscard]] bool get(T& value) { return take(std::as_writable_bytes(std::span(&value, 1))); }
@@ -72,10 +72,10 @@ class PlainReader {
   bool fail();
 
   FileDescriptor file_;
-  uint64_t at_ = 0;              // of the file
-  uint64_t left_ = 0;            // from there
-  std::vector<std::byte> held_;  // read ahead: most values are small
-  size_t given_ = 0;             // of held_
+  uint64_t at_ = 0;              // offset in the file
+  uint64_t left_ = 0;            // bytes from there to the end
+  std::vector<std::byte> held_;  // read-ahead buffer: most values are small
+  size_t given_ = 0;             // bytes of held_ already returned
 };
 
 }  // namespace luxodus

@@ -7,7 +7,7 @@ namespace luxodus {
 
 namespace {
 
-/// Bytes at `at` that form one control character; 0 where none begins.
+/// Number of bytes at `at` that form one control character; 0 if there is none.
 size_t control_bytes(std::string_view text, size_t at) {
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
   if (byte(at) < 0x20 || byte(at) == 0x7F) return 1;

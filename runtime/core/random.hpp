@@ -1,9 +1,9 @@
 // Counter-based random numbers: Philox 4x32-10 (Salmon, Moraes, Dror, Shaw, "Parallel random
 // numbers: as easy as 1, 2, 3", SC11). A draw is a pure function of (seed, stream, particle, draw
 // number), so any machine can redo any particle and get the same bits. Draws of one particle are
-// made 32 at a time, in vector registers where the target has them; both ways give the same
-// numbers. Rule: never two draws in one expression, since their order would be the compiler's
-// choice.
+// made 32 at a time, in vector registers where the target has them; the scalar code gives the same
+// numbers. Rule: never two draws in one expression, since the compiler chooses their order. Thread
+// rule: a Random belongs to one fiber or thread.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace luxodus {
 
-/// What a stream of numbers is for: equal particle ids in different streams are independent.
+/// Purpose of a stream: equal particle ids in different streams are independent.
 enum class RandomStream : uint32_t {
   particle = 0,
   eye = 1,
@@ -27,7 +27,7 @@ enum class RandomStream : uint32_t {
   scramble = 9
 };
 
-/// One Philox 4x32-10 block, the definition that every other form must equal.
+/// One Philox 4x32-10 block, the reference for every other form.
 inline std::array<uint32_t, 4> philox_block(std::array<uint32_t, 4> counter, uint64_t seed) {
   uint32_t key0 = static_cast<uint32_t>(seed);
   uint32_t key1 = static_cast<uint32_t>(seed >> 32);
@@ -42,10 +42,10 @@ inline std::array<uint32_t, 4> philox_block(std::array<uint32_t, 4> counter, uin
   return counter;
 }
 
-/// The draws of one particle after another. Plain value, one per fiber or thread.
+/// The draws of one particle in order. Plain value, one per fiber or thread.
 class Random {
  public:
-  /// `part` tells apart what uses one stream with the same ids; below 2^24.
+  /// `part` separates users of one stream with the same ids; below 2^24.
   Random(uint64_t seed, RandomStream stream, uint32_t part = 0)
       : seed_(seed), stream_(static_cast<uint32_t>(stream) | part << 8) {}
 
@@ -55,7 +55,7 @@ class Random {
     block_ = 0;
     refill();
   }
-  /// The same, but the first draws are the coordinates of that point of a set.
+  /// Begins the sequence; the first draws are the coordinates of a point of `set`.
   void start(uint64_t particle, const SobolSet& set, uint32_t index) {
     start(particle);
     SobolSet::Point point;
@@ -83,7 +83,7 @@ class Random {
   static constexpr uint32_t draws_per_refill = 4 * blocks_per_refill;
 
   // Draw number d of a refill is word d / 8 of block d % 8: the order in which vector lanes come
-  // out. It is compiled once, as far as can be, whatever the caller's level.
+  // out. Compiled once, at the highest level that the build has, whatever the caller's.
   void refill();
 
   uint64_t seed_;

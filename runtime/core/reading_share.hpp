@@ -1,5 +1,5 @@
-// How far the reading of files is: bytes that are to be read, and those that are. Readers add to
-// it, another thread looks at it. All members are thread-safe.
+// Progress of reading files: bytes to read and bytes read. Readers add to it, another thread reads
+// it. All members are thread-safe.
 #pragma once
 
 #include <algorithm>
@@ -11,32 +11,31 @@ namespace luxodus {
 
 class ReadingShare {
  public:
-  /// So much is to be read of files that are known before their own reading begins: what is
-  /// expected later is of it.
+  /// Announces bytes of files whose own reading begins later; expect() then takes from this amount.
   void foresee(uint64_t bytes) {
     expected_ += bytes;
     foreseen_ += bytes;
   }
-  /// A file is to be read whose bytes are not known before its own reading begins.
+  /// Announces a file whose size is not known before its own reading begins.
   void foresee_unknown() { ++unknown_; }
-  /// The bytes of such a file are known now.
+  /// The size of such a file is known now.
   void know() {
     uint64_t before = unknown_;
     while (before > 0 && !unknown_.compare_exchange_weak(before, before - 1)) {
     }
   }
-  /// Whether no file is to be read beyond what is expected, as far as anybody foresees.
+  /// Whether the sizes of all announced files are known.
   bool all_known() const { return unknown_ == 0; }
-  /// So much is to be read now: of what was foreseen, and more where that is less.
+  /// A file of this size is read now: taken from what was announced, the rest added.
   void expect(uint64_t bytes) {
     uint64_t before = foreseen_;
     while (!foreseen_.compare_exchange_weak(before, before - std::min(before, bytes))) {
     }
     expected_ += bytes - std::min(before, bytes);
   }
-  /// So much of it has been read.
+  /// This many bytes have been read.
   void add(uint64_t bytes) { read_ += bytes; }
-  /// From 0 to 1; nothing where nothing is expected.
+  /// From 0 to 1; nothing if no bytes are expected.
   std::optional<double> share() const {
     const uint64_t all = expected_;
     if (all == 0) return std::nullopt;
@@ -45,12 +44,12 @@ class ReadingShare {
 
  private:
   std::atomic<uint64_t> expected_ = 0, read_ = 0;
-  std::atomic<uint64_t> foreseen_ = 0;  // of what is expected, what no reading has begun with
-  std::atomic<uint64_t> unknown_ = 0;   // files
+  std::atomic<uint64_t> foreseen_ = 0;  // expected bytes whose reading has not begun
+  std::atomic<uint64_t> unknown_ = 0;   // number of files
 };
 
-/// One file of those that are read: expected when this is made, read as it is told, and all of it
-/// at the latest when this ends. Does nothing where `all` is null.
+/// Progress of one file: expected on construction, reported by at(), and complete on destruction.
+/// Does nothing if `all` is null.
 class ReadingPart {
  public:
   ReadingPart(ReadingShare* all, uint64_t bytes) : all_(all), bytes_(bytes) {
@@ -59,7 +58,7 @@ class ReadingPart {
   ~ReadingPart() { at(bytes_); }
   ReadingPart(const ReadingPart&) = delete;
 
-  /// Read up to here; what was told before and more is not undone.
+  /// Reports that the file is read up to `bytes`; progress never goes back.
   void at(uint64_t bytes) {
     bytes = std::min(bytes, bytes_);
     if (all_ == nullptr || bytes <= told_) return;

@@ -12,7 +12,7 @@ namespace luxodus {
 
 namespace {
 
-/// Linux moves at most 2 GiB in one call.
+/// Bytes per read() call; Linux transfers at most 2 GiB.
 constexpr size_t largest_read_bytes = size_t{1} << 30;
 
 template <class Bytes>
@@ -24,7 +24,7 @@ Result<Bytes> read_all(const std::filesystem::path& path, uint64_t max_bytes) {
                                 " bytes, the most that is read from a file of its kind");
   };
   if (file->bytes > max_bytes) return too_long();
-  // The size is a hint only: a file of /proc has none, and any may grow while it is read.
+  // The size is only a hint: files of /proc report none, and any file may grow while it is read.
   Bytes bytes;
   size_t filled = 0;
   uint64_t wanted = file->bytes + 1;
@@ -50,7 +50,7 @@ Result<Bytes> read_all(const std::filesystem::path& path, uint64_t max_bytes) {
 Result<RegularFile> open_regular_file(const std::filesystem::path& path) {
   if (path.native().find('\0') != std::string::npos)
     return problem_in(path, "a path cannot hold a zero byte");
-  // O_NONBLOCK: a pipe without a writer would be waited for, before it could be told what it is.
+  // O_NONBLOCK: otherwise open() would wait for a pipe's writer before its type is checked.
   FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (!file.valid()) return system_problem(path, "this file cannot be read", errno);
   struct stat about {};

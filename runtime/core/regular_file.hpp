@@ -1,6 +1,6 @@
-// The one way in for files that somebody names: opened without waiting, and only if they are files.
-// A pipe or a terminal would be waited for without end, a device gives bytes without end or does
-// something when it is opened. Memory is never asked for beyond a limit. Any thread.
+// Opens every file that a user names, without blocking and only if it is a regular file: a pipe or
+// a terminal could block forever, and a device may deliver endless bytes or act when it is opened.
+// Memory is never allocated beyond a limit. Any thread.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ Result<RegularFile> open_regular_file(const std::filesystem::path& path);
 
 /// All bytes of a file. Errors: as open_regular_file; longer than `max_bytes`; a failed read.
 Result<std::string> read_regular_file(const std::filesystem::path& path, uint64_t max_bytes);
-/// The same, of a file that is no text.
+/// All bytes of a binary file. Errors: those of read_regular_file.
 Result<std::vector<std::byte>> read_whole_file(const std::filesystem::path& path,
                                                uint64_t max_bytes);
 

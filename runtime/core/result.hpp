@@ -1,6 +1,6 @@
-// Errors as values. A Problem is one sentence for people with the place it speaks of; a Result is a
+// Errors as values. A Problem is one sentence for people with a place in a file; a Result is a
 // value or a Problem; Problems collects many, so that a reader can report all of them at once.
-// Thread rule: plain values, no sharing.
+// Plain values; any thread.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace luxodus {
 
-/// Where a statement stands in a file: 1-based line, 0 where a line has no meaning (binary files).
+/// Place in a file: 1-based line, 0 if there are no lines (binary files).
 struct SourcePlace {
   std::string file;
   int line = 0;
@@ -22,18 +22,18 @@ struct Problem {
   SourcePlace where;
   std::string what;
 
-  /// "file:line: what", the form editors understand, in one line: control characters, which a name
-  /// or a file's content may carry here and a terminal would obey, stand as \xNN.
+  /// "file:line: what" in one line, the form editors understand. Control characters, which names
+  /// and contents of files may carry and a terminal would obey, become \xNN.
   std::string text() const;
 };
 
-/// What is wrong with a text, a value or a request that stands in no file. These take the text
-/// whole: GCC 12 falsely warns of uninitialised members where it may throw within the braces.
+/// A problem with a text, a value or a request that is in no file. These functions take the text by
+/// value: GCC 12 falsely warns of uninitialised members where it may throw within the braces.
 inline Problem problem(std::string what) {
   return {{}, std::move(what)};
 }
 
-/// What is wrong with a file, as a whole or in one of its lines. A path converts to its text.
+/// A problem with a whole file or one of its lines. A path converts to its text.
 inline Problem problem_in(std::string file, std::string what) {
   return {{std::move(file), 0}, std::move(what)};
 }
@@ -44,11 +44,11 @@ inline Problem problem_in(SourcePlace where, std::string what) {
   return {std::move(where), std::move(what)};
 }
 
-/// What the system did not do with a file, and its reason: "what: Permission denied".
+/// A failed system call on a file, with its reason: "what: Permission denied".
 Problem system_problem(std::string file, std::string what, int error);
 
-/// A value, or the problem that kept us from having it. A function passes a problem on by
-/// `if (!x) return x.problem();`.
+/// A value, or the problem that prevented it. A function passes a problem on by `if (!x) return
+/// x.problem();`.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -89,7 +89,7 @@ class [[nodiscard]] Result<void> {
   std::optional<Problem> problem_;
 };
 
-/// All that is wrong with something, in the order it was found.
+/// All problems found, in order.
 class Problems {
  public:
   void add(SourcePlace where, std::string what) {

@@ -1,5 +1,5 @@
-// A queue of fixed capacity: its memory is taken once, when it is made. First in, first out.
-// It never grows: a full ring says so and the caller decides. Belongs to one node; no locks.
+// A queue of fixed capacity, allocated once. First in, first out. It never grows: push() returns
+// false when it is full. Thread rule: belongs to one node; no locks.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace luxodus {
 
-/// T is default constructible and movable; a place that was popped keeps a moved-from T.
+/// T is default constructible and movable; a popped slot keeps a moved-from T.
 template <class T>
 class Ring {
  public:
@@ -21,7 +21,7 @@ class Ring {
   bool empty() const { return size_ == 0; }
   bool full() const { return size_ == capacity_; }
 
-  /// Takes `value` in behind all others; false, and nothing is changed, where the ring is full.
+  /// Appends `value`; returns false and changes nothing if the ring is full.
   [[nodiscard]] bool push(T value) {
     if (full()) return false;
     slots_[wrapped(first_ + size_)] = std::move(value);
@@ -29,7 +29,7 @@ class Ring {
     return true;
   }
 
-  /// The oldest, taken out. Requires: !empty().
+  /// Removes and returns the oldest. Requires: !empty().
   T pop() {
     LUX_CHECK(size_ > 0, "pop from an empty ring");
     T value = std::move(slots_[first_]);

@@ -59,8 +59,8 @@ constexpr DirectionNumbers make_direction_numbers() {
 
 constexpr DirectionNumbers direction_numbers = make_direction_numbers();
 
-/// Column j of a random lower triangular matrix with a diagonal of ones: digit j goes to digit j,
-/// and to chance after it.
+/// Column j of a random lower triangular matrix with ones on the diagonal: digit j maps to digit j
+/// and to random digits after it.
 constexpr uint32_t lower_column(uint32_t j, uint32_t random) {
   const uint32_t diagonal = 1u << (bits - 1 - j);
   return diagonal | (random & (diagonal - 1));
@@ -77,7 +77,7 @@ void SobolSet::choose(uint64_t number, uint32_t count) {
   random.start(number);
   for (uint32_t& word : shift_) word = random.bits();
   // A direction number has no digit after its own place, so the first columns are enough.
-  std::array<Point, bits> matrix;  // by column, all dimensions beside one another: vectors
+  std::array<Point, bits> matrix;  // by column, all dimensions contiguous: vectorises
   for (uint32_t d = 0; d < dimensions; ++d)
     for (uint32_t j = 0; j < columns; ++j) matrix[j][d] = lower_column(j, random.bits());
   for (uint32_t i = 0; i < columns; ++i) {

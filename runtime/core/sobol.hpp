@@ -2,9 +2,10 @@
 // Joe and F. Y. Kuo, "Constructing Sobol' sequences with better two-dimensional projections", SIAM
 // J. Sci. Comput. 30 (2008)), scrambled by a random linear matrix per dimension and shifted by
 // random digits (J. Matousek, "On the L2-discrepancy for anchored boxes", J. Complexity 14 (1998)).
-// Promise: every point of a set is uniform on [0, 1)^16, so a mean over them has no bias; the first
+// Promise: every point of a set is uniform on [0, 1)^16, so a mean over them is unbiased; the first
 // 2^k points lie one in each interval of 2^-k in every dimension; sets of different numbers are
-// independent, so the spread of their means is an honest error.
+// independent, so the spread of their means is an honest standard error. Thread rule: plain values;
+// one thread per object.
 #pragma once
 
 #include <array>
@@ -22,7 +23,8 @@ class SobolSet {
   /// Sets of different streams are independent.
   SobolSet(uint64_t seed, RandomStream stream) : seed_(seed), stream_(stream) {}
 
-  /// Becomes the set of that number, with room for `count` points. At no cost if it is that set.
+  /// Selects the set with this number, with room for `count` points. Free if it is already
+  /// selected.
   void choose(uint64_t number, uint32_t count);
 
   /// Requires: index < the count of choose().
@@ -38,7 +40,7 @@ class SobolSet {
   uint64_t seed_;
   uint64_t number_ = 0;
   RandomStream stream_;
-  uint32_t columns_ = 0;  // made; 0 before choose()
+  uint32_t columns_ = 0;  // columns computed; 0 before choose()
   alignas(32) Point shift_{};
   alignas(
       32) std::array<Point, 32> scrambled_;  // direction numbers of this set, by bit of the index

@@ -1,6 +1,6 @@
-// Something to do later, kept in place: a callable of a few words that is copied as bytes, so that
-// setting a timer or starting a fiber takes no memory. It captures pointers and numbers, and
-// whoever makes it answers for what the pointers point to. A plain value.
+// A callable to run later, stored in place: a few words copied as bytes, so that setting a timer or
+// starting a fiber allocates nothing. It captures pointers and numbers; its maker ensures that the
+// pointers stay valid. A plain value; any thread.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// 128-bit integers, which the tallies sum in. ISO C++ has no name for them; both our compilers do.
+// 128-bit integers, in which the tallies sum. ISO C++ has no name for them; both our compilers do.
+// Plain values; pure functions.
 #pragma once
 
 #include <cstdint>

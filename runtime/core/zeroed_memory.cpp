@@ -19,7 +19,7 @@ ZeroedMemory::ZeroedMemory(size_t bytes, Pages pages)
                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (at == MAP_FAILED) throw std::bad_alloc();
   begin_ = static_cast<std::byte*>(at);
-  // Refused where the system has no large pages: then all are small.
+  // Fails if the system has no huge pages: then all pages are small.
   if (pages == Pages::small) (void)::madvise(begin_, bytes_, MADV_NOHUGEPAGE);
 }
 
@@ -28,7 +28,7 @@ ZeroedMemory::~ZeroedMemory() {
 }
 
 bool ZeroedMemory::find_used(std::span<uint8_t> used) const {
-  // Of each page a word; its two highest bits: in memory, in swap (proc_pid_pagemap(5)).
+  // One word per page; its two highest bits: in memory, in swap (proc_pid_pagemap(5)).
   constexpr uint64_t in_use = uint64_t{3} << 62;
   const int file = ::open("/proc/self/pagemap", O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;

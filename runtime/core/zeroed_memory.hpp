@@ -1,8 +1,7 @@
-// Address space that reads as zeros and becomes memory where it is written, page by page; what was
-// written can be given back, and reads as zeros again. It takes nothing from the allocator. Which
-// pages are in use the system tells, page tables and swap alike; a page that was only read counts
-// as used there. (mincore would not do: it does not know a page that is swapped out.) Thread rule:
-// as plain memory.
+// Address space that reads as zeros and becomes memory where it is written, page by page. Pages can
+// be returned to the system, and then read as zeros again. It does not use the allocator. The
+// system tells which pages are in use, by page tables and swap; a page that was only read counts as
+// used. (mincore() does not see pages that are swapped out.) Thread rule: as plain memory.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +15,10 @@ class ZeroedMemory {
  public:
   static constexpr size_t page_bytes = 4096;
 
-  /// How the system may back it.
+  /// Page size the system may use.
   enum class Pages {
-    large,  // as it likes: fewer misses of the address cache, but a byte may cost 2 MiB
-    small   // one page at a time: a count of pages is a count of bytes
+    large,  // the system's choice: fewer TLB misses, but one byte may cost 2 MiB
+    small   // 4 KiB only: a count of pages is a count of bytes
   };
 
   ZeroedMemory() = default;
@@ -35,13 +34,13 @@ class ZeroedMemory {
   }
 
   std::byte* data() const { return begin_; }
-  /// Rounded up to whole pages.
+  /// Size, rounded up to whole pages.
   size_t bytes() const { return bytes_; }
 
-  /// Says of every page whether it is in use. False: the system does not tell. Some 20 ns a page.
-  /// Requires: used.size() == bytes() / page_bytes.
+  /// Sets for every page whether it is in use; about 20 ns a page. Returns false if the system does
+  /// not tell. Requires: used.size() == bytes() / page_bytes.
   bool find_used(std::span<uint8_t> used) const;
-  /// Whether this system tells.
+  /// Whether this system tells which pages are in use.
   static bool use_is_told();
 
   /// Pages [first, end) read as zeros and take no memory. Requires: end * page_bytes <= bytes().

@@ -1,6 +1,6 @@
-// A store whose reads fail while a plan of faults says so, as those of a disk that is broken or
-// gone: the node says of what it holds that it is not here, and must ask others for it. Where there
-// is no plan, it is not there at all. Thread rule: one node's thread.
+// A store with injected read failures, as of a broken disk: while a fault of the plan holds, the
+// node reports that it does not have its objects, and must ask others for them. Without a plan it
+// is not created. Thread rule: one node's thread.
 #pragma once
 
 #include "runtime/core/clock.hpp"
@@ -11,7 +11,7 @@ namespace luxodus {
 
 class FaultyObjects final : public ObjectStore {
  public:
-  /// The plan's moments count from now. Requires: all outlive this.
+  /// The plan's times count from construction. Requires: all references outlive this.
   FaultyObjects(ObjectStore& below, NodeId self, const FaultPlan& plan, const Clock& clock)
       : below_(below), self_(self), plan_(plan), clock_(clock), began_(clock.now()) {}
 

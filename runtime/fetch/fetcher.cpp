@@ -1,9 +1,9 @@
-// A fetch is a flight through its holders: each has `tries` questions, which a timeout, wrong bytes
-// or a holder out of reach use up one by one, and "not here" all at once. The flight goes round
-// from holder to holder while any of them has a try left, so it ends after a bounded number of
-// questions whatever the network does. All questions of a flight bear one id, so that pieces of
-// several answers fill one room; after wrong bytes it takes another, so that what is left of them
-// on the way is not mixed in.
+// A fetch goes through the object's holders: each has `tries` requests, of which a timeout, wrong
+// bytes or an unreachable holder use up one, and "not here" all. The fetch goes round from holder
+// to holder while any of them has a try left, so it ends after a bounded number of requests
+// whatever the network does. All requests of a fetch have one id, so that pieces of several answers
+// fill one room; after wrong bytes it takes a new id, so that their remaining pieces are not mixed
+// in.
 #include "runtime/fetch/fetcher.hpp"
 
 #include <fmt/core.h>
@@ -18,11 +18,11 @@ namespace luxodus {
 
 namespace {
 
-/// What a reply has beside the object [bytes]: two numbers in Cap'n Proto, and room for fields of
-/// later versions. Too small, and objects of several pieces would be refused.
+/// Bytes of a reply beside the object: two numbers in Cap'n Proto, and room for fields of later
+/// versions. If it is too small, objects of several pieces are rejected.
 constexpr size_t max_reply_head_bytes = 256;
 
-/// How soon to try an outbox again that was full: after a turn or two of the node's loop.
+/// How soon to retry after a full outbox: after a turn or two of the node's loop.
 constexpr Nanoseconds outbox_patience = microseconds(100);
 
 std::shared_ptr<uint64_t[]> room_of(size_t bytes) {
@@ -107,7 +107,7 @@ void Fetcher::add_metrics(Metrics& metrics) const {
                           delay_[hops]);
 }
 
-// ---- flights begin and end
+// ---- begin and end of fetches
 
 void Fetcher::fetch(uint32_t object, FetchClient& client, bool traced) {
   LUX_CHECK(object < objects_.size(), "fetched an object that the run does not have");
@@ -180,7 +180,7 @@ Fetcher::PendingFetch* Fetcher::flight_of(const MessageId& id) {
 
 // ---- asking
 
-/// Asks the next holder that has tries left and can be reached, and so on round.
+/// Asks the next holder, in turn, that has tries left and can be reached.
 void Fetcher::ask(PendingFetch& flight) {
   const std::vector<NodeId>& holders = objects_[flight.wish.object].holders;
   bool ways_missing = false;
@@ -202,7 +202,7 @@ void Fetcher::ask(PendingFetch& flight) {
   give_up(flight);
 }
 
-/// Asks now, or once the network has room for the question; false where no way leads there.
+/// Asks now, or once the network has room for the request; false if there is no route.
 bool Fetcher::ask_holder(PendingFetch& flight, NodeId holder) {
   const RouteDelay& route = routes_[holder.value];
   const unsigned nth = flight.tries[flight.holder] + 1u;
@@ -225,8 +225,8 @@ bool Fetcher::ask_holder(PendingFetch& flight, NodeId holder) {
   return true;
 }
 
-/// No holder that has a try left can be reached: that costs each of them one, and as much time as
-/// a question on a route of which nothing is known; meanwhile routes may be made anew.
+/// No holder with a try left can be reached: this costs each of them one try, and the timeout of an
+/// unknown route; meanwhile routes may be updated.
 void Fetcher::wait_for_ways(PendingFetch& flight) {
   uint8_t used = 0;
   for (size_t at = 0; at < objects_[flight.wish.object].holders.size(); ++at)
@@ -240,7 +240,7 @@ bool Fetcher::take_from_store(PendingFetch& flight) {
   return !bytes.bytes.empty() && accept(flight, std::move(bytes), 0, config_.self);
 }
 
-/// The object by the name that people know, where it has one.
+/// The object's name for people, if it has one.
 std::string Fetcher::text_of(uint32_t object, const char* what) const {
   const std::string name = store_.stored_name(object);
   return name.empty() ? what : name + ": " + what;
@@ -275,7 +275,7 @@ void Fetcher::timer_fired(PendingFetch& flight) {
   ask(flight);
 }
 
-/// Up to a quarter more, so that nodes which lost the same holder do not ask again as one.
+/// Adds up to a quarter, so that nodes which lost the same holder do not retry in step.
 Nanoseconds Fetcher::with_jitter(Nanoseconds span) {
   return span + static_cast<Nanoseconds>(jitter_.uniform_double() * static_cast<double>(span / 4));
 }
@@ -288,12 +288,12 @@ std::span<std::byte> Fetcher::room_for(const MessageId& id, size_t bytes) {
   const size_t most = objects_[flight->wish.object].wire_bytes + max_reply_head_bytes;
   if (bytes > most) return {};
   if (flight->room == nullptr) flight->room = room_of(most);
-  // The answer has begun: its pieces take turns with those of all others that are under way.
+  // The answer has begun: its pieces take turns with those of all other messages in flight.
   if (flight->answer_due) set_timer(*flight, config_.timeouts.most, true);
   return std::as_writable_bytes(std::span(flight->room.get(), (most + 7) / 8)).first(most);
 }
 
-/// In pieces it lies in the room that was set aside; else it is the network's for this call.
+/// An answer in pieces is in its room already; any other is valid only during this call.
 SharedBytes Fetcher::keep(const MessageId& id, std::span<const std::byte> payload) {
   const PendingFetch* flight = flight_of(id);
   if (flight == nullptr) return {};
@@ -338,7 +338,7 @@ void Fetcher::not_here(const MessageId& id, const ObjectNotHere& answer) {
   ask(*flight);
 }
 
-/// Ends the flight with these bytes, if they are the object's.
+/// Completes the fetch with these bytes, if they are the object's.
 bool Fetcher::accept(PendingFetch& flight, SharedBytes bytes, uint8_t hops, NodeId from) {
   const Wish wish = flight.wish;
   const ObjectPlace& place = objects_[wish.object];

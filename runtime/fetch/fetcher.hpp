@@ -1,15 +1,14 @@
-// Brings the bytes of objects from wherever they are. An object is asked of its holders in their
-// order, each several times with growing patience, then of this node's own store; only when all of
-// them have said no or nothing is it unobtainable, for now. Bytes are checked against the object's
-// name: wrong ones are dropped and asked for elsewhere. It keeps nothing: who keeps objects, and
-// sees that each is fetched once, is the ObjectCache. Both are state of the part server, which is
-// the actor that holders answer.
+// Fetches the bytes of objects. The holders of an object are asked in order, each several times
+// with growing timeouts, then this node's own store; only when all have failed is it unobtainable,
+// for now. Bytes are verified by the object's id: wrong ones are dropped and requested elsewhere.
+// It keeps nothing: the ObjectCache keeps objects and ensures that each is fetched once. Both are
+// state of the part server, which is the actor that holders answer.
 //
-// Memory: a fetch begins when the object's bytes, known beforehand, find room under receive_bytes,
-// and holds that room until release(); fetches beyond it wait in turn. The bytes themselves are the
-// one piece of memory that is taken for a fetch.
+// Memory: a fetch begins when the object's bytes, whose number is known, fit below receive_bytes,
+// and occupies them until release(); further fetches wait in turn. The bytes themselves are the
+// only memory allocated for a fetch.
 //
-// Thread rule: the node's thread. fetch() may be called from a fiber: it only notes the wish;
+// Thread rule: the node's thread. fetch() may be called from a fiber: it only queues the request;
 // everything else happens on the scheduler's stack.
 #pragma once
 
@@ -39,45 +38,44 @@ namespace luxodus {
 
 struct FetchConfig {
   NodeId self;
-  /// Under way at once: as many messages as a network puts together at once
+  /// Fetches in flight: as many as messages that a network reassembles at once
   /// (NetConfig::assemblies).
   size_t flights = 64;
-  /// Bytes asked for and not yet released: 16 objects of 1 MB, ten times what 1 Gb/s brings in
-  /// 10 ms. Smaller, and the link idles; larger takes from the objects that are kept.
+  /// Bytes requested and not yet released: 16 objects of 1 MB, ten times what 1 Gb/s brings in 10
+  /// ms. A smaller value leaves the link idle; a larger one takes memory from the cache.
   size_t receive_bytes = 16 << 20;
-  /// Questions to one holder. If it is silent from the start it has 1, 2, 4 and 5 s for them: long
-  /// enough for routes to be made anew (2 s), short enough for a batch to be leased again.
+  /// Requests to one holder. A silent holder gets 1, 2, 4 and 5 s for them: long enough for routes
+  /// to be updated (2 s), short enough for a batch to be leased again.
   uint8_t tries = 4;
-  /// Requests of others that wait for room to be answered: four of each of 64 nodes.
+  /// Requests of others that wait for room to answer: four from each of 64 nodes.
   size_t requests = 256;
-  /// Whether others are given what this node has ready for itself, and holds for nobody.
+  /// Whether others are served objects that this node has only in its cache.
   bool shares_cache = true;
   TimeoutLimits timeouts;
-  /// Links to each node, by number: of an object's holders the nearest is asked first, then those
-  /// that follow it. Empty: in the order of ObjectPlace.
+  /// Links to each node, by number: the nearest holder of an object is asked first, then those that
+  /// follow it. Empty: in the order of ObjectPlace.
   std::vector<uint32_t> hops;
-  NodeTrace* trace = nullptr;  // null: nothing is traced
-  Buggify* buggify = nullptr;  // rare ways; null: none
+  NodeTrace* trace = nullptr;  // null: no tracing
+  Buggify* buggify = nullptr;  // rare paths, or null
 
   Address address() const { return {self, ActorName::part_server}; }
 };
 
-/// Who wants an object. Called on the scheduler's stack.
+/// Receives the result of a fetch. Called on the scheduler's stack.
 class FetchClient {
  public:
   virtual ~FetchClient() = default;
-  /// The object's bytes, which are right. Their room is taken until Fetcher::release().
+  /// The object's verified bytes. Their room is taken until Fetcher::release().
   virtual void fetched(uint32_t object, SharedBytes bytes) = 0;
-  /// Nobody gave it; it may be fetched again.
+  /// No holder delivered it; it may be fetched again.
   virtual void unobtainable(uint32_t object) = 0;
 };
 
 class Fetcher {
  public:
-  /// Takes all memory there will be but for objects' bytes. Timers are set as those of `owner`.
-  /// `jitter` is a stream of its own.
-  /// Requires: all references outlive this; `objects` does not change.
-  /// Errors (exception): an object without bytes, or longer than receive_bytes; too many holders.
+  /// Allocates everything but objects' bytes. Timers run as tasks of `owner`. `jitter` is a random
+  /// stream of its own. Requires: all references outlive this; `objects` does not change. Errors
+  /// (exception): an object without bytes, or longer than receive_bytes; too many holders.
   Fetcher(const FetchConfig& config, const std::vector<ObjectPlace>& objects, ObjectStore& store,
           Sender& sender, Supervised& owner, Timers& timers, const Clock& clock,
           const Random& jitter);
@@ -85,44 +83,44 @@ class Fetcher {
   Fetcher(const Fetcher&) = delete;
   Fetcher& operator=(const Fetcher&) = delete;
 
-  /// Adds what a fetcher of this configuration takes.
+  /// Adds the memory of a fetcher with this configuration.
   static void plan_memory(MemoryPlan& plan, const FetchConfig& config, size_t objects);
-  /// Timers that it may have set at once, for SchedulerLimits::timers_beside_fibers.
+  /// Most timers set at once, for SchedulerLimits::timers_beside_fibers.
   static size_t max_timers(const FetchConfig& config) { return config.flights + 1; }
 
-  /// Has `client` told of this object's bytes, or that nobody has them; never within the call.
-  /// Requires: it is not under way, and its room was released; `client` outlives the fetch.
-  /// `traced`: its time is told to the trace.
+  /// Fetches an object and calls `client` with its bytes or with failure, never within this call.
+  /// Requires: no fetch of it is in flight, and its room was released; `client` outlives the fetch.
+  /// `traced`: its times are written to the trace.
   void fetch(uint32_t object, FetchClient& client, bool traced = false);
-  /// The bytes of a fetched object are no longer needed: their room is free for others.
+  /// Releases the room of a fetched object's bytes.
   void release(uint32_t object);
 
-  // ---- what others answer ------------------------------------------------------------------
+  // ---- answers of others -------------------------------------------------------------------
 
   void found(const MessageId& id, uint8_t hops, const ObjectFound& answer, SharedBytes bytes);
   void not_here(const MessageId& id, const ObjectNotHere& answer);
-  /// Room for an answer that is awaited, of its object's size; empty for all others. It stays with
-  /// its fetch, which asks again if no more pieces come.
+  /// Room for an awaited answer, of its object's size; empty for all others. It stays with its
+  /// fetch, which retries if no more pieces come.
   std::span<std::byte> room_for(const MessageId& id, size_t bytes);
-  /// The bytes of an answer that is awaited, where they stay; empty for all others.
+  /// The bytes of an awaited answer, in their final place; empty for all others.
   SharedBytes keep(const MessageId& id, std::span<const std::byte> payload);
 
   // ---- counts ------------------------------------------------------------------------------
 
   struct Counters {
     uint64_t fetches = 0;       // begun
-    uint64_t retries = 0;       // questions asked beyond the first of a fetch
-    uint64_t timeouts = 0;      // questions without an answer in time
+    uint64_t retries = 0;       // requests beyond the first of a fetch
+    uint64_t timeouts = 0;      // requests without an answer in time
     uint64_t not_here = 0;      // answers that the holder does not have it
     uint64_t wrong_hash = 0;    // bytes that were not the object's
-    uint64_t late = 0;          // answers that nobody waited for any more
-    uint64_t outbox_full = 0;   // questions that had to wait for the network
-    uint64_t unobtainable = 0;  // fetches in vain
-    uint64_t bytes_in = 0;      // of objects, wrong ones included, and late ones not
+    uint64_t late = 0;          // answers that were no longer awaited
+    uint64_t outbox_full = 0;   // requests that had to wait for the network
+    uint64_t unobtainable = 0;  // failed fetches
+    uint64_t bytes_in = 0;      // of objects, including wrong ones, excluding late ones
     uint64_t receive_bytes_held = 0;
   };
   const Counters& counters() const { return counters_; }
-  /// From the wish to the bytes, by the links that the answer passed; 0: from the own store.
+  /// From the call of fetch() to the bytes, by links that the answer passed; 0: from the own store.
   const Histogram& delay(uint8_t hops) const { return delay_[hops]; }
   const RouteDelay& route(NodeId holder) const { return routes_[holder.value]; }
   void add_metrics(Metrics& metrics) const;
@@ -136,15 +134,16 @@ class Fetcher {
   };
   struct PendingFetch {
     Wish wish;
-    MessageId id;           // sequence 0 while it rests
-    uint64_t trace_id = 0;  // of its first question; 0: it is not traced
+    MessageId id;           // sequence 0 while none is in flight
+    uint64_t trace_id = 0;  // of its first request; 0: not traced
     TimerId timer;
-    bool answer_due = false;  // what the timer ends: the wait for an answer, or for asking again
+    // whether the timer ends the wait for an answer, or the pause before a retry
+    bool answer_due = false;
     Nanoseconds asked_at = 0;
     uint16_t questions = 0;
-    size_t holder = 0;                             // that was asked, or is to be asked next
-    std::array<uint8_t, limits::holders> tries{};  // by holder, used up
-    std::shared_ptr<uint64_t[]> room;              // of a reply in pieces
+    size_t holder = 0;                             // asked last, or to be asked next
+    std::array<uint8_t, limits::holders> tries{};  // used up, by holder
+    std::shared_ptr<uint64_t[]> room;              // for a reply in pieces
   };
 
   void begin_soon();

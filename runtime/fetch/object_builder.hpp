@@ -1,8 +1,7 @@
-// The seam between bytes and what is made of them: a search tree, a table. A simulation puts builds
-// of known cost here.
-// Thread rule: everything here is called on the node's thread, outside of any fiber, whose stack
-// would be too small: committing a search tree takes 45 KB. A builder may work on other threads and
-// hand its answer over (Handoff).
+// The interface to the code that builds objects from bytes, such as a search tree or a table. A
+// simulation provides builds of known cost. Thread rule: called on the node's thread, outside of
+// any fiber, whose stack would be too small: committing a search tree takes 45 KB. A builder may
+// work on other threads and hand its answer over (Handoff).
 #pragma once
 
 #include <cstddef>
@@ -14,19 +13,19 @@
 
 namespace luxodus {
 
-/// An object ready for use. It does not change, and may be let go on any thread of its process.
+/// An object ready for use. It is immutable, and may be released on any thread of its process.
 class BuiltObject {
  public:
   virtual ~BuiltObject() = default;
-  /// What it takes in memory, everything that it keeps alive included: what a cache is charged.
+  /// Its memory, including everything that it keeps alive: what a cache charges.
   virtual size_t bytes() const = 0;
-  /// The bytes that it was built of, made anew for a node that asks for them.
+  /// The bytes from which it was built, serialised again for a node that asks for them.
   virtual SharedBytes wire_bytes() const = 0;
 };
 
 class ObjectBuilder {
  public:
-  /// Who wants to know.
+  /// Receives built objects.
   class Client {
    public:
     virtual ~Client() = default;
@@ -35,7 +34,7 @@ class ObjectBuilder {
   };
 
   virtual ~ObjectBuilder() = default;
-  /// Makes an object of bytes, and tells `client` once: before this returns, or later.
+  /// Builds an object from bytes and calls `client` once: before this returns, or later.
   virtual void build(uint32_t object, SharedBytes bytes, Client& client) = 0;
 };
 

@@ -1,6 +1,7 @@
-// Memory never passes the budget: residents stay below it by one build's peak, one object is built
-// or waits built at a time, and it comes in only after others have made room. The next build may
-// start only then, so a builder on another thread works while the fibers woken last are running.
+// Memory never exceeds the budget: residents stay below it by one build's peak, at most one object
+// is being built or waits after its build, and it becomes resident only after evictions have made
+// room. The next build starts only then, so a builder on another thread works while the fibers
+// woken last are running.
 #include "runtime/fetch/object_cache.hpp"
 
 #include <fmt/core.h>
@@ -123,7 +124,7 @@ void ObjectCache::request(uint32_t object, bool traced) {
   fetcher_.fetch(object, *this, entry.traced);
 }
 
-// ---- objects come
+// ---- arrival of objects
 
 void ObjectCache::fetched(uint32_t object, SharedBytes bytes) {
   Entry& entry = entries_[object];
@@ -155,8 +156,7 @@ void ObjectCache::built(uint32_t object, Result<std::shared_ptr<const BuiltObjec
 }
 
 // A step does at most one build, and the next comes a nanosecond later: a timer set for now would
-// be due in the same turn, and a builder that answers at once would keep arrivals and fibers
-// waiting.
+// fire in the same turn, and a builder that answers at once would starve arrivals and fibers.
 void ObjectCache::step_soon() {
   if (std::exchange(steps_soon_, true)) return;
   step_timer_ = timers_.set(clock_.now() + 1, owner_.own_task([this] { step(); }));
@@ -179,7 +179,7 @@ void ObjectCache::step() {
   if (ready_ == nullptr && !in_builder_ && !to_build_.empty()) start_build(*to_build_.pop_front());
 }
 
-/// What another node of the process has ready is not held before its turn: nobody would be charged.
+/// A shared object is not held before its turn, since no budget is charged for it yet.
 bool ObjectCache::take_shared(Entry& entry) {
   if (config_.shared == nullptr) return false;
   auto built = config_.shared->find(number_of(entry));
@@ -194,7 +194,7 @@ bool ObjectCache::take_shared(Entry& entry) {
 
 void ObjectCache::start_build(Entry& entry) {
   if (take_shared(entry)) return;
-  if (entry.bytes.bytes.empty()) {  // let go of by the other node before its turn
+  if (entry.bytes.bytes.empty()) {  // the other node released it meanwhile
     entry.state = ObjectState::requested;
     fetcher_.fetch(number_of(entry), *this, entry.traced);
     if (!to_build_.empty()) step_soon();
@@ -224,7 +224,7 @@ void ObjectCache::come_in(Entry& entry, std::shared_ptr<const BuiltObject> built
   wake_waiters(entry);
 }
 
-/// Pins a resident object that shall be, if there is room.
+/// Pins a resident object for which a pin was requested, if there is room.
 void ObjectCache::keep(Entry& entry) {
   if (entry.pin != Pin::wanted) return;
   if (counters_.pinned_bytes + entry.charge > config_.max_pinned_bytes()) {

@@ -1,17 +1,17 @@
-// The objects of a run that a node has ready for use, and the way to get others: each is fetched
-// and built once, however many fibers wait for it, and kept until room is needed, the one unused
-// for the longest going first. Charged is what an object really takes once it is built.
+// The cache of a node's objects: each is fetched and built once, however many fibers wait for it,
+// and kept until room is needed; the least recently used one is evicted first. An object is charged
+// its real size once it is built.
 //
-// An object that is found stays where it is until the fiber that found it next suspends; no longer,
-// so nobody keeps the pointer. Objects come in and go on the scheduler's stack only.
+// A pointer to an object is valid until the fiber that found it next suspends, so nobody keeps it.
+// Objects come and go only on the scheduler's stack.
 //
-// Where the nodes of a process share, an object that another of them has ready is neither fetched
+// If the nodes of a process share, an object that another of them has resident is neither fetched
 // nor built, but comes in as if it had been.
 //
-// Progress: an object comes in only when every fiber that was woken for the one before has run. So
-// each wait ends with the object in hand, even where the cache has room for a single one.
+// Progress: an object comes in only after every fiber woken for the previous one has run. So each
+// wait ends with the object in hand, even if the cache has room for only one.
 //
-// Thread rule: the node's thread; get() from a fiber. What is fetched from where: Fetcher.
+// Thread rule: the node's thread; get() from a fiber. Fetching is in Fetcher.
 #pragma once
 
 #include <cstddef>
@@ -29,54 +29,56 @@
 
 namespace luxodus {
 
-/// What an object is to its node.
+/// State of an object at its node.
 ///
 ///             get, prefetch, pin               bytes                       it comes in
 ///   absent ───────────────────────► requested ───────► building ─────────────────────► resident
 ///     ▲ ▲                               │                 │                                │
-///     │ └───────── unobtainable ────────┴─ no such thing ─┘                                │
+///     │ └───────── unobtainable ────────┴─ build failed ──┘                                │
 ///     └──────────────────────────────── room is needed ────────────────────────────────────┘
 ///
-/// Building lasts from the bytes' arrival: in line for the builder, with it, and then until the
-/// fibers woken for the object before have run. What another node of the process has ready is in
-/// line at once; if that has let it go before its turn, it is requested.
+/// Building lasts from the arrival of the bytes: in the builder's queue, in the builder, and then
+/// until the fibers woken for the previous object have run. An object that another node of the
+/// process has resident is queued at once; if that node releases it before its turn, it is
+/// requested.
 enum class ObjectState : uint8_t { absent, requested, building, resident };
 
 struct CacheConfig {
   /// For built objects and the one that is being built.
   size_t budget_bytes = 0;
-  /// The most that an object takes while it is built: about 1.6 times what it takes afterwards.
+  /// The most memory that a build takes: about 1.6 times the built object.
   size_t largest_build_bytes = 0;
-  /// Of the budget, what pinned objects may take at most: the rest serves what was not foreseen.
+  /// Largest share of the budget for pinned objects: the rest serves unforeseen ones.
   double pinned_share = 0.5;
-  NodeTrace* trace = nullptr;  // null: nothing is traced
-  Buggify* buggify = nullptr;  // rare ways; null: none
-  /// What nodes of the process have ready; null: this node shares nothing. It outlives the cache.
+  NodeTrace* trace = nullptr;  // null: no tracing
+  Buggify* buggify = nullptr;  // rare paths, or null
+  /// Resident objects of the process's nodes; null: this node shares nothing. It outlives the
+  /// cache.
   SharedObjects* shared = nullptr;
 
-  /// For resident objects: what the budget leaves beside one build.
+  /// For resident objects: the budget minus one build.
   size_t max_resident_bytes() const { return budget_bytes - largest_build_bytes; }
   size_t max_pinned_bytes() const {
     return static_cast<size_t>(pinned_share * static_cast<double>(budget_bytes));
   }
 };
 
-/// What a fiber got.
+/// Result of get().
 struct Got {
   enum class How : uint8_t {
     resident,
     cancelled,    // the fiber shall end
-    unobtainable  // nobody gave it, or it cannot be built; asking again may succeed
+    unobtainable  // the fetch or the build failed; asking again may succeed
   };
   How how = How::cancelled;
-  const BuiltObject* object = nullptr;  // where resident; until the fiber next suspends
+  const BuiltObject* object = nullptr;  // if resident; valid until the fiber next suspends
 };
 
 class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
  public:
-  /// Timers are set as those of `owner`.
-  /// Requires: all references outlive this; objects are named by their place, below `objects`.
-  /// Errors (exception): a budget that has no room for the pinned, an object, and a build.
+  /// Timers run as tasks of `owner`. Requires: all references outlive this; objects are numbered
+  /// below `objects`. Errors (exception): a budget without room for the pinned share, an object,
+  /// and a build.
   ObjectCache(const CacheConfig& config, size_t objects, Fetcher& fetcher, ObjectBuilder& builder,
               Supervised& owner, Fibers& fibers, Timers& timers, const Clock& clock);
   /// Requires: !building().
@@ -84,9 +86,9 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   ObjectCache(const ObjectCache&) = delete;
   ObjectCache& operator=(const ObjectCache&) = delete;
 
-  /// Adds what a cache of this configuration takes.
+  /// Adds the memory of a cache with this configuration.
   static void plan_memory(MemoryPlan& plan, const CacheConfig& config, size_t objects);
-  /// Timers that it may have set at once.
+  /// Most timers set at once.
   static constexpr size_t max_timers = 1;
 
   /// The object if it is resident, else null.
@@ -102,41 +104,41 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
     return entry.built.get();
   }
 
-  /// The object if it is resident, without a use of it: it is evicted as soon as it would be.
+  /// The object if it is resident, without counting as a use for LRU eviction.
   const BuiltObject* peek(uint32_t object) const { return entries_[object].built.get(); }
 
-  /// The object, after a wait if need be. Requires: on a fiber. Suspends where it is not resident.
-  /// `traced`: if this begins a fetch, its times are told to the trace. `ahead`: where it waits,
-  /// these are asked for after it, as by prefetch().
+  /// The object, after a wait if necessary. Requires: on a fiber. Suspends if it is not resident.
+  /// `traced`: if this begins a fetch, its times are written to the trace. `ahead`: if it waits,
+  /// these are prefetched after it.
   [[nodiscard]] Got get(uint32_t object, bool traced = false, std::span<const uint32_t> ahead = {});
 
-  /// Has those fetched that are absent, and waits for none.
+  /// Fetches the absent ones of these objects without waiting.
   void prefetch(std::span<const uint32_t> objects);
 
-  /// Has these kept for good, the first first, while they fit their share of the budget; those that
-  /// do not are kept as others are. Fetches the absent.
+  /// Pins these objects, in order, while they fit the pinned share; the others are cached without a
+  /// pin. Fetches the absent ones.
   void pin(std::span<const uint32_t> objects);
 
   ObjectState state(uint32_t object) const { return entries_[object].state; }
   bool pinned(uint32_t object) const { return entries_[object].pin == Pin::pinned; }
-  /// Whether the builder owes an answer: for the phase of a shutdown that waits for it.
+  /// Whether the builder owes an answer: a shutdown phase waits for it.
   bool building() const { return in_builder_; }
 
   struct Counters {
     uint64_t hits = 0;
-    uint64_t misses = 0;  // that found it absent
-    uint64_t joined = 0;  // that found it under way
+    uint64_t misses = 0;  // found absent
+    uint64_t joined = 0;  // found in flight
     uint64_t builds = 0;
-    uint64_t builds_saved = 0;  // of objects that another node of the process had ready
+    uint64_t builds_saved = 0;  // resident at another node of the process
     uint64_t build_failures = 0;
     uint64_t evictions = 0;
-    uint64_t pins_refused = 0;  // for want of room in their share
-    uint64_t oversized = 0;     // objects above largest_build_bytes: the budget was passed
+    uint64_t pins_refused = 0;  // no room in the pinned share
+    uint64_t oversized = 0;     // objects above largest_build_bytes: the budget was exceeded
     uint64_t resident_bytes = 0;
     uint64_t pinned_bytes = 0;  // of those
   };
   const Counters& counters() const { return counters_; }
-  /// Of fibers: from asking for an object that was not resident to going on.
+  /// Waits of fibers, from asking for an object that was not resident until they go on.
   const Histogram& wait_time() const { return wait_time_; }
   void add_metrics(Metrics& metrics) const;
 
@@ -147,10 +149,10 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
     std::shared_ptr<const BuiltObject> built;  // while resident
     ObjectState state = ObjectState::absent;
     Pin pin = Pin::none;
-    bool traced = false;  // the fetch that is under way
+    bool traced = false;  // the fetch in flight
     size_t charge = 0;    // bytes while resident
     WaitList waiters;
-    /// From arrival until they are given to the builder; none of what another node has ready.
+    /// From arrival until they are given to the builder; empty for a shared object.
     SharedBytes bytes;
   };
 
@@ -179,17 +181,17 @@ class ObjectCache final : private FetchClient, private ObjectBuilder::Client {
   Timers& timers_;
   const Clock& clock_;
   std::vector<Entry> entries_;
-  IntrusiveList<Entry> unpinned_;  // resident; the one unused for the longest first
+  IntrusiveList<Entry> unpinned_;  // resident; the least recently used first
   IntrusiveList<Entry> to_build_;
   bool in_builder_ = false;
-  Entry* ready_ = nullptr;  // built, and not yet come in
+  Entry* ready_ = nullptr;  // built, and not yet resident
   Result<std::shared_ptr<const BuiltObject>> ready_result_{nullptr};
   size_t to_run_ = 0;  // fibers woken for an object that have not run since
   TimerId step_timer_;
   bool steps_soon_ = false;
   Counters counters_;
   Nanoseconds build_began_ = 0;
-  Histogram build_time_;  // from the builder's beginning to its answer
+  Histogram build_time_;  // of the builder
   Histogram wait_time_;
   OnceAMinute log_failure_;
 };

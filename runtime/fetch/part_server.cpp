@@ -8,7 +8,7 @@ namespace luxodus {
 
 namespace {
 
-/// How soon to try an outbox again that was full: after a turn or two of the node's loop.
+/// How soon to retry after a full outbox: after a turn or two of the node's loop.
 constexpr Nanoseconds answer_patience = microseconds(100);
 
 std::vector<std::pair<ObjectId, uint32_t>> numbers_of(const std::vector<ObjectPlace>& objects) {
@@ -67,9 +67,9 @@ void PartServer::add_metrics(Metrics& metrics) const {
                       c.dropped);
 }
 
-// ---- what others ask for ------------------------------------------------------------------------
+// ---- requests of others -------------------------------------------------------------------------
 
-/// What this node has ready for itself; null where it is not.
+/// The object if it is resident and shared with others, else null.
 const BuiltObject* PartServer::ready(ObjectId object) const {
   if (!config_.shares_cache) return nullptr;
   const auto at =
@@ -88,7 +88,7 @@ bool PartServer::answers(const Message& passing) {
 }
 
 void PartServer::on(const Letter<FetchObject>& request) {
-  if (request.from.node == config_.self) return;  // a forgery: this node does not ask itself
+  if (request.from.node == config_.self) return;  // a forgery: this node never asks itself
   const Question question{request.from, request.id, request.body.object};
   if (waiting_.empty() && serve(question)) return;
   ++counters_.waited;
@@ -108,7 +108,7 @@ bool PartServer::serve(const Question& question) {
   const SendOutcome outcome =
       sender().send(address(), question.from, question.id, answer, std::move(bytes));
   if (outcome == SendOutcome::full) return false;
-  if (outcome == SendOutcome::unreachable) return true;  // it will ask again, or has gone
+  if (outcome == SendOutcome::unreachable) return true;  // the requester retries, or has gone
   ++(size > 0 ? counters_.served : counters_.refused);
   if (built != nullptr) ++counters_.from_cache;
   counters_.bytes_out += size;
@@ -127,7 +127,7 @@ void PartServer::serve_waiting() {
   if (!waiting_.empty()) try_again_soon();
 }
 
-// ---- what others answer -------------------------------------------------------------------------
+// ---- answers of others --------------------------------------------------------------------------
 
 void PartServer::on(Letter<ObjectFound>&& answer) {
   fetcher_.found(answer.id, answer.hops, answer.body, std::move(answer.payload).shared());

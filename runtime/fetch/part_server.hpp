@@ -1,12 +1,13 @@
-// The part server of a node: the actor that owns what the node has of the run's objects. It gives
-// other nodes what it holds for all or has ready for itself, on their way to another node too, and
-// brings its own node what that lacks. Photon-threads of the node use the cache directly: it is
-// state of their thread, and a fiber that waits there suspends.
+// The part server of a node: the actor that owns the node's objects. It serves other nodes from its
+// store and its cache, including requests in transit to another node, and fetches what its own node
+// lacks. Tracing fibers of the node use the cache directly: it is state of their thread, and a
+// fiber that waits there suspends.
 //
-// A request that finds no room to be answered waits here, in its turn. Only when more wait than
-// `requests` is one dropped and counted; who has asked asks again under the same id.
+// A request for which there is no room to answer waits here, in order. When more than `requests`
+// wait, further ones are dropped and counted; the requester retries under the same id.
 //
-// Thread rule: the node's thread. What an object is, and who holds which: actors/cast/parts.
+// Thread rule: the node's thread. actors/cast/parts decides what an object is, and which node holds
+// it.
 #pragma once
 
 #include <utility>
@@ -21,7 +22,7 @@
 namespace luxodus {
 
 namespace limits {
-/// Requests in the mailbox: more than a turn brings, of those for this node and of those that pass.
+/// Requests in the mailbox: more than a turn brings, for this node and in transit.
 inline constexpr size_t part_requests = 512;
 /// Answers: as many as a node fetches at once, each twice.
 inline constexpr size_t part_answers = 128;
@@ -36,18 +37,18 @@ class PartServer final
           DataLane<>>,
       private AwaitedRooms {
  public:
-  /// Takes all memory there will be but for objects. `jitter` is a stream of its own.
-  /// Requires: all references outlive this; `objects` does not change.
-  /// Errors (exception): as Fetcher and ObjectCache.
+  /// Allocates everything but objects. `jitter` is a random stream of its own. Requires: all
+  /// references outlive this; `objects` does not change. Errors (exception): those of Fetcher and
+  /// ObjectCache.
   PartServer(const FetchConfig& fetch, const CacheConfig& cache,
              const std::vector<ObjectPlace>& objects, ObjectStore& store, ObjectBuilder& builder,
              Scheduler& scheduler, Sender& sender, const Random& jitter);
   ~PartServer() override;
 
-  /// Adds what a part server of these configurations takes.
+  /// Adds the memory of a part server with these configurations.
   static void plan_memory(MemoryPlan& plan, const FetchConfig& fetch, const CacheConfig& cache,
                           size_t objects);
-  /// Timers that it may have set at once, for SchedulerLimits::timers_beside_fibers.
+  /// Most timers set at once, for SchedulerLimits::timers_beside_fibers.
   static size_t max_timers(const FetchConfig& fetch) {
     return Fetcher::max_timers(fetch) + ObjectCache::max_timers + 1;
   }
@@ -60,16 +61,16 @@ class PartServer final
   void on(Letter<ObjectFound>&& answer);
   void on(const Letter<ObjectNotHere>& answer);
 
-  /// A request for what is here is answered, whomever it is for.
+  /// A request for an object that is here is answered, whichever node it is for.
   bool answers(const Message& passing) override;
   AwaitedRooms* rooms() override { return this; }
 
   struct Counters {
-    uint64_t served = 0;       // objects given to others
-    uint64_t refused = 0;      // requests for what this node does not have
-    uint64_t intercepted = 0;  // requests that were on their way to another node
-    uint64_t from_cache = 0;   // of those served: what this node has ready and holds for nobody
-    uint64_t waited = 0;       // requests that found no room to be answered at once
+    uint64_t served = 0;       // objects sent to others
+    uint64_t refused = 0;      // requests for objects that this node does not have
+    uint64_t intercepted = 0;  // requests in transit to another node
+    uint64_t from_cache = 0;   // of those served: resident, but not held
+    uint64_t waited = 0;       // requests that could not be answered at once
     uint64_t dropped = 0;      // of those, beyond FetchConfig::requests
     uint64_t bytes_out = 0;
   };
@@ -94,7 +95,7 @@ class PartServer final
 
   const FetchConfig config_;
   ObjectStore& store_;
-  std::vector<std::pair<ObjectId, uint32_t>> numbers_;  // of all objects, ascending by name
+  std::vector<std::pair<ObjectId, uint32_t>> numbers_;  // of all objects, sorted by id
   Fetcher fetcher_;
   ObjectCache cache_;
   Ring<Question> waiting_;

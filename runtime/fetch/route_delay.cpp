@@ -5,7 +5,7 @@
 
 namespace luxodus {
 
-// Bin 2w + s holds delays of w significant bits [us], s the bit after the first.
+// Bin 2w + s holds delays of w significant bits [us]; s is the bit after the first.
 size_t RouteDelay::bin_of(Nanoseconds delay) {
   const auto us = static_cast<uint64_t>(std::max<Nanoseconds>(delay, 0) / microseconds(1));
   const auto width = static_cast<size_t>(std::bit_width(us));

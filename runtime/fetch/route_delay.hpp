@@ -1,9 +1,9 @@
-// How long answers of one node take, and so how long to wait for one: three times what 99 of 100
-// did not pass. Old answers are forgotten by halves, so that a route which changes is learnt again.
-// Only questions that were asked once teach anything, since of two it is unknown which was answered
-// (Karn and Partridge, "Improving round-trip time estimates in reliable transport protocols",
-// SIGCOMM 1987); until one of these is answered in time, waits that were too short stay doubled
-// (RFC 6298, section 5). Plain value, 130 bytes; one node's thread.
+// Response times of one node, and the timeout that follows: three times the 99th percentile. Counts
+// are halved repeatedly, so that a route which changes is learnt again. Only requests sent once are
+// measured, since with retries it is unknown which copy was answered (Karn and Partridge,
+// "Improving round-trip time estimates in reliable transport protocols", SIGCOMM 1987); until one
+// of these is answered in time, doubled timeouts stay (RFC 6298, section 5). Plain value, 130
+// bytes; one node's thread.
 #pragma once
 
 #include <array>
@@ -15,30 +15,31 @@
 namespace luxodus {
 
 struct TimeoutLimits {
-  Nanoseconds floor = milliseconds(50);  // above a stall and a build on the other node's thread
-  Nanoseconds first = seconds(1);        // while nothing is known of the route
+  // longer than a stall and a build on the other node's thread
+  Nanoseconds floor = milliseconds(50);
+  Nanoseconds first = seconds(1);  // while the route is unknown
   // A silent link is down after 2 s; in 5 s a slow one of 100 Mb/s brings 60 MB.
   Nanoseconds most = seconds(5);
 };
 
 class RouteDelay {
  public:
-  /// A question that was asked once has its answer, after `delay`.
+  /// A request sent once was answered after `delay`.
   void answered(Nanoseconds delay);
-  /// A question that was asked at `asked` has none in time. Of many at once the first one counts.
+  /// A request sent at `asked` timed out. Of many at once only the first counts.
   void timed_out(Nanoseconds asked, Nanoseconds now);
 
-  /// How long to wait for the answer when a question is asked for the nth time. Requires: nth >= 1.
+  /// The timeout of the nth request. Requires: nth >= 1.
   Nanoseconds timeout(const TimeoutLimits& limits, unsigned nth) const;
 
-  /// What 99 of 100 answers did not pass, to the next half power of two; 0 where none is known.
+  /// 99th percentile of delays, rounded up to a half power of two; 0 if none is known.
   Nanoseconds p99() const;
 
  private:
   // Two bins for each power of two of microseconds: 134 s and above share the last.
   static constexpr size_t max_powers = 27;
   static constexpr size_t bins = 2 * max_powers + 2;
-  static constexpr uint32_t remembered = 512;  // answers, so that the 99th of 100 is told apart
+  static constexpr uint32_t remembered = 512;  // answers, enough to resolve the 99th percentile
   static constexpr unsigned max_doublings = 16;
 
   static size_t bin_of(Nanoseconds delay);

@@ -1,8 +1,7 @@
-// What the nodes of one process have ready for use, so that they share one copy of it: an object is
-// built by one of them, and the others take it as it is. Nothing is kept here: an object lives as
-// long as some node has it resident. A node that takes it charges it to its own budget in full,
-// since it keeps it alive whatever the others do; what all take together is then at most the sum of
-// what they are charged. Thread rule: any thread.
+// The resident objects of all nodes of one process, so that they share one copy: one node builds an
+// object, and the others take it. Nothing is kept here: an object lives as long as some node has it
+// resident. Each node that takes it is charged in full, since it alone may keep it alive; so the
+// total memory is at most the sum of the charges. Thread rule: any thread.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +15,16 @@ namespace luxodus {
 
 class SharedObjects {
  public:
-  /// For a run of so many objects.
+  /// For a run with this many objects.
   explicit SharedObjects(size_t objects) : ready_(objects) {}
 
-  /// The object, where a node has it ready; else null.
+  /// The object if a node has it resident; else null.
   std::shared_ptr<const BuiltObject> find(uint32_t object) const {
     const std::lock_guard lock(mutex_);
     return ready_[object].lock();
   }
-  /// Says that this is ready. Returns what is to be used instead: what another node has said
-  /// meanwhile, or the same.
+  /// Announces a built object. Returns the one to use: an equal one that another node announced
+  /// before, or the same.
   std::shared_ptr<const BuiltObject> add(uint32_t object,
                                          std::shared_ptr<const BuiltObject> built) {
     const std::lock_guard lock(mutex_);

@@ -1,9 +1,9 @@
-// The one context switch of the program: an execution on a stack of its own, entered and left by
-// turns. It is Boost.Context's jump; around it stand what a jump alone forgets: the C++ runtime's
-// exception state (which is per thread, so that two executions suspended in catch blocks would
-// rethrow each other's), and what the sanitizers must be told. Floating-point control (MXCSR and
-// the x87 word) is kept per execution by Boost; a new one starts with its maker's.
-// An execution never changes its thread. It is not unwound when it is dropped: let it end first.
+// The program's only context switch: an execution on a stack of its own that is entered and left in
+// turn. It is Boost.Context's jump plus what a jump does not save: the C++ runtime's exception
+// state (it is per thread, so two executions suspended in catch blocks would rethrow each other's
+// exceptions) and the sanitizers' state. Boost keeps floating-point control (MXCSR and the x87
+// word) per execution; a new one starts with its maker's. Thread rule: an execution never changes
+// its thread. It is not unwound when it is destroyed: let it end first.
 #pragma once
 
 #include <cxxabi.h>
@@ -33,14 +33,15 @@ class Context {
   Context& operator=(const Context&) = delete;
   ~Context();
 
-  /// Puts `entry(argument)` on the stack; the first enter() begins it. It must never return, and no
+  /// Puts `entry(argument)` on the stack; the first enter() starts it. It must never return, and no
   /// exception may leave it. Requires: called once; the stack outlives this.
   void prepare(StackSpan stack, Entry entry, void* argument);
 
   /// Runs the execution until it leaves. Requires: called from outside of it, on its thread.
   void enter() noexcept;
 
-  /// Back to whoever entered; returns when entered again. Requires: called from inside.
+  /// Returns to the caller of enter(), and continues at the next enter(). Requires: called from
+  /// inside.
   void leave() noexcept;
 
  private:
@@ -49,7 +50,7 @@ class Context {
     void* caught = nullptr;
     unsigned int uncaught = 0;
   };
-  // What AddressSanitizer wants to know of the stack that is switched to.
+  // What AddressSanitizer must know of the stack that is switched to.
   struct AddressSanitizerView {
     void* fake_stack = nullptr;
     const void* low = nullptr;
@@ -60,19 +61,19 @@ class Context {
   static ExceptionState& thread_exceptions() noexcept;
   void begin() noexcept;
 
-  // Who is switched to next: the execution while it rests, whoever entered while it runs.
+  // Where the next switch goes: to the execution while it rests, to its caller while it runs.
   void* inside_ = nullptr;
   void* outside_ = nullptr;
   Entry entry_ = nullptr;
   void* argument_ = nullptr;
   ExceptionState exceptions_;
   AddressSanitizerView inside_view_, outside_view_;
-  void* inside_thread_ = nullptr;  // as ThreadSanitizer names the two
+  void* inside_thread_ = nullptr;  // ThreadSanitizer's handles of the two
   void* outside_thread_ = nullptr;
 };
 
-// The three below are inline because every return on the other side of a switch is one that the
-// processor foresees wrongly: a frame less on either side is worth a third of the switch.
+// These three are inline because the processor mispredicts every return after a switch: one frame
+// less on either side saves a third of its cost.
 
 inline Context::ExceptionState& Context::thread_exceptions() noexcept {
   static_assert(sizeof(ExceptionState) == 16);

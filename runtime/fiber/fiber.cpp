@@ -8,8 +8,8 @@ namespace luxodus {
 
 namespace {
 
-// How often a cancelled fiber may try to suspend on its way out: a loop that takes no notice would
-// hold its node for ever, without a word.
+// How often a cancelled fiber may try to suspend on its way out: a loop that ignores the
+// cancellation would otherwise block its node forever, silently.
 constexpr int max_refusals = 1000;
 
 }  // namespace
@@ -39,7 +39,7 @@ std::optional<FiberId> Fibers::start(const char* tag, const Task& body) {
   return fiber->id_;
 }
 
-// The one entry of every context: a fiber rests between two bodies as it does within one.
+// The entry function of every context: between two bodies a fiber rests as it does within one.
 void Fibers::run_bodies(void* argument) {
   Fiber& fiber = *static_cast<Fiber*>(argument);
   for (;;) {
@@ -144,7 +144,7 @@ void Fibers::cancel_all() {
 }
 
 std::string Fibers::describe_live() const {
-  constexpr size_t max_shown = 5;  // a line of a log
+  constexpr size_t max_shown = 5;  // fits a log line
   std::string out = std::to_string(live()) + (live() == 1 ? " fiber" : " fibers");
   size_t shown = 0;
   for (size_t i = 0; i < pool_.capacity() && shown < max_shown; ++i) {

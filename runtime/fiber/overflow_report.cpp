@@ -18,13 +18,13 @@ namespace luxodus {
 
 namespace {
 
-// A handler of signals is given nothing but an address, so this room keeps the one thing in the
-// program that is global: which mappings are stacks. Slots are claimed by compare-and-swap, since
-// nodes of a process start side by side; the handler only reads.
+// A signal handler is given nothing but an address, so this room keeps the program's only global
+// state: which mappings are stacks. Slots are claimed by compare-and-swap, since nodes of a process
+// start concurrently; the handler only reads.
 constexpr size_t max_pools = 1024;  // nodes of one process, simulated ones included
 std::array<std::atomic<const StackPool*>, max_pools> watched_pools{};
 
-// Whose turn it is where the fault is none of ours. Written before the handler is put in place.
+// The previous handler, for faults elsewhere. Written before ours is installed.
 struct sigaction handler_before {};
 
 void report_overflow(const StackPool::Place& place) noexcept {
@@ -36,8 +36,8 @@ void report_overflow(const StackPool::Place& place) noexcept {
   if (length > 0 && write(STDERR_FILENO, line.data(), static_cast<size_t>(length)) < 0) return;
 }
 
-// Ends by returning: the faulting instruction runs again and meets the handler put in place here. A
-// signal that somebody sent has no instruction, and is sent again.
+// Ends by returning: the faulting instruction runs again and meets the handler installed here. A
+// signal sent by a process has no such instruction, and is raised again.
 void on_fault(int number, siginfo_t* info, void*) noexcept {
   for (const auto& watched : watched_pools) {
     const StackPool* pool = watched.load(std::memory_order_acquire);
@@ -90,7 +90,7 @@ void remove(const StackPool& pool) noexcept {
 
 }  // namespace overflow_watch
 
-// What the handler needs, with room for the C library's own formatting.
+// Enough for the handler and the C library's formatting.
 struct OverflowReport::AlternateStack {
   alignas(16) std::array<char, 64 * 1024> bytes;
   stack_t before{};

@@ -1,6 +1,6 @@
-// Makes the overflow of a fiber's stack one readable line before the process ends with a core:
+// Reports the overflow of a fiber's stack in one line before the process ends with a core dump:
 //   luxodus: fiber 17 (photon) overflowed its stack of 32768 bytes; raise stack_kb
-// A fault elsewhere goes on to whoever handled it before.
+// Other faults go to the previous handler. Thread rule: each thread that runs fibers holds one.
 #pragma once
 
 #include <memory>
@@ -9,11 +9,11 @@ namespace luxodus {
 
 class StackPool;
 
-/// Held by a thread that runs fibers, for as long as it does: a fault on a full stack can only be
-/// handled on another one, which each thread must have of its own.
+/// Held by a thread while it runs fibers: a fault on a full stack can only be handled on another
+/// stack, which each thread must have of its own.
 class OverflowReport {
  public:
-  /// Throws std::runtime_error where the system refuses.
+  /// Throws std::runtime_error if the system refuses.
   OverflowReport();
   OverflowReport(const OverflowReport&) = delete;
   OverflowReport& operator=(const OverflowReport&) = delete;
@@ -24,7 +24,7 @@ class OverflowReport {
   std::unique_ptr<AlternateStack> stack_;
 };
 
-/// The pools that the handler knows. Any thread; a pool adds and removes itself.
+/// Registers pools with the handler. Any thread; a pool adds and removes itself.
 namespace overflow_watch {
 void add(const StackPool& pool);
 void remove(const StackPool& pool) noexcept;

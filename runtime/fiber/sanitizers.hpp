@@ -1,5 +1,5 @@
-// What the sanitizers must be told about stacks and switches, as functions that are empty in a
-// build without them. For this room only.
+// Sanitizer annotations of stacks and switches; the functions are empty in a build without
+// sanitizers. For this room only. Thread rule: they act on the calling thread.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ inline void start_switch(void** fake_stack, const void* low, size_t bytes) noexc
 inline void finish_switch(void* fake_stack, const void** left_low, size_t* left_bytes) noexcept {
   __sanitizer_finish_switch_fiber(fake_stack, left_low, left_bytes);
 }
-/// Frames that never returned leave their red zones behind; the next owner of the bytes must not
-/// meet them.
+/// Frames that never returned leave their red zones behind; the next owner of the stack must not
+/// hit them.
 inline void forget_frames(const void* low, size_t bytes) noexcept {
   __asan_unpoison_memory_region(low, bytes);
 }
@@ -56,7 +56,7 @@ inline void* this_thread() noexcept {
 inline void switch_thread(void*) noexcept {}
 #endif
 
-/// Frames are larger with red zones, or without an optimiser to share their places.
+/// Frames are larger with red zones, or without an optimiser to share stack slots.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)
 inline constexpr size_t stack_factor = 4;
 #else

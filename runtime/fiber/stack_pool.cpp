@@ -21,20 +21,20 @@ namespace {
 
 constexpr size_t page_bytes = 4096;  // x86-64
 
-// Below each stack. It is never touched and costs address space only. A frame of one page could
-// step over a guard of one page and land in a neighbour; 64 KB would spread the page tables so far
-// that a switch among 10 000 fibers costs a third more.
+// Guard below each stack. It is never touched and costs address space only. A frame larger than a
+// guard of one page could skip it and land in a neighbour; 64 KB would spread the page tables so
+// far that a switch among 10 000 fibers costs a third more.
 constexpr size_t guard_bytes = 16 * 1024;
 
 // Stacks a whole number of pages apart would put the frames of all suspended fibers into the same
-// few sets of a cache: a switch among 1000 fibers then costs nearly twice as much. So the tops of
-// neighbours are shifted by a line each, over 32 of the 64 sets of a first-level cache; the 2 KB
-// that this costs at most are taken from the stack.
+// few cache sets: a switch among 1000 fibers then costs nearly twice as much. So the tops of
+// neighbours are shifted by one cache line each, over 32 of the 64 sets of a first-level cache.
+// This takes at most 2 KB from the stack.
 constexpr size_t line_bytes = 64;
 constexpr size_t colours = 32;
 
-// What lies at the low end of a stack without a guard: words that no code writes by chance. Two
-// lines wide, since a frame leaves gaps that a single word could fall into.
+// Canary at the low end of a stack without a guard: words that no code writes by chance. Two lines
+// wide, since a frame leaves gaps that could skip a single word.
 using Canary = std::array<uint64_t, 2 * line_bytes / sizeof(uint64_t)>;
 constexpr Canary canary = [] {
   Canary words{};
@@ -71,7 +71,7 @@ StackPool::StackPool(size_t count, size_t stack_bytes, size_t max_maps)
     throw std::runtime_error(fmt::format("cannot map {} fiber stacks of {} bytes: {}", count,
                                          stack_bytes_, std::strerror(errno)));
   base_ = {static_cast<char*>(mapped), Unmap{mapped_bytes()}};
-  // A huge page would make resident what two thousand small ones leave untouched.
+  // A huge page would make resident what small pages leave untouched.
   madvise(mapped, mapped_bytes(), MADV_NOHUGEPAGE);
   for (size_t i = 0; i < count; ++i) {
     if (!guarded(i)) {

@@ -25,7 +25,7 @@ using tcp = asio::ip::tcp;
 /// Status line and headers [bytes].
 constexpr uint32_t max_head_bytes = 16 * 1024;
 
-/// One question and its answer: resolve, connect, write, read. The first step that fails ends it.
+/// One request and its answer: resolve, connect, write, read. The first step that fails ends it.
 class Exchange {
  public:
   explicit Exchange(const HttpUrl& url)
@@ -62,7 +62,7 @@ class Exchange {
       if (!over(failed)) read_head();
     });
   }
-  /// Before the body: Beast 1.74 forgets that a body is too long where both come at once.
+  /// Separately from the body: Beast 1.74 misses that a body is too long if both arrive at once.
   void read_head() {
     http::async_read_header(stream_, buffer_, answer_, [this](beast::error_code failed, size_t) {
       if (!over(failed)) read_body();

@@ -1,6 +1,7 @@
-// All of Boost.Beast's server is in this file, since a minute of compiling is in it. Every client
-// is a chain of callbacks on one io_context: read a request's head, answer it, and close; or become
-// a WebSocket. A chain holds itself by shared_from_this, so it ends when nothing of it waits.
+// All code on Boost.Beast's server is in this file, since it takes a minute to compile. Every
+// client is a chain of callbacks on one io_context: read a request's head, answer it, and close; or
+// become a WebSocket. A chain owns itself by shared_from_this, so it ends when no callback is
+// pending.
 #include "runtime/http/http_server.hpp"
 
 #include <algorithm>
@@ -30,23 +31,23 @@ namespace websocket = beast::websocket;
 using tcp = asio::ip::tcp;
 using RequestHead = http::request<http::empty_body>;
 
-/// Whether somebody has interrupted.
+/// Interval of checks for an interrupt.
 constexpr auto look_every = std::chrono::milliseconds(100);
-/// Until a connection is accepted again, after one could not be: doubled, up to the second. Each
-/// client that leaves frees a descriptor.
+/// Delay before accepting again after a failure: doubled, up to one second. Each client that leaves
+/// frees a descriptor.
 constexpr auto accept_again = std::chrono::milliseconds(50);
 constexpr auto max_accept_again = std::chrono::milliseconds(1000);
 
 class OpenSocket;
 
-/// What all clients need to know.
+/// State shared by all clients.
 struct Shared {
   HttpAddress at;
   HttpSite site;
-  std::vector<OpenSocket*> sockets = {};  // each as long as it has a listener, or may get one
+  std::vector<OpenSocket*> sockets = {};  // each while it has a listener, or may get one
 };
 
-/// Tells tokens apart in a time that does not depend on where they differ.
+/// Compares tokens in constant time.
 bool same_token(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned char different = 0;
@@ -78,8 +79,8 @@ std::string_view view_of(beast::string_view text) {
   return {text.data(), text.size()};
 }
 
-/// A page of another site must not speak to this one through somebody's browser. Programs that are
-/// no browsers say no origin.
+/// Rejects pages of other sites that speak to this server through a user's browser. Programs that
+/// are no browsers send no Origin.
 bool same_origin(const RequestHead& request) {
   const auto origin = request.find(http::field::origin);
   return origin == request.end() ||
@@ -100,7 +101,7 @@ class OpenSocket final : public WebSocket, public std::enable_shared_from_this<O
     socket_.async_accept(request, [self = shared_from_this()](beast::error_code failed) {
       if (failed || !self->open_) return self->leave();
       auto listener = self->shared_.site.opened(*self);
-      if (!self->open_) return;  // it had more to say at once than may wait
+      if (!self->open_) return;  // it queued more at once than the limit
       self->listener_ = std::move(listener);
       self->read();
     });
@@ -115,7 +116,7 @@ class OpenSocket final : public WebSocket, public std::enable_shared_from_this<O
   }
 
   std::vector<Bytes> take_back() override {
-    // The first may be on its way.
+    // The first may be in the middle of sending.
     const auto first = queue_.begin() + (queue_.empty() ? 0 : 1);
     const auto taken =
         std::stable_partition(first, queue_.end(), [](const Out& out) { return !out.revocable; });
@@ -128,8 +129,8 @@ class OpenSocket final : public WebSocket, public std::enable_shared_from_this<O
     return messages;
   }
 
-  /// Nothing is sent or heard from now on. Its own listener may have asked for what ends it, and
-  /// may still be asked to send, so that is destroyed later, and this with it.
+  /// Stops sending and receiving. The listener may be the caller, and may still call send(), so it
+  /// is destroyed later, together with this.
   void leave() {
     if (!std::exchange(open_, false)) return;
     asio::post(socket_.get_executor(), [self = shared_from_this()] { self->end(); });
@@ -169,7 +170,7 @@ class OpenSocket final : public WebSocket, public std::enable_shared_from_this<O
     });
   }
 
-  /// Messages above the rate are let fall.
+  /// Drops messages above the rate limit.
   bool in_time() {
     const auto now = std::chrono::steady_clock::now();
     if (now - second_ > std::chrono::seconds(1)) {
@@ -179,7 +180,7 @@ class OpenSocket final : public WebSocket, public std::enable_shared_from_this<O
     return ++said_ <= shared_.site.limits.messages_per_s;
   }
 
-  /// Does not wait for somebody who does not read.
+  /// Does not wait for a peer that does not read.
   void close() {
     beast::error_code ignored;
     beast::get_lowest_layer(socket_).socket().close(ignored);
@@ -238,7 +239,7 @@ class Client final : public std::enable_shared_from_this<Client> {
   }
 
   ServedAt place() {
-    beast::error_code failed;  // a connection that has gone is at no place
+    beast::error_code failed;  // a connection that has gone has no address
     const tcp::endpoint here = stream_.socket().local_endpoint(failed);
     if (failed) return {};
     asio::ip::address address = here.address();
@@ -247,7 +248,7 @@ class Client final : public std::enable_shared_from_this<Client> {
     return {address.to_string(), address.is_loopback(), here.port()};
   }
 
-  /// Of a request that cannot be read; who has gone, or said nothing in time, hears nothing.
+  /// Answers an unreadable request; a client that has gone or timed out gets no answer.
   void refuse(beast::error_code failed) {
     if (failed == http::error::header_limit || failed == http::error::buffer_overflow)
       return say(http::status::request_header_fields_too_large, "The request is too long.\n");
@@ -333,7 +334,7 @@ class HttpServer::Implementation {
     });
   }
 
-  /// Who waits to be accepted would otherwise have this thread try without end.
+  /// Pauses accepting, since this thread would otherwise retry in a busy loop.
   void rest(beast::error_code failed) {
     ++accepts_failed_;
     if (log_.may(clock_.now()))
@@ -343,7 +344,7 @@ class HttpServer::Implementation {
     again_.async_wait([this](beast::error_code) { accept(); });
   }
 
-  /// Who has been there longest goes: a client that is served needs milliseconds.
+  /// Closes the oldest client: a client that is served needs only milliseconds.
   void make_room() {
     std::erase_if(clients_, [](const auto& client) { return client.expired(); });
     if (clients_.size() < limits::http_clients) return;
@@ -356,7 +357,7 @@ class HttpServer::Implementation {
   }
 
   Shared shared_;
-  std::deque<std::weak_ptr<Client>> clients_;  // by their arrival
+  std::deque<std::weak_ptr<Client>> clients_;  // in order of arrival
   asio::io_context context_{1};
   tcp::acceptor acceptor_{context_};
   asio::steady_timer again_{context_};

@@ -8,7 +8,7 @@ namespace luxodus {
 
 namespace {
 
-constexpr uint16_t http_port = 80;  // meant where none is said
+constexpr uint16_t http_port = 80;  // the default of a URL
 
 std::string in_small_letters(std::string_view text) {
   std::string out(text);

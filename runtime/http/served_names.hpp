@@ -1,7 +1,7 @@
-// Under which names a server is asked for. A page of another site can have its name lead to this
-// machine (DNS rebinding) and then speaks to this server as its own: Host and Origin agree, and
-// both are that site's. So every request has to name the place where it arrived, or a name that was
-// allowed. Pure functions; any thread.
+// Accepted names of a server, against DNS rebinding: a page of another site can make its name
+// resolve to this machine, and then speaks to this server as its own; Host and Origin agree, and
+// both are that site's. So every request must name the address at which it arrived, or an allowed
+// name. Pure functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace luxodus {
 
-/// A name or an address with a port, as a Host header and an URL write them.
+/// A name or an address with a port, as in a Host header or a URL.
 struct NamedPlace {
-  std::string name;  // in small letters, without brackets
+  std::string name;  // lower case, without brackets
   std::optional<uint16_t> port;
 };
 
-/// "name", "name:port", "[address]" or "[address]:port"; none where it is something else.
+/// Parses "name", "name:port", "[address]" or "[address]:port"; nothing for other texts.
 std::optional<NamedPlace> named_place_of(std::string_view text);
 
 /// "host:port", with brackets around an IPv6 address.
@@ -26,23 +26,23 @@ std::string named_place(const std::string& host, uint16_t port);
 
 /// Where a request arrived.
 struct ServedAt {
-  std::string address;  // of this end of the connection, numeric
+  std::string address;  // this end of the connection, numeric
   bool loopback = true;
   uint16_t port = 0;
 };
 
-/// Whether a Host header names the place: its address, or localhost where that is this machine,
-/// with its port; or one of `allowed`, "name" with any port or "name:port".
+/// Whether a Host header names the place: its address, or localhost if that is this machine, with
+/// its port; or one of `allowed`, where "name" allows any port and "name:port" only one.
 bool names_place(std::string_view host, const ServedAt& place,
                  const std::vector<std::string>& allowed);
 
-/// Whether an Origin header is of the page that this Host header asks for.
+/// Whether an Origin header belongs to the page that this Host header asks for.
 bool is_own_page(std::string_view origin, std::string_view host);
 
 /// "http://host:port", with brackets around an IPv6 address.
 std::string http_address(const std::string& address, uint16_t port);
 
-/// Why a text cannot be allowed as a name, for people; "" where it can.
+/// Why a text cannot be an allowed name, for people; "" if it can.
 std::string allowed_host_fault(const std::string& text);
 
 }  // namespace luxodus

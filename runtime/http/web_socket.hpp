@@ -1,5 +1,5 @@
-// One open WebSocket of an HttpServer, and who listens to it. Thread rule: all of it on the thread
-// that serves.
+// One open WebSocket of an HttpServer, and its listener. Thread rule: everything on the thread that
+// serves.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,14 @@ class WebSocket {
   enum class Kind { text, binary };
 
   virtual ~WebSocket() = default;
-  /// Queues a message. A `revocable` one may be taken back while it waits. A socket whose other end
+  /// Queues a message. A `revocable` message may be taken back while it waits. A socket whose peer
   /// leaves too much unread is closed. Does nothing once the socket is closed.
   virtual void send(Bytes message, Kind kind, bool revocable) = 0;
-  /// Takes back the revocable messages that wait, in their order.
+  /// Removes the revocable messages that wait, and returns them in order.
   virtual std::vector<Bytes> take_back() = 0;
 };
 
-/// Hears one socket; is destroyed when that has closed, or the server ends.
+/// Receives the messages of one socket; destroyed when the socket has closed or the server ends.
 class SocketListener {
  public:
   virtual ~SocketListener() = default;
@@ -31,9 +31,9 @@ class SocketListener {
 };
 
 struct SocketLimits {
-  size_t sockets = 32;              // open at once; more are refused
-  size_t message_bytes = 64 << 10;  // a longer one closes its socket
-  int messages_per_s = 50;          // more are dropped
+  size_t sockets = 32;              // open at once; further ones are refused
+  size_t message_bytes = 64 << 10;  // a longer message closes its socket
+  int messages_per_s = 50;          // further ones are dropped
   size_t unread_bytes = 256 << 20;  // waiting to be sent; more closes the socket
 };
 

@@ -29,9 +29,9 @@ SendOutcome ActorSystem::send(Address from, Address to, const MessageId& id, con
   return offered == Offered::rejected ? SendOutcome::full : SendOutcome::taken;
 }
 
-/// Null, and counted, where no actor of this name is here.
+/// Null, and counted, if no actor of this name is here.
 ActorSystem::Place* ActorSystem::place_of(ActorName to) {
-  const auto name = static_cast<size_t>(to);  // any byte, where it comes from outside
+  const auto name = static_cast<size_t>(to);  // any byte, if it comes from outside
   if (name < places_.size() && places_[name].actor != nullptr) return &places_[name];
   ++counters_.no_actor;
   return nullptr;
@@ -48,9 +48,9 @@ std::optional<Offered> ActorSystem::put(Place& place, Incoming incoming) {
   return offered;
 }
 
-// ---- what the network brings --------------------------------------------------------------------
+// ---- deliveries of the network ------------------------------------------------------------------
 
-/// What came in pieces lies in its room already; the rest is copied into one.
+/// A payload that came in pieces is in its room already; others are copied into one.
 std::optional<Payload> ActorSystem::payload_of(const Delivery& delivery) {
   if (const auto at = rooms_.find(key_of(delivery.id)); at != rooms_.end()) {
     PayloadRoom room = std::move(at->second);

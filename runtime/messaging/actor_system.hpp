@@ -1,9 +1,8 @@
-// The actors of a node and the way between actors, wherever they are: whoever sends says an
-// address, and need not know whether it is of this node. A message to this node goes into the
-// mailbox of its actor; one to another node goes to the network, and there into a mailbox. No
-// message waits in the network for room in a mailbox, where it would hold up what others have sent:
-// it is dropped and counted, and who needs an answer asks again under the same id. Thread rule: one
-// node's thread.
+// The actors of a node and the routing between actors on all nodes: a sender gives an address,
+// whether local or remote. A message to this node goes into its actor's mailbox; one to another
+// node goes to the network, and there into a mailbox. No message waits in the network for room in a
+// mailbox, where it would hold up others' messages: it is dropped and counted, and a sender that
+// needs an answer retries under the same id. Thread rule: one node's thread.
 #pragma once
 
 #include <array>
@@ -24,13 +23,13 @@ namespace luxodus {
 template <class Body>
 struct Letter {
   Address from;
-  MessageId id;  // of the question, which its answer carries too
+  MessageId id;  // of the request, which its answer carries too
   Body body;
   Payload payload = {};
-  uint8_t hops = 0;  // links that it has passed
+  uint8_t hops = 0;  // links passed
 };
 
-/// A message that is on its way into a mailbox.
+/// A message on its way into a mailbox.
 struct Incoming {
   Address from;
   MessageId id;
@@ -39,42 +38,43 @@ struct Incoming {
   uint8_t hops = 0;
 };
 
-/// Rooms that an actor has set aside for payloads which it awaits, as they are to be kept.
+/// Memory that an actor has set aside for payloads that it awaits and will keep.
 class AwaitedRooms {
  public:
   virtual ~AwaitedRooms() = default;
-  /// For a message in pieces; empty where it is not awaited. It may be filled more than once.
+  /// Room for a message in pieces; empty if it is not awaited. It may be filled more than once.
   virtual std::span<std::byte> room_for(const MessageId& id, size_t bytes) = 0;
-  /// The payload of a message that has come, where it is to stay; empty where it is not awaited.
+  /// The payload of an arrived message, in its final place; empty if it is not awaited.
   virtual SharedBytes keep(const MessageId& id, std::span<const std::byte> payload) = 0;
 };
 
-/// What others can send to.
+/// An actor that others can send to.
 class Recipient {
  public:
   virtual ~Recipient() = default;
-  /// Puts the message into the mailbox. Nothing: the actor does not accept messages of its type.
+  /// Puts the message into the mailbox. Returns nothing if the actor does not accept its type.
   virtual std::optional<Offered> accept(Incoming incoming) = 0;
-  /// Messages that wait.
+  /// Number of messages waiting.
   virtual size_t waiting() const = 0;
-  /// Where payloads for this actor lie; null: in rooms of the system's pool.
+  /// Where payloads for this actor are received; null: in rooms of the system's pool.
   virtual AwaitedRooms* rooms() { return nullptr; }
-  /// Whether this one will answer a message that passes its node on the way to its like elsewhere.
+  /// Whether this actor will answer a message that passes through its node to the same actor
+  /// elsewhere.
   virtual bool answers([[maybe_unused]] const Message& passing) { return false; }
 };
 
-/// How an actor sends.
+/// The interface by which an actor sends.
 class Sender {
  public:
   virtual ~Sender() = default;
   /// An id for a message of this node.
   virtual MessageId next_id() = 0;
-  /// An answer carries the id of its question. Errors (exception): as Network::send.
+  /// An answer carries the id of its request. Errors (exception): those of Network::send.
   virtual SendOutcome send(Address from, Address to, const MessageId& id, const Message& message,
                            SharedBytes payload = {}) = 0;
-  /// Pieces of an answer of this kind that are on their way are not wanted any more.
+  /// Releases the room of an answer of this kind whose further pieces are no longer wanted.
   virtual void forget([[maybe_unused]] const MessageId& id, [[maybe_unused]] Kind kind) {}
-  /// The leases of a message that is done with: those of the next lie in their memory.
+  /// Returns the lease list of a processed message, whose memory the next message reuses.
   virtual void take_back([[maybe_unused]] std::vector<uint64_t>&& leases) {}
 };
 
@@ -84,7 +84,7 @@ class ActorSystem final : public Sender {
   ActorSystem(NodeId self, Network& network, size_t max_payload_bytes);
 
   NodeId self() const { return self_; }
-  /// Requires: one actor of a name; it outlives the use of this.
+  /// Requires: the name is unused; `actor` outlives this.
   void add(ActorName name, Recipient& actor);
 
   MessageId next_id() override { return network_.next_id(); }
@@ -93,26 +93,26 @@ class ActorSystem final : public Sender {
   void forget(const MessageId& id, Kind kind) override { network_.forget(id, kind); }
   void take_back(std::vector<uint64_t>&& leases) override { network_.take_back(std::move(leases)); }
 
-  // ---- what the network brings --------------------------------------------------------------
+  // ---- deliveries of the network ------------------------------------------------------------
 
   void deliver(const Delivery& delivery);
-  /// Room for a message in pieces to this actor; empty where there is none.
+  /// Room for a message in pieces to this actor; empty if there is none.
   std::span<std::byte> room_for(const MessageId& id, ActorName to, size_t bytes);
   void abandoned(const MessageId& id);
-  /// Has a message that passes here answered by an actor of this node, if that wants to.
+  /// Offers a passing message to the actor of its name on this node, which may answer it.
   bool intercept(const Delivery& passing);
 
   struct Counters {
     uint64_t local = 0;         // messages between actors of this node
-    uint64_t no_actor = 0;      // none of this name is here
-    uint64_t not_accepted = 0;  // the actor does not receive such messages
+    uint64_t no_actor = 0;      // no actor of this name is here
+    uint64_t not_accepted = 0;  // the actor does not receive this type
     uint64_t rejected = 0;      // its mailbox was full
     uint64_t no_room = 0;       // for its payload
   };
   const Counters& counters() const { return counters_; }
   /// Requires: all actors have been added.
   void add_metrics(Metrics& metrics) const;
-  /// Brings what is told of mailboxes up to date: before metrics are published.
+  /// Updates the samples of mailboxes, before metrics are published.
   void sample();
 
  private:
@@ -121,9 +121,9 @@ class ActorSystem final : public Sender {
 
   struct Place {
     Recipient* actor = nullptr;
-    uint64_t taken = 0;     // messages in all
+    uint64_t taken = 0;     // total
     uint64_t rejected = 0;  // its mailbox was full
-    uint64_t waiting = 0;   // when last sampled
+    uint64_t waiting = 0;   // at the last sample
   };
 
   Place* place_of(ActorName to);
@@ -134,8 +134,8 @@ class ActorSystem final : public Sender {
   Network& network_;
   std::array<Place, actor_names.size()> places_{};  // by name
   RoomPool pool_;
-  std::pmr::unsynchronized_pool_resource memory_;    // of the map below
-  std::pmr::map<Key, PayloadRoom> rooms_{&memory_};  // of messages that come in pieces
+  std::pmr::unsynchronized_pool_resource memory_;    // for the map below
+  std::pmr::map<Key, PayloadRoom> rooms_{&memory_};  // of messages that arrive in pieces
   Counters counters_;
 };
 

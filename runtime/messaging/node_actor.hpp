@@ -1,16 +1,16 @@
-// An actor that others reach by its address, on its own node or across the network. What it
-// receives it declares as `Letter<Message>`, with a limit and a reaction for each, and it has a
-// handler for every one:
+// An actor that others reach by its address, on its own node or across the network. It declares the
+// types that it receives as `Letter<Message>`, each with a limit and a reaction, and has a handler
+// for every one:
 //
 //   class TracingWorker final
 //       : public NodeActor<TracingWorker, ControlLane<Accepts<Letter<LeaseGranted>, 8,
 //       WhenFull::reject>>,
 //                          DataLane<Accepts<PackFlush, 1, WhenFull::coalesce>>> {
 //     void on(const Letter<LeaseGranted>& granted);
-//     void on(PackFlush);  // sent by itself: no address leads to it
+// sent by itself: no address leads to it
 //
-// A kind that comes from other nodes never waits for room: see ActorSystem. Every one may come
-// twice. Thread rule: the node's thread.
+// A kind that comes from other nodes never waits for room: see ActorSystem. Every message may
+// arrive twice. Thread rule: the node's thread.
 #pragma once
 
 #include "runtime/actor/actor.hpp"
@@ -18,9 +18,9 @@
 
 namespace luxodus {
 
-/// A question that did not leave its node, for lack of room or of a way, is put again so soon:
-/// about as soon as links stand. Who waited for its next look instead might find the same others
-/// before it in the outbox, look after look.
+/// A request that could not leave its node, for lack of room or of a route, is tried again after
+/// this: about when links come up. Waiting for the sender's next periodic check instead could find
+/// the outbox full of the same other requests each time.
 constexpr Nanoseconds retry_after = milliseconds(20);
 
 template <class Derived, class Control, class Data>
@@ -28,7 +28,7 @@ class NodeActor : public Actor<Derived, Control, Data>, public Recipient {
   using Base = Actor<Derived, Control, Data>;
 
  public:
-  /// Requires: `sender` outlives it.
+  /// Requires: `sender` outlives this.
   NodeActor(Scheduler& scheduler, Sender& sender, Address self, const char* tag)
       : Base(scheduler, tag), sender_(sender), self_(self) {}
 
@@ -50,11 +50,11 @@ class NodeActor : public Actor<Derived, Control, Data>, public Recipient {
 
  protected:
   Sender& sender() { return sender_; }
-  /// A message of its own; what finds no room or no way is lost.
+  /// Sends a new message; it is lost if there is no room or no route.
   SendOutcome tell(Address to, const Message& message, SharedBytes payload = {}) {
     return sender_.send(self_, to, sender_.next_id(), message, std::move(payload));
   }
-  /// An answer to a letter, under its id.
+  /// Answers a letter under its id.
   template <class Body>
   SendOutcome answer(const Letter<Body>& question, const Message& message,
                      SharedBytes payload = {}) {

@@ -6,13 +6,13 @@ namespace luxodus {
 
 namespace {
 
-/// Kept for later: as many as come at once in a run, where they are large.
+/// Rooms kept for reuse: as many as arrive at once in a run with large payloads.
 constexpr size_t kept_rooms = 32;
 
 }  // namespace
 
-/// The smallest kept one that is large enough; else the largest makes way for one that is, so that
-/// rooms do not become many.
+/// Reuses the smallest kept room that is large enough; otherwise the largest kept one is replaced
+/// by a new one, so that rooms do not accumulate.
 PayloadRoom RoomPool::take(size_t bytes) {
   const size_t words = std::max<size_t>((bytes + sizeof(uint64_t) - 1) / sizeof(uint64_t), 1);
   const size_t wanted = words * sizeof(uint64_t);
@@ -37,7 +37,7 @@ PayloadRoom RoomPool::take(size_t bytes) {
   return room;
 }
 
-/// Until those that are kept have at most so many bytes.
+/// Frees kept rooms until they have at most this many bytes.
 void RoomPool::forget_kept(size_t bytes) {
   while (kept_bytes_ > bytes) {
     kept_bytes_ -= kept_.back().size_bytes();

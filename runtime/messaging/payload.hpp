@@ -1,7 +1,7 @@
-// The bytes behind a message, as its handler gets them, and the pool of rooms that they lie in.
-// A room goes back to its pool when the handler is done with it, and the next message uses it: once
-// rooms are as large as the messages of a run, no memory is taken any more.
-// Thread rule: one node's thread.
+// The bytes that accompany a message, as its handler gets them, and the pool of rooms that hold
+// them. A room returns to its pool when the handler releases it, and the next message uses it: once
+// rooms have the size of a run's messages, nothing is allocated any more. Thread rule: one node's
+// thread.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@
 
 namespace luxodus {
 
-/// Memory for a payload: of words, so that what lies in it is aligned. It is not set to zero, which
-/// would take milliseconds for a large one.
+/// Memory for a payload, in words, so that its content is aligned. It is not zeroed, which would
+/// take milliseconds for a large one.
 class PayloadRoom {
  public:
   PayloadRoom() = default;
@@ -40,16 +40,16 @@ class PayloadRoom {
 
 class RoomPool {
  public:
-  /// Rooms that are lent, and those kept for later, have at most `max_bytes` together.
+  /// Rooms that are lent, and those kept for reuse, have at most `max_bytes` together.
   explicit RoomPool(size_t max_bytes) : max_bytes_(max_bytes) {}
   RoomPool(const RoomPool&) = delete;
   RoomPool& operator=(const RoomPool&) = delete;
 
-  /// Of at least so many bytes; empty where the pool has no more.
+  /// A room of at least this many bytes; empty if the pool's limit is reached.
   PayloadRoom take(size_t bytes);
   void give_back(PayloadRoom room);
 
-  /// Of rooms that are lent.
+  /// Bytes of lent rooms.
   size_t lent_bytes() const { return lent_bytes_; }
 
  private:
@@ -61,12 +61,12 @@ class RoomPool {
   std::vector<PayloadRoom> kept_;
 };
 
-/// A handle of bytes that others may use when it is gone: a room of a pool, or what another actor
-/// of the node has sent.
+/// A move-only handle to the bytes of a payload, released with it: a room of a pool, or bytes
+/// shared by another actor of the node.
 class Payload {
  public:
   Payload() = default;
-  /// `bytes` lie in the room. Requires: `pool` outlives it.
+  /// `bytes` lie in the room. Requires: `pool` outlives this.
   Payload(RoomPool& pool, PayloadRoom room, std::span<const std::byte> bytes)
       : pool_(&pool), room_(std::move(room)), bytes_(bytes) {}
   explicit Payload(SharedBytes shared) : shared_(std::move(shared)), bytes_(shared_.bytes) {}
@@ -83,7 +83,7 @@ class Payload {
   }
 
   std::span<const std::byte> bytes() const { return bytes_; }
-  /// Bytes that are in no room of a pool, and what keeps them.
+  /// Bytes outside the pool's rooms, and their owner.
   SharedBytes shared() && { return std::move(shared_); }
 
  private:

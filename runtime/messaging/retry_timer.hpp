@@ -1,7 +1,7 @@
-// When a question that has had no answer is asked again. Whoever asks at a fixed pace fills a slow
-// network with copies of what already waits in it, so that answers come later still. This timer
-// follows the network as TCP's does (RFC 6298, https://www.rfc-editor.org/rfc/rfc6298): the first
-// wait is twice as long as the last answer took, and each copy doubles it.
+// When to retry a request without an answer. Retrying at a fixed pace fills a slow network with
+// copies of requests that already wait in it, so that answers come even later. This timer adapts to
+// the network as TCP's does (RFC 6298, https://www.rfc-editor.org/rfc/rfc6298): the first wait is
+// twice as long as the last answer took, and each copy doubles it. Plain value; one node's thread.
 #pragma once
 
 #include <algorithm>
@@ -11,53 +11,53 @@
 
 namespace luxodus {
 
-/// Of one kind of question, of which one is asked at a time.
+/// For one kind of request, of which one is in flight at a time.
 class RetryTimer {
  public:
-  /// All waits lie between these.
+  /// All waits lie in this range.
   RetryTimer(Nanoseconds least, Nanoseconds most) : least_(least), most_(std::max(least, most)) {}
 
-  /// The question is on its way, for the first time or again.
+  /// The request was sent, for the first time or again.
   void asked(Nanoseconds now) {
     wait_ = begun_ ? std::min(2 * wait_, most_) : first_wait();
     if (!begun_) begun_ = now;
     asked_ = now;
   }
-  /// Which copy was answered nobody knows: an answer takes as long as was thought, where that fits
-  /// one of them. Were it counted from the first, a first one that is lost each time would double
-  /// all waits; from the last, waits would be too short for a slow network.
+  /// It is unknown which copy was answered, so the estimate is only moved into the range between
+  /// the last and the first copy. Counting from the first copy would double all waits whenever the
+  /// first copy is lost; counting from the last would make waits too short for a slow network.
   void answered(Nanoseconds now) {
     if (!begun_) return;
     took_ = std::clamp(took_, now - asked_, now - *begun_);
     begun_.reset();
     answered_ = now;
   }
-  /// Nobody wants the answer any more.
+  /// The answer is no longer wanted.
   void forget() { begun_.reset(); }
 
-  /// Asked, and not answered for too long.
+  /// Whether a request has waited too long for its answer.
   bool is_due(Nanoseconds now) const { return begun_ && now - asked_ >= wait_; }
-  /// Nothing is on its way that may yet be answered in time.
+  /// Whether no request is in flight that may still be answered in time.
   bool may_ask(Nanoseconds now) const { return !begun_ || is_due(now); }
-  /// How long the next question will wait before it is asked again.
+  /// How long the next request will wait before its first retry.
   Nanoseconds first_wait() const { return std::clamp(2 * took_, least_, most_); }
-  /// How long to leave the network to others after an answer, where the next question can wait:
-  /// then what a thousand nodes ask in vain takes a ninth of what a slow network carries.
+  /// How long to pause after an answer if the next request can wait: polling by a thousand nodes
+  /// then takes a ninth of the capacity of a slow network.
   Nanoseconds rest() const { return std::clamp(8 * took_, least_, most_); }
-  /// Nothing is asked, and that long ago was the last answer.
+  /// Whether no request is in flight and the pause after the last answer is over.
   bool has_rested(Nanoseconds now) const {
     return !begun_ && (!answered_ || now - *answered_ >= rest());
   }
-  /// Of what is said again and again, though it was answered.
+  /// For a message that is repeated although it was answered.
   bool may_remind(Nanoseconds now) const { return is_due(now) || has_rested(now); }
-  /// How long an answer takes, as far as is known; 0: there was none.
+  /// Estimated time to an answer; 0 if there was none.
   Nanoseconds took() const { return took_; }
 
  private:
   Nanoseconds least_, most_;
   Nanoseconds took_ = 0;
-  std::optional<Nanoseconds> begun_;     // asking
-  std::optional<Nanoseconds> answered_;  // for the last time
+  std::optional<Nanoseconds> begun_;     // when the request was first sent
+  std::optional<Nanoseconds> answered_;  // the last time
   Nanoseconds asked_ = 0;
   Nanoseconds wait_ = 0;
 };

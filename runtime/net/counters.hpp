@@ -1,6 +1,5 @@
-// What a node's network counts: plain integers, written by the node's thread, each with a name and
-// a sentence so that metrics can be exported from the table alone.
-// Thread rule: one node's thread.
+// Counters of a node's network: plain integers, written by the node's thread, each with a name and
+// a sentence so that metrics can be exported from the table alone. Thread rule: one node's thread.
 #pragma once
 
 #include <array>
@@ -33,7 +32,7 @@ struct NetCounters {
   uint64_t links_up = 0;
   uint64_t links_down = 0;
   uint64_t reroutes = 0;
-  /// Refusals by RefusalReason: what we refused, and what refused us.
+  /// Refused handshakes by RefusalReason: refused by us, and by the peer.
   std::array<uint64_t, refusal_reasons> refused{};
   std::array<uint64_t, refusal_reasons> refused_by_peer{};
 };
@@ -81,7 +80,7 @@ inline constexpr std::array net_counter_names{
     NetCounterName{&NetCounters::reroutes, "reroutes", "times the routes were made anew"},
 };
 
-/// The word under which a reason is counted, logged and told to the other end.
+/// The word for a reason in counters, in logs and in messages to the peer.
 constexpr const char* name_of(RefusalReason reason) {
   constexpr std::array<const char*, refusal_reasons> names{
       "protocol", "wrong_node", "run",   "level",       "scene",

@@ -1,8 +1,8 @@
-// Byte credit of one pool: one link, direction, kind and hop class. Both ends count bytes from the
-// beginning of the session and tell totals, never differences, so grants and reports may be lost,
-// doubled or late. A receiver learns what was lost on the way from the sender's own total, and
-// frees it; it never holds more than its window, whatever the other end does.
-// Thread rule: one node's thread.
+// Credit-based flow control of one pool: one link, direction, kind and hop class. Both ends count
+// bytes from the beginning of the session and send totals, never differences, so grants and reports
+// may be lost, duplicated or late. The receiver learns from the sender's total what was lost on the
+// way, and frees it; it never holds more than its window, whatever the sender does. Thread rule:
+// one node's thread.
 #pragma once
 
 #include <algorithm>
@@ -13,17 +13,17 @@ namespace luxodus {
 /// The sending end.
 class CreditOut {
  public:
-  /// `window` is the receiver's: more than that is never outstanding, whatever it grants.
+  /// `window` is the receiver's: no more than that is ever outstanding, whatever it grants.
   explicit CreditOut(uint64_t window) : window_(window) {}
 
   bool allows(uint64_t bytes) const { return bytes <= limit_ - sent_; }
   /// Requires: allows(bytes).
   void spend(uint64_t bytes) { sent_ += bytes; }
   void grant(uint64_t limit) { limit_ = std::max(limit_, std::min(limit, sent_ + window_)); }
-  /// The receiver begins another life and counts from 0.
+  /// The receiver has restarted and counts from 0.
   void restart() { sent_ = limit_ = 0; }
   uint64_t sent() const { return sent_; }
-  /// What may still be sent.
+  /// Bytes that may still be sent.
   uint64_t left() const { return limit_ - sent_; }
 
  private:
@@ -37,7 +37,7 @@ class CreditIn {
  public:
   explicit CreditIn(uint64_t window = 0) : window_(window) {}
 
-  /// A frame of this many bytes has come, the sender's total with it. False: there is no room, and
+  /// A frame of this many bytes has arrived, with the sender's total. False: there is no room, and
   /// it must be dropped.
   bool arrive(uint64_t sent, uint64_t bytes) {
     const bool room = bytes <= window_ - held_;
@@ -46,22 +46,22 @@ class CreditIn {
     return room;
   }
 
-  /// The sender says that it had sent so much, and what it sent before has come or is lost.
+  /// The sender reports its total: everything sent before has arrived or is lost.
   void settle(uint64_t sent) { arrived_ = std::max(arrived_, sent); }
 
-  /// The sender begins another life and counts from 0. What is held stays held.
+  /// The sender has restarted and counts from 0. Held bytes stay held.
   void restart() { arrived_ = announced_ = 0; }
 
   /// Requires: bytes <= held().
   void release(uint64_t bytes) { held_ -= bytes; }
 
-  /// Up to which total the sender may send.
+  /// The total up to which the sender may send.
   uint64_t limit() const { return arrived_ + (window_ - held_); }
 
-  /// The limit, to be told now; remembered as told.
+  /// Returns the limit to announce now, and remembers it as announced.
   uint64_t announce() { return announced_ = limit(); }
 
-  /// Half the window has become free since the last announcement: worth a frame of its own.
+  /// Whether half the window has become free since the last announcement: worth a frame of its own.
   bool overdue() const { return limit() >= announced_ + window_ / 2 && limit() > announced_; }
 
   bool news() const { return limit() > announced_; }

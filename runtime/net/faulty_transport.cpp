@@ -12,7 +12,7 @@ namespace luxodus {
 
 namespace {
 
-/// As after a signal that cannot be caught.
+/// Exit code as after SIGKILL.
 constexpr int crashed = 128 + 9;
 
 FaultyConfig complete(FaultyConfig config) {
@@ -36,7 +36,8 @@ FaultyTransport::FaultyTransport(Transport& below, FaultyConfig config, const Cl
 
 // ---- out ---------------------------------------------------------------------------------------
 
-/// Of this node's way to the neighbour; of a connection both ends have the fault.
+/// Whether a fault holds on the way from this node to the neighbour; a disconnect affects both
+/// ends.
 bool FaultyTransport::holds(Fault::Kind kind, NodeId neighbour) const {
   const bool both = kind == Fault::Kind::disconnect;
   return std::any_of(config_.plan.faults.begin(), config_.plan.faults.end(), [&](const Fault& f) {
@@ -89,7 +90,7 @@ Sent FaultyTransport::send(NodeId neighbour, Lane lane, std::span<const std::byt
   return Sent::taken;
 }
 
-/// Sends what is in `frame_`.
+/// Sends the frame in `frame_`.
 Sent FaultyTransport::give(NodeId neighbour, Lane lane, const Stamp& stamp) {
   std::memcpy(frame_.data(), &stamp, sizeof stamp);
   return below_.send(neighbour, lane, frame_, {});
@@ -104,7 +105,7 @@ std::optional<Arrival> FaultyTransport::receive() {
   return take_due();
 }
 
-/// What happens to this node.
+/// Applies the faults of this node.
 void FaultyTransport::suffer() {
   for (const Fault& f : config_.plan.faults) {
     if (f.node != config_.self || !f.holds(moment())) continue;
@@ -114,7 +115,7 @@ void FaultyTransport::suffer() {
     if (f.kind == Fault::Kind::crash) config_.crash();
     if (f.kind == Fault::Kind::pause) config_.stand_still(f.at + f.lasts - moment());
     if (f.kind == Fault::Kind::slow) {
-      constexpr Nanoseconds too_short = microseconds(500);  // to be slept for
+      constexpr Nanoseconds too_short = microseconds(500);  // to sleep
       const Nanoseconds worked = clock_.now() - working_since_;
       if (worked < too_short) continue;
       config_.stand_still(static_cast<Nanoseconds>((f.factor - 1) * static_cast<double>(worked)));

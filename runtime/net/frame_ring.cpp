@@ -1,6 +1,6 @@
 // A frame that would cross the end of the block begins at its start instead, and the rest of the
 // block stays empty until the oldest frames have gone. That gap is shorter than one frame, so a
-// block of one window and one longest frame always has room.
+// block of one window plus one longest frame always has room.
 #include "runtime/net/frame_ring.hpp"
 
 #include <cstring>
@@ -16,7 +16,7 @@ struct FrameRing::Record {
 
 FrameRing::FrameRing(size_t window, size_t max_body)
     : capacity_(memory_bytes(window, max_body)),
-      // Not written here: memory of a queue that is never used is never taken from the system.
+      // Left uninitialised: a queue that is never used takes no physical memory.
       memory_(new std::byte[capacity_]) {
   static_assert(sizeof(Record) <= limits::frame_overhead_bytes);
   static_assert(limits::frame_overhead_bytes % alignof(Record) == 0);

@@ -1,7 +1,6 @@
-// A first-in-first-out queue of frames in one block of memory that is taken at construction. A
-// frame lies in one piece, its body at an address that words may have. What a frame is charged is
-// what it takes, so a queue within its window never overflows.
-// Thread rule: one node's thread.
+// A FIFO queue of frames in one block of memory that is allocated at construction. A frame is
+// contiguous, and its body is aligned for words. A frame is charged what it occupies, so a queue
+// within its window never overflows. Thread rule: one node's thread.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +12,19 @@
 namespace luxodus {
 
 namespace limits {
-/// Bytes charged per frame beside its body: what a frame costs to hold. Known to both ends.
+/// Bytes charged per frame beside its body: the cost of holding it. Both ends use this number.
 inline constexpr size_t frame_overhead_bytes = 128;
 }  // namespace limits
 
-/// Bytes of a window, and of a ring, that a frame with this body takes.
+/// Bytes of the window, and of the ring, that a frame with this body takes.
 constexpr size_t frame_charge(size_t body_bytes) {
   return limits::frame_overhead_bytes + (body_bytes + 7) / 8 * 8;
 }
 
 class FrameRing {
  public:
-  /// Frames are held as long as their charges sum to at most `window`; none has a body longer than
-  /// `max_body` [bytes].
+  /// Holds frames whose charges sum to at most `window` and whose bodies have at most `max_body`
+  /// [bytes].
   FrameRing(size_t window, size_t max_body);
 
   struct Frame {
@@ -42,7 +41,7 @@ class FrameRing {
   void pop();
 
   size_t memory_bytes() const { return capacity_; }
-  /// The same, before a ring is made.
+  /// Memory of a ring with these limits.
   static constexpr size_t memory_bytes(size_t window, size_t max_body) {
     return window / 8 * 8 + frame_charge(max_body);
   }
@@ -54,9 +53,9 @@ class FrameRing {
   size_t capacity_;
   std::unique_ptr<std::byte[]> memory_;
   size_t count_ = 0;
-  size_t head_ = 0;  // of the oldest frame
-  size_t tail_ = 0;  // behind the newest frame
-  size_t wrap_ = 0;  // where the frames before the wrap end; read while head_ is behind tail_
+  size_t head_ = 0;  // offset of the oldest frame
+  size_t tail_ = 0;  // offset after the newest frame
+  size_t wrap_ = 0;  // end of the frames before the wrap; valid while head_ > tail_
 };
 
 }  // namespace luxodus

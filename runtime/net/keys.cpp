@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Longer than any key's file; what is longer is no key.
+/// Longer than any key file; longer files are no keys.
 constexpr size_t max_file_bytes = 256;
 constexpr size_t key_characters = 40;
 
@@ -32,7 +32,7 @@ bool write_all(int descriptor, std::string_view text) {
   return true;
 }
 
-/// Writes beside the path, then links the name to it: link() fails where a file has that name.
+/// Writes a temporary file, then links the name to it: link() fails if the name exists.
 Result<std::string> write_new(const fs::path& path, const std::string& text, mode_t mode) {
   fs::path beside = path;
   beside += ".new." + std::to_string(::getpid());
@@ -50,7 +50,8 @@ Result<std::string> write_new(const fs::path& path, const std::string& text, mod
   return system_problem(path, "cannot be written", errno);
 }
 
-/// The first word of the file that has the length of a key. `secret`: refuse what others may read.
+/// The first word in the file that has a key's length. `secret`: reject a file that others may
+/// read.
 Result<std::string> read_key(const fs::path& path, bool secret) {
   const auto file = open_regular_file(path);
   if (!file) return file.problem();

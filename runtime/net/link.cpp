@@ -13,7 +13,7 @@
 namespace luxodus {
 
 namespace {
-/// Between connecting to a neighbour that has refused this node and saying hello again.
+/// Between reconnecting to a neighbour that has refused this node and the next hello.
 constexpr Nanoseconds reconnection = seconds(1);
 }  // namespace
 
@@ -55,7 +55,7 @@ uint64_t Link::held_bytes() const {
   return sum;
 }
 
-// ---- what is said
+// ---- sending
 
 Sent Link::give(const Envelope& envelope, std::span<const std::byte> body, Lane lane) {
   alignas(8) std::array<std::byte, limits::frame_head_bytes> head;
@@ -121,16 +121,17 @@ void Link::beat(uint64_t view_hash) {
         beat.pools[beat.pool_count++] = {kind, hops, pool.out.sent(), pool.in.announce()};
       }
     }
-    (void)say(Message{beat}, lane);  // the next beat says it again
+    (void)say(Message{beat}, lane);  // the next beat repeats it
   }
 }
 
 void Link::say_bye() {
-  if (state_.accepted()) (void)say(Message{Bye{}}, Lane::control);  // silence says it too
+  // the heartbeat timeout has the same effect
+  if (state_.accepted()) (void)say(Message{Bye{}}, Lane::control);
 }
 
 void Link::say(const LinkChanges& changes) {
-  if (state_.usable()) (void)say(Message{changes}, Lane::control);  // told again while views differ
+  if (state_.usable()) (void)say(Message{changes}, Lane::control);  // repeated while views differ
 }
 
 void Link::tell_grants() {
@@ -140,7 +141,7 @@ void Link::tell_grants() {
       if (!at(kind, hops).in.overdue()) continue;
       Envelope envelope = link_envelope();
       envelope.grant = {kind, hops, at(kind, hops).in.announce()};
-      (void)give(envelope, {}, Lane::control);  // the next beat says it again
+      (void)give(envelope, {}, Lane::control);  // the next beat repeats it
     }
 }
 
@@ -179,7 +180,7 @@ Link::Gone Link::send(Envelope envelope, std::span<const std::byte> body, Nanose
   return Gone::not_now;
 }
 
-// ---- what is heard
+// ---- receiving
 
 bool Link::take(const Envelope& envelope, Lane lane, const Message& message, Nanoseconds now) {
   const bool was_usable = state_.usable();
@@ -189,8 +190,9 @@ bool Link::take(const Envelope& envelope, Lane lane, const Message& message, Nan
   } else if (const auto* welcome = std::get_if<Welcome>(&message)) {
     meet(envelope, welcome->identity, true, now);
   } else if (const auto* refuse = std::get_if<Refuse>(&message)) {
-    // Who refuses has accepted nobody, so it names no life of ours; but it may be gone itself.
-    // It names the life that it refuses, if that is an earlier one of this node.
+    // A node that refuses has accepted no incarnation of ours, so it names none; but it may be a
+    // past incarnation itself. If it refuses an earlier incarnation of this node, it names that
+    // one.
     current = (!state_.accepted() || envelope.from_incarnation == state_.peer()) &&
               (envelope.to_incarnation == Incarnation{} ||
                envelope.to_incarnation == around_.config.incarnation);
@@ -218,7 +220,7 @@ void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed,
     state_.refuse(now);
     refusal_ = no->text;
     refused_for_ = no->reason;
-    (void)say(Message{*no}, Lane::control);  // a peer that does not hear it asks again
+    (void)say(Message{*no}, Lane::control);  // a peer that misses it asks again
     return;
   }
   if (taken(envelope, theirs, now)) return;
@@ -232,9 +234,9 @@ void Link::meet(const Envelope& envelope, const Identity& theirs, bool welcomed,
   if (!welcomed) (void)say(Message{Welcome{around_.config.identity}}, Lane::control);
 }
 
-/// Two controllers of one file have the same name and the same identity, but for where their
-/// results go. A node works for the first that it hears: were the second taken for a new life of
-/// the first, each would take the node from the other for ever. The link itself stays as it is.
+/// Two controllers of one cluster file have the same name and identity, except for the results'
+/// path. A node works for the first one it hears: if the second were taken for a restart of the
+/// first, each would take the node from the other forever. The link itself stays as it is.
 bool Link::taken(const Envelope& envelope, const Identity& theirs, Nanoseconds now) {
   if (theirs.results.empty() || works_for_.empty() || theirs.results == works_for_) return false;
   const auto reason = static_cast<size_t>(RefusalReason::taken);

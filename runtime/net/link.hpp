@@ -1,7 +1,7 @@
-// One neighbour: its state, the handshake and beats, the credit of every pool in both directions,
-// and the frames that came from it and wait to go on or to be taken. Link frames (handshake, beat,
-// grant) need no credit and are used up where they arrive, so grants never wait for grants.
-// Thread rule: one node's thread.
+// One neighbour: its state, the handshake and heartbeats, the credit of every pool in both
+// directions, and the frames from it that wait to be forwarded or delivered. Link frames
+// (handshake, beat, grant) need no credit and are consumed on arrival, so grants never wait for
+// grants. Thread rule: one node's thread.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct LinkSurroundings {
   Transport& transport;
   Codec& codec;
   NetCounters& counters;
-  std::span<std::byte> scratch;  // for one message that a link makes
+  std::span<std::byte> scratch;  // buffer for one message of a link
 };
 
 class Link {
@@ -40,58 +40,60 @@ class Link {
 
   NodeId neighbour() const { return neighbour_; }
   const LinkState& state() const { return state_; }
-  /// Why it is refused, for people; "" where it is not.
+  /// Why the link is refused, for people; "" if it is not.
   std::string refusal_text() const {
     return state_.phase() == LinkPhase::refused ? refusal_ : std::string();
   }
-  /// Whether the neighbour works for another run, and has said so.
+  /// Whether the neighbour has said that it works for another run.
   bool refused_as_taken() const {
     return state_.phase() == LinkPhase::refused && refused_for_ == RefusalReason::taken;
   }
-  /// Times that it came up: tells a link that fell and rose from one that stood.
+  /// How often the link came up: distinguishes a link that fell and recovered from one that stayed
+  /// up.
   uint64_t sessions() const { return sessions_; }
 
-  /// Lets time pass and says hello if that is due.
+  /// Advances time and sends a hello if one is due.
   void tick(Nanoseconds now);
   void forgive(Nanoseconds span) { state_.forgive(span); }
-  /// One beat on each lane, to a neighbour that listens: all totals and limits of the lane.
+  /// Sends one beat on each lane, to an accepted neighbour: all totals and limits of the lane.
   void beat(uint64_t view_hash);
   void say_bye();
   void say(const LinkChanges& changes);
 
-  /// A message of kind `link` has come. False: from another life than the one accepted; dropped.
+  /// A message of kind `link` has arrived. False: it comes from another incarnation than the
+  /// accepted one, and is dropped.
   bool take(const Envelope& envelope, Lane lane, const Message& message, Nanoseconds now);
 
-  /// Whether a routed frame is of this life of the neighbour for this life of ours; if so, its
-  /// grant is used.
+  /// Whether a routed frame is from the accepted incarnation of the neighbour to this incarnation
+  /// of ours; if so, its grant is applied.
   bool admits(const Envelope& envelope, Nanoseconds now);
-  /// Charges a frame that was admitted to its pool and keeps it there; false: over its window.
+  /// Charges an admitted frame to its pool and keeps it there. False: the window is exceeded.
   bool hold(const Envelope& envelope, std::span<const std::byte> body);
-  /// As hold(), for a frame that is used up at once.
+  /// As hold(), for a frame that is consumed at once.
   bool pass(const Envelope& envelope, size_t body_bytes);
 
   enum class Gone : uint8_t { sent, not_now };
-  /// Sends a routed frame, if the link is usable and there is credit for its kind and hops.
+  /// Sends a routed frame if the link is usable and there is credit for its kind and hops.
   Gone send(Envelope envelope, std::span<const std::byte> body, Nanoseconds now);
-  /// Tells limits that have grown by half a window.
+  /// Announces limits that have grown by half a window.
   void tell_grants();
 
-  /// Frames that came in this kind and class, the oldest first. Requires: 1 <= hop class <= limit.
+  /// Frames received in this kind and class, the oldest first. Requires: 1 <= hop class <= limit.
   const FrameRing& pool(Kind kind, uint8_t hop_class) const { return at(kind, hop_class).frames; }
   /// Requires: the pool is not empty.
   void release(Kind kind, uint8_t hop_class);
 
-  // What has passed over it, and what may: for those who watch.
+  // Traffic and credit, for metrics.
   void count_arrival(size_t frame_bytes) { bytes_received_ += frame_bytes; }
   uint64_t bytes_sent() const { return bytes_sent_; }
   uint64_t bytes_received() const { return bytes_received_; }
-  /// Credit of all pools that this node may still use up.
+  /// Credit left in all pools, as a sender.
   uint64_t credit_bytes() const;
-  /// What came and waits here, in all pools.
+  /// Bytes received that wait here, in all pools.
   uint64_t held_bytes() const;
 
   size_t memory_bytes() const;
-  /// The same, before a link is made.
+  /// Memory of a link, before it is made.
   static size_t memory_bytes(const NetConfig& config);
 
  private:
@@ -112,7 +114,7 @@ class Link {
   void use(const Grant& grant);
   Grant next_grant();
   Envelope link_envelope() const;
-  /// `to`: another life of the neighbour than the one that is accepted.
+  /// `to`: an incarnation other than the accepted one.
   Sent say(const Message& message, Lane lane, std::optional<Incarnation> to = {});
   Sent give(const Envelope& envelope, std::span<const std::byte> body, Lane lane);
   void note_rise(bool was_usable, Nanoseconds now);
@@ -123,13 +125,13 @@ class Link {
   std::vector<Pool> pools_;
   size_t grant_cursor_ = 0;
   uint64_t sessions_ = 0;
-  std::string refusal_;  // the last one
+  std::string refusal_;  // the last one, in words
   RefusalReason refused_for_ = RefusalReason::protocol;
-  bool parted_ = false;  // refused, and the connection ended: it is made again before a hello
-  /// Where the results go of the run that this node works for, as the neighbour said; "": it has
-  /// not. Once said, it holds until the neighbour says bye.
+  bool parted_ = false;  // refused and disconnected: reconnect before the next hello
+  /// Where the run that this node works for writes its results, as the neighbour said; "" if it has
+  /// not. Once set, it holds until the neighbour says bye.
   std::string works_for_;
-  /// Refusals, by reason: ours, and the neighbour's. One who asks and asks cannot fill the log.
+  /// Rate limits of refusals in the log, by reason: ours, and the neighbour's.
   std::array<OnceAMinute, refusal_reasons> log_refusal_, log_being_refused_;
   uint64_t bytes_sent_ = 0;
   uint64_t bytes_received_ = 0;

@@ -1,6 +1,6 @@
-// The life of one link as one of its ends sees it: a pure machine of events and time. It sends
-// nothing and knows no frames; Link feeds it and does what it says is due.
-// Thread rule: one node's thread.
+// The state of one link as seen by one of its ends: a pure state machine of events and time. It
+// sends nothing and knows no frames; Link feeds it events and does what is due. Thread rule: one
+// node's thread.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +23,9 @@ namespace luxodus {
 //  down ── backoff over ──► connecting;  connecting, refused ── accepted ──► greeting
 //  any  ── identities differ, or the peer says so ──► refused
 //
-// Accepted: the peer's identity agrees with ours. Acknowledged: a frame from that life of the peer
-// was addressed to this life of ours, so it has accepted us. A refused link goes on saying hello,
-// rarely: one end or the other may have been put right.
+// Accepted: the peer's identity agrees with ours. Acknowledged: a frame from that incarnation of
+// the peer was addressed to this incarnation of ours, so it has accepted us. A refused link keeps
+// sending hello at long intervals: the cause at either end may have been fixed.
 enum class LinkPhase : uint8_t { connecting, greeting, up, suspect, down, refused };
 
 constexpr const char* name_of(LinkPhase phase) {
@@ -36,11 +36,11 @@ constexpr const char* name_of(LinkPhase phase) {
 struct LinkTimes {
   Nanoseconds beat = milliseconds(250);
   int suspect_after_beats = 3;
-  int down_after_beats = 8;                 // 2 s: a pause for a page or a build is shorter
-  Nanoseconds patience = seconds(10);       // for a greeting: hosts start at their own pace
+  int down_after_beats = 8;                 // 2 s: longer than a page fault or a build
+  Nanoseconds patience = seconds(10);       // for a greeting: hosts start at different times
   Nanoseconds backoff = milliseconds(250);  // between hellos, doubled up to:
   Nanoseconds max_backoff = seconds(5);
-  Nanoseconds refused_retry = seconds(30);  // an operator acts in minutes, and reads the log
+  Nanoseconds refused_retry = seconds(30);  // an operator acts within minutes, and reads the log
 };
 
 class LinkState {
@@ -50,30 +50,30 @@ class LinkState {
   LinkPhase phase() const { return phase_; }
   bool usable() const { return phase_ == LinkPhase::up || phase_ == LinkPhase::suspect; }
   bool accepted() const { return accepted_; }
-  /// The life of the peer that was accepted last; 0 before any was.
+  /// The incarnation of the peer accepted last; 0 before the first.
   Incarnation peer() const { return peer_; }
 
-  /// Our hello was taken by the transport.
+  /// The transport took our hello.
   void greeted(Nanoseconds now);
   /// The transport has no connection.
   void unreachable(Nanoseconds now);
-  /// The peer's identity agrees with ours. True: it is another life than the one known, and what
-  /// was counted with that one is void.
+  /// The peer's identity agrees with ours. Returns true if this is a new incarnation: counts of the
+  /// previous one are void.
   bool accept(Incarnation peer, Nanoseconds now);
-  /// The accepted peer addressed this life of ours.
+  /// The accepted peer addressed this incarnation of ours.
   void acknowledge(Nanoseconds now);
   /// The accepted peer sent a frame.
   void heard(Nanoseconds now);
   void bye(Nanoseconds now) { fall(now); }
   void refuse(Nanoseconds now);
-  /// The next hello is due at `at`: before it the connection has to be made.
+  /// Sends no hello before `at`: the connection must be made first.
   void postpone_until(Nanoseconds at) { hello_at_ = at; }
   void tick(Nanoseconds now);
-  /// This node itself stood still for so long: it heard nobody, and blames nobody.
+  /// This node itself was stalled for `span`: extends all timeouts, since it could hear nobody.
   void forgive(Nanoseconds span);
 
   bool hello_due(Nanoseconds now) const;
-  /// When tick() or hello_due() may say something new.
+  /// When tick() or hello_due() may next change something.
   Nanoseconds next_deadline() const;
 
  private:

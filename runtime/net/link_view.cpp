@@ -39,8 +39,8 @@ uint32_t LinkView::version(Edge edge) const {
 }
 
 bool LinkView::merge(const LinkChange& change) {
-  // No link changes so often while somebody does not hear of it; and at the end of the numbers
-  // nobody could contradict.
+  // No link changes so often unheard; and a version near the largest number could never be
+  // superseded.
   constexpr uint32_t max_unheard = 1 << 20;
   Known* known = find({change.a, change.b});
   if (known == nullptr || change.version <= known->version) return false;
@@ -49,7 +49,7 @@ bool LinkView::merge(const LinkChange& change) {
   return true;
 }
 
-/// Each link has its own part in the hash, so that it is the same in whatever order they change.
+/// Each link contributes a part of its own to the hash, so the order of changes does not matter.
 void LinkView::raise(Known& known, uint32_t version) {
   const auto part = [&](uint32_t of) {
     const std::array<uint32_t, 3> words{known.edge.a.value, known.edge.b.value, of};

@@ -1,5 +1,5 @@
-// What a node's network is made of: who it is, whom it is linked to, and how much it may hold.
-// Plain values; any thread.
+// Configuration of a node's network: its identity, its links, and its memory limits. Plain values;
+// any thread.
 #pragma once
 
 #include <cstddef>
@@ -20,28 +20,28 @@ constexpr Edge edge_between(NodeId one, NodeId other) {
   return one < other ? Edge{one, other} : Edge{other, one};
 }
 
-/// For every destination the neighbour to send to; `no_node` where no way leads there.
+/// Next hop for every destination; `no_node` if there is no route.
 struct NextHops {
   std::vector<NodeId> next;
 };
 inline constexpr NodeId no_node{0xFFFF};
 
 namespace defaults {
-/// A piece of an object or a flush: 0.5 ms of a 1 Gb/s link, so that others have their turn.
+/// Chunk of an object or a flush: 0.5 ms of a 1 Gb/s link, so that others get their turn.
 inline constexpr size_t bulk_chunk_bytes = 65536;
-/// A piece of what is urgent: below it, no message of today is cut.
+/// Chunk of urgent messages: at present none is longer.
 inline constexpr size_t small_chunk_bytes = 4096;
 /// Bandwidth x round trip x 2, at least 4 chunks: 4 x (64 KB + overhead) covers 1 Gb/s at 1 ms.
 inline constexpr size_t bulk_window_bytes = 4 * (bulk_chunk_bytes + 128);
 inline constexpr size_t small_window_bytes = 4 * (small_chunk_bytes + 128);
-/// Diameter 3 of the graph of 32 nodes, 5 after any three failures; larger graphs say more.
+/// The graph of 32 nodes has diameter 3, and 5 after any three failures; larger graphs set more.
 inline constexpr uint8_t hop_limit = 5;
-/// Messages made here that wait for the network, per kind: one for each of a node's fetches in
-/// a burst; more of them wait with their fibers.
+/// Messages made here that wait for the network, per kind: one for each fetch of a burst; further
+/// messages wait with their fibers.
 inline constexpr size_t outbox_messages = 64;
-/// Messages in several pieces on their way to this node at once.
+/// Messages in several pieces that arrive at this node at once.
 inline constexpr size_t assemblies = 64;
-/// The longest message [bytes]: an object of a scene is bounded far below it.
+/// The longest message [bytes]: objects of a scene are far smaller.
 inline constexpr size_t max_message_bytes = 64 << 20;
 }  // namespace defaults
 
@@ -55,13 +55,13 @@ struct NetConfig {
   uint8_t hop_limit = defaults::hop_limit;
   size_t small_chunk_bytes = defaults::small_chunk_bytes;
   size_t bulk_chunk_bytes = defaults::bulk_chunk_bytes;
-  size_t small_window_bytes = defaults::small_window_bytes;  // of one pool
+  size_t small_window_bytes = defaults::small_window_bytes;  // per pool
   size_t bulk_window_bytes = defaults::bulk_window_bytes;
   size_t outbox_messages = defaults::outbox_messages;
   size_t assemblies = defaults::assemblies;
   size_t max_message_bytes = defaults::max_message_bytes;
-  Nanoseconds assembly_patience = seconds(10);  // without a new piece
-  Buggify* buggify = nullptr;                   // rare ways; null: none
+  Nanoseconds assembly_patience = seconds(10);  // without a new chunk
+  Buggify* buggify = nullptr;                   // rare paths, or null
 
   size_t chunk_bytes(Kind kind) const {
     return is_bulk(kind) ? bulk_chunk_bytes : small_chunk_bytes;

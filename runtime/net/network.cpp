@@ -10,12 +10,12 @@ namespace luxodus {
 
 namespace {
 
-/// Frames taken from the transport in one turn: as many as are moved on in one (router.cpp), so
+/// Frames taken from the transport per turn: as many as are forwarded per turn (router.cpp), so
 /// that neither starves the other.
 constexpr size_t arrivals_per_turn = 256;
 constexpr size_t arriving_bytes_per_turn = 1 << 20;
 
-/// Of one kind of trouble at one link, one line a minute: a peer cannot fill the log.
+/// One line a minute for each kind of trouble at each link, so that a peer cannot flood the log.
 constexpr Nanoseconds log_interval = seconds(60);
 
 void check(const NetConfig& config) {
@@ -37,17 +37,17 @@ void check(const NetConfig& config) {
 
 }  // namespace
 
-/// What was last seen of a link, and when its troubles were last logged.
+/// Last known state of a link, and when it may be logged again.
 struct Network::Watched {
   bool usable = false;
   uint64_t sessions = 0;
   LinkPhase phase = LinkPhase::connecting;
-  bool to_tell = false;  // the handler has not been told of it
+  bool to_tell = false;  // the handler has not been told yet
   Nanoseconds may_log_at = 0;
-  int denied = 0;  // beats for which others have said that it is down, and it works
+  int denied = 0;  // beats during which others reported it down although it works
 };
 
-/// The router's way into the network, kept out of its public face.
+/// The router's interface to the network, hidden from network.hpp.
 class Network::Here final : public Router::Destination {
  public:
   explicit Here(Network& network) : network_(network) {}
@@ -159,8 +159,8 @@ bool Network::poll(Nanoseconds now) {
     next_beat_ = now + config_.times.beat;
     LinkChanges news;
     for (size_t i = 0; i < links_.size(); ++i) {
-      // An end of a link knows best. It waits for as long as the other end may have fallen silent
-      // before it says so; after that who said otherwise was wrong.
+      // An end of a link knows its state best. It waits for as long as the other end may have been
+      // silent before it contradicts; by then the report must be wrong.
       const Edge edge = edge_between(config_.self, links_[i].neighbour());
       const bool denied = links_[i].state().usable() && view_.version(edge) % 2 == 1;
       watched_[i].denied = denied ? watched_[i].denied + 1 : 0;
@@ -173,7 +173,7 @@ bool Network::poll(Nanoseconds now) {
   given_ = false;
   const bool more_moves = router_.pump(view_.epoch(), now);
   for (Link& link : links_) link.tell_grants();
-  watch_links();  // a send may have found a neighbour gone
+  watch_links();  // a send may have found a neighbour unreachable
   while (const auto idle = assembler_.close_idle(now - config_.assembly_patience)) {
     ++counters_.assemblies_abandoned;
     handler_.abandoned(idle->id, idle->kind);
@@ -185,8 +185,8 @@ void Network::send_out(Nanoseconds now) {
   if (given_) given_ = router_.pump(view_.epoch(), now);
 }
 
-// Fibers run after a turn's poll. What one gives away as the last thing before its node rests would
-// otherwise lie here until the next beat.
+// Fibers run after a turn's poll. Without this, a message sent just before the node goes idle would
+// wait for the next beat.
 Nanoseconds Network::next_deadline() const {
   if (given_) return 0;
   Nanoseconds earliest = next_beat_;
@@ -236,7 +236,7 @@ void Network::take_frame(const Arrival& arrival, Nanoseconds now) {
 }
 
 void Network::take_link_message(Link& link, const OpenedFrame& frame, Lane lane, Nanoseconds now) {
-  if (frame.body.empty()) {  // a grant alone
+  if (frame.body.empty()) {  // only a grant
     if (!link.admits(frame.envelope, now)) ++counters_.dropped_stale;
     return;
   }
@@ -282,7 +282,7 @@ void Network::take_routed(Link& link, const OpenedFrame& frame, Lane lane, Nanos
 }
 
 bool Network::intercepted(const Envelope& envelope, std::span<const std::byte> body) {
-  if (body.size() != envelope.total_bytes) return false;  // a piece asks for nothing yet
+  if (body.size() != envelope.total_bytes) return false;  // a single chunk is no request yet
   auto opened = codec_.open_message(body);
   if (!opened || kind_of(opened->message) != Kind::request) return false;
   return handler_.intercept({envelope.source, envelope.id, envelope.hops, opened->message,
@@ -299,12 +299,12 @@ void Network::malformed(NodeId neighbour, const std::string& what, Nanoseconds n
   }
 }
 
-// ---- messages whose way ends here
+// ---- messages for this node
 
 bool Network::take_here(const Envelope& envelope, std::span<const std::byte> body,
                         Nanoseconds now) {
   if (envelope.id.node == config_.self && envelope.id.incarnation != config_.incarnation) {
-    ++counters_.dropped_stale;  // an answer to a question of an earlier life
+    ++counters_.dropped_stale;  // an answer to a request of an earlier incarnation
     return true;
   }
   if (body.size() == envelope.total_bytes) return deliver(envelope, body);
@@ -360,7 +360,7 @@ bool Network::deliver(const Envelope& envelope, std::span<const std::byte> bytes
   return true;
 }
 
-// ---- links that change
+// ---- link changes
 
 void Network::learn(const LinkChanges& told, const Link& by) {
   LinkChanges news;
@@ -379,7 +379,7 @@ void Network::watch_links() {
     if (last.usable && (!state.usable() || another_session)) ++counters_.links_down;
     if (another_session) {
       ++counters_.links_up;
-      links_[i].beat(view_.hash());  // the first grants
+      links_[i].beat(view_.hash());  // with the first grants
       links_[i].say(view_.changes());
     }
     last.usable = state.usable();
@@ -391,12 +391,12 @@ void Network::watch_links() {
 
     if (state.phase() == LinkPhase::down) transport_.renew(links_[i].neighbour());
     const bool gone = state.phase() == LinkPhase::down || state.phase() == LinkPhase::refused;
-    if (!gone && !state.usable()) continue;  // on its way: the view waits for what comes of it
+    if (!gone && !state.usable()) continue;  // in transition: wait for the outcome
     const Edge edge = edge_between(config_.self, links_[i].neighbour());
     if (view_.set(edge, !gone)) news.changes.push_back({edge.a, edge.b, view_.version(edge)});
   }
   spread(news, nullptr);
-  // When routes know it: who is told that a link is up may send over it.
+  // Only after the routes are updated: a handler told that a link is up may send over it.
   for (size_t i = 0; i < links_.size(); ++i)
     if (std::exchange(watched_[i].to_tell, false))
       handler_.link_changed(links_[i].neighbour(), watched_[i].phase);

@@ -1,9 +1,9 @@
-// The network of one node: links, routes and messages in several pieces behind three calls. Each
-// turn of the node's loop calls poll(); between turns it may send(). A message is delivered at most
-// once per arrival, in no order, and perhaps not at all: who needs an answer asks again under the
-// same id. Nothing that comes from outside ends a node: it is counted and dropped.
-// It knows no fibers, no actors and no threads of its own.
-// Thread rule: one node's thread. The handler is called from poll() alone, and may call send().
+// The network of one node: links, routes and messages in several pieces, behind three calls. Each
+// turn of the node's loop calls poll(); between turns it may send(). Messages may be lost and come
+// in any order; each arrival is delivered at most once. A sender that needs an answer retries under
+// the same id. Nothing from outside ends a node: bad input is counted and dropped. It knows no
+// fibers, no actors and no threads of its own. Thread rule: one node's thread. The handler is
+// called only from poll(), and may call send().
 #pragma once
 
 #include <array>
@@ -29,114 +29,114 @@
 
 namespace luxodus {
 
-/// A message that has come. Who takes it in may move the message out.
+/// A message that has arrived. The receiver may move the message out.
 struct Delivery {
   NodeId source;
   MessageId id;
   uint8_t hops = 0;
   Message& message;
-  std::span<const std::byte> payload;  // during the call; for messages in pieces, in their room
+  // valid during the call; for messages in pieces, in their room
+  std::span<const std::byte> payload;
   ActorPair actors = {};
 };
 
-/// Under which a question and its answer are known in a trace, on whichever node.
+/// Identifies a request and its answer in the trace of any node.
 constexpr uint64_t trace_id(const MessageId& id) {
   return id.incarnation.value ^ (uint64_t{id.node.value} << 48) ^ id.sequence;
 }
 
-/// What the node does with what the network brings. Thread rule: called from Network::poll().
+/// Receives what the network delivers. Thread rule: called from Network::poll().
 class NetHandler {
  public:
   virtual ~NetHandler() = default;
 
-  /// False: there is no room now; it is asked again, and others of the kind wait behind it. A
-  /// request may wait for room to send its reply; a reply may not wait for the network at all.
+  /// False: no room now; the network tries again, and later messages of the kind wait. A request
+  /// may wait for room to send its reply; a reply must never wait for the network.
   virtual bool deliver(const Delivery& delivery) = 0;
 
-  /// Room for a message in several pieces, which stays valid until it is delivered, abandoned(),
-  /// or given up by Network::forget(). Empty, or too short: the message is not wanted (a reply
-  /// that nobody waits for) or must come again (no room now).
+  /// Memory for a message in several pieces, valid until it is delivered, abandoned(), or released
+  /// by Network::forget(). Empty or too short: the message is not wanted (a reply that nobody
+  /// awaits) or must be sent again (no room now).
   virtual std::span<std::byte> room_for(const MessageId& id, NodeId source, ActorPair actors,
                                         size_t bytes) = 0;
-  /// Pieces have stopped coming: the room is the handler's again.
+  /// No more pieces arrive: the room is the handler's again.
   virtual void abandoned(const MessageId& id, Kind kind) = 0;
 
-  /// A request on its way to another node passes here. True: this node has answered it.
+  /// A request to another node passes here. Returns true if this node has answered it.
   virtual bool intercept(const Delivery& request) = 0;
 
-  /// Routes know of it: over a link that is up the neighbour can be sent to.
+  /// Called when the routes are updated: a neighbour whose link is up can be sent to.
   virtual void link_changed(NodeId neighbour, LinkPhase phase) = 0;
 
-  /// Next hops on the graph without these links; the same at every node that sees the same links.
+  /// Next hops on the graph without these links; equal at every node that sees the same links.
   virtual NextHops reroute(std::span<const Edge> down) = 0;
 };
 
 enum class SendOutcome : uint8_t {
   taken,
-  full,        // the outbox of the kind: try again after a poll
-  unreachable  // no way leads there
+  full,        // the outbox of this kind is full: try again after a poll
+  unreachable  // no route
 };
 
 class Network {
  public:
-  /// All memory is taken here.
-  /// Errors (exception): a configuration that contradicts itself.
+  /// Allocates all its memory. Errors (exception): an inconsistent configuration.
   Network(const NetConfig& config, Transport& transport, NetHandler& handler, Nanoseconds now);
   ~Network();
   Network(const Network&) = delete;
   Network& operator=(const Network&) = delete;
 
-  /// An id for a message of this node: a question, a flush.
+  /// An id for a message of this node: a request, a flush.
   MessageId next_id();
 
-  /// Gives a message to the network. Its kind follows from the message; an answer carries the id
-  /// of its question, so that its pieces find the room set aside for them.
-  /// Requires: another node than this one (actors here are reached without a network), a message
-  /// that is not of kind link. Errors (exception): a message over its limits.
-  /// `actors`: of this node, and of the destination.
+  /// Queues a message. Its kind follows from its type; an answer carries the id of its request, so
+  /// that its pieces find the room set aside for them. `actors`: the sender on this node and the
+  /// receiver at the destination. Requires: a destination other than this node (local actors need
+  /// no network), a message that is not of kind link. Errors (exception): a message over its
+  /// limits.
   SendOutcome send(NodeId destination, const MessageId& id, const Message& message,
                    SharedBytes payload = {}, ActorPair actors = {});
 
-  /// Takes what has come, lets time pass, moves what can be moved. Never blocks.
-  /// True: there is more to do at once.
+  /// Receives, advances time, and forwards what can be forwarded. Never blocks. Returns true if
+  /// there is more to do at once.
   bool poll(Nanoseconds now);
 
-  /// Sends what was given away since the last poll(), as far as there is room.
+  /// Sends what was queued since the last poll(), as far as there is room.
   void send_out(Nanoseconds now);
 
-  /// When poll() has something to do even if no frame comes: at once after a send().
+  /// When poll() must run even if no frame comes: at once after a send().
   Nanoseconds next_deadline() const;
 
-  /// The room for this message is the handler's again.
+  /// Returns the room of this message to the handler.
   void forget(const MessageId& id, Kind kind) { assembler_.close(id, kind); }
 
-  /// As Codec::take_back.
+  /// See Codec::take_back.
   void take_back(std::vector<uint64_t>&& leases) { codec_.take_back(std::move(leases)); }
 
   /// Tells the neighbours that this node leaves.
   void say_bye();
 
-  // ---- seen from outside
+  // ---- observation
 
   const NetCounters& counters() const { return counters_; }
-  /// Registers all that is counted; `name_of_node` says under which name a neighbour is known.
+  /// Registers all counters; `name_of_node` gives the name of a neighbour.
   void add_metrics(Metrics& metrics, const std::function<std::string(NodeId)>& name_of_node);
-  /// Brings what is told of single links and outboxes up to date: before metrics are published.
+  /// Updates the samples of links and outboxes, before metrics are published.
   void sample();
-  /// Adds what the network of this node takes.
+  /// Adds the memory of a network with this configuration.
   static void plan_memory(MemoryPlan& plan, const NetConfig& config);
 
   LinkPhase phase(NodeId neighbour) const;
-  /// Whether a way leads to a node, as far as is known here: at the start all links are taken to
-  /// work, until they have been tried for LinkTimes::patience.
+  /// Whether a route leads to a node, as far as is known here: at the start all links count as up
+  /// until they have been tried for LinkTimes::patience.
   bool reaches(NodeId node) const { return router_.reaches(node); }
-  /// Why the link to a neighbour is refused, in the words of who refused it; "" where it is not.
+  /// Why the link to a neighbour is refused, in the words of the end that refused; "" if it is not.
   std::string refusal_of(NodeId neighbour) const;
-  /// A neighbour that works for another run, as it has said: refusal_of() has its words.
+  /// A neighbour that has said it works for another run: refusal_of() has its words.
   std::optional<NodeId> taken_elsewhere() const;
   std::vector<NodeId> neighbours() const;
-  /// Whether a neighbour has been accepted whose link does not stand yet: this node is about to
-  /// meet it, perhaps in a new life.
+  /// Whether a neighbour has been accepted whose link is not up yet: this node is about to meet it,
+  /// perhaps in a new incarnation.
   bool meets_neighbour() const;
   uint64_t epoch() const { return view_.epoch(); }
   /// Bytes of the fixed buffers.
@@ -145,7 +145,7 @@ class Network {
  private:
   struct Watched;
   class Here;
-  /// What metrics tell of a link.
+  /// Metrics of a link.
   struct LinkSample {
     uint64_t phase = 0;  // as LinkPhase numbers them
     uint64_t bytes_sent = 0;
@@ -176,11 +176,11 @@ class Network {
   NetHandler& handler_;
   Codec codec_;
   NetCounters counters_;
-  std::vector<std::byte> scratch_;  // of a message being made
+  std::vector<std::byte> scratch_;  // for the message being made
   std::vector<Link> links_;
-  std::vector<Watched> watched_;  // by link: what was last seen of it
+  std::vector<Watched> watched_;  // by link: its last known state
   std::vector<LinkSample> link_samples_;
-  std::array<uint64_t, routed_kinds.size()> outbox_samples_{};  // messages that wait, by kind
+  std::array<uint64_t, routed_kinds.size()> outbox_samples_{};  // messages waiting, by kind
   LinkView view_;
   Assembler assembler_;
   std::unique_ptr<Router::Destination> here_;
@@ -188,7 +188,7 @@ class Network {
   uint64_t sequence_ = 0;
   Nanoseconds next_beat_;
   OnceAMinute log_lag_;
-  bool given_ = false;  // messages since the last poll, which have not left yet
+  bool given_ = false;  // messages were queued since the last poll and have not left yet
 };
 
 }  // namespace luxodus

@@ -1,4 +1,4 @@
-// What a network tells of itself: counters, links, outboxes, and the memory it takes.
+// Metrics of a network: counters, links, outboxes, and the memory it takes.
 #include <fmt/core.h>
 
 #include "runtime/net/network.hpp"

@@ -6,7 +6,7 @@
 namespace luxodus {
 
 namespace {
-/// Heads of frequent messages are below this [bytes]; longer ones grow their slot once.
+/// Heads of frequent messages are shorter [bytes]; a longer one grows its slot once.
 constexpr size_t usual_head_bytes = 256;
 }  // namespace
 

@@ -1,7 +1,7 @@
 // Messages made here that wait for the network: buffer class 0 of one kind. A message is cut into
-// chunks as they are sent; its payload is lent, not copied, and given back with the last chunk.
-// Messages take turns chunk by chunk, so that a small one does not wait for a large one.
-// Thread rule: one node's thread.
+// chunks as they are sent; its payload is shared, not copied, and released with the last chunk.
+// Messages take turns chunk by chunk, so that a small one does not wait for a large one. Thread
+// rule: one node's thread.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace luxodus {
 
-/// Bytes that do not change, and what keeps them alive until they are sent.
+/// Immutable bytes, and the owner that keeps them alive until they are sent.
 struct SharedBytes {
   std::span<const std::byte> bytes;
   std::shared_ptr<const void> owner;
@@ -23,22 +23,22 @@ class Outbox {
  public:
   Outbox(size_t messages, size_t chunk_bytes);
 
-  /// What one takes before heads longer than usual come, for a memory plan.
+  /// Memory of an outbox with heads of usual length, for a memory plan.
   static size_t memory_bytes(size_t messages, size_t chunk_bytes);
 
   bool full() const { return waiting_.size() == slots_.size(); }
   size_t size() const { return waiting_.size(); }
 
-  /// Requires: not full. The head is copied, the payload lent.
+  /// Requires: not full. The head is copied, the payload shared.
   void add(NodeId destination, const MessageId& id, ActorPair actors,
            std::span<const std::byte> head, SharedBytes payload);
 
   NodeId destination(size_t n) const { return slot(n).destination; }
-  /// The next chunk of the nth message: its envelope's fields that the chunk decides, and its
-  /// bytes, valid until the next call. Requires: n < size().
+  /// The next chunk of the nth message: sets the envelope's fields that depend on the chunk, and
+  /// returns its bytes, valid until the next call. Requires: n < size().
   std::span<const std::byte> chunk(size_t n, Envelope& envelope);
-  /// That chunk was sent: the message goes behind the others, or leaves with its last chunk.
-  /// True: it has left.
+  /// That chunk was sent: the message goes behind the others, or leaves after its last chunk.
+  /// Returns true if it has left.
   bool advance(size_t n);
   void drop(size_t n);
 
@@ -57,8 +57,8 @@ class Outbox {
   size_t chunk_bytes_;
   std::vector<Slot> slots_;
   std::vector<size_t> free_;
-  std::vector<size_t> waiting_;  // whose turn is next comes first
-  std::vector<std::byte> seam_;  // a chunk of both head and payload, put together
+  std::vector<size_t> waiting_;  // in the order of turns
+  std::vector<std::byte> seam_;  // a chunk that spans head and payload
 };
 
 }  // namespace luxodus

@@ -9,7 +9,7 @@ namespace luxodus {
 namespace {
 /// Frames moved in one turn: small ones take 0.5 ms.
 constexpr size_t frames_per_turn = 256;
-/// Bytes of them: 16 chunks of 64 KB are 1.3 ms of TCP on one host.
+/// Bytes moved in one turn: 16 chunks of 64 KB are 1.3 ms of TCP on one host.
 constexpr size_t bytes_per_turn = 1 << 20;
 }  // namespace
 
@@ -49,7 +49,7 @@ bool Router::pump(uint64_t epoch, Nanoseconds now) {
   return budget_ == 0;
 }
 
-/// The last frame of a turn may be as long as it is.
+/// The last frame of a turn may exceed the budget.
 void Router::spend(size_t bytes) {
   bytes_left_ -= std::min(bytes, bytes_left_);
   budget_ = bytes_left_ == 0 ? 0 : budget_ - 1;
@@ -57,7 +57,8 @@ void Router::spend(size_t bytes) {
 
 bool Router::pump_kind(Kind kind, Nanoseconds now) {
   bool moved = false;
-  // The highest class first: it is nearest to leaving the network, and frees what others wait for.
+  // The highest class first: it is nearest to leaving the network, and frees buffers that others
+  // wait for.
   for (uint8_t hops = config_.hop_limit; hops >= 1; --hops)
     for (size_t i = 0; i < links_.size(); ++i)
       moved |= step(links_[(first_link_ + i) % links_.size()], kind, hops, now);

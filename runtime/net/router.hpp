@@ -1,20 +1,20 @@
-// Store and forward over next-hop tables: every frame that came and every message made here goes
-// to the neighbour that the table names, or to this node's own actors.
+// Store and forward over next-hop tables: every frame received and every message made here goes to
+// the neighbour that the table names, or to this node's own actors.
 //
-// Why it cannot deadlock. A frame that has passed h links lies in a buffer of class h, and there
-// are buffers of its own for every (link, kind, class); it leaves only for a buffer of class h + 1.
-// Let H be the hop limit. A frame of class H is at its destination or is dropped: its buffer
-// becomes free whatever other frames do. If buffers of class h + 1 always become free again, then
-// their credit comes back, and the frame at the head of any queue of class h can go on: so, by
-// induction from H downwards, buffers of every class become free again, messages made here (class
-// 0) included (Merlin and Schweitzer, "Deadlock avoidance in store-and-forward networks", IEEE
-// Trans. Comm. 28, 1980). Nothing is assumed of the graph or of the tables, which may change at
-// any time and may even loop: hops only grow, and end at H.
+// Why it cannot deadlock. A frame that has passed h links lies in a buffer of class h, and every
+// (link, kind, class) has buffers of its own; a frame leaves only for a buffer of class h + 1. Let
+// H be the hop limit. A frame of class H is at its destination or is dropped: its buffer becomes
+// free whatever other frames do. If buffers of class h + 1 always become free again, then their
+// credit returns, and the frame at the head of any queue of class h can go on. By induction from H
+// downwards, buffers of every class become free again, including messages made here (class 0)
+// (Merlin and Schweitzer, "Deadlock avoidance in store-and-forward networks", IEEE Trans. Comm. 28,
+// 1980). Nothing is assumed of the graph or of the tables, which may change at any time and may
+// even loop: hops only grow, and end at H.
 //
-// What a destination does with a frame must not wait for the network, or the circle closes there.
-// So each kind has buffers of its own: taking a request may wait for room to send a reply; taking
-// a reply waits for nothing (its room was set aside by who asked); a commit waits for the tally
-// alone, control for nothing. And credit returns in link frames, which need none.
+// A destination must not make a frame wait for the network, or there would be a cycle. So each kind
+// has buffers of its own: a request may wait for room to send its reply; a reply waits for nothing
+// (its requester has set room aside); a commit waits only for the tally, and control for nothing.
+// Credit returns in link frames, which need none.
 //
 // Thread rule: one node's thread.
 #pragma once
@@ -30,11 +30,11 @@ namespace luxodus {
 
 class Router {
  public:
-  /// Takes frames whose way ends here.
+  /// Takes frames whose destination is this node.
   class Destination {
    public:
     virtual ~Destination() = default;
-    /// False: not now, ask again.
+    /// False: not now, try again.
     virtual bool take(const Envelope& envelope, std::span<const std::byte> body,
                       Nanoseconds now) = 0;
   };
@@ -49,7 +49,7 @@ class Router {
   Outbox& outbox(Kind kind) { return outboxes_[static_cast<size_t>(kind) - 1]; }
 
   /// Moves what can be moved, urgent kinds first, in turns among links and classes, up to a bound
-  /// that keeps a turn of the node short. True: there may be more to move at once.
+  /// that keeps a turn of the node short. Returns true if there may be more to move at once.
   bool pump(uint64_t epoch, Nanoseconds now);
 
  private:
@@ -63,11 +63,11 @@ class Router {
   NetCounters& counters_;
   std::vector<Link>& links_;
   Destination& here_;
-  std::vector<Link*> next_;  // by destination; null where no way leads
+  std::vector<Link*> next_;  // by destination; null if there is no route
   std::vector<Outbox> outboxes_;
   uint64_t epoch_ = 0;
-  size_t first_link_ = 0;  // whose turn it is to be first
-  size_t budget_ = 0;      // frames that this turn may move
+  size_t first_link_ = 0;  // starts the next round
+  size_t budget_ = 0;      // frames that this turn may still move
   size_t bytes_left_ = 0;
 };
 

@@ -1,7 +1,7 @@
-// The only seam between a node and the wire: frames go to neighbours and come from them, and the
-// node's thread waits here. Promises at most once, and order within a lane of one connection; it
-// does not promise delivery: "taken" means queued. A simulated network replaces this and nothing
-// else. Thread rule: one node's thread, but for wake().
+// The interface between a node and the wire: it sends frames to neighbours, receives theirs, and is
+// where the node's thread waits. Promises at-most-once delivery, and order within a lane of one
+// connection; it does not promise delivery: "taken" means queued. A simulated network replaces only
+// this. Thread rule: one node's thread, except wake().
 #pragma once
 
 #include <cstddef>
@@ -19,15 +19,15 @@ enum class Lane : uint8_t { control = 0, bulk = 1 };
 inline constexpr size_t lanes = 2;
 
 enum class Sent : uint8_t {
-  taken,       // queued: not delivered
+  taken,       // queued, not delivered
   full,        // try again later
   unreachable  // no connection
 };
 
 struct Arrival {
-  NodeId neighbour;  // as the connection names it
+  NodeId neighbour;  // authenticated by the connection
   Lane lane = Lane::control;
-  std::span<const std::byte> bytes;  // until the next call; at any address
+  std::span<const std::byte> bytes;  // valid until the next call; may be unaligned
 };
 
 class Transport {
@@ -38,21 +38,21 @@ class Transport {
   virtual Sent send(NodeId neighbour, Lane lane, std::span<const std::byte> head,
                     std::span<const std::byte> body) = 0;
 
-  /// The neighbour has fallen silent: a connection to it that was begun here begins anew, since the
-  /// old one may take bytes that will never make a frame again. What it held is lost.
+  /// The neighbour is silent: reconnects if the connection was opened here, since the old stream
+  /// may have lost its framing. Frames queued in it are lost.
   virtual void renew(NodeId neighbour) = 0;
 
-  /// The neighbour has refused this node: a connection to it that was begun here ends, until
-  /// renew(). Where another process has this node's name, it would take that one's connection away.
+  /// The neighbour has refused this node: closes a connection that was opened here, until renew().
+  /// If another process uses this node's name, reconnecting would take over its connection.
   virtual void part(NodeId) {}
 
-  /// The next frame that has come, control before bulk; nothing if none has. Never blocks.
+  /// The next frame received, control before bulk; nothing if there is none. Never blocks.
   virtual std::optional<Arrival> receive() = 0;
 
-  /// Waits for a frame, for wake(), or for the moment `until`, whichever is first.
+  /// Waits for a frame, for wake(), or until `until`, whichever is first.
   virtual void wait_until(Nanoseconds until) = 0;
 
-  /// Ends a wait, or the next one if none is under way. Any thread.
+  /// Ends the current wait, or the next one if there is none. Any thread.
   virtual void wake() noexcept = 0;
 };
 

@@ -11,7 +11,8 @@ namespace luxodus {
 
 namespace {
 
-/// Of those turned away one in so many is logged, and the first: a stranger cannot fill the log.
+/// The first and then every hundredth rejected client is logged, so that strangers cannot flood the
+/// log.
 constexpr uint64_t logged_every = 100;
 
 std::string text_key(const std::string& binary) {
@@ -51,8 +52,8 @@ const ZmqContext::Listed* ZmqContext::find(const std::string& binary_key) const 
 }
 
 void ZmqContext::answer_door() {
-  // A socket may move between threads under a full fence, which the mutex is. The descriptor
-  // wakes at changes only, so the door is answered until nobody is left.
+  // A socket may move between threads with a full fence, which the mutex provides. The descriptor
+  // is edge-triggered, so all waiting requests are answered.
   const std::unique_lock lock(door_mutex_, std::try_to_lock);
   if (!lock) return;
   while (answer_one()) {

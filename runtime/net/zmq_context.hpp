@@ -1,7 +1,7 @@
-// What all nodes of a process share of ZeroMQ: the context with its I/O threads, and the door that
-// lets in only clients whose keys are listed (ZAP, https://rfc.zeromq.org/spec/27). It has no
-// thread of its own: every node that polls answers at the door, one at a time.
-// Thread rule: any thread.
+// ZeroMQ state shared by all nodes of a process: the context with its I/O threads, and the
+// authenticator (ZAP, https://rfc.zeromq.org/spec/27), which admits only clients whose keys are
+// listed. It has no thread of its own: every node that polls serves it, one at a time. Thread rule:
+// any thread.
 #pragma once
 
 #include <atomic>
@@ -20,29 +20,29 @@ class socket_t;
 
 namespace luxodus {
 
-/// A client that may come in, and as which node.
+/// A client that is admitted, and its node.
 struct Admitted {
   NodeId node;
   std::string public_key;  // Z85
 };
 
-/// The name under which a node's sockets know each other.
+/// The routing id of a node's sockets.
 std::string routing_id(NodeId node);
 
 class ZmqContext {
  public:
-  /// Two I/O threads: one alone does all encryption of a host.
+  /// Two I/O threads: a single one would do all encryption of a host.
   static constexpr int io_threads_usual = 2;
 
-  /// Errors (exception): a key that is none.
+  /// Errors (exception): an invalid key.
   explicit ZmqContext(const std::vector<Admitted>& admitted, int io_threads = io_threads_usual);
   ~ZmqContext();
 
   zmq::context_t& context() { return *context_; }
 
-  /// Readable when somebody may be at the door.
+  /// Readable when an authentication request may be waiting.
   int door_descriptor() const { return door_descriptor_; }
-  /// Answers whoever is at the door; returns at once if another thread is doing so.
+  /// Answers waiting authentication requests; returns at once if another thread is doing so.
   void answer_door();
 
   uint64_t let_in() const { return let_in_; }

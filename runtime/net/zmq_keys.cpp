@@ -8,7 +8,7 @@
 namespace luxodus {
 
 namespace {
-using KeyText = std::array<char, 41>;  // Z85 and its end
+using KeyText = std::array<char, 41>;  // Z85 and its terminator
 }
 
 KeyPair make_keypair() {

@@ -1,10 +1,10 @@
-// What libzmq does and does not do decides the options (all in set_options): a ROUTER that is not
-// MANDATORY drops frames silently; HANDOVER lets a neighbour that lost its connection take its name
-// again; IMMEDIATE keeps frames from queueing for nobody; TCP_MAXRT ends a connection whose bytes
-// nobody acknowledges. Dead hosts, stuck nodes and streams without sense are found by the beats of
-// Link, sent by the node's own loop, which then has connections begin anew. ZMTP heartbeats stay
-// off: libzmq 4.3.4 writes one to a connection that has gone while its input waited for room or for
-// the door, and aborts ("Assertion failed: !_io_error").
+// libzmq's behaviour decides the options (all in set_options): a ROUTER that is not MANDATORY drops
+// frames silently; HANDOVER lets a neighbour that lost its connection take its name again;
+// IMMEDIATE prevents frames from queueing without a connection; TCP_MAXRT ends a connection whose
+// bytes are not acknowledged. Dead hosts, stuck nodes and streams that have lost their framing are
+// detected by the heartbeats of Link, sent by the node's own loop, which then reconnects. ZMTP
+// heartbeats stay off: libzmq 4.3.4 writes one to a closed connection whose input waited for room
+// or for authentication, and aborts ("Assertion failed: !_io_error").
 #include "runtime/net/zmq_transport.hpp"
 
 #include <sys/eventfd.h>
@@ -29,7 +29,7 @@ namespace {
 /// The longest frame: an envelope and a message, or a chunk, which is no longer.
 constexpr int64_t max_frame_bytes = limits::frame_head_bytes + limits::message_bytes;
 constexpr Nanoseconds reminder_interval = seconds(60);
-/// Between looks at connections made and lost, while the node is busy: idle, it is told at once.
+/// Interval of checks for connections made and lost while the node is busy; an idle node is woken.
 constexpr Nanoseconds look_interval = milliseconds(10);
 
 std::optional<NodeId> node_of(std::string_view name) {
@@ -61,10 +61,10 @@ struct ZmqTransport::LaneSockets {
 
   const char* name;
   zmq::socket_t router;
-  zmq::socket_t monitor;  // tells of connections made and lost
+  zmq::socket_t monitor;  // reports connections made and lost
   zmq::message_t sender;
-  zmq::message_t frame;  // what the last arrival points into
-  /// Endpoints, listened at or connected to, at which a handshake has succeeded.
+  zmq::message_t frame;  // the frame that the last Arrival points into
+  /// Endpoints, bound or connected, at which a handshake has succeeded.
   std::set<std::string> met;
 };
 
@@ -97,12 +97,12 @@ void ZmqTransport::set_options(LaneSockets& lane) {
   s.set(zmq::sockopt::sndhwm, config_.high_water_frames);
   s.set(zmq::sockopt::rcvhwm, config_.high_water_frames);
   s.set(zmq::sockopt::maxmsgsize, max_frame_bytes);
-  s.set(zmq::sockopt::handshake_ivl, 2000);  // [ms], as all below
+  s.set(zmq::sockopt::handshake_ivl, 2000);  // [ms], as below
   s.set(zmq::sockopt::tcp_maxrt, 5000);
   s.set(zmq::sockopt::reconnect_ivl, 100);
   s.set(zmq::sockopt::reconnect_ivl_max, 5000);
 
-  // Sockets of one context share the names of inproc endpoints.
+  // Sockets of one context share the namespace of inproc endpoints.
   const std::string told = "inproc://monitor-" + routing_id(config_.self) + "-" + lane.name;
   constexpr int events = ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_DISCONNECTED |
                          ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL |
@@ -122,7 +122,7 @@ void ZmqTransport::set_options(LaneSockets& lane) {
 Result<std::string> ZmqTransport::secure(LaneSockets& lane, const std::string& endpoint,
                                          bool server, const std::string& server_key) {
   zmq::socket_t& s = lane.router;
-  // Not always: an IPv6 socket calls 127.0.0.1 by another name.
+  // Only then: an IPv6 socket has another name for 127.0.0.1.
   s.set(zmq::sockopt::ipv6, endpoint.starts_with("tcp://["));
   const bool curve = config_.keys && !config_.insecure && !is_inproc(endpoint);
   if (!curve) {
@@ -136,7 +136,7 @@ Result<std::string> ZmqTransport::secure(LaneSockets& lane, const std::string& e
     s.set(zmq::sockopt::curve_server, false);  // back to no mechanism
     return endpoint;
   }
-  // Options hold for endpoints bound or connected from now on, so one socket can be both.
+  // Options apply to endpoints bound or connected from now on, so one socket can be both.
   if (server) {
     s.set(zmq::sockopt::curve_server, true);
     s.set(zmq::sockopt::curve_secretkey, config_.keys->secret_key);
@@ -174,7 +174,8 @@ Result<Endpoints> ZmqTransport::connect(NodeId neighbour, const Endpoints& where
     try {
       const auto secured = secure(sockets, *endpoint, false, server_key);
       if (!secured) return secured.problem();
-      // inproc takes the name from here; the others from the neighbour, who says it on connection.
+      // inproc takes the name from here; other transports receive it from the neighbour on
+      // connection.
       if (is_inproc(*endpoint))
         sockets.router.set(zmq::sockopt::connect_routing_id, routing_id(neighbour));
       sockets.router.connect(*endpoint);
@@ -186,8 +187,8 @@ Result<Endpoints> ZmqTransport::connect(NodeId neighbour, const Endpoints& where
   return where;
 }
 
-/// What a network has harmed may have been the length of a frame: the rest of the stream is then
-/// taken for its bytes, and no end of it notices.
+/// A corrupted frame length makes the rest of the stream look like its body, and neither end
+/// notices.
 void ZmqTransport::renew(NodeId neighbour) {
   const auto found = connected_.find(neighbour);
   if (found == connected_.end() || is_inproc(found->second.where.control)) return;
@@ -203,7 +204,7 @@ void ZmqTransport::part(NodeId neighbour) {
   const Endpoints& where = found->second.where;
   for (const auto& [lane, endpoint] :
        {std::pair{Lane::control, &where.control}, std::pair{Lane::bulk, &where.bulk}})
-    // It may have ended by itself, which is as good.
+    // It may have ended already.
     zmq_disconnect(lanes_[static_cast<size_t>(lane)]->router.handle(), endpoint->c_str());
 }
 
@@ -219,7 +220,7 @@ Sent ZmqTransport::send(NodeId neighbour, Lane lane, std::span<const std::byte> 
   std::memcpy(frame.data(), head.data(), head.size());
   if (!body.empty())
     std::memcpy(static_cast<std::byte*>(frame.data()) + head.size(), body.data(), body.size());
-  // Room was made sure of with the name; what can still happen is that the connection has gone.
+  // Room was checked with the name; only the connection may have gone since.
   if (zmq_msg_send(frame.handle(), router, ZMQ_DONTWAIT) < 0) return Sent::unreachable;
   return Sent::taken;
 }
@@ -231,8 +232,8 @@ std::optional<Arrival> ZmqTransport::receive() {
   return std::nullopt;
 }
 
-/// At what is not frames. Each of the sockets it asks costs system calls, and a node that traces
-/// takes a turn every millisecond.
+/// Checks everything but frames. Each socket costs system calls, and a busy node takes a turn every
+/// millisecond.
 void ZmqTransport::look_around() {
   look_at_ = clock_.now() + look_interval;
   context_.answer_door();
@@ -251,7 +252,8 @@ std::optional<Arrival> ZmqTransport::receive_from(Lane lane) {
     }
     const std::string_view name = sockets.sender.to_string_view();
     const auto node = node_of(name);
-    // By CURVE the door has said whose key it was; a key may speak for its own node alone.
+    // With CURVE, the authenticator has set User-Id to the key's node; a key may speak only for its
+    // own node.
     const char* proven = parts == 1 ? zmq_msg_gets(sockets.frame.handle(), "User-Id") : nullptr;
     const bool honest = proven == nullptr || *proven == '\0' || name == proven;
     if (parts == 1 && node && honest)
@@ -263,8 +265,8 @@ std::optional<Arrival> ZmqTransport::receive_from(Lane lane) {
 }
 
 void ZmqTransport::wait_until(Nanoseconds until) {
-  // A second at most, so that nobody's word is waited for when no frame comes. Setting the timer
-  // forgets that it fired before.
+  // One second at most, so that other work is not delayed when no frame comes. Setting the timer
+  // clears an earlier expiry.
   const Nanoseconds left = std::clamp<Nanoseconds>(until - clock_.now(), 0, seconds(1));
   const itimerspec timer{{}, {left / seconds(1), left % seconds(1)}};
   if (left > 0) ::timerfd_settime(timer_descriptor_, 0, &timer, nullptr);
@@ -278,10 +280,10 @@ void ZmqTransport::wait_until(Nanoseconds until) {
       {nullptr, timer_descriptor_, ZMQ_POLLIN, 0},
   };
   zmq_poll(items, static_cast<int>(std::size(items)),
-           left > 0 ? -1 : 0);  // a signal ends a wait, too
+           left > 0 ? -1 : 0);  // a signal also ends the wait
   if ((items[5].revents & ZMQ_POLLIN) != 0) {
     uint64_t wakes = 0;
-    (void)!::read(wake_descriptor_, &wakes, sizeof wakes);  // nothing to read is as good
+    (void)!::read(wake_descriptor_, &wakes, sizeof wakes);  // nothing to read is fine
   }
   const auto came = [](const zmq_pollitem_t& item) { return (item.revents & ZMQ_POLLIN) != 0; };
   if (std::any_of(items + 2, items + 5, came)) look_around();
@@ -323,8 +325,8 @@ void ZmqTransport::take_event(Lane lane) {
               "node's public key, and start it again");
         break;
       case ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL:
-        // A node that leaves breaks off the handshakes of those who connect to it again. Keys that
-        // were right there once still are; one that is wrong at its own end is told of there.
+        // A node that leaves breaks off handshakes of peers that reconnect to it. Keys that were
+        // right at this endpoint still are; a wrong key is reported at its own end.
         if (sockets.met.count(where.to_string()) > 0) {
           ++counters_.broken_off;
           break;

@@ -1,9 +1,8 @@
-// Frames over ZeroMQ: one ROUTER for what is urgent and one for bulk, over inproc, ipc and tcp.
-// Beyond loopback links are encrypted and both ends proven by CURVE keys; without keys such an
-// endpoint is refused, unless `insecure` is spelled out, which is then logged every minute.
-// Of two neighbours the one with the larger number connects; libzmq connects again by itself, but
-// not over inproc, whose nodes live and die together.
-// Thread rule: one node's thread, but for wake().
+// Frames over ZeroMQ: one ROUTER for urgent frames and one for bulk, over inproc, ipc and tcp.
+// Beyond loopback, links are encrypted and both ends authenticated by CURVE keys; without keys such
+// an endpoint is rejected, unless `insecure` is set, which is then logged every minute. Of two
+// neighbours the one with the larger number connects; libzmq reconnects by itself, but not over
+// inproc, whose nodes share one process. Thread rule: one node's thread, except wake().
 #pragma once
 
 #include <array>
@@ -21,7 +20,7 @@
 
 namespace luxodus {
 
-/// Where a node listens: an endpoint per lane, as ZeroMQ writes them.
+/// Where a node listens: one endpoint per lane, in ZeroMQ's syntax.
 struct Endpoints {
   std::string control;
   std::string bulk;
@@ -34,9 +33,9 @@ struct ZmqConfig {
   NodeId self;
   std::optional<KeyPair> keys = std::nullopt;
   bool insecure = false;
-  /// Frames that a neighbour's queue holds, each way. Credit allows 5 classes x 2 kinds x 4 long
-  /// ones; what makes this many is frames of less than 0.6 KB, which then wait a beat. It bounds
-  /// what a neighbour costs that does not keep to credit: 4096 x 64 KB.
+  /// High-water mark of a neighbour's queue, each way [frames]. Credit allows 5 classes x 2 kinds x
+  /// 4 long frames; only frames shorter than 0.6 KB reach this many, and then wait a beat. It
+  /// bounds the memory for a neighbour that ignores credit: 4096 x 64 KB.
   int high_water_frames = 4096;
 };
 
@@ -45,8 +44,8 @@ struct ZmqCounters {
   uint64_t disconnected = 0;
   uint64_t refused_us = 0;        // the other end does not list our key
   uint64_t handshake_failed = 0;  // not our protocol, or a wrong server key
-  uint64_t broken_off = 0;        // by an end that leaves, where others have succeeded
-  uint64_t strangers = 0;         // frames of senders that are no nodes, or not who they say
+  uint64_t broken_off = 0;        // by a leaving end, after others have succeeded
+  uint64_t strangers = 0;         // frames of senders that are no nodes, or not who they claim
 };
 
 class ZmqTransport final : public Transport {
@@ -55,11 +54,11 @@ class ZmqTransport final : public Transport {
   ZmqTransport(ZmqContext& context, const ZmqConfig& config, const Clock& clock);
   ~ZmqTransport() override;
 
-  /// Listens; several times if a node has links of several kinds. Ports may be "*".
-  /// Errors: an endpoint that is taken or none; one beyond the host without keys.
+  /// Listens; call it several times if a node has links of several kinds. Ports may be "*". Errors:
+  /// an endpoint that is in use or invalid; one beyond this host without keys.
   Result<Endpoints> listen(const Endpoints& where);
-  /// Connects to a neighbour with a smaller number, now or when it is there.
-  /// Requires: its public key where it has keys. Errors: as listen().
+  /// Connects to a neighbour with a smaller number, now or when it appears. Requires: its public
+  /// key if it has keys. Errors: those of listen().
   Result<Endpoints> connect(NodeId neighbour, const Endpoints& where,
                             const std::string& server_key = {});
 
@@ -75,7 +74,7 @@ class ZmqTransport final : public Transport {
 
  private:
   struct LaneSockets;
-  /// Where a neighbour was connected to, and whom to expect there.
+  /// A neighbour's endpoints and expected key.
   struct Connected {
     Endpoints where;
     std::string server_key;
@@ -98,8 +97,8 @@ class ZmqTransport final : public Transport {
   std::vector<std::string> names_;  // routing ids of nodes met, by number
   ZmqCounters counters_;
   int wake_descriptor_ = -1;
-  int timer_descriptor_ = -1;  // waits end on time: a poll counts whole milliseconds
-  bool open_to_all_ = false;   // listens or connects beyond the host without keys
+  int timer_descriptor_ = -1;  // zmq_poll counts whole milliseconds; this ends waits on time
+  bool open_to_all_ = false;   // listens or connects beyond this host without keys
   Nanoseconds look_at_ = 0;
   Nanoseconds remind_at_ = 0;
 };

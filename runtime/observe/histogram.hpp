@@ -1,9 +1,9 @@
-// How long things took: counts of durations in bins of two significant digits (1.0, 1.1 ... 9.9
-// times a power of ten) from 1 us to 100 s, so that any of them is known to within a tenth of
-// itself, and two histograms add up to what one would have counted. 5.8 KB; counting takes no
-// memory. Count the delay since the moment a thing was due, not since it was begun: a stalled
-// program begins late, and would leave its worst delays out ("coordinated omission").
-// Written by one thread; a copy is a plain value.
+// A histogram of durations, in bins of two significant digits (1.0, 1.1 ... 9.9 times a power of
+// ten) from 1 us to 100 s: every duration is known to within a tenth, and merging two histograms
+// gives the same as counting in one. 5.8 KB; counting allocates nothing. Count delays from the
+// moment an event was due, not from its start: a stalled program starts late, and would omit its
+// worst delays ("coordinated omission"). Thread rule: written by one thread; a copy is a plain
+// value.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ class Histogram {
  public:
   /// Counts one duration; a negative one counts as zero.
   void add(Nanoseconds duration);
-  /// Adds all that `other` counted.
+  /// Adds the counts of `other`.
   void merge(const Histogram& other);
 
   uint64_t count() const { return count_; }
@@ -26,15 +26,15 @@ class Histogram {
   Nanoseconds least() const { return least_; }
   Nanoseconds most() const { return most_; }
 
-  /// The duration that a share of `quantile` of all did not pass, rounded up to the end of its bin,
-  /// but never above most(); 0 where nothing was counted. Requires: 0 <= quantile <= 1.
+  /// The quantile, rounded up to the end of its bin, but never above most(); 0 if nothing was
+  /// counted. Requires: 0 <= quantile <= 1.
   Nanoseconds at(double quantile) const;
 
  private:
   static constexpr Nanoseconds lowest = microseconds(1);
   static constexpr size_t decades = 8;
   static constexpr size_t bins_per_decade = 90;  // leading digits 10 to 99
-  // One bin below 1 us, and one from 100 s.
+  // Plus one bin below 1 us, and one from 100 s.
   static constexpr size_t bins = decades * bins_per_decade + 2;
 
   static size_t bin_of(Nanoseconds duration);

@@ -21,7 +21,7 @@ bool is_name(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), plain);
 }
 
-/// As the text format wants what stands in quotes, or behind HELP.
+/// Escapes text for quotes and HELP lines of the text format.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {

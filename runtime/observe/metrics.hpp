@@ -1,8 +1,8 @@
-// What a node counts, for people who watch it. Counting is an addition to a plain integer of the
-// part that counts; this registry only knows where those integers stand and what they mean. The
-// node publishes them now and then by copying them under a lock that it tries and never waits for;
-// others read the copy. Registered at start; publishing takes no memory.
-// Thread rule: add_* and publish() on the node's thread, published() on any.
+// Metrics of a node. Counting means adding to a plain integer of the part that counts; this
+// registry only knows where those integers are and what they mean. The node publishes them now and
+// then by copying them under a lock that it only tries and never waits for; others read the copy.
+// Registered at start; publishing allocates nothing. Thread rule: add_* and publish() on the node's
+// thread, published() on any.
 #pragma once
 
 #include <cstdint>
@@ -14,35 +14,35 @@
 
 namespace luxodus {
 
-/// What a number means. Its full name is luxodus_<name>[_<unit>], with _total for a counter, as
-/// Prometheus wants it.
+/// Describes a number. Its full name is luxodus_<name>[_<unit>], with _total for a counter, by
+/// Prometheus' convention.
 struct MetricInfo {
-  std::string name;    // "fetches": small letters, digits, '_'
-  std::string unit;    // "bytes", "seconds"; "" for what is only counted
+  std::string name;    // "fetches": lower case letters, digits, '_'
+  std::string unit;    // "bytes", "seconds"; "" for plain counts
   std::string help;    // one sentence
-  std::string labels;  // "hops=\"2\"", told apart within one name; mostly ""
+  std::string labels;  // "hops=\"2\"", distinguishes entries of one name; mostly ""
 };
 
 class Metrics {
  public:
-  /// `node` is the value of the label that tells the nodes of a run apart.
+  /// `node` is the value of the label that distinguishes the nodes of a run.
   explicit Metrics(std::string node);
 
   const std::string& node() const { return node_; }
 
-  /// A number that only grows. The references must outlive this.
+  /// A number that only grows. The reference must outlive this.
   void add_counter(MetricInfo info, const uint64_t& value);
   /// A number that goes up and down.
   void add_gauge(const MetricInfo& info, const uint64_t& value);
   /// Durations; shown in seconds, as quantiles, sum and count.
   void add_histogram(MetricInfo info, const Histogram& value);
 
-  /// Makes what stands in the numbers now visible to others; false, and nothing is changed, while
-  /// somebody reads.
+  /// Copies the current numbers for readers. Returns false, and changes nothing, while someone
+  /// reads.
   bool publish();
 
-  /// What was published last, in Prometheus' text format 0.0.4, of all `nodes`: the numbers of one
-  /// name stand together. Any thread.
+  /// The numbers published last by all `nodes`, in Prometheus' text format 0.0.4, grouped by name.
+  /// Any thread.
   static std::string published(const std::vector<const Metrics*>& nodes);
 
  private:
@@ -51,7 +51,7 @@ class Metrics {
     Kind kind;
     std::string full_name;
     std::string help;
-    std::string labels;  // with the node's
+    std::string labels;  // including the node's
     size_t index;        // in the list of its kind
   };
   struct Values {

@@ -7,7 +7,7 @@ namespace luxodus {
 
 namespace {
 
-/// What is left of a line, taken from its front.
+/// The rest of a line; parts are taken from its front.
 class Rest {
  public:
   explicit Rest(std::string_view text) : text_(text) {}
@@ -28,7 +28,7 @@ class Rest {
     text_.remove_prefix(end);
     return taken;
   }
-  /// What stands up to a quote, which is taken off too; nothing where there is none.
+  /// Takes the text up to the closing quote, and the quote; nothing if there is no quote.
   std::optional<std::string> quoted() {
     std::string value;
     while (!text_.empty()) {

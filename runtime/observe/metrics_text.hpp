@@ -1,6 +1,6 @@
-// Reads pages of numbers as metrics.hpp writes them, in Prometheus' text format 0.0.4. A page comes
-// from another machine: lines that are no samples are passed over, a number is a number or is
-// not there, and nothing is believed beyond that. Plain values; any thread.
+// Parses pages of metrics as metrics.hpp writes them, in Prometheus' text format 0.0.4. A page
+// comes from another machine and is not trusted: lines that are no valid samples are skipped. Plain
+// values; any thread.
 #pragma once
 
 #include <map>
@@ -12,7 +12,8 @@
 namespace luxodus {
 
 namespace limits {
-/// Samples of one page: a node has some 150 and 10 for each link, a process at most 64 nodes.
+/// Most samples of one page: a node has about 150 plus 10 for each link, a process at most 64
+/// nodes.
 inline constexpr size_t metric_samples = 200'000;
 }  // namespace limits
 
@@ -21,11 +22,11 @@ struct MetricSample {
   std::map<std::string, std::string, std::less<>> labels;
   double value = 0;
 
-  /// The label's value; "" where it has none.
+  /// The label's value; "" if it has none.
   std::string_view label(std::string_view key) const;
 };
 
-/// One line; nothing where it is a comment, blank, or no sample.
+/// Parses one line; nothing for a comment, a blank line, or an invalid sample.
 std::optional<MetricSample> parse_metric(std::string_view line);
 
 /// All samples of a page, up to the limit.

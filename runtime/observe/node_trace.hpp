@@ -1,7 +1,7 @@
-// The trace of one node: what became of its sampled particles, written with the node's clock.
-// Whoever has something to tell holds a pointer, null where nothing is traced, and asks wants()
-// first. Spans are told apart by an id: a particle's spans bear its own, a fetch's that of its
-// question, so that they nest and join as chrome_trace() says. Thread rule: the node's thread.
+// The trace of one node: what its sampled particles did, with times of the node's clock. A part
+// that traces holds a pointer, null if tracing is off, and asks wants() first. Spans are
+// distinguished by an id: a particle's spans have its own, a fetch's that of its request, so that
+// they nest and join as chrome_trace() explains. Thread rule: the node's thread.
 #pragma once
 
 #include <string>
@@ -14,17 +14,17 @@ namespace luxodus {
 enum class TraceKind : uint32_t {
   particle,  // id: the particle, arg: its batch; from its birth to its end
   wait,      // id: the particle, arg: the object that it waits for
-  fetch,     // id: of the question, arg: the object
+  fetch,     // id: of the request, arg: the object
   build,     // id: of the object, arg: the object; until it is ready
-  batch,     // id: the lease, arg: the batch; of batches with a sampled particle
+  batch,     // id: the lease, arg: the batch; only of batches with a sampled particle
   flush,     // id: of the flush, arg: its bytes
 };
-/// By number, for chrome_trace().
+/// Names by number, for chrome_trace().
 const std::vector<std::string>& trace_kind_names();
 
 class NodeTrace {
  public:
-  /// No particle: what is traced for all of a batch.
+  /// No particle: for events of a whole batch.
   static constexpr uint64_t nobody = UINT64_MAX;
 
   NodeTrace(NodeId node, size_t events, uint64_t every, const Clock& clock)
@@ -46,7 +46,7 @@ class NodeTrace {
   void put(TraceKind kind, uint64_t id, uint64_t arg, TracePhase phase) {
     ring_.record({clock_.now(), unique(kind, id), arg, static_cast<uint32_t>(kind), phase});
   }
-  /// Leases and objects are numbered as particles are: apart from them by kind, and by node.
+  /// Numbers of leases and objects may equal those of particles: kind and node make them unique.
   uint64_t unique(TraceKind kind, uint64_t id) const {
     if (kind != TraceKind::batch && kind != TraceKind::build) return id;
     return (static_cast<uint64_t>(kind) + 1) << 60 | uint64_t{node_.value} << 44 | id;

@@ -11,7 +11,7 @@ namespace luxodus {
 
 namespace {
 
-/// Names stand in the JSON as they are.
+/// Names are written into the JSON unescaped.
 bool needs_no_escape(const std::string& name) {
   return std::none_of(name.begin(), name.end(), [](char c) {
     return c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20;
@@ -25,7 +25,7 @@ std::string event_json(NodeId node, const TraceEvent& event, const std::string& 
   if (event.phase == TracePhase::moment)
     return fmt::format(R"({{"ph":"i","s":"t",{},"args":{{"id":"{:#x}","arg":{}}}}})", common,
                        event.id, event.arg);
-  // A global id joins the spans of one request, whichever nodes (here: processes) they are on.
+  // A global id joins the spans of one request across nodes (here: processes).
   return fmt::format(
       R"({{"ph":"{}","cat":"request","id2":{{"global":"{:#x}"}},{},"args":{{"arg":{}}}}})",
       event.phase == TracePhase::begin ? 'b' : 'e', event.id, common, event.arg);

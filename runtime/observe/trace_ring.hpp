@@ -1,7 +1,8 @@
-// What happened last, event by event, for ui.perfetto.dev: a ring of 32-byte records that is always
-// on for the particles whose id the sample divides, so that a run can be repeated and its trace
-// with it. Recording takes no memory and forgets the oldest. Spans of one request id join up across
-// nodes and hosts. Written by one node; dumped on its thread, or when it has stopped.
+// A ring buffer of the last trace events, for ui.perfetto.dev: 32-byte records, always on for
+// particles whose id is a multiple of the sampling interval, so that a repeated run gives the same
+// trace. Recording allocates nothing and overwrites the oldest event. Spans of one request id join
+// across nodes and hosts. Thread rule: written by one node; read on its thread, or after it has
+// stopped.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +17,14 @@ namespace luxodus {
 
 enum class TracePhase : uint32_t {
   moment,  // a point on the node's track
-  begin,   // of a span that is told apart by its id
+  begin,   // of a span, which its id identifies
   end,
 };
 
 struct TraceEvent {
   Nanoseconds at = 0;
   uint64_t id = 0;   // the request, or the particle
-  uint64_t arg = 0;  // what the kind says it is
+  uint64_t arg = 0;  // meaning depends on the kind
   uint32_t kind = 0;
   TracePhase phase = TracePhase::moment;
 };
@@ -31,7 +32,7 @@ static_assert(sizeof(TraceEvent) == 32);
 
 class TraceRing {
  public:
-  /// The last `events` are kept. Particles with id % every == 0 are wanted; none where it is 0.
+  /// Keeps the last `events`. Samples particles with id % every == 0; none if `every` is 0.
   TraceRing(size_t events, uint64_t every) : events_(events), every_(every) {}
 
   bool wants(uint64_t particle) const { return every_ != 0 && particle % every_ == 0; }
@@ -44,7 +45,7 @@ class TraceRing {
   }
 
   uint64_t recorded() const { return recorded_; }
-  /// What is kept, the oldest first.
+  /// The events in the ring, the oldest first.
   std::vector<TraceEvent> kept() const;
 
  private:
@@ -54,7 +55,7 @@ class TraceRing {
   uint64_t recorded_ = 0;
 };
 
-/// One node's part of a picture.
+/// One node's part of a trace.
 struct TraceTrack {
   NodeId node;
   std::vector<TraceEvent> events;

@@ -1,5 +1,5 @@
-// A simulated node's clock: within a turn it moves only by what is charged for work.
-// Thread rule: the simulation's thread.
+// A simulated node's clock: within a turn it advances only by the work charged. Thread rule: the
+// simulation's thread.
 #pragma once
 
 #include <algorithm>
@@ -10,27 +10,27 @@
 
 namespace luxodus {
 
-/// What a simulated node is charged for.
+/// Kinds of work that a simulated node is charged for.
 enum class Spent : uint8_t { other, tracing, building, frames, resting };
 
 class SimClock final : public Clock {
  public:
   Nanoseconds now() const override { return now_; }
   Nanoseconds processor() const override { return busy_; }
-  /// The world's time has come to this node; it may be ahead, busy with what it was charged for.
+  /// Advances to the world's time; the clock may be ahead while the node is busy with charged work.
   void reach(Nanoseconds moment) { now_ = std::max(now_, moment); }
-  /// Work that takes so long on a machine of this node's speed.
+  /// Charges work of this duration on a machine of speed 1.
   void charge(Nanoseconds work, Spent what = Spent::other) {
     const auto taken = static_cast<Nanoseconds>(slowness_ * static_cast<double>(work));
     now_ += taken;
     busy_ += taken;
     by_work_[static_cast<size_t>(what)] += taken;
   }
-  /// All that was charged so far, as long as it took.
+  /// All charged time so far.
   Nanoseconds busy() const { return busy_; }
-  /// Of that, for work of one kind.
+  /// Charged time of one kind of work.
   Nanoseconds busy(Spent what) const { return by_work_[static_cast<size_t>(what)]; }
-  /// 1: as fast as what costs were measured on.
+  /// 1: as fast as the machine on which costs were measured.
   void set_slowness(double factor) { slowness_ = factor; }
 
  private:

@@ -11,7 +11,7 @@ namespace luxodus {
 struct SimWorld::Frame {
   Way* way = nullptr;
   Lane lane = Lane::control;
-  uint64_t connection = 0;  // of the way when it was sent
+  uint64_t connection = 0;  // of the way when the frame was sent
   bool ghost = false;       // outlives its connection
   std::vector<std::byte> bytes;
 };
@@ -19,12 +19,12 @@ struct SimWorld::Frame {
 /// An ordered pair of neighbours.
 struct SimWorld::Way {
   NodeId from, to;
-  uint64_t connection = 0;      // how many there were; both ways of a link agree
-  Nanoseconds connects_at = 0;  // until then there is none
+  uint64_t connection = 0;      // number of connections so far; both ways of a link agree
+  Nanoseconds connects_at = 0;  // until then there is no connection
   Nanoseconds clogged_until = 0;
   Nanoseconds cut_until = 0;
-  Nanoseconds free_at = 0;                // the wire, by its bandwidth
-  std::array<Nanoseconds, lanes> last{};  // when the frame before arrives: order within a lane
+  Nanoseconds free_at = 0;                // when the wire is free, by its bandwidth
+  std::array<Nanoseconds, lanes> last{};  // arrival of the previous frame: order within a lane
   size_t queued_bytes = 0;
 };
 
@@ -34,7 +34,7 @@ struct SimWorld::Event {
   uint64_t sequence = 0;
   Kind kind = Kind::turn;
   uint32_t subject = 0;  // node, slot or fault
-  uint64_t ticket = 0;   // of a turn: only the last one that was asked for counts
+  uint64_t ticket = 0;   // of a turn: only the last one requested counts
 
   static bool later(const Event& a, const Event& b) {
     return a.at != b.at ? a.at > b.at : a.sequence > b.sequence;
@@ -45,7 +45,7 @@ struct SimWorld::Node {
   NodeId id;
   SimClock clock;
   std::unique_ptr<Port> port;
-  std::unique_ptr<SimNode> node;  // null: crashed, or it has left
+  std::unique_ptr<SimNode> node;  // null: crashed, or has left
   bool left = false;
   uint32_t life = 0;
   Nanoseconds paused_until = 0;
@@ -63,7 +63,7 @@ class SimWorld::Port final : public Transport {
             std::span<const std::byte> body) override {
     return world_.send(node_.id, neighbour, lane, head, body);
   }
-  void renew(NodeId) override {}  // frames come whole or not at all
+  void renew(NodeId) override {}  // frames are never torn
   std::optional<Arrival> receive() override {
     for (const Lane lane : {Lane::control, Lane::bulk}) {
       auto& queue = node_.inbox[static_cast<size_t>(lane)];
@@ -84,7 +84,7 @@ class SimWorld::Port final : public Transport {
  private:
   SimWorld& world_;
   Node& node_;
-  std::pair<NodeId, std::vector<std::byte>> given_;  // what the last arrival points into
+  std::pair<NodeId, std::vector<std::byte>> given_;  // the frame that the last Arrival points into
 };
 
 SimWorld::SimWorld(const SimSetup& setup)
@@ -181,14 +181,14 @@ bool SimWorld::step() {
   return false;
 }
 
-/// Faults whose moment is a number of events.
+/// Begins faults that are triggered by a number of events.
 void SimWorld::begin_counted() {
   for (uint32_t i = 0; i < setup_.plan.faults.size(); ++i)
     if (setup_.plan.faults[i].after_events == counters_.events)
       push({now_, 0, Event::Kind::fault_begins, i, 0});
 }
 
-/// Has the node's next turn no later than `at`, as soon as it is free.
+/// Schedules the node's next turn at `at` or earlier, as soon as it is free.
 void SimWorld::wake(Node& node, Nanoseconds at) {
   if (node.node == nullptr) return;
   at = std::max({at, now_, node.clock.now(), node.paused_until});
@@ -197,7 +197,7 @@ void SimWorld::wake(Node& node, Nanoseconds at) {
   push({at, 0, Event::Kind::turn, node.id.value, ++node.ticket});
 }
 
-/// The core of the node's machine that is free first; null where there is one for every node.
+/// The core of the node's machine that is free first; null if every node has one of its own.
 Nanoseconds* SimWorld::free_core(const Node& node) {
   if (cores_.empty()) return nullptr;
   std::vector<Nanoseconds>& cores = cores_[setup_.hosts[node.id.value]];
@@ -363,7 +363,7 @@ void SimWorld::begin(const Fault& fault) {
     case Fault::Kind::full_disk:
     case Fault::Kind::failed_read:
     case Fault::Kind::failure:
-      return;  // its stores and its supervisor look at the plan
+      return;  // the node's stores and supervisor consult the plan
   }
 }
 
@@ -379,7 +379,7 @@ void SimWorld::crash(Node& node) {
   if (node.node == nullptr) return;
   ++counters_.crashes;
   std::unique_ptr<SimNode> dying = std::move(node.node);
-  dying->die();  // what it sends finds no sender
+  dying->die();  // its messages are dropped
   node.inbox = {};
   ++node.ticket;
   node.turn_at = never;

@@ -1,12 +1,12 @@
-// A world of one thread in which many nodes run: virtual time, links that do what a fault plan
-// says, nodes that crash and begin anew. The nodes run the production code; they reach this world
-// by two of their seams, Clock and Transport. One seed, one run: events come in the order of (time,
-// sequence), all chance is drawn from the seed, and the hash of all events tells whether two runs
-// were the same.
+// A simulated world of many nodes on one thread: virtual time, links that follow a fault plan,
+// nodes that crash and restart. The nodes run the production code; the world replaces only Clock
+// and Transport. Runs are reproducible from the seed: events come in the order of (time, sequence),
+// all random numbers derive from the seed, and a hash of all events tells whether two runs were
+// equal.
 //
-// Simulated links lose what real ones lose: a frame that was taken is on its way, not delivered. It
-// is gone when the connection breaks, when either end crashes, when a link is cut. Thread rule: one
-// thread.
+// Simulated links lose what real ones lose: a frame taken by the transport is in flight, not
+// delivered. It is lost when the connection breaks, when either end crashes, or when the link is
+// cut. Thread rule: one thread.
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ class SimNode {
   virtual Nanoseconds turn() = 0;
   /// Whether it has left for good.
   virtual bool finished() const = 0;
-  /// It is about to be destroyed in the middle of its work: fibers have to return. What it sends
-  /// from here on is lost.
+  /// Called before it is destroyed in the middle of its work: its fibers must return. Messages sent
+  /// from here on are lost.
   virtual void die() = 0;
 };
 
@@ -40,22 +40,22 @@ struct SimSetup {
   uint16_t nodes = 0;
   std::vector<Edge> edges;
   FaultPlan plan;
-  Nanoseconds turn_cost = microseconds(1);   // of a turn by itself, so that time passes
-  Nanoseconds frame_cost = microseconds(2);  // of taking in a frame
+  Nanoseconds turn_cost = microseconds(1);   // of an empty turn, so that time passes
+  Nanoseconds frame_cost = microseconds(2);  // of receiving a frame
   Nanoseconds send_cost = 0;                 // of giving a frame to a link
   double byte_cost_ns = 0;                   // of each byte of a frame, at either end
-  Nanoseconds wake_cost = 0;  // until a node that rests sees what has come: the system's part
-  Nanoseconds rest_cost = 0;  // of going to rest and waking again, on the node's processor
-  Nanoseconds reconnect = milliseconds(100);  // until a broken connection stands again
-  /// Machines: nodes of one share its cores, each a turn at a time. By node; empty: to each its
-  /// own.
+  Nanoseconds wake_cost = 0;  // operating system's delay until an idle node sees an arrival
+  Nanoseconds rest_cost = 0;  // CPU time of going idle and waking again
+  Nanoseconds reconnect = milliseconds(100);  // until a broken connection is restored
+  /// Machine of each node: nodes of one machine share its cores, each for a turn at a time. Empty:
+  /// each node has a machine of its own.
   std::vector<uint16_t> hosts;
-  uint32_t cores = 0;  // of each machine; 0: one for every node
+  uint32_t cores = 0;  // per machine; 0: one for every node
 };
 
 class SimWorld {
  public:
-  /// Makes a node for its n-th life, 0 at first.
+  /// Makes a node for its n-th life, counted from 0.
   using MakeNode = std::function<std::unique_ptr<SimNode>(NodeId node, uint32_t life)>;
 
   explicit SimWorld(const SimSetup& setup);
@@ -64,34 +64,34 @@ class SimWorld {
   SimClock& clock(NodeId node);
   Transport& transport(NodeId node);
 
-  /// Makes all nodes. Requires: once.
+  /// Makes all nodes. Requires: called once.
   void start(MakeNode make);
 
-  /// The next event. False: there is none, or all nodes have left.
+  /// Processes the next event. Returns false if there is none, or all nodes have left.
   bool step();
   Nanoseconds now() const { return now_; }
-  /// The node, null while it is crashed or after it has left.
+  /// The node; null while it is crashed or after it has left.
   SimNode* node(NodeId node);
-  /// The node that left in the last event, as it left; null where none did.
+  /// The node that left in the last event, in its final state; null if none did.
   const SimNode* departed() const { return departed_.get(); }
-  /// The node that had the last event; no_node where none had.
+  /// The node of the last event; no_node if there was none.
   NodeId last() const { return last_; }
 
   struct Counters {
     uint64_t events = 0;
     uint64_t frames = 0;
     uint64_t bytes = 0;
-    uint64_t lost = 0;  // for whatever reason
+    uint64_t lost = 0;  // for any reason
     uint64_t duplicated = 0;
     uint64_t reordered = 0;
     uint64_t corrupted = 0;
     uint64_t ghosts = 0;
     uint64_t refused_full = 0;
     uint64_t crashes = 0;
-    uint64_t faults = 0;  // begun, crashes among them
+    uint64_t faults = 0;  // begun, including crashes
   };
   const Counters& counters() const { return counters_; }
-  /// Of all events so far.
+  /// Hash of all events so far.
   uint64_t trace_hash() const { return trace_.value(); }
 
  private:
@@ -125,9 +125,10 @@ class SimWorld {
   MakeNode make_;
   std::vector<std::unique_ptr<Node>> nodes_;
   std::unique_ptr<SimNode> departed_;
-  std::vector<std::unique_ptr<Way>> ways_;       // nodes x nodes, null where there is no link
-  std::vector<std::vector<Nanoseconds>> cores_;  // by machine, when each is free; where they count
-  std::vector<Frame> frames_;                    // on their way, by slot
+  std::vector<std::unique_ptr<Way>> ways_;  // nodes x nodes, null if there is no link
+  // by machine, when each is free; empty if cores are unlimited
+  std::vector<std::vector<Nanoseconds>> cores_;
+  std::vector<Frame> frames_;  // in flight, by slot
   std::vector<uint32_t> free_slots_;
   std::vector<Event> events_;  // a heap, the earliest first
   uint64_t sequence_ = 0;

@@ -1,5 +1,5 @@
-// Blocking calls of a simulated node: its disk is memory, and takes virtual time.
-// Thread rule: the simulation's thread.
+// Blocking calls of a simulated node: its disk is memory, and takes virtual time. Thread rule: the
+// simulation's thread.
 #pragma once
 
 #include <functional>
@@ -9,10 +9,10 @@
 
 namespace luxodus {
 
-/// A call is made at once, and is done a time later.
+/// Makes a call at once, and reports its completion after a delay.
 class SimulatedCalls final : public BlockingCalls {
  public:
-  /// `takes` is asked for each. Requires: `scheduler` outlives the last one's time.
+  /// `takes` returns the delay of each call. Requires: `scheduler` outlives all delays.
   SimulatedCalls(Scheduler& scheduler, std::function<Nanoseconds()> takes)
       : scheduler_(scheduler), takes_(std::move(takes)) {}
 

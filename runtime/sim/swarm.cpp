@@ -9,13 +9,13 @@ namespace luxodus {
 
 namespace {
 
-/// Draws of a swarm, in one order.
+/// The random draws of a swarm, in a fixed order.
 class Draw {
  public:
   explicit Draw(uint64_t seed) : random_(seed, RandomStream::faults) { random_.start(0); }
 
   bool chance(double p) { return random_.uniform_double() < p; }
-  /// Of all magnitudes alike.
+  /// Log-uniform.
   double between(double low, double high) {
     return low * std::pow(high / low, random_.uniform_double());
   }
@@ -68,7 +68,7 @@ Fault draw_fault(Draw& draw, Fault::Kind kind, const SwarmFrame& frame) {
   return fault;
 }
 
-/// One node without any of its links, or a part of the graph without the rest; both ways, or one.
+/// Isolates one node, or a part of the graph from the rest; in both directions or one.
 void draw_partition(Draw& draw, const SwarmFrame& frame, std::vector<Fault>& faults) {
   std::vector<bool> inside(frame.nodes);
   const bool single = draw.chance(0.5);
@@ -109,7 +109,7 @@ FaultPlan swarm(uint64_t seed, const SwarmFrame& frame) {
     }
   }
   if (draw.chance(0.5)) draw_partition(draw, frame, plan.faults);
-  // Nothing outlasts the healing.
+  // No fault outlasts the healing.
   for (Fault& fault : plan.faults)
     fault.lasts = std::min(fault.lasts, std::max<Nanoseconds>(1, frame.lasts - fault.at));
   return plan;

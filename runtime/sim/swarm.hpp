@@ -1,4 +1,4 @@
-// Swarm testing: worlds of faults drawn from a seed.
+// Swarm testing: draws fault plans from a seed. Pure; any thread.
 #pragma once
 
 #include <vector>
@@ -8,17 +8,17 @@
 
 namespace luxodus {
 
-/// What a world of faults is drawn for.
+/// The system for which a fault plan is drawn.
 struct SwarmFrame {
   std::vector<Edge> edges;
   uint16_t nodes = 0;
-  /// Nodes that are never crashed.
+  /// Nodes that never crash.
   std::vector<NodeId> spared;
-  Nanoseconds lasts = seconds(30);  // healed from then on
+  Nanoseconds lasts = seconds(30);  // faults end at this time
 };
 
-/// Which kinds of trouble there are at all is drawn first, so that every seed has a different mix;
-/// then how much of each, and when.
+/// First draws which kinds of fault occur at all, so that every seed has a different mix; then how
+/// much of each, and when.
 FaultPlan swarm(uint64_t seed, const SwarmFrame& frame);
 
 }  // namespace luxodus

@@ -1,5 +1,5 @@
-// Bytes that outlive a node, added at the end only: the seam between a journal and a disk. A
-// simulation puts a disk here that tears writes and fills up. Thread rule: one node's thread.
+// An append-only store that survives a crash: the interface between a journal and a disk. A
+// simulation uses one that tears writes and fills up. Thread rule: one node's thread.
 #pragma once
 
 #include <cstddef>
@@ -18,21 +18,20 @@ class AppendStore {
   virtual ~AppendStore() = default;
 
   virtual uint64_t size() const = 0;
-  /// Fills `into` from `offset` on. Errors: not so many bytes there, a failed read.
+  /// Fills `into` from `offset` on. Errors: too few bytes there, a failed read.
   virtual Result<void> read(uint64_t offset, std::span<std::byte> into) = 0;
-  /// Adds at the end. When this returns true the bytes survive whatever happens. After an error the
-  /// end may hold a part of them. Errors: a full disk, a failed write or sync.
+  /// Appends. On success the bytes are durable. After an error the store may end in a part of them.
+  /// Errors: a full disk, a failed write or sync.
   virtual Result<void> append(std::span<const std::byte> bytes) = 0;
-  /// Cuts everything from `size` on, durably. Errors: a failed write or sync.
+  /// Truncates to `size`, durably. Errors: a failed write or sync.
   virtual Result<void> truncate(uint64_t size) = 0;
 };
 
-/// A file. One at a time: it is locked while it is open.
+/// A store in a file, which is locked while it is open.
 class FileStore final : public AppendStore {
  public:
-  /// Opens or makes it. Errors: no such folder, no right to, no regular file (a link is none: it is
-  /// not followed), another process has
-  /// it open.
+  /// Opens or creates it. Errors: no such folder, no permission, not a regular file (links are not
+  /// followed), another process has it open.
   static Result<std::unique_ptr<FileStore>> open(const std::filesystem::path& path);
   ~FileStore() override;
   FileStore(const FileStore&) = delete;

@@ -1,5 +1,5 @@
-// A disk that is full while a plan of faults says so: what is added then is written in part, and
-// fails. Where there is no plan, it is not there at all. Thread rule: one node's thread.
+// A store with injected full-disk faults: while a fault of the plan holds, an append writes half of
+// its bytes and fails. Without a plan it is not created. Thread rule: one node's thread.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace luxodus {
 
 class FaultyStore final : public AppendStore {
  public:
-  /// The plan's moments count from now. Requires: `clock` outlives this.
+  /// The plan's times count from construction. Requires: `clock` outlives this.
   FaultyStore(std::unique_ptr<AppendStore> below, NodeId self, const FaultPlan& plan,
               const Clock& clock)
       : below_(std::move(below)), self_(self), plan_(plan), clock_(clock), began_(clock.now()) {}

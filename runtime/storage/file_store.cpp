@@ -12,7 +12,7 @@ namespace luxodus {
 
 namespace {
 
-/// The name itself must survive, not only what is in the file.
+/// Syncs the folder: the name must survive, too, not only the content.
 bool sync_folder_of(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -29,7 +29,8 @@ uint64_t check_of(const Head& head) {
   return XXH3_64bits(&head, offsetof(Head, check));
 }
 
-/// By its place, so that a record of an earlier life of the file is never taken for one of this.
+/// The check includes the offset, so that an old record of the file is never taken for a current
+/// one.
 uint64_t check_of(uint64_t place, std::span<const std::byte> content) {
   const std::array<uint64_t, 2> start = {place, content.size()};
   return XXH3_64bits_withSeed(content.data(), content.size(),
@@ -46,7 +47,7 @@ std::span<std::byte> bytes_of(T& value) {
 Result<Journal> Journal::open(std::unique_ptr<AppendStore> store, uint64_t identity,
                               const Visit& visit) {
   Journal journal(std::move(store));
-  // Less than a head is what a crash has left of a beginning.
+  // Less than a head is the rest of a start that crashed.
   const bool fresh = journal.store_->size() < sizeof(Head);
   const auto opened = fresh ? journal.begin(identity) : journal.go_on(identity, visit);
   if (!opened) return opened.problem();
@@ -100,7 +101,7 @@ Result<void> Journal::go_on(uint64_t identity, const Visit& visit) {
 
 Result<bool> Journal::whole_record_follows() {
   const uint64_t size = store_->size();
-  // Hashing costs: what looks like the length of a record seldom is one, but may be made to.
+  // Bounds hashing: what looks like a record's length seldom is one, but can be made to on purpose.
   uint64_t budget = 16 * (size - end_) + (uint64_t{64} << 20);
   std::vector<std::byte> window(uint64_t{1} << 20), content;
   for (uint64_t first = end_ + 1; first + sizeof(RecordHead) <= size;) {
@@ -112,7 +113,7 @@ Result<bool> Journal::whole_record_follows() {
       std::memcpy(&head, window.data() + i, sizeof head);
       const uint64_t begin = first + i + sizeof head;
       if (head.bytes > limits::journal_record_bytes || head.bytes > size - begin) continue;
-      if (head.bytes > budget) return true;  // not known: then nothing may be cut
+      if (head.bytes > budget) return true;  // unknown: then nothing may be truncated
       budget -= head.bytes;
       content.resize(head.bytes);
       if (auto got = store_->read(begin, content); !got) return got.problem();

@@ -1,5 +1,5 @@
-// A store in memory, over bytes that others keep: a disk of a simulated world, or of a test.
-// Thread rule: one thread.
+// A store in memory, over bytes that the caller owns: the disk of a simulation or a test. Thread
+// rule: one thread.
 #pragma once
 
 #include <cstring>

@@ -1,6 +1,6 @@
-// Room on a disk that is kept for what must be written at the end: taken before the work, given
-// back just before the last save, so that a disk that has filled up meanwhile does not lose it. The
-// file has no name and goes with its process. Thread rule: one thread at a time.
+// Disk space reserved for the last save: taken before the work and released just before that save,
+// so that a disk that has filled up meanwhile does not prevent it. The file has no name and
+// vanishes with its process. Thread rule: one thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ class RoomReserve {
   RoomReserve(const RoomReserve&) = delete;
   RoomReserve& operator=(const RoomReserve&) = delete;
 
-  /// Keeps `bytes` on the disk of a folder; what was kept before is given back. On a file system
-  /// that cannot promise room, nothing is kept and nothing is wrong. Errors: there is no such room.
+  /// Reserves `bytes` on the disk of a folder, and releases any earlier reservation. On a file
+  /// system without reservations it does nothing and succeeds. Errors: not enough space.
   Result<void> take(const std::filesystem::path& folder, uint64_t bytes);
   void release();
   bool held() const { return descriptor_ >= 0; }

@@ -10,7 +10,7 @@ namespace luxodus::toml {
 
 namespace {
 
-/// The line of a value, or that of the table it stands in where the parser gives it none.
+/// Place of a value; its table's place if the parser gives it no line.
 Origin origin_of(const ::toml::node& node, Origin outer) {
   const auto line = static_cast<int>(node.source().begin.line);
   return {outer.file, line > 0 ? line : outer.line};

@@ -1,5 +1,5 @@
-// From a text to the values in it. The text is bounded in length and in depth before the parser
-// sees it. The only file of the program that includes the parser is document.cpp. Any thread.
+// Parses TOML text into values. The text is bounded in length and nesting before the parser sees
+// it. document.cpp is the only file of the program that includes the parser. Pure; any thread.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@
 
 namespace luxodus::toml {
 
-/// A parsed text. What is found in it refers to it.
+/// A parsed text. Its values refer to it.
 struct Document {
-  std::shared_ptr<const std::string> file;  // to which all origins point
+  std::shared_ptr<const std::string> file;  // all origins point to it
   Table top;
 };
 
-/// Whether a problem may repeat words of the text.
+/// Whether a problem may quote the text.
 enum class Quoting { allowed, withheld };
 
 /// `file` names the text in problems.

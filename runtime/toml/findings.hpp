@@ -1,5 +1,5 @@
-// What is found while files are read: problems, which refuse them, and warnings, which do not.
-// Everything is said once, and what a file can make us say is bounded. Single-threaded.
+// Findings of a reader: problems, which reject a file, and warnings, which do not. Each is reported
+// once, and their number is bounded. Single-threaded.
 #pragma once
 
 #include <set>
@@ -12,7 +12,7 @@
 namespace luxodus {
 
 namespace limits {
-/// Problems kept: after so many a file is broken as a whole, and more sentences help nobody.
+/// Problems kept: a file with more is broken as a whole, and further sentences help nobody.
 inline constexpr size_t toml_problems = 1000;
 }  // namespace limits
 
@@ -20,17 +20,17 @@ namespace toml {
 
 class Findings {
  public:
-  /// Keeps a problem, except a second one with the same place and words.
+  /// Keeps a problem, unless one with the same place and words is there.
   void problem(SourcePlace where, std::string what);
-  /// A key stands under a former name: one warning for each such name.
+  /// Reports a key under a former name: one warning for each such name.
   void renamed(SourcePlace where, std::string_view old_name, std::string_view name);
 
-  /// Kept once for each place and words.
+  /// Kept once for each place and text.
   void warning(SourcePlace where, std::string what);
 
   bool any_problem() const { return !problems_.empty(); }
   size_t problem_count() const { return problems_.size(); }
-  /// All problems, by file in the order of their first, then by line.
+  /// All problems, grouped by file in the order of each file's first problem, then by line.
   Problems take_problems();
   std::vector<Problem> take_warnings() { return std::move(warnings_); }
 
@@ -38,7 +38,7 @@ class Findings {
   std::vector<Problem> problems_;
   std::vector<Problem> warnings_;
   std::set<std::string> said_;      // "file:line: what" of every problem
-  std::set<std::string> warned_;    // likewise of warnings, but for those of former names
+  std::set<std::string> warned_;    // likewise for warnings, except those about former names
   std::set<std::string> renamed_;   // "old name, name" of every warning
   std::vector<std::string> files_;  // in the order of their first problem
 };

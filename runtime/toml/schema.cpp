@@ -22,7 +22,7 @@ std::optional<double> number_of(std::string_view s) {
   return v;
 }
 
-/// The entry of this name, of tables or keys.
+/// The entry of this name in a list of tables or keys.
 template <class List>
 const auto& named(const List& list, std::string_view name) {
   const auto at =

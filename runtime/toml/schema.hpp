@@ -1,7 +1,6 @@
-// The tables and keys of a kind of file, stated once as data: type, unit, default, range, meaning
+// The tables and keys of a kind of file, declared once as data: type, unit, default, range, meaning
 // and former names of every key, as text. The reader takes defaults and ranges from here, a README
-// repeats the same rows (schema_markdown), and a test compares the two, so that neither can say
-// what the other does not do. Constant data; any thread.
+// repeats the same rows (schema_markdown), and a test compares the two. Constant data; any thread.
 #pragma once
 
 #include <optional>
@@ -22,14 +21,14 @@ struct KeySpec {
   std::string_view formerly = {};  // earlier names, oldest first, that are read with a warning
 };
 
-/// One table, or the keys that it has besides for one of its kinds ("material.glossy").
+/// A table, or the further keys of one of its kinds ("material.glossy").
 struct TableSpec {
   std::string_view name;
   std::string_view heading;  // as a person writes it
   std::vector<KeySpec> keys;
 };
 
-/// What the texts of a type must be, besides texts.
+/// A rule that texts of a type must satisfy.
 struct TextRule {
   std::string_view type;
   bool (*holds)(std::string_view text);
@@ -40,11 +39,11 @@ struct Schema {
   std::vector<TableSpec> tables;  // in the order of the README
   std::vector<TextRule> text_rules = {};
 
-  /// Requires: it exists (a programmer's mistake throws std::logic_error).
+  /// Requires: the table exists (otherwise throws std::logic_error).
   const TableSpec& table(std::string_view name) const;
-  /// The key of this table. Requires: it exists, likewise.
+  /// A key of a table. Requires: it exists, likewise.
   const KeySpec& key(std::string_view table, std::string_view name) const;
-  /// Null where the type has none.
+  /// Null if the type has no rule.
   const TextRule* rule_of(std::string_view type) const;
 };
 
@@ -59,9 +58,9 @@ struct Interval {
     return (low_open ? v > low : v >= low) && (high_open ? v < high : v <= high);
   }
 };
-/// Of "[low, high]", where ( or ) exclude an end; nothing where the text is no interval.
+/// Parses "[low, high]", where ( or ) exclude an end; nothing for any other text.
 std::optional<Interval> interval_of(std::string_view range);
-/// The comma-separated words of a choice, or names of a key.
+/// The comma-separated words of a choice, or the former names of a key.
 std::vector<std::string_view> words_of(std::string_view range);
 
 /// A schema as a README shows it: a heading and a table of keys for each table.

@@ -17,16 +17,16 @@ namespace luxodus::toml {
 
 namespace {
 
-/// Where a share is asked for, a number from here to 100 is a percentage more often than not.
+/// A share of this value or more, up to 100, is probably a percentage.
 constexpr double min_percent = 5;
 
-/// Shortest text that reads well: 0.5, 2, 1e+07.
+/// Shortest readable text: 0.5, 2, 1e+07.
 std::string shown(double v) {
   return fmt::format("{:.10g}", v);
 }
 
-/// Where a number of degrees is a usual angle in radians, written with three digits or more: that
-/// angle [deg]. Others are too near to angles that are meant.
+/// If a number of degrees equals a common angle in radians to three digits or more, that angle
+/// [deg]. Numbers with fewer digits are too close to intended angles.
 std::optional<double> degrees_of_radians(double v) {
   constexpr double pi = std::numbers::pi, rounding = 2e-3;
   for (const double degrees : {30, 45, 60, 90, 120, 135, 180, 270, 360})
@@ -69,7 +69,7 @@ TableReader::TableReader(const Table& table, SourcePlace place, const Schema& sc
   }
 }
 
-/// An entry whose key is no present name of the schema: a former one, or a misspelt one.
+/// Handles a key that is no current name in the schema: a former name, or a misspelt one.
 void TableReader::take(const Entry& entry) {
   const SourcePlace at{entry.value.place().file, entry.line};
   std::vector<std::string_view> names;  // present and former ones
@@ -92,7 +92,7 @@ void TableReader::take(const Entry& entry) {
   if (auto near = nearest_word(entry.key, names)) {
     if (const auto old = by_former.find(*near); old != by_former.end()) near = old->second->name;
     what += fmt::format("; did you mean '{}'?", *near);
-    values_.emplace(*near, &entry.value);  // no effect where the right key stands too
+    values_.emplace(*near, &entry.value);  // no effect if the correct key is there, too
   } else {
     what += "; known here:";
     for (const KeySpec* key : specs_) what += fmt::format(" {}", key->name);
@@ -305,7 +305,7 @@ std::optional<std::string> TableReader::chosen(std::string_view key, const Value
     return std::find(words.begin(), words.end(), word) != words.end();
   };
   if (const bool* flag = value.as_flag()) {
-    // A choice that knows true and false takes them without quotes.
+    // A choice with the words true and false accepts them without quotes.
     const std::string word = *flag ? "true" : "false";
     if (knows(word)) return word;
   }

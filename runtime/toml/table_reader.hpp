@@ -1,9 +1,9 @@
-// Reads the keys of one table as its specs describe them: checks type, range and finiteness, fills
-// in defaults, and reports each mistake once, with its line. A misspelt key is reported and then
-// read as the key it was meant to be, so that one slip does not become three problems; a former
-// name is read with a warning. After a mistake the methods return some value within the key's
-// range, so that reading goes on and finds the rest. It opens no file.
-// Holds references to the document, the schema and the findings. Single-threaded.
+// Reads the keys of one table by its specs: checks type, range and finiteness, fills in defaults,
+// and reports each mistake once, with its line. A misspelt key is reported and then read as the key
+// that was meant, so that one slip does not become three problems; a former name is read with a
+// warning. After a mistake the methods return some valid value, so that reading goes on and finds
+// the rest. It opens no file. Holds references to the document, the schema and the findings.
+// Single-threaded.
 #pragma once
 
 #include <array>
@@ -24,9 +24,9 @@
 namespace luxodus {
 
 namespace limits {
-/// Values of one list, and characters of one text.
+/// Values in one list, and characters in one text.
 inline constexpr size_t toml_values = 100'000;
-/// Tables of one list of tables.
+/// Tables in one list of tables.
 inline constexpr size_t toml_tables = 100'000;
 }  // namespace limits
 
@@ -34,17 +34,18 @@ namespace toml {
 
 class TableReader {
  public:
-  /// Reports every key that none of the specs knows. `specs` are names of the schema's tables.
+  /// Reports every key that is in none of the specs. `specs` are names of the schema's tables.
   TableReader(const Table& table, const Schema& schema, const std::vector<std::string>& specs,
               Findings& findings);
-  /// The table under one of our keys; an empty one, with all its defaults, where the key is absent.
+  /// A reader of the table under this key; of an empty table, with all defaults, if the key is
+  /// absent.
   TableReader inner(std::string_view key, const std::vector<std::string>& specs);
 
   const SourcePlace& place() const { return place_; }
-  /// Of a key's value; of the table where the key is absent.
+  /// Place of a key's value, or of the table if the key is absent.
   SourcePlace place(std::string_view key) const;
   bool has(std::string_view key) const { return find(key) != nullptr; }
-  /// Nothing wrong so far with this table: checks between keys are worth while.
+  /// Whether nothing is wrong with this table so far, so that checks across keys make sense.
   bool clean() const { return clean_; }
   void problem(std::string_view key, std::string what) { report(place(key), std::move(what)); }
   void problem(std::string what) { report(place_, std::move(what)); }
@@ -56,23 +57,23 @@ class TableReader {
   /// Bytes: a number, or a text such as "512 MiB".
   uint64_t size(std::string_view key);
   bool flag(std::string_view key);
-  /// Of the type "text" and of those that the schema has a rule for; "" where there is none.
+  /// For the type "text" and types with a text rule; "" if absent.
   std::string text(std::string_view key);
   std::optional<std::string> maybe_text(std::string_view key);
   std::string choice(std::string_view key);
   std::optional<std::string> maybe_choice(std::string_view key);
-  /// Relative to the folder of the file that says it; empty where there is none. Not looked for.
+  /// Relative to the file's folder; empty if absent. Existence is not checked.
   std::filesystem::path path(std::string_view key);
-  /// The same of a file that must exist.
+  /// Likewise, but the file must exist.
   std::optional<std::filesystem::path> file(std::string_view key);
   std::vector<std::pair<std::filesystem::path, SourcePlace>> files(std::string_view key);
 
   std::vector<double> numbers(std::string_view key);
   std::vector<std::string> texts(std::string_view key);
-  /// Exactly N numbers, of a key of this type.
+  /// Exactly N numbers of a key of this type.
   template <size_t N>
   std::optional<std::array<double, N>> components(std::string_view key, std::string_view type);
-  /// Rows of N numbers, of a key of this type; the range holds from column `first_bounded` on.
+  /// Rows of N numbers of a key of this type; the range applies from column `first_bounded` on.
   template <size_t N>
   std::vector<std::array<double, N>> rows(std::string_view key, std::string_view type,
                                           size_t first_bounded);
@@ -103,26 +104,27 @@ class TableReader {
   };
   std::vector<NamePair> name_pairs(std::string_view key);
 
-  /// Null where the key is absent, or wrong.
+  /// Null if the key is absent or wrong.
   const Table* table(std::string_view key);
   std::vector<const Table*> tables(std::string_view key, size_t most = limits::toml_tables);
 
-  /// Which one of these keys is given; "" and a problem where several are, or none though `needed`.
+  /// Which of these keys is given; "" and a problem if several are, or if none is although
+  /// `needed`.
   std::string exactly_one(std::initializer_list<std::string_view> keys, bool needed);
 
   // For keys whose values have forms of their own.
 
-  /// As it stands; null where the key is absent.
+  /// The value unchecked; null if the key is absent.
   const Value* value(std::string_view key) { return wanted(spec(key)); }
-  /// A number of this key, if it is one, finite and within its range. `what` says which.
+  /// A number of this key if it is one, finite and within the range. `what` names it in messages.
   std::optional<double> checked(std::string_view key, const Value& value,
                                 std::string_view what = "");
-  /// A word of this key, if it is one of its choice.
+  /// A word of this key if it is one of its choices.
   std::optional<std::string> chosen(std::string_view key, const Value& value);
-  /// The default that the schema gives, where it is a number or a quoted text.
+  /// The schema's default, if it is a number or a quoted text.
   std::optional<double> default_number(std::string_view key) const;
   std::optional<std::string> default_text(std::string_view key) const;
-  /// Some number that the key may have: its default, or one within its range.
+  /// A valid number for the key: its default, or one within its range.
   double some_number(std::string_view key) const;
 
  private:
@@ -145,17 +147,17 @@ class TableReader {
   Findings& findings_;
   SourcePlace place_;
   std::vector<const KeySpec*> specs_;                // in the schema's order
-  std::map<std::string_view, const Value*> values_;  // by the name in the schema
+  std::map<std::string_view, const Value*> values_;  // by current name
   bool clean_ = true;
 };
 
 /// The word of the choice `key` of a table, before a reader exists: it decides which further specs
-/// hold. "" where it is absent without default, or none of the words; nothing is reported.
+/// apply. "" if it is absent without default, or no valid word; nothing is reported.
 std::string chosen_kind(const Table& table, const Schema& schema, std::string_view spec,
                         std::string_view key);
 
-/// `base` and `base.KIND` where KIND is this word of the choice `key`; all kinds where it is "", so
-/// that their keys are not called unknown.
+/// `base`, and `base.KIND` for this word of the choice `key`; for "" all kinds, so that their keys
+/// are not reported as unknown.
 std::vector<std::string> specs_of_kind(const Schema& schema, const std::string& base,
                                        std::string_view key, std::string_view kind);
 

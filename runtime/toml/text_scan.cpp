@@ -11,14 +11,14 @@ bool ends_line(char c) {
   return c == '\n' || c == '\r';
 }
 
-/// Where a comment that starts at `at` ends: at its line's end.
+/// End of the comment that starts at `at`: the end of its line.
 size_t after_comment(std::string_view text, size_t at) {
   while (at < text.size() && !ends_line(text[at])) ++at;
   return at;
 }
 
-/// Behind the string of several lines whose three opening quotes stand at `at`. The last of its
-/// content may be one or two quotes: five in a row end it as well as three.
+/// End of the multi-line string whose three opening quotes are at `at`. Its content may end in one
+/// or two quotes: five in a row also end it.
 size_t after_long_string(std::string_view text, size_t at) {
   const char quote = text[at];
   const bool escapes = quote == '"';
@@ -35,7 +35,7 @@ size_t after_long_string(std::string_view text, size_t at) {
   return text.size();
 }
 
-/// Behind the string that starts at `at`; one that is not closed ends with its line.
+/// End of the string that starts at `at`; an unclosed one ends with its line.
 size_t after_string(std::string_view text, size_t at) {
   const char quote = text[at];
   if (text.substr(at, 3) == std::string_view(quote == '"' ? "\"\"\"" : "'''"))
@@ -48,13 +48,13 @@ size_t after_string(std::string_view text, size_t at) {
   return at;
 }
 
-/// Behind the string or comment that starts at `at`; `at` where none does.
+/// End of the string or comment that starts at `at`; `at` if there is none.
 size_t after_quiet(std::string_view text, size_t at) {
   if (text[at] == '#') return after_comment(text, at);
   return text[at] == '"' || text[at] == '\'' ? after_string(text, at) : at;
 }
 
-/// Behind the bare word that starts at `at`; `at` where none does.
+/// End of the bare word that starts at `at`; `at` if there is none.
 size_t after_word(std::string_view text, size_t at) {
   const auto bare = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -64,10 +64,10 @@ size_t after_word(std::string_view text, size_t at) {
   return at;
 }
 
-/// Counts the dots since the last sign that ends a key, and the brackets that are open.
+/// Counts the dots in the current key and the open brackets.
 class Nesting {
  public:
-  /// Takes one character from outside strings and comments; false where it goes too deep.
+  /// Takes one character from outside strings and comments; false if the nesting is too deep.
   bool take(char c) {
     switch (c) {
       case '.':

@@ -1,5 +1,5 @@
-// A look at TOML text without a parser: strings and comments aside, brackets, dots and bare words.
-// Any thread.
+// Scans TOML text without a parser: skips strings and comments and looks at brackets, dots and bare
+// words. Pure; any thread.
 #pragma once
 
 #include <cstddef>
@@ -13,21 +13,21 @@
 namespace luxodus {
 
 namespace limits {
-/// Dots of one key, and brackets open at a time; people write three. As every bracket may hold a
+/// Limit of dots in one key and of open brackets; people write three. As every bracket may hold a
 /// dotted key, tables nest at most 33 * 33 deep: some hundred kilobytes of stack.
 inline constexpr size_t toml_nesting = 32;
 }  // namespace limits
 
 namespace toml {
 
-/// The first line that nests deeper than limits::toml_nesting; nothing where none does. A parser
-/// keeps nested tables as nested objects and takes them apart by recursion, so that without this
-/// a file of a few kilobytes, a.a.a.a ... = 1, could end the program for want of stack. One pass,
-/// no memory. It does not say that the text is TOML.
+/// The first line that nests deeper than limits::toml_nesting; nothing if none does. A parser
+/// builds nested tables as nested objects and destroys them by recursion, so a file of a few
+/// kilobytes, a.a.a.a ... = 1, could overflow its stack. One pass, no allocation. It does not check
+/// that the text is TOML.
 std::optional<Problem> too_deep(std::string_view text, const std::string& file);
 
-/// The text with every bare key by its oldest name, so that a hash of it stays the same where a
-/// file takes up a new name. A word counts as a key in whichever table it stands.
+/// The text with every bare key replaced by its oldest name, so that its hash stays the same when a
+/// file adopts a new name. A word counts as a key in any table.
 std::string with_oldest_names(std::string_view text, const Schema& schema);
 
 }  // namespace toml

@@ -1,6 +1,6 @@
-// What a TOML document says, as values that know their place: tables, lists, texts, numbers, flags,
-// dates. No value refers to the parser, so that only document.cpp includes it; every value refers
-// to its Document, which must outlive it. Immutable; any thread.
+// Values of a TOML document with their places: tables, lists, texts, numbers, flags, dates. No
+// value refers to the parser, so only document.cpp includes it; every value refers to its Document,
+// which must outlive it. Immutable; any thread.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class Value;
 struct Entry;
 using List = std::vector<Value>;
 
-/// Of what a value was read: a file's name, kept by the Document, and a line.
+/// Where a value was read: the file's name, owned by the Document, and a line.
 struct Origin {
   const std::string* file = nullptr;
   int line = 0;
@@ -30,15 +30,15 @@ struct Origin {
 class Table {
  public:
   Table() = default;
-  /// Requires: entries are sorted by key, and no key stands twice.
+  /// Requires: entries are sorted by key, and keys are unique.
   Table(Origin origin, std::vector<Entry> entries);
 
   SourcePlace place() const { return origin_.place(); }
-  /// Null where the key is absent.
+  /// Null if the key is absent.
   const Value* find(std::string_view key) const;
   /// Sorted by key.
   const std::vector<Entry>& entries() const { return entries_; }
-  /// This table with the entries of `base` whose keys it has not; each keeps its place.
+  /// This table, with the entries of `base` for keys it lacks; each keeps its place.
   Table over(const Table& base) const;
 
  private:
@@ -49,7 +49,7 @@ class Table {
 /// A date, a time, or both, as TOML writes it.
 struct Moment {
   std::string text;
-  bool is_date = false;  // and no time
+  bool is_date = false;  // without a time
 };
 
 class Value {
@@ -59,17 +59,17 @@ class Value {
   Value(Origin origin, Data data) : origin_(origin), data_(std::move(data)) {}
 
   SourcePlace place() const { return origin_.place(); }
-  /// "a text", "an array": for messages.
+  /// For messages: "a text", "an array".
   std::string_view kind() const;
 
-  /// Null where it is of another kind.
+  /// Null if it is of another kind.
   const Table* as_table() const { return std::get_if<Table>(&data_); }
   const List* as_list() const { return std::get_if<List>(&data_); }
   const std::string* as_text() const { return std::get_if<std::string>(&data_); }
   const int64_t* as_integer() const { return std::get_if<int64_t>(&data_); }
   const bool* as_flag() const { return std::get_if<bool>(&data_); }
   const Moment* as_moment() const { return std::get_if<Moment>(&data_); }
-  /// Of an integer, too.
+  /// Also for integers.
   std::optional<double> as_number() const;
 
  private:

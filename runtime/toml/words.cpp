@@ -11,7 +11,7 @@ namespace luxodus::toml {
 
 namespace {
 
-/// Longer words are no slips of the pen; the bound also keeps the search cheap.
+/// Longer words are not typing errors; the bound also keeps the search cheap.
 constexpr size_t max_misspelt_chars = 200;
 
 /// Optimal string alignment: three rows suffice, as a swap looks two rows back.
@@ -40,7 +40,7 @@ std::optional<std::string_view> nearest_word(std::string_view word,
   size_t too_far = word.size() / 3 + 1;
   for (const auto candidate : known) {
     const size_t steps = distance(word, candidate);
-    // A word of which nothing is left was not meant.
+    // A word with nothing in common was not meant.
     if (steps >= std::min(too_far, candidate.size())) continue;
     too_far = steps;
     nearest = candidate;

@@ -1,5 +1,5 @@
-// Words as people write them: what a misspelt one was meant to be, sizes with their unit. Any
-// thread.
+// Words as people write them: finds the intended word for a misspelt one, and parses sizes with
+// units. Pure; any thread.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace luxodus::toml {
 
-/// The nearest of these words, or nothing where none is near enough to be what was meant: a third
-/// of the word may be wrong. Near are few steps: insert, remove, replace, swap neighbours.
+/// The known word at the smallest edit distance (insert, remove, replace, swap neighbours), or
+/// nothing if more than a third of the word is wrong.
 std::optional<std::string_view> nearest_word(std::string_view word,
                                              const std::vector<std::string_view>& known);
 

@@ -35,7 +35,7 @@ void add_object(SceneDescription& d, const std::string& name, Mesh mesh, double 
   d.objects.push_back(std::move(object));
 }
 
-/// A box standing on the floor, without the bottom that nothing sees.
+/// A box on the floor, without its invisible bottom.
 Mesh furniture(const glm::dvec3& low, const glm::dvec3& size) {
   Mesh mesh;
   const glm::dvec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
@@ -60,7 +60,7 @@ void furnish(SceneDescription& d, const glm::dvec3& size) {
   const Mesh* walls[] = {&room.floor, &room.ceiling, &room.x0, &room.x1, &room.y0, &room.y1};
   const char* names[] = {"floor", "ceiling", "x0", "x1", "y0", "y1"};
   for (int i = 0; i < 6; ++i) add_object(d, names[i], *walls[i], patch_edge_m);
-  // On a grid of 14 x 10 places, each box with its own size and shift: nothing overlaps.
+  // On a grid of 14 x 10 places, each box with its own size and shift, without overlap.
   Random random(1, RandomStream::test);
   random.start(0);
   const double place_x = size.x / 14, place_y = size.y / 10;
@@ -154,7 +154,7 @@ std::shared_ptr<const CompiledScene> pictured_room(Air air, int width, int heigh
   }
   if (air != Air::clear) d.media.push_back(smoke(air, pictured_albedo));
   d.run.max_bands = 1;
-  d.run.eye_path_factor = 0;  // pictures take their paths themselves
+  d.run.eye_path_factor = 0;  // pictures trace their own paths
   Camera camera;
   camera.name = "corner";
   camera.eye = {0.2, 0.2, 1.6};

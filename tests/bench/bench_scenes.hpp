@@ -1,6 +1,6 @@
-// The scenes that are measured, made in memory: a furnished room of 661 quads under one lamp, clear
-// or in smoke, and a landscape of any number of triangles. Every number that matters for speed is
-// named here.
+// The measured scenes, made in memory: a furnished room of 661 quads under one lamp, clear or in
+// smoke, and a landscape of any number of triangles. Every parameter that matters for speed is
+// defined here. Pure; any thread.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace luxodus::bench {
 
 enum class Air { clear, homogeneous, layered };
 
-/// What the room counts beside the flux into and out of every patch, wall and piece of furniture.
+/// Tallies of the room besides the flux into and out of every patch, wall and piece of furniture.
 struct Counting {
   bool detectors = false;  // a working plane of 20 x 15 cells, a counting plane, a volume group
   bool voxels = false;     // about 20 000
@@ -23,11 +23,11 @@ struct Counting {
 SceneDescription furnished(Air air, const Counting& counting);
 std::shared_ptr<const CompiledScene> furnished_room(Air air, const Counting& counting);
 
-/// Of 10 x 8 x 3 m, as full of boxes, with four ceiling lamps of 0.6 x 0.3 m and a camera in a
-/// corner. Smoke as above, albedo 0.6.
+/// A room of 10 x 8 x 3 m, as densely furnished, with four ceiling lamps of 0.6 x 0.3 m and a
+/// camera in a corner. Smoke as above, albedo 0.6.
 std::shared_ptr<const CompiledScene> pictured_room(Air air, int width, int height);
 
-/// A hilly floor of 2 n^2 triangles under a lamp, one patch a side of each.
+/// A hilly floor of 2 n^2 triangles under a lamp, one patch on each side of each triangle.
 std::shared_ptr<const CompiledScene> landscape(int n);
 
 }  // namespace luxodus::bench

@@ -1,5 +1,5 @@
-// How far the default method of pictures is off in the mean, against paths traced to their end: by
-// the edge of its voxels, on scenes in smoke.
+// Bias of the default picture method against paths traced to their end, by voxel size, in scenes
+// with smoke.
 #include <fmt/core.h>
 
 #include <array>
@@ -26,22 +26,22 @@ namespace luxodus::bench {
 namespace {
 
 constexpr int width = 96, height = 64;
-constexpr int veil_pixels = 24;  // an edge of the picture of the black plate
+constexpr int veil_pixels = 24;  // edge length of the picture of the black plate
 constexpr int64_t all_particles = 1 << 23;
-constexpr int all_paths = 4096;    // of a pixel, traced to their end
-constexpr int gathered_part = 16;  // of these paths has a picture of the default method
+constexpr int all_paths = 4096;    // per pixel, traced to their end
+constexpr int gathered_part = 16;  // fraction of these paths in a picture of the default method
 constexpr uint64_t seeds = 4;
-/// Stands before the camera, where the veil is looked for [m].
+/// Edge of the plate in front of the camera, where the veil is measured [m].
 constexpr double plate_edge = 0.4;
-/// Pixels darker than this share of the mean weigh as if they were that bright.
+/// Pixels darker than this share of the mean are weighted as if they were that bright.
 constexpr double dark = 0.05;
 
 struct BiasScene {
   const char* name;
   SceneDescription (*read)();
   const char* scenario;
-  int camera;            // of the scene's
-  double plate_m;        // from the camera
+  int camera;            // index in the scene
+  double plate_m;        // distance from the camera
   double widest_voxels;  // edge [m]; then a half and a quarter of it
 };
 
@@ -61,7 +61,8 @@ SceneDescription of_text(const std::string& toml, std::optional<double> at_s = s
   return read_or_throw(folder.write("scene.toml", toml), at_s);
 }
 
-/// A lit room in smoke, and beside it, behind 0.1 m, one with a lamp of a hundredth.
+/// A lit room in smoke, and next to it, behind 0.1 m of wall, one with a lamp of a hundredth of the
+/// flux.
 SceneDescription dark_room() {
   std::string toml = "[run]\nmax_bands = 1\n[[material]]\nname = \"grey\"\nreflectance = 0.5\n";
   const auto add = [&](const std::string& name, double x, double flux) {
@@ -83,7 +84,7 @@ std::filesystem::path fire_index() {
   return std::filesystem::path(LUX_SHARED_DATA) / "fds_results/corridor/corridor.smv";
 }
 
-/// A corridor full of smoke, as FDS left it after 90 s, under three ceiling lamps.
+/// A corridor full of smoke, by FDS after 90 s, under three ceiling lamps.
 SceneDescription fire_corridor() {
   constexpr double at_s = 90;
   const auto building = read_fire_building(fire_index(), at_s);
@@ -110,7 +111,7 @@ SceneDescription office() {
 SceneDescription auditorium() {
   return of_library("auditorium");
 }
-/// No eye path meets a collimated beam: a lamp that shines everywhere instead.
+/// Eye paths cannot hit a collimated beam: an isotropic lamp instead.
 SceneDescription tank() {
   SceneDescription d = of_library("smoke_tank");
   for (Emitter& e : d.emitters) e.distribution = Distribution::lambertian;
@@ -126,7 +127,7 @@ const BiasScene bias_scenes[] = {
     {"dark room", dark_room, "", 0, 2, 1},
 };
 
-/// Black, facing the camera, and what looks at it alone.
+/// Adds a black plate facing the camera, and a camera that sees only the plate.
 void add_plate(SceneDescription& d, const Camera& camera, double distance) {
   const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
@@ -156,7 +157,7 @@ std::unique_ptr<LocalRun> traced_scene(const BiasScene& of, double voxel_edge, u
   SceneDescription d = of.read();
   d.run.voxels = true;
   d.run.voxel_edge_m = voxel_edge;
-  d.run.eye_path_factor = 0;  // pictures take their paths themselves
+  d.run.eye_path_factor = 0;  // pictures trace their own paths
   const Camera camera = d.cameras.at(static_cast<size_t>(of.camera));
   add_plate(d, camera, of.plate_m);
   const Scenario found = find_scenario(d, of.scenario).value();
@@ -170,11 +171,11 @@ std::unique_ptr<LocalRun> traced_scene(const BiasScene& of, double voxel_edge, u
   return run;
 }
 
-/// Luminance without what emitters send straight, which both methods have alike.
+/// Luminance without direct light of emitters, which is equal in both methods.
 struct Luminances {
   std::vector<double> values;
   double mean = 0;
-  double standard_error = 0;  // of the mean, by the paths of the pixels
+  double standard_error = 0;  // of the mean, from the paths of the pixels
 };
 
 Luminances luminances_of(const TracedPicture& p) {
@@ -191,7 +192,7 @@ Luminances luminances_of(const TracedPicture& p) {
   return out;
 }
 
-/// Both cameras of a run.
+/// Pictures of both cameras of a run.
 struct TwoViews {
   TracedPicture view, veil;
 };
@@ -199,7 +200,7 @@ struct TwoViews {
 TwoViews draw_both(const LocalRun& run, int paths, bool gather) {
   PictureOptions options;
   options.gather = gather;
-  options.raw = true;  // what is measured is not filtered
+  options.raw = true;  // unfiltered for the measurement
   const auto flux = gather ? flux_radiance(run) : nullptr;
   const auto draw = [&](size_t camera) {
     options.paths_per_pixel = std::max(2, paths);
@@ -208,8 +209,7 @@ TwoViews draw_both(const LocalRun& run, int paths, bool gather) {
   return {draw(0), draw(1)};
 }
 
-/// Whether the surroundings of a pixel look alike to every feature, so that where light changes
-/// there, it is the light that has an edge.
+/// Whether every feature is nearly constant around a pixel, so that an edge there is one of light.
 bool even_features(const NoisyPicture& noisy, int x, int y) {
   constexpr double alike = 0.02;
   const auto at = [&](int column, int row) {
@@ -225,8 +225,8 @@ bool even_features(const NoisyPicture& noisy, int x, int y) {
   return true;
 }
 
-/// By how many pixels edges of light lie elsewhere, to the right and downwards: least squares of
-/// the difference over the reference's level and slopes (B. Lucas, T. Kanade, IJCAI 1981).
+/// Shift of shadow edges in pixels, to the right and downwards: least squares of the difference
+/// over the reference's level and slopes (B. Lucas, T. Kanade, IJCAI 1981).
 struct Shift {
   double x = std::numeric_limits<double>::quiet_NaN(), y = x;
 };
@@ -259,7 +259,7 @@ Estimate over_seeds(const std::array<double, seeds>& values) {
   return {mean, std::sqrt(std::max(0.0, squares / seeds - mean * mean) / (seeds - 1))};
 }
 
-/// Relative, with the errors of both.
+/// Relative bias, with the errors of both.
 Estimate bias_of(const std::array<double, seeds>& means, const Luminances& full) {
   const Estimate is = over_seeds(means);
   return {is.value / full.mean - 1,
@@ -268,7 +268,7 @@ Estimate bias_of(const std::array<double, seeds>& means, const Luminances& full)
 
 void print_bias_of(const BiasScene& of, int64_t particles, int paths) {
   const double before = process_seconds();
-  // Paths that are traced to their end need no flux, and another seed: nothing is common to both.
+  // Paths traced to their end need no flux; another seed, so that the two are independent.
   const TwoViews full = draw_both(*traced_scene(of, of.widest_voxels, 77, 1 << 12), paths, false);
   const Luminances view = luminances_of(full.view), veil = luminances_of(full.veil);
   fmt::print(

@@ -1,7 +1,6 @@
-// What paths of pictures gain where emitters are chosen by what cells of space have learned of
-// them, over the choice by power and distance alone: variance of luminance, by processor time, of
-// the same pixels, one way after the other. And the same of each view as it is, for comparing
-// programs.
+// Gain of picture paths that choose emitters by learned importance of cells of space over the
+// choice by power and distance alone: variance of luminance by CPU time, on the same pixels,
+// alternating. And the absolute values for each view, for comparing programs.
 #include <fmt/core.h>
 
 #include <algorithm>

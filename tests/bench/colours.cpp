@@ -1,5 +1,5 @@
-// What a path of all bands gains over one of a single band: variance of luminance and error of
-// colour of the same pixels, by processor time, in turn; and the colours of filtered pictures.
+// Gain of paths of all bands over paths of a single band: variance of luminance and colour error on
+// the same pixels, by CPU time, alternating; and the colours of filtered pictures.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -21,12 +21,12 @@ namespace {
 
 constexpr int width = 96, height = 64;
 constexpr int64_t all_particles = 1 << 24;
-constexpr int all_paths = 8192;     // of a long picture
-constexpr int compared_paths = 16;  // of a pixel, in each way
+constexpr int all_paths = 8192;     // of a reference picture
+constexpr int compared_paths = 16;  // per pixel, in each way
 const int filtered_paths = PictureOptions{}.paths_per_pixel;
 constexpr double wanted_colour = 0.005;
 
-/// Coloured walls and soot for scenes that have one colour.
+/// Coloured walls and soot for scenes of one colour.
 void colour(SceneDescription& d) {
   d.run.max_bands = 6;
   for (Material& m : d.materials) m.reflectance = reflectance_from_linear_srgb(0.6, 0.42, 0.2);
@@ -40,7 +40,7 @@ void colour(SceneDescription& d) {
 
 struct ColourScene {
   const char* name;
-  const char* file;  // of scenes/library
+  const char* file;  // in scenes/library
   const char* scenario;
   void (*change)(SceneDescription&);
 };
@@ -57,7 +57,7 @@ std::unique_ptr<LocalRun> traced_scene(const ColourScene& of, uint64_t seed, int
   if (!read.scene) throw std::runtime_error(std::string(of.file) + " cannot be read");
   SceneDescription d = *read.scene;
   of.change(d);
-  d.run.eye_path_factor = 0;  // pictures take their paths themselves
+  d.run.eye_path_factor = 0;  // pictures trace their own paths
   d.cameras.resize(1);
   d.cameras[0].width = width;
   d.cameras[0].height = height;
@@ -80,7 +80,7 @@ void add_light(const Bands& bands, int band, double radiance, Colour& into) {
   into[2] += radiance * bands[band].z_per_w;
 }
 
-/// Distance in CIE 1976 u', v'; 0 where one is dark.
+/// Distance in CIE 1976 u', v'; 0 if either is dark.
 double colour_distance(const Colour& a, const Colour& b) {
   const auto uv = [](const Colour& c) {
     const double sum = c[0] + 15 * c[1] + 3 * c[2];
@@ -95,21 +95,21 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-/// Their mean without the largest thousandth: single bright paths would decide it alone.
+/// Mean without the largest thousandth, which single bright paths would otherwise dominate.
 double without_brightest(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   values.resize(values.size() - values.size() / 1000);
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Pixels of one way of tracing.
+/// Pixels of one tracing method.
 struct Way {
   double seconds = 0;
   std::vector<Colour> pixels;
 };
 
-/// Light that is not straight from an emitter, of each pixel by the same number of paths: of one
-/// band each, and of all bands.
+/// Light of each pixel without direct light of emitters, by the same number of paths: of one band
+/// each, and of all bands.
 std::array<Way, 2> trace_ways(const LocalRun& run, const KnownRadiance* flux) {
   const CompiledScene& scene = run.scene();
   const Bands& bands = scene.bands;

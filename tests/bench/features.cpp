@@ -1,5 +1,5 @@
-// What each thing that a scene may have costs: absent, there but unused, used. Instructions where
-// the program runs under callgrind (tests/tools/feature_costs.sh), processor time otherwise.
+// Cost of each scene feature: absent, present but unused, used. Measured in instructions under
+// callgrind (tests/tools/feature_costs.sh), otherwise in CPU time.
 #include <fmt/core.h>
 
 #include <array>
@@ -32,7 +32,7 @@ constexpr int64_t batches_counted = 2;
 constexpr int64_t batches_of_node = 32;
 constexpr double seconds_per_turn = 0.15;
 
-/// How batches are done.
+/// How batches are run.
 enum class By { loop, loop_without_statistics, node, node_by_turns };
 
 struct Variant {
@@ -41,10 +41,10 @@ struct Variant {
   std::function<void(SceneDescription&)> change;
   By by = By::loop;
   int cells = 1;
-  // By turns:
-  uint64_t trace_every = 0;  // particles of which one is traced
-  bool rare_ways = false;    // on purpose
-  size_t room = 0;           // for so many of the largest cells; 0: all are resident
+  // For node_by_turns:
+  uint64_t trace_every = 0;  // sampling interval of traced particles
+  bool rare_ways = false;    // taken on purpose
+  size_t room = 0;           // budget in largest cells; 0: all are resident
 };
 
 void nothing(SceneDescription&) {}
@@ -54,11 +54,11 @@ Material& material_named(SceneDescription& d, const char* name) {
   return d.materials.back();
 }
 
-/// The first boxes of the room, a tenth of all, in the last material.
+/// Gives the first boxes of the room, a tenth of all, the last material.
 void use_last_material(SceneDescription& d) {
   for (size_t i = 6; i < 6 + 13; ++i) {
     d.objects[i].material = d.objects[i].back_material = static_cast<int>(d.materials.size()) - 1;
-    // Every corner of a quad at a corner of the picture.
+    // Maps the corners of a quad to the corners of the picture.
     Mesh& mesh = d.objects[i].mesh;
     mesh.texture_uv.resize(mesh.positions.size());
     for (size_t k = 0; k < mesh.texture_uv.size(); ++k)
@@ -73,7 +73,7 @@ void add_glossy(SceneDescription& d) {
   m.specular = Spectrum::constant(0.1);
 }
 
-/// Mirrors take no light, so that histories last longer: of reflectance as the boxes.
+/// Reflectance as of the boxes: perfect mirrors would make histories longer.
 void add_mirror(SceneDescription& d) {
   Material& m = material_named(d, "mirror");
   m.kind = MaterialKind::mirror;
@@ -101,7 +101,7 @@ void add_web(SceneDescription& d) {
   d.emitters[0].web = std::make_shared<const PhotometricWeb>(std::move(web).value());
 }
 
-/// A lamp that only an emergency lights.
+/// A lamp that is lit only in an emergency.
 void add_dark_lamp(SceneDescription& d) {
   Emitter lamp = d.emitters[0];
   lamp.name = "dark lamp";
@@ -133,7 +133,7 @@ void homogeneous(SceneDescription& d) {
   light::add_homogeneous(d, light::smoke(0.1, 0.8));
 }
 
-/// Particles start in it by its share of the light.
+/// A flame; particles start in it by its share of the light.
 void add_flame(SceneDescription& d, double sigma_t) {
   without_voxels(d);
   Medium& flame = light::add_ball(d, {5, 5, 0.5}, 0.4, light::smoke(sigma_t, 0.5));
@@ -181,7 +181,7 @@ void add_plane(SceneDescription& d, double z) {
   d.planes.push_back(plane);
 }
 
-/// The first of a feature's rows is what the others are compared with.
+/// The first of a feature's rows is the reference of the others.
 const std::vector<Variant>& variants() {
   static const std::vector<Variant> all = {
       {"media", "absent", nothing},
@@ -318,7 +318,7 @@ std::shared_ptr<const CompiledScene> compiled(const Variant& variant) {
   return scene.value();
 }
 
-/// Batches of one variant, as many as are asked for.
+/// Batches of one variant, as many as requested.
 class Batches {
  public:
   explicit Batches(const Variant& variant)
@@ -328,7 +328,7 @@ class Batches {
         tracer_(make_batch_tracer(*scene_, GeometryAccess::resident(run_.index()), seed)),
         plan_(*scene_) {}
 
-  /// Returns the particles.
+  /// Returns the number of particles.
   int64_t trace(int64_t count) {
     if (by_ == By::node) {
       trace_on_node(count);
@@ -367,20 +367,20 @@ class Batches {
   BatchScores scores_;
 };
 
-/// Particles a second of the process's time.
+/// Particles per second of the process's CPU time.
 double speed(Batches& batches, By by) {
   const double start = process_seconds();
   double particles = 0, seconds = 0;
   do {
-    // A node's start and end are shared by many batches.
+    // Amortises a node's start and end over many batches.
     particles += static_cast<double>(batches.trace(by == By::node ? 64 : 1));
     seconds = process_seconds() - start;
   } while (seconds < seconds_per_turn);
   return particles / seconds;
 }
 
-/// A node and its controller in a simulated world, on this thread: nobody waits, so instructions
-/// mean something. The node's start and the world's links are among them.
+/// A node and its controller in a simulated world, on this thread: there are no waits, so
+/// instruction counts are meaningful. They include the node's start and the world's links.
 int64_t trace_by_turns(const Variant& variant) {
   const auto scene = compiled(variant);
   const int64_t particles = batches_of_node * scene->batch_particles;
@@ -406,10 +406,10 @@ int64_t trace_by_turns(const Variant& variant) {
   return particles;
 }
 
-/// One dump for each variant, in this order: what was counted since the one before.
+/// One dump for each variant, in this order, with the counts since the previous one.
 void count_instructions() {
   for (const Variant& variant : variants()) {
-    if (variant.by == By::node) continue;  // of threads that wait, no number is worth having
+    if (variant.by == By::node) continue;  // threads that wait have no meaningful count
     int64_t particles = 0;
     if (variant.by == By::node_by_turns) {
       particles = trace_by_turns(variant);
@@ -435,7 +435,7 @@ void print_features(int repeats) {
   std::optional<Batches> base;
   const Variant* first = nullptr;
   for (const Variant& variant : variants()) {
-    if (variant.by == By::node_by_turns) continue;  // their instructions alone are counted
+    if (variant.by == By::node_by_turns) continue;  // only their instructions are counted
     const bool begins = *variant.feature != '\0';
     if (begins) {
       first = &variant;

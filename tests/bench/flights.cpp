@@ -1,4 +1,4 @@
-// Nanoseconds of a free flight and of an optical depth, by kind of media.
+// Nanoseconds per free flight and per optical depth, by kind of media.
 #include <chrono>
 #include <cstdio>
 

@@ -21,7 +21,7 @@ Totals totals_of(const CompiledScene& scene) {
   return {scene.layout, static_cast<int>(scene.groups.size()), photopic_weights(scene)};
 }
 
-/// One flush: what it sent, and what it took at both ends [s].
+/// One flush: its content, and its cost at both ends [s].
 struct Flushed {
   double particles = 0;
   double traced_s = 0;
@@ -38,7 +38,7 @@ class Worker {
         tracer_(make_batch_tracer(scene, GeometryAccess::resident(index), 1)),
         totals_(totals_of(scene)) {}
 
-  /// Traces for so long, then packs what was counted.
+  /// Traces for this interval, then packs the result.
   std::vector<std::byte> work(double interval_s, Flushed& flushed) {
     const double start = thread_seconds();
     while (thread_seconds() - start < interval_s) {

@@ -1,5 +1,4 @@
-// How far pictures are from a long run of themselves, by paths and by seconds; and what the size of
-// patches does to what an eye sees.
+// Errors of pictures against a long run, by paths and by seconds; and the effect of the patch size.
 #include <fmt/core.h>
 
 #include <atomic>
@@ -23,14 +22,14 @@ namespace {
 constexpr int width = 96, height = 64;
 constexpr int long_paths = 2048;
 constexpr int64_t all_particles = 1 << 24;
-/// Pixels darker than this share of the mean are judged as if they were that bright.
+/// Pixels darker than this share of the mean are weighted as if they were that bright.
 constexpr double dark = 0.05;
-/// Of errors that are averaged: a luminaire in a few pixels, and whatever path happens to meet one,
-/// would decide alone [cd/m2].
+/// Cap of luminance in mean errors: otherwise a luminaire in a few pixels, and paths that happen to
+/// hit one, would dominate [cd/m2].
 constexpr double max_counted = 10;
-/// Of mean luminances: nothing that is lit is as bright, so that the cap takes nothing of them.
+/// Cap of mean luminances: above everything lit, so it removes nothing.
 constexpr double max_mean = 100;
-constexpr int seeds = 8;  // of pictures whose own error is asked for
+constexpr int seeds = 8;  // of pictures whose own error is measured
 
 std::shared_ptr<const CompiledScene> compiled(SceneDescription d, const char* scenario) {
   const Scenario found = find_scenario(d, scenario).value();
@@ -45,7 +44,7 @@ std::shared_ptr<const CompiledScene> office(const char* scenario, bool stratifie
   if (!read.scene) throw std::runtime_error("scenes/library/office_floor.toml cannot be read");
   SceneDescription d = *read.scene;
   d.run.stratified = stratified;
-  d.run.eye_path_factor = 0;  // pictures take their paths themselves
+  d.run.eye_path_factor = 0;  // pictures trace their own paths
   d.cameras.resize(1);
   d.cameras[0].width = width;
   d.cameras[0].height = height;
@@ -69,7 +68,7 @@ double luminance(const TracedPicture& p, size_t pixel) {
 
 struct Deviation {
   double luminance = 0;  // relative, root mean square
-  double counted = 0;    // the same where a pixel counts `max_counted` at most
+  double counted = 0;    // the same with pixels capped at `max_counted`
   double colour = 0;     // of x and y together, root mean square
 };
 
@@ -110,26 +109,26 @@ struct Timed {
   double seconds;
 };
 
-/// Wall time of two threads' work, by processor time of the process.
+/// Wall time of two threads, estimated from the process's CPU time.
 Timed draw(const LocalRun& run, int paths, bool gather) {
   PictureOptions options;
   options.paths_per_pixel = paths;
   options.gather = gather;
-  options.raw = true;  // what is measured is not filtered
+  options.raw = true;  // unfiltered for the measurement
   const auto flux = gather ? flux_radiance(run) : nullptr;
   const double before = process_seconds();
   TracedPicture picture = trace_picture(run, 0, options, flux.get());
   return {std::move(picture), process_seconds() - before};
 }
 
-/// What is done of it all: a share of the particles and of the long picture's paths.
+/// Amount of work: particles, and paths of the long picture.
 struct Size {
   int64_t particles;
   int long_paths;
 };
 
 void print_course(const char* scenario, const Size& size) {
-  // Other seeds than the pictures': a long run is not to share their chance.
+  // Seeds other than the pictures', so that the long run is independent.
   const auto long_run = traced(office(scenario, true, 0), 77, size.particles);
   for (const bool gather : {true, false}) {
     const TracedPicture wanted = draw(*long_run, size.long_paths, gather).picture;
@@ -137,7 +136,8 @@ void print_course(const char* scenario, const Size& size) {
       const auto run = traced(office(scenario, stratified, 0), 1, size.particles);
       for (const int paths : {4, 16, 64}) {
         const Timed timed = draw(*run, paths, gather);
-        // Two pictures of so many paths differ by the chance of both.
+        // Two pictures with these numbers of paths have independent errors; this is the share of
+        // one.
         const double own =
             std::sqrt(size.long_paths / static_cast<double>(size.long_paths + paths));
         const Deviation d = deviation(timed.picture, wanted);
@@ -152,7 +152,7 @@ void print_course(const char* scenario, const Size& size) {
   }
 }
 
-/// Mean luminance of pictures, of several seeds: `patch_edge` 0 for paths to their end.
+/// Mean luminance of pictures over several seeds; `patch_edge` 0: paths to their end.
 Estimate mean_of_pictures(const char* scenario, double patch_edge, const Size& size) {
   const bool gather = patch_edge > 0;
   const int64_t particles = gather ? size.particles : 1 << 16;
@@ -206,7 +206,7 @@ SceneDescription room_with_sign(double voxel_edge) {
   return d;
 }
 
-/// Luminance that the smoke between eye and sign sends to the eye, if its fluence is that of the
+/// Luminance that the smoke between eye and sign scatters to the eye, if its fluence is that of the
 /// voxels [cd/m2].
 double veil_by_voxels(const LocalRun& run) {
   constexpr int steps = 4000;
@@ -241,15 +241,16 @@ void print_veil() {
   }
 }
 
-/// What a sign's face sends back of the room's light: by the bin that counts what leaves it, and
-/// traced from the eye.
+/// Room light reflected by a sign's face: from the bin that counts outgoing flux, and traced from
+/// the eye.
 void print_face() {
   SceneDescription d = room_with_sign(3);
-  d.signs[0].width_m = d.signs[0].height_m = 0.6;  // so that its bin gets some light
+  d.signs[0].width_m = d.signs[0].height_m = 0.6;  // so that its bin gets enough light
   const auto run = traced(compiled(std::move(d), ""), 1, 1 << 24);
   const CompiledScene& scene = run->scene();
   const Readout readout(scene, run->totals());
-  // Fronts of two triangles: the back of a sign is an object's other side, and not quite black.
+  // Front sides of two triangles: the back of a sign is an object's other side, and not quite
+  // black.
   const CompiledSurface& face = scene.surfaces[scene.signs[0].surface];
   Estimate of_bin;
   for (const uint32_t patch : {face.first_patch, face.first_patch + 2}) {

@@ -1,5 +1,5 @@
-// Layouts by the integer program, by greedy choice, and by a genetic algorithm as the literature
-// has it, on the same candidates and demands.
+// Layouts by the integer program, by greedy choice, and by a genetic algorithm as in the
+// literature, on the same candidates and demands.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,15 +23,14 @@ namespace {
 
 const std::atomic<bool> no_interrupt{false};
 
-/// A genetic algorithm with the operators that are used for luminaires and signs: binary strings,
-/// tournaments of two, uniform crossover, bit flips, the best kept, and a penalty for demands that
-/// do not hold.
+/// A genetic algorithm with the operators that are common for luminaires and signs: binary strings,
+/// tournaments of two, uniform crossover, bit flips, elitism, and a penalty for unmet demands.
 class GeneticAlgorithm {
  public:
   GeneticAlgorithm(const LayoutProblem& problem, uint64_t seed)
       : problem_(problem), index_(problem), sums_(index_), random_(seed, RandomStream::layout, 7) {
     random_.start(seed);
-    // Penalties are luminaires, in the unit of the objective.
+    // Penalties are in luminaires, in the unit of the objective.
     double sum = 0, count = 0;
     for (const LayoutOption& option : problem.options)
       if (!option.fixed) sum += option.weight, ++count;
@@ -39,7 +38,7 @@ class GeneticAlgorithm {
   }
 
   struct Best {
-    double objective = std::numeric_limits<double>::infinity();  // of one that holds
+    double objective = std::numeric_limits<double>::infinity();  // of a valid layout
     int generations = 0;
     double at_seconds = 0;  // when it was found
   };
@@ -84,7 +83,7 @@ class GeneticAlgorithm {
     for (const Violation& v : sums_.violations()) missing += 1 - v.share;
     const double objective = objective_of(problem_, layout);
     if (missing == 0) best_.objective = std::min(best_.objective, objective);
-    // A demand that fails, however little, costs more than half a luminaire.
+    // An unmet demand, however small, costs more than half a luminaire.
     const double penalty = 2 * luminaire_, of_any = 0.5 * luminaire_;
     fitness_.push_back(objective + penalty * missing + (missing > 0 ? of_any : 0));
     population_.push_back(std::move(layout));
@@ -98,7 +97,7 @@ class GeneticAlgorithm {
     const size_t a = random_.bits() % population_.size(), b = random_.bits() % population_.size();
     return population_[fitness_[a] <= fitness_[b] ? a : b];
   }
-  /// Place by place, so that no place has two.
+  /// Crossover place by place, so that no place gets two options.
   Layout crossed(const Layout& a, const Layout& b) {
     std::vector<char> from_a(problem_.places());
     for (char& one : from_a) one = (random_.bits() & 1) != 0;
@@ -107,7 +106,7 @@ class GeneticAlgorithm {
       out[i] = from_a[problem_.options[i].place] != 0 ? a[i] : b[i];
     return out;
   }
-  /// One place on average gets another option, or none, and one luminaire moves to another place.
+  /// On average one place gets another option, or none, and one luminaire moves to another place.
   Layout mutated(Layout layout) {
     for (int flips = static_cast<int>(random_.bits() % 4); flips > 0; --flips) {
       const size_t i = random_.bits() % layout.size();
@@ -127,7 +126,7 @@ class GeneticAlgorithm {
   Random random_;
   std::vector<Layout> population_;
   std::vector<double> fitness_;
-  double luminaire_ = 1;  // mean weight of one
+  double luminaire_ = 1;  // mean weight of a luminaire
   Best best_;
 };
 
@@ -176,7 +175,7 @@ std::string office(const std::string& design) {
          design;
 }
 
-/// Five types of one luminaire, dimmed to five fluxes, each at its price.
+/// Five types of one luminaire, dimmed to five fluxes, each with its price.
 std::string five_types() {
   std::string out;
   constexpr double shares[] = {0.5, 0.75, 1, 1.5, 2};

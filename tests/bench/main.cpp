@@ -13,9 +13,9 @@ namespace {
 
 struct Options {
   int repeats = 9;
-  double share = 1;   // of the particles and paths of images, bias, views and allocation
-  std::string scene;  // of merit and bias: those that begin so
-  std::string pack;   // of residency
+  double share = 1;   // fraction of the particles and paths of images, bias, views and allocation
+  std::string scene;  // for merit and bias: prefix of scene names
+  std::string pack;   // for residency
 };
 
 struct Table {
@@ -23,7 +23,7 @@ struct Table {
   void (*print)(const Options& options);
 };
 
-// Memory first: the highest resident size is of the whole process.
+// Memory first: the peak resident size is that of the whole process.
 constexpr Table tables[] = {
     {"memory", [](const Options&) { luxodus::bench::print_memory(708); }},
     {"speed", [](const Options& o) { luxodus::bench::print_speed(o.repeats); }},

@@ -1,4 +1,4 @@
-// Clocks, memory as the system sees it, and the summary of repeated measurements.
+// Clocks, memory as the system sees it, and the summary of repeated measurements. Any thread.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,12 @@ inline double wall_seconds() {
   return clock_seconds(CLOCK_MONOTONIC);
 }
 
-/// Of all threads of this process [s].
+/// CPU time of all threads of this process [s].
 inline double process_seconds() {
   return clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
 }
 
-/// A line of /proc/self/status [bytes], e.g. "VmRSS" or "VmHWM"; 0 where there is none.
+/// A line of /proc/self/status [bytes], e.g. "VmRSS" or "VmHWM"; 0 if it is missing.
 inline int64_t process_bytes(const std::string& key) {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {

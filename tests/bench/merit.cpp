@@ -1,4 +1,4 @@
-// Speed against error: what each way of sampling gains over the plain weighted game.
+// Speed against error: gain of each sampling method over the plain weighted game.
 #include <fmt/core.h>
 
 #include <atomic>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr uint64_t seed = 1;
 constexpr int64_t batches_per_turn = 16;
-/// What is known worse than this says nothing about variances.
+/// Results with a larger relative error are ignored, since their variances are unknown.
 constexpr double known = 0.25;
 
 struct Way {
@@ -73,7 +73,7 @@ const std::vector<MeritScene>& scenes() {
   return all;
 }
 
-/// One way on one scene: whole batches, as a run does them, on one thread.
+/// One method on one scene: whole batches, as in a run, on one thread.
 class Course {
  public:
   Course(SceneDescription description, const std::string& scenario) {
@@ -103,7 +103,7 @@ class Course {
   double seconds_ = 0;
 };
 
-/// A kind of results; `all` appends every one of them.
+/// A kind of results; `all` appends each of them.
 struct Kind {
   const char* name;
   std::function<void(const CompiledScene&, const Readout&, std::vector<Estimate>&)> all;
@@ -141,8 +141,8 @@ const std::vector<Kind>& kinds() {
   return all;
 }
 
-/// Geometric mean, over the results of a kind, of plain variance over the way's; 0 where no result
-/// is known.
+/// Geometric mean over the results of a kind: variance of the plain method over that of `way`; 0 if
+/// no result is known well enough.
 double gain_in_variance(const Kind& kind, const Course& plain, const Course& way) {
   std::vector<Estimate> a, b;
   kind.all(plain.scene(), plain.readout(), a);

@@ -1,6 +1,6 @@
 // net_bench [--seconds N]: the network alone, two nodes on two threads, one table: round trips of a
-// small question (one at a time), questions a second (64 at a time), and objects a second of the
-// size of a brick of smoke, of eight together, and of a geometry cell (8 at a time).
+// small request (one at a time), requests a second (64 at a time), and objects a second with the
+// size of a brick of smoke, of eight bricks, and of a geometry cell (8 at a time).
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -40,7 +40,7 @@ NetConfig config_of(NodeId self) {
   return config;
 }
 
-/// Asks or answers; questions for object 0 are answered "not here", those for object n with n
+/// Sends or answers requests; those for object 0 are answered "not here", those for object n with n
 /// bytes.
 class Peer final : public NetHandler {
  public:
@@ -62,7 +62,7 @@ class Peer final : public NetHandler {
     return true;
   }
   std::span<std::byte> room_for(const MessageId&, NodeId, ActorPair, size_t) override {
-    return std::as_writable_bytes(std::span(room_));  // nobody reads it: all may share it
+    return std::as_writable_bytes(std::span(room_));  // the content is ignored, so all share it
   }
   void abandoned(const MessageId&, Kind) override {}
   bool intercept(const Delivery&) override { return false; }
@@ -78,7 +78,7 @@ class Peer final : public NetHandler {
       if (!more) transport.wait_until(network.next_deadline());
     }
   }
-  /// Keeps so many questions under way for this long; returns answers a second.
+  /// Keeps `at_once` requests in flight for this long; returns answers per second.
   double load(uint64_t object, size_t at_once, Nanoseconds span) {
     answers = 0;
     size_t asked = 0;
@@ -96,7 +96,7 @@ class Peer final : public NetHandler {
     run_until([&] { return answers == asked; });
     return rate;
   }
-  /// Round trips of one question at a time [us], sorted.
+  /// Round trips of one request at a time [us], sorted.
   std::vector<double> round_trips(Nanoseconds span) {
     std::vector<double> out;
     const Nanoseconds end = system_clock.now() + span;
@@ -139,7 +139,7 @@ void measure(const char* name, const Endpoints& where, bool curve, Nanoseconds s
   std::atomic<bool> done{false};
   std::thread answering([&] { second.run_until([&] { return done.load(); }); });
   first.run_until([&] { return first.network.phase(holder) == LinkPhase::up; });
-  first.load(0, questions_at_once, span / 10);  // warm
+  first.load(0, questions_at_once, span / 10);  // warm-up
   const auto trips = first.round_trips(span);
   const double questions = first.load(0, questions_at_once, span);
   std::string objects;

@@ -1,6 +1,6 @@
-// Whole runs on nodes of this process against the plain loop, and what a delay on their links
-// costs. Pairs take turns in one process. On a machine that others use, look at processor time and
-// at the time that nodes were idle: both are ours alone, while wall time is not.
+// Whole runs on nodes of this process against the plain loop, and the cost of link delays. Pairs
+// alternate in one process. On a shared machine use CPU time and the nodes' idle time, which other
+// load does not affect, unlike wall time.
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
@@ -19,7 +19,8 @@ namespace luxodus::bench {
 namespace {
 
 constexpr uint64_t seed = 1;
-constexpr double seconds_of_a_run = 8;  // of one thread: longer than between two flushes
+// of one thread: longer than the interval between two flushes
+constexpr double seconds_of_a_run = 8;
 const std::atomic<bool> nobody{false};
 void ignore(const Progress&) {}
 
@@ -35,18 +36,18 @@ std::shared_ptr<const CompiledScene> office_floor(const char* scenario, int cell
   return compiled.value();
 }
 
-/// What one run took.
+/// Cost of one run.
 struct Taken {
   double particles = 0;
   double wall_s = 0;
   double processor_s = 0;   // of the process
-  double controller_s = 0;  // of that, the controller's thread
+  double controller_s = 0;  // part of it, of the controller's thread
   double idle_s = 0;        // of all workers
   double nodes = 1;
   WorkerReport workers;
 
   double idle_share() const { return idle_s / (wall_s * nodes); }
-  /// What came after `begun`: the same run, ended sooner.
+  /// The difference to `begun`, the same run ended earlier.
   Taken beyond(const Taken& begun) const {
     return {particles - begun.particles,
             wall_s - begun.wall_s,
@@ -117,8 +118,8 @@ double median(const std::vector<Taken>& of, Value&& value) {
   return summarise(values).median;
 }
 
-/// Two nodes on two cores of their own, over one on one: what each does in a second of processor
-/// time, less the time that it is idle.
+/// Estimated ratio of two nodes on two cores of their own to one on one: particles per second of
+/// CPU time, less idle time.
 Summary two_over_one(const std::vector<Taken>& two, const std::vector<Taken>& one) {
   std::vector<double> ratios;
   for (size_t i = 0; i < two.size(); ++i)
@@ -185,7 +186,7 @@ namespace {
 constexpr int delay_cells = 64;
 constexpr Nanoseconds delay = milliseconds(1);
 
-/// A batch that gives every fiber several portions, and the particles that show a speed.
+/// A batch size that gives every fiber several portions, and the particles for a stable speed.
 struct DelayRow {
   size_t fibers;
   int64_t batch_particles;

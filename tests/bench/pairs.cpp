@@ -1,5 +1,5 @@
-// Two ways to spend fewer particles: batches dealt to source groups by need, and the same random
-// numbers for two variants of a scene.
+// Two ways to need fewer particles: adaptive allocation of batches to source groups, and equal
+// random numbers for two variants of a scene.
 #include <fmt/core.h>
 
 #include <atomic>
@@ -35,10 +35,10 @@ SceneDescription office() {
   return *read.scene;
 }
 
-// ---- batches by need ---------------------------------------------------------------------------
+// ---- adaptive allocation -----------------------------------------------------------------------
 
-/// Variance of the mean of a result with the batches that each group has had, over that with as
-/// many in all, dealt in proportion to each group's deviation (J. Neyman 1934).
+/// Variance of the mean of a result with the present batches of each group, over that with the same
+/// total, allocated in proportion to each group's deviation (J. Neyman 1934).
 double gain_of_allocation(const std::vector<Estimate>& by_group,
                           const std::vector<double>& shares) {
   double now = 0, deviations = 0;
@@ -61,8 +61,8 @@ std::unique_ptr<LocalRun> traced(const std::shared_ptr<const CompiledScene>& sce
   return run;
 }
 
-/// Variance of the mean illuminance of a plane as dealt usually, over that with as many batches
-/// dealt for this plane by `luxodus run --adaptive`.
+/// Variance of the mean illuminance of a plane with the default allocation, over that with as many
+/// batches allocated for this plane by `luxodus run --adaptive`.
 double gain_by_need(const LocalRun& usual, const SceneDescription& d, const char* scenario,
                     uint32_t plane) {
   CompileOptions options;
@@ -83,7 +83,7 @@ void print_allocation(const char* scenario, double share) {
   SceneDescription d = office();
   d.run.groups = GroupRule::by_emitter;
   d.run.batch_particles = static_cast<int64_t>(share * 65536);
-  d.run.eye_path_factor = 0;  // nothing here is seen by an eye
+  d.run.eye_path_factor = 0;  // no eye paths are needed
   const auto scene = compiled(d, scenario);
   const auto run = traced(scene);
   const Readout readout(*scene, run->totals());
@@ -110,8 +110,7 @@ void print_allocation(const char* scenario, double share) {
              std::exp(patches / std::max(1, lit)));
 }
 
-// ---- two variants
-// --------------------------------------------------------------------------------
+// ---- two variants -------------------------------------------------------------------------------
 
 struct Edit {
   const char* name;
@@ -130,7 +129,7 @@ const std::vector<Edit>& edits() {
   return all;
 }
 
-/// Flux into the six walls, in each of so many batches [units of one particle].
+/// Flux into the six walls, by batch [units of one particle].
 std::vector<double> walls_by_batch(const std::shared_ptr<const CompiledScene>& scene,
                                    uint64_t with_seed, int64_t batches) {
   LocalRun run(scene, with_seed, 1);
@@ -150,7 +149,7 @@ std::vector<double> walls_by_batch(const std::shared_ptr<const CompiledScene>& s
   return out;
 }
 
-/// Sum over the walls of the variance of a difference between two lists by batch.
+/// Sum over the walls of the variance of the difference between two lists by batch.
 double variance_of_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double total = 0;
   for (size_t wall = 0; wall < 6; ++wall) {

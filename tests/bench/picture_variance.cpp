@@ -16,7 +16,7 @@ namespace luxodus::bench {
 namespace {
 
 constexpr int picture_width = 96, picture_height = 54;
-/// Pixels darker than this share of the mean are judged as if they were that bright.
+/// Pixels darker than this share of the mean are weighted as if they were that bright.
 constexpr double darkest_share = 0.01;
 
 constexpr ScenarioView scenario_views[] = {
@@ -33,7 +33,7 @@ std::shared_ptr<const CompiledScene> scene_of(const ScenarioView& of) {
   auto read = read_scene(std::string(LUX_SOURCE_DIR "/scenes/library/") + of.file + ".toml");
   if (!read.scene) throw std::runtime_error(std::string(of.file) + " cannot be read");
   SceneDescription d = *read.scene;
-  d.run.eye_path_factor = 0;  // pictures take their paths themselves
+  d.run.eye_path_factor = 0;  // pictures trace their own paths
   std::erase_if(d.cameras, [&](const Camera& c) { return c.name != of.view; });
   if (d.cameras.empty()) throw std::runtime_error(std::string("there is no view ") + of.view);
   d.cameras[0].width = picture_width;

@@ -1,4 +1,4 @@
-// Variance of paths of pictures and the time that they take, of the views that tables compare.
+// Variance and time of picture paths, for the views that tables compare. One thread.
 #pragma once
 
 #include <cstdint>
@@ -9,30 +9,30 @@
 
 namespace luxodus::bench {
 
-/// A view of a scene that ships.
+/// A view of a shipped scene.
 struct ScenarioView {
-  const char* file;  // of scenes/library
+  const char* file;  // in scenes/library
   const char* scenario;
   const char* view;
 };
-/// Those of the office floor and of the auditorium, in smoke and in clear air.
+/// Views of the office floor and of the auditorium, in smoke and in clear air.
 std::span<const ScenarioView> compared_views();
 
-/// After so many particles.
+/// A run of this many particles.
 std::unique_ptr<LocalRun> traced_run(const ScenarioView& of, int64_t particles);
 
-/// What the paths of a view's pixels have found.
+/// Statistics of the paths of a view's pixels.
 struct PathVariance {
-  double path_s = 0;  // processor time of a path
+  double path_s = 0;  // CPU time per path
   double mean = 0, error_of_mean = 0;
-  /// Relative, of one path; means over the pixels.
+  /// Relative variance of one path; means over the pixels.
   double variance = 0, without_brightest = 0;
 
   double merit() const { return 1 / (variance * path_s); }
 };
 
-/// So many paths of each pixel of the picture of a run. `flux`: where they end, or null. `learned`:
-/// whether emitters are chosen by what cells of space have learned; learning is in the time.
+/// Traces `paths` paths for each pixel of the run's picture. `flux`: where they end, or null.
+/// `learned`: whether emitters are chosen by learned importance; the time includes learning.
 PathVariance variance_of_paths(const LocalRun& run, const KnownRadiance* flux, bool learned,
                                int paths);
 

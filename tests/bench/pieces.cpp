@@ -16,8 +16,8 @@ namespace {
 
 constexpr int calls_per_turn = 200'000;
 
-/// Nanoseconds per call of `piece`, a function of a call number that gives a float: results are
-/// chained into a sum, so that none can be left out.
+/// Nanoseconds per call of `piece`, a function of a call number that returns a float: results are
+/// summed, so that no call is optimised away.
 template <class Piece>
 void print_piece(const char* name, int repeats, Piece&& piece) {
   std::vector<double> ns;

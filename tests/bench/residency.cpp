@@ -19,7 +19,7 @@ namespace luxodus::bench {
 namespace {
 
 constexpr int nodes = 2;
-constexpr double profile_share = 0.1;  // of so short a run; 1 % of a long one is more
+constexpr double profile_share = 0.1;  // for so short a run; 1 % of a long run is more
 
 struct Plan {
   const char* name;
@@ -29,7 +29,7 @@ struct Plan {
 constexpr Plan plans[] = {
     {"none", 0, 0}, {"holders and leases", profile_share, 0}, {"and pins", profile_share, 0.5}};
 
-/// What a row traces. One fiber alone waits for every part it lacks: it gets few particles.
+/// Work of a row. A single fiber waits for every missing part: it gets few particles.
 struct Size {
   size_t fibers;
   int64_t batch_particles;
@@ -68,14 +68,14 @@ void print_row(const Scene& scene, const Size& size, const Plan& plan, size_t bu
   options.nodes = nodes;
   options.fibers = size.fibers;
   options.sharing = false;
-  options.portion = 1;  // so that two open batches are work for 4096 fibers
+  options.portion = 1;  // so that two open batches are enough work for 4096 fibers
   options.object_bytes = budget;
   options.profile_share = plan.profile_share;
   options.pinned_share = plan.pinned_share;
   StopRule stop;
   stop.particles = size.particles;
   const std::atomic<bool> never{false};
-  LocalRun run(scene, 1, 1, nullptr);  // nobody holds all of it
+  LocalRun run(scene, 1, 1, nullptr);  // no node holds all of it
   NodesReport report;
   const double began = wall_seconds();
   const auto ended = run_on_nodes(

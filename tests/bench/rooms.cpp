@@ -1,4 +1,4 @@
-// What a picture of a room costs: its error by paths, and the processor time to an error of 10 %.
+// Cost of a picture of a room: its error by paths, and the CPU time to an error of 10 %.
 #include <fmt/core.h>
 
 #include <atomic>
@@ -18,7 +18,7 @@ constexpr int width = 96, height = 54;
 constexpr int long_paths = 8192;
 constexpr int64_t all_particles = 1 << 22;
 constexpr double wanted_error = 0.1;
-/// Pixels darker than this share of the mean are judged as if they were that bright.
+/// Pixels darker than this share of the mean are weighted as if they were that bright.
 constexpr double dark = 0.01;
 
 std::unique_ptr<LocalRun> traced(Air air, uint64_t seed, int64_t particles) {
@@ -30,7 +30,7 @@ std::unique_ptr<LocalRun> traced(Air air, uint64_t seed, int64_t particles) {
   return run;
 }
 
-/// Root of the mean square of the relative deviation of luminance.
+/// Root mean square of the relative deviation of luminance.
 double deviation(const XyzPicture& is, const XyzPicture& wanted) {
   const size_t n = wanted.pixels();
   const auto luminance = [](const XyzPicture& p, size_t i) {
@@ -48,7 +48,7 @@ double deviation(const XyzPicture& is, const XyzPicture& wanted) {
 }
 
 void print_room(const char* name, Air air, int64_t particles, int reference_paths) {
-  // Another seed than the pictures': a long one is not to share their chance.
+  // A seed other than the pictures', so that the long run is independent.
   const auto long_run = traced(air, 77, particles);
   const double before = process_seconds();
   const auto run = traced(air, 1, particles);
@@ -58,7 +58,7 @@ void print_room(const char* name, Air air, int64_t particles, int reference_path
       PictureOptions options;
       options.paths_per_pixel = paths;
       options.gather = gather;
-      options.raw = true;  // as many paths for all pixels
+      options.raw = true;  // equal paths for all pixels
       const auto flux = gather ? flux_radiance(of) : nullptr;
       return trace_picture(of, 0, options, flux.get());
     };
@@ -67,7 +67,7 @@ void print_room(const char* name, Air air, int64_t particles, int reference_path
       const double start = process_seconds();
       const TracedPicture picture = draw(*run, paths);
       const double seconds = process_seconds() - start;
-      // Two pictures of so many paths differ by the chance of both.
+      // Two pictures with these numbers of paths have independent errors; this is the share of one.
       const double own = std::sqrt(reference_paths / static_cast<double>(reference_paths + paths));
       const double error = own * deviation(picture.light, wanted.light);
       const double filter_start = process_seconds();

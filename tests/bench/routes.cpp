@@ -14,7 +14,7 @@ namespace luxodus::bench {
 
 namespace {
 
-/// Median processor seconds of `piece`, which is repeated `inside` times at once.
+/// Median CPU seconds of `piece`, which is repeated `inside` times per measurement.
 double median_seconds(int repeats, int inside, const std::function<void()>& piece) {
   std::vector<double> seconds;
   for (int r = 0; r < repeats; ++r) {
@@ -25,14 +25,14 @@ double median_seconds(int repeats, int inside, const std::function<void()>& piec
   return summarise(seconds).median;
 }
 
-/// What one node does at each news of a link: it notes the change, lists what is down, and makes
-/// its next hops anew.
+/// Work of one node at each link change: it updates its view, lists the links that are down, and
+/// recomputes its next hops.
 class Rerouting {
  public:
   Rerouting(const Graph& graph, const Routes& balanced)
       : edges_(edges_of(graph)), view_(edges_), routes_(graph, balanced, 0) {}
 
-  /// So many links, evenly spread, are down.
+  /// Takes this many links down, evenly spread.
   void fail(size_t links) {
     for (size_t i = 0; i < links; ++i) view_.set(edges_[i * edges_.size() / links], false);
   }

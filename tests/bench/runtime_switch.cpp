@@ -15,11 +15,11 @@ namespace {
 
 constexpr size_t resumes_per_turn = 1'000'000;
 
-/// `piece` does something `count` times; prints what one of them cost.
+/// `piece` performs `count` operations; prints the cost of one.
 void print_cost(const std::string& name, int repeats, size_t count,
                 const std::function<void()>& piece) {
   std::vector<double> ns;
-  piece();  // pages of stacks are touched, caches filled
+  piece();  // touches stack pages and fills caches
   for (int r = 0; r < repeats; ++r) {
     const double start = thread_seconds();
     piece();
@@ -63,7 +63,7 @@ void print_switches(int repeats) {
   }
 }
 
-/// The same under the scheduler, which reads the clock after each resume.
+/// The cost under the scheduler, which reads the clock after each resume.
 void print_scheduled(int repeats) {
   const SystemClock clock;
   QuietSource source(clock);
@@ -122,7 +122,7 @@ void print_messages(int repeats) {
   end_all(scheduler.fibers());
 }
 
-/// Of a node without neighbours.
+/// For a node without neighbours.
 class NoTransport final : public Transport {
  public:
   Sent send(NodeId, Lane, std::span<const std::byte>, std::span<const std::byte>) override {
@@ -153,7 +153,7 @@ class Lender final
   uint64_t sum = 0;
 };
 
-/// By address, as actors of different nodes send.
+/// Messages by address, as between actors of different nodes.
 void print_letters(int repeats) {
   const SystemClock clock;
   QuietSource source(clock);
@@ -181,7 +181,7 @@ void print_letters(int repeats) {
 }
 
 void print_timers(int repeats) {
-  constexpr size_t standing = 10'000;  // other timers, seconds ahead
+  constexpr size_t standing = 10'000;  // further timers, seconds ahead
   constexpr size_t count = 200'000;
   Timers timers(standing + 1, 0);
   Random random(1, RandomStream::test);

@@ -35,7 +35,7 @@ constexpr Row rows[] = {
     {"layered, det., voxels", Air::layered, {true, true}},
 };
 
-/// A resolver that answers as the merged one does and keeps every ray that was asked.
+/// A resolver that answers as the merged one and records every ray.
 class RecordingResolver : public MergedResolver {
  public:
   RecordingResolver(const CompiledScene& scene, const SceneIndex& index)
@@ -49,7 +49,7 @@ class RecordingResolver : public MergedResolver {
   std::vector<Ray> rays;
 };
 
-/// The rays of the scene's first particles. Detectors draw no numbers, so they are left out here.
+/// The rays of the scene's first particles. Detectors draw no random numbers, so they are omitted.
 template <MediaNeed Media>
 std::vector<Ray> record(const CompiledScene& scene, const SceneIndex& index) {
   RecordingResolver resolver(scene, index);
@@ -74,7 +74,7 @@ std::vector<Ray> without_ends(std::vector<Ray> rays) {
   return rays;
 }
 
-/// Whole batches as a run does them: trace, then merge with squares.
+/// Whole batches as in a run: trace, then merge with squares.
 class Runner {
  public:
   Runner(const CompiledScene& scene, const SceneIndex& index)
@@ -98,7 +98,7 @@ class Runner {
   uint64_t next_ = 0;
 };
 
-/// Repeats `turn`, which returns how many rays it made, for a while: rays per second of processor
+/// Repeats `turn`, which returns its number of rays, for a while; returns rays per second of CPU
 /// time.
 template <class Turn>
 double rays_per_second(Turn&& turn) {

@@ -1,4 +1,4 @@
-// Assessments that the processes of a cluster trace for.
+// Assessments traced by the processes of a cluster.
 #include "tests/examples/cluster_kit.hpp"
 #include "tests/kit/room_texts.hpp"
 
@@ -68,14 +68,14 @@ TEST_CASE("a cluster gives an assessment the verdicts of threads", "[cluster][as
   const int code = up.wait();
   INFO(up.text());
   REQUIRE(code == 0);
-  // Who comes late may find that the other has traced all.
+  // A process that comes late may find that the other has traced everything.
   CHECK((up.said("n0 is there") || up.said("n1 is there")));
   for (const char* file : {"sights.csv", "checks.csv"})
     CHECK(contents(folder / "out" / file) == contents(folder / "here" / file));
   CHECK(fs::exists(folder / "out" / "report.html"));
 }
 
-TEST_CASE("an assessment goes on when a worker is killed, with the same verdicts",
+TEST_CASE("an assessment continues when a worker is killed, with the same verdicts",
           "[cluster][assess]") {
   const TemporaryFolder folder;
   const std::string scene = smoky_corridor(folder);
@@ -130,7 +130,7 @@ step = 30
   CHECK(guided.find(",guided") != std::string::npos);     // at first
 }
 
-TEST_CASE("an assessment that no worker comes for ends, and says what to do",
+TEST_CASE("an assessment without any worker ends, and says what to do",
           "[cluster][assess][failure]") {
   const TemporaryFolder folder;
   ClusterText text = assessed(smoky_corridor(folder));
@@ -142,7 +142,7 @@ TEST_CASE("an assessment that no worker comes for ends, and says what to do",
   CHECK_FALSE(fs::exists(folder / "out" / "report.html"));
 }
 
-TEST_CASE("a cluster's file that contradicts its table assess is refused",
+TEST_CASE("a cluster's file that contradicts its table assess is rejected",
           "[cluster][assess][failure]") {
   const TemporaryFolder folder;
   const std::string scene = smoky_corridor(folder);

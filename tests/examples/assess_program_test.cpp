@@ -1,4 +1,5 @@
-// `luxodus assess` as it is typed: what is refused, what is said first, what --strict counts.
+// `luxodus assess` on a command line: refusals, the first lines of its output, the effect of
+// --strict.
 #include "tests/examples/program_kit.hpp"
 
 using namespace luxodus::program;
@@ -69,7 +70,7 @@ bool has(const std::string& text, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("assess refuses what was not named, with what to write, and writes nothing",
+TEST_CASE("assess refuses to run without required options, names them, and writes nothing",
           "[program][assess]") {
   const TemporaryFolder folder;
   const std::string rules = "--rules en1838-2024 ";
@@ -90,7 +91,7 @@ TEST_CASE("assess refuses what was not named, with what to write, and writes not
           "deviates from none");
 }
 
-TEST_CASE("assess says the judged state before any verdict, and never that a building complies",
+TEST_CASE("assess states the judged state before any verdict, and never that a building complies",
           "[program][assess]") {
   const TemporaryFolder folder;
   const std::string scene =
@@ -115,7 +116,7 @@ TEST_CASE("assess says the judged state before any verdict, and never that a bui
   CHECK_FALSE(has(page, "checks pass"));
 }
 
-TEST_CASE("mains operation is judged where it is named, with a warning", "[program][assess]") {
+TEST_CASE("mains operation is judged if it is named, with a warning", "[program][assess]") {
   const TemporaryFolder folder;
   const Outcome outcome =
       assess(folder, corridor + smoky, "--scenario fire --codes-alone --rules en1838-2024");
@@ -124,7 +125,7 @@ TEST_CASE("mains operation is judged where it is named, with a warning", "[progr
   CHECK(has(outcome.out, "MAINS: not an emergency"));
 }
 
-TEST_CASE("a limit that was read nowhere is told, and with --strict it is open",
+TEST_CASE("a limit without a source is reported, and with --strict it is undecided",
           "[program][assess]") {
   const TemporaryFolder folder;
   const std::string scene = corridor + smoky + emergency;

@@ -1,4 +1,4 @@
-// What `luxodus check` says of a scene, and that other commands refuse what it calls an error.
+// The output of `luxodus check`, and that other commands refuse scenes with errors.
 #include <nlohmann/json.hpp>
 
 #include "tests/examples/program_kit.hpp"
@@ -42,8 +42,8 @@ std::string written(const TemporaryFolder& folder, const std::string& text) {
 }  // namespace
 
 TEST_CASE(
-    "check names each finding with its severity, file and line, counts them, and fails on "
-    "errors alone",
+    "check lists each finding with its severity, file and line, counts them, and fails on errors "
+    "only",
     "[program]") {
   const TemporaryFolder folder;
   const auto fine = run_luxodus(folder, "check " + written(folder, good));

@@ -1,5 +1,5 @@
-// Clusters that are shown by another node than the controller's, and actors that fail on purpose,
-// as a person starts them.
+// Clusters displayed by a node other than the controller's, and actors that fail on purpose, as a
+// user starts them.
 #include "tests/examples/cluster_kit.hpp"
 
 using namespace luxodus::program;
@@ -15,7 +15,7 @@ ClusterText shown_by(const std::string& node, const std::string& run) {
   return text;
 }
 
-/// One actor of a node fails so long after its start.
+/// An actor of a node fails at this time after its start.
 std::string failure(const std::string& node, const std::string& actor, const std::string& at_s) {
   return "[[faults.event]]\nkind = \"failure\"\nnode = \"" + node + "\"\nactor = \"" + actor +
          "\"\nat_s = " + at_s + "\n";
@@ -34,7 +34,7 @@ void check_all_end_well(const Running& nodes) {
 
 }  // namespace
 
-TEST_CASE("a worker that shows the run writes the results of the plain loop",
+TEST_CASE("a worker that displays the run writes the results of the plain loop",
           "[cluster][display]") {
   const TemporaryFolder folder;
   const Running nodes = start(write_cluster(folder, shown_by("n1", "particles = 400_000\n")), 3);
@@ -45,7 +45,7 @@ TEST_CASE("a worker that shows the run writes the results of the plain loop",
   check_plain_flux(folder, "400k");
 }
 
-TEST_CASE("a display that is killed and started again loses no flux", "[cluster][display]") {
+TEST_CASE("a display that is killed and restarted loses no flux", "[cluster][display]") {
   const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, shown_by("n1", "particles = 400_000\n"));
   Running nodes = start(cluster, 3);
@@ -58,8 +58,9 @@ TEST_CASE("a display that is killed and started again loses no flux", "[cluster]
   CHECK(result.find("\"finished\": false") == std::string::npos);
 }
 
-TEST_CASE("a run whose display does not come back keeps its journal, and is ended by the next",
-          "[cluster][display]") {
+TEST_CASE(
+    "a run whose display does not return keeps its journal, and the next display completes it",
+    "[cluster][display]") {
   const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, shown_by("n1", "particles = 400_000\n"));
   Running nodes = start(cluster, 3);
@@ -77,7 +78,7 @@ TEST_CASE("a run whose display does not come back keeps its journal, and is ende
   check_plain_flux(folder, "400k");
 }
 
-TEST_CASE("a cluster that is told to end has its display write what there is",
+TEST_CASE("a cluster that is told to end has its display write the results so far",
           "[cluster][display]") {
   const TemporaryFolder folder;
   ClusterText text = shown_by("n2", endless);
@@ -92,7 +93,7 @@ TEST_CASE("a cluster that is told to end has its display write what there is",
   check_goes_on(folder);
 }
 
-TEST_CASE("a tracer that fails makes its node leave, and the others leave the same bits",
+TEST_CASE("a tracer that fails makes its node leave, and the others give the same bits",
           "[cluster][supervision]") {
   const TemporaryFolder folder;
   ClusterText text;
@@ -110,7 +111,7 @@ TEST_CASE("a tracer that fails makes its node leave, and the others leave the sa
   check_plain_flux(folder, "1200k");
 }
 
-TEST_CASE("a coordinator or journal that fails ends the run, and the journal stays",
+TEST_CASE("a coordinator or journal that fails ends the run, and the journal remains",
           "[cluster][supervision]") {
   for (const char* actor : {"coordinator", "journal"}) {
     INFO(actor);
@@ -130,7 +131,7 @@ TEST_CASE("a coordinator or journal that fails ends the run, and the journal sta
   }
 }
 
-TEST_CASE("a display that fails on purpose begins anew, and the run ends well",
+TEST_CASE("a display that fails on purpose begins anew, and the run completes",
           "[cluster][supervision]") {
   const TemporaryFolder folder;
   ClusterText text = shown_by("n0", "particles = 600_000\n");
@@ -141,7 +142,7 @@ TEST_CASE("a display that fails on purpose begins anew, and the run ends well",
   check_plain_flux(folder, "600k");
 }
 
-TEST_CASE("a display on a node that is not there is refused, with the one that was meant",
+TEST_CASE("a display on an unknown node is rejected, with the one probably meant",
           "[cluster][display]") {
   const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, shown_by("controler", endless));

@@ -1,14 +1,14 @@
-// Real processes over TCP, and what goes wrong between and within them: each case ends in the bits
-// of the plain loop, and prints when the fault was noticed and when all was well again.
+// Real processes over TCP, with faults between and within them: each case ends in the bits of the
+// plain loop, and prints when the fault was detected and when the cluster had recovered.
 #include "tests/examples/fault_kit.hpp"
 
 using namespace luxodus::program;
 
 namespace {
 
-/// Workers that are found silent in 0.4 s and given up 0.5 s later, and hand over what they have
-/// traced twice a second. They compute at a quarter of their speed, so that the same particles are
-/// soon traced again by the plain loop. A test that waits in vain ends after a minute.
+/// Workers that are suspected after 0.4 s of silence and given up 0.5 s later, and flush twice a
+/// second. They compute at a quarter of their speed, so that the plain loop traces the same
+/// particles quickly. A test whose wait fails ends after a minute.
 ClusterText quick(int workers) {
   ClusterText text;
   text.workers = workers;
@@ -30,8 +30,8 @@ std::string of_link(const std::string& word, int node, int neighbour) {
          " neighbour=" + std::to_string(neighbour) + "\n";
 }
 
-/// Silence is suspected first; where the connection has gone, and something is to be sent, it is
-/// known at once.
+/// Silence is suspected first; if the connection is broken, and something is to be sent, it is
+/// detected at once.
 std::string change_of(int node, int neighbour) {
   return " node=" + std::to_string(node) + " neighbour=" + std::to_string(neighbour) + "\n";
 }
@@ -44,11 +44,11 @@ std::string flush_of(int worker) {
   return "flush=taken node=" + std::to_string(worker) + " ";
 }
 
-/// Three workers with room for half of a scene, of which the last stores nothing of it: it has what
-/// it needs from the other two, who hold every object both.
+/// Three workers with room for half of a scene, of which the last stores nothing: it fetches from
+/// the other two, which both hold every object.
 ClusterText fetching(const std::string& scene) {
   ClusterText text = quick(3);
-  text.more.erase(text.more.find("[[faults.event]]"));  // who fetches is slow enough
+  text.more.erase(text.more.find("[[faults.event]]"));  // the fetching worker is slow enough
   text.more.replace(text.more.find("duration_s = 2"), 14, "duration_s = 8");
   text.scene = scene;
   text.of_node["n2"] = "stores = false\n";
@@ -60,7 +60,7 @@ std::string cells_of(const TemporaryFolder& folder) {
   return " --cells " + std::to_string(number_in(folder, "cells"));
 }
 
-/// Nine workers, of which three lead the six others.
+/// Nine workers, of which three lead the other six.
 ClusterText of_two_levels() {
   ClusterText text = quick(9);
   const std::string lease = "[lease]\n";
@@ -68,7 +68,7 @@ ClusterText of_two_levels() {
   return text;
 }
 
-/// The first of these workers that leads others, and one whom it leads, when it is gone.
+/// The first of these workers that leads others, and one of those it leads, when it is gone.
 size_t leader_among(const Running& nodes) {
   for (size_t i = 0; i < nodes.workers.size(); ++i) {
     (void)nodes.workers[i]->now();
@@ -78,7 +78,7 @@ size_t leader_among(const Running& nodes) {
   return 0;
 }
 
-/// Those whom the lost one led work for another, whose flushes are taken.
+/// The workers of the lost leader work for another one, which takes their flushes.
 void check_orphans(const Running& nodes, size_t leader) {
   size_t orphans = 0;
   const std::string lost_one = "coordinator=lost node=" + std::to_string(leader) + " ";
@@ -90,7 +90,7 @@ void check_orphans(const Running& nodes, size_t leader) {
   CHECK(orphans == 2);
 }
 
-/// Ends the run, and compares what it left.
+/// Ends the run, and compares its results.
 void end_with_same_bits(const TemporaryFolder& folder, const Running& nodes, const FaultRow& row) {
   nodes.end();
   INFO(nodes.controller->text());
@@ -114,8 +114,9 @@ TEST_CASE("half of the workers may be killed at once, or all but one, with the s
   end_with_same_bits(folder, nodes, row);
 }
 
-TEST_CASE("a node that leads others may be killed, and these work for the next, same bits",
-          "[cluster][faults][levels]") {
+TEST_CASE(
+    "a node that leads others may be killed, and these work for the next one, with the same bits",
+    "[cluster][faults][levels]") {
   const TemporaryFolder folder;
   const Running nodes = start(write_cluster(folder, over_tcp(of_two_levels())), 9);
   const size_t leader = leader_among(nodes);
@@ -128,7 +129,7 @@ TEST_CASE("a node that leads others may be killed, and these work for the next, 
   check_orphans(nodes, leader);
 }
 
-TEST_CASE("a node that leads others may be stopped, and goes on", "[cluster][faults][levels]") {
+TEST_CASE("a node that leads others may be suspended, and continues", "[cluster][faults][levels]") {
   const TemporaryFolder folder;
   const Running nodes = start(write_cluster(folder, over_tcp(of_two_levels())), 9);
   const size_t leader = leader_among(nodes);
@@ -166,7 +167,7 @@ TEST_CASE("a node that leads others may be cut off, with the same bits",
   end_with_same_bits(folder, nodes, row);
 }
 
-TEST_CASE("where all nodes that trace are lost, those that lead them do not keep a run alive",
+TEST_CASE("when all tracing nodes are lost, the nodes that lead them do not keep a run alive",
           "[cluster][faults][levels]") {
   const TemporaryFolder folder;
   ClusterText text = quick(4);
@@ -188,7 +189,7 @@ TEST_CASE("where all nodes that trace are lost, those that lead them do not keep
   check_goes_on(folder, 1'000);
 }
 
-TEST_CASE("a coordinator that fails on a worker costs that worker, and the run goes on",
+TEST_CASE("a coordinator that fails on a worker costs that worker, and the run continues",
           "[cluster][faults][levels]") {
   const TemporaryFolder folder;
   ClusterText text = of_two_levels();
@@ -211,8 +212,7 @@ TEST_CASE("a coordinator that fails on a worker costs that worker, and the run g
   CHECK_FALSE(nodes.controller->said("run=failed"));
 }
 
-TEST_CASE("a worker that is stopped is given up, and works again when it goes on",
-          "[cluster][faults]") {
+TEST_CASE("a suspended worker is given up, and works again when it resumes", "[cluster][faults]") {
   const TemporaryFolder folder;
   const Running nodes = start(write_cluster(folder, over_tcp(quick(3))), 3);
   REQUIRE(nodes.controller->says(flush_of(1)));
@@ -226,7 +226,8 @@ TEST_CASE("a worker that is stopped is given up, and works again when it goes on
   end_with_same_bits(folder, nodes, row);
 }
 
-TEST_CASE("a partition that heals in time costs nobody, with the same bits", "[cluster][faults]") {
+TEST_CASE("a partition that heals in time costs no worker, with the same bits",
+          "[cluster][faults]") {
   const TemporaryFolder folder;
   ClusterText text = quick(3);
   text.more.replace(text.more.find("lost_s = 0.5"), 12, "lost_s = 30 ");
@@ -247,7 +248,7 @@ TEST_CASE("a partition that heals in time costs nobody, with the same bits", "[c
   end_with_same_bits(folder, nodes, row);
 }
 
-TEST_CASE("a worker that a partition has cut off for long ends, and is taken in when started again",
+TEST_CASE("a worker cut off for long by a partition ends, and is accepted after a restart",
           "[cluster][faults]") {
   const TemporaryFolder folder;
   const ProxiedCluster cluster = behind_proxy(folder, quick(3), 1);
@@ -266,8 +267,7 @@ TEST_CASE("a worker that a partition has cut off for long ends, and is taken in 
   end_with_same_bits(folder, nodes, row);
 }
 
-TEST_CASE("connections that break again and again cost time, with the same bits",
-          "[cluster][faults]") {
+TEST_CASE("connections that break repeatedly cost time, with the same bits", "[cluster][faults]") {
   const TemporaryFolder folder;
   const ProxiedCluster cluster = behind_proxy(folder, quick(3), 1);
   const Running nodes = start(cluster, 3, 1);
@@ -282,7 +282,7 @@ TEST_CASE("connections that break again and again cost time, with the same bits"
   end_with_same_bits(folder, nodes, row);
 }
 
-TEST_CASE("a link that is slow and long delays its worker, with the same bits",
+TEST_CASE("a slow link with high latency delays its worker, with the same bits",
           "[cluster][faults]") {
   const TemporaryFolder folder;
   ClusterText text = quick(3);
@@ -299,15 +299,14 @@ TEST_CASE("a link that is slow and long delays its worker, with the same bits",
   end_with_same_bits(folder, nodes, row);
 }
 
-TEST_CASE("bytes that a network harms are found and sent again, with the same bits",
-          "[cluster][faults]") {
+TEST_CASE("corrupted bytes are detected and sent again, with the same bits", "[cluster][faults]") {
   const TemporaryFolder folder;
   const bool keys = GENERATE(false, true);
   ClusterText text = quick(2);
-  // Workers at full speed: what slows them also writes into frames how long these are to be held.
+  // Workers at full speed: slow ones also write into frames how long these are to be held.
   text.more.erase(text.more.find("[[faults.event]]"));
-  // CURVE may have to begin so often that both are away for longer than half a second; a run that
-  // has lost all its workers ends.
+  // CURVE may have to begin so often that both are unreachable for more than half a second; a run
+  // that has lost all its workers ends.
   const std::string hasty = "lost_s = 0.5", patient = "lost_s = 30";
   text.more.replace(text.more.find(hasty), hasty.size(), patient);
   if (keys) text.more += "[keys]\nfolder = \"keys\"\n";
@@ -315,13 +314,13 @@ TEST_CASE("bytes that a network harms are found and sent again, with the same bi
   if (keys) REQUIRE(run_luxodus(folder, "keygen --cluster " + cluster.its).code == 0);
   const Running nodes = start(cluster, 2, 1);
   REQUIRE(nodes.controller->says(flush_of(1)));
-  // CURVE ends a connection at the first, and the next is there within beats: so often that one is
-  // missed, however slow the machine.
+  // CURVE ends a connection at the first corrupted byte, and the next one is there within beats: so
+  // often that a beat is missed, however slow the machine.
   FaultRow row(keys ? "one byte in 5000 of a worker's is harmed, with keys"
                     : "one byte in 50 000 of a worker's is harmed, without keys",
                *nodes.controller);
   cluster.proxy->order(keys ? "harm 5000" : "harm 50000");
-  // By the check of a frame; by CURVE, which then ends the connection.
+  // Detected by the check of a frame; or by CURVE, which then ends the connection.
   row.noticed(keys ? of_link("suspect", 2, 1) : "net=malformed node=2 neighbour=1 ");
   row.healed();
   cluster.proxy->order("heal");
@@ -333,7 +332,7 @@ TEST_CASE("a node whose thread is stuck is given up while its process lives, and
           "[cluster][faults]") {
   const TemporaryFolder folder;
   ClusterText text = over_tcp(quick(3));
-  // Its process answers for it on the wire, and has another node that works on.
+  // Its process answers for it on the wire, and has another node that keeps working.
   for (const char* name : {"n1", "n2"}) text.of_node[name] = "process = \"pair\"\n";
   text.more += "[[faults.event]]\nkind = \"pause\"\nnode = \"n1\"\nat_s = 2\nlasts_s = 1.5\n";
   const std::string cluster = write_cluster(folder, text);
@@ -352,7 +351,7 @@ TEST_CASE("a node whose thread is stuck is given up while its process lives, and
   end_with_same_bits(folder, nodes, row);
 }
 
-TEST_CASE("the holder of objects that all ask for may be killed, with the same bits",
+TEST_CASE("the holder of objects that all nodes request may be killed, with the same bits",
           "[cluster][faults]") {
   const TemporaryFolder folder;
   const Running nodes = start(write_cluster(folder, over_tcp(fetching(boxes(folder)))), 3);
@@ -368,7 +367,7 @@ TEST_CASE("the holder of objects that all ask for may be killed, with the same b
   row.end("same bits");
 }
 
-TEST_CASE("particles that need objects which nobody has any more are lost, and the run says so",
+TEST_CASE("particles that need objects without a holder are lost, and the run says so",
           "[cluster][faults]") {
   const TemporaryFolder folder;
   const std::string pack = (folder / "boxes.luxpack").string();
@@ -397,12 +396,12 @@ TEST_CASE("particles that need objects which nobody has any more are lost, and t
   CHECK(nodes.workers[2]->wait() == 0);
   const std::string result = slurp(folder / "out" / "result.json");
   CHECK(result.find("\"stopped_by\": \"objects lost\"") != std::string::npos);
-  // What is there is whole batches, and says which it lacks.
+  // The result consists of whole batches, and lists the missing ones.
   check_goes_on(folder, 4'000, pack);
   row.end("exit 1, the particles that are lost, and what can be gone on from");
 }
 
-TEST_CASE("a second process under a node's name on its host ends, and the first goes on",
+TEST_CASE("a second process under a node's name on its host ends, and the first continues",
           "[cluster][faults]") {
   const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, over_tcp(quick(2)));
@@ -418,12 +417,12 @@ TEST_CASE("a second process under a node's name on its host ends, and the first 
   end_with_same_bits(folder, nodes, row);
 }
 
-TEST_CASE("a second process under a node's name on another host does not harm the result",
+TEST_CASE("a second process under a node's name on another host does not affect the result",
           "[cluster][faults]") {
   const TemporaryFolder folder;
   ClusterText text = over_tcp(quick(3));
   const std::string cluster = write_cluster(folder, text);
-  text.ports[1] = free_ports(1).front();  // where nobody looks for it
+  text.ports[1] = free_ports(1).front();  // a port that nobody connects to
   const std::string of_twin = write_cluster(folder, text, "of_twin");
   const Running nodes = start(cluster, 3);
   REQUIRE(nodes.controller->says(flush_of(1)));
@@ -434,10 +433,10 @@ TEST_CASE("a second process under a node's name on another host does not harm th
   end_with_same_bits(folder, nodes, row);
 }
 
-TEST_CASE("who looks at a run and reads nothing holds up nobody", "[cluster][faults]") {
+TEST_CASE("a metrics client that reads nothing blocks nobody", "[cluster][faults]") {
   const TemporaryFolder folder;
   ClusterText text = over_tcp(quick(2));
-  std::vector<uint16_t> pages = free_ports(2);  // its three processes take these in their order
+  std::vector<uint16_t> pages = free_ports(2);  // its three processes use these in order
   while (pages[1] != pages[0] + 2) pages = {pages[1], free_ports(1).front()};
   text.more.insert(text.more.find("log_level"),
                    "metrics_port = " + std::to_string(pages[0]) + "\n");

@@ -1,5 +1,5 @@
-// Keys and deployments as a person makes them: what `luxodus keygen` and `luxodus deploy` write,
-// and that those who read it accept it.
+// Keys and deployments as a user makes them: the files of `luxodus keygen` and `luxodus deploy`,
+// and that their readers accept them.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -38,7 +38,7 @@ std::string small_cluster(const TemporaryFolder& folder) {
   return "\"" + file.string() + "\"";
 }
 
-/// A program that stands in for luxodus: `body` in a shell, with a node's command line.
+/// A program that replaces luxodus: `body` in a shell, with a node's command line.
 std::string stand_in(const TemporaryFolder& folder, const std::string& body) {
   const fs::path file = folder / "stand in";
   std::ofstream(file) << "#!/bin/bash\n" << body;
@@ -72,7 +72,7 @@ TEST_CASE("keygen makes a pair for each node of a cluster, secret to its owner",
   CHECK(made.out.find(slurp(keys / "controller.key").substr(0, 40)) == std::string::npos);
 }
 
-TEST_CASE("keygen replaces no key unless it is told to", "[program]") {
+TEST_CASE("keygen replaces no key unless told to", "[program]") {
   const TemporaryFolder folder;
   const fs::path keys = folder / "keys";
   const std::string arguments = "keygen n0 n1 --out " + keys.string();
@@ -155,7 +155,7 @@ TEST_CASE("units pass systemd's own check", "[program]") {
   }
 }
 
-TEST_CASE("scripts parse, and shellcheck has nothing to say", "[program]") {
+TEST_CASE("scripts parse, and shellcheck has no findings", "[program]") {
   const TemporaryFolder folder;
   const bool checks = is_there("shellcheck");
   if (!checks) WARN("there is no shellcheck here: only bash looks at the scripts");
@@ -176,7 +176,7 @@ TEST_CASE("scripts parse, and shellcheck has nothing to say", "[program]") {
   }
 }
 
-TEST_CASE("the script over ssh starts every process, and ends well when all do", "[program]") {
+TEST_CASE("the ssh script starts every process, and succeeds when all do", "[program]") {
   const TemporaryFolder folder;
   const std::string program = stand_in(folder, "echo \"started: $*\"\n");
   REQUIRE(run_luxodus(folder, "deploy " + small_cluster(folder) + " --for ssh --program " +
@@ -194,9 +194,9 @@ TEST_CASE("the script over ssh starts every process, and ends well when all do",
   CHECK(files_in(folder / ".luxodus").empty());
 }
 
-TEST_CASE("the script over ssh stops all when one fails, and says which", "[program]") {
+TEST_CASE("the ssh script stops all when one fails, and says which", "[program]") {
   const TemporaryFolder folder;
-  // The controller fails once the others wait, which they do until they are stopped.
+  // The controller fails once the others wait, which they do until stopped.
   const std::string program = stand_in(folder, R"(
 case $* in
   *"--name c") for n in n0 n1; do read -r _ <"$HOME/$n"; done; exit 3 ;;
@@ -219,7 +219,7 @@ while :; do read -r _ <>"$HOME/never"; done
 
 TEST_CASE("the batch job gives each task its nodes and its host", "[program]") {
   const TemporaryFolder folder;
-  // In Slurm's place: every task here, after the name of its host.
+  // Replaces Slurm: every task runs here, after the name of its host.
   std::ofstream(folder / "srun") << R"sh(#!/bin/bash
 while [ "$1" != bash ]; do shift; done
 rank=0
@@ -243,7 +243,7 @@ done <"$SLURM_HOSTFILE"
   CHECK(lines_with(run.out, "lux1: node --config") == 2);
 }
 
-TEST_CASE("manifests have a pod for each process, with its nodes, its address and its keys alone",
+TEST_CASE("manifests have a pod for each process, with only its nodes, its address and its keys",
           "[program]") {
   const TemporaryFolder folder;
   const fs::path cluster = folder / "pods.toml";
@@ -269,7 +269,7 @@ TEST_CASE("manifests have a pod for each process, with its nodes, its address an
   CHECK((fs::status(keys).permissions() & (fs::perms::group_all | fs::perms::others_all)) ==
         fs::perms::none);
 
-  // As a reader of YAML understands it.
+  // Parsed by a YAML reader.
   std::ofstream(folder / "read.py") << R"py(
 import sys, yaml
 things = [t for f in sys.argv[1:3] for t in yaml.safe_load_all(open(f)) if t]
@@ -313,7 +313,8 @@ for name, one in sets.items():
   CHECK(lines_with(read.out, "luxodus-hall-one n0 n1 c keeps") == 1);
   CHECK(lines_with(read.out, "luxodus-hall-two m") == 1);
 
-  // What a container runs: it hands signals on, returns what failed, and rests when all went well.
+  // The command of a container: it forwards signals, returns a failure's exit code, and sleeps
+  // after success.
   const std::string pod = "sh -c \"$(cat " + (folder / "pod.sh").string() + ")\" ";
   CHECK(shell(folder, pod + stand_in(folder, "exit 3\n")).code == 3);
   const std::string node =
@@ -338,7 +339,7 @@ for name, one in sets.items():
   CHECK_FALSE(fs::exists(folder / "out"));
 }
 
-TEST_CASE("deploy tells every problem of a cluster and writes nothing then", "[program]") {
+TEST_CASE("deploy reports every problem of a cluster and then writes nothing", "[program]") {
   const TemporaryFolder folder;
   const fs::path file = folder / "bad.toml";
   std::ofstream(file) << "[run]\nname = \"bad\"\nscene = \"s\"\n[[host]]\nnam = \"h\"\n"

@@ -1,4 +1,4 @@
-// What tests of clusters share: processes that run beside the test, and small clusters for them.
+// Shared by tests of clusters: processes beside the test, and small clusters for them.
 #pragma once
 
 #include <fcntl.h>
@@ -17,8 +17,8 @@
 
 namespace luxodus::program {
 
-/// A program that runs beside the test; what it says can be read, and it can be told things.
-/// Killed at the end if it lives.
+/// A program that runs beside the test; its output can be read, and its input written. Killed at
+/// the end if it is alive.
 class Process {
  public:
   Process(const std::string& program, std::vector<std::string> words) {
@@ -56,26 +56,26 @@ class Process {
 
   void kill(int signal) const { ::kill(id_, signal); }
 
-  /// Writes a line to its standard input. Requires: it lives.
+  /// Writes a line to its standard input. Requires: it is alive.
   void tell(const std::string& line) const {
     const std::string text = line + "\n";
     REQUIRE(::write(input_, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
   }
 
-  /// Reads on until it has said these words, from a place of its text on; false: it ended before.
+  /// Reads until its output has these words, from a position on; false: it ended before.
   bool says(const std::string& words, size_t from = 0) {
     while (text_.find(words, from) == std::string::npos)
       if (!read_more()) return false;
     return true;
   }
-  /// Reads what it has said up to now, and gives the place where it goes on.
+  /// Reads its output up to now, and returns the position where it continues.
   size_t now() {
     pollfd ready{said_, POLLIN, 0};
     while (::poll(&ready, 1, 0) > 0 && (ready.revents & POLLIN) != 0 && read_more()) {
     }
     return text_.size();
   }
-  /// Reads all until it has ended; its exit code, or 128 and the signal.
+  /// Reads everything until it has ended; returns its exit code, or 128 plus the signal.
   int wait() {
     while (read_more()) {
     }
@@ -84,7 +84,7 @@ class Process {
     id_ = 0;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
-  /// What it has said so far.
+  /// Its output so far.
   const std::string& text() const { return text_; }
   bool said(const std::string& words) const { return text_.find(words) != std::string::npos; }
 
@@ -106,22 +106,22 @@ inline std::string smoke_tank() {
   return (fs::path(LUX_SOURCE_DIR) / "scenes/library/smoke_tank.toml").string();
 }
 
-/// What of a small cluster's file tests change.
+/// The parts of a small cluster's file that tests change.
 struct ClusterText {
   int workers = 1;
   std::string scene = smoke_tank();
-  std::string run = "particles = 400_000\n";  // more of [run]
+  std::string run = "particles = 400_000\n";  // additional keys of [run]
   std::string out = "out";                    // in the folder
   std::string more = "[timeouts]\nstart_s = 2\nlost_s = 1\n";
-  std::string links;                           // of [links]
-  std::map<std::string, std::string> of_node;  // by name: more of its [[node]]
-  /// Where nodes listen, by number, the controller last: then they meet over TCP. Each uses the
-  /// port after its own, too. None: they meet by local sockets.
+  std::string links;                           // keys of [links]
+  std::map<std::string, std::string> of_node;  // by name: additional keys of its [[node]]
+  /// Ports on which nodes listen, by number, the controller last: then they connect over TCP. Each
+  /// uses the following port, too. Empty: they use local sockets.
   std::vector<uint16_t> ports;
 };
 
 /// Events by which workers compute at a quarter of their speed, so that a run lasts as long with a
-/// quarter of the particles, which the plain loop is to trace as well.
+/// quarter of the particles, which the plain loop traces as well.
 inline std::string slow_workers(int count) {
   std::string text;
   for (int i = 0; i < count; ++i)
@@ -130,7 +130,7 @@ inline std::string slow_workers(int count) {
   return text;
 }
 
-/// A hall of 900 boxes, twice as large as a budget of 1 MiB, and batches that are soon traced.
+/// A hall of 900 boxes, twice as large as a budget of 1 MiB, with short batches.
 inline std::string boxes(const TemporaryFolder& folder) {
   const fs::path path = folder / "boxes.toml";
   std::ofstream(path) << R"(title = "Boxes in rows"
@@ -166,7 +166,7 @@ flux_lm = 3000
 }
 
 /// Writes FOLDER/FILE.toml: workers n0, n1, ... and a controller, each a process, on this machine.
-/// All of a folder are the same run, whatever their files are called.
+/// All of a folder are the same run, whatever their names.
 inline std::string write_cluster(const TemporaryFolder& folder, const ClusterText& text,
                                  const std::string& file = "cluster") {
   const fs::path path = folder / (file + ".toml");
@@ -202,7 +202,7 @@ struct Running {
     INFO(controller->text());
     REQUIRE(begun);
   }
-  /// Tells all to end, and waits for it.
+  /// Tells all to end, and waits for that.
   void end() const {
     for (const auto& worker : workers) worker->kill(SIGTERM);
     controller->kill(SIGTERM);
@@ -223,7 +223,8 @@ inline Running start(const std::string& cluster, int workers) {
 
 constexpr const char* endless = "particles = 1_000_000_000_000\n";
 
-/// Whether OUT holds the flux of as many particles of the plain loop. `how`: more of its options.
+/// Checks that OUT holds the flux of this many particles of the plain loop. `how`: additional
+/// options.
 inline void check_plain_flux(const TemporaryFolder& folder, const std::string& particles,
                              const std::string& scene = smoke_tank(), const std::string& how = "") {
   REQUIRE(run_luxodus(folder, "run " + scene + " --no-views --particles " + particles + how +
@@ -234,7 +235,7 @@ inline void check_plain_flux(const TemporaryFolder& folder, const std::string& p
   CHECK((flux == slurp(folder / "plain" / "flux.lux")));  // bytes that are no text
 }
 
-/// A whole number that the result in OUT says.
+/// An integer in the result in OUT.
 inline int64_t number_in(const TemporaryFolder& folder, const std::string& key) {
   const std::string result = slurp(folder / "out" / "result.json");
   const size_t at = result.find("\"" + key + "\": ");
@@ -246,8 +247,8 @@ inline int64_t particles_in(const TemporaryFolder& folder) {
   return number_in(folder, "particles");
 }
 
-/// Goes on from OUT, somewhat farther than it is, and compares. What was lent and lost is made up
-/// for first, which may be farther still.
+/// Continues from OUT for somewhat more particles, and compares. Lost leases are made up for first,
+/// which may extend it further.
 inline void check_goes_on(const TemporaryFolder& folder, int64_t more = 100'000,
                           const std::string& scene = smoke_tank(), const std::string& how = "") {
   const int64_t farther = particles_in(folder) + more;

@@ -1,5 +1,5 @@
-// Processes that vanish in the middle of a run: the others finish with the same bits, or end with
-// what there is, which can be gone on from.
+// Processes that vanish during a run: the others finish with the same bits, or end with a result
+// that can be continued.
 #include "tests/examples/cluster_kit.hpp"
 
 using namespace luxodus::program;
@@ -16,7 +16,7 @@ ClusterText workers(int count, const std::string& run) {
 
 }  // namespace
 
-TEST_CASE("a worker that is killed is done without: the others leave the same bits", "[cluster]") {
+TEST_CASE("a killed worker is dispensable: the others give the same bits", "[cluster]") {
   const TemporaryFolder folder;
   const Running nodes = start(write_cluster(folder, workers(3, "particles = 400_000\n")), 3);
   nodes.workers[1]->kill(SIGKILL);
@@ -27,8 +27,7 @@ TEST_CASE("a worker that is killed is done without: the others leave the same bi
   check_plain_flux(folder, "400k");
 }
 
-TEST_CASE("a worker that is killed and started again is taken in, with the same bits",
-          "[cluster]") {
+TEST_CASE("a worker that is killed and restarted is accepted, with the same bits", "[cluster]") {
   const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, workers(2, "particles = 400_000\n"));
   Running nodes = start(cluster, 2);
@@ -42,7 +41,7 @@ TEST_CASE("a worker that is killed and started again is taken in, with the same 
   check_plain_flux(folder, "400k");
 }
 
-TEST_CASE("a controller that is killed and started again begins anew, with the same bits",
+TEST_CASE("a controller that is killed and restarted begins anew, with the same bits",
           "[cluster]") {
   const TemporaryFolder folder;
   ClusterText text = workers(2, "particles = 400_000\n");
@@ -64,7 +63,7 @@ TEST_CASE("a worker whose controller has vanished ends and says so", "[cluster]"
   ClusterText text = workers(2, endless);
   text.more += "[observe]\nlog_level = \"debug\"\n";
   const Running nodes = start(write_cluster(folder, text), 2);
-  REQUIRE(nodes.controller->says("flush=taken node=0"));  // so they have heard of it
+  REQUIRE(nodes.controller->says("flush=taken node=0"));  // so they know of it
   REQUIRE(nodes.controller->says("flush=taken node=1"));
   nodes.controller->kill(SIGKILL);
   for (const auto& worker : nodes.workers) {
@@ -73,8 +72,7 @@ TEST_CASE("a worker whose controller has vanished ends and says so", "[cluster]"
   }
 }
 
-TEST_CASE("a worker that is killed takes the run with it where it holds a shard of the totals",
-          "[cluster][shards]") {
+TEST_CASE("a killed worker ends the run if it holds a shard of the totals", "[cluster][shards]") {
   const TemporaryFolder folder;
   ClusterText text = workers(2, endless);
   text.more += "[observe]\nlog_level = \"debug\"\n[tally]\nshards = [\"n1\"]\n";
@@ -90,7 +88,7 @@ TEST_CASE("a worker that is killed takes the run with it where it holds a shard 
   CHECK_FALSE(fs::exists(folder / "out" / "result.json"));
 }
 
-TEST_CASE("a worker that is killed and started again beside shards is taken in, with the same bits",
+TEST_CASE("a worker that is killed and restarted beside shards is accepted, with the same bits",
           "[cluster][shards]") {
   const TemporaryFolder folder;
   ClusterText text = workers(3, "particles = 400_000\n");
@@ -106,7 +104,7 @@ TEST_CASE("a worker that is killed and started again beside shards is taken in, 
   check_plain_flux(folder, "400k");
 }
 
-TEST_CASE("a controller whose workers have all vanished leaves what can be gone on from",
+TEST_CASE("a controller whose workers have all vanished leaves a result that can be continued",
           "[cluster]") {
   const TemporaryFolder folder;
   ClusterText text = workers(2, endless);
@@ -121,8 +119,7 @@ TEST_CASE("a controller whose workers have all vanished leaves what can be gone 
   check_goes_on(folder);
 }
 
-TEST_CASE("a cluster that is told to end leaves whole batches that can be gone on from",
-          "[cluster]") {
+TEST_CASE("a cluster that is told to end leaves whole batches that can be continued", "[cluster]") {
   const TemporaryFolder folder;
   ClusterText text = workers(2, endless);
   text.more += "[observe]\nlog_level = \"debug\"\n";
@@ -140,7 +137,7 @@ TEST_CASE("a cluster that is told to end leaves whole batches that can be gone o
   check_goes_on(folder);
 }
 
-TEST_CASE("a disk that fills up under the journal costs the journal, and not the run",
+TEST_CASE("a disk that fills up under the journal ends the journal, and not the run",
           "[cluster][loss]") {
   const TemporaryFolder folder;
   ClusterText text = workers(2, "particles = 800_000\n");
@@ -156,8 +153,7 @@ TEST_CASE("a disk that fills up under the journal costs the journal, and not the
   check_plain_flux(folder, "800k");
 }
 
-TEST_CASE("a disk that is really full when a cluster ends has room for the results",
-          "[cluster][loss]") {
+TEST_CASE("a disk that is full when a cluster ends has room for the results", "[cluster][loss]") {
   const TemporaryFolder folder;
   const fs::path out = folder / "out", kept = folder / "kept";
   fs::create_directories(out);
@@ -167,7 +163,7 @@ TEST_CASE("a disk that is really full when a cluster ends has room for the resul
     WARN("skipped: no file system of a few MiB can be mounted here");
     return;
   }
-  // The room that is kept for the results is all that this disk has: nothing is left for a journal.
+  // The room reserved for the results is all that this disk has: nothing is left for a journal.
   const std::string cluster = write_cluster(folder, workers(1, "particles = 400_000\n"));
   const Outcome up =
       shell(folder, "unshare -rm sh -c '" + mount + " && " + LUX_PROGRAM + " cluster up " +
@@ -180,20 +176,20 @@ TEST_CASE("a disk that is really full when a cluster ends has room for the resul
   check_plain_flux(folder, "400k");
 }
 
-TEST_CASE("who stops cluster up stops all its nodes, and the results are written",
+TEST_CASE("stopping cluster up stops all its nodes, and the results are written",
           "[cluster][loss]") {
   const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, workers(2, endless));
   Process up(LUX_PROGRAM, {"cluster", "up", cluster});
   REQUIRE(up.says("run=begun"));
   up.kill(SIGTERM);
-  // Its output ends when the last of those who share it has ended.
+  // Its output ends when the last process that shares it has ended.
   CHECK(up.wait() == 130);
   INFO(up.text());
   CHECK(particles_in(folder) > 0);
 }
 
-TEST_CASE("a controller that is killed and started again goes on from its journal",
+TEST_CASE("a controller that is killed and restarted continues from its journal",
           "[cluster][loss]") {
   const TemporaryFolder folder;
   ClusterText text = workers(2, "particles = 800_000\n");

@@ -1,5 +1,5 @@
-// Processes that must not work together: each is told by both ends, with the reason, and the run
-// ends in bounded time with the names of those who are missing.
+// Processes that must not work together: both ends report the reason, and the run ends in bounded
+// time with the names of missing nodes.
 #include "tests/examples/cluster_kit.hpp"
 
 using namespace luxodus::program;
@@ -96,7 +96,7 @@ TEST_CASE("a node whose key the other end does not list is turned away, and both
   REQUIRE(run_luxodus(folder, "keygen --cluster " + ours).code == 0);
   REQUIRE(run_luxodus(folder, "keygen --cluster " + theirs).code == 0);
   SECTION("the controller's key is not listed at the worker") {
-    // All else of the controller's agrees: it knows the worker.
+    // Everything else about the controller matches: it knows the worker.
     for (const std::string name : {"n0.key", "n0.key.pub"})
       fs::copy_file(folder / "ours" / name, folder / "theirs" / name,
                     fs::copy_options::overwrite_existing);
@@ -126,7 +126,7 @@ TEST_CASE("a node whose key the other end does not list is turned away, and both
   }
 }
 
-TEST_CASE("a second cluster of one file with other results is refused, and the first goes on",
+TEST_CASE("a second cluster of one file with other results is refused, and the first continues",
           "[cluster]") {
   const TemporaryFolder folder;
   ClusterText text;
@@ -136,7 +136,7 @@ TEST_CASE("a second cluster of one file with other results is refused, and the f
   const std::string first = write_cluster(folder, text, "first");
   text.out = "elsewhere";
   const std::string second = write_cluster(folder, text, "second");
-  SECTION("its controller alone") {
+  SECTION("only its controller") {
     const Running nodes = start(first, 3);
     const auto intruder = node(second, "controller");
     CHECK(intruder->wait() == 1);

@@ -1,5 +1,5 @@
-// Whole clusters as a person starts them: processes that meet over sockets, and leave what the
-// plain program leaves, to the bit.
+// Whole clusters as a user starts them: processes that connect over sockets, and give the results
+// of the plain program, bit for bit.
 #include "tests/examples/cluster_kit.hpp"
 #include "tests/kit/test_length.hpp"
 
@@ -10,7 +10,7 @@ namespace {
 /// A controller and three workers, each a process; `more` is added to the file.
 fs::path cluster_file(const TemporaryFolder& folder, const std::string& more) {
   const fs::path file = folder / "cluster.toml";
-  // A name of its own: sockets of tests that run side by side are known by it.
+  // A unique name, which distinguishes sockets of tests that run in parallel.
   std::ofstream(file) << "[run]\nname = \"" << folder.path().filename().string().substr(8)
                       << "\"\nscene = \"" << smoke_tank() << "\"\nparticles = 100_000\nout = \""
                       << (folder / "out").string()
@@ -75,7 +75,7 @@ TEST_CASE("processes that plan by a profile leave the flux file of the plain loo
   CHECK(flux == slurp(folder / "plain" / "flux.lux"));
 }
 
-TEST_CASE("a controller that traces, alone in one process, leaves the flux of the plain loop",
+TEST_CASE("a controller that traces alone in one process leaves the flux of the plain loop",
           "[cluster]") {
   const TemporaryFolder folder;
   const fs::path file = folder / "cluster.toml";
@@ -89,7 +89,7 @@ TEST_CASE("a controller that traces, alone in one process, leaves the flux of th
   check_same_flux(folder, file);
 }
 
-TEST_CASE("a rehearsal of faults, by the cluster's file, leaves the flux of the plain loop",
+TEST_CASE("a rehearsal of faults from the cluster's file leaves the flux of the plain loop",
           "[cluster]") {
   const TemporaryFolder folder;
   check_same_flux(folder, cluster_file(folder,
@@ -131,7 +131,7 @@ TEST_CASE("four hosts with addresses of their own leave the flux file of the pla
   CHECK(slurp(folder / "out" / "flux.lux") == slurp(folder / "plain" / "flux.lux"));
 }
 
-TEST_CASE("a cluster whose keys or scene are missing says which, and starts nothing", "[cluster]") {
+TEST_CASE("a cluster with missing keys or scene says which, and starts nothing", "[cluster]") {
   const TemporaryFolder folder;
   const std::string node =
       "node --config " + cluster_file(folder, "[keys]\nfolder = \"keys\"\n").string() + " --name ";

@@ -1,5 +1,5 @@
-// The command line for people and for shells: help, old names of options, words that are refused,
-// completion, and the scenes that an installed program has with it.
+// The command line for people and shells: help, old names of options, rejected words, completion,
+// and the scenes of an installed program.
 #include <algorithm>
 #include <regex>
 #include <vector>
@@ -23,7 +23,7 @@ std::vector<std::string> found(const std::string& text, const std::string& patte
   return out;
 }
 
-/// What a help text says of each option: in the option's line, or in the next one.
+/// The description of each option in a help text: in the option's line, or in the next one.
 std::vector<std::string> meanings_in(const std::string& help) {
   return found(std::regex_replace(help, std::regex(R"((\n  -\S+(?: \S+)*)\n +)"), "$1  "),
                R"(  -\S+(?: \S+)*  +(\S.*))");
@@ -34,7 +34,7 @@ std::vector<std::string> commands_in(const std::string& help) {
   return found(help, "  ([a-z]+)  +[A-Z].*");
 }
 
-/// "run", "topology amp", ...: all commands and those of commands.
+/// "run", "topology amp", ...: all commands and subcommands.
 std::vector<std::string> all_commands(const TemporaryFolder& folder) {
   std::vector<std::string> all;
   for (const std::string& name : commands_in(run_luxodus(folder, "--help").out)) {
@@ -45,7 +45,7 @@ std::vector<std::string> all_commands(const TemporaryFolder& folder) {
   return all;
 }
 
-/// What bash offers for the last of these words.
+/// The completions of bash for the last of these words.
 std::vector<std::string> completed(const TemporaryFolder& folder, const std::string& words) {
   const Outcome said =
       shell(folder, "bash -c 'source <(\"$0\" completion bash); COMP_WORDS=(luxodus " + words +
@@ -132,7 +132,7 @@ TEST_CASE("keys of files are explained by the schemas that read them", "[program
   CHECK_THAT(wrong.err, Contains("did you mean luminaire?"));
 }
 
-TEST_CASE("an option's old name does what the new one does, and says it", "[program][help]") {
+TEST_CASE("an option's old name does what the new one does, with a warning", "[program][help]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "room.toml") << room;
   const std::string run = "run " + (folder / "room.toml").string() + " --cells 4 --nodes 2 ";
@@ -151,7 +151,7 @@ TEST_CASE("an option's old name does what the new one does, and says it", "[prog
   CHECK(run_luxodus(folder, "run --help").out.find("--object-mib") == std::string::npos);
 }
 
-TEST_CASE("a command line that cannot be obeyed is refused in a sentence", "[program][help]") {
+TEST_CASE("an invalid command line is rejected in a sentence", "[program][help]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "room.toml") << room;
   const std::string scene = (folder / "room.toml").string();
@@ -180,7 +180,7 @@ TEST_CASE("a command line that cannot be obeyed is refused in a sentence", "[pro
   }
 }
 
-TEST_CASE("bash completes commands, options and their words", "[program][help]") {
+TEST_CASE("bash completes commands, options and their choices", "[program][help]") {
   const TemporaryFolder folder;
   using Words = std::vector<std::string>;
   CHECK(completed(folder, "conv") == Words{"converge"});
@@ -195,7 +195,7 @@ TEST_CASE("bash completes commands, options and their words", "[program][help]")
     CHECK(std::count(all.begin(), all.end(), command) == 1);
 }
 
-TEST_CASE("zsh is told each command and option", "[program][help]") {
+TEST_CASE("the completion of zsh has each command and option", "[program][help]") {
   const TemporaryFolder folder;
   const std::string script = run_luxodus(folder, "completion zsh").out;
   CHECK(script.starts_with("#compdef luxodus\n"));
@@ -224,7 +224,7 @@ TEST_CASE("an installed program finds the scenes that ship with it", "[program][
     CHECK(check(name).code == 0);
   }
   CHECK(check("absent").code == 2);
-  // A file of one's own goes before.
+  // The user's own file takes precedence.
   std::ofstream(folder / "elsewhere" / "shipped.toml") << "not = \"a scene\"\n";
   CHECK(check("shipped.toml").code == 2);
 }

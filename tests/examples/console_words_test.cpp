@@ -1,5 +1,4 @@
-// What the program says to a designer: whole sentences, names as they stand in the scene, and
-// nothing of its inside.
+// The program's messages to a designer: whole sentences, names as in the scene, and no internals.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -14,7 +13,7 @@ using luxodus::test::replaced;
 
 namespace {
 
-/// A corridor with two signs and two people who see both, and a wall whose top is long.
+/// A corridor with two signs and two people who see both, and a wall with a long top.
 const std::string words_corridor =
     "title = \"A corridor\"\npatch_edge_m = 1\n" + luxodus::test::white_room("[12, 3, 3]") + R"(
 [[object]]
@@ -105,7 +104,7 @@ struct Corridor : ScenePlace {
 
 }  // namespace
 
-TEST_CASE("a run's summary says the state, places, signs by observer and errors by name",
+TEST_CASE("a run's summary gives the state, places, signs by observer and errors by name",
           "[program][words]") {
   const Corridor place;
   const Outcome run = place.run("--no-views --particles 50k --scenario \"mains out\"");
@@ -145,14 +144,14 @@ TEST_CASE("files of results have no blanks, and views keep their names", "[progr
   CHECK_THAT(unknown.err, Contains("there are: \"before the sign\""));
 }
 
-TEST_CASE("check counts signs and observers, and takes no wall's top for a floor",
+TEST_CASE("check counts signs and observers, and does not list a wall's top as a floor",
           "[program][words]") {
   const Corridor place;
   const Outcome check = place.luxodus("check " + place.scene);
   INFO(check.out);
   CHECK_THAT(check.out, Contains("2 signs seen by 2 observers"));
   CHECK_THAT(check.out, Contains("floors at z = 0 m"));
-  // The low wall's top: 8 m long, 0.8 m2; a higher one has more than a square metre.
+  // The low wall's top: 8 m long, 0.8 m2; that of a thicker wall has more than a square metre.
   const Corridor thick(replaced(words_corridor, "high = [11, 2.6, 1]", "high = [11, 2.8, 1]"));
   CHECK_THAT(thick.luxodus("check " + thick.scene).out, Contains("floors at z = 0 m"));
   const Corridor table(replaced(words_corridor, "high = [11, 2.6, 1]", "high = [5, 4.5, 1]"));
@@ -167,12 +166,12 @@ TEST_CASE("check counts signs and observers, and takes no wall's top for a floor
   CHECK_THAT(no_floor.out, Contains("no floor found"));
 }
 
-TEST_CASE("names of scenarios are quoted where they are listed", "[program][words]") {
+TEST_CASE("names of scenarios are quoted in lists", "[program][words]") {
   const Corridor place;
   CHECK_THAT(place.run("--scenario mains").err, Contains("there are: \"mains on\", \"mains out\""));
 }
 
-TEST_CASE("too fine voxels are told with their key and its line", "[program][words]") {
+TEST_CASE("voxels that are too fine are reported with their key and its line", "[program][words]") {
   const Corridor place(words_corridor + "[run]\nvoxel_edge_m = 0.001\n");
   const Outcome check = place.luxodus("check " + place.scene);
   const std::string text = slurp(place.scene);
@@ -186,7 +185,7 @@ TEST_CASE("too fine voxels are told with their key and its line", "[program][wor
                        Contains("set voxel_edge_m in [run] to about 0."));
 }
 
-TEST_CASE("a command that is misspelt is guessed", "[program][words]") {
+TEST_CASE("a misspelt command is reported with the one probably meant", "[program][words]") {
   const TemporaryFolder folder;
   const auto said = [&](const std::string& command) {
     const Outcome wrong = run_luxodus(folder, command);
@@ -199,7 +198,7 @@ TEST_CASE("a command that is misspelt is guessed", "[program][words]") {
   CHECK(said("frobnicate").find("did you mean") == std::string::npos);
 }
 
-TEST_CASE("the folder of an assessment is called that where a run is wanted", "[program][words]") {
+TEST_CASE("the folder of an assessment is named as such if a run is expected", "[program][words]") {
   const Corridor place;
   fs::create_directories(place.out);
   std::ofstream(place.out / "assessment.json") << "{}";
@@ -234,8 +233,7 @@ TEST_CASE("progress is rare in a pipe, and one line on a terminal", "[program][w
   CHECK_THAT(slurp(typed), Contains("\r") && Contains("left") && Contains("\033[K"));
 }
 
-TEST_CASE("what the browser says while it prints is shown only where it fails",
-          "[program][words]") {
+TEST_CASE("the browser's output while printing is shown only if it fails", "[program][words]") {
   const Corridor place(words_corridor +
                        "[[route]]\nname = \"along\"\npath = [[1, 1, 0], [11, 1, 0]]\n"
                        "width = 1\n");
@@ -257,7 +255,7 @@ TEST_CASE("what the browser says while it prints is shown only where it fails",
       "for a in \"$@\"; do case $a in --print-to-pdf=*) echo x >\"${a#*=}\";; esac; done\n");
   CHECK(printed.code == 0);
   CHECK(printed.err.empty());
-  // No other browser shall help out: the fake ones stand first under all names.
+  // No other browser must be found: fake ones come first under all names.
   for (const char* name : {"chromium-browser", "google-chrome"})
     fs::create_symlink(tools / "chromium", tools / name);
   const Outcome failed = browser("exit 3\n");

@@ -1,5 +1,5 @@
-// What tests of faults share: free ports, a network that obeys (tests/tools/fault_proxy), and a row
-// for each fault of when it was noticed and when all was well again, by the controller's own log.
+// Shared by tests of faults: free ports, a controllable network (tests/tools/fault_proxy), and a
+// row for each fault with the times of detection and recovery, from the controller's log.
 // `tests/tools/fault_table.sh` makes a table of the rows.
 #pragma once
 
@@ -19,8 +19,8 @@
 
 namespace luxodus::program {
 
-/// Ports that nobody listens on, each with the one after it. Below those that the system gives out
-/// by itself, and apart from those of tests beside this one, as far as may be.
+/// Unused ports, each with the following one. They are below those that the system assigns, and, as
+/// far as possible, apart from those of tests that run in parallel.
 inline std::vector<uint16_t> free_ports(size_t count) {
   const auto is_free = [](int port) {
     const int probe = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -44,15 +44,15 @@ inline std::vector<uint16_t> free_ports(size_t count) {
   return ports;
 }
 
-/// A network between nodes, for as long as it lives.
+/// A network between nodes that exists as long as this object.
 class FaultProxy {
  public:
-  /// Ports of links, and what they lead to; of each the next one, too.
+  /// Ports of links, and their targets; for each also the following port.
   explicit FaultProxy(const std::vector<std::pair<uint16_t, uint16_t>>& links)
       : process_(LUX_FAULT_PROXY, words(links)) {
     REQUIRE(process_.says("ready"));
   }
-  /// What is said of commands: fault_proxy.cpp. In force when this returns.
+  /// Commands: see fault_proxy.cpp. In force when this returns.
   void order(const std::string& command) {
     const size_t from = process_.now();
     process_.tell(command);
@@ -70,7 +70,7 @@ class FaultProxy {
   Process process_;
 };
 
-/// A cluster over TCP of which one worker meets all others through a proxy.
+/// A cluster over TCP in which one worker connects to all others through a proxy.
 struct ProxiedCluster {
   std::string others;  // files
   std::string its;
@@ -109,16 +109,16 @@ inline Running start(const ProxiedCluster& cluster, int workers, int worker) {
   return nodes;
 }
 
-/// One fault, as the log of a process has it. Made right before the fault.
+/// One fault, as logged by a process. Constructed directly before the fault.
 class FaultRow {
  public:
   FaultRow(std::string what, Process& log)
       : what_(std::move(what)), log_(log), from_(log.now()), since_(wall_s()) {}
 
-  /// Waits until the log says these words.
+  /// Waits until the log has these words.
   void noticed(const std::string& words) { noticed_ = await(words); }
   void given_up(const std::string& words) { given_up_ = await(words); }
-  /// The fault is over now; times count from here, and the log from here on.
+  /// The fault has ended; times count from here, and the log is read from here on.
   void healed() {
     from_ = log_.now();
     since_ = wall_s();
@@ -143,7 +143,7 @@ class FaultRow {
     if (s) std::snprintf(words, sizeof words, "%.2f s", *s);
     return words;
   }
-  /// When the line with these words was written [s]; it begins with that moment.
+  /// Time of the line with these words [s], which begins the line.
   double await(const std::string& words) {
     const bool came = log_.says(words, from_);
     INFO(what_ << ": waited for \"" << words << "\" in\n" << log_.text().substr(from_));

@@ -1,4 +1,4 @@
-// Films and pictures that grow, as typed on a command line.
+// Films and progressive pictures, on a command line.
 #include <catch2/catch.hpp>
 
 #include "tests/examples/program_kit.hpp"
@@ -54,7 +54,7 @@ const std::string walk = "--route \"to the door\" --view small --fps 2 --paths 4
 
 }  // namespace
 
-TEST_CASE("a film is frames, and says so where there is no ffmpeg", "[program][film]") {
+TEST_CASE("without ffmpeg a film is its frames, with a message", "[program][film]") {
   const WalkedRoom place;
   const Outcome made = place.render(walk, "env PATH=/nowhere ");
   INFO(made.err);
@@ -68,12 +68,11 @@ TEST_CASE("a film is frames, and says so where there is no ffmpeg", "[program][f
   CHECK_FALSE(fs::exists(place.out / "views"));
 }
 
-TEST_CASE("ffmpeg makes a film of the frames, and a film that fails is an error",
-          "[program][film]") {
+TEST_CASE("ffmpeg makes a film of the frames, and a failure is an error", "[program][film]") {
   const WalkedRoom place;
   const fs::path tools = place.folder / "tools";
   fs::create_directory(tools);
-  // Stands for ffmpeg: writes what it was told into the file that it was to make.
+  // Replaces ffmpeg: writes its arguments into the file that it should make.
   const auto install = [&](const std::string& last_line) {
     std::ofstream(tools / "ffmpeg") << "#!/bin/sh\nfor last; do :; done\necho \"$@\" > \"$last\"\n"
                                     << last_line << "\n";
@@ -128,7 +127,7 @@ TEST_CASE("a film goes through cameras of the scene", "[program][film]") {
   CHECK_FALSE(fs::exists(frames / "000004.png"));
 }
 
-TEST_CASE("a film lets the scene's clock go on, and each state is that of a run at its time",
+TEST_CASE("a film advances the scene's clock, and each state is that of a run at its time",
           "[program][film]") {
   const std::string thickens = walked_room +
                                "[time]\nfrom = 0\nto = 6\nstep = 3\n[[medium]]\nname = "
@@ -157,13 +156,13 @@ TEST_CASE("a film lets the scene's clock go on, and each state is that of a run 
   CHECK(frame(place.out, "000002.png") == frame(then, "000000.png"));
   CHECK(frame(place.out, "000001.png") != frame(then, "000000.png"));
   CHECK(frame(place.out, "000003.png") != frame(then, "000000.png"));
-  // A film of four frames ends within its second state of three: that shows one, at 6 s.
+  // A film of four frames ends within its second state of three, which is shown at 6 s.
   const std::string at_6s = frame(place.out, "000003.png");
   const Outcome ends_within = film(place.out, "--from 0s --clock 2 --state-step 6s");
   INFO(ends_within.err);
   REQUIRE(ends_within.code == 0);
   CHECK(frame(place.out, "000003.png") == at_6s);
-  // A state of two frames is that between them, here at 3 and at 7 s, and the scene ends at 6 s.
+  // A state of two frames is taken between them, here at 3 and at 7 s, and the scene ends at 6 s.
   const Outcome late = film(place.out, "--from 2s --clock 2 --state-step 4s");
   CHECK(late.code == 2);
   CHECK_THAT(late.err, Contains("'extinction' is known from 0 to 6 s, and the time is 7 s"));
@@ -174,7 +173,7 @@ TEST_CASE("a film lets the scene's clock go on, and each state is that of a run 
   CHECK_THAT(still.render("--from 0s").err, Contains("--route or --through"));
 }
 
-TEST_CASE("other states of an adaptive run are dealt by their own light", "[program][film]") {
+TEST_CASE("other states of an adaptive run are allocated by their own light", "[program][film]") {
   const ScenePlace place(
       "room.toml", walked_room +
                        "[run]\ngroups = \"emitter\"\n[time]\nfrom = 0\nto = 6\n"
@@ -200,7 +199,7 @@ TEST_CASE("other states of an adaptive run are dealt by their own light", "[prog
   CHECK(last_frame("adaptive", " --adaptive") == last_frame("usual", ""));
 }
 
-TEST_CASE("a film that cannot be made is refused with one clear error", "[program][film]") {
+TEST_CASE("an impossible film is rejected with one clear error", "[program][film]") {
   const WalkedRoom place;
   const auto refused = [&](const std::string& options, const std::string& why) {
     const Outcome outcome = place.render(options);
@@ -225,7 +224,7 @@ TEST_CASE("a film that cannot be made is refused with one clear error", "[progra
   refused("--route \"to the door\" --paths 1 --fps 1", "flux.lux");
 }
 
-TEST_CASE("wrong limits of pictures are refused before anything is traced", "[program][film]") {
+TEST_CASE("wrong limits of pictures are rejected before anything is traced", "[program][film]") {
   const ScenePlace place("room.toml", walked_room);
   for (const std::string wrong :
        {"--picture-time -5", "--picture-time 0", "--picture-time soon", "--picture-error 0",
@@ -246,7 +245,7 @@ TEST_CASE("wrong limits of pictures are refused before anything is traced", "[pr
   CHECK_THAT(too_large.err, Contains("width"));
 }
 
-TEST_CASE("pictures end by a time or an error, and say how good they are", "[program][film]") {
+TEST_CASE("pictures end at a time or an error, and state their error", "[program][film]") {
   const WalkedRoom place;
   const Outcome timed = place.render("--picture-time 1ms --threads 2");
   CHECK(timed.code == 0);

@@ -1,5 +1,5 @@
-// A fire simulation from its files to a result, as a person goes the way: import, check, run at
-// another time, the pictures' time.
+// A fire simulation from its files to a result, in a user's steps: import, check, run at another
+// time, the pictures' time.
 #include <catch2/catch.hpp>
 
 #include "tests/examples/program_kit.hpp"
@@ -22,7 +22,7 @@ void write_small_case(const TemporaryFolder& folder) {
                                slice_entry(1, true, mesh, "a.sf", "SOOT EXTINCTION COEFFICIENT"));
 }
 
-/// A path of the folder, as a command line has it.
+/// A path in the folder, quoted for a command line.
 std::string in_folder(const TemporaryFolder& folder, const std::string& name) {
   return (folder / name).string();
 }
@@ -34,7 +34,7 @@ Outcome import_small_case(const TemporaryFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("an imported fire is checked, run at another time, and kept when it is imported again",
+TEST_CASE("an imported fire is checked, run at another time, and kept by a second import",
           "[program][fds]") {
   const TemporaryFolder folder;
   write_small_case(folder);
@@ -71,7 +71,7 @@ TEST_CASE("an imported fire is checked, run at another time, and kept when it is
   CHECK(slurp(folder / "room/scene.toml") == mine);
 }
 
-TEST_CASE("an input file is imported with the smoke beside it, and a person's files are kept",
+TEST_CASE("an input file is imported with the smoke beside it, and the user's files are kept",
           "[program][fds]") {
   const TemporaryFolder folder;
   write_small_case(folder);
@@ -116,7 +116,7 @@ TEST_CASE("an input file is imported with the smoke beside it, and a person's fi
   CHECK_THAT(import_it("").err, Contains("case.fds:8: &TRNX is not imported"));
 }
 
-TEST_CASE("a time that no scene and no pack can have is refused", "[program][fds]") {
+TEST_CASE("a time that no scene and no pack can have is rejected", "[program][fds]") {
   const TemporaryFolder folder;
   write_small_case(folder);
   REQUIRE(import_small_case(folder).code == 0);

@@ -1,5 +1,5 @@
-// The guide as a newcomer follows it: its scene is judged right, and each mistake that it lists is
-// refused.
+// The guide as a newcomer follows it: its scene is judged correctly, and each mistake that it lists
+// is rejected.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -25,7 +25,7 @@ std::string guide_scene() {
   return text.substr(first, text.find("```", first) - first);
 }
 
-/// The guide's folder, with its scene as `scene` has it.
+/// The guide's folder, with `scene` as its scene.
 struct WaitingRoom {
   explicit WaitingRoom(const std::string& scene) {
     for (const char* name : {"luminaires/emergency_downlight.ldt", "signs/exit_straight.svg"}) {
@@ -53,7 +53,7 @@ std::string with(const std::string& what, const std::string& instead) {
 
 }  // namespace
 
-TEST_CASE("the guide's room is judged, and its state is said first", "[program][guide]") {
+TEST_CASE("the guide's room is judged, and its state is printed first", "[program][guide]") {
   const WaitingRoom room(guide_scene());
   const Outcome run = room.assess();
   INFO(run.err);
@@ -71,8 +71,8 @@ TEST_CASE("the guide's room is judged, and its state is said first", "[program][
 }
 
 TEST_CASE("the guide's room has the illuminance that its luminaires give", "[program][guide]") {
-  // Two rotational luminaires at 2.95 m above the plane. At the worst places, a metre beyond either
-  // of them and half a metre aside, linear interpolation in the table of the file, 0.8 x 0.7 of its
+  // Two rotational luminaires 2.95 m above the plane. At the worst places, a metre beyond either of
+  // them and half a metre to the side, linear interpolation in the file's table, 0.8 x 0.7 of its
   // flux, and I cos(gamma) / r^2 give 1.6820 lx.
   const WaitingRoom room(guide_scene());
   REQUIRE(room.assess().code == 0);
@@ -85,7 +85,7 @@ TEST_CASE("the guide's room has the illuminance that its luminaires give", "[pro
   CHECK((*check)["verdict"] == "pass");
 }
 
-TEST_CASE("each mistake that the guide lists is refused in words", "[program][guide]") {
+TEST_CASE("each mistake that the guide lists is rejected with a message", "[program][guide]") {
   struct Mistake {
     std::string what, instead, words;
   };
@@ -109,7 +109,7 @@ TEST_CASE("each mistake that the guide lists is refused in words", "[program][gu
 
 namespace {
 
-/// The texts of a guide's blocks of TOML, in their order.
+/// The TOML blocks of a guide, in their order.
 std::vector<std::string> toml_blocks(const std::string& text) {
   const std::string fence = "```toml\n";
   std::vector<std::string> blocks;
@@ -122,7 +122,7 @@ std::vector<std::string> toml_blocks(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the revisions of the guide's project have the verdicts that it tells",
+TEST_CASE("the revisions of the guide's project have the verdicts that it states",
           "[program][guide]") {
   const std::string text = slurp(source / "docs/guide/en1838-project.md");
   const std::vector<std::string> blocks = toml_blocks(text);
@@ -156,7 +156,7 @@ TEST_CASE("the revisions of the guide's project have the verdicts that it tells"
   }
 }
 
-TEST_CASE("the guide's store room gets the layout that it tells, and every command takes it",
+TEST_CASE("the guide's store room gets the layout that it states, and every command accepts it",
           "[program][guide]") {
   const std::string text = slurp(source / "docs/guide/placement.md");
   const std::vector<std::string> blocks = toml_blocks(text);
@@ -182,7 +182,7 @@ TEST_CASE("the guide's store room gets the layout that it tells, and every comma
   for (const auto& check : a["checks"]) CHECK(check["verdict"] != "fail");
 }
 
-TEST_CASE("the guide's office floor gets a layout that passes what luminaires decide",
+TEST_CASE("the guide's office floor gets a layout that passes the rules on luminaires",
           "[program][guide]") {
   const std::string text = slurp(source / "docs/guide/placement.md");
   const TemporaryFolder folder;
@@ -190,7 +190,8 @@ TEST_CASE("the guide's office floor gets a layout that passes what luminaires de
   fs::create_directories(project);
   fs::create_directories(folder / "scenes");
   fs::create_directory_symlink(source / "scenes/library", folder / "scenes/library");
-  // Without failures the search takes a second; the guide says how many luminaires that gives.
+  // Without failures the search takes a second; the guide states the resulting number of
+  // luminaires.
   std::string scene = toml_blocks(text).at(1);
   const std::string spacing = "spacing_m = 1.2\n";
   REQUIRE(scene.find(spacing) != std::string::npos);
@@ -234,7 +235,7 @@ TEST_CASE("the guide's office floor gets a layout that passes what luminaires de
     }
 }
 
-TEST_CASE("the guide's imported room gets the luminaires and the sign that it tells",
+TEST_CASE("the guide's imported room gets the luminaires and the sign that it states",
           "[program][guide]") {
   const fs::path model = fs::path(LUX_SHARED_DATA) / "ifc/room_ifc4.ifc";
   if (!fs::exists(model)) {
@@ -259,8 +260,7 @@ TEST_CASE("the guide's imported room gets the luminaires and the sign that it te
   CHECK(slurp(folder / "out/signs.csv").find("way out: right") != std::string::npos);
 }
 
-TEST_CASE("a design that cannot be made writes nothing and says what cannot hold",
-          "[program][guide]") {
+TEST_CASE("an impossible design writes nothing and says what cannot hold", "[program][guide]") {
   const TemporaryFolder folder;
   std::string scene = toml_blocks(slurp(source / "docs/guide/placement.md")).at(0);
   scene += "[design]\nmargin = 10\nspacing_m = 12\n";

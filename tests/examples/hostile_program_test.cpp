@@ -1,5 +1,5 @@
-// The program with files that were made to harm it or whoever runs it, and its own defences: each
-// ends with exit code 2 and one clear sentence, in time, with nothing of other files in it.
+// Hostile files, and the program's own defences: each ends with exit code 2 and one clear sentence,
+// in time, without content of other files.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::string write(const TemporaryFolder& folder, const std::string& name, const 
   return file.string();
 }
 
-/// Nothing that a terminal would obey, but for the ends of lines.
+/// No control characters, except line ends.
 bool printable(const std::string& text) {
   return std::none_of(text.begin(), text.end(),
                       [](char c) { return (c >= 0 && c < 0x20 && c != '\n') || c == 0x7F; });
@@ -60,7 +60,8 @@ TEST_CASE("control characters in names and titles do not reach the terminal",
   CHECK(run_luxodus(folder, "check " + scene).out.find("a\\x1B]0;owned") != std::string::npos);
 }
 
-TEST_CASE("a pipe in the place of a file is refused and not waited for", "[program][hostile]") {
+TEST_CASE("a pipe in the place of a file is rejected without waiting for it",
+          "[program][hostile]") {
   const TemporaryFolder folder;
   const std::string pipe = (folder / "pipe.toml").string();
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
@@ -82,8 +83,7 @@ TEST_CASE("a pipe in the place of a file is refused and not waited for", "[progr
   }
 }
 
-TEST_CASE("a file that a scene includes is not told to whoever reads the errors",
-          "[program][hostile]") {
+TEST_CASE("errors do not show the content of a file that a scene includes", "[program][hostile]") {
   const TemporaryFolder folder;
   write(folder, "shadow", "root:$6$secret$hash:19000:0:99999:7:::\n");
   const std::string scene = write(folder, "s.toml", "include = [\"shadow\"]\n");
@@ -110,14 +110,14 @@ TEST_CASE("a mesh that makes the importer crash is one error with its file and l
   CHECK(told.err.find("tex.mtl:1: this stands before the first material") != std::string::npos);
 }
 
-TEST_CASE("a damaged object of a pack is named with its file before nodes begin",
+TEST_CASE("a damaged object of a pack is reported with its file before nodes begin",
           "[program][hostile]") {
   const TemporaryFolder folder;
   const std::string scene = luxodus::write_gallery(folder.path()).string();
   const std::string pack = (folder / "x.luxpack").string();
   REQUIRE(run_luxodus(folder, "pack " + scene + " --scenario smoky --out " + pack).code == 0);
   std::string bytes = slurp(pack);
-  bytes[300] = static_cast<char>(bytes[300] ^ 4);  // behind the head: the first object
+  bytes[300] = static_cast<char>(bytes[300] ^ 4);  // after the head: the first object
   std::ofstream(pack, std::ios::binary) << bytes;
   const Outcome told = run_luxodus(folder,
                                    "run " + pack +
@@ -138,7 +138,7 @@ TEST_CASE("a node that stores a damaged pack ends at once and names its file",
   const std::string pack = (folder / "x.luxpack").string();
   REQUIRE(run_luxodus(folder, "pack " + scene + " --scenario smoky --out " + pack).code == 0);
   std::string bytes = slurp(pack);
-  bytes[300] = static_cast<char>(bytes[300] ^ 4);  // behind the head: the first object
+  bytes[300] = static_cast<char>(bytes[300] ^ 4);  // after the head: the first object
   std::ofstream(pack, std::ios::binary) << bytes;
   const std::string cluster = write(folder, "c.toml",
                                     "[run]\nname = \"damaged\"\nscene = \"" + pack +
@@ -161,7 +161,7 @@ TEST_CASE("a node that stores a damaged pack ends at once and names its file",
   }
 }
 
-TEST_CASE("pipes in place of keys, profiles, graphs and results are refused, not waited for",
+TEST_CASE("pipes in place of keys, profiles, graphs and results are rejected without waiting",
           "[program][hostile]") {
   const TemporaryFolder folder;
   const auto pipe = [&](const std::string& name) {
@@ -215,7 +215,7 @@ TEST_CASE("pipes in place of keys, profiles, graphs and results are refused, not
   refused("report " + (folder / "results").string(), "assessment.json");
 }
 
-TEST_CASE("the program is linked so that an overwritten pointer finds no table to lead astray",
+TEST_CASE("the program is linked so that an overwritten pointer cannot change its tables",
           "[program][hostile]") {
 #if defined(LUX_HARDENED)
   const TemporaryFolder folder;
@@ -231,7 +231,7 @@ TEST_CASE("the program is linked so that an overwritten pointer finds no table t
   const size_t stack = elf.out.find("GNU_STACK");
   REQUIRE(stack != std::string::npos);
   const std::string line = elf.out.substr(stack, elf.out.find('\n', stack) - stack);
-  CHECK(line.find("RWE") == std::string::npos);  // and the stack is no code
+  CHECK(line.find("RWE") == std::string::npos);  // and the stack is not executable
   const Outcome symbols = shell(folder, std::string("readelf -sW --dyn-syms ") + LUX_PROGRAM);
   CHECK(symbols.out.find("__stack_chk_fail") != std::string::npos);
   CHECK(symbols.out.find("_chk@GLIBC") != std::string::npos);

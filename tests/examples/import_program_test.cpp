@@ -1,4 +1,4 @@
-// Buildings and luminaires of others, as a person goes the way: import, check, run, assess, import
+// Buildings and luminaires of other programs, in a user's steps: import, check, run, assess, import
 // again.
 #include <catch2/catch.hpp>
 
@@ -17,8 +17,8 @@ const std::string small_lamp =
     "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 -1 1 3 1 1 2 -0.2 -0.2 0\n1 1 10\n0 45 90\n0\n"
     "300 200 0\n";
 
-/// A container of the lamp, rated at 1000 lm, and at 200 lm in an emergency; with `model` as its
-/// body where there is one.
+/// A container with the lamp, rated at 1000 lm, and at 200 lm in an emergency; with `model` as its
+/// body if given.
 std::string small_container(const std::string& name = "Small lamp", const std::string& model = "") {
   const std::string shape =
       R"(<GeometryReferences><ModelGeometryReference geometryId="m"><EmitterReference )"
@@ -83,7 +83,7 @@ TEST_CASE("a container is listed, and its tables make a scene", "[program][impor
   CHECK_THAT(refused.err, Contains("bad.gldf: this is no GLDF container"));
 }
 
-TEST_CASE("a luminaire's model becomes its body, and hides none of its light",
+TEST_CASE("a luminaire's model becomes its body, and blocks none of its light",
           "[program][import]") {
   const TemporaryFolder folder;
   folder.write("lamp.gldf", small_container("Lamp", luxodus::test::SmallL3d{}.bytes()));
@@ -97,7 +97,7 @@ TEST_CASE("a luminaire's model becomes its body, and hides none of its light",
                                               " --particles 20k --out " + within(folder, "out"));
   INFO(run.err);
   REQUIRE(run.code == 0);
-  // All of it shines down, past the body, which is above the opening by a millimetre.
+  // All light shines down, past the body, which is a millimetre above the opening.
   CHECK_THAT(run.out, Contains("100 % escaped"));
 
   luxodus::test::SmallL3d coloured;
@@ -139,7 +139,7 @@ TEST_CASE("light is traced in an imported model, and its results are by GlobalId
   CHECK(checked.code == 0);
   CHECK_THAT(checked.out, Contains("no errors, no warnings"));
 
-  // What a person adds: light in an emergency, and a way out.
+  // The user's additions: emergency light, and an exit.
   std::string fixtures = slurp(folder / "house/fixtures.toml");
   const size_t type = fixtures.find("name = \"Lamp\"\n");
   REQUIRE(type != std::string::npos);
@@ -169,7 +169,7 @@ TEST_CASE("light is traced in an imported model, and its results are by GlobalId
                         Contains(small.space_guid + ",space,1 Hall,en1838-2024,E6"));
 }
 
-TEST_CASE("a plan without a unit asks for it, and its layers wait for a person",
+TEST_CASE("a plan without a unit requires one, and its layers wait for the user",
           "[program][import]") {
   const TemporaryFolder folder;
   folder.write(

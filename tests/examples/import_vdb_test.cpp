@@ -1,5 +1,5 @@
-// Smoke of OpenVDB files as a person brings it: listed, imported, checked, in a run; and what is
-// said and left where the program that reads it fails.
+// Smoke of OpenVDB files in a user's steps: listed, imported, checked, run; and messages and files
+// if the reading program fails.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <iterator>
@@ -42,7 +42,7 @@ std::string luxodus_beside(const TemporaryFolder& folder, const fs::path& vdb_pr
 
 }  // namespace
 
-TEST_CASE("what is no OpenVDB file is refused by its name", "[program][import][vdb]") {
+TEST_CASE("a file that is not OpenVDB is rejected by name", "[program][import][vdb]") {
   const TemporaryFolder folder;
   folder.write("smoke.vdb", "no grids");
   const Outcome refused = run_luxodus(folder, "import vdb " + (folder / "smoke.vdb").string());
@@ -63,7 +63,7 @@ TEST_CASE("an OpenVDB file is listed, and becomes smoke in which light is traced
   REQUIRE(listed.code == 0);
   CHECK_THAT(listed.out, Contains("grid \"density\": float, fog volume, 3 cells\n"));
   CHECK_THAT(listed.out, Contains("\"surface\"") && Contains("not read: it is a level set"));
-  CHECK(folder.entries() == 3);  // the file, and what was said
+  CHECK(folder.entries() == 3);  // the file, and the output
 
   const Outcome made =
       run_luxodus(folder, vdb_import_command(folder / "small.vdb", folder / "smoke"));
@@ -105,9 +105,8 @@ TEST_CASE("an OpenVDB file is listed, and becomes smoke in which light is traced
 
 #endif
 
-TEST_CASE(
-    "a reader of OpenVDB files that fails is one error, and leaves an earlier import as it was",
-    "[program][import][vdb]") {
+TEST_CASE("a failing reader of OpenVDB files is one error, and an earlier import is unchanged",
+          "[program][import][vdb]") {
   const TemporaryFolder folder;
   const std::string luxodus = luxodus_beside(folder, LUX_ODD_VDB);
   fs::create_directories(folder / "smoke");
@@ -134,7 +133,7 @@ TEST_CASE(
 TEST_CASE("a luxodus_vdb of another build is one error that says what to do",
           "[program][import][vdb]") {
   const TemporaryFolder folder;
-  // It serves jobs, but not those of this build's name.
+  // It serves jobs, but none with this build's name.
   const std::string luxodus = luxodus_beside(folder, LUX_ODD_NODE);
   const auto file = folder.write("small.vdb", "grids");
   const Outcome refused = shell(folder, luxodus + vdb_import_command(file, folder / "smoke"));

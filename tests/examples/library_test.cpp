@@ -1,6 +1,6 @@
-// The scenes that ship give the numbers that stand beside them. scenes/library/NAME.expected.toml
-// says what NAME.toml must give and why; its format is described in scenes/library/README.md. Every
-// number of a run must lie within four combined standard errors of the stated one.
+// The scenes that ship give the numbers beside them. scenes/library/NAME.expected.toml states the
+// numbers of NAME.toml and their reasons; scenes/library/README.md describes its format. Every
+// number of a run must be within four combined standard errors of the stated one.
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -67,7 +67,7 @@ struct Number {
   double error = 0;  // standard error
 };
 
-/// "planes/floor/mean_illuminance": lists are searched by name, those of signs by "SIGN from
+/// "planes/floor/mean_illuminance": list items are found by name, those of signs by "SIGN from
 /// OBSERVER".
 const Json* member(const Json& in, const std::string& key) {
   if (in.is_object()) return in.contains(key) ? &in.at(key) : nullptr;
@@ -94,8 +94,8 @@ Number number_at(const Json& result, const std::string& path) {
   return {at->at("value").get<double>(), measured ? at->at("standard_error").get<double>() : 0};
 }
 
-/// Values with a unit that are not numbers. Contrasts and uniformities are ratios: in the dark they
-/// do not exist.
+/// Values with a unit that are not numbers, except contrasts and uniformities: ratios do not exist
+/// in the dark.
 void list_unknown(const Json& in, const std::string& path, std::vector<std::string>& out) {
   if (in.is_object() && in.contains("value") && in.contains("unit")) {
     if (!in["value"].is_number()) out.push_back(path);
@@ -144,7 +144,7 @@ std::string words(const toml::Table& table, const char* key) {
   return value && value->as_text() ? *value->as_text() : "";
 }
 
-/// The tables of a list; none where there is no such key.
+/// The tables of a list; none if there is no such key.
 std::vector<const toml::Table*> tables(const toml::Table& table, const char* key) {
   std::vector<const toml::Table*> out;
   const toml::Value* value = table.find(key);
@@ -168,7 +168,7 @@ void check_value(const toml::Table& value, const Json& result) {
   CHECK(got.value == Approx(is).epsilon(1e-9).margin(allowed));
 }
 
-/// { scenario, at } of a number that an order names.
+/// { scenario, at } of a number that an order refers to.
 Number named(const toml::Table& order, const char* key,
              const std::map<std::string, Json>& results) {
   REQUIRE(order.find(key));
@@ -265,7 +265,7 @@ TEST_CASE("every scene that ships is read and compiled without a problem, in all
   }
 }
 
-TEST_CASE("beside every scene that ships stands what it must give", "[library]") {
+TEST_CASE("every scene that ships has its expected numbers beside it", "[library]") {
   std::set<std::string> expected;
   for (const auto& entry : fs::directory_iterator(library)) {
     const std::string file = entry.path().filename().string();
@@ -287,7 +287,7 @@ TEST_CASE("the smoke tank follows Beer and Lambert to Smokeview's greys", "[libr
   check_library_scene("smoke_tank");
 }
 
-TEST_CASE("a ball of flame loses to its own soot what the closed form says", "[library]") {
+TEST_CASE("the soot of a ball of flame absorbs the share of the closed form", "[library]") {
   check_library_scene("fire_in_a_box");
 }
 

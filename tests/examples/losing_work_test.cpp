@@ -1,5 +1,5 @@
-// What a person must not lose: hours of tracing to a folder that cannot be written, a kill, a full
-// disk, a command typed twice. Signals are sent by `timeout`.
+// Protection of a user's work: hours of tracing to an unwritable folder, a kill, a full disk, a
+// repeated command. Signals are sent by `timeout`.
 #include <unistd.h>
 
 #include <algorithm>
@@ -36,14 +36,15 @@ width = 40
 height = 30
 )";
 
-/// More particles than can be traced while somebody waits.
+/// More particles than can be traced while the user waits.
 const std::string endless = " --particles 1000G ";
 
 struct LostRoom : ScenePlace {
   explicit LostRoom(const std::string& text = lost_room) : ScenePlace("room.toml", text) {}
 };
 
-/// Each: at most 20 s, so that a program that does not end fails the test and not the machine.
+/// Each at most 20 s, so that a program that does not end fails the test and does not block the
+/// machine.
 const std::string in_time = "timeout --signal=KILL 20 ";
 
 size_t lines(const std::string& text) {
@@ -52,7 +53,7 @@ size_t lines(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a run learns before it traces that its results cannot be written", "[program][keep]") {
+TEST_CASE("a run detects before it traces that its results cannot be written", "[program][keep]") {
   const LostRoom place;
   const fs::path elsewhere = place.folder / "elsewhere";
   fs::create_directory(elsewhere);
@@ -83,7 +84,7 @@ TEST_CASE("a run learns before it traces that its results cannot be written", "[
   CHECK(fs::is_empty(elsewhere));
 }
 
-TEST_CASE("every command that works long looks first at where it will write", "[program][keep]") {
+TEST_CASE("every long command first checks where it will write", "[program][keep]") {
   const LostRoom place;
   const std::string file = (place.folder / "file").string();
   std::ofstream(file) << "mine";
@@ -111,8 +112,7 @@ TEST_CASE("pictures never leave the folder of their run through a link", "[progr
   CHECK(fs::is_empty(elsewhere));
 }
 
-TEST_CASE("a run that is killed goes on from its last checkpoint with the same bits",
-          "[program][keep]") {
+TEST_CASE("a killed run continues from its last checkpoint with the same bits", "[program][keep]") {
   const LostRoom place;
   const std::string nodes = GENERATE(" --threads 1", " --nodes 2");
   const Outcome killed =
@@ -131,7 +131,7 @@ TEST_CASE("a run that is killed goes on from its last checkpoint with the same b
       place.run("--no-views --resume --particles " + std::to_string(2 * particles));
   INFO(resumed.err);
   REQUIRE(resumed.code == 0);
-  // Nodes may have counted batches beyond those: all before them are traced, too.
+  // Nodes may have counted later batches: all before them are traced, too.
   const auto ended = nlohmann::json::parse(slurp(place.out / "result.json"));
   CHECK(ended["finished"] == true);
   CHECK(ended["particles"].get<int64_t>() >= 2 * particles);
@@ -144,7 +144,7 @@ TEST_CASE("a run that is killed goes on from its last checkpoint with the same b
   CHECK(same);
 }
 
-TEST_CASE("a longer run of the same scene is not replaced by a shorter one unasked",
+TEST_CASE("a longer run of the same scene is not replaced by a shorter one without --overwrite",
           "[program][keep]") {
   const LostRoom place;
   REQUIRE(place.run("--no-views --particles 100k").code == 0);
@@ -157,7 +157,7 @@ TEST_CASE("a longer run of the same scene is not replaced by a shorter one unask
     CHECK_THAT(refused.err, Contains("--resume") && Contains("--overwrite"));
     CHECK(slurp(place.out / "flux.lux") == long_run);
   }
-  // The same command again, as ./run.sh has it, and a longer one.
+  // Repeats the command, as in ./run.sh, then runs a longer one.
   CHECK(place.run("--no-views --particles 100k").code == 0);
   CHECK(slurp(place.out / "flux.lux") == long_run);
   CHECK(place.run("--no-views --particles 100k --seed 9").code == 0);
@@ -178,7 +178,7 @@ TEST_CASE("a command that stops by time or error may be repeated", "[program][ke
   }
 }
 
-TEST_CASE("a repeated run that is interrupted leaves the longer one as it was", "[program][keep]") {
+TEST_CASE("an interrupted repetition of a run leaves the longer one unchanged", "[program][keep]") {
   const LostRoom place;
   REQUIRE(place.run("--no-views --threads 1 --time 4s").code == 0);
   const std::string long_run = slurp(place.out / "flux.lux");
@@ -191,7 +191,7 @@ TEST_CASE("a repeated run that is interrupted leaves the longer one as it was", 
   CHECK(fs::exists(place.out / "planes" / "the_floor.csv"));
 }
 
-TEST_CASE("files that no run has written are not replaced unasked", "[program][keep]") {
+TEST_CASE("files that no run has written are not replaced without --overwrite", "[program][keep]") {
   const LostRoom place;
   fs::create_directories(place.out / "planes");
   for (const char* name : {"result.json", "planes/the_floor.csv", "flux.lux"}) {
@@ -212,7 +212,7 @@ TEST_CASE("two runs do not write into one folder", "[program][keep]") {
   const LostRoom place;
   const std::string run = std::string(LUX_PROGRAM) + " run " + place.scene + " --out " +
                           place.out.string() + " --no-views --threads 1" + endless;
-  // The lock is there before the first particle; the second command waits for it, then is refused.
+  // The lock exists before the first particle; the second command waits for it, then is refused.
   const Outcome both =
       shell(place.folder,
             run + " & first=$!; until [ -s " + (place.out / ".luxodus.lock").string() +
@@ -221,17 +221,17 @@ TEST_CASE("two runs do not write into one folder", "[program][keep]") {
   INFO(both.err);
   CHECK(both.code == 2);
   CHECK_THAT(both.err, Contains("process ") && Contains("writes into this folder"));
-  // Who was killed holds nothing.
+  // A killed process holds no lock.
   CHECK(place.run("--no-views --particles 20k").code == 0);
   CHECK_FALSE(fs::exists(place.out / ".luxodus.lock"));
 }
 
-TEST_CASE("Ctrl-C and SIGTERM end the making of pictures, and keep what is done",
+TEST_CASE("Ctrl-C and SIGTERM end the making of pictures, and keep finished ones",
           "[program][keep]") {
   const LostRoom place;
   REQUIRE(place.run("--particles 20k --no-views").code == 0);
   for (const std::string signal : {"INT", "TERM"}) {
-    // 1200 pixels of a hundred thousand paths take minutes.
+    // 1200 pixels with a hundred thousand paths take minutes.
     const std::string under =
         "timeout --kill-after=15 --preserve-status --signal=" + signal + " 2 ";
     const Outcome drawn =
@@ -247,7 +247,7 @@ TEST_CASE("Ctrl-C and SIGTERM end the making of pictures, and keep what is done"
   }
 }
 
-TEST_CASE("a pack that is interrupted leaves nothing, and takes away what a killed one left",
+TEST_CASE("an interrupted pack leaves nothing, and removes what a killed one left",
           "[program][keep]") {
   const LostRoom place;
   const fs::path stale = place.folder / ".luxodus-999999-0.tmp";
@@ -292,8 +292,7 @@ TEST_CASE("a standard output that cannot be written is an error in one line", "[
   CHECK(place.luxodus("info").code == 0);
 }
 
-TEST_CASE("a reader that has gone is an error, and what was computed is written first",
-          "[program][keep]") {
+TEST_CASE("a reader that has gone is an error, and results are written first", "[program][keep]") {
   const LostRoom place;
   const std::string run = std::string(LUX_PROGRAM) + " run " + place.scene + " --out " +
                           place.out.string() + " --no-views --particles 50k";

@@ -1,4 +1,4 @@
-// What tests that run the program share: what a command said and left.
+// Shared by tests that run the program: a command's output and files.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -29,7 +29,7 @@ struct Outcome {
   std::string err;
 };
 
-/// Runs a line of shell.
+/// Runs a shell command line.
 inline Outcome shell(const TemporaryFolder& folder, const std::string& command) {
   const int status = std::system(("{ " + command + "; } >" + (folder / "stdout").string() + " 2>" +
                                   (folder / "stderr").string())
@@ -43,7 +43,7 @@ inline Outcome run_luxodus(const TemporaryFolder& folder, const std::string& arg
   return shell(folder, under + LUX_PROGRAM + " " + arguments);
 }
 
-/// A scene in a folder of its own, and where its results go.
+/// A scene in a folder of its own, and the folder of its results.
 struct ScenePlace {
   TemporaryFolder folder;
   std::string scene;

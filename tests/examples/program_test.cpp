@@ -1,5 +1,4 @@
-// The program as a person uses it: exit codes, files, and the promises that only whole runs can
-// show.
+// The program as a user runs it: exit codes, files, and promises that only whole runs can show.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -26,7 +25,7 @@ std::string readme_scene() {
   return guide.substr(first, guide.find("```", first) - first);
 }
 
-/// The same with its haze and without.
+/// The first scene with its haze and without.
 std::string two_scenarios() {
   return readme_scene() +
          "[[scenario]]\nname = \"clear\"\nmedia = { haze = 0 }\n[[scenario]]\nname = \"hazy\"\n";
@@ -50,7 +49,7 @@ std::string flux(const TemporaryFolder& folder, const char* name) {
 
 }  // namespace
 
-TEST_CASE("the guide's first scene runs and leaves what the guide lists", "[program]") {
+TEST_CASE("the guide's first scene runs and writes the files that the guide lists", "[program]") {
   const TemporaryFolder folder;
   const std::string guide = first_guide();
   const std::string scene = write_scene(folder, readme_scene());
@@ -94,7 +93,8 @@ TEST_CASE("a resumed run equals an uninterrupted one bit for bit", "[program]") 
   CHECK(flux(folder, "whole") == flux(folder, "parts"));
 }
 
-TEST_CASE("a run by need has the same bits on nodes and resumed, and can be drawn", "[program]") {
+TEST_CASE("an adaptive run has the same bits on nodes and resumed, and can be rendered",
+          "[program]") {
   const TemporaryFolder folder;
   const std::string scene = write_scene(
       folder, readme_scene() +
@@ -118,7 +118,7 @@ TEST_CASE("a run by need has the same bits on nodes and resumed, and can be draw
             .err.find("groups = \"emitter\"") != std::string::npos);
 }
 
-TEST_CASE("another seed is another flux, and resuming with it is refused by name", "[program]") {
+TEST_CASE("another seed gives another flux, and resuming with it is refused by name", "[program]") {
   const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   const std::string common = "run " + scene + " --no-views --particles 20k --out ";
@@ -130,7 +130,7 @@ TEST_CASE("another seed is another flux, and resuming with it is refused by name
   CHECK(refused.err.find("seed") != std::string::npos);
 }
 
-TEST_CASE("resuming all scenarios keeps the finished and starts those that were not begun",
+TEST_CASE("resuming all scenarios keeps the finished ones and starts those not begun",
           "[program]") {
   const TemporaryFolder folder;
   const std::string scene = write_scene(folder, two_scenarios());
@@ -141,7 +141,7 @@ TEST_CASE("resuming all scenarios keeps the finished and starts those that were 
   CHECK(flux(folder, "all/clear") == finished);
   REQUIRE(run_luxodus(folder, common + out(folder, "hazy") + " --scenario hazy").code == 0);
   CHECK(flux(folder, "all/hazy") == flux(folder, "hazy"));
-  // One scenario that was never begun is more likely a wrong folder.
+  // A single scenario that was never begun is probably a wrong folder.
   CHECK(run_luxodus(folder, common + out(folder, "never") + " --scenario hazy --resume").code == 2);
 }
 
@@ -158,8 +158,7 @@ TEST_CASE("the results of all scenarios are printed as one JSON array", "[progra
   CHECK(results[1]["scenario"] == "hazy");
 }
 
-TEST_CASE("a run clears away the maps and pictures of the one before, and only these",
-          "[program]") {
+TEST_CASE("a run removes the maps and pictures of the previous one, and only these", "[program]") {
   const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   const fs::path room = folder / "room";
@@ -207,8 +206,7 @@ TEST_CASE("a finished run is rendered again without tracing", "[program]") {
   CHECK(run_luxodus(folder, "render " + out(folder, "room") + " --view nowhere").code == 2);
 }
 
-TEST_CASE("bad input is one line with file and line, exit code 2, and nothing written",
-          "[program]") {
+TEST_CASE("bad input gives one line with file and line, exit code 2, and no files", "[program]") {
   const TemporaryFolder folder;
   const std::string good = readme_scene();
   struct Mistake {
@@ -235,7 +233,7 @@ TEST_CASE("bad input is one line with file and line, exit code 2, and nothing wr
   }
 }
 
-TEST_CASE("wrong words on the command line are exit code 2 and explained", "[program]") {
+TEST_CASE("invalid words on the command line give exit code 2 and an explanation", "[program]") {
   const TemporaryFolder folder;
   CHECK(run_luxodus(folder, "").code == 2);
   CHECK(run_luxodus(folder, "simulate").code == 2);
@@ -249,7 +247,7 @@ TEST_CASE("wrong words on the command line are exit code 2 and explained", "[pro
   CHECK(run_luxodus(folder, "run --help").out.find("--particles") != std::string::npos);
 }
 
-TEST_CASE("check and info speak JSON on request", "[program]") {
+TEST_CASE("check and info print JSON on request", "[program]") {
   const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   const auto check = nlohmann::json::parse(run_luxodus(folder, "check --json " + scene).out);
@@ -259,7 +257,7 @@ TEST_CASE("check and info speak JSON on request", "[program]") {
   CHECK(info["packages"]["Embree"].get<std::string>().rfind("3.", 0) == 0);
 }
 
-TEST_CASE("converge writes its table and plots, and the error falls like one over the root",
+TEST_CASE("converge writes its table and plots, and the error falls with the inverse root",
           "[program]") {
   const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
@@ -274,7 +272,7 @@ TEST_CASE("converge writes its table and plots, and the error falls like one ove
   CHECK(json["slope_particles"].get<double>() == Approx(-0.5).margin(0.12));
 }
 
-TEST_CASE("a seed that 64 bits do not hold is refused in one line of words", "[program]") {
+TEST_CASE("a seed beyond 64 bits is rejected in one sentence", "[program]") {
   const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   for (const char* command : {"run", "converge"}) {
@@ -296,7 +294,7 @@ TEST_CASE("a seed that 64 bits do not hold is refused in one line of words", "[p
   CHECK(flux(folder, "ten") == flux(folder, "padded"));
 }
 
-TEST_CASE("converge says that a scene measured without chance has no error", "[program]") {
+TEST_CASE("converge says that a scene without statistical error has no error", "[program]") {
   const TemporaryFolder folder;
   const std::string scene = write_scene(
       folder,
@@ -316,7 +314,7 @@ TEST_CASE("converge says that a scene measured without chance has no error", "[p
 TEST_CASE("an interrupted converge says so and ends with 130", "[program]") {
   const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
-  // `timeout` sends the signal of Ctrl-C; the particles asked for would take days.
+  // `timeout` sends the signal of Ctrl-C; the requested particles would take days.
   const Outcome run = run_luxodus(
       folder, "converge " + scene + " --particles 1000G --out " + out(folder, "converge"),
       "timeout --preserve-status --signal=INT 1 ");
@@ -325,11 +323,10 @@ TEST_CASE("an interrupted converge says so and ends with 130", "[program]") {
   CHECK(run.err.find("interrupted") != std::string::npos);
 }
 
-TEST_CASE("a scene with more patches than are counted is refused before memory is taken",
-          "[program]") {
+TEST_CASE("a scene with too many patches is rejected before memory is allocated", "[program]") {
   const TemporaryFolder folder;
   std::string text = readme_scene();
-  // At this edge each triangle has 2^31 patches: two of them are none in 32 bits.
+  // With this edge each triangle has 2^31 patches: twice that is zero in 32 bits.
   const size_t edge = text.find("patch_edge_m");
   REQUIRE(edge != std::string::npos);
   text.replace(edge, text.find('\n', edge) - edge, "patch_edge_m = 1e-4");
@@ -353,7 +350,7 @@ TEST_CASE("check counts the triangles without area that it drops", "[program]") 
   CHECK(check.out.find("2 degenerate triangles dropped") != std::string::npos);
 }
 
-TEST_CASE("a packed scene runs as its scene file does, resident and on nodes with a budget",
+TEST_CASE("a packed scene runs like its scene file, resident and on nodes with a budget",
           "[program]") {
   const TemporaryFolder folder;
   const std::string scene = write_scene(
@@ -410,8 +407,7 @@ TEST_CASE("a packed scene of smoke data and pictures runs on nodes that hold a p
   CHECK(flux(folder, "apart") == flux(folder, "plain"));
 }
 
-TEST_CASE("a run shows pictures of itself while it goes on, and its result does not notice",
-          "[program]") {
+TEST_CASE("a run writes previews in progress, and its result does not change", "[program]") {
   const TemporaryFolder folder;
   const std::string scene = write_scene(folder, readme_scene());
   const std::string common = "run " + scene + " --no-views --particles 300k --out ";

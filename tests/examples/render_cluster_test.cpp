@@ -1,11 +1,11 @@
-// Pictures of a finished run that nodes trace: the files of threads, byte for byte.
+// Pictures of a finished run traced by nodes: the files of threads, byte for byte.
 #include "tests/examples/cluster_kit.hpp"
 
 using namespace luxodus::program;
 
 namespace {
 
-/// A room in smoke that two cameras look at.
+/// A room in smoke seen by two cameras.
 std::string filmed_room(const TemporaryFolder& folder) {
   const fs::path path = folder / "room.toml";
   std::ofstream(path) << R"(title = "Room"
@@ -98,7 +98,7 @@ TEST_CASE("pictures by nodes of a process or of a cluster are those of threads",
   check_same_views(folder / "here", folder / "out");
 }
 
-TEST_CASE("pictures go on when a worker is killed, with the same bits", "[cluster][render]") {
+TEST_CASE("pictures continue when a worker is killed, with the same bits", "[cluster][render]") {
   const TemporaryFolder folder;
   const std::string scene = filmed_room(folder);
   for (const char* name : {"here", "out"}) trace_run(folder, scene, name);
@@ -117,8 +117,7 @@ TEST_CASE("pictures go on when a worker is killed, with the same bits", "[cluste
   check_same_views(folder / "here", folder / "out");
 }
 
-TEST_CASE("a cluster that is to make pictures of no finished run says so",
-          "[cluster][render][failure]") {
+TEST_CASE("a cluster that should render a missing run says so", "[cluster][render][failure]") {
   const TemporaryFolder folder;
   const std::string scene = filmed_room(folder);
   const std::string file = write_cluster(folder, rendered(scene, "paths = 4\n"));

@@ -1,6 +1,5 @@
-// `luxodus topology` as a person uses it: graphs made, kept in files, measured, compared, drawn,
-// against what is known of them in closed form; and what is said of files and wishes that are
-// wrong.
+// `luxodus topology` as a user runs it: graphs made, saved, measured, compared, drawn, against
+// closed forms; and messages about wrong files and options.
 #include <nlohmann/json.hpp>
 
 #include "tests/examples/program_kit.hpp"
@@ -21,7 +20,7 @@ std::string in(const TemporaryFolder& folder, const std::string& file) {
   return (folder / file).string();
 }
 
-/// What it says of something it refuses; it must end with 2 and leave nothing of this name.
+/// The message of a refusal; it must exit with 2 and leave no file with this name.
 std::string refusal(const TemporaryFolder& folder, const std::string& arguments,
                     const std::string& file = "none") {
   const Outcome said = run_luxodus(folder, "topology " + arguments);
@@ -37,7 +36,7 @@ bool has(const std::string& text, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("a minimum-path graph of 32 nodes and 4 links meets the bound that none can beat",
+TEST_CASE("a minimum-path graph of 32 nodes and 4 links meets the lower bound",
           "[program][topology]") {
   const TemporaryFolder folder;
   const Json graph = json_of(folder, "amp --nodes 32 --links 4 -o " + in(folder, "a.toml"));
@@ -52,7 +51,7 @@ TEST_CASE("a minimum-path graph of 32 nodes and 4 links meets the bound that non
   CHECK(read == graph);
 }
 
-TEST_CASE("a controller of its own links is a vertex more", "[program][topology]") {
+TEST_CASE("a controller with links of its own is an additional vertex", "[program][topology]") {
   const TemporaryFolder folder;
   const Json graph = json_of(
       folder, "amp --nodes 12 --links 4 --controller 2 --seed 3 -o " + in(folder, "c.toml"));
@@ -62,7 +61,7 @@ TEST_CASE("a controller of its own links is a vertex more", "[program][topology]
   CHECK(json_of(folder, "measure " + in(folder, "c.toml")) == graph);
 }
 
-TEST_CASE("a search with a seed finds the same graph again", "[program][topology]") {
+TEST_CASE("a search with the same seed finds the same graph", "[program][topology]") {
   const TemporaryFolder folder;
   const std::string search = "amp --nodes 14 --links 3 --search --seed 5 -o ";
   json_of(folder, search + in(folder, "one.toml"));
@@ -70,19 +69,20 @@ TEST_CASE("a search with a seed finds the same graph again", "[program][topology
   CHECK(slurp(folder / "one.toml") == slurp(folder / "two.toml"));
 }
 
-TEST_CASE("graphs with a name have the paths of their closed forms", "[program][topology]") {
+TEST_CASE("named graphs have the path lengths of their closed forms", "[program][topology]") {
   const TemporaryFolder folder;
   const auto average = [&](const std::string& kind) {
     return json_of(folder, "build " + kind)["all"]["paths"]["average"].get<double>();
   };
   CHECK(average("ring --nodes 8") == Approx(16.0 / 7));             // n^2 / 4 / (n - 1)
   CHECK(average("hypercube --nodes 32") == Approx(5 * 16.0 / 31));  // d 2^(d-1) / (2^d - 1)
-  // A torus of 4 x 4: 2 hops a node on average, of 16 nodes, one of which is itself.
+  // A torus of 4 x 4: 2 hops a node on average over 16 nodes, one of which is the node itself.
   CHECK(average("torus --nodes 16") == Approx(32.0 / 15));
 }
 
-TEST_CASE("in a comparison no graph of as many links has shorter paths than the minimum-path graph",
-          "[program][topology]") {
+TEST_CASE(
+    "in a comparison no graph with as many links has shorter paths than the minimum-path graph",
+    "[program][topology]") {
   const TemporaryFolder folder;
   const Json compared = json_of(folder, "compare --nodes 32");
   REQUIRE(compared.size() == 8);
@@ -95,7 +95,7 @@ TEST_CASE("in a comparison no graph of as many links has shorter paths than the 
   }
   const Outcome text = run_luxodus(folder, "topology compare --nodes 9");
   CHECK(text.code == 0);
-  CHECK(has(text.out, "9 is no power of two"));  // and the others stand beside it
+  CHECK(has(text.out, "9 is no power of two"));  // and the others are listed
   CHECK(has(text.out, "minimum-path"));
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("a drawing shows every node and every link once", "[program][topology]
   CHECK(has(svg, "diameter 4"));
 }
 
-TEST_CASE("wishes that no graph meets are refused with the reason", "[program][topology]") {
+TEST_CASE("impossible graphs are rejected with the reason", "[program][topology]") {
   const TemporaryFolder folder;
   const std::string out = " -o " + in(folder, "none");
   CHECK(has(refusal(folder, "amp --nodes 32 --links 1" + out), "give each node more links"));
@@ -128,7 +128,7 @@ TEST_CASE("wishes that no graph meets are refused with the reason", "[program][t
   CHECK(has(refusal(folder, "amp --nodes 8 --seed -1" + out), "seed"));
 }
 
-TEST_CASE("a graph's file that is wrong is refused with its line", "[program][topology]") {
+TEST_CASE("a wrong graph file is rejected with its line", "[program][topology]") {
   const TemporaryFolder folder;
   json_of(folder, "build ring --nodes 8 -o " + in(folder, "r.toml"));
   const std::string good = slurp(folder / "r.toml");

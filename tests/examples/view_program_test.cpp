@@ -1,4 +1,4 @@
-// Live views as a person starts and uses them: of a folder, and on the processes of a cluster.
+// Live views as a user starts and uses them: of a folder, and on the processes of a cluster.
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/write.hpp>
@@ -17,7 +17,7 @@ namespace {
 namespace beast = boost::beast;
 namespace net = boost::asio;
 
-/// What a browser's page says and hears.
+/// The messages of a browser's page, sent and received.
 class Page {
  public:
   explicit Page(const std::string& port) : socket_(context_) {
@@ -30,7 +30,8 @@ class Page {
     socket_.text(true);
     socket_.write(net::buffer(text));
   }
-  /// Listens until a text has these words, and gives it; what lights up meanwhile is remembered.
+  /// Waits for a text message with these words, and returns it; records light that arrives
+  /// meanwhile.
   std::string hear(const std::string& words) {
     for (;;) {
       beast::flat_buffer buffer;
@@ -42,7 +43,7 @@ class Page {
         return got;
     }
   }
-  /// Groups of which light has come, by generation.
+  /// Groups whose light has arrived, by generation.
   std::set<uint32_t> lit(uint32_t generation) const {
     std::set<uint32_t> out;
     for (const auto& [number, group] : lit_)
@@ -72,7 +73,7 @@ ClusterText viewed() {
   return text;
 }
 
-/// The port of the page that a process has told of.
+/// The port of the page that a process has printed.
 std::string port_of(Process& process) {
   REQUIRE(process.says("http://127.0.0.1:"));
   REQUIRE(process.says("Ctrl-C"));
@@ -92,7 +93,7 @@ TEST_CASE("a cluster traces for a live view, and retraces what is moved", "[clus
     page.hear("\"done\":true");
     const size_t groups = page.lit(1).size();
     CHECK(groups > 10);
-    // One luminaire moves: its light alone comes anew.
+    // One luminaire moves: only its light is sent again.
     const size_t at = scene.find("\"luminaires\":[");
     REQUIRE(at != std::string::npos);
     const size_t name = scene.find("\"name\":\"", at) + 8;
@@ -102,7 +103,7 @@ TEST_CASE("a cluster traces for a live view, and retraces what is moved", "[clus
     page.hear("\"done\":true");
     CHECK(page.lit(2).size() == 1);
   }
-  // One may have traced all before the other has come.
+  // One may have traced everything before the other has come.
   CHECK(up.says("n0 is there"));
   CHECK(up.says("n1 is there"));
   up.kill(SIGINT);
@@ -111,7 +112,7 @@ TEST_CASE("a cluster traces for a live view, and retraces what is moved", "[clus
   CHECK(code == 0);
 }
 
-TEST_CASE("a live view of a folder is of the scene and state that were run", "[program][view]") {
+TEST_CASE("a live view of a folder shows the scene and state of its run", "[program][view]") {
   const TemporaryFolder folder;
   const std::string scene =
       (fs::path(LUX_SOURCE_DIR) / "scenes/library/office_floor.toml").string();
@@ -131,7 +132,7 @@ TEST_CASE("a live view of a folder is of the scene and state that were run", "[p
   CHECK(view.wait() == 0);
 }
 
-TEST_CASE("a folder of nothing cannot be viewed, nor one of something else",
+TEST_CASE("a folder without a run cannot be viewed, nor one with other files",
           "[program][view][failure]") {
   const TemporaryFolder folder;
   const Outcome empty = run_luxodus(folder, "view " + folder.path().string());
@@ -143,11 +144,11 @@ TEST_CASE("a folder of nothing cannot be viewed, nor one of something else",
   CHECK(other.err.find("assessment.json") != std::string::npos);
 }
 
-TEST_CASE("a second live view whose workers trace for another ends, and says why",
+TEST_CASE("a second live view whose workers trace for another one ends, and says why",
           "[cluster][view][failure]") {
   const TemporaryFolder folder;
   ClusterText text = viewed();
-  text.scene = smoke_tank();  // which is soon traced
+  text.scene = smoke_tank();  // which is quickly traced
   const std::string first = write_cluster(folder, text, "first");
   const std::string second = write_cluster(folder, text, "second");
   Process up(LUX_PROGRAM, {"cluster", "up", first});
@@ -171,7 +172,7 @@ TEST_CASE("a live view refuses nodes that do not hold the scene", "[cluster][vie
   CHECK(node.said("object_bytes"));
 }
 
-TEST_CASE("a live view says an address that a browser takes, and serves it there alone",
+TEST_CASE("a live view prints an address that a browser accepts, and serves only there",
           "[program][view]") {
   const TemporaryFolder folder;
   const std::string scene = (fs::path(LUX_SOURCE_DIR) / "scenes/library/empty_room.toml").string();

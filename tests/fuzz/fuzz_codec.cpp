@@ -11,7 +11,7 @@ bool fuzz_one(std::span<const std::byte> bytes) {
   Codec codec;
   (void)codec.open_frame(bytes);
   if (bytes.size() < limits::check_bytes) return false;
-  // A peer can make a check that holds: what is behind it is what it is about.
+  // A peer can make a valid check: the input after it is what is tested.
   std::vector<std::byte> sealed(bytes.begin(), bytes.end());
   Codec::seal(sealed);
   const auto frame = codec.open_frame(sealed);

@@ -1,5 +1,5 @@
-// One try of the codec with bytes that nobody vouches for: they are understood or refused, nothing
-// else happens, and what is understood can be said again and means the same. Aborts otherwise.
+// One try of the codec with untrusted bytes: they are decoded or rejected without side effects, and
+// a decoded message encodes to the same meaning. Aborts otherwise. One thread.
 #pragma once
 
 #include <cstddef>

@@ -60,7 +60,7 @@ bool fuzz_flush(std::span<const std::byte> bytes, bool raw) {
   if (!gain.ok()) return false;
   must(gain->bins() <= groups * bins, "a flush has more bins than there are");
   must(gain->batches() >= 0, "a flush counts less than nothing");
-  if (!gain->balance().closes()) return true;  // which the controller refuses
+  if (!gain->balance().closes()) return true;  // the controller refuses it
   Totals totals = no_totals();
   gain->add_to(totals);
   return true;

@@ -1,5 +1,5 @@
-// One try of the payload of flushes, of their parts and of totals that are told, with bytes that
-// nobody vouches for: read and added to totals, or refused with nothing added. Aborts otherwise.
+// One try of the payloads of flushes, of their parts and of sent totals, with untrusted bytes:
+// decoded and added to totals, or rejected with nothing added. Aborts otherwise. One thread.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace luxodus::test {
 
-/// A flush for what fuzz_flush() reads: what mutations start from. Not packed.
+/// A valid input for fuzz_flush(), from which mutations start. Not packed.
 std::vector<std::byte> sample_flush();
 
-/// `raw`: what zstd would unpack; else the bytes as they come. True: it was a flush.
+/// `raw`: as unpacked by zstd; otherwise packed bytes. True: it was a flush.
 bool fuzz_flush(std::span<const std::byte> bytes, bool raw);
 
 }  // namespace luxodus::test

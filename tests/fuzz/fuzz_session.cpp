@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint64_t of_first_life = 1000;
 
-/// Reads the input to its end, and zeros behind it.
+/// Reads the input to its end, followed by zeros.
 class Script {
  public:
   explicit Script(std::span<const std::byte> input) : left_(input) {}
@@ -72,7 +72,7 @@ uint64_t fuzz_session(std::span<const std::byte> input) {
   Script script(input);
   Cluster trio(3, ring(3));
   Codec codec;
-  if (script.next() % 4 != 0) trio.bring_up();  // else the frames meet the handshake
+  if (script.next() % 4 != 0) trio.bring_up();  // otherwise the frames arrive during the handshake
   NetNode& victim = trio[1];
   const size_t memory = victim.network.memory_bytes();
   const uint64_t before = victim.network.counters().dropped_malformed;
@@ -89,7 +89,7 @@ uint64_t fuzz_session(std::span<const std::byte> input) {
   const uint64_t malformed = victim.network.counters().dropped_malformed - before;
   must(malformed <= frames, "more is malformed than came");
 
-  // A refusal is tried again after 30 s, a false grant ends with the link.
+  // A refusal is retried after 30 s, a false grant ends with the link.
   trio.run(seconds(70), milliseconds(50));
   must(victim.network.memory_bytes() == memory, "the node's buffers have grown");
   for (const uint16_t other : {uint16_t{0}, uint16_t{2}}) {

@@ -1,5 +1,5 @@
-// The entry that libFuzzer looks for (targets fuzz_codec, fuzz_session and fuzz_flush, with Clang;
-// LUX_FUZZ says which); to other programs a function that nobody calls.
+// The entry point of libFuzzer (targets fuzz_codec, fuzz_session and fuzz_flush, with Clang;
+// LUX_FUZZ selects one); unused in other programs.
 #include <cstddef>
 #include <cstdint>
 #include <span>

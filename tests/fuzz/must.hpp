@@ -1,4 +1,4 @@
-// What holds for every input, or the fuzzer has found something.
+// Assertions of the fuzzers. Any thread.
 #pragma once
 
 #include <cstdio>
@@ -6,7 +6,7 @@
 
 namespace luxodus::test {
 
-/// Ends the program, which a fuzzer reports with its input, unless `holds`.
+/// Aborts unless `holds`; a fuzzer reports that with its input.
 inline void must(bool holds, const char* what) {
   if (holds) return;
   std::fprintf(stderr, "fuzzed: %s\n", what);

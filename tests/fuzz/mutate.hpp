@@ -1,5 +1,5 @@
-// Small harms to bytes, drawn from the seed's numbers: bits flipped, words set to what breaks
-// arithmetic, cut, lengthened, spliced with another frame.
+// Small corruptions of bytes, drawn from the seed: flipped bits, words that break arithmetic,
+// truncation, extension, splicing with another frame. Pure but for the random numbers.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +49,7 @@ inline void harm(Bytes& bytes, const Bytes& other, Random& random) {
   }
 }
 
-/// A few harms at once, most often one.
+/// One corruption, sometimes several.
 inline Bytes mutated(const Bytes& bytes, const Bytes& other, Random& random) {
   Bytes out = bytes;
   do harm(out, other, random);

@@ -1,6 +1,6 @@
-// The short run of the fuzzers that every test run makes: the codec alone, a whole node, a node in
-// every state of a link, payloads. The seed is LUXODUS_SEED, or 1; a failure prints it.
-// tests/tools/fuzz.sh runs the same for as long as one likes.
+// The short run of the fuzzers in every test run: the codec alone, a whole node, a node in every
+// state of a link, payloads. The seed is LUXODUS_SEED, or 1; a failure prints it.
+// tests/tools/fuzz.sh runs the same without end.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
@@ -33,7 +33,7 @@ const Bytes& any(const std::vector<Bytes>& corpus, Random& random) {
 
 }  // namespace
 
-TEST_CASE("the codec understands or refuses whatever bytes it is given", "[fuzz]") {
+TEST_CASE("the codec decodes or rejects any bytes", "[fuzz]") {
   Codec codec;
   std::vector<Bytes> corpus;
   for (const Message& message : sample_messages()) corpus.push_back(sample_frame(codec, message));
@@ -48,7 +48,7 @@ TEST_CASE("the codec understands or refuses whatever bytes it is given", "[fuzz]
   CHECK(understood < tries);
 }
 
-TEST_CASE("harmed frames leave a node up and working", "[fuzz]") {
+TEST_CASE("corrupted frames leave a node up and working", "[fuzz]") {
   INFO("seed " << seed());
   Cluster trio(3, ring(3));
   trio.net.max_record = 400;
@@ -66,15 +66,15 @@ TEST_CASE("harmed frames leave a node up and working", "[fuzz]") {
     const NodeId from{static_cast<uint16_t>(random.bits() % 3)};
     const Lane lane = random.bits() % 2 == 0 ? Lane::control : Lane::bulk;
     Bytes forged = mutated(any(corpus, random), any(corpus, random), random);
-    // One in two harmed on its way, the other made by who knows how to.
+    // Half of them corrupted in transit, half forged with a valid check.
     if (random.bits() % 2 == 0 && forged.size() >= limits::check_bytes) Codec::seal(forged);
     trio.net.send(from, {1}, lane, forged, {});
     if (i % 100 == 99) trio.turn(milliseconds(10));
   }
   CHECK(trio[1].network.counters().dropped_malformed > 3'000);
 
-  // What was forged has refused links, granted too much and told of links that are down: all of
-  // that heals without a restart.
+  // Forged frames have refused links, granted too much and reported links as down: all of that
+  // recovers without a restart.
   trio.run(seconds(70));
   for (const uint16_t other : {uint16_t{0}, uint16_t{2}})
     CHECK(trio[1].network.phase({other}) == LinkPhase::up);
@@ -85,7 +85,7 @@ TEST_CASE("harmed frames leave a node up and working", "[fuzz]") {
   CHECK(trio[1].handler.count<AskStatus>() == before + 2);
 }
 
-TEST_CASE("every message in every state of a link leaves a node as it was", "[fuzz]") {
+TEST_CASE("any message in any state of a link leaves a node's memory unchanged", "[fuzz]") {
   INFO("seed " << seed());
   Random random = numbers();
   const auto byte = [&] { return static_cast<std::byte>(random.bits()); };
@@ -95,7 +95,7 @@ TEST_CASE("every message in every state of a link leaves a node as it was", "[fu
     Bytes script{byte()};
     for (int frame = 0; frame < 100; ++frame, ++frames) {
       script.push_back(byte());
-      // Mostly of this session and with a check that holds: what a neighbour can make.
+      // Mostly of this session and with a valid check, as a neighbour can make them.
       const bool made = random.uniform() < 0.8f;
       script.push_back(byte() |
                        static_cast<std::byte>(made ? session::addressed | session::sealed : 0));
@@ -109,7 +109,7 @@ TEST_CASE("every message in every state of a link leaves a node as it was", "[fu
   CHECK(understood < frames);
 }
 
-TEST_CASE("flushes are read or refused, whatever bytes they are", "[fuzz]") {
+TEST_CASE("flushes are decoded or rejected, whatever bytes they are", "[fuzz]") {
   INFO("seed " << seed());
   Random random = numbers();
   const Bytes whole = sample_flush();

@@ -1,4 +1,5 @@
-// One of every message, all fields set: what the codec must carry, and what mutations start from.
+// One of every message with all fields set: the codec must carry them, and mutations start from
+// them. Pure.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,7 @@ namespace {
 thread_local uint64_t allocations = 0;
 thread_local uint64_t zmq_allocations = 0;
 
-/// Where libzmq lies, once the program has been loaded.
+/// Address range of libzmq in the loaded program.
 uintptr_t zmq_begin = 0, zmq_end = 0;
 
 int find_zmq(dl_phdr_info* object, size_t, void*) {
@@ -31,7 +31,7 @@ int find_zmq(dl_phdr_info* object, size_t, void*) {
   dl_iterate_phdr(find_zmq, nullptr);
 }
 
-[[maybe_unused]] void note(const void* caller) {  // sanitizers count for themselves
+[[maybe_unused]] void note(const void* caller) {  // sanitizers have counts of their own
   ++allocations;
   const auto at = reinterpret_cast<uintptr_t>(caller);
   if (at >= zmq_begin && at < zmq_end) ++zmq_allocations;
@@ -41,7 +41,7 @@ int find_zmq(dl_phdr_info* object, size_t, void*) {
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
-// glibc's allocator under its other names; free() needs none, since it knows the same memory.
+// glibc's allocator under its other names; free() needs none, since it is the same allocator.
 extern "C" {
 void* __libc_malloc(size_t bytes);
 void* __libc_calloc(size_t count, size_t bytes);
@@ -75,7 +75,7 @@ int posix_memalign(void** out, size_t alignment, size_t bytes) {
 }
 }
 
-// In the library they would hide who called them.
+// Not in the library, where the caller would be hidden.
 void* operator new(size_t bytes) {
   note(__builtin_return_address(0));
   if (void* memory = __libc_malloc(bytes)) return memory;

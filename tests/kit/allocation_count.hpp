@@ -1,5 +1,6 @@
-// How often a thread asked for memory. Linking this replaces malloc and its kin in the whole
-// program, so that nothing escapes the count: operator new, the C library, libraries we link.
+// Counts a thread's allocations. Linking this replaces malloc and its relatives in the whole
+// program, so that nothing escapes the count: operator new, the C library, other libraries. Any
+// thread.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@ bool allocations_are_counted();
 /// Calls of malloc, calloc, realloc and the aligned ones on this thread so far.
 uint64_t allocations_of_this_thread();
 
-/// Those of them that libzmq made: it takes memory for each message longer than 33 bytes.
+/// Allocations by libzmq, which allocates for each message longer than 33 bytes.
 uint64_t allocations_by_zmq();
 
 }  // namespace luxodus::test

@@ -1,4 +1,5 @@
-// Scenes for tests, read from a file or a text. What is wrong with them fails the test, in words.
+// Scenes for tests, read from a file or a text. A problem in them fails the test, with its message.
+// Any thread.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -18,7 +19,7 @@ inline std::shared_ptr<const SceneDescription> described(const std::filesystem::
   return std::make_shared<const SceneDescription>(std::move(*read.scene));
 }
 
-/// Of a scene that needs no other file.
+/// A scene that needs no other file.
 inline std::shared_ptr<const SceneDescription> described_text(const std::string& text) {
   const TemporaryFolder folder;
   return described(folder.write("scene.toml", text));

@@ -1,4 +1,4 @@
-// A flush in one go, where nothing else waits for the thread.
+// Encodes a flush at once, for threads without other work. One thread per object.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace luxodus::test {
 
-/// Empties totals into the bytes of a flush.
+/// Moves totals into the bytes of a flush.
 inline std::vector<std::byte> encode_flush(Totals& totals) {
   FlushEncoder encoder(totals.groups(), totals.layout().totals());
   encoder.begin(totals);

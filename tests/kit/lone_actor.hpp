@@ -1,5 +1,6 @@
-// What an actor needs that is tested alone, with the test as all others: a sender that notes what
-// is sent, and a node among three, of which the two others are there and say nothing.
+// Surroundings of an actor that is tested alone, while the test plays all others: a sender that
+// records messages, and a node among three, of which the two others are connected and silent. One
+// thread.
 #pragma once
 
 #include <map>
@@ -25,7 +26,7 @@ struct NotedSender final : Sender {
     sent[to.node].push_back({id, message});
     return SendOutcome::taken;
   }
-  /// All of this type that were sent to a node.
+  /// All messages of this type sent to a node.
   template <class Body>
   std::vector<Body> told(NodeId node) const {
     std::vector<Body> out;
@@ -41,14 +42,14 @@ struct NotedSender final : Sender {
   std::map<NodeId, std::vector<Sent>> sent;
 };
 
-/// Node 0, on a clock that is moved by hand.
+/// Node 0, on a manual clock.
 struct LoneNode {
   LoneNode() { cluster.bring_up(); }
   void end_fibers() {
     scheduler.fibers().cancel_all();
     settle();
   }
-  /// Turns until only time could bring more.
+  /// Turns until only time could bring more work.
   void settle() {
     while (scheduler.turn() <= cluster.clock.now()) {
     }

@@ -1,5 +1,5 @@
-// A client of a server in the same process that sends bytes as they are, with raw sockets: also
-// what no honest client would send.
+// A client of a server in the same process that sends arbitrary bytes over raw sockets, including
+// invalid ones. Any thread.
 #pragma once
 
 #include <arpa/inet.h>
@@ -15,7 +15,7 @@
 
 namespace luxodus::test {
 
-/// One connection; the client may be made when no descriptor is left to make one later.
+/// One connection; make the client early if descriptors will run out.
 class RawClient {
  public:
   RawClient() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) { REQUIRE(socket_ >= 0); }
@@ -35,7 +35,7 @@ class RawClient {
     REQUIRE(::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
             static_cast<ssize_t>(bytes.size()));
   }
-  /// Has nothing more to say.
+  /// Closes the sending side.
   void end() const { ::shutdown(socket_, SHUT_WR); }
   std::string hear_some() const {
     std::string out(4096, '\0');
@@ -48,7 +48,7 @@ class RawClient {
     for (std::string some = hear_some(); !some.empty(); some = hear_some()) out += some;
     return out;
   }
-  /// Whether the other end has neither said anything nor closed.
+  /// Whether the other end has neither sent anything nor closed.
   bool is_waiting() const {
     char byte = 0;
     return ::recv(socket_, &byte, 1, MSG_DONTWAIT | MSG_PEEK) < 0;
@@ -58,7 +58,7 @@ class RawClient {
   int socket_;
 };
 
-/// All that a server answers to these bytes.
+/// The complete answer of a server to these bytes.
 inline std::string whole_answer(uint16_t port, const std::string& bytes) {
   const RawClient client;
   client.connect(port);
@@ -67,7 +67,7 @@ inline std::string whole_answer(uint16_t port, const std::string& bytes) {
   return client.hear_all();
 }
 
-/// What a server answers to these bytes, to the end of its line.
+/// The first line of a server's answer to these bytes.
 inline std::string answer(uint16_t port, const std::string& bytes) {
   const RawClient client;
   client.connect(port);

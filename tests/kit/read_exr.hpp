@@ -1,4 +1,5 @@
-// Reads back what write_exr wrote. For tests: it trusts the file, and throws where that is wrong.
+// Reads back what write_exr wrote. For tests: it trusts the file, and throws if that is wrong. Any
+// thread.
 #pragma once
 
 #include <OpenEXR/ImfChannelList.h>
@@ -13,7 +14,7 @@
 
 namespace luxodus::test {
 
-/// `text` holds the attributes of type string, `numbers` those of type double.
+/// `text` gets the attributes of type string, `numbers` those of type double.
 inline void read_exr_attributes(const Imf::Header& header, ExrImage& image) {
   image.unit.clear();
   for (auto it = header.begin(); it != header.end(); ++it) {

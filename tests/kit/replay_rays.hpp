@@ -1,5 +1,5 @@
-// Rays answered by Embree alone: the yardstick that benchmarks hold the tracer against. Nothing of
-// a hit is read but what proves that the work was done. Any thread.
+// Rays answered by Embree alone: the reference for benchmarks of the tracer. Only a checksum of the
+// hits is kept, as proof of the work. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace luxodus::test {
 
-/// Calls rtcIntersect1 for every ray, in order; the sum of the triangles hit.
+/// Calls rtcIntersect1 for every ray, in order; returns the sum of the hit triangles' numbers.
 inline uint64_t replay_rays(const CellScene& scene, std::span<const Ray> rays) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);

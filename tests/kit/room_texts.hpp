@@ -1,12 +1,13 @@
-// Pieces of scene files that several rooms of tests are made of.
+// Pieces of scene files, shared by tests of several rooms. Constant data and pure functions; any
+// thread.
 #pragma once
 
 #include <string>
 
 namespace luxodus::test {
 
-/// A closed room with its corner at the origin, of half reflectance. `high`: the corner across, as
-/// the scene file writes it.
+/// A closed room with its corner at the origin and reflectance 0.5. `high`: the opposite corner, in
+/// the scene file's syntax.
 inline std::string white_room(const std::string& high) {
   return R"(
 [[material]]
@@ -20,7 +21,8 @@ high = )" +
          high + "\nmaterial = \"white\"\n";
 }
 
-/// A point of 1000 lm over the middle of a room of 12 m by 4 m, with what the codes ask of it.
+/// A point source of 1000 lm over the middle of a room of 12 m by 4 m, with the emergency data that
+/// the codes require.
 inline const std::string middle_lamp = R"(
 [[emitter]]
 name = "lamp"
@@ -34,7 +36,7 @@ maintenance_factor = 0.8
 end_of_duration_factor = 0.75
 )";
 
-/// A sign on an east wall, which faces west. `position` as the scene file writes it.
+/// A sign on an east wall that faces west. `position` in the scene file's syntax.
 inline std::string exit_sign_at(const std::string& position) {
   return "\n[[sign]]\nname = \"exit\"\nposition = " + position + R"(
 facing = [-1, 0, 0]

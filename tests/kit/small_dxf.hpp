@@ -7,7 +7,7 @@
 
 namespace luxodus::test {
 
-/// Pairs of code and value, a line each.
+/// Pairs of code and value, one line each.
 inline std::string dxf_groups(std::initializer_list<std::pair<int, std::string>> pairs) {
   std::string out;
   for (const auto& [code, value] : pairs) out += std::to_string(code) + "\n" + value + "\n";

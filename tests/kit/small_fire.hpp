@@ -1,5 +1,5 @@
-// Small results of FDS for tests, written from what a test says: an index, slices, Smoke3D and
-// PLOT3D. Values are functions of (i, j, k) of cells or nodes. Any thread.
+// Small FDS results for tests, written from a description: an index, slices, Smoke3D and PLOT3D.
+// Values are functions of (i, j, k) of cells or nodes. Any thread.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ struct SmallMesh {
   size_t node_count() const { return nodes[0].size() * nodes[1].size() * nodes[2].size(); }
 };
 
-/// Even nodes from `low` on.
+/// Equally spaced nodes from `low` on.
 inline SmallMesh even_mesh(const glm::dvec3& low, const glm::dvec3& cell, const glm::ivec3& cells) {
   SmallMesh out;
   for (int axis = 0; axis < 3; ++axis)
@@ -63,7 +63,8 @@ inline std::vector<float> node_values(const SmallMesh& mesh, const ValueAt& at) 
   return out;
 }
 
-/// Of a cell-centred slice: values of cells behind a plane of ghosts on every axis, which hold 99.
+/// A cell-centred slice: values of cells behind a plane of ghost cells on every axis, which hold
+/// 99.
 inline std::vector<float> cell_values(const SmallMesh& mesh, const ValueAt& at) {
   return node_values(mesh, [&](int i, int j, int k) {
     return i == 0 || j == 0 || k == 0 ? 99.0F : at(i - 1, j - 1, k - 1);
@@ -87,7 +88,7 @@ inline std::string slice_file(const SmallMesh& mesh, const std::string& label,
   return out;
 }
 
-/// A slice of nodes low to high, x0 x1 y0 y1 z0 z1, flat where two are the same.
+/// A slice of nodes low to high, x0 x1 y0 y1 z0 z1; flat if two are equal.
 inline std::string part_slice_file(const std::array<int32_t, 6>& nodes, const std::string& label,
                                    const std::vector<SmallFrame>& frames) {
   std::string out = fortran_record(padded(label, 30)) + fortran_record(padded("short", 30)) +
@@ -99,7 +100,7 @@ inline std::string part_slice_file(const std::array<int32_t, 6>& nodes, const st
   return out;
 }
 
-/// Run lengths as FDS writes them: from four equal bytes on.
+/// Run-length encoding as in FDS: from four equal bytes on.
 inline std::string run_lengths(const std::vector<uint8_t>& bytes) {
   std::string out;
   for (size_t i = 0; i < bytes.size();) {
@@ -130,7 +131,7 @@ inline std::string smoke3d_file(const SmallMesh& mesh, const std::vector<SmallFr
   return out;
 }
 
-/// The quantities one after the other.
+/// The quantities in sequence.
 inline std::string plot3d_file(const SmallMesh& mesh,
                                const std::array<std::vector<float>, 5>& quantities) {
   std::vector<float> all;
@@ -141,7 +142,7 @@ inline std::string plot3d_file(const SmallMesh& mesh,
          fortran_record(bytes_of_values(all));
 }
 
-/// Numbers of an index: five decimals.
+/// Numbers of an index, with five decimals.
 inline std::string index_numbers(const std::vector<double>& values) {
   std::string out;
   char text[64];
@@ -152,7 +153,7 @@ inline std::string index_numbers(const std::vector<double>& values) {
   return out + "\n";
 }
 
-/// The meshes of an index, with the head that every index has. Surface 0 is INERT, 1 is OPEN.
+/// The meshes of an index, after the common head. Surface 0 is INERT, 1 is OPEN.
 inline std::string index_of_meshes(const std::vector<SmallMesh>& meshes) {
   std::string out =
       "TITLE\n small fire\n\nFDSVERSION\nFDS-6.9.1-0-g0-test\n\nCSVF\n hrr\n small_hrr.csv\n\n"
@@ -188,7 +189,7 @@ inline std::string index_of_meshes(const std::vector<SmallMesh>& meshes) {
   return out;
 }
 
-/// Entries of an index for files of results.
+/// Entries of an index for result files.
 inline std::string slice_entry(size_t mesh, bool of_cells, const SmallMesh& of,
                                const std::string& file, const std::string& label) {
   return std::string(of_cells ? "SLCC " : "SLCF ") + std::to_string(mesh) + " # STRUCTURED & 0 " +

@@ -1,5 +1,6 @@
 // A small IFC4 model, written instance by instance: a room of 5 m x 4 m x 3 m with a door in its
-// east wall, a table, a luminaire and an exit sign, in millimetres or feet, anywhere.
+// east wall, a table, a luminaire and an exit sign, in millimetres or feet, at any position. One
+// thread per object.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,11 +14,11 @@ namespace luxodus::test {
 class SmallIfc {
  public:
   bool feet = false;
-  glm::dvec3 site{0};  // of the building [m]
-  double floor_m = 1;  // of its storey
+  glm::dvec3 site{0};  // position of the building [m]
+  double floor_m = 1;  // height of its storey
   bool with_ceiling = true;
   std::string lamp_name = "Lamp 1";
-  double wall_volume_m3 = 0;  // authored, of the north wall; 0: not said
+  double wall_volume_m3 = 0;  // quantity of the north wall in the file; 0: none
 
   std::string text() {
     data_.clear();
@@ -65,7 +66,7 @@ class SmallIfc {
     keep = fmt::format("{:022d}", next_);
     return "'" + keep + "'";
   }
-  /// A length [m] in the model's unit.
+  /// A length [m] converted to the model's unit.
   std::string in(double m) const { return fmt::format("{:.9f}", m / (feet ? 0.3048 : 0.001)); }
 
   std::string units() {
@@ -107,7 +108,7 @@ class SmallIfc {
   std::string shape(const std::string& representations) {
     return add("IFCPRODUCTDEFINITIONSHAPE($,$,(" + representations + "))");
   }
-  /// IFCTYPE with a box; `rest`: what follows the tag.
+  /// An instance of `type` with a box; `rest` follows the tag.
   std::string product(const std::string& type, const std::string& id, const std::string& name,
                       const glm::dvec3& at, const glm::dvec3& size, const std::string& rest) {
     const std::string where = local(storey_place_, at);
@@ -140,7 +141,7 @@ class SmallIfc {
     add("IFCRELDEFINESBYPROPERTIES(" + guid() + ",$,$,$,(" + north + ")," + set + ")");
   }
 
-  /// Width along local x, as the schema has it, turned into the east wall: it opens to the west.
+  /// Width along local x, as the schema requires, rotated into the east wall: it opens to the west.
   void door() {
     const std::string corner = local(storey_place_, {5, 1.5, 0});
     const std::string hole = shape(box({0.2, 1, 2.1}));

@@ -1,4 +1,5 @@
-// A small model of a luminaire (L3D): what the tests of its reading and of its import vary.
+// A small model of a luminaire (L3D), which tests of its reading and import vary. One thread per
+// object.
 #pragma once
 
 #include <string>
@@ -13,7 +14,7 @@ inline const std::string box_obj =
     "v 0 0 0\nv 200 0 0\nv 200 100 0\nv 0 100 0\nv 0 0 40\nv 200 0 40\nv 200 100 40\nv 0 100 40\n"
     "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
-/// The same box, three sides of the material "white", and three of "red".
+/// The box with three sides of the material "white", and three of "red".
 inline std::string coloured_box_obj(const std::string& library) {
   std::string out = box_obj;
   out.replace(out.find("absent.mtl"), 10, library);
@@ -28,7 +29,7 @@ struct SmallL3d {
   std::string reference = "box";
   std::string joints;  // below the part
   std::string obj = box_obj;
-  std::string library;  // of materials, as paint box.mtl; "": none is there
+  std::string library;  // material library, as paint box.mtl; "": none
   std::string before = R"(<?xml version="1.0" encoding="utf-8"?>)";
 
   std::string xml() const {
@@ -47,7 +48,7 @@ struct SmallL3d {
   }
 };
 
-/// A joint at (0, 0, 0.1), turned about z by 90 degrees as it stands, with a part of the same box.
+/// A joint at (0, 0, 0.1), rotated about z by 90 degrees by default, with a part of the same box.
 inline std::string joint_with(const std::string& inner) {
   return R"(<Joints><Joint partName="arm"><Position x="0" y="0" z="0.1"/>)"
          R"(<Rotation x="0" y="0" z="0"/><DefaultRotation x="0" y="0" z="90"/><Geometries>)"

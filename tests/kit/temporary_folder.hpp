@@ -1,5 +1,5 @@
-// A folder of its own for one test, empty at first and removed at its end. Any thread may make one;
-// tests of several processes do not meet in it.
+// A temporary folder for one test, initially empty and removed at its end. Any thread; tests of
+// several processes get different folders.
 #pragma once
 
 #include <unistd.h>
@@ -29,12 +29,12 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
-  /// Writes a file, byte by byte, and says where it is.
+  /// Writes a file byte by byte and returns its path.
   std::filesystem::path write(const std::filesystem::path& name, const std::string& text) const {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return path_ / name;
   }
-  /// How many files and folders lie in it.
+  /// Number of files and folders in it.
   size_t entries() const {
     size_t count = 0;
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(path_)) ++count;

@@ -1,4 +1,4 @@
-// What share of a black body's light can be seen, by the series of Planck's integral.
+// The visible share of a black body's light, by the series of Planck's integral. Pure; any thread.
 #pragma once
 
 #include <cmath>
@@ -6,10 +6,10 @@
 
 namespace luxodus::test {
 
-/// Share of a black body's total radiant power that lies in [380, 780] nm.
+/// Share of a black body's total radiant power in [380, 780] nm.
 inline double visible_share_of_black_body(double kelvin) {
   constexpr double c2_nm_k = 1.438776877e7;
-  // Of all power, what lies at wavelengths below c2 / (x kelvin).
+  // Share of the power at wavelengths below c2 / (x kelvin).
   const auto tail = [](double x) {
     double total = 0;
     for (int n = 1; n < 400; ++n)

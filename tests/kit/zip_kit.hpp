@@ -1,5 +1,5 @@
-// ZIP files made byte by byte (APPNOTE.TXT 4.3), so that tests can also make those that no packer
-// makes: names that lead out, entries that swell, sizes that lie.
+// ZIP files made byte by byte (APPNOTE.TXT 4.3), so that tests can make invalid ones: paths that
+// leave the archive, entries that expand enormously, wrong sizes. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@ namespace luxodus::test {
 
 struct ZipEntry {
   std::string name;
-  std::string data;       // as it lies in the file
+  std::string data;       // as stored in the file
   bool deflated = false;  // `data` is a deflate stream of `plain_bytes` bytes
   uint32_t plain_bytes = 0;
   uint32_t plain_crc = 0;
 };
 
-/// CRC-32 of ZIP, of text continued from `before`.
+/// CRC-32 of ZIP, continued from `before`.
 inline uint32_t crc32_of(std::string_view text, uint32_t before = 0) {
   uint32_t crc = ~before;
   for (const char c : text) {

@@ -1,5 +1,5 @@
-// Different ways to the same number agree: analogue and weighted games, eyes and planes, shadow
-// rays and tracing. And the error bars that all of this is judged by are honest.
+// Different methods for one number agree: analogue and weighted, eyes and planes, shadow rays and
+// tracing. The error bars that these tests rely on are honest, too.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -93,7 +93,7 @@ constexpr double plane_area = 0.64;
 
 }  // namespace
 
-TEST_CASE("the analogue and the weighted game give the same light") {
+TEST_CASE("analogue and weighted absorption give equal light") {
   SceneDescription scene = scene_from_toml(furnished_room);
   add_layer_group(scene, 0, 1.4);
   add_layer_group(scene, 1.4, 2.5);
@@ -110,7 +110,7 @@ TEST_CASE("the analogue and the weighted game give the same light") {
     for (uint32_t part = 0; part < 2; ++part) {
       INFO("plane " << p << (part == 0 ? " direct" : " indirect"));
       const uint32_t block = weighted.blocks().planes;
-      // A five-hundredth of the light comes straight to the plane in the smoke.
+      // A five-hundredth of the light reaches the plane in the smoke directly.
       check_agree(weighted.watts(block, p, part), analogue.watts(block, p, part),
                   p == 1 && part == 0 ? 3 * half_percent : 1.5 * half_percent);
     }
@@ -122,7 +122,7 @@ TEST_CASE("the analogue and the weighted game give the same light") {
     check_agree(weighted.absorbed_by(name), analogue.absorbed_by(name), half_percent);
 }
 
-TEST_CASE("indirect illuminance by paths from the eye is what crosses a plane there") {
+TEST_CASE("indirect illuminance by paths from the eye equals the flux that crosses a plane there") {
   SceneDescription scene = scene_from_toml(furnished_room);
   constexpr uint32_t per_side = 5, n = per_side * per_side;
   std::vector<BinSum> probes_of_plane;
@@ -150,7 +150,7 @@ TEST_CASE("indirect illuminance by paths from the eye is what crosses a plane th
   }
 }
 
-TEST_CASE("direct light along shadow rays is the direct light that tracing counts") {
+TEST_CASE("direct light by shadow rays equals the direct light that tracing counts") {
   RunOptions options;
   options.particles = 3 << 23;
   Run run(scene_from_toml(furnished_room), options);
@@ -175,7 +175,7 @@ TEST_CASE("direct light along shadow rays is the direct light that tracing count
 
 namespace {
 
-/// Distances of estimates from the truth in their own standard errors, of runs of `batches`
+/// Distances of estimates from the truth in their own standard errors, for runs of `batches`
 /// batches.
 class Distances {
  public:
@@ -202,14 +202,14 @@ class Distances {
 
 constexpr int batches_of_a_run = 64;
 
-/// Whether the distances are Student's t of 63 degrees of freedom: within one and within two are
-/// 0.679 and 0.950 of them, and their mean square is 63 / 61. Each within three of its own standard
+/// Whether the distances follow Student's t with 63 degrees of freedom: 0.679 and 0.950 of them
+/// within one and two, and a mean square of 63 / 61; each within three of its own standard
 /// deviations.
 bool honest(const Distances& z) {
   constexpr double one = 0.679, two = 0.950;
   constexpr double freedom = batches_of_a_run - 1;
   constexpr double square = freedom / (freedom - 2);
-  // Of a square: E t^4 - (E t^2)^2, E t^4 = 3 (E t^2)^2 (freedom - 2) / (freedom - 4).
+  // Variance of the square: E t^4 - (E t^2)^2, E t^4 = 3 (E t^2)^2 (freedom - 2) / (freedom - 4).
   const double spread_of_square =
       square * std::sqrt(3 * (freedom - 2) / (freedom - 4) - 1) / std::sqrt(z.size());
   const auto spread_of_share = [&](double p) { return std::sqrt(p * (1 - p) / z.size()); };
@@ -220,9 +220,9 @@ bool honest(const Distances& z) {
 
 }  // namespace
 
-TEST_CASE("error bars are honest, and if they were 20 % too small or too large it would show") {
-  // A cube of known solution, scattering gas and roulette included: white smoke, equal walls, so E
-  // = 1.
+TEST_CASE("error bars are honest, and 20 % too small or too large would be detected") {
+  // A cube with a known solution, including scattering gas and roulette: white smoke, equal walls,
+  // so E = 1.
   SceneDescription scene;
   scene.run.voxels = false;
   scene.run.batch_particles = 128;
@@ -256,7 +256,7 @@ TEST_CASE("error bars are honest, and if they were 20 % too small or too large i
               << " within two, mean square " << z.mean_square());
     CHECK(honest(z));
     CHECK(std::abs(z.mean()) < 3 / std::sqrt(z.size()));
-    // The power of this judgement: the same runs with errors stated a fifth too small, too large.
+    // The power of this test: the same runs with stated errors a fifth too small or too large.
     CHECK_FALSE(honest(z.times(1 / 0.8)));
     CHECK_FALSE(honest(z.times(1 / 1.2)));
   }

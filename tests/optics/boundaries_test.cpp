@@ -1,6 +1,6 @@
-// Light where single precision has to decide: along boundaries, walls and voxel faces, from
-// emitters at walls, at walls of a millimetre in buildings of a hundred metres, on slivers,
-// and in beams much narrower than their way is long.
+// Light where single precision decides: along boundaries, walls and voxel faces, from emitters at
+// walls, at walls of a millimetre in buildings of a hundred metres, on slivers, and in beams much
+// narrower than they are long.
 #include <cmath>
 #include <numbers>
 
@@ -12,8 +12,7 @@
 namespace luxodus::light {
 namespace {
 
-/// A collimated emitter at a place; its rays start on a line along `spread` of that length, or in
-/// the place itself.
+/// A collimated emitter; its rays start on a line along `spread` with that length, or at one point.
 void add_beam(SceneDescription& scene, const glm::dvec3& from, const glm::dvec3& way,
               const glm::dvec3& spread = glm::dvec3(0)) {
   Emitter& e = add_emitter(scene, EmitterShape::point, from, way, 1);
@@ -90,8 +89,8 @@ TEST_CASE("a level beam in the boundary of two layers is in the upper one") {
 }
 
 TEST_CASE("beams within a wall's own plane and along its edges leave no closed room") {
-  // Whether such light meets the wall on its way or the one at its end is nobody's to say; behind
-  // either there is none.
+  // Light in a wall's plane may hit that wall or the one at its end; behind either there must be
+  // none.
   const glm::dvec3 low(0), high(4, 3, 2.5);
   for (const double shift : {0.0, 0.3}) {  // heights that are exact in single precision, or not
     SceneDescription scene;
@@ -115,7 +114,7 @@ TEST_CASE("beams within a wall's own plane and along its edges leave no closed r
 // ---- emitters at walls -------------------------------------------------------------------------
 
 TEST_CASE("emitters at walls send no light behind them") {
-  // They may lie in the wall itself: light starts before it, as it does on a lamp's own body.
+  // Emitters may lie in the wall itself: light starts off it, as it does on a lamp's own body.
   struct Lamp {
     double size_m, distance_m;
     bool body;
@@ -151,8 +150,8 @@ namespace {
 constexpr double millimetre = 1e-3;
 
 /// A hall of 100 m, a kilometre from the origin. In its far corner stand a closed cubicle with
-/// walls of a millimetre, and a screen that is as thin. Objects: six walls of the hall, six inner
-/// and six outer ones of the cubicle, the screen.
+/// walls of a millimetre, and a screen as thin. Objects: six walls of the hall, six inner and six
+/// outer walls of the cubicle, the screen.
 SceneDescription hall(const glm::dvec3& at) {
   SceneDescription scene;
   scene.run.voxels = false;
@@ -177,7 +176,8 @@ TEST_CASE("walls of a millimetre keep light in and out in a building of a hundre
       SceneDescription scene = hall(at);
       if (fog) add_homogeneous(scene, smoke(0.5, 0.95, 0.5));
       add_point(scene, at + (inside ? glm::dvec3(97.3, 77, 2) : glm::dvec3(95, 77, 2)), 1);
-      // Two triangles a wall, four patches; of the screen's twelve the backs are those within it.
+      // Two triangles per wall, four patches; the screen has twelve triangles, whose backs are
+      // inside it.
       constexpr uint32_t inner = 4 * 6, outer = 4 * 12, screen = 4 * 18;
       BinSum dark{&TallyBlocks::patches, {}};
       for (uint32_t p = 0; p < 4 * 6; ++p) dark.bins.push_back((inside ? outer : inner) + p);
@@ -195,7 +195,7 @@ TEST_CASE("walls of a millimetre keep light in and out in a building of a hundre
 
 namespace {
 
-/// Strips a hundred-thousandth as wide as long, each of two triangles.
+/// Strips a hundred-thousandth as wide as they are long, of two triangles each.
 Mesh strips(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, int count) {
   Mesh mesh;
   for (int i = 0; i <= count; ++i) {
@@ -210,7 +210,7 @@ Mesh strips(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, 
   return mesh;
 }
 
-/// The same area as triangles about one corner, every other one a sliver.
+/// Triangles about one corner that cover an equal area, every other one a sliver.
 Mesh fan(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, int count) {
   Mesh mesh;
   mesh.positions.push_back(corner);
@@ -225,7 +225,7 @@ Mesh fan(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, int
 
 }  // namespace
 
-TEST_CASE("walls of slivers reflect as whole ones, and let nothing through") {
+TEST_CASE("walls of slivers reflect like whole ones and let nothing through") {
   constexpr int count = 100'000;
   const auto cube = [](int way) {
     SceneDescription scene;
@@ -244,7 +244,7 @@ TEST_CASE("walls of slivers reflect as whole ones, and let nothing through") {
     INFO((way == 1 ? "strips" : "a fan"));
     const Run run(cube(way), small(1 << 18));
     CHECK(run.balance().escaped == 0);
-    // The same histories, but for those whose hits are kept off edges that are new.
+    // Histories are equal except for those whose hits are kept off new edges.
     for (const BoxFace& f : faces_of_box({0, 0, 0}, {1, 1, 1})) {
       const Estimate found = run.into(f.name), expected = whole.into(f.name);
       INFO(f.name << ": " << found.value << " and " << expected.value << " +- "
@@ -263,7 +263,7 @@ namespace {
 constexpr double hundredth_of_a_degree = 0.01;
 constexpr double distance_m = 1000;
 
-/// A spot that looks down a slope from a kilometre away, and what it is aimed at.
+/// A spot that shines down a slope from a kilometre away, with its target.
 SceneDescription spot_on(double inner_deg, Mesh target) {
   SceneDescription scene;
   const glm::dvec3 way = glm::normalize(glm::dvec3(2, 3, -6));
@@ -280,7 +280,7 @@ SceneDescription spot_on(double inner_deg, Mesh target) {
 
 }  // namespace
 
-TEST_CASE("of a beam of a hundredth of a degree a small patch a kilometre away gets its share") {
+TEST_CASE("a small patch a kilometre away gets its share of a beam of a hundredth of a degree") {
   const double radius = distance_m * std::tan(glm::radians(hundredth_of_a_degree));
   constexpr double edge = 0.2;
   const Run even(spot_on(hundredth_of_a_degree,
@@ -288,8 +288,8 @@ TEST_CASE("of a beam of a hundredth of a degree a small patch a kilometre away g
                  small(1 << 20));
   check_within(even.into("target"), edge * edge / (std::numbers::pi * radius * radius),
                half_percent, 1e-3);
-  // Falling off smoothly, half of the angle holds the integral of 3 t^2 - 2 t^3 over [3/4, 1], of
-  // 1/2 over [0, 1]: a quarter of the solid angle.
+  // With smooth fall-off, half of the angle holds the integral of 3 t^2 - 2 t^3 over [3/4, 1], out
+  // of 1/2 over [0, 1], in a quarter of the solid angle.
   const double t = 0.75, share = 1 - 2 * (t * t * t - t * t * t * t / 2);
   const Run soft(spot_on(0, shapes::disc(radius / 2, 512)->mesh), small(1 << 20));
   check_within(soft.into("target"), share, half_percent, 1e-3);
@@ -308,7 +308,7 @@ TEST_CASE(
   for (const double radii : {1.03, -1.1, 1.5, -3.0}) CHECK(at(radii) == 0);
 }
 
-TEST_CASE("a beam of a millimetre meets what it is aimed at a kilometre away, and no more") {
+TEST_CASE("a beam of a millimetre hits its target a kilometre away, and nothing else") {
   for (const double part : {1.0, 0.5}) {
     SceneDescription scene;
     Emitter& e = add_rectangle(scene, {-distance_m, 0, 0}, {1, 0, 0}, 1e-3, 1e-3, 1);
@@ -317,7 +317,7 @@ TEST_CASE("a beam of a millimetre meets what it is aimed at a kilometre away, an
     add_quad(scene, "target", {0, part == 1 ? -1e-3 : 0, -1e-3}, {0, 2e-3, 0}, {0, 0, 2e-3},
              add_grey(scene, 0));
     const Run run(std::move(scene), small(1 << 18));
-    // Single precision places starts to 3e-5 m there, in a beam of a millimetre.
+    // Single precision places ray origins to 3e-5 m there, in a beam of a millimetre.
     check_near(run.into("target"), part, 1e-2, 0.03);
     CHECK(run.into("target").value + run.into("wall").value == Approx(1).epsilon(1e-9));
   }

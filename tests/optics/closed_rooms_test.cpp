@@ -1,5 +1,5 @@
-// Rooms that are closed lose no light: where a ray starts beside an edge it must start within,
-// however sharp the corner and however small the triangles that meet there.
+// Closed rooms lose no light: a ray that starts beside an edge must start inside, however sharp the
+// corner and however small its triangles.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace luxodus::light {
 namespace {
 
 /// The outline of a wedge: two sides of this length from a corner of `angle`, each cut into
-/// `parts`, turned by `turn` (radians).
+/// `parts`, rotated by `turn` (radians).
 std::vector<glm::dvec2> wedge(double angle, double length_m, int parts, double turn) {
   std::vector<glm::dvec2> outline;
   const auto add = [&](double along, double towards) {
@@ -36,7 +36,7 @@ std::vector<glm::dvec2> rectangle(const glm::dvec2& size, int parts, double turn
   return outline;
 }
 
-/// A room over an outline, of reflectance 0.95, with a lamp at `lamp`; all that it sends must be
+/// A room over an outline, of reflectance 0.95, with a lamp at `lamp`; all its light must be
 /// absorbed.
 void check_closed(const std::vector<glm::dvec2>& outline, double height_m, const glm::dvec2& lamp,
                   int64_t particles) {

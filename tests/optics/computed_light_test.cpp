@@ -1,5 +1,5 @@
-// Direct light that is computed, against closed forms and fine sums over a grid of places: to a
-// thousandth everywhere, at grazing places, in smoke, and where something hides a part of a lamp.
+// Computed direct light compared with closed forms and fine grid sums: to a thousandth everywhere,
+// at grazing angles, in smoke, and if a part of a lamp is hidden.
 
 #include "scenes/emergency/sight.hpp"
 #include "scenes/emergency/veil.hpp"
@@ -31,20 +31,20 @@ SceneDescription with_lamp(EmitterShape shape, const glm::dvec3& size, double he
   return scene;
 }
 
-/// Configuration factor of a rectangle with a corner above the place, level as the place is
+/// Configuration factor of a horizontal rectangle with a corner above the horizontal receiver
 /// (Howell, B-4).
 double corner_factor(double x, double y) {
   const double a = std::sqrt(1 + x * x), b = std::sqrt(1 + y * y);
   return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2 * pi);
 }
 
-/// Of the rectangle [x0, x1] x [y0, y1] at a height above the place at the origin.
+/// Configuration factor of [x0, x1] x [y0, y1] at a height above the receiver at the origin.
 double level_factor(double x0, double x1, double y0, double y1, double h) {
   return corner_factor(x1 / h, y1 / h) - corner_factor(x0 / h, y1 / h) -
          corner_factor(x1 / h, y0 / h) + corner_factor(x0 / h, y0 / h);
 }
 
-/// Sum over a lamp of 1 x 1 m that looks down, with gas between.
+/// Sum over a lamp of 1 x 1 m that shines down, with gas in between.
 double summed(const glm::dvec3& place, const glm::dvec3& normal, double height, double sigma) {
   constexpr int n = 700;
   double sum = 0;
@@ -59,7 +59,7 @@ double summed(const glm::dvec3& place, const glm::dvec3& normal, double height, 
 
 }  // namespace
 
-TEST_CASE("computed light of a level lamp is the configuration factor, near and grazing") {
+TEST_CASE("computed light of a level lamp equals the configuration factor, near and grazing") {
   const auto lamp = lit(with_lamp(EmitterShape::rectangle, {1, 1, 0}, 1));
   for (const glm::dvec2& p : places) {
     INFO(p.x << ", " << p.y);
@@ -68,7 +68,7 @@ TEST_CASE("computed light of a level lamp is the configuration factor, near and 
   }
 }
 
-TEST_CASE("computed light of a lamp that the horizon cuts is the fine sum") {
+TEST_CASE("computed light of a lamp cut by the horizon equals the fine sum") {
   const auto lamp = lit(with_lamp(EmitterShape::rectangle, {1, 1, 0}, 1));
   for (const glm::dvec3& way :
        {glm::dvec3(-1, 0, 0), glm::dvec3(-1, 0.3, 0.2), glm::dvec3(0.4, 0.2, -0.1)}) {
@@ -82,7 +82,7 @@ TEST_CASE("computed light of a lamp that the horizon cuts is the fine sum") {
   }
 }
 
-TEST_CASE("computed light through gas is the fine sum to a thousandth") {
+TEST_CASE("computed light through gas equals the fine sum to a thousandth") {
   for (const double sigma : {0.1, 0.7, 3.0}) {
     SceneDescription scene = with_lamp(EmitterShape::rectangle, {1, 1, 0}, 1);
     add_homogeneous(scene, smoke(sigma, 0));
@@ -96,8 +96,9 @@ TEST_CASE("computed light through gas is the fine sum to a thousandth") {
   }
 }
 
-TEST_CASE("computed light of a lamp behind a straight edge is that of the part that is seen") {
-  // A screen 1 m below the lamp, which is 2 m up: it hides twice what it passes the middle by.
+TEST_CASE("computed light of a lamp behind a straight edge equals that of its visible part") {
+  // A screen 1 m below the lamp, which is 2 m up: it hides twice the distance by which it passes
+  // the middle.
   for (const double edge : {-0.2, -0.13, 0.0, 0.071, 0.21, 0.24}) {
     SceneDescription scene = with_lamp(EmitterShape::rectangle, {1, 1, 0}, 2);
     add_quad(scene, "screen", {-5, -5, 1}, {5 + edge, 0, 0}, {0, 10, 0}, add_grey(scene, 0));
@@ -108,25 +109,25 @@ TEST_CASE("computed light of a lamp behind a straight edge is that of the part t
   }
 }
 
-TEST_CASE("computed light of a disc and of a sphere is the closed form") {
+TEST_CASE("computed light of a disc and of a sphere equals the closed form") {
   constexpr double h = 1.5, r = 0.4;
   const auto disc = lit(with_lamp(EmitterShape::disc, {2 * r, 0, 0}, h));
   const auto sphere = lit(with_lamp(EmitterShape::sphere, {2 * r, 0, 0}, h));
   for (const glm::dvec2& p : places) {
     INFO(p.x << ", " << p.y);
-    // Howell, B-12: a disc in a level plane.
+    // Howell, B-12: a disc in a horizontal plane.
     const double l = glm::length(p), z = h * h + l * l + r * r;
     const double factor = (1 - (h * h + l * l - r * r) / std::sqrt(z * z - 4 * r * r * l * l)) / 2;
     const double exitance = lumens / (pi * r * r);
     CHECK(disc->direct_lx({p, 0}, {0, 0, 1}) == Approx(exitance * factor).epsilon(thousandth));
-    // A sphere above the horizon is as bright as a point.
+    // A sphere above the horizon gives the light of a point.
     const double d2 = h * h + l * l;
     CHECK(sphere->direct_lx({p, 0}, {0, 0, 1}) ==
           Approx(lumens / (4 * pi) * h / (d2 * std::sqrt(d2))).epsilon(thousandth));
   }
 }
 
-TEST_CASE("computed light of a tube is the fine sum over the side that is turned to the place") {
+TEST_CASE("computed light of a tube equals the fine sum over the side that faces the place") {
   constexpr double h = 1.2, length = 1.2, r = 0.02;
   const auto tube = lit(with_lamp(EmitterShape::tube, {length, 2 * r, 0}, h));
   for (const glm::dvec2& p : places) {
@@ -148,11 +149,11 @@ TEST_CASE("computed light of a tube is the fine sum over the side that is turned
   }
 }
 
-TEST_CASE("computed light of a mesh is the configuration factor of its polygon") {
+TEST_CASE("computed light of a mesh equals the configuration factor of its polygon") {
   SceneDescription scene = with_lamp(EmitterShape::mesh, {0, 0, 0}, 1);
   Emitter& e = scene.emitters.front();
   e.mesh.positions = {{-0.5, -0.5, 1}, {0.5, -0.5, 1}, {0.5, 0.5, 1}, {-0.5, 0.5, 1}};
-  e.mesh.triangles = {{0, 2, 1}, {0, 3, 2}};  // fronts look down
+  e.mesh.triangles = {{0, 2, 1}, {0, 3, 2}};  // fronts face down
   const auto lamp = lit(std::move(scene));
   for (const glm::dvec2& p : places) {
     INFO(p.x << ", " << p.y);
@@ -161,7 +162,7 @@ TEST_CASE("computed light of a mesh is the configuration factor of its polygon")
   }
 }
 
-TEST_CASE("a polygon's projected solid angle and solid angle are those of all directions") {
+TEST_CASE("a polygon's projected solid angle and solid angle equal sums over all directions") {
   // A triangle, partly below the horizon, against directions on a fine grid of the sphere.
   const std::vector<glm::dvec3> corners{{1, 0.2, -0.4}, {0.3, 1.1, 0.5}, {-0.6, 0.1, 0.9}};
   const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, -0.1, 1));
@@ -204,9 +205,9 @@ TEST_CASE("light of a flame comes from where it glows, whatever else is in the s
   }
 }
 
-TEST_CASE("the veil of a flame is laid from where it glows, through the smoke before each part") {
-  // A ball of gas that takes a quarter on a metre, seen from so near that it is no point; and what
-  // a sum over its volume says.
+TEST_CASE("the veil of a flame comes from where it glows, through the smoke before each part") {
+  // A ball of gas that absorbs a quarter over a metre, seen from so near that it is not a point,
+  // compared with a sum over its volume.
   constexpr double radius = 0.5, sigma = 0.3, age = 65;
   const glm::dvec3 centre(3, 1.2, 1.4), eye(2, 0, 1.6), gaze(1, 0, 0);
   const auto weight = [&](const glm::dvec3& to) {
@@ -222,7 +223,7 @@ TEST_CASE("the veil of a flame is laid from where it glows, through the smoke be
     if (glm::length(p) > radius) continue;
     ++inside;
     const glm::dvec3 to = centre + p - eye, w = glm::normalize(to);
-    // Of the way from the point to the eye, the length within the ball.
+    // The length within the ball of the line from the point to the eye.
     const double along = glm::dot(p, -w);
     const double length = -along + std::sqrt(along * along + radius * radius - glm::dot(p, p));
     expected += std::exp(-sigma * length) * weight(to) / glm::dot(to, to);
@@ -249,7 +250,7 @@ TEST_CASE("the veil of a flame is laid from where it glows, through the smoke be
   CHECK(veils[1] == Approx(veils[0]).epsilon(1e-3));
 }
 
-TEST_CASE("computed light of a flame is that of its volume to a thousandth") {
+TEST_CASE("computed light of a flame equals that of its volume to a thousandth") {
   constexpr double radius = 0.5;
   SceneDescription scene;
   add_floor(scene);
@@ -260,7 +261,7 @@ TEST_CASE("computed light of a flame is that of its volume to a thousandth") {
   for (const glm::dvec2& p : places) {
     const double d2 = glm::dot(p, p) + 4;
     INFO(p.x << ", " << p.y);
-    // Of an even ball that takes nothing, by symmetry the flux through any sphere around it: the
+    // For a uniform ball without extinction, by symmetry the flux through any sphere around it: the
     // vector of light is that of a point.
     CHECK(ball->direct_lx({p, 0}, {0, 0, 1}) ==
           Approx(watts / (4 * pi) * 2 / (d2 * std::sqrt(d2))).epsilon(2 * thousandth));

@@ -1,11 +1,11 @@
-// Light that has met nothing yet: computed without chance, and by tracing. The scenes are those of
+// Light before its first event: computed, and traced. The scenes are those of
 // actors/judge/validate.
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {
 namespace {
 
-/// The cases of area lamps whose names end so.
+/// Checks the area-lamp cases whose names end like this.
 void check_lamps(const std::string& end, size_t count, const CaseOptions& options = {}) {
   size_t checked = 0;
   for (const Case& c : all_cases()) {
@@ -18,7 +18,7 @@ void check_lamps(const std::string& end, size_t count, const CaseOptions& option
 
 }  // namespace
 
-TEST_CASE("deterministic direct light on a floor and upright is the configuration factor") {
+TEST_CASE("deterministic direct light, horizontal and vertical, equals the configuration factor") {
   check_lamps("direct light", 3);
 }
 
@@ -38,11 +38,11 @@ TEST_CASE("a point source above absorbing layers obeys Beer's law along every li
   check_cases("point source over gas", 6);
 }
 
-TEST_CASE("a glass pane transmits what Fresnel says, by tracing and along shadow rays") {
+TEST_CASE("a glass pane transmits by Fresnel's equations, in tracing and along shadow rays") {
   check_cases("glass pane", 10);
 }
 
-TEST_CASE("rooms of one lamp are lit as closed forms in the manner of CIE 171 say") {
+TEST_CASE("rooms with one lamp are lit as closed forms in the manner of CIE 171 state") {
   check_cases("cubic room", 5);
   for (const std::string name :
        {"point source over a rectangle", "point source over a sheet", "area lamp half hidden",
@@ -50,7 +50,7 @@ TEST_CASE("rooms of one lamp are lit as closed forms in the manner of CIE 171 sa
     check_cases(name, 1);
 }
 
-TEST_CASE("luminaires of photometric files send their light where their tables say") {
+TEST_CASE("luminaires of photometric files emit as their tables state") {
   check_cases("luminaire of", 2);
 }
 

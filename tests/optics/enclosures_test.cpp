@@ -15,7 +15,7 @@ TEST_CASE("walls and their parts in diffuse cubes around a point source receive 
 }
 
 TEST_CASE("a wall that glows up to its edges loses no light at them") {
-  // Particles are born a millionth off the edges: on them they would start in the next wall.
+  // Particles are born a millionth off the edges: on them they would start in the adjacent wall.
   SceneDescription scene;
   const int wall = add_grey(scene, 0.5);
   const std::vector<BoxFace> faces = faces_of_box({0, 0, 0}, {1, 1, 1});
@@ -44,7 +44,7 @@ TEST_CASE("a plane in a wall counts what the wall receives, cell by cell") {
       const auto bin = static_cast<uint32_t>(j * parts + i);
       const double sum = run.watts(run.blocks().plane_cells, bin, 0).value +
                          run.watts(run.blocks().plane_cells, bin, 1).value;
-      // The same flights end on both; edges between the cells are a few ulps apart.
+      // The flights that end on both are equal; edges between the cells are a few ulps apart.
       CHECK(sum == Approx(run.into("z0_floor " + std::to_string(i) + " " + std::to_string(j)).value)
                        .epsilon(1e-4));
     }
@@ -55,7 +55,7 @@ TEST_CASE("a closed sphere of any reflectance receives the sum of all reflection
   check_cases("integrating sphere", 5, {.min_particles = 1 << 16, .max_particles = 1 << 17});
 }
 
-TEST_CASE("in an integrating sphere each reflection adds one and the same irradiance everywhere") {
+TEST_CASE("in an integrating sphere each reflection adds equal irradiance everywhere") {
   for (const std::string rho : {"0.2", "0.5", "0.8"})
     check_cases("probes in a sphere rho=" + rho, 1, {.max_particles = 1 << 18});
   for (const std::string rho : {"0.95", "0.99"})
@@ -63,7 +63,7 @@ TEST_CASE("in an integrating sphere each reflection adds one and the same irradi
                 {.min_particles = 1 << 16, .max_particles = 1 << 16});
 }
 
-TEST_CASE("a sphere's port lets out the share that its solid angle and area say") {
+TEST_CASE("a sphere's port emits the share given by its solid angle and area") {
   check_cases("sphere with a port", 2, {.min_particles = 1 << 19});
 }
 
@@ -71,12 +71,12 @@ TEST_CASE("concentric spheres share light by their areas") {
   check_cases("concentric spheres", 3, {.min_share = 1e-3});
 }
 
-TEST_CASE("infinite parallel plates exchange a geometric series, and gas takes its share") {
+TEST_CASE("infinite parallel plates exchange a geometric series, and gas absorbs its share") {
   check_cases("plates r1", 3, {.min_particles = 1 << 16, .max_particles = 1 << 16});
   check_cases("plates and gas", 2, {.min_particles = 1 << 20});
 }
 
-TEST_CASE("a cube of absorbing gas passes the exact share to every wall") {
+TEST_CASE("a cube of absorbing gas transmits the exact share to every wall") {
   check_cases("cube of gas", 7, {.min_share = 1e-3, .max_particles = 1 << 25});
 }
 

@@ -1,5 +1,5 @@
-// What a scene does not need is not in its loop and not in its tallies, and `luxodus check` says
-// so.
+// Features that a scene does not need are neither in its loop nor in its tallies, and `luxodus
+// check` reports it.
 #include <catch2/catch.hpp>
 #include <functional>
 
@@ -38,7 +38,8 @@ std::vector<std::string> names_of_those_on(const CompiledScene& scene) {
   return names;
 }
 
-/// What is there but unused: a name, what adds it, and the scenario that leaves it so.
+/// A feature that is present but unused: its name, what adds it, and the scenario in which it is
+/// unused.
 struct Unused {
   const char* what;
   std::function<void(SceneDescription&)> add;
@@ -72,7 +73,7 @@ const std::vector<Unused>& unused_things() {
 
 }  // namespace
 
-TEST_CASE("what is in a scene and not used is neither in the loop nor in the tallies") {
+TEST_CASE("unused features of a scene are neither in the loop nor in the tallies") {
   Scenario without_smoke;
   without_smoke.name = "no smoke";
   without_smoke.smoke_factor = 0;
@@ -85,7 +86,7 @@ TEST_CASE("what is in a scene and not used is neither in the loop nor in the tal
     unused.add(scene);
     const auto with = compiled(std::move(scene), without_smoke);
     CHECK(describe_kernel(*with) == describe_kernel(*plain));
-    // A medium that is named has its two sums, absorbed and scattered, where there is none of it.
+    // A described medium keeps its two sums, absorbed and scattered, even if none of it is present.
     const auto sums = 2 * static_cast<int64_t>(with->description->media.size());
     CHECK(with->layout.scores() == plain->layout.scores() + sums);
     CHECK(with->layout.totals() == plain->layout.totals() + sums);
@@ -93,7 +94,7 @@ TEST_CASE("what is in a scene and not used is neither in the loop nor in the tal
   }
 }
 
-TEST_CASE("what a scene uses is on, with what asks for it") {
+TEST_CASE("features that a scene uses are on, with their reason") {
   SceneDescription scene = plain_room();
   add_homogeneous(scene, smoke(0.5, 0.8));
   scene.materials[0].kind = MaterialKind::glossy;

@@ -10,7 +10,7 @@
 
 namespace luxodus::light {
 
-TEST_CASE("what one sheet sends another through smoke, it gets from it") {
+TEST_CASE("light exchanged by two sheets through smoke is reciprocal") {
   const auto sheet = [](SceneDescription& scene, bool emits, const std::string& name,
                         const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v) {
     add_quad(scene, name, corner, u, v, add_grey(scene, 0));
@@ -24,13 +24,13 @@ TEST_CASE("what one sheet sends another through smoke, it gets from it") {
     scene.media.resize(1);
     add_homogeneous(scene, smoke(0.3, 0.9, 0.5));
     scene.emitters.clear();
-    // Equal areas, so that shares of power are to be equal.
+    // Equal areas, so that equal shares of power are expected.
     sheet(scene, forward, "a", {0.3, 0.3, 0.4}, {0.6, 0, 0}, {0, 0.6, 0});
     sheet(scene, !forward, "b", {3.7, 1.0, 1.2}, {0, 0, 0.6}, {0, 0.6, 0});
     RunOptions options;
     options.seed = forward ? 3 : 4;
     options.particles = 1 << 22;
-    // The fronts of two triangles: four patches an object, of which a is the eighth.
+    // The front sides of two triangles: four patches per object; a is the eighth object.
     const uint32_t first = forward ? 4 * 8 : 4 * 7;
     return Run(std::move(scene), options, {{&TallyBlocks::patches, {first, first + 2}}}).sum(0);
   };
@@ -39,7 +39,7 @@ TEST_CASE("what one sheet sends another through smoke, it gets from it") {
 
 namespace {
 
-/// A beam of 1 W on a layer of gas between mirrors: what comes back escapes upwards.
+/// A beam of 1 W on a layer of gas between mirrors: reflected light escapes upwards.
 Run beam_on_layer(double depth, double albedo, int64_t particles) {
   constexpr double edge = 4;
   SceneDescription scene;
@@ -54,7 +54,7 @@ Run beam_on_layer(double depth, double albedo, int64_t particles) {
   return Run(std::move(scene), options);
 }
 
-/// The share of a particle's weight that each collision has taken.
+/// The share of a particle's weight that a collision absorbs on average.
 double taken_by_collision(const Run& run) {
   return static_cast<double>(run.balance().absorbed_media) / static_cast<double>(unit_weight) /
          static_cast<double>(run.balance().collisions);
@@ -62,7 +62,7 @@ double taken_by_collision(const Run& run) {
 
 }  // namespace
 
-TEST_CASE("a layer of depth 1e-6 lets a beam pass, and one of 1e4 is a half space") {
+TEST_CASE("a layer of depth 1e-6 transmits a beam, and one of 1e4 is a half space") {
   const Run thin = beam_on_layer(1e-6, 0.5, int64_t{1} << 24);
   CHECK(thin.into("end").value == Approx(1).epsilon(1e-5));
   const double expected = 1e-6 * static_cast<double>(thin.balance().particles);
@@ -74,16 +74,17 @@ TEST_CASE("a layer of depth 1e-6 lets a beam pass, and one of 1e4 is a half spac
                half_percent);
 }
 
-TEST_CASE("gas of albedo 1 - 1e-6 reflects and passes as gas of albedo 1, but for what it takes") {
+TEST_CASE(
+    "gas of albedo 1 - 1e-6 reflects and transmits like gas of albedo 1, less its absorption") {
   const Run all = beam_on_layer(10, 1, 1 << 18), nearly = beam_on_layer(10, 1 - 1e-6, 1 << 18);
   CHECK(all.balance().absorbed_media == 0);
   // Shares are multiples of 2^-32, and weights fall by some 2e-5.
   CHECK(taken_by_collision(nearly) == Approx(1e-6).epsilon(5e-4));
-  // Some 20 collisions each: 2e-5 of the light.
+  // Some 20 collisions each absorb 2e-5 of the light.
   check_within(nearly.escaped(5), all.escaped(5).value, half_percent, 1e-4);
 }
 
-TEST_CASE("a layer of nothing between dense ones changes nothing") {
+TEST_CASE("an empty layer between dense ones changes nothing") {
   const auto passed = [](const std::vector<double>& thickness,
                          const std::vector<SmokeOptics>& gas) {
     SceneDescription scene;
@@ -104,10 +105,10 @@ TEST_CASE("a layer of nothing between dense ones changes nothing") {
 
 namespace {
 
-/// So many weak emitters of 1 W on either side of one of 1 MW.
+/// Number of weak emitters of 1 W on either side of one of 1 MW.
 constexpr uint64_t weak_emitters = 512, strong_w = 1'000'000;
 
-/// Beams on a black floor: the weak ones each on its own cell of a plane, 32 x 32 of a metre.
+/// Beams on a black floor: each weak one on its own cell of a plane, 32 x 32 in a metre.
 SceneDescription strong_among_weak() {
   SceneDescription scene;
   add_quad(scene, "floor", {0, 0, 0}, {40, 0, 0}, {0, 32, 0}, add_grey(scene, 0));
@@ -131,7 +132,7 @@ SceneDescription strong_among_weak() {
 
 }  // namespace
 
-TEST_CASE("an emitter a million times weaker than others has its share of all random numbers") {
+TEST_CASE("an emitter a million times weaker than others gets its share of all random numbers") {
   SceneDescription description = strong_among_weak();
   description.run.batch_particles = 4096;
   const auto scene = compile(std::move(description));
@@ -139,7 +140,7 @@ TEST_CASE("an emitter a million times weaker than others has its share of all ra
   constexpr uint64_t total_w = strong_w + 2 * weak_emitters;
   REQUIRE(cdf.size() == 2 * weak_emitters + 1);
   REQUIRE(scene->emitters[weak_emitters].power_w[0] == Approx(strong_w));
-  // Bounds lie within a rounding of double of where they belong, which is 1e-10 of a weak share.
+  // Interval bounds are exact to a rounding of double, which is 1e-10 of a weak share.
   uint64_t before = 0, power = 0;
   for (size_t i = 0; i < cdf.size(); ++i) {
     const uint64_t watts = i == weak_emitters ? strong_w : 1;
@@ -150,7 +151,7 @@ TEST_CASE("an emitter a million times weaker than others has its share of all ra
   }
   CHECK(power == total_w);
   CHECK(cdf.back() == ~uint64_t{0});
-  // Each particle comes from the emitter in whose part of the power its 64 bits lie, in exact
+  // Each particle comes from the emitter whose interval of power contains its 64 bits, in exact
   // arithmetic.
   HistoryRandom random(*scene, 3);
   int weak = 0;
@@ -173,7 +174,7 @@ TEST_CASE("a thousand emitters a million times weaker than another get a thousan
   options.particles = 1 << 24;
   options.batch_particles = 1 << 18;
   const Run run(strong_among_weak(), options);
-  constexpr uint32_t beams = 1;  // are not among the light that can be computed
+  constexpr uint32_t beams = 1;  // excluded from computed light
   check_within(run.watts(run.blocks().planes, 0, beams), 2 * weak_emitters, half_percent);
   // Each of them gets some 17 particles.
   const double particles = static_cast<double>(run.balance().particles) / run.emitted_w();
@@ -184,7 +185,7 @@ TEST_CASE("a thousand emitters a million times weaker than another get a thousan
     if (thrift == 1) CHECK(hits > 0);
   }
   const double degrees = 2 * weak_emitters;
-  // As of Poisson; stratified, they lie more evenly than that.
+  // Poisson's variance is an upper bound, since stratified numbers are more even.
   CHECK(squares < degrees + 4 * std::sqrt((2 + 1 / particles) * degrees));
 }
 
@@ -202,17 +203,17 @@ SceneDescription white_room(double reflectance) {
 
 }  // namespace
 
-TEST_CASE("a closed room of reflectance 0.999 receives its lamp a thousand times") {
+TEST_CASE("a closed room of reflectance 0.999 receives its lamp's flux a thousand times") {
   RunOptions options;
   options.particles = (1 << 12) * thrift;
   options.batch_particles = 32;
   const Run run(white_room(0.999), options, {{&TallyBlocks::surfaces, {0, 1, 2, 3, 4, 5}}});
-  // 0.999 as a single-precision number is known to 6e-8, of which a thousandth is left to absorb.
+  // 0.999 in single precision is exact to 6e-8, of which a thousandth remains to be absorbed.
   check_within(run.sum(0), 1000, 4 * half_percent, 6e-5);
   CHECK(run.balance().escaped == 0);
 }
 
-TEST_CASE("a history that never ends is counted as lost, and the ledger closes") {
+TEST_CASE("a history that never ends counts as lost, and the energy balance closes") {
   SceneDescription scene = white_room(1);
   scene.run.batch_particles = 4;
   Traced run(compile(std::move(scene)), 1, 2);
@@ -237,8 +238,8 @@ TEST_CASE("walls of a millimetre keep light in") {
   CHECK(run.balance().escaped == 0);
 }
 
-// A flight may end within a rounding of a wall, and go on behind it.
-TEST_CASE("out of a closed room of the thickest smoke nothing leaks") {
+// A flight may end within a rounding of a wall and continue behind it.
+TEST_CASE("a closed room of the thickest smoke leaks no light") {
   constexpr double extinction = 500;
   SceneDescription scene;
   scene.run.voxels = false;
@@ -260,7 +261,7 @@ TEST_CASE("out of a closed room of the thickest smoke nothing leaks") {
   CHECK(run.balance().escaped == 0);
 }
 
-TEST_CASE("of surfaces that lie in one another each particle meets one, and none is lost") {
+TEST_CASE("where surfaces coincide each particle hits one, and none is lost") {
   SceneDescription scene = white_room(0.5);
   const BoxFace floor = faces_of_box({0, 0, 0}, {1, 1, 1})[4];
   add_quad(scene, "carpet", floor.corner, floor.u, floor.v, add_grey(scene, 0.5));

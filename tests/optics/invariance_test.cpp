@@ -1,11 +1,11 @@
-// What must change nothing: where a room stands, how it is turned, mirrored, scaled, cut into
-// triangles, in which order it is said, and which way a medium is said.
+// Changes without effect on results: a room's place, rotation, mirroring and scale, its
+// triangulation, the order of its description, and the way a medium is described.
 //
-// With one seed both ways to say a scene have the same histories, up to rounding: directions follow
-// from normals and random numbers alone, and so the places of events stay as near to one another
-// as single precision has put them, however many events there are. A few histories in 100 000
-// meet an edge within that distance, and go another way. Where frames about normals turn with
-// the room, chances are others, and standard errors judge.
+// With one seed, equivalent descriptions have equal histories up to rounding: directions follow
+// from normals and random numbers alone, so the places of events stay as close to each other as
+// single precision puts them, for any number of events. A few histories in 100 000 meet an edge
+// within that distance and take another path. If the frames about normals rotate with the room,
+// random numbers have another effect, and standard errors decide.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,7 +37,7 @@ Pose in_a_mirror() {
   return {mirror * turned(), 1, glm::dvec3(0)};
 }
 
-/// Where chances differ, so many particles: surfaces are known to 0.1 to 0.2 %.
+/// Particles where histories differ: surfaces are then accurate to 0.1 to 0.2 %.
 constexpr int64_t for_chance = 1 << 20;
 
 RoomRun traced(const Pose& pose) {
@@ -54,20 +54,19 @@ RoomRun traced(SceneDescription scene) {
 
 }  // namespace
 
-TEST_CASE("a room a million metres away is lit as it is at the origin, to the last history") {
-  // 1e6 m leave coordinates a step of 1e-10 m, which single precision does not see. Volumes keep
-  // theirs.
+TEST_CASE("a room a million metres away is lit as at the origin, to the last history") {
+  // At 1e6 m coordinates have steps of 1e-10 m, below single precision. Volumes keep theirs.
   check_same_values(traced(far_away()), traced(tilted()), 1e-8);
 }
 
 TEST_CASE("rooms of a millimetre and of sixteen kilometres are lit alike, to the last bit") {
-  // Powers of two: nothing is rounded another way.
+  // Powers of two: rounding is unchanged.
   const RoomRun room = traced(tilted()), large = traced(scaled(0x1p12)),
                 small = traced(scaled(0x1p-12));
   check_same_values(large, room, 0, false);
   check_same_values(small, room, 0, false);
-  // What eyes see is kept in quanta of its own; and which lamp a path asks depends on distances to
-  // whose squares 1 mm2 is added.
+  // Eye results are kept in quanta of their own; and the choice of lamps depends on squared
+  // distances to which 1 mm2 is added.
   check_same_values(large, room, 1e-5);
   check_same_views(small, room);
 }
@@ -83,9 +82,9 @@ TEST_CASE("objects and triangles in another order are lit alike") {
   std::reverse(other.objects.begin(), other.objects.end());
   for (Object& o : other.objects) std::reverse(o.mesh.triangles.begin(), o.mesh.triangles.end());
   const RoomRun room = traced(tilted());
-  // One ray in ten million meets an edge that two triangles share, and either is right.
+  // One ray in ten million hits an edge that two triangles share, and either is correct.
   check_same_histories(traced(other), room);
-  // The order of emitters and media says which random number means which: other histories.
+  // The order of emitters and media assigns random numbers: other histories.
   std::reverse(other.emitters.begin(), other.emitters.end());
   std::reverse(other.media.begin(), other.media.end());
   check_same_light(traced(std::move(other)),
@@ -147,14 +146,14 @@ TEST_CASE("direct light is computed alike wherever a room stands, however large"
   check(scaled(0.1 / 4), Level::with, true, 1e-4);
   check(scaled(1e4 / 4), Level::with, true, 1e-4);
   check({turned_again(), 1, glm::dvec3(0)}, Level::without, true, 1e-4);
-  // The points that stand for a sign have no mirror image among themselves.
+  // The points that represent a sign are not symmetric under reflection.
   check(in_a_mirror(), Level::with, false, 1e-4);
 }
 
-TEST_CASE("one medium said in eight ways is one medium") {
-  // All reach beyond the room, which is closed, 4 x 3 x 2.5 m and tilted. The extinction is exact
-  // in single precision, in which cells keep it. Whatever the medium is, a flight takes the same
-  // random numbers: the same histories, by four loops.
+TEST_CASE("one medium described in eight ways is one medium") {
+  // All extend beyond the room, which is closed, 4 x 3 x 2.5 m and tilted. The extinction is exact
+  // in single precision, in which cells keep it. A flight takes the same random numbers for each
+  // kind of medium: equal histories by four loops.
   const SmokeOptics optics = smoke(0.625, 0.7, 0.6), half = smoke(0.3125, 0.7, 0.6);
   const std::vector<glm::dvec2> around = {{-9, -8}, {9, -9}, {8, 9}, {0, 7.5}, {-8, 8}};
   using Add = std::function<void(SceneDescription&)>;

@@ -1,4 +1,4 @@
-// What the error of a run is judged by, and where its paths go.
+// Error targets of a run, and how they distribute its paths.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -11,7 +11,7 @@ using namespace luxodus::light;
 
 namespace {
 
-/// A lamp in a room; one plane below it, a small one in a corner; a probe at either place.
+/// A lamp in a room; one plane below it, a small one in a corner; a probe at each place.
 const char* const lit_room = R"(
 [run]
 max_bands = 1
@@ -62,7 +62,7 @@ std::shared_ptr<const CompiledScene> judged_scene(const std::vector<std::string>
   return compile(std::move(scene));
 }
 
-/// The error of a run of so many batches that is judged by these words.
+/// The error of a run of so many batches for these targets.
 double error_by(const std::vector<std::string>& words) {
   SceneDescription scene = scene_from_toml(lit_room);
   scene.run.error_of = words;
@@ -74,7 +74,7 @@ double error_by(const std::vector<std::string>& words) {
 
 }  // namespace
 
-TEST_CASE("the error of a run is that of what it is judged by, the worst of all that is named") {
+TEST_CASE("the error of a run is the largest among its targets") {
   const double below = error_by({"plane below"});
   const double corner = error_by({"plane corner"});
   CHECK(below > 0);
@@ -85,7 +85,7 @@ TEST_CASE("the error of a run is that of what it is judged by, the worst of all 
   CHECK(probes == std::max(error_by({"probe under the lamp"}), error_by({"probe in the corner"})));
 }
 
-TEST_CASE("the error of patches is what 95 of 100 that get light do not exceed") {
+TEST_CASE("the error of patches is their 95th percentile, among those that get light") {
   SceneDescription scene = scene_from_toml(lit_room);
   scene.run.error_of = {"patches"};
   const Run run(std::move(scene), {.particles = 64 * 4096});
@@ -103,7 +103,7 @@ TEST_CASE("the error of patches is what 95 of 100 that get light do not exceed")
   CHECK(within <= 0.96 * lit);
 }
 
-TEST_CASE("the error of a plane's cells is what 95 of 100 of them do not exceed") {
+TEST_CASE("the error of a plane's cells is their 95th percentile") {
   SceneDescription scene = scene_from_toml(lit_room);
   scene.run.error_of = {"cells below"};
   const Run run(std::move(scene), {.particles = 64 * 4096});
@@ -122,9 +122,9 @@ TEST_CASE("the error of a plane's cells is what 95 of 100 of them do not exceed"
   CHECK(error_by({"cells"}) == std::max(error, error_by({"cells corner"})));
 }
 
-TEST_CASE("what is judged and has no light is named, and has no part in the error") {
+TEST_CASE("a target without light is named and excluded from the error") {
   SceneDescription scene = scene_from_toml(lit_room);
-  // Within a box of its own, where no lamp is.
+  // Inside a box of its own, without lamps.
   for (const BoxFace& f : faces_of_box({0.05, 0.05, 0.01}, {0.3, 0.3, 0.2}))
     add_quad(scene, "box " + f.name, f.corner, f.u, f.v, add_grey(scene, 0.5));
   scene.run.error_of = {"planes", "cells", "patches"};
@@ -138,19 +138,19 @@ TEST_CASE("what is judged and has no light is named, and has no part in the erro
   CHECK(unlit[2].ends_with(" of " + std::to_string(run.scene().patch_count) + " patches"));
 }
 
-TEST_CASE("paths go to eyes where only eyes are judged, to particles where only bins are") {
+TEST_CASE("paths go to eyes if only eyes are targets, to particles if only bins are") {
   const int usual = judged_scene({})->eye_paths_per_batch;
   CHECK(judged_scene({"all"})->eye_paths_per_batch == usual);
   CHECK(judged_scene({"planes", "probes"})->eye_paths_per_batch == usual);
   CHECK(judged_scene({"probe in the corner"})->eye_paths_per_batch > 6 * usual);
   CHECK(judged_scene({"patches"})->eye_paths_per_batch < usual / 6);
-  // A scene that has nothing but eyes has the usual paths, unless somebody says that they judge.
+  // A scene that has only eyes gets the default number of paths, unless targets are given.
   SceneDescription eyes_alone = scene_from_toml(lit_room);
   eyes_alone.planes.clear();
   CHECK(compile(std::move(eyes_alone))->eye_paths_per_batch == usual);
 }
 
-TEST_CASE("an error of what a scene does not have is refused with what it has") {
+TEST_CASE("an error target that a scene does not have is refused with those it has") {
   const auto refusal = [](const std::string& word) {
     const auto judged = error_target_of(*judged_scene({}), {word});
     REQUIRE_FALSE(judged.ok());
@@ -166,7 +166,7 @@ TEST_CASE("an error of what a scene does not have is refused with what it has") 
   CHECK(refusal("").find("not of \"\"") != std::string::npos);
 }
 
-TEST_CASE("a scene file that judges by what it lacks is refused where it says so") {
+TEST_CASE("a scene file with a missing error target is refused at its line") {
   SceneDescription scene = scene_from_toml(std::string(lit_room));
   scene.run.error_of = {"plane desk"};
   scene.run.error_of_place = {"room.toml", 3};
@@ -175,6 +175,6 @@ TEST_CASE("a scene file that judges by what it lacks is refused where it says so
   const auto refused = compile_scene(shared, plain, {});
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.problem().where.line == 3);
-  // A command line that says something else wins.
+  // A command line overrides it.
   CHECK(compile_scene(shared, plain, {1, {"plane below"}}).ok());
 }

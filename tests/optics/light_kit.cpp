@@ -15,7 +15,7 @@ SceneDescription scene_from_toml(const std::string& text) {
 namespace {
 
 SceneDescription cut_into_batches(SceneDescription scene, const RunOptions& options) {
-  // Fewer batches than 64 would not know their own error.
+  // Fewer than 64 batches would not estimate their own error well.
   scene.run.batch_particles = std::min(options.batch_particles, options.particles / thrift / 64);
   return scene;
 }
@@ -47,7 +47,7 @@ void check_near(const Estimate& estimate, double reference, double max_error, do
                    << reference << ", z "
                    << (estimate.value - reference) / estimate.standard_error);
   CHECK(estimate.standard_error <= max_error);
-  // Integer weights and single-precision reflectances: nothing is promised below 1e-6.
+  // Integer weights and single-precision reflectances: accuracy is not promised below 1e-6.
   const double rounding = 1e-6 * std::abs(reference);
   CHECK(std::abs(estimate.value - reference) <=
         standard_errors * estimate.standard_error + slack + rounding);
@@ -63,16 +63,16 @@ void check_within(const Estimate& estimate, double reference, double max_relativ
 void check_share(const Estimate& estimate, double reference, int64_t particles, double most,
                  double slack) {
   const double traced = static_cast<double>(particles / thrift);
-  // As if whole hits of `most` were counted. A run may well have four of their own standard
-  // deviations more of them, and its standard error with them.
+  // The error of counting whole hits of `most`. A run may well have four standard deviations more
+  // of them, and its standard error grows with them.
   const double hits = reference * traced / most;
   const double of_counting = most * std::sqrt(hits) / traced;
   const double largest = most * std::sqrt(hits + 4 * std::sqrt(hits)) / traced;
-  // Few hits give a small mean and a small error together. There the error is at least that of hits
-  // with the weight that roulette leaves, a quarter.
+  // Few hits give a small mean together with a small error. Then the error is at least that of hits
+  // with a weight of a quarter, as roulette leaves it.
   Estimate judged = estimate;
   if (hits < 100) judged.standard_error = std::max(judged.standard_error, 0.5 * of_counting);
-  // Four times the error of a standard error: 6 % of 128 batches, 9 % of 64.
+  // Four times the error of a standard error: 6 % of it for 128 batches, 9 % for 64.
   const double error_of_the_error = thrift == 1 ? 1.25 : 1.36;
   check_near(judged, reference, std::max(half_percent * reference, error_of_the_error * largest),
              slack);

@@ -1,6 +1,5 @@
-// Particles whose numbers need more than 32 bits: a run of 1e10 particles has most of them. Each
-// has random numbers of its own, which are not those of its number modulo 2^32, and together they
-// give the same light.
+// Particles whose numbers need more than 32 bits, like most of a run of 1e10. Their random numbers
+// differ from those of the number modulo 2^32, and together they give equal light.
 #include "scenes/light/transport/trace.hpp"
 #include "tests/optics/posed_room.hpp"
 
@@ -26,7 +25,7 @@ std::vector<int64_t> scores_of(const BatchScores& batch) {
 
 }  // namespace
 
-TEST_CASE("particles and eye paths that differ by 2 to the 32 are not the same") {
+TEST_CASE("particles and eye paths whose numbers differ by 2 to the 32 are different") {
   for (const bool stratified : {true, false}) {
     INFO((stratified ? "stratified" : "plain"));
     const auto scene = scene_of(stratified);

@@ -18,8 +18,8 @@ glm::dmat3 turned_by(double a, double b) {
 const glm::dvec3 room_low(0), room_high(4, 3, 2.5);
 constexpr int cells_u = 3, cells_v = 2;
 
-/// A frame of the room where the room stands. Frames are right-handed: in a mirror local x runs
-/// the other way, along which everything that has a frame here is symmetrical.
+/// A frame of the room after posing. Frames are right-handed: in a mirror, local x is reversed, and
+/// everything here that has a frame is symmetrical along it.
 Frame posed(const Pose& pose, const glm::dvec3& origin, const glm::dmat3& axes) {
   Frame frame;
   frame.origin = pose.point(origin);
@@ -28,7 +28,8 @@ Frame posed(const Pose& pose, const glm::dvec3& origin, const glm::dmat3& axes) 
   return frame;
 }
 
-/// Corner and edges of a parallelogram; in a mirror from its other end, so that its normal stays.
+/// Poses corner and edges of a parallelogram; in a mirror from its other end, so that its normal
+/// stays.
 template <class Plane>
 void stand(Plane& plane, const Pose& pose, const glm::dvec3& corner, const glm::dvec3& u,
            const glm::dvec3& v) {
@@ -60,7 +61,7 @@ void add_lamps(SceneDescription& scene, const Pose& pose) {
   add_point(scene, pose.point({3.4, 2.2, 0.9}), area);
   Sign sign;
   sign.name = "sign";
-  // On the wall y1, looking into the room.
+  // On the wall y1, facing into the room.
   sign.frame = posed(pose, {2.6, 2.97, 1.6},
                      glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0)));
   sign.width_m = 0.6 * pose.scale;
@@ -117,7 +118,7 @@ void add_measures(SceneDescription& scene, const Pose& pose, Level level) {
     scene.probes.push_back(probe);
   }
   if (level == Level::without) return;
-  // Level in the room that the others are compared with, which is turned().
+  // Level in the reference room, which is posed by turned().
   const glm::dmat3 since = pose.axes * glm::transpose(turned());
   const glm::dvec3 a = pose.point({1, 1, 0.6}), b = a + since * (s * glm::dvec3(0.8, 0.7, 0.9));
   add_box_group(scene, glm::min(a, b), glm::max(a, b));
@@ -189,7 +190,7 @@ void RoomRun::read_surfaces() {
   add("smoke absorbed", sum(1, 0), 2, Known::well);
   add("smoke scattered", sum(1, 1), 2, Known::well);
   if (level_ == Level::without) return;
-  // Turned as it is, it sends little through the other sides.
+  // Because of its rotation it sends little light through the other sides.
   for (const uint32_t side : {1u, 3u, 5u}) {
     const uint32_t there = pose_.mirrored() && side < 2 ? 1 - side : side;
     add("escaped " + std::to_string(side), escaped(there), 2, Known::rather);
@@ -242,15 +243,15 @@ void RoomRun::read_eyes() {
 
 namespace {
 
-/// Relative standard errors up to which readings mean something. A path from an eye that comes
-/// within half a lamp's size and meets it brings its luminance, some hundred times what others do.
+/// Largest relative standard errors of meaningful readings. An eye path that comes within half a
+/// lamp's size and hits it brings its luminance, some hundred times the usual.
 double max_error(Known known) {
   return (known == Known::well ? 1e-2 : known == Known::rather ? 5e-2 : 0.25) * root_of_thrift;
 }
 
-/// Parts of a standard error that a few histories may change: some three times what was found.
-/// Single histories count for more where few come by, and of paths from eyes one that meets a lamp
-/// may be all of it.
+/// Share of a standard error that a few histories may change: some three times the observed value.
+/// Single histories count for more in small bins, and among eye paths a hit of a lamp may be the
+/// whole difference.
 double part_of_error(Known known) {
   return (known == Known::well ? 0.03 : known == Known::rather ? 0.1 : 1.0) * root_of_thrift;
 }
@@ -259,7 +260,7 @@ double share_of(uint64_t a, uint64_t b) {
   return static_cast<double>(a) / static_cast<double>(b);
 }
 
-/// The part of what all voxels have scored that another voxel has, or another direction.
+/// Share of all voxel scores that has moved to another voxel or direction.
 double moved_in_voxels(const RoomRun& a, const RoomRun& b) {
   REQUIRE(a.scene().voxels.count() == b.scene().voxels.count());
   double all = 0, moved = 0;

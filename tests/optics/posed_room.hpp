@@ -1,7 +1,7 @@
-// One room, nothing of it symmetrical, that can be said in many ways: stood elsewhere, turned,
-// mirrored, scaled. What is read of it is given as of the room where it stands at first, so that
-// readings of all poses compare. It holds something of everything that counts light: surfaces,
-// planes, volumes, voxels, probes, a sign that is looked at, and a side through which light leaves.
+// An asymmetric room that can be described in many ways: moved, rotated, mirrored, scaled. Readings
+// are converted to the room's original pose, so that those of all poses compare. It has everything
+// that counts light: surfaces, planes, volumes, voxels, probes, an observed sign, and an open side.
+// Test helpers; one thread.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,7 +12,7 @@
 
 namespace luxodus::light {
 
-/// Where a room stands: a point p goes to axes * (scale * p) + shift.
+/// The pose of a room: a point p goes to axes * (scale * p) + shift.
 struct Pose {
   glm::dmat3 axes{1.0};
   double scale = 1;
@@ -23,27 +23,27 @@ struct Pose {
   bool mirrored() const { return glm::determinant(axes) < 0; }
 };
 
-/// Turned by some angles, so that no wall is level or upright. The frame about a normal changes at
-/// normals that are level, where a rounding decides: a room in which equal random numbers are to
-/// make equal histories has none.
+/// A rotation after which no wall is horizontal or vertical. The frame about a normal changes at
+/// horizontal normals, where rounding decides: a room in which equal random numbers are to make
+/// equal histories has none.
 glm::dmat3 turned();
-/// Turned by other angles.
+/// A rotation by other angles.
 glm::dmat3 turned_again();
 
-/// Layers, boxes and voxels lie level whichever way the room is turned.
+/// Layers, boxes and voxels stay level for any rotation of the room.
 enum class Level { with, without };
 
 /// Surfaces of the room.
 extern const std::vector<std::string> room_things;
 
 /// Walls with an opening, a screen, smoke in a ball, in cells and in layers, two lamps and a sign.
-/// Fluxes grow as areas do, so that luminances stay.
+/// Fluxes scale with areas, so that luminances stay.
 SceneDescription posed_room(const Pose& pose = {}, Level level = Level::with);
 
-/// Gives the wall with the opening its other third.
+/// Closes the opening by the missing third of its wall.
 void close_opening(SceneDescription& room, const Pose& pose);
 
-/// What is read of a room: paths from eyes are few, and one of them counts for more.
+/// Expected accuracy of a reading: eye paths are few, and each counts for more.
 enum class Known { well, rather, from_eyes };
 
 struct Reading {
@@ -52,12 +52,12 @@ struct Reading {
   Known known = Known::well;
 };
 
-/// The room, or another scene of its pose and measurements, traced.
+/// The room, or another scene with its pose and measurements, traced.
 class RoomRun : public Run {
  public:
   RoomRun(SceneDescription scene, const Pose& pose, Level level, const RunOptions& options);
 
-  /// In the units of the room of scale 1.
+  /// In the units of the room at scale 1.
   const std::vector<Reading>& readings() const { return readings_; }
 
  private:
@@ -72,19 +72,19 @@ class RoomRun : public Run {
   std::vector<Reading> readings_;
 };
 
-/// Readings of the same histories, but for a few that a rounding has sent another way. Differences
-/// are held to parts of standard errors: of two runs that share all but a share f of their
-/// histories they are sqrt(2 f) standard errors, whatever is read.
+/// Compares readings of equal histories, except for a few that rounding has changed. Differences
+/// must be small parts of standard errors: if two runs share all but a share f of their histories,
+/// they are sqrt(2 f) standard errors for any quantity.
 void check_same_histories(const RoomRun& a, const RoomRun& b);
-/// The same to that relative difference, but for what eyes see if `eyes` is false.
+/// Compares to that relative difference; without eye results if `eyes` is false.
 void check_same_values(const RoomRun& a, const RoomRun& b, double relative, bool eyes = true);
-/// Readings with chances of their own.
+/// Compares readings of independent histories.
 void check_same_light(const RoomRun& a, const RoomRun& b);
-/// The same of what eyes see alone.
+/// Compares the eye results of independent histories.
 void check_same_views(const RoomRun& a, const RoomRun& b);
 
-/// Direct light at some points, computed without chance [lx], points and directions as of the room
-/// where it stands at first.
+/// Deterministic direct light at some points [lx]; points and directions are given for the room's
+/// original pose.
 std::vector<double> direct_light_of(SceneDescription scene, const Pose& pose);
 
 }  // namespace luxodus::light

@@ -1,5 +1,5 @@
-// The same bits, however many threads trace and however data arrives; and what a partition may
-// change: which of two triangles is met on their common edge, and nothing that counts.
+// Equal bits for any number of threads and any arrival of data; and what a partition may change:
+// which of two triangles is hit on their common edge, and no result.
 #include <cmath>
 
 #include "scenes/light/geometry/primitives.hpp"
@@ -22,8 +22,8 @@ std::shared_ptr<const PhotometricWeb> some_web() {
   return std::make_shared<const PhotometricWeb>(std::move(web).value());
 }
 
-/// Something of everything: curved, mirroring, textured and transparent things, smoke in cells that
-/// glows in part, a layer, a luminaire with a web, bands.
+/// A room with something of everything: curved, mirroring, textured and transparent things, smoke
+/// in cells that partly glows, a layer, a luminaire with a web, bands.
 SceneDescription room_of_everything() {
   SceneDescription scene;
   scene.run.voxel_edge_m = 0.5;
@@ -87,7 +87,7 @@ void trace(LocalRun& run, int64_t particles) {
   REQUIRE(run.totals().balance().lost() == 0);
 }
 
-/// How many totals differ in any bit.
+/// Number of totals that differ in any bit.
 int64_t differences(const Totals& a, const Totals& b) {
   REQUIRE(a.groups() == b.groups());
   int64_t count = 0;
@@ -114,9 +114,9 @@ void check_same_ledger(const EnergyBalance& a, const EnergyBalance& b) {
   CHECK(a.collisions == b.collisions);
 }
 
-/// Data that comes and goes: at random a cell's search structure is thrown away and built again
-/// from a copy of the cell, and a brick, web or picture is copied anew. What was answered before is
-/// spoilt, as the rule of resolvers allows.
+/// Data that is evicted at random: a cell's search structure is destroyed and rebuilt from a copy
+/// of the cell, and a brick, web or picture is copied anew. Earlier references become invalid, as
+/// the rule of resolvers allows.
 class MissingData {
  public:
   explicit MissingData(const CompiledScene& scene)
@@ -251,7 +251,7 @@ TEST_CASE("another seed gives other bits") {
   CHECK(differences(a.totals(), b.totals()) > 100);
 }
 
-TEST_CASE("a run that stops and goes on gives the bits of one that does not") {
+TEST_CASE("a run that is stopped and resumed gives the bits of one that is not") {
   const auto scene = compile(room_of_everything());
   LocalRun whole(scene, 7, 2), parts(scene, 7, 2);
   trace(whole, 20'000);
@@ -260,15 +260,15 @@ TEST_CASE("a run that stops and goes on gives the bits of one that does not") {
   CHECK(differences(whole.totals(), parts.totals()) == 0);
 }
 
-TEST_CASE("a resolver whose data comes and goes at random gives the same bits") {
+TEST_CASE("a resolver whose data is evicted at random gives the same bits") {
   check_same_scores<MissingMergedResolver>(compile(room_of_everything()), 5);
 }
 
-TEST_CASE("a resolver whose data comes and goes at random gives the same bits over many cells") {
+TEST_CASE("a resolver whose data is evicted at random gives the same bits over many cells") {
   check_same_scores<MissingPartitionResolver>(compile(room_of_everything(), 9), 5);
 }
 
-TEST_CASE("a partition changes the triangle only of rays that meet an edge") {
+TEST_CASE("a partition changes the triangle only for rays that hit an edge") {
   const auto merged = compile(room_of_everything());
   const EmbreeDevice device;
   const SceneIndex one(device, *merged);
@@ -300,7 +300,7 @@ TEST_CASE("a partition changes the triangle only of rays that meet an edge") {
   }
 }
 
-TEST_CASE("a partition gives the same light within standard errors") {
+TEST_CASE("a partition gives equal light within standard errors") {
   const auto merged = compile(room_of_everything());
   const int64_t particles = 800'000 / thrift;
   LocalRun a(merged, 11, 2);

@@ -1,6 +1,6 @@
-// Scattering layers between perfect mirrors, which make them infinite, against discrete ordinates
-// of many streams: what is reflected, passed, passed unscattered, and in every layer absorbed and
-// travelled. The scenes are those of actors/judge/validate.
+// Scattering layers between perfect mirrors, which make them infinite, compared with discrete
+// ordinates of many streams: reflected, transmitted and unscattered light, and absorption and path
+// length by layer. The scenes are those of actors/judge/validate.
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {
@@ -10,7 +10,7 @@ double depth_of(const Case& stack) {
   return std::stod(stack.name.substr(stack.name.find("of depth ") + 9));
 }
 
-/// A history collides some twice as often as the stack is deep: rare shares have to be left.
+/// A history collides about twice as often as the stack is deep, so rare shares are not resolved.
 void check_stacks(double min_depth, double max_depth, const std::string& incidence) {
   int cases = 0;
   for (const Case& c : all_cases()) {
@@ -28,35 +28,35 @@ void check_stacks(double min_depth, double max_depth, const std::string& inciden
 
 }  // namespace
 
-TEST_CASE("thin layers reflect, pass and absorb of a beam what the transport equation says") {
+TEST_CASE("thin layers reflect, transmit and absorb a beam as the transport equation states") {
   check_stacks(0, 1, "normal");
 }
 TEST_CASE(
-    "thin layers reflect, pass and absorb of diffuse light what the transport equation says") {
+    "thin layers reflect, transmit and absorb diffuse light as the transport equation states") {
   check_stacks(0, 1, "lambert");
 }
-TEST_CASE("thick layers reflect, pass and absorb of a beam what the transport equation says") {
+TEST_CASE("thick layers reflect, transmit and absorb a beam as the transport equation states") {
   check_stacks(2, 10, "normal");
 }
 TEST_CASE(
-    "thick layers reflect, pass and absorb of diffuse light what the transport equation says") {
+    "thick layers reflect, transmit and absorb diffuse light as the transport equation states") {
   check_stacks(2, 10, "lambert");
 }
-TEST_CASE("deep layers reflect, pass and absorb of a beam what the transport equation says") {
+TEST_CASE("deep layers reflect, transmit and absorb a beam as the transport equation states") {
   check_stacks(15, 50, "normal");
 }
 TEST_CASE(
-    "deep layers reflect, pass and absorb of diffuse light what the transport equation says") {
+    "deep layers reflect, transmit and absorb diffuse light as the transport equation states") {
   check_stacks(15, 50, "lambert");
 }
-TEST_CASE("a hundred free paths of layers do with a beam what the transport equation says") {
+TEST_CASE("a hundred free paths of layers treat a beam as the transport equation states") {
   check_stacks(100, 100, "normal");
 }
-TEST_CASE("a hundred free paths of layers do with diffuse light what the transport equation says") {
+TEST_CASE("a hundred free paths of layers treat diffuse light as the transport equation states") {
   check_stacks(100, 100, "lambert");
 }
 
-TEST_CASE("a half space of gas returns what Chandrasekhar's H function says") {
+TEST_CASE("a half space of gas reflects as Chandrasekhar's H function states") {
   CaseOptions options;
   options.min_particles = 1 << 16;
   check_cases("half space", 36, options);

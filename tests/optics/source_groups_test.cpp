@@ -1,12 +1,12 @@
-// Light adds: what a source group gives is the light of that group alone, and the groups together
-// are the whole, at probes and at signs as on planes.
+// Light adds: the light of a source group is that of the group alone, and the groups together are
+// the whole, at probes and signs as on planes.
 #include "actors/results/run/local_run.hpp"
 #include "tests/optics/light_kit.hpp"
 
 namespace luxodus::light {
 namespace {
 
-/// Two lamps in a smoky room with a sign that an observer and a probe look at.
+/// Two lamps in a smoky room, with a sign seen by an observer, and a probe.
 std::string two_lamps(double left_lm, double right_lm) {
   const auto lamp = [](const char* name, const char* x, double lumens) {
     return std::string("[[emitter]]\nshape = \"rectangle\"\nsize = [0.4, 0.4]\nname = \"") + name +
@@ -94,7 +94,7 @@ TEST_CASE("the source groups' light at probes and signs adds up to the whole") {
     check_sum(b.views, b.views_by_group, part, at_eye, group_at_eye);
 }
 
-TEST_CASE("a source group's light is what it gives alone") {
+TEST_CASE("a source group's light is the light it gives alone") {
   const RunOptions options{.particles = 1 << 20};
   const Run both(scene_from_toml(two_lamps(1000, 2000)), options);
   const Run alone(scene_from_toml(two_lamps(1000, 0)), {.particles = 1 << 20, .seed = 2});
@@ -115,7 +115,7 @@ TEST_CASE("a source group's light is what it gives alone") {
 
 namespace {
 
-/// Traced with mixtures of its source groups in place of the groups themselves.
+/// A run that scores mixtures of its source groups instead of the groups.
 struct MixedRun {
   MixedRun(const std::string& text, std::vector<GroupMixture> mixtures, uint64_t seed) {
     CompileOptions options;
@@ -153,7 +153,7 @@ struct MixedRun {
 
 }  // namespace
 
-TEST_CASE("a mixture of source groups is what the scene with that light gives, with its error") {
+TEST_CASE("a mixture of source groups equals the scene with that light, with its error") {
   // Each lamp alone, both, and both with the second at a quarter.
   const std::vector<GroupMixture> mixtures{
       {{{"right", 0}}}, {{{"left", 0}}}, {}, {{{"right", 0.25}}}};
@@ -173,7 +173,7 @@ TEST_CASE("a mixture of source groups is what the scene with that light gives, w
     by_itself(0, left);
     by_itself(1, right);
     by_itself(3, quarter);
-    // With all factors 1 it is the whole, and so is its error: groups vary together.
+    // With all factors 1 it is the whole, and so is its error, since groups are correlated.
     const Estimate sum = all.mixed(part, 2, MixtureEyeQuantity::at_eye),
                    whole = all.whole(part, EyeQuantity::at_eye);
     CHECK(sum.value == Approx(whole.value).epsilon(1e-9));
@@ -189,7 +189,7 @@ TEST_CASE("paths choose emitters of many mixtures more often than those of few")
     CHECK(emitter.wanted == Approx(emitter.name == "right" ? 0.5 : 1.0));
 }
 
-TEST_CASE("a scene of one source group pays for no second copy of its values") {
+TEST_CASE("a scene with one source group keeps no second copy of its values") {
   SceneDescription scene = scene_from_toml(two_lamps(1000, 2000));
   scene.run.groups = GroupRule::one;
   const auto compiled = compile(std::move(scene));

@@ -1,4 +1,5 @@
-// What smoke beside a lamp sends to an eye, against integrals along the line of sight.
+// Light that smoke beside a lamp scatters to an eye, compared with integrals along the line of
+// sight.
 #include <cmath>
 #include <numbers>
 
@@ -9,7 +10,7 @@ namespace luxodus::light {
 namespace {
 
 constexpr double four_pi = 4 * std::numbers::pi;
-/// So little that nothing is scattered twice, to what is known here.
+/// So small that multiple scattering is below the accuracy here.
 constexpr double albedo = 1e-3;
 constexpr double sigma = 0.2;  // [1/m]
 constexpr double sight_m = 10;
@@ -24,7 +25,7 @@ SceneDescription eye_in_smoke(double g) {
   sign.name = "sign";
   sign.frame.origin = {sight_m, 0, 0};
   sign.frame.axes = glm::dmat3(glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0));
-  // So small that all lines to it are one.
+  // So small that all lines to it coincide.
   sign.width_m = sign.height_m = sign.smallest_detail_m = 1e-5;
   sign.face = {1, 1, {SignColour::white}, {}, SignColour::white};
   scene.signs.push_back(sign);
@@ -47,8 +48,8 @@ double henyey_greenstein(double g, double cosine) {
   return (1 - g * g) / (four_pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
 }
 
-/// Of a lamp of 1 W at (at, beside), a point or a Lambertian sphere: places along the line by the
-/// angle at which the lamp sees them, so that the integrand is smooth however near the lamp is.
+/// Veil of a lamp of 1 W at (at, beside), a point or a Lambertian sphere: integrated over the angle
+/// at the lamp, so that the integrand is smooth however near the lamp is.
 double veil_of_lamp(double at, double beside, double g, double radius = 0) {
   constexpr int steps = 20000;
   const double low = std::atan2(-at, beside), high = std::atan2(sight_m - at, beside);
@@ -58,8 +59,8 @@ double veil_of_lamp(double at, double beside, double g, double radius = 0) {
     const double t = at + beside * std::tan(angle), d = beside / std::cos(angle);
     // From the lamp to the line, and then back to the eye.
     const double cosine = -std::sin(angle);
-    // More of a sphere is seen than of its disc, and it begins, on average over the disc, two
-    // thirds of its radius before its centre.
+    // A sphere is seen larger than its disc, and its surface is, averaged over the disc, two thirds
+    // of its radius before its centre.
     const double q = std::pow(radius / d, 2);
     const double sphere = q > 0 ? 2 * (1 - std::sqrt(1 - q)) / q : 1;
     sum += henyey_greenstein(g, cosine) * sphere * std::exp(-sigma * (t + d - radius * 2 / 3));
@@ -69,7 +70,7 @@ double veil_of_lamp(double at, double beside, double g, double radius = 0) {
 
 }  // namespace
 
-TEST_CASE("the veil of a lamp beside the line of sight is known, however near the lamp is") {
+TEST_CASE("the veil of a lamp beside the line of sight is exact, however near the lamp is") {
   for (const double beside : {3.0, 0.3, 0.01, 1e-4}) {
     for (const double g : {0.0, 0.7, -0.5}) {
       INFO(beside << " m beside the line, g " << g);
@@ -81,7 +82,7 @@ TEST_CASE("the veil of a lamp beside the line of sight is known, however near th
   }
 }
 
-TEST_CASE("the veils of a faint lamp that is near and of a bright one that is far add up") {
+TEST_CASE("the veils of a faint near lamp and of a bright far one add up") {
   SceneDescription scene = eye_in_smoke(0.5);
   add_point(scene, {4, 0.02, 0}, 1);
   add_point(scene, {-2, 6, 0}, 1000);
@@ -89,7 +90,7 @@ TEST_CASE("the veils of a faint lamp that is near and of a bright one that is fa
                half_percent, 2e-3);
 }
 
-TEST_CASE("the veil of a globe is that of its size") {
+TEST_CASE("the veil of a globe depends on its size") {
   for (const double beside : {0.15, 0.5, 3.0}) {
     INFO(beside << " m beside the line");
     SceneDescription scene = eye_in_smoke(0);
@@ -98,16 +99,15 @@ TEST_CASE("the veil of a globe is that of its size") {
   }
 }
 
-TEST_CASE("the veil of a large lamp is known where the line of sight passes close under it") {
+TEST_CASE("the veil of a large lamp is exact where the line of sight passes close under it") {
   // A square Lambertian lamp of 2 m, 1 W, that shines down on the line from `above` it.
   for (const double above : {0.02, 0.3, 2.0}) {
     INFO(above << " m above the line");
     SceneDescription scene = eye_in_smoke(0);
     add_emitter(scene, EmitterShape::rectangle, {4, 0, above}, {0, 0, -1}, 1).size =
         glm::dvec3(2, 2, 0);
-    // Rows of the lamp by the angle at which the line sees them, places on the line by that at
-    // which a point of the lamp sees them, so that the integrand is smooth however near the lamp
-    // is.
+    // Rows of the lamp by the angle at the line, places on the line by the angle at a point of the
+    // lamp, so that the integrand is smooth however near the lamp is.
     constexpr int columns = 40, rows = 400, places = 200;
     const double row_span = 2 * std::atan(1 / above);
     double sum = 0;
@@ -121,25 +121,25 @@ TEST_CASE("the veil of a large lamp is known where the line of sight passes clos
         for (int k = 0; k < places; ++k) {
           const double angle = low + (high - low) * (k + 0.5) / places;
           const double t = x + beside * std::tan(angle), d = beside / std::cos(angle);
-          // cos / pi of the lamp; dt / d^2 is an angle over the distance beside.
+          // cos / pi at the lamp; dt / d^2 is an angle over the distance beside.
           sum += row_m * above / d / std::numbers::pi * std::exp(-sigma * (t + d)) * (high - low) /
                  beside;
         }
       }
     }
-    // The lamp's power is spread over 4 m2, of which a column is 2 m / columns wide.
+    // The lamp's power is spread over 4 m2; a column is 2 m / columns wide.
     const double expected = sigma * albedo / four_pi * sum / (2 * columns * places);
     check_within(veil(std::move(scene)), expected, half_percent, 3e-3);
   }
 }
 
-TEST_CASE("the veil of a flame is that of its size, close to it and far from it") {
+TEST_CASE("the veil of a flame depends on its size, close to it and far from it") {
   constexpr double radius = 0.1;
   for (const double beside : {0.12, 0.5, 3.0}) {
     INFO(beside << " m beside the line");
     SceneDescription scene = eye_in_smoke(0);
     add_ball(scene, {4, beside, 0}, radius, smoke(0, 0)).emission.emplace().power_w = 1;
-    // Points of the ball in equal volumes, each with its own line to the places.
+    // Points of the ball in equal volumes, each with its own lines to the places.
     constexpr int n = 24, steps = 400;
     double sum = 0;
     int inside = 0;

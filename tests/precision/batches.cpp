@@ -50,7 +50,7 @@ void add_bins(const TallyLayout& layout, uint32_t block, std::vector<Column>& ou
   }
 }
 
-/// Fluence, and what is absorbed and scattered, of 4 x 4 x 4 parts of the grid.
+/// Fluence, absorption and scattering in 4 x 4 x 4 parts of the grid.
 void add_voxels(const CompiledScene& scene, std::vector<Column>& out) {
   const VoxelGrid& grid = scene.voxels;
   if (!(grid.edge > 0)) return;

@@ -1,6 +1,7 @@
-// What each batch of a scene brings, bin by bin, for comparing builds that differ in rounding: sums
-// over surfaces, cells of planes, regions of smoke, what eyes and probes receive. Batch k of one
-// build traces the same histories from the same random numbers as batch k of another.
+// Scores of each batch of a scene, bin by bin, to compare builds that differ in rounding: sums over
+// surfaces, cells of planes, regions of smoke, results of eyes and probes. Batch k of one build
+// traces the same histories from the same random numbers as batch k of another. Test helper; one
+// caller at a time.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +12,15 @@
 
 namespace luxodus::precision {
 
-/// One bin that is compared: a sum of scores of a batch.
+/// A compared bin: a sum of scores of a batch.
 struct Column {
-  std::string kind;  // what its line of the table is about: "surfaces", "plane_cells", ...
+  std::string kind;  // the line of the table it belongs to: "surfaces", "plane_cells", ...
   std::string name;
   std::vector<int64_t> scores;
 };
 
-/// Everything worth comparing; patches only as the surfaces they make up, voxels 4 x 4 x 4 of them.
+/// All bins worth comparing; patches only as sums over surfaces, voxels as 4 x 4 x 4 parts of the
+/// grid.
 std::vector<Column> columns_of(const CompiledScene& scene);
 
 /// [batch][column], in units of scores: whole numbers, exact in double.

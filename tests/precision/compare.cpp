@@ -1,7 +1,7 @@
-// Batch k has the same histories in both builds, so that a bin's differences d_k are small and
-// mostly zero, and their mean is known far better than the bin itself. A history that takes another
-// way because of a rounding (one that meets the other side of an edge) makes d_k large now and
-// then; that is chance as well, and shows in the standard error of the mean difference.
+// Batch k has equal histories in both builds, so that a bin's differences d_k are small and mostly
+// zero, and their mean is much more accurate than the bin itself. A history that takes another path
+// because of rounding (it hits the other side of an edge) makes d_k large now and then; that is
+// random, too, and is part of the standard error of the mean difference.
 #include "tests/precision/compare.hpp"
 
 #include <fmt/core.h>
@@ -18,15 +18,15 @@ namespace luxodus::precision {
 namespace {
 
 constexpr double particles = 1e9;
-/// A difference counts as far below the statistical error where it is a tenth of it: errors add as
-/// squares, so it adds half a percent to it.
+/// A difference is far below the statistical error if it is a tenth of it: errors add as squares,
+/// so it adds half a percent.
 constexpr double far_below = 0.1;
-/// The difference's own standard error, in statistical errors of 1e9 particles: beyond it the
-/// comparison would prove nothing, and needs more particles.
+/// Limit for the difference's own standard error, in statistical errors of 1e9 particles: beyond it
+/// the comparison proves nothing and needs more particles.
 constexpr double sharp_enough = 0.1;
-/// Bins are many: of a thousand one lies beyond 3.3 standard errors by chance.
+/// There are many bins: one of a thousand lies beyond 3.3 standard errors by chance.
 constexpr double chance = 4;
-/// A bin that few batches reach has no variance to speak of.
+/// The variance of a bin that few batches reach is unreliable.
 constexpr double min_share_of_batches = 0.5;
 
 struct Mean {

@@ -1,5 +1,5 @@
-// Two builds' batches held against each other: is what rounding changes far below what chance
-// leaves? Pure but for reading the files.
+// Compares the batches of two builds: whether the effect of rounding is far below the statistical
+// error. Pure except for file access; any thread.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace luxodus::precision {
 
-/// What a build has written of a scene.
+/// The scores that a build has written for a scene.
 struct Traced {
   std::string precision;  // "single" or "double"
   std::string scene;
@@ -21,7 +21,7 @@ void write(const Traced& traced, const std::filesystem::path& file);
 /// Errors (exception): a file that cannot be read, or is not what `write` makes.
 Traced read(const std::filesystem::path& file);
 
-/// Prints a table by kind of bin, and says whether the difference is far below the statistical
+/// Prints a table by kind of bin, and returns whether the difference is far below the statistical
 /// error of 1e9 particles. Errors (exception): files of other scenes, batches or bins.
 bool compare(const Traced& single, const Traced& twice);
 

@@ -1,4 +1,4 @@
-// What the comparison of two builds lets pass, and what it must not.
+// The comparison of two builds: results that it accepts, and results that it must not.
 #include "tests/precision/compare.hpp"
 
 #include <catch2/catch.hpp>
@@ -10,12 +10,12 @@ using namespace luxodus::precision;
 namespace {
 
 constexpr int batches = 256;
-/// What 1e9 particles leave, in standard deviations of a batch: 256 batches of a thousand particles
-/// know their mean to a sixteenth, 3906 times as many 62.5 times better.
+/// Statistical error of 1e9 particles in standard deviations of a batch: 256 batches of a thousand
+/// particles give the mean to a sixteenth, 3906 times as many 62.5 times better.
 constexpr double statistical = 1.0 / 16 / 62.5;
 
-/// A bin whose batches have the standard deviation `deviation`; and another build's, whose batches
-/// are `off` of these more, give or take `noise` of them.
+/// A bin whose batches have the standard deviation `deviation`; in the other build they are larger
+/// by `off` of these, with noise of `noise` of them.
 struct Pair {
   Traced single, twice;
 };
@@ -53,7 +53,7 @@ TEST_CASE("a difference of a fifth of the statistical error fails, in either dir
   CHECK_FALSE(passes(0.2 * statistical, 0.1 * statistical));
 }
 
-TEST_CASE("a comparison too coarse to tell fails, whatever it has found") {
+TEST_CASE("a comparison with too large an error of its own fails, whatever its result") {
   CHECK_FALSE(passes(0, 3 * statistical));
   CHECK_FALSE(passes(0, 1));
 }

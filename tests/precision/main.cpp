@@ -1,6 +1,6 @@
-// luxodus_precision: `trace SCENE SCENARIO PARTICLES THREADS FILE` writes what each batch of a
-// scene brings; `compare SINGLE DOUBLE [SINGLE DOUBLE ...]` holds files of the two builds against
-// each other. tests/tools/precision.sh calls both.
+// luxodus_precision: `trace SCENE SCENARIO PARTICLES THREADS FILE` writes the scores of each batch
+// of a scene; `compare SINGLE DOUBLE [SINGLE DOUBLE ...]` compares files of the two builds.
+// tests/tools/precision.sh calls both.
 #include <fmt/core.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-"""What the Python module promises: the numbers are those of the program, errors say where, and a
-run ends when it is told to."""
+"""Promises of the Python module: results equal those of the program, errors give file and line, and
+a run stops on request."""
 import gc
 import json
 import math
@@ -96,7 +96,7 @@ class Module(unittest.TestCase):
 
 
 class Scenes(Module):
-    def test_a_scene_tells_its_names(self):
+    def test_a_scene_lists_its_names(self):
         scene = luxodus.load(self.scene_file())
         self.assertEqual(scene.name, "room")
         self.assertEqual(scene.title, "A grey room with one lamp")
@@ -108,7 +108,7 @@ class Scenes(Module):
         self.assertEqual(scene.signs, [])
         self.assertEqual(scene.file, str(self.folder / "room.toml"))
 
-    def test_a_mistake_is_an_error_with_file_and_line_in_the_words_of_the_program(self):
+    def test_a_mistake_is_an_error_with_file_line_and_the_message_of_the_program(self):
         path = self.scene_file(ROOM.replace("flux_lm = 1000", 'flux_lm = "bright"'))
         line = path.read_text().splitlines().index('flux_lm = "bright"') + 1
         with self.assertRaises(luxodus.Error) as caught:
@@ -120,7 +120,7 @@ class Scenes(Module):
         self.assertIn(str(error).splitlines()[0], printed.stderr)
         self.assertEqual(printed.returncode, 2)
 
-    def test_all_mistakes_are_told_at_once(self):
+    def test_all_mistakes_are_reported_at_once(self):
         text = ROOM.replace("flux_lm = 1000", "flux_lm = -1").replace("cell_m = 0.5", "cell_m = 0")
         with self.assertRaises(luxodus.Error) as caught:
             luxodus.load(self.scene_file(text))
@@ -133,7 +133,7 @@ class Scenes(Module):
         self.assertEqual(caught.exception.file, str(self.folder / "none.toml"))
         self.assertIsNone(caught.exception.line)
 
-    def test_a_change_is_what_it_would_be_in_a_variant(self):
+    def test_a_change_has_the_effect_of_one_in_a_variant(self):
         path = self.scene_file()
         changes = [{"kind": "luminaire", "of": "lamp", "factor": 2},
                    {"kind": "medium", "of": "haze", "factor": np.float64(0.0)}]
@@ -161,7 +161,7 @@ class Scenes(Module):
                 luxodus.load(path, changes=[change])
             self.assertEqual((caught.exception.file, caught.exception.line), ("changes", 1))
 
-    def test_a_name_cannot_break_out_of_its_change(self):
+    def test_a_name_is_quoted_safely_in_its_change(self):
         path = self.scene_file()
         with self.assertRaises(luxodus.Error) as caught:
             luxodus.load(path, changes=[{"kind": "medium", "of": 'x"}\n[run]\nseed = 9',
@@ -171,7 +171,7 @@ class Scenes(Module):
             luxodus.load(path, changes=[{"kind": "luminaire", "of": "lamp", 'a"b': 1}])
         self.assertEqual(caught.exception.line, 1)
 
-    def test_a_pack_gives_the_light_of_its_scene_and_is_not_changed(self):
+    def test_a_pack_gives_the_light_of_its_scene_and_rejects_changes(self):
         path = self.scene_file()
         pack = self.folder / "room.luxpack"
         subprocess.run([PROGRAM, "pack", str(path), "--out", str(pack)], check=True,
@@ -184,14 +184,14 @@ class Scenes(Module):
                 luxodus.load(pack, **asked)
             self.assertEqual(caught.exception.file, str(pack))
 
-    def test_drawings_of_signs_are_read_in_a_process_of_their_own(self):
+    def test_drawings_of_signs_are_read_in_another_process(self):
         scene = luxodus.load(ROOT / "scenes/library/office_floor.toml")
         self.assertGreater(len(scene.signs), 0)
         self.assertEqual([f for f in scene.check() if f["severity"] == "error"], [])
 
 
 class Runs(Module):
-    def test_the_numbers_are_those_of_the_program_bit_for_bit(self):
+    def test_results_equal_those_of_the_program_bit_for_bit(self):
         path = self.scene_file()
         out = self.folder / "out"
         subprocess.run([PROGRAM, "run", str(path), "--particles", "50k", "--no-views",
@@ -231,20 +231,20 @@ class Runs(Module):
         self.assertGreater(float(voxels.fluence_lm_m2.mean()), 0)
         self.assertIsNone(luxodus.load(self.scene_file()).run("clear", particles=1e4).voxels)
 
-    def test_the_energy_balance_is_of_whole_numbers_that_close(self):
+    def test_the_energy_balance_closes_in_integers(self):
         balance = luxodus.load(self.scene_file()).run(particles=20e3).energy_balance
         self.assertTrue(balance["closes"])
         self.assertEqual(balance["emitted"] + balance["roulette_gain"],
                          balance["absorbed_surfaces"] + balance["absorbed_media"] +
                          balance["escaped"] + balance["roulette_loss"] + balance["lost"])
 
-    def test_nodes_give_the_bits_of_threads(self):
+    def test_nodes_give_the_same_bits_as_threads(self):
         scene = luxodus.load(self.scene_file())
         threads = scene.run(particles=50e3, threads=2).planes["desks"].illuminance_lx
         nodes = scene.run(particles=50e3, nodes=2).planes["desks"].illuminance_lx
         np.testing.assert_array_equal(threads, nodes)
 
-    def test_particles_go_where_they_are_needed(self):
+    def test_particles_are_allocated_adaptively(self):
         lamp = ROOM[ROOM.index("[[emitter]]"):ROOM.index("[[plane]]")]
         second = lamp.replace('"lamp"', '"second"').replace("[3, 2, 2.5]", "[5.9, 3.9, 2.9]")
         text = ROOM.replace("seed = 3", 'seed = 3\ngroups = "emitter"').replace(lamp, lamp + second)
@@ -255,7 +255,7 @@ class Runs(Module):
         self.assertAlmostEqual(sum(shares), 1)
         self.assertEqual(run.error_of, ["plane desks"])
 
-    def test_a_run_goes_on_to_the_bits_of_a_longer_one(self):
+    def test_a_continued_run_equals_a_longer_one_bit_for_bit(self):
         scene = luxodus.load(self.scene_file())
         run = scene.run(particles=20e3)
         first = run.planes["desks"].illuminance_lx.copy()
@@ -266,7 +266,7 @@ class Runs(Module):
                                       whole.planes["desks"].illuminance_lx)
         self.assertFalse(np.array_equal(first, run.planes["desks"].illuminance_lx))
 
-    def test_what_is_asked_for_is_checked(self):
+    def test_arguments_are_checked(self):
         scene = luxodus.load(self.scene_file())
         for wrong in ({"particles": 0}, {"particles": 1.5}, {"particles": math.nan},
                       {"error": 0}, {"error": 2}, {"time_s": -1}, {"threads": 0},
@@ -290,7 +290,7 @@ class Runs(Module):
         gc.collect()
         self.assertGreater(float(desks.illuminance_lx.min()), 0)
 
-    def test_an_unknown_attribute_is_no_key(self):
+    def test_an_unknown_attribute_is_an_attribute_error(self):
         run = luxodus.load(self.scene_file()).run(particles=1e4)
         self.assertFalse(hasattr(run, "illumination"))
         self.assertFalse(hasattr(run, "_repr_html_"))
@@ -298,7 +298,7 @@ class Runs(Module):
 
 
 class Progress(Module):
-    def test_progress_is_told_on_the_thread_that_called(self):
+    def test_progress_is_reported_on_the_calling_thread(self):
         told = []
         luxodus.load(self.scene_file()).run(
             particles=50e3, progress=lambda p: told.append((threading.get_ident(), p.particles)))
@@ -306,7 +306,7 @@ class Progress(Module):
         self.assertEqual({ident for ident, _ in told}, {threading.get_ident()})
         self.assertGreaterEqual(told[-1][1], 50e3)
 
-    def test_other_threads_go_on_meanwhile(self):
+    def test_other_threads_continue_during_a_run(self):
         counted = []
         done = threading.Event()
 
@@ -324,7 +324,7 @@ class Progress(Module):
         other.join()
         self.assertGreater(seen[-1], seen[0] if len(seen) > 1 else 0)
 
-    def test_false_stops_a_run_with_what_it_has(self):
+    def test_a_callable_that_returns_false_stops_a_run_and_keeps_its_results(self):
         run = luxodus.load(self.scene_file()).run(particles=1e15, progress=lambda p: False)
         self.assertEqual(run.stopped_by, "interrupted")
         self.assertGreater(run.particles, 0)
@@ -350,7 +350,7 @@ class Progress(Module):
         with self.assertRaises(KeyboardInterrupt):
             luxodus.load(self.scene_file()).run(particles=1e15, progress=interrupt)
 
-    def test_a_run_that_is_traced_is_not_read_by_another_thread(self):
+    def test_another_thread_cannot_read_a_run_while_it_traces(self):
         run = luxodus.load(self.scene_file()).run(particles=1e4)
         refused = []
 
@@ -371,7 +371,7 @@ class Progress(Module):
 
 
 class Assessments(Module):
-    def test_an_assessment_is_that_of_the_program(self):
+    def test_an_assessment_equals_that_of_the_program(self):
         path = ROOT / "scenes/library/office_floor.toml"
         out = self.folder / "assessed"
         subprocess.run([PROGRAM, "assess", str(path), "--codes-alone", "--out", str(out)],
@@ -387,7 +387,7 @@ class Assessments(Module):
         self.assertTrue(told)
         self.assertFalse(hasattr(made, "nothing"))
 
-    def test_a_scene_of_a_relative_path_is_assessed_until_its_file_is_another(self):
+    def test_a_scene_of_a_relative_path_is_assessed_until_its_file_changes(self):
         clock = "[time]\nfrom = 0\nto = 30\nstep = 30\n"
         path = self.scene_file(ROOM + clock + ROUTE)
         self.addCleanup(os.chdir, os.getcwd())

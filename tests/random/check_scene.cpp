@@ -17,12 +17,12 @@ namespace luxodus::test {
 
 namespace {
 
-/// Every so many scenes are traced once more in each of the other ways.
+/// Every so many scenes are traced again in each of the other ways.
 constexpr uint64_t every_forgetful = 4, every_threaded = 16;
 constexpr int batches_per_group = 2;  // a standard error needs two
 constexpr double longest_sentence = 600;
 
-/// A share kept at each event below which no history lasts a million of them.
+/// If every event keeps at most this share, no history lasts a million events.
 constexpr double min_patience = 0.9999;
 
 double max_of(const Spectrum& s) {
@@ -33,7 +33,7 @@ bool keeps_light(const SmokeOptics& optics) {
   return max_of(optics.albedo) >= min_patience;
 }
 
-/// Whether something in the scene may keep light for as long as a history lasts.
+/// Whether something in the scene may keep light for the maximum length of a history.
 bool is_patient(const SceneDescription& d) {
   for (const Material& m : d.materials) {
     if (m.kind == MaterialKind::dielectric) return true;  // total reflection takes nothing
@@ -54,7 +54,7 @@ bool is_patient(const SceneDescription& d) {
   return false;
 }
 
-/// As threads that trace are set: denormals are zero.
+/// Sets denormals to zero, as tracing threads do.
 class TracingArithmetic {
  public:
   TracingArithmetic() { flush_denormals(); }
@@ -66,7 +66,7 @@ class TracingArithmetic {
   const unsigned before_ = _mm_getcsr();
 };
 
-/// One batch of a scene, cut off at the bound of events, which the bits of its own rays decide.
+/// One batch of a scene, cut off at the limit of rays, which depends on its own rays alone.
 struct Part {
   int64_t number = 0;
   int group = 0;
@@ -96,7 +96,7 @@ void trace_part(BatchTracer& tracer, const CompiledScene& scene, const Part& par
     tracer.look(part.number, unit, scores);
 }
 
-/// A scene that was compiled, and what is found of it.
+/// A compiled scene and the findings about it.
 class Tracing {
  public:
   Tracing(const RandomScene& drawn, const CompiledScene& scene, const EmbreeDevice& device,
@@ -151,7 +151,7 @@ class Tracing {
     check_value(scene_.total_area_m2, "the area");
   }
 
-  /// Direct light at probes.
+  /// Checks direct light at probes.
   void check_points() {
     for (const ProbeMeasure& p : scene_.description->probes) {
       const glm::vec3 at(p.position - scene_.local_origin), normal(p.normal);
@@ -178,7 +178,7 @@ class Tracing {
     }
   }
 
-  /// Parts that come and go, batches in another order.
+  /// Traces with parts that are evicted, and batches in another order.
   void check_forgetful(const Totals& totals) {
     ForgetfulSource source(device_, scene_, number_);
     const ProxyScene proxies(device_, scene_.cell_boxes);

@@ -9,12 +9,12 @@ namespace luxodus::test {
 
 namespace {
 
-/// The balance of the roulette over some events has at most this variance each: it ends a weight w
-/// or makes it q, and w (q - w) <= q^2 / 4.
+/// Bound for the deviation of the roulette's balance per event: it ends a weight w or raises it to
+/// q, and the variance w (q - w) is at most q^2 / 4.
 constexpr double roulette_deviation = 0x1p29;
-/// Of a million scenes each with one balance, 3e-6 would be told of by chance.
+/// In a million scenes with one balance each, the chance of a false report is 3e-6.
 constexpr double standard_errors = 7;
-/// Bins of a block that are read; of more, as many evenly among them.
+/// Number of bins of a block that are read; in larger blocks, evenly chosen.
 constexpr uint32_t bins_read = 256;
 
 /// Scores of one block of a batch.
@@ -46,9 +46,9 @@ std::string place_in(const TallyBlock& block, uint32_t bin, int band, uint32_t q
          std::to_string(quantity);
 }
 
-/// Only the components of a current are.
+/// Only components of a current may be negative.
 bool may_be_negative(const TallyBlock& block, uint32_t quantity) {
-  // Fluences, and the mean squares of the direction's components, are sums of what is not.
+  // Fluences, and mean squares of the direction's components, are sums of non-negative terms.
   return block.name == "voxels" && quantity != 0 && quantity != first_scattered_quantity &&
          quantity != first_scattered_quantity + 4 && quantity != first_scattered_quantity + 5;
 }
@@ -69,8 +69,8 @@ void check_signs(const BlockScores& scores, Findings& findings) {
   }
 }
 
-/// A current and a product of components is no larger than its fluence, and scattered light no more
-/// than all, but for the rounding of each piece of flight.
+/// A current and a product of components is at most its fluence, and scattered light at most all
+/// light, up to the rounding of each piece of flight.
 void check_currents(const BlockScores& voxels, uint64_t pieces, Findings& findings) {
   for (uint32_t bin = 0; bin < voxels.block().bins; ++bin) {
     for (int band = 0; band < voxels.bands(); ++band) {

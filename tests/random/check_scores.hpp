@@ -1,5 +1,5 @@
-// What must hold of the scores of one batch and of what is read from totals, in integers where it
-// can be. Each fault is a sentence. Pure; any thread.
+// Properties of the scores of one batch and of values read from totals, in integers where possible.
+// Each fault is a sentence. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@ namespace luxodus::test {
 
 using Findings = std::vector<std::string>;
 
-/// What may be asked of a scene's balance.
+/// Properties that a scene's balance must have.
 struct Expected {
-  bool closed = false;   // nothing escapes
-  bool patient = false;  // light may live for longer than a history lasts
+  bool closed = false;   // no light escapes
+  bool patient = false;  // light may survive longer than the longest history
 };
 
 void check_ledger(const CompiledScene& scene, const EnergyBalance& balance,

@@ -1,6 +1,6 @@
-// Chance for scenes: draws from ranges as wide as the program's own. All of a scene follows from
-// its number. Rule: never two draws in one expression, since their order would be the compiler's
-// choice. Thread rule: one thread.
+// Random draws for scenes, from ranges as wide as the program accepts. A scene follows from its
+// number alone. Rule: never two draws in one expression, since their order would depend on the
+// compiler. Thread rule: one thread.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace luxodus::test {
 
 class Dice {
  public:
-  /// `what` tells things of the same number apart.
+  /// `what` gives different sequences for the same number.
   Dice(uint64_t number, uint64_t what) : random_(what, RandomStream::test) {
     random_.start(number);
   }
@@ -28,7 +28,7 @@ class Dice {
   /// Both ends included.
   int whole(int low, int high) { return low + below(high - low + 1); }
   double between(double low, double high) { return low + (high - low) * random_.uniform_double(); }
-  /// Evenly over the orders of magnitude. Requires: 0 < low <= high.
+  /// Uniform in the logarithm. Requires: 0 < low <= high.
   double magnitude(double low, double high) {
     return std::min(high, low * std::exp(std::log(high / low) * random_.uniform_double()));
   }
@@ -41,13 +41,13 @@ class Dice {
     return values[static_cast<size_t>(below(static_cast<int>(values.size())))];
   }
 
-  /// In the box.
+  /// A uniform point in the box.
   glm::dvec3 point(const glm::dvec3& low, const glm::dvec3& high) {
     glm::dvec3 p;
     for (int k = 0; k < 3; ++k) p[k] = between(low[k], high[k]);
     return p;
   }
-  /// Of length 1: along an axis, almost so, or anywhere.
+  /// A unit vector: along an axis, almost so, or in any direction.
   glm::dvec3 direction() {
     glm::dvec3 d(0);
     const int way = below(8);

@@ -1,5 +1,5 @@
-// What the parts of the generator share: the dice, the scene so far, and the box that most of it
-// lies in. Internal to random_scene.*.
+// Shared by the parts of the generator: the dice, the scene so far, and the box that most of it
+// lies in. Internal to random_scene.*. One thread.
 #pragma once
 
 #include <string>
@@ -13,21 +13,21 @@ namespace luxodus::test {
 struct Draw {
   Dice dice;
   SceneDescription& scene;
-  glm::dvec3 low{0}, high{1};  // of the room, or where it would stand
+  glm::dvec3 low{0}, high{1};  // of the room, or of the space it would take
   double size_m = 1;           // its shortest side
   bool extreme = false;        // this scene draws from the ends of ranges
   bool enclosed = false;       // by six opaque walls
-  bool bare = false;           // nothing stands there, at most flames burn
+  bool bare = false;           // it has no objects, at most flames
 
   glm::dvec3 size() const { return high - low; }
-  /// A place well inside, or anywhere near.
+  /// A point well inside, or also nearby outside.
   glm::dvec3 inside() { return dice.point(low + 0.3 * size(), high - 0.3 * size()); }
   glm::dvec3 near_by() { return dice.point(low - 0.2 * size(), high + 0.2 * size()); }
   glm::dvec3 place() { return enclosed || dice.chance(0.7) ? inside() : near_by(); }
 };
 
-/// A share in [0, 1]: of either end, close to it, or between. Exactly 1 is rare, since what loses
-/// nothing is traced for long.
+/// A share in [0, 1]: either end, close to it, or between. Exactly 1 is rare, since lossless scenes
+/// take long to trace.
 inline double draw_share(Draw& draw) {
   Dice& dice = draw.dice;
   if (dice.chance(draw.extreme ? 0.5 : 0.9)) return dice.between(0, 0.95);
@@ -42,7 +42,7 @@ inline double draw_share(Draw& draw) {
 
 /// Grey, or coloured, between 0 and `most`.
 Spectrum draw_property(Draw& draw, double most = 1);
-/// Of integral 1 over the visible.
+/// An emission spectrum with integral 1 over the visible range.
 Spectrum draw_emission(Draw& draw);
 
 void draw_materials(Draw& draw);

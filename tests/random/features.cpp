@@ -60,7 +60,7 @@ double value_of(const Spectrum& s) {
   return s.is_constant() ? s.value[0] : -1;
 }
 
-/// Of everything that smokes.
+/// Whether the optics of some smoke satisfy `is`.
 template <class Is>
 bool any_optics(const RandomScene& s, Is is) {
   return any(s.description.media, [&](const Medium& m) {
@@ -113,7 +113,7 @@ size_t triangles_of(const RandomScene& s) {
   for (const Object& o : s.description.objects) count += o.mesh.triangles.size();
   return count;
 }
-/// Brightest over dimmest of what shines.
+/// Ratio of the largest to the smallest emitted power.
 double power_ratio(const RandomScene& s) {
   double least = 1e300, most = 0;
   for (const Emitter& e : s.description.emitters) {

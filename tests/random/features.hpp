@@ -1,5 +1,5 @@
-// What a scene has, by name, judged from the scene itself: shows that the generator reaches all
-// that a description can say. Pure; any thread.
+// Features of a scene by name, found in the scene itself: shows that the generator reaches all that
+// a description can contain. Pure; any thread.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Feature {
 
 const std::vector<Feature>& features();
 
-/// How many scenes had each feature, in their order.
+/// Number of scenes with each feature, in their order.
 using FeatureCounts = std::vector<int64_t>;
 void count_features(const RandomScene& scene, FeatureCounts& counts);
 

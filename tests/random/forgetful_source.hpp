@@ -1,6 +1,6 @@
-// Parts of a scene that come and go: at random a cell's search structure is thrown away and built
-// again, and bricks and tiles are cut anew each time. What was answered before is spoilt, as the
-// rule of sources allows. Thread rule: one thread.
+// Scene parts that are evicted at random: a cell's search structure is destroyed and rebuilt, and
+// bricks and tiles are cut anew for each request. Earlier references become invalid, as the rule of
+// sources allows. Thread rule: one thread.
 #pragma once
 
 #include <memory>

@@ -31,7 +31,7 @@ Spectrum draw_emission(Draw& draw) {
       const double g = dice.between(0.01, 1);
       return emission_shape_from_linear_srgb(r, g, dice.between(0, 1));
     }
-    case 6: {  // a line, also where the eye sees next to nothing
+    case 6: {  // a line, also at invisible wavelengths
       Spectrum line;
       line.value[static_cast<size_t>(dice.whole(1, spectrum_samples - 2))] = 1;
       return normalised(line);
@@ -65,7 +65,7 @@ std::shared_ptr<const PhotometricWeb> draw_web(Draw& draw) {
     candela.push_back(repeats_first ? candela[a % polar.size()] : dark);
   }
   candela[0] = candela[(azimuth.size() - 1) * polar.size()] = 10;
-  // C angles turn about +Z of the luminaire while their pole is -Z.
+  // C angles turn about +Z of the luminaire, while their pole is -Z.
   const glm::dmat3 mirrored({1, 0, 0}, {0, 1, 0}, {0, 0, -1});
   auto web =
       PhotometricWeb::make(azimuth, polar, candela, dice.chance(0.5) ? glm::dmat3(1.0) : mirrored);

@@ -1,4 +1,4 @@
-// What is measured: planes, probes, groups, counting planes, observers, cameras.
+// Measurements: planes, probes, groups, counting planes, observers, cameras.
 #include "tests/random/draw.hpp"
 
 namespace luxodus::test {
@@ -18,7 +18,7 @@ Parallelogram draw_parallelogram(Draw& draw) {
   const double area = glm::length(glm::cross(p.u, p.v));
   const bool spans = area > 1e-9 * glm::length(p.u) * glm::length(p.v) && area >= 1e-12;
   if (spans) return p;
-  p.u = {std::max(draw.size_m, 1e-5), 0, 0};  // what a scene file would not take
+  p.u = {std::max(draw.size_m, 1e-5), 0, 0};  // a scene file would not accept less
   p.v = {0, std::max(draw.size_m, 1e-5), 0};
   return p;
 }
@@ -61,7 +61,7 @@ void draw_groups(Draw& draw) {
         {"surfaces", {}, {dice.any(draw.scene.objects).name, "tagged"}});
 }
 
-/// Of all observers the one that looks at a sign's front from close by is the one who sees it.
+/// Observers: one that looks at a sign's front from close by is the one that can see it.
 glm::dvec3 draw_eye(Draw& draw) {
   Dice& dice = draw.dice;
   if (draw.scene.signs.empty() || dice.chance(0.3)) return draw.place();

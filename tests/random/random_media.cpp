@@ -1,4 +1,4 @@
-// Smoke and flames of every kind, over one another.
+// Smoke and flames of every kind, overlapping.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -32,7 +32,8 @@ Phase draw_phase(Draw& draw) {
   return phase;
 }
 
-/// [1/m]: an optical depth of the room between clear and dark, or what a scene file takes at most.
+/// [1/m]: an optical depth of the room between clear and dark, or the largest that a scene file
+/// accepts.
 double draw_extinction(Draw& draw) {
   Dice& dice = draw.dice;
   if (dice.chance(0.05)) return 0;
@@ -49,7 +50,8 @@ SmokeOptics draw_optics(Draw& draw) {
   if (dice.chance(0.1)) optics.extinction.table = draw_property(draw) * optics.extinction.sigma_t;
   if (dice.chance(0.1)) optics.extinction.wavelength_nm = dice.between(200, 5000);
   optics.albedo = draw_property(draw);
-  // Endless walks in dark fog that takes nothing are traced up to the cap: a few are enough.
+  // Endless random walks in dark fog without absorption are traced up to the limit: a few are
+  // enough.
   const double most = *std::max_element(optics.albedo.value.begin(), optics.albedo.value.end());
   if (most > 0.999 && dice.chance(0.5)) optics.albedo = optics.albedo * 0.9;
   optics.phase = draw_phase(draw);
@@ -110,7 +112,7 @@ void draw_body(Draw& draw, Medium& m) {
   const double a = std::clamp(draw.size_m * dice.magnitude(0.02, 1), 1e-4, 1e6);
   const double b = std::clamp(draw.size_m * dice.magnitude(0.02, 1), 1e-4, 1e6);
   QuadricShape shape;
-  // The volume of what has no formula for it takes the compiler tens of milliseconds.
+  // Volumes without a closed form take tens of milliseconds to compile.
   const int kind = dice.chance(0.1) ? 4 : dice.below(4);
   if (kind == 0) shape = ellipsoid({a, b, 0.5 * (a + b)});
   if (kind == 1) shape = cylinder(a, b);

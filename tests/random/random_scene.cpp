@@ -8,10 +8,10 @@ namespace luxodus::test {
 
 namespace {
 
-/// Tells the dice of scenes from those of texts.
+/// Separates the dice of scenes from those of texts.
 constexpr uint64_t of_scenes = 0x5ce7e5;
 
-/// How large, how far from the origin.
+/// Size of the scene and distance from the origin.
 void draw_world(Draw& draw) {
   Dice& dice = draw.dice;
   draw.extreme = dice.chance(0.35);
@@ -63,8 +63,8 @@ Scenario draw_scenario(Draw& draw) {
   return s;
 }
 
-/// Flames may burn through a wall, and so may a sign, which is a centimetre wide at least, in a
-/// room of less than a hand's width.
+/// Flames may extend through a wall; so may a sign, which is at least a centimetre wide, in a room
+/// of less than a hand's width.
 bool walls_hold(const Draw& draw) {
   const bool flames = std::any_of(draw.scene.media.begin(), draw.scene.media.end(),
                                   [](const Medium& m) { return m.emission.has_value(); });

@@ -1,6 +1,6 @@
-// A scene of any kind from a number: everything that a scene file can say, in numbers that a scene
-// file accepts, plain ones and extreme ones mixed. A pure function of the number; any thread.
-// README.md says what it reaches.
+// A random scene of any kind from a number: everything that a scene file can describe, with values
+// that a scene file accepts, ordinary and extreme ones mixed. A pure function of the number; any
+// thread. README.md says what it reaches.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,7 @@ struct RandomScene {
   SceneDescription description;
   Scenario scenario;
   int cells = 1;
-  /// Opaque walls stand around everything that shines and everything that light passes, with some
-  /// room: none of it may leave.
+  /// Whether opaque walls enclose all emitters and all media with a margin: no light may leave.
   bool closed = false;
 };
 

@@ -1,5 +1,5 @@
-// The share of the random scenes that every test run tries. README.md says how to try more, and how
-// to look at one again.
+// The random scenes that every test run tries. README.md explains how to try more, and how to
+// repeat one.
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -24,7 +24,7 @@ constexpr uint64_t scenes = 300, texts = 300;
 #else
 constexpr uint64_t scenes = 2000, texts = 1500;
 #endif
-/// Features of less than 1 % of all scenes need some scenes to appear.
+/// Features of less than 1 % of all scenes need this many scenes to appear.
 constexpr uint64_t scenes_drawn = 3000;
 
 std::string findings_of(const Verdict& verdict, const std::string& again) {
@@ -35,7 +35,8 @@ std::string findings_of(const Verdict& verdict, const std::string& again) {
 
 }  // namespace
 
-TEST_CASE("random scenes are refused in a sentence or lose no light, without end or nonsense") {
+TEST_CASE(
+    "random scenes are refused in a sentence, or traced to finite results without losing light") {
   const EmbreeDevice device(BuildThreads::calling);
   uint64_t accepted = 0;
   for (uint64_t number = 0; number < scenes; ++number) {
@@ -48,7 +49,7 @@ TEST_CASE("random scenes are refused in a sentence or lose no light, without end
   CHECK(accepted < scenes);
 }
 
-TEST_CASE("random scenes reach all that a description can say") {
+TEST_CASE("random scenes reach everything that a description can contain") {
   FeatureCounts counts;
   for (uint64_t number = 0; number < scenes_drawn; ++number)
     count_features(random_scene(number), counts);
@@ -68,7 +69,7 @@ TEST_CASE("a random scene follows from its number alone") {
   }
 }
 
-TEST_CASE("random scene files are taken, or refused with file and line") {
+TEST_CASE("random scene files are accepted, or refused with file and line") {
   const EmbreeDevice device(BuildThreads::calling);
   const test::TemporaryFolder folder;
   uint64_t accepted = 0;
@@ -84,7 +85,7 @@ TEST_CASE("random scene files are taken, or refused with file and line") {
 
 namespace {
 
-/// The first random scene that light meets, and one batch of it.
+/// The first random scene that light interacts with, and one batch of it.
 struct OneBatch {
   std::shared_ptr<const CompiledScene> scene;
   BatchScores scores;
@@ -107,7 +108,7 @@ OneBatch one_batch() {
   }
 }
 
-/// What is found of the batch after it was harmed.
+/// The findings about the batch after it was modified.
 template <class Harm>
 Findings findings_after(const OneBatch& from, const Harm& harm) {
   OneBatch batch = from;
@@ -121,7 +122,7 @@ Findings findings_after(const OneBatch& from, const Harm& harm) {
 
 }  // namespace
 
-TEST_CASE("a unit of weight too many or too few is found, wherever it is") {
+TEST_CASE("a unit of weight too many or too few is detected, wherever it is") {
   OneBatch batch = one_batch();
   batch.scores.scores.find_touched();
   CHECK(findings_after(batch, [](BatchScores&) {}).empty());

@@ -1,4 +1,4 @@
-// Materials, a room or none, and what stands in it.
+// Materials, an optional room, and objects.
 #include <algorithm>
 #include <memory>
 
@@ -20,7 +20,7 @@ Spectrum draw_property(Draw& draw, double most) {
     const double g = dice.between(0, 1);
     const double b = dice.chance(0.3) ? 0 : dice.between(0, 1);
     s = reflectance_from_linear_srgb(r, g, b) * most;
-  } else if (kind == 6) {  // a step, from nothing to something
+  } else if (kind == 6) {  // a step, from 0 to a positive value
     const int step = dice.below(spectrum_samples);
     for (int i = step; i < spectrum_samples; ++i) s.value[static_cast<size_t>(i)] = share;
   } else {
@@ -68,7 +68,7 @@ bool is_opaque(const Material& m) {
          m.kind == MaterialKind::mirror;
 }
 
-/// A material whose kind light cannot pass; the first always is one.
+/// A material that light cannot pass; the first one always is.
 int draw_opaque(Draw& draw) {
   const int i = draw.dice.below(static_cast<int>(draw.scene.materials.size()));
   return is_opaque(draw.scene.materials[static_cast<size_t>(i)]) ? i : 0;
@@ -103,7 +103,7 @@ Outline draw_outline(Draw& draw, double size) {
   return {{0, 0}, {size, 0}, {tip, size}};
 }
 
-/// Triangles anywhere, slivers and such without area among them.
+/// Triangles at random places, including slivers and degenerate ones.
 Mesh draw_soup(Draw& draw, double size) {
   Mesh mesh;
   const int count = draw.dice.whole(1, 12);
@@ -147,7 +147,7 @@ Result<Shape> draw_round(Draw& draw, int kind, double size) {
   return shapes::sphere(size / 2, share * size / 4);
 }
 
-/// About the origin, no larger than some times `size`.
+/// A shape about the origin, no larger than a few times `size`.
 Result<Shape> draw_shape(Draw& draw, double size) {
   Dice& dice = draw.dice;
   const int kind = dice.below(13);
@@ -203,7 +203,7 @@ void place(Draw& draw, Mesh& mesh) {
   apply(translation(draw.place()), mesh);
 }
 
-/// Of an enclosed scene nothing may touch the walls.
+/// In an enclosed scene nothing may touch the walls.
 void keep_inside(Draw& draw, Mesh& mesh) {
   if (!draw.enclosed) return;
   const Bounds bounds = bounds_of(mesh);
@@ -232,8 +232,8 @@ void draw_materials(Draw& draw) {
   }
 }
 
-/// The walls, floor and ceiling of a room over an outline, seen from inside; none where the outline
-/// is no polygon.
+/// The walls, floor and ceiling of a room over an outline, seen from inside; none if the outline is
+/// not a polygon.
 std::vector<Mesh> room_over(std::span<const glm::dvec2> outline, double height) {
   const auto flat = shapes::polygon(outline);
   if (!flat.ok()) return {};
@@ -300,7 +300,7 @@ void draw_objects(Draw& draw) {
     if (!draw.enclosed && dice.chance(0.15)) {
       o.door = Door{dice.chance(0.5), hinge, dice.direction(), dice.between(-360, 360)};
     }
-    if (dice.chance(0.1)) {  // the same once more, in the same place
+    if (dice.chance(0.1)) {  // a duplicate at the same place
       Mesh same = o.mesh;
       add_object(draw, std::move(same), "copy " + std::to_string(i), draw_opaque(draw));
     }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint64_t of_texts = 0x7e875;
 
-/// What a text begins as: a scene without mistakes, with tables of most kinds.
+/// The start of every text: a scene without mistakes, with tables of most kinds.
 constexpr const char* sane_scene = R"(title = "Something of most kinds"
 patch_edge_m = 1.0
 [run]
@@ -185,7 +185,7 @@ Text cut(const std::string& text) {
   return out;
 }
 
-/// The kind of a table: "material" of [[material]], "scene" of the top.
+/// The kind of a table: "material" for [[material]], "scene" at the top.
 std::string kind_of(const TextTable& table) {
   std::string out;
   for (const char c : table.heading)
@@ -241,7 +241,7 @@ class TextWriter {
     }
   }
 
-  /// The tables of the schema that say what a table of this kind may hold.
+  /// The tables of the schema that describe what a table of this kind may contain.
   static std::vector<const TableSpec*> specs_of(const std::string& kind) {
     std::vector<const TableSpec*> out;
     for (const TableSpec& t : scene_schema().tables) {
@@ -391,7 +391,7 @@ class TextWriter {
     return dice_.any(spectra_);
   }
 
-  /// Of any inner table: most will be refused by name.
+  /// Keys of any nested table: most will be refused by name.
   std::string inner_keys() {
     const TableSpec& spec = dice_.any(scene_schema().tables);
     std::string out;
@@ -428,7 +428,7 @@ class TextWriter {
                                              "\"-1 K\""};
 };
 
-/// So that a scene that was taken is traced in moments.
+/// Limits an accepted scene so that it is traced quickly.
 void moderate(RunSettings& run) {
   run.batch_particles = std::clamp<int64_t>(run.batch_particles, 1, 32);
   run.eye_path_factor = std::min(run.eye_path_factor, 1.0);
@@ -456,7 +456,7 @@ Verdict check_text(uint64_t number, const std::filesystem::path& file, const Emb
   for (const Problem& p : read.problems.list()) {
     if (verdict.refusal.empty()) verdict.refusal = kind_of_refusal(p.what);
     const bool own = p.where.file == file.string();
-    // Of a text that names itself as another file, the place is where it does so.
+    // If a text names itself as another file, the place is where it does so.
     const bool named = p.what.find("named at ") != std::string::npos;
     if (p.where.file.empty() || (own && p.where.line < 1 && !named) || p.what.empty())
       verdict.findings.push_back("a mistake without a place: " + p.text());

@@ -1,5 +1,5 @@
-// States of a scene that changes, traced by simulated nodes under faults that are drawn from seeds.
-// Many more: `luxodus sim SCENE --states --seeds 0..10000`.
+// Changing states of a scene, traced by simulated nodes under faults drawn from seeds. More seeds:
+// `luxodus sim SCENE --states --seeds 0..10000`.
 #include <spdlog/spdlog.h>
 
 #include <catch2/catch.hpp>
@@ -40,7 +40,7 @@ SimOptions options_of_states(uint64_t seed, int nodes) {
 
 }  // namespace
 
-TEST_CASE("swarms of faults change no bit of states that are traced, left and traced on", "[sim]") {
+TEST_CASE("swarms of faults change no bit of states that are traced, left and resumed", "[sim]") {
   const SimStates states = states_of("empty_room");
   uint64_t crashes = 0, lost = 0, fenced = 0, refused = 0;
   const uint64_t seeds = test::in_full() ? 200 : 25;
@@ -59,16 +59,16 @@ TEST_CASE("swarms of faults change no bit of states that are traced, left and tr
     fenced += once->leases_fenced;
     refused += once->flushes_refused;
   }
-  // They are no mere show.
+  // The faults did happen.
   CHECK(crashes > 0);
   CHECK(lost > 100);
   CHECK(fenced > 100);
   CHECK(refused > 0);
 }
 
-// Whoever had all its leases fenced once waited for others for ever: it asked for none, and was
-// offered none, since it had never been told that there was none.
-TEST_CASE("a state that was left is traced on by all nodes", "[sim]") {
+// A node whose leases had all been fenced once waited forever: it asked for none, and was offered
+// none, since it had never been told that there were none.
+TEST_CASE("a state that was left is resumed by all nodes", "[sim]") {
   const SimStates states = states_of("empty_room");
   SimOptions options = options_of_states(5, 4);
   options.draw_nodes = false;

@@ -1,6 +1,5 @@
-// Runs under faults that are drawn from seeds: 50 of them in every test run and 200 in full, each
-// twice, and those that once found a fault of the program (tests/sim/seeds). Many more: `luxodus
-// sim SCENE --seeds 0..10000`.
+// Runs under faults drawn from seeds: 50 seeds in every test run and 200 in full, each twice, and
+// those that once found a bug (tests/sim/seeds). More: `luxodus sim SCENE --seeds 0..10000`.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -45,7 +44,7 @@ SimOptions options_of(uint64_t seed, int nodes) {
   return options;
 }
 
-/// Twice; what the first was like.
+/// Runs it twice; returns the report of the first.
 SimReport checked(const SimScene& scene, const std::string& name, const SimOptions& options) {
   const auto once = simulate(scene, options);
   const auto twice = simulate(scene, options);
@@ -60,7 +59,7 @@ SimReport checked(const SimScene& scene, const std::string& name, const SimOptio
   return once.value();
 }
 
-/// Two workers and a controller, on links where nothing else happens.
+/// Two workers and a controller, on links without other faults.
 SimOptions small_run() {
   SimOptions options = options_of(1, 2);
   options.draw_nodes = false;
@@ -71,7 +70,7 @@ SimOptions small_run() {
   return options;
 }
 
-/// What the runs of some seeds went through, together.
+/// Total of the faults over several seeds.
 struct Trouble {
   uint64_t crashes = 0, lost = 0, harmed = 0, fenced = 0, fetches = 0, rare_ways = 0, snapshots = 0;
   void add(const SimReport& report) {
@@ -90,7 +89,7 @@ void check_swarm(uint64_t part) {
   Trouble all;
   for (uint64_t seed = 25 * part; seed < 25 * (part + 1); ++seed)
     all.add(checked(scene, "empty_room", options_of(seed, 2 + static_cast<int>(seed % 5))));
-  // They are no mere show.
+  // The faults did happen.
   CHECK(all.crashes > 0);
   CHECK(all.lost > 100);
   CHECK(all.harmed > 0);
@@ -128,7 +127,7 @@ TEST_CASE("swarms change no bit of a run on 32 nodes", "[sim]") {
   }
 }
 
-// Two and three levels, whose coordinators crash, pause and are cut off as all others are.
+// Two and three levels, whose coordinators crash, pause and are cut off like all other nodes.
 TEST_CASE("swarms change no bit of a run with coordinators of coordinators", "[sim][levels]") {
   const SimScene scene = scene_of("empty_room");
   Trouble all;
@@ -143,7 +142,7 @@ TEST_CASE("swarms change no bit of a run with coordinators of coordinators", "[s
   CHECK(all.rare_ways > 1000);
 }
 
-TEST_CASE("without faults nothing is lost, lent again or refused", "[sim]") {
+TEST_CASE("without faults nothing is lost, leased again or refused", "[sim]") {
   const SimScene scene = scene_of("empty_room");
   SimOptions options = options_of(1, 4);
   options.faults = false;
@@ -156,8 +155,8 @@ TEST_CASE("without faults nothing is lost, lent again or refused", "[sim]") {
   CHECK(report.rare_ways == 0);
 }
 
-// Not by chance: the small run is repeated with one fault, in every place where it can be.
-TEST_CASE("a small run bears the loss of any one of its frames", "[sim]") {
+// Systematic: the small run is repeated with a single fault at every possible place.
+TEST_CASE("a small run survives the loss of any one of its frames", "[sim]") {
   const SimScene scene = scene_of("empty_room", particles / 5);
   const SimOptions options = small_run();
   const uint64_t frames = simulate(scene, options).value().world.frames;
@@ -193,12 +192,12 @@ TEMPLATE_TEST_CASE_SIG("a small run bears the crash of any node after any event"
   }
 }
 
-TEST_CASE("a controller whose disk is full and that crashes goes on from a snapshot", "[sim]") {
+TEST_CASE("a controller with a full disk that crashes continues from a snapshot", "[sim]") {
   const SimScene scene = scene_of("empty_room");
   SimOptions options = small_run();
   options.work = seconds(60);
   const NodeId controller{2};
-  // From right behind the journal's head on: no flush finds room.
+  // Right after the journal's header no flush finds space any more.
   options.plan->faults.push_back({Fault::Kind::full_disk, 1, seconds(60), controller, {}});
   const SimReport whole = simulate(scene, options).value();
   CHECK(whole.failure == "");
@@ -214,8 +213,8 @@ TEST_CASE("a controller whose disk is full and that crashes goes on from a snaps
   CHECK(begun_anew.recovered > 0);
 }
 
-// Their node leaves; others trace what it had, and give the parts that it held.
-TEST_CASE("an actor of a worker that fails takes its node, and the others leave the same bits",
+// Their node leaves; others trace its batches, and serve the parts that it held.
+TEST_CASE("a failed actor of a worker takes down its node, and the others give the same bits",
           "[sim][supervision]") {
   const SimScene scene = scene_of("office_floor");
   for (const char* actor : {"tracer", "part_server"}) {
@@ -240,7 +239,7 @@ TEST_CASE("an actor of a worker that fails takes its node, and the others leave 
   }
 }
 
-TEST_CASE("a display that fails in the middle of a run begins anew, and keeps the same flux",
+TEST_CASE("a display that fails in the middle of a run restarts, and keeps the same flux",
           "[sim][supervision]") {
   const SimScene scene = scene_of("empty_room");
   for (const NodeId node : {NodeId{0}, NodeId{2}}) {  // a worker, and the controller
@@ -260,11 +259,10 @@ TEST_CASE("a display that fails in the middle of a run begins anew, and keeps th
   }
 }
 
-// Hundreds of leases are late when one frame of their flush is lost. To be told so of each by
-// itself once left no room for the answer to the flush, so that the next was late as well, and so
+// Hundreds of leases are late when one frame of their flush is lost. Separate messages about each
+// of them once left no room for the answer to the flush, so that the next was late as well, and so
 // on.
-TEST_CASE("a lost frame of a flush of many leases costs the leases of that time, and no others",
-          "[sim]") {
+TEST_CASE("a lost frame of a flush of many leases costs only the leases of that time", "[sim]") {
   constexpr int64_t traced = 4000;
   const SimScene scene = scene_of("empty_room", traced, 2);
   SimOptions options = small_run();
@@ -281,12 +279,13 @@ TEST_CASE("a lost frame of a flush of many leases costs the leases of that time,
     max_fenced = std::max(max_fenced, report.leases_fenced);
     max_refused = std::max(max_refused, report.flushes_refused);
   }
-  CHECK(max_fenced > NetConfig{}.outbox_messages);  // some frame was of such a flush
+  CHECK(max_fenced > NetConfig{}.outbox_messages);  // some frame belonged to such a flush
   CHECK(max_refused <= 2);
 }
 
-// Whoever leads others may crash after any event: what it had merged is traced again, once.
-TEST_CASE("a run of two levels bears the crash of a coordinator after any event", "[sim][levels]") {
+// A node that leads others may crash after any event: what it had merged is traced again, once.
+TEST_CASE("a run of two levels survives the crash of a coordinator after any event",
+          "[sim][levels]") {
   const SimScene scene = scene_of("empty_room", particles / 5);
   SimOptions options = small_run();
   options.nodes = 5;
@@ -311,9 +310,9 @@ TEST_CASE("a run of two levels bears the crash of a coordinator after any event"
   }
 }
 
-// The others have long been told that there is no more: they must hear when there is again. Once
-// they asked by themselves, every 2 s.
-TEST_CASE("a lost worker costs its lease and the work of it, and no wait beside", "[sim]") {
+// The other workers were told long ago that there is no more work: they must be told when there is
+// again. They once asked by themselves, every 2 s.
+TEST_CASE("a lost worker costs its leases and their work, and no further waiting", "[sim]") {
   const SimScene scene = scene_of("empty_room");
   SimOptions options = options_of(1, 4);
   options.draw_nodes = false;
@@ -340,8 +339,8 @@ TEST_CASE("a lost worker costs its lease and the work of it, and no wait beside"
   }
 }
 
-// Each a command that once failed, and what it found.
-TEST_CASE("seeds that found a fault of the program do so no more", "[sim]") {
+// Each is a command that once failed, and the bug that it found.
+TEST_CASE("seeds that once found a bug pass", "[sim]") {
   std::ifstream file(std::string(LUX_SOURCE_DIR) + "/tests/sim/seeds");
   REQUIRE(file);
   int seeds = 0;
@@ -357,7 +356,7 @@ TEST_CASE("seeds that found a fault of the program do so no more", "[sim]") {
   CHECK(seeds > 0);
 }
 
-TEST_CASE("the largest seed that there is runs once, and those before it end", "[sim]") {
+TEST_CASE("the largest possible seed runs once, and seed ranges that reach it end", "[sim]") {
   const auto said = [](const std::string& words) {
     const std::string command =
         std::string("cd " LUX_SOURCE_DIR " && ") + LUX_PROGRAM +

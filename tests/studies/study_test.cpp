@@ -1,5 +1,5 @@
-// Studies: what is wrong with a file is told with its line; a study is repeatable, writes what it
-// says, and its virtual time is made of what costs say.
+// Studies: mistakes in a file are reported with their line; a study is reproducible, writes its
+// files, and its virtual time follows the costs.
 #include <spdlog/spdlog.h>
 
 #include <catch2/catch.hpp>
@@ -25,7 +25,7 @@ const std::atomic<bool> nobody{false};
 constexpr const char* plot_text =
     "[[plot]]\nname = \"p\"\ntitle = \"P\"\nx = \"fibers\"\ny = \"seconds\"\nexplain = \"e\"\n";
 
-/// A study of the empty room, its top and sweep as said.
+/// A study of the empty room with the given top and sweep.
 std::string text_of(const std::string& top, const std::string& sweep) {
   return "title = \"T\"\nscene = \"" + scene_file + "\"\ncosts = \"c.toml\"\n" + top +
          "[sweep]\nfibers = [1, 8]\n" + sweep + plot_text;
@@ -91,7 +91,7 @@ const std::string small =
 
 }  // namespace
 
-TEST_CASE("a mistake in a study is told with its line and what to do", "[study]") {
+TEST_CASE("a mistake in a study is reported with its line and what to do", "[study]") {
   CHECK(first_problem(text_of("", "fibres = 3\n")).find("did you mean 'fibers'?") !=
         std::string::npos);
   CHECK(first_problem(text_of("", "nodes = [4, 5000]\n")).rfind("s.toml:6:", 0) == 0);
@@ -116,7 +116,7 @@ TEST_CASE("a simulated study needs costs, one on real nodes does not", "[study]"
   CHECK(parse_study(without + "on = \"nodes\"\n" + plot_text, "s.toml").study.has_value());
 }
 
-TEST_CASE("points that can never run are found before the first of them runs", "[study]") {
+TEST_CASE("points that can never run are reported before the first of them runs", "[study]") {
   // Line 6 is the first one after `fibers`.
   const std::string shards = first_problem(text_of("", "nodes = [8, 3]\ntally_shards = [1, 5]\n"));
   CHECK(shards.rfind("s.toml:7:", 0) == 0);
@@ -157,7 +157,7 @@ TEST_CASE("the README of studies ends with every table and key of the schema", "
   CHECK(text.str().substr(from) + "\n" == toml::schema_markdown(study_schema()));
 }
 
-TEST_CASE("a fit finds the costs that times were made of, disturbed rows aside", "[study]") {
+TEST_CASE("a fit recovers the costs behind measured times, without disturbed rows", "[study]") {
   std::vector<std::vector<double>> rows;
   std::vector<double> values;
   for (int i = 1; i < 200; ++i) {
@@ -194,7 +194,7 @@ TEST_CASE("a study leaves a table, JSON, a drawing for each plot and a page", "[
   CHECK(page.str().find("http") == page.str().find("http://www.w3.org/2000/svg"));
 }
 
-TEST_CASE("builds take virtual time: as many of them as there were", "[study]") {
+TEST_CASE("builds take virtual time in proportion to their number", "[study]") {
   const Study study = good("seeds = 1\njitter_ms = 0\n", small);
   SimCosts dear = some_costs();
   dear.build_ns += 1'000'000;
@@ -207,12 +207,12 @@ TEST_CASE("builds take virtual time: as many of them as there were", "[study]") 
   CHECK(dear_run.seconds > cheap_run.seconds);
 }
 
-TEST_CASE("the last flush of a run leaves at once, and not with the next beat", "[study]") {
+TEST_CASE("the last flush of a run is sent at once, and not at the next beat", "[study]") {
   const StudyOutcome outcome = outcome_of(good("seeds = 1\n", small), some_costs());
   for (const StudyRow& row : outcome.rows) CHECK(row.result->seconds < 0.2);
 }
 
-TEST_CASE("nodes that share the cores of a machine take as long as these let them", "[study]") {
+TEST_CASE("nodes that share the cores of a machine take as long as the cores allow", "[study]") {
   const std::string resident = "nodes = 4\nparticles = 16384\nlease_particles = 64\ncache = 0\n";
   const StudyResult own = *outcome_of(good("seeds = 1\n", resident), some_costs()).rows[0].result;
   const StudyResult one =
@@ -221,7 +221,7 @@ TEST_CASE("nodes that share the cores of a machine take as long as these let the
   CHECK(one.seconds > 2 * own.seconds);
 }
 
-TEST_CASE("a replay leaves the flux of tracing and takes its time", "[study]") {
+TEST_CASE("a replay gives the flux of tracing and takes its time", "[study]") {
   const Study study = good("seeds = 1\n", small + "on = [\"replay\", \"simulation\"]\n");
   const StudyOutcome outcome = outcome_of(study, some_costs());
   REQUIRE(outcome.rows.size() == 4);
@@ -235,7 +235,7 @@ TEST_CASE("a replay leaves the flux of tracing and takes its time", "[study]") {
   }
 }
 
-TEST_CASE("real nodes trace what simulated ones trace", "[study]") {
+TEST_CASE("real nodes give the flux of simulated ones", "[study]") {
   const Study study =
       good("seeds = 1\n", small + "on = [\"simulation\", \"nodes\", \"processes\"]\n");
   const StudyOutcome outcome = outcome_of(study, some_costs());

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Measures how long Luxodus takes to build, without a compiler cache, in a folder of its own;
-# asserts nothing. Processor time (user and system) hardly depends on what else the machine does.
+# asserts nothing. Processor time (user and system) hardly depends on the machine's load.
 #   tests/tools/build_times.sh                 the program: cold, unchanged, one source touched
-#   tests/tools/build_times.sh --tests         after it the test programs, cold
-#   tests/tools/build_times.sh -DLUX_PCH=OFF   other options go to CMake
+#   tests/tools/build_times.sh --tests         then the test programs, cold
+#   tests/tools/build_times.sh -DLUX_PCH=OFF   other options are passed to CMake
 # Touched sources keep their dates.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -16,7 +16,7 @@ for argument in "$@"; do
   if [ "$argument" = --tests ]; then with_tests=yes; else options+=("$argument"); fi
 done
 
-# Runs a compiler and notes what it took: seconds of user and system time, and what it made.
+# Runs a compiler and records seconds of user and system time, and the output file.
 launcher=$PWD/$folder/timed
 units=$PWD/$folder/units
 rm -rf "$folder"
@@ -40,7 +40,7 @@ chmod +x "$launcher"
 cmake --preset release -B "$folder" -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" "${options[@]}" \
   >"$folder/configure.log"
 
-# measure WHAT TARGET...: builds, and prints processor time and time that passed.
+# measure WHAT TARGET...: builds, and prints processor time and elapsed time.
 measure() {
   local what=$1
   shift

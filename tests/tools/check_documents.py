@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Checks the documents of this repository: check_documents.py [--program LUXODUS] [--site FOLDER]
 
-Of all Markdown files: relative links lead to files, and their anchors to headings.
-Of README.md and docs/: files and folders of the repository that they name exist.
-Of docs/security.md: each test that it names exists.
+In all Markdown files, relative links lead to files, and their anchors to headings.
+Files and folders of the repository that README.md and docs/ name exist.
+Each test that docs/security.md names exists.
 With --program: every `luxodus COMMAND --option` in README.md and docs/ is one that --help knows.
 With --site: builds the site there by `mkdocs build --strict`; every link and anchor of its pages
 leads somewhere, nothing is loaded from elsewhere, and the page of the command line holds what each
@@ -109,7 +109,7 @@ def check_named_tests():
 
 
 def commands_in(text):
-    """(line number, words) of each call of luxodus in the text's code."""
+    """(line number, words) for each call of luxodus in the text's code."""
     fenced, joined = False, ""
     for number, line in enumerate(text.split("\n"), 1):
         if line.startswith("```"):
@@ -151,7 +151,7 @@ def check_commands(program):
 
 
 class Page(html.parser.HTMLParser):
-    """Names and links of a page, and what a browser loads for it."""
+    """Names and links of a page, and the files that a browser loads for it."""
 
     LOADED = {"script": "src", "img": "src", "iframe": "src", "source": "src", "object": "data"}
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Checks that no object that is optimised less holds a function of the tracing loops.
+"""Checks that no object with lower optimisation holds a function of the tracing loops.
 
   check_levels.py [--nm NM] --loops OBJECT ... --others OBJECT ...
 
 The linker keeps one copy of an inline function or template that several objects hold. If an object
-of a room that is optimised less comes first, the tracing loops run its slow copy. Of --loops, only
+of a room with lower optimisation comes first, the tracing loops run its slow copy. Of --loops, only
 kernel_*.cpp and trace.cpp count.
 """
 import argparse
@@ -15,7 +15,7 @@ import sys
 
 
 def weak_functions(nm, objects):
-    """The functions of ours in these objects, by name, of which the linker keeps one copy."""
+    """Our functions in these objects, by name, of which the linker keeps one copy."""
     text = subprocess.run([nm, "--demangle"] + objects, check=True, capture_output=True,
                           text=True).stdout
     names = re.findall(r"^[0-9a-f]+ W (.*)$", text, re.MULTILINE)

@@ -1,16 +1,16 @@
-// fault_proxy PORT:TARGET...: stands between nodes of this machine and does to their connections
-// what a bad network does. For each pair it listens on 127.0.0.1:PORT and connects on to
-// 127.0.0.1:TARGET. Commands come on its standard input, a line each; it repeats a line when that
-// is in force, so that who gave it need not guess.
+// fault_proxy PORT:TARGET...: stands between nodes of this machine and makes their connections
+// behave like a bad network. For each pair it listens on 127.0.0.1:PORT and connects to
+// 127.0.0.1:TARGET. Commands come on its standard input, one per line; it repeats a line when that
+// is in force, as an acknowledgement.
 //
-//   delay MS     every byte comes so much later, each way
-//   rate BYTES   so many bytes a second, each way of each connection; 0: as fast as may be
-//   harm BYTES   of so many bytes one, on average, comes with a bit turned; 0: none
-//   stall        connections stay and nothing passes: a partition that nobody is told of
-//   refuse       connections break, and new ones are refused: one that both ends are told of
+//   delay MS     every byte is delayed by this, in each direction
+//   rate BYTES   bytes a second, in each direction of each connection; 0: unlimited
+//   harm BYTES   one of this many bytes, on average, has a flipped bit; 0: none
+//   stall        connections stay and nothing passes: an undetected partition
+//   refuse       connections break, and new ones are refused: a detected partition
 //   drop         connections break, once
-//   heal         the above ends
-//   count        says how many bytes and connections there have been
+//   heal         ends the faults above
+//   count        prints the numbers of bytes and connections so far
 //
 // It ends with its standard input.
 #include <arpa/inet.h>
@@ -39,7 +39,8 @@ using namespace luxodus;
 
 namespace {
 
-/// Read at once, and held back at most of one way: beyond it the sender feels that nobody reads.
+/// Bytes read at once, and the limit on bytes held in one direction: beyond it the sender is
+/// blocked.
 constexpr size_t piece_bytes = 64 << 10;
 constexpr size_t max_held = 1 << 20;
 
@@ -62,13 +63,13 @@ struct Piece {
   size_t sent = 0;
 };
 
-/// What is on its way from one end of a connection to the other.
+/// Bytes on their way from one end of a connection to the other.
 struct Way {
   int from = -1;
   int to = -1;
   std::deque<Piece> pieces;
   size_t held = 0;
-  Nanoseconds free_at = 0;  // by the rate
+  Nanoseconds free_at = 0;  // by the rate limit
   bool ended = false;       // the sender has closed
 };
 
@@ -99,7 +100,7 @@ class Proxy {
            ::listen(listener, 64) == 0;
   }
 
-  /// Until the standard input ends.
+  /// Runs until the standard input ends.
   void run() {
     while (turn()) {
     }
@@ -108,7 +109,7 @@ class Proxy {
  private:
   bool turn() {
     std::vector<pollfd> watched{{STDIN_FILENO, POLLIN, 0}};
-    // What nothing is wanted of is not looked at: an end that has hung up would be told for ever.
+    // Ends without a request are not polled, since one that has hung up would be reported forever.
     for (const Pair& pair : pairs_)
       watched.push_back({troubles_.stalled ? -1 : pair.listener, POLLIN, 0});
     Nanoseconds next = seconds(3600);
@@ -133,7 +134,7 @@ class Proxy {
     return goes_on;
   }
 
-  /// What to wait for at the end from which `in` comes and to which `out` goes.
+  /// The events to poll for at the end that `in` comes from and `out` goes to.
   short wanted(const Way& in, const Way& out, Nanoseconds now, Nanoseconds& next) const {
     if (troubles_.stalled) return 0;
     short events = 0;
@@ -149,7 +150,7 @@ class Proxy {
   }
 
   void serve(Connection& c, short at_a, short at_b) {
-    // An end that has gone is found by reading or writing, which a stall forbids.
+    // A closed end is detected by reading or writing, which a stall forbids.
     if (troubles_.stalled) return;
     for (auto& [way, in, out] : {std::tuple<Way*, short, short>{&c.forth, at_a, at_b},
                                  std::tuple<Way*, short, short>{&c.back, at_b, at_a}}) {
@@ -159,7 +160,7 @@ class Proxy {
     }
   }
 
-  /// False: the connection has broken.
+  /// False: the connection is broken.
   bool take(Way& way) {
     const double rate = troubles_.bytes_per_second;
     const size_t most =

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# fault_table.sh BUILD: runs the tests of faults between real processes (some two minutes), and
-# prints a table (Markdown) of when each fault was noticed, when who had it was given up, and when
-# all was well again, as the controller's log has it. Fails where a test does.
+# fault_table.sh BUILD: runs the tests of faults between real processes (about two minutes), and
+# prints a table (Markdown) with the times of each fault's detection, of giving up the node, and of
+# recovery, from the controller's log. Fails if a test does.
 set -euo pipefail
 
 build=${1:-build/release}

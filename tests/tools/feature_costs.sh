@@ -12,7 +12,7 @@ trap 'rm -rf "$work"' EXIT
 valgrind --tool=callgrind --callgrind-out-file="$work/out" "$build/tests/luxodus_bench" features \
   2>"$work/log" || { cat "$work/log" >&2; exit 1; }
 
-# Each dump says what it is of ("Client Request: FEATURE|STATE|PARTICLES") and what was counted.
+# Each dump states its case ("Client Request: FEATURE|STATE|PARTICLES") and its counts.
 python3 - "$work" >"$result" <<'PYTHON'
 import pathlib
 import re

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""When first pictures are there: first_pictures.py PROGRAM [SCENE [OPTIONS of luxodus run ...]]
+"""Measures when first pictures come: first_pictures.py PROGRAM [SCENE [OPTIONS of luxodus run ...]]
 
 Traces a scene (the office floor in smoke, 1 million particles) into a folder of its own and prints,
 for flux.lux, which ends the tracing, and the first picture of each view: seconds of the clock since
-the flux, and processor seconds of the program since then, which hardly depend on what else runs.
-Ends the program when all are there. Linux.
+the flux, and processor seconds of the program since then, which hardly depend on the machine's
+load. Ends the program when all exist. Linux.
 """
 import json
 import os
@@ -20,13 +20,13 @@ LONGEST_S = 600
 
 
 def processor_seconds(pid):
-    """Of a process and its threads so far."""
+    """Processor seconds of a process and its threads so far."""
     fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def views_of(folder):
-    """How many the run is to have, as its result says from the beginning."""
+    """Number of views of the run, which its result states from the beginning."""
     return len(json.loads((folder / "result.json").read_text())["cameras"])
 
 
@@ -35,7 +35,7 @@ def is_first_picture(file):
 
 
 def watch(run, folder):
-    """Prints what appears, until every view has a picture or the program ends."""
+    """Prints files as they appear, until every view has a picture or the program ends."""
     began = time.monotonic()
     flux = None
     seen = set()

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # four_hosts.sh PROGRAM SCENE FOLDER: runs SCENE (100 000 particles) on four hosts of this machine,
-# each a network namespace with an address of its own, joined by a bridge; TCP with keys between
+# each a network namespace with an address of its own, connected by a bridge; TCP with keys between
 # them.
-# Results are left in FOLDER/out. Needs root and iproute2; exits with 77 where these are missing.
+# Results are in FOLDER/out. Needs root and iproute2; exits with 77 if these are missing.
 set -euo pipefail
 
 program=$1 scene=$2 folder=$3

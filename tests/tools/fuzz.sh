@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # fuzz.sh SECONDS [fuzz_codec|fuzz_session|fuzz_flush]: builds the fuzzers with Clang, under the
-# address and undefined-behaviour sanitizers, and runs each for so long. What they find lies in
-# build/fuzz/corpus-NAME and is where the next run begins; what breaks, in build/fuzz/crash-*.
+# address and undefined-behaviour sanitizers, and runs each for this time. New inputs are in
+# build/fuzz/corpus-NAME, where the next run begins; crashes in build/fuzz/crash-*.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""large_fire.py FOLDER [FRAMES]: results as FDS writes them of a building of 5 million cells in 16
-meshes, with Smoke3D of soot and HRRPUV at 1000 frames unless said (1.2 GB), and a scene of them.
-What opening it costs:
+"""large_fire.py FOLDER [FRAMES]: writes results like those of FDS for a building of 5 million cells
+in 16 meshes, with Smoke3D of soot and HRRPUV in 1000 frames by default (1.2 GB), and a scene of
+them.
+To measure the cost of opening it:
 
     tests/tools/large_fire.py /tmp/large
     /usr/bin/time -v luxodus check /tmp/large/scene.toml --at 700s
@@ -21,7 +22,7 @@ def record(payload):
 
 
 def run_lengths(values):
-    """Bytes as FDS packs them: from four equal ones on 255, value, count."""
+    """Packs bytes like FDS: four or more equal ones become 255, value, count."""
     edges = np.flatnonzero(np.diff(values)) + 1
     out = bytearray()
     for start, end in zip(np.concatenate(([0], edges)), np.concatenate((edges, [len(values)]))):

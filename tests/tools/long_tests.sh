@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# The tests that ./test.sh leaves out because they take minutes, and those of which it runs a
-# smaller one, in full: more particles, seeds and cases. Any CTest option passes through.
+# Runs the tests that ./test.sh omits because they take minutes, and in full those of which it runs
+# a smaller version: more particles, seeds and cases. CTest options are passed on.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-# Where tests ask for their length (tests/kit/test_length.hpp).
+# Folders of tests that query their length (tests/kit/test_length.hpp).
 in_full='^tests/(examples|optics|sim|validate):'
 
 ./setup.sh

@@ -52,7 +52,7 @@ def smooth_step(x, edge, width):
 
 
 def wide_beam(c, gamma):
-    """Even light on the floor to 60 degrees (1/cos^3), then off; a faint tail to the horizon."""
+    """Uniform light on the floor to 60 degrees (1/cos^3), then off; a faint tail to the horizon."""
     if gamma >= 90:
         return 0.0
     g = min(gamma, 68.0)
@@ -61,7 +61,7 @@ def wide_beam(c, gamma):
 
 
 def along_corridor(c, gamma):
-    """A strip of even light, 2.4 mounting heights to both sides along C0-C180, 0.6 across it."""
+    """A strip of uniform light, 2.4 mounting heights to both sides along C0-C180, 0.6 across it."""
     if gamma >= 85:
         return 0.0
     tangent = math.tan(math.radians(gamma))
@@ -73,7 +73,7 @@ def along_corridor(c, gamma):
 
 
 def panel(c, gamma):
-    """A flat diffuser with prisms: somewhat narrower than cosine, a touch wider across C90-C270."""
+    """A flat diffuser with prisms: somewhat narrower than cosine, slightly wider across C90-C270."""
     if gamma >= 90:
         return 0.0
     power = 1.35 - 0.1 * math.sin(math.radians(c)) ** 2
@@ -98,7 +98,7 @@ def spot(c, gamma):
 
 
 def wall_light(c, gamma):
-    """On a wall at its back (C180): throws down and forward to C0, nothing backwards."""
+    """On a wall at its back (C180): emits down and forward to C0, nothing backwards."""
     g = math.radians(gamma)
     forward = math.sin(g) * math.cos(math.radians(c))
     down = math.cos(g)

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# mutations.sh COUNT [fields|fds_input|ifc|dxf|photometry|vdb...]: harms COUNT files of each format
-# that is imported, and reads them under the address and undefined-behaviour sanitizers. Says what
-# each took in time and memory. LUXODUS_SEED draws other files. dxflib and OpenVDB themselves are
-# libraries without sanitizers, in processes of their own; of OpenVDB what its headers have is
-# compiled with them. How harmed OpenVDB files end is counted; what the sanitizers report of them
-# lies in build/vdb-reports.
+# mutations.sh COUNT [fields|fds_input|ifc|dxf|photometry|vdb...]: mutates COUNT files of each
+# imported format, and reads them under the address and undefined-behaviour sanitizers. Prints time
+# and memory of each. LUXODUS_SEED selects other files. dxflib and OpenVDB themselves are libraries
+# without sanitizers, in processes of their own; code in OpenVDB's headers is compiled with them.
+# Outcomes of mutated OpenVDB files are counted; sanitizer reports about them are in
+# build/vdb-reports.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -17,8 +17,8 @@ mkdir -p build
 cmake --preset asan-ubsan >build/mutations.log
 ninja -C build/asan-ubsan "${rooms[@]/#/test_scenes_}" >>build/mutations.log
 
-# What OpenVDB does with a harmed file ends a process of its own, and is reported. What our code
-# does is a finding.
+# Errors of OpenVDB on a mutated file end a process of its own, and are reported. Errors in our code
+# are findings.
 reports=build/vdb-reports
 rm -rf "$reports"
 mkdir -p "$reports"
@@ -36,14 +36,14 @@ for room in "${rooms[@]}"; do
   fi
   if LUXODUS_MUTATIONS=$count python3 - "build/asan-ubsan/tests/test_scenes_$room" 2>"$words" <<'PYTHON'; then
 import resource, subprocess, sys
-code = subprocess.run([sys.argv[1], "harmed*"], stdout=subprocess.DEVNULL).returncode
+code = subprocess.run([sys.argv[1], "mutated*"], stdout=subprocess.DEVNULL).returncode
 peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
 print(f"  largest memory {peak:.0f} MiB, sanitizers included")
 sys.exit(code != 0)
 PYTHON
     echo "$room: $count files, $((SECONDS - begun)) s, no finding"
   else
-    echo "$room: FAILED; build/asan-ubsan/tests/test_scenes_$room \"harmed*\" says why" >&2
+    echo "$room: FAILED; build/asan-ubsan/tests/test_scenes_$room \"mutated*\" says why" >&2
     failed=1
   fi
 done

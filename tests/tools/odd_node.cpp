@@ -1,6 +1,6 @@
-// odd_node CLUSTER NODE WHAT: a worker of a cluster that says of itself another protocol, isa,
-// build or fingerprint than it has: what another version of the program, or another processor,
-// would say. All else is the worker that `luxodus node` runs. Exits with 1 and its reason.
+// odd_node CLUSTER NODE WHAT: a worker of a cluster that announces another protocol, isa, build or
+// fingerprint than its own, like another version of the program, or another processor. Otherwise it
+// is the worker of `luxodus node`. Exits with 1 and its reason.
 #include <unistd.h>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// odd_vdb: a luxodus_vdb that lists one grid, "density", and when it is to read it does what the
-// file says: what OpenVDB may do with a damaged file, at will.
+// odd_vdb: a luxodus_vdb that lists one grid, "density", and on reading does what the file says:
+// simulates what OpenVDB may do with a damaged file.
 #include <csignal>
 #include <fstream>
 #include <memory>
@@ -20,10 +20,10 @@ void do_odd_work(const std::string& what, PlainWriter& out) {
   if (what == "loop")
     for (;;) spun = spun + 1;
   if (what == "flood") {
-    std::vector<std::unique_ptr<char[]>> taken;  // and not used: it is the address space that ends
+    std::vector<std::unique_ptr<char[]>> taken;  // not used: this exhausts the address space
     for (;;) taken.push_back(std::make_unique_for_overwrite<char[]>(size_t{1} << 28));
   }
-  if (what == "lie") out.put(uint64_t{1} << 60);  // cells that do not follow
+  if (what == "lie") out.put(uint64_t{1} << 60);  // announces cells that do not follow
   if (what == "throw") throw std::runtime_error("no");
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes the Debian package, unpacks it elsewhere and runs a scene that ships from there: apart from
-# ./test.sh, because it needs help2man and dpkg-dev (./setup.sh --package), and takes minutes where
-# the program is not built yet.
+# Makes the Debian package, unpacks it elsewhere and runs a scene of it. Separate from ./test.sh,
+# because it needs help2man and dpkg-dev (./setup.sh --package), and takes minutes if the program is
+# not built yet.
 #   tests/tools/package_test.sh             the package stays in build/release
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -69,7 +69,7 @@ for scene in empty_room scenes/library/office_floor.toml; do
     --out "result_of_$(basename "$scene" .toml)" || fail "luxodus run $scene fails"
   [ -s "result_of_$(basename "$scene" .toml)/flux.lux" ] || fail "no flux file of $scene"
 done
-# An example of a cluster finds its scene, too.
+# A cluster example finds its scene, too.
 env -i HOME="$place" PATH=/usr/bin:/bin "$program" deploy "$usr/share/luxodus/examples/one_host.toml" \
   --for ssh --out deployed >/dev/null || fail "the example of a cluster cannot be read"
 

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""placement_scenes.py SCENE: the scenes behind the figures of docs/performance/placement.md, on
-standard output. SCENE is one of
+"""placement_scenes.py SCENE: prints the scenes for the figures of docs/performance/placement.md.
+SCENE is one of
 
     tower STOREYS           storeys between slabs, no light from one to the next
     tower-with-stair STOREYS
                             with an opening of 2 m by 4 m in each slab
-    five-types FAILURE      the office floor of this source tree, its luminaires gone, five types;
+    five-types FAILURE      the office floor of this source tree without luminaires, five types;
                             FAILURE is a value of 'failure' in [design], such as two or full
     whole-floor FAILURE     the same with its rooms as open areas, places further apart
     corridor CANDIDATES     a corridor in smoke with three luminaires and 0, 33 or 110 candidates
@@ -58,7 +58,7 @@ def tower(storeys, with_stair=False):
 
 
 def five_types(failure):
-    """The luminaire of the corridors dimmed to five fluxes, each at its price."""
+    """The luminaire of the corridors dimmed to five fluxes, each with its price."""
     out = f'''include = ["{LIBRARY / "office_floor.toml"}"]
 [design]
 place_signs = false
@@ -91,7 +91,7 @@ ROOMS = {  # of the office floor, between their walls [m]
 
 
 def whole_floor(failure):
-    """The office floor with all its rooms to be lit."""
+    """The office floor, with all rooms as areas to illuminate."""
     out = five_types(failure).replace("spacing_m = 1.6", "spacing_m = 2.3")
     names = ", ".join(f'"{name}"' for name in ROOMS)
     out = out.replace('"open plan"]', f'"open plan", {names}]')

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Is float enough? Builds what compares in both precisions, traces scenes with the same random
-# numbers, and fails where the difference is not far below the statistical error of 1e9 particles.
-# PARTICLES and THREADS may be set.
+# Checks whether float is precise enough. Builds the comparison in both precisions, traces scenes
+# with the same random numbers, and fails if the difference is not far below the statistical error
+# of 1e9 particles. PARTICLES and THREADS may be set.
 #   tests/tools/precision.sh [FOLDER for the traced batches]
 set -euo pipefail
 cd "$(dirname "$0")/../.."

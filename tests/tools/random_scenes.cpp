@@ -1,6 +1,6 @@
-// random_scenes: tries as many random scenes, or random scene files, as one likes, and tells of
-// each that the program does not treat as it should. tests/random/README.md says what that means.
-// A scene is known by its number: when the process dies, it says which were under way.
+// random_scenes: tries any number of random scenes, or random scene files, and reports each that
+// the program handles wrongly; tests/random/README.md defines that. A scene is identified by its
+// number: when the process dies, it prints the scenes in progress.
 #include <signal.h>
 #include <unistd.h>
 
@@ -21,7 +21,8 @@
 #include "tests/random/features.hpp"
 #include "tests/random/random_text.hpp"
 
-// Of sanitizers, where the program is built with them: called before they end it.
+// Defined by sanitizers, if the program is built with them: registers a function to call before
+// exit.
 extern "C" __attribute__((weak)) void __sanitizer_set_death_callback(void (*callback)());
 
 using namespace luxodus;
@@ -32,7 +33,7 @@ namespace {
 constexpr int max_jobs = 256;
 constexpr uint64_t idle = ~uint64_t{0};
 
-// What a handler of signals may read.
+// Readable by a signal handler.
 std::array<std::atomic<uint64_t>, max_jobs> under_way;
 
 void write_number(uint64_t n) {
@@ -111,7 +112,7 @@ class Tries {
 
   void work(int job) {
     const EmbreeDevice device(BuildThreads::calling);
-    // Its name is part of what the text may mean: one folder for each.
+    // The file's name may affect the scene: one folder for each.
     const auto file = folder_ / std::to_string(job) / "scene.toml";
     if (options_.texts) std::filesystem::create_directories(file.parent_path());
     Summary own;
@@ -150,7 +151,7 @@ class Tries {
     std::fflush(stdout);
   }
 
-  /// Until all is done. Ends the program where one scene takes as long as no scene may.
+  /// Runs until all is done. Ends the program if a scene exceeds the time limit.
   void tell_progress() {
     using Clock = std::chrono::steady_clock;
     const auto seconds_since = [](Clock::time_point t) {
@@ -182,7 +183,7 @@ class Tries {
   const Options options_;
   std::atomic<uint64_t> next_;
   const TemporaryFolder folder_;
-  std::mutex mutex_;  // of what follows, and of printing
+  std::mutex mutex_;  // guards the members below, and printing
   std::condition_variable ended_;
   uint64_t finished_ = 0;
   Summary total_;

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """run_notebook.py [NOTEBOOK]: runs the code cells of a notebook one after another, as Jupyter would,
 with plain python3 and the module of build/release (or of PYTHONPATH). Without a name it is the
-notebook of the guide. What a cell imports that is not installed, its cells are left out, aloud.
+notebook of the guide. Cells that import a missing package are skipped with a message.
 
-It then checks that the page of the guide and the notebook hold the same code. Exit code 1 where a
-cell fails or they differ; 77 where the module was not built, or Python has no NumPy."""
+It then checks that the page of the guide and the notebook have the same code. Exit code 1 if a cell
+fails or they differ; 77 if the module was not built, or Python has no NumPy."""
 import json
 import os
 import pathlib

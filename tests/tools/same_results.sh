@@ -13,7 +13,7 @@ library=scenes/library
 data=../shared/data
 work=build/same_results
 
-# Each comparison is a function that runs $luxodus and leaves its results in the folder $out.
+# Each comparison is a function that runs $luxodus and writes its results into the folder $out.
 run_flux() {
   for scene in empty_room integrating_sphere smoke_tank fire_in_a_box auditorium office_floor; do
     "$luxodus" run $library/$scene.toml --particles 100k --seed 3 --no-views --out "$out/$scene"
@@ -32,7 +32,7 @@ run_packs() {
   done
 }
 run_journals() {
-  # A coordinator that is killed leaves a journal: the old program's is continued by either program.
+  # A killed coordinator leaves a journal: either program continues the old program's.
   printf '%s\n' '[run]' 'name = "journal"' "scene = \"$PWD/$library/auditorium.toml\"" \
     'particles = 4_000_000' "out = \"$PWD/$out/run\"" '[[host]]' 'name = "here"' \
     '[[node]]' 'name = "n"' 'count = 2' 'process = "one"' \
@@ -200,7 +200,7 @@ old=$(realpath "$1") new=$(realpath "$2")
 shift 2
 if [ $# -gt 0 ]; then comparisons=$*; fi
 
-# Takes out of a folder's files what no two runs have in common.
+# Removes from a folder's files what differs in every run.
 without_times() {
   python3 - "$1" <<'EOF'
 import json, pathlib, re, sys
@@ -224,7 +224,7 @@ for path in pathlib.Path(sys.argv[1]).rglob("*"):
 EOF
 }
 
-# Both write into the same folder, in turn: paths in their results are the same.
+# Both write into the same folder, one after the other, so that paths in their results are equal.
 results_of() {
   local which=$1 luxodus=$2 name=$3
   local out=$work/results said=$work/$which-$name.said

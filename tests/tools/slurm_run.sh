@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# slurm_run.sh PROGRAM SCENE FOLDER: a Slurm of its own on this machine (controller and four hosts,
-# each a slurmd), and on it the job that `luxodus deploy --for slurm` writes for SCENE: 4 million
-# particles, a controller and four workers. It runs twice, undisturbed and with a worker killed;
-# both times the flux must be that of `luxodus run`. Logs are left in FOLDER. Needs root and
-# Debian's slurmctld, slurmd, slurm-client and munge; exits with 77 where these are missing. All
-# that it starts it stops.
+# slurm_run.sh PROGRAM SCENE FOLDER: starts a private Slurm on this machine (controller and four
+# hosts, each a slurmd), and runs on it the job that `luxodus deploy --for slurm` writes for SCENE:
+# 4 million particles, a controller and four workers. It runs twice, undisturbed and with a killed
+# worker; both times the flux must equal that of `luxodus run`. Logs are in FOLDER. Needs root and
+# Debian's slurmctld, slurmd, slurm-client and munge; exits with 77 if these are missing. It stops
+# everything that it starts.
 set -euo pipefail
 
 program=$(realpath "$1") scene=$(realpath "$2")
@@ -25,7 +25,7 @@ clean_up() {
 }
 trap clean_up EXIT
 
-# A port that nobody listens on, and so many after it.
+# An unused port, followed by this many unused ones.
 first_port() {
   local port=$1 i
   for i in $(seq 0 "$2"); do
@@ -100,7 +100,7 @@ write_cluster() {
   printf '[[node]]\nname = "controller"\nhost = "lux1"\nrole = "controller"\n'
 }
 
-# until_true COMMAND...: asks every 0.2 s, for two minutes at most.
+# until_true COMMAND...: tries every 0.2 s, for at most two minutes.
 until_true() {
   local tries
   for tries in $(seq 600); do

@@ -1,5 +1,5 @@
 // small_vdb FILE: writes an OpenVDB file with a fog volume "density" of 3 x 3 x 3 cells, three of
-// which have smoke, and a level set "surface" beside it.
+// which have smoke, and a level set "surface".
 #include <cstdio>
 #include <exception>
 

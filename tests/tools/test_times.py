@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Measures the processor time of each test that ./test.sh runs, one after another, with that of the
-processes that it starts and awaits; asserts nothing. It hardly depends on what else the machine
-does, where a test does not wait for a moment.
+processes that it starts and awaits; asserts nothing. It hardly depends on the machine's load,
+unless a test waits for a point in time.
 
-    tests/tools/test_times.py build/release            all, the 40 dearest, and folders
+    tests/tools/test_times.py build/release            all, the 40 longest, and folders
     tests/tools/test_times.py build/release examples   those whose names match
 """
 import collections
@@ -26,7 +26,7 @@ def tests_of(folder, pattern):
 
 
 def run(test, folder):
-    """Seconds of the processor and of the clock, and whether the test passed or was skipped."""
+    """Processor and elapsed seconds, and whether the test passed or was skipped."""
     properties = {p["name"]: p["value"] for p in test.get("properties", [])}
     began = time.monotonic()
     with tempfile.TemporaryFile() as said:

@@ -10,7 +10,7 @@ namespace luxodus::light {
 
 namespace {
 
-// ---- spoiled scenes ----------------------------------------------------------------------------
+// ---- altered scenes ---------------------------------------------------------------------------
 
 void turn_webs(CompiledScene& scene) {
   for (CompiledEmitter& e : scene.emitters) {
@@ -71,7 +71,7 @@ std::shared_ptr<const CompiledScene> spoiled(const CompiledScene& scene, EyeFlaw
   return out;
 }
 
-/// Meets nothing, if it is blind.
+/// Hits nothing if it is blind.
 class MaybeBlind : public MergedResolver {
  public:
   MaybeBlind(const CompiledScene& scene, const SceneIndex& index, bool blind)
@@ -127,7 +127,7 @@ class RepeatedBatches final : public BatchTracer {
   explicit RepeatedBatches(std::unique_ptr<BatchTracer> tracer) : tracer_(std::move(tracer)) {}
 
   void trace(int group, uint64_t first, int64_t count, BatchScores& scores) override {
-    // Of every four batches the first: numbers within a group begin at a power of two.
+    // The first batch of every four: numbers within a group begin at a power of two.
     const auto four = 4 * static_cast<uint64_t>(count);
     tracer_->trace(group, first - first % four, count, scores);
   }

@@ -15,8 +15,8 @@ bool has(Flaw flaw) {
   return present_flaw.load(std::memory_order_relaxed) == flaw;
 }
 
-/// Of a cosine-distributed direction about an axis one that is even over the hemisphere: the cosine
-/// is the root of an even number, and its square is that number.
+/// Converts a cosine-distributed direction about an axis to one uniform over the hemisphere: the
+/// cosine is the root of a uniform number, so its square is that number.
 glm::vec3 even_hemisphere(const glm::vec3& direction, const glm::vec3& axis) {
   const float cosine = glm::dot(direction, axis);
   const glm::vec3 flat = direction - axis * cosine;
@@ -26,8 +26,8 @@ glm::vec3 even_hemisphere(const glm::vec3& direction, const glm::vec3& axis) {
   return glm::normalize(axis * even + flat * (std::sqrt(1 - even * even) / length));
 }
 
-/// Of a cosine-distributed direction about an axis the one that the next smaller number would have
-/// given: its cosine's square, from which none above 0.98 comes out.
+/// Converts a cosine-distributed direction about an axis to that of a smaller uniform number, the
+/// square of the cosine, which never exceeds 0.98.
 glm::vec3 from_fewer_points(const glm::vec3& direction, const glm::vec3& axis) {
   const float cosine = glm::dot(direction, axis);
   const glm::vec3 flat = direction - axis * cosine;
@@ -37,7 +37,7 @@ glm::vec3 from_fewer_points(const glm::vec3& direction, const glm::vec3& axis) {
   return glm::normalize(axis * std::sqrt(square) + flat * (std::sqrt(1 - square) / length));
 }
 
-/// Spoils, in place, what the loop has found out.
+/// Alters, in place, what the loop has just computed.
 struct OneFlaw {
   static void history(uint64_t& particle) {
     if (has(Flaw::repeated_histories)) particle %= 4096;
@@ -106,7 +106,7 @@ struct OneFlaw {
 
 template <MediaNeed Media>
 class FlawedTracer final : public BatchTracer {
-  // One loop with everything in it stands for all: what a scene lacks is passed by.
+  // One loop with all features serves all scenes: unused features are skipped.
   using K = Kernel<Media, false, true, true, OneFlaw>;
 
  public:

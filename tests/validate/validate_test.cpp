@@ -1,5 +1,5 @@
-// `luxodus validate` itself: it passes, its rule finds what is wrong, and it finds every mistake
-// that the sampler can be given.
+// `luxodus validate` itself: it passes, its rule detects errors, and it detects every flaw that the
+// tracer can be given.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -37,7 +37,7 @@ Cases named(const std::vector<std::string>& names) {
   return chosen;
 }
 
-/// The same with fewer particles, in batches as many.
+/// Cases with fewer particles, in as many batches.
 Cases with_share_of_particles(Cases cases, int64_t divisor) {
   for (Case& c : cases) {
     c.plan = [plan = c.plan, divisor] {
@@ -50,7 +50,7 @@ Cases with_share_of_particles(Cases cases, int64_t divisor) {
   return cases;
 }
 
-/// What failed, one line each.
+/// The failures, one line each.
 std::vector<std::string> failures(const std::vector<CaseResult>& results, const Verdict& verdict) {
   std::vector<std::string> out;
   for (size_t i = 0; i < results.size(); ++i) {
@@ -69,7 +69,7 @@ std::vector<std::string> failures(const std::vector<CaseResult>& results, const 
 
 }  // namespace
 
-TEST_CASE("every case with a reference passes quickly, and z is distributed as it should be") {
+TEST_CASE("every case with a reference passes quickly, and z has the right distribution") {
   SuiteOptions options;
   options.threads = 2;
   const Cases cases = with_share_of_particles(all_cases(), test::in_full() ? 1 : 4);
@@ -79,7 +79,7 @@ TEST_CASE("every case with a reference passes quickly, and z is distributed as i
   for (const std::string& line : failures(results, verdict)) UNSCOPED_INFO(line);
   CHECK(verdict.passed);
   CHECK(verdict.lead_count >= 200);
-  // The same run with standard errors that are a third too small, or too large, does not pass.
+  // With standard errors stated a third too small or too large, this run does not pass.
   for (const double wrong : {0.75, 1.33}) {
     std::vector<CaseResult> dishonest = results;
     for (CaseResult& r : dishonest) {
@@ -94,7 +94,7 @@ TEST_CASE("every case with a reference passes quickly, and z is distributed as i
     REQUIRE(variance != other.checks.end());
     CHECK_FALSE(variance->passed);
   }
-  // The file of a run reads back, with every case in it.
+  // The file of a run can be read back, with every case in it.
   const test::TemporaryFolder folder;
   SuiteRecord record;
   record.threads = 2;
@@ -115,7 +115,7 @@ TEST_CASE("names of cases are unique") {
   }
 }
 
-TEST_CASE("every value of the tables of closed forms and of glowing cells stands in a case") {
+TEST_CASE("every value of the tables of closed forms and of glowing cells is part of a case") {
   std::vector<double> compared;
   for (const Case& c : all_cases()) {
     const PreparedCase plan = c.plan();
@@ -146,8 +146,7 @@ TEST_CASE("every value of the tables of closed forms and of glowing cells stands
   }
 }
 
-TEST_CASE(
-    "a suite gives the same estimates for any number of threads, and others for other seeds") {
+TEST_CASE("a suite gives equal estimates for any number of threads, and others for other seeds") {
   const Cases cases = named({"cube c03_office"});
   SuiteOptions one, two, other;
   two.threads = 2;
@@ -160,8 +159,7 @@ TEST_CASE(
   CHECK(a[0].findings[0].estimate.value != c[0].findings[0].estimate.value);
 }
 
-TEST_CASE(
-    "a suite that is to reach an error reaches it, and the error falls as Monte Carlo's does") {
+TEST_CASE("a suite run to a target error reaches it, with the error falling as 1 over root n") {
   SuiteOptions options;
   options.error = test::in_full() ? 1e-4 : 2e-4;
   const auto results = run(named({"plates r1=0.8;r2=0.3", "integrating sphere rho=0.5"}), options);
@@ -176,14 +174,14 @@ TEST_CASE(
   CHECK(judge(results).passed);
 }
 
-TEST_CASE("a suite that is given less time than its error needs says how much is missing") {
+TEST_CASE("a suite given less time than its error needs reports how much is missing") {
   SuiteOptions options;
   options.error = 1e-9;
   options.case_seconds = 1e-3;
   const auto results = run(named({"plates r1=0.8;r2=0.3"}), options);
   CHECK(cases_short_of_error(results) == 1);
   CHECK(results[0].short_of > 1000);
-  CHECK(results[0].findings[0].estimate.standard_error > 0);  // of a whole quick run
+  CHECK(results[0].findings[0].estimate.standard_error > 0);  // for a whole quick run
   CHECK(cases_short_of_error(run(named({"plates r1=0.8;r2=0.3"}), {})) == 0);
 }
 
@@ -191,7 +189,7 @@ TEST_CASE("a suite that is given less time than its error needs says how much is
 
 namespace {
 
-/// Results of so many cases as if chance had given them these z.
+/// Results of as many cases, with the given values of z.
 std::vector<CaseResult> results_with(const std::vector<double>& z) {
   std::vector<CaseResult> results;
   for (const double d : z) {
@@ -221,7 +219,7 @@ std::vector<double> normal_numbers(int n, double deviation, double mean) {
 
 }  // namespace
 
-TEST_CASE("normal z pass, and those that are too wide, too narrow or shifted do not") {
+TEST_CASE("normal z pass, and those too wide, too narrow or shifted do not") {
   CHECK(judge(results_with(normal_numbers(250, 1, 0))).passed);
   CHECK_FALSE(judge(results_with(normal_numbers(250, 1.3, 0))).passed);
   CHECK_FALSE(judge(results_with(normal_numbers(250, 0.75, 0))).passed);
@@ -237,7 +235,7 @@ TEST_CASE("one quantity out of a thousand that is six standard errors off fails"
   CHECK(verdict.z_largest == Approx(6).epsilon(1e-3));
 }
 
-TEST_CASE("a declared bias is allowed, and no more than that") {
+TEST_CASE("a declared bias is allowed, but no more than that") {
   auto results = results_with({0});
   QuantityResult& f = results[0].findings[0];
   f.estimate.value = 1.02;
@@ -247,7 +245,7 @@ TEST_CASE("a declared bias is allowed, and no more than that") {
   CHECK_FALSE(judge(results).passed);
 }
 
-TEST_CASE("what is computed is held to its tolerance, and what is no number fails") {
+TEST_CASE("computed values are held to their tolerance, and NaN fails") {
   auto results = results_with({0});
   results[0].findings.push_back({"computed", 2, {2.001, 0}, 0.002});
   CHECK(judge(results).passed);
@@ -259,7 +257,8 @@ TEST_CASE("what is computed is held to its tolerance, and what is no number fail
   CHECK_FALSE(judge(results).passed);
 }
 
-TEST_CASE("what is too rare is told and not judged, and a case that is all noise fails") {
+TEST_CASE(
+    "quantities that are too rare are reported without verdict, and a case of only noise fails") {
   auto results = results_with({0});
   results[0].findings.push_back({"rare", 1e-6, {2e-6, 1e-7}, 0, 1, true});
   const Verdict verdict = judge(results);
@@ -272,7 +271,7 @@ TEST_CASE("what is too rare is told and not judged, and a case that is all noise
 TEST_CASE("quantiles are those of the tables") {
   CHECK(normal_exceeded(0.025) == Approx(1.959964).epsilon(1e-6));
   CHECK(normal_exceeded(1e-7) == Approx(5.199338).epsilon(1e-6));
-  // Student's t of 20 degrees exceeds 2.845340 with probability 0.005, as a normal number 2.575829.
+  // Student's t of 20 degrees exceeds 2.845340 with probability 0.005, a normal number 2.575829.
   CHECK(normal_of_student(2.845340, 20) == Approx(2.575829).epsilon(5e-4));
   CHECK(normal_of_student(-2.845340, 20) == Approx(-2.575829).epsilon(5e-4));
   // Chi-square of 100 degrees exceeds 140.169 with probability 0.005.
@@ -284,7 +283,7 @@ TEST_CASE("quantiles are those of the tables") {
 
 namespace {
 
-/// Few cases that together use every step of the loop, the quickest first.
+/// A few cases that together use every step of the loop, the quickest first.
 Cases cases_of_every_step() {
   return named({"beams of 1, 2 and 5 W", "glass pane theta=60", "cube of gas, optical depth 1",
                 "diffuse wall under a beam", "plates r1=0.8;r2=0.3",
@@ -305,8 +304,8 @@ SuiteOptions flawed_options() {
   return options;
 }
 
-/// Whether a suite with a flaw passes. One case that finds it is enough; in full, all run and are
-/// judged together.
+/// Whether a suite with a flaw passes. One case that detects it is enough; in full runs, all run
+/// and are judged together.
 bool passes(const Cases& cases, const SuiteOptions& options) {
   if (test::in_full()) return judge(run(cases, options)).passed;
   return std::all_of(cases.begin(), cases.end(),
@@ -315,7 +314,7 @@ bool passes(const Cases& cases, const SuiteOptions& options) {
 
 }  // namespace
 
-TEST_CASE("the loop that flaws are put into passes as long as it has none") {
+TEST_CASE("the loop that flaws are injected into passes without a flaw") {
   set_flaw(Flaw::none);
   const auto results = run(cases_of_every_step(), flawed_options());
   const Verdict verdict = judge(results);
@@ -323,7 +322,7 @@ TEST_CASE("the loop that flaws are put into passes as long as it has none") {
   CHECK(verdict.passed);
 }
 
-TEST_CASE("every flaw of the sampler makes validation fail") {
+TEST_CASE("every flaw of the tracer makes validation fail") {
   const Cases cases = cases_of_every_step();
   for (int i = 1; i < flaws; ++i) {
     const auto flaw = static_cast<Flaw>(i);
@@ -354,7 +353,7 @@ Cases cases_of_direct_light() {
                 "luminaire of an IES file"});
 }
 
-/// Runs with a flaw and without, and says what the first failure was.
+/// Runs with or without a flaw, and reports the first failure.
 void check_found(const Cases& cases, const SuiteOptions& options, const char* flaw, bool flawed) {
   const auto results = run(cases, options);
   const Verdict verdict = judge(results);
@@ -366,8 +365,7 @@ void check_found(const Cases& cases, const SuiteOptions& options, const char* fl
 
 }  // namespace
 
-TEST_CASE(
-    "every flaw of what eyes and probes see makes validation fail, and without one it passes") {
+TEST_CASE("every flaw of eyes and probes makes validation fail, and without one it passes") {
   const Cases cases = cases_of_eyes();
   SuiteOptions options;
   options.threads = 2;
@@ -396,7 +394,7 @@ TEST_CASE("every flaw of computed direct light makes validation fail, and withou
   }
 }
 
-TEST_CASE("batches that repeat others make standard errors too small, and the spread of z tells") {
+TEST_CASE("repeated batches make standard errors too small, which the spread of z reveals") {
   Cases cases = cases_named("layer of gas");
   for (const char* more : {"glowing layer", "cubic room", "glossy plate", "glass pane"}) {
     for (const Case& c : cases_named(more)) cases.push_back(c);

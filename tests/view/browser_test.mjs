@@ -1,4 +1,4 @@
-// The page in a real browser, against the server that pretends.
+// The page in a real browser, against the mock server.
 // `node browser_test.mjs [FOLDER FOR SCREENSHOTS]`; needs `npm run build` of the page before.
 import assert from 'node:assert/strict';
 import { mkdirSync } from 'node:fs';
@@ -12,10 +12,10 @@ const shots =
 const browserPath = process.env.LUX_CHROMIUM ?? '/usr/bin/chromium';
 const flags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader'];
-/** For what never comes. All waits are for states: how long they take counts for nothing. */
+/** Timeout for failures. All waits are for states, and no test depends on their duration. */
 const patience = { timeout: 180_000 };
 
-/** Shares of the screen's raster; screenshots are drawn fine where LUX_FINE asks for it. */
+/** Shares of the screen's resolution; screenshots are drawn finely if LUX_FINE is set. */
 const coarse = 0.4;
 const fine = process.env.LUX_FINE ? 1 : coarse;
 
@@ -36,7 +36,7 @@ async function open(options = {}) {
   await opened.waitForFunction((groups) =>
     window.luxodus?.page.live.shown?.surfaces?.groups.size === groups,
     server.state.sources.length, patience);
-  // A machine without a graphics card draws slowly; that it draws evenly is what counts here.
+  // A machine without a graphics card draws slowly; these tests only need a steady resolution.
   await raster(opened, coarse);
   return opened;
 }
@@ -82,20 +82,20 @@ after(async () => {
   server?.close();
 });
 
-test('the page loads, draws light, and complains of nothing', async () => {
+test('the page loads, draws light, and reports no errors', async () => {
   assert.ok((await mean()) > 0.1);
   await shot('walk_camera');
   assert.deepEqual(complaints, []);
 });
 
-test('nothing is fetched but the page, its backdrops and the live connection', async () => {
+test('the page fetches only its backdrops and the live connection', async () => {
   const fetched = await page.evaluate(() =>
     performance.getEntriesByType('resource').map((e) => e.name));
   assert.deepEqual(fetched.filter((name) => !name.startsWith('data:')),
     [`${address}backdrops.json`]);
 });
 
-test('a key held down walks, and a wall stops the walk', async () => {
+test('a held key walks, and a wall stops the walk', async () => {
   const from = await eye();
   await page.locator('#picture').focus();
   await page.keyboard.down('KeyW');
@@ -111,8 +111,8 @@ test('a key held down walks, and a wall stops the walk', async () => {
   assert.ok(Math.abs(z - 1.65) < 0.01, `eye at ${z}`);
 });
 
-test('smoke glows to who looks into its light, and less to who looks along it', async () => {
-  /** Half of the light of all voxels goes east. Whoever looks that way has it in the back. */
+test('smoke glows for an eye that looks into its light, and less for one that looks along it', async () => {
+  /** Half of the light of all voxels goes east. A viewer who looks east has it in the back. */
   const seen = await page.evaluate(async () => {
     const { page: p } = window.luxodus;
     const { surfaces, air } = p.live.shown;
@@ -126,7 +126,7 @@ test('smoke glows to who looks into its light, and less to who looks along it', 
       await window.luxodus.settled();
       luminances.push(p.picture.luminanceAt(0, 0));
     }
-    // What was there is summed again.
+    // The sums are computed again.
     for (const sum of [surfaces, air]) sum.stained(true);
     p.live.settle();
     p.picture.signs.object.visible = true;
@@ -140,7 +140,7 @@ test('smoke glows to who looks into its light, and less to who looks along it', 
 });
 
 test('a flame has the shape of its cells, and nothing glows around it', async () => {
-  /** Luminances from the bin upwards, of the flame alone. */
+  /** Luminances from the bin upwards, of the flame only. */
   const seen = await page.evaluate(async () => {
     const { page: p } = window.luxodus;
     const { surfaces, air } = p.live.shown;
@@ -167,8 +167,8 @@ test('a flame has the shape of its cells, and nothing glows around it', async ()
 });
 
 /**
- * Luminances of a room in clear air whose surfaces all send out 1 cd/m2, at places of a view; lamps
- * are seen, signs are not. `gloss`: of the floor; `lamps`: instead of those of the room.
+ * Luminances of a room in clear air whose surfaces all emit 1 cd/m2, at places of a view; lamps are
+ * visible, signs are not. `gloss`: of the floor; `lamps`: replace those of the room.
  */
 const seenInGrey = (gloss, places, lamps = null) => page.evaluate(async ([of, at, others]) => {
   const { page: p } = window.luxodus;
@@ -205,18 +205,18 @@ const seenInGrey = (gloss, places, lamps = null) => page.evaluate(async ([of, at
 
 test('a lamp is seen where it hangs, and where a floor mirrors it', async () => {
   const lamp = [5.2, 3, 2.9];
-  /** Between the eye at 1.5 m and the lamp at 2.9 m, heights below the floor share the way. */
+  /** Between the eye at 1.5 m and the lamp at 2.9 m, heights below the floor divide the path. */
   const mirror = [0.5 + (4.7 * 1.5) / 4.4, 3, 0];
   const places = [lamp, mirror, [mirror[0], 3.5, 0], [mirror[0] + 0.6, 3, 0], [4, 1, 0]];
   const matt = await seenInGrey([], places);
   const sharp = await seenInGrey(glossyFloor(0), places);
   const rough = await seenInGrey(glossyFloor(0.15), places);
   for (const x of matt.slice(1)) assert.ok(Math.abs(x - 1) < 2e-3, `${matt}`);
-  // As bright from everywhere: 200, 195, 180 cd by 0.0707 m2.
+  // Equally bright from all directions: 200, 195, 180 cd divided by 0.0707 m2.
   const luminance = (0.2126 * 200 + 0.7152 * 195 + 0.0722 * 180) / (Math.PI * 0.15 ** 2) + 1;
   assert.ok(Math.abs(matt[0] / luminance - 1) < 0.02, `${matt[0]}, not ${luminance}`);
   assert.equal(sharp[0], matt[0]);
-  // 0.6 of what the floor sends out, and 0.2 of what it mirrors: the lamp, or grey.
+  // 0.6 of the floor's own light, and 0.2 of what it mirrors: the lamp, or grey.
   const reflected = 0.6 + 0.2 * luminance;
   assert.ok(Math.abs(sharp[1] / reflected - 1) < 0.05, `${sharp[1]}, not ${reflected}`);
   for (const x of sharp.slice(2)) assert.ok(Math.abs(x - 0.8) < 0.01, `${sharp}`);
@@ -229,7 +229,7 @@ test('a lamp is seen where it hangs, and where a floor mirrors it', async () => 
 test('a round luminaire is brighter where it is inclined to the eye', async () => {
   const eye = [0.5, 3, 1.5];
   const centre = [4, 3, 0.8];
-  /** So far around the sphere from the point that faces the eye, and the cosine there. */
+  /** This far around the sphere from the point that faces the eye, and the cosine there. */
   const inclined = (angle) => {
     const along = [0, 1, 2].map((k) => (eye[k] - centre[k]) / Math.hypot(3.5, 0.7));
     const normal = along.map((x, k) => Math.cos(angle) * x + (k === 1 ? Math.sin(angle) : 0));
@@ -249,7 +249,7 @@ test('a round luminaire is brighter where it is inclined to the eye', async () =
   });
 });
 
-test('smoke on the way to a floor and from there dims what it mirrors', async () => {
+test('smoke on the way to a floor and back attenuates what it mirrors', async () => {
   const seen = await page.evaluate(async (of) => {
     const { page: p } = window.luxodus;
     const { picture } = p;
@@ -291,7 +291,7 @@ test('smoke on the way to a floor and from there dims what it mirrors', async ()
   assert.ok(Math.abs(ratio / expected - 1) < 0.03, `${ratio}, not ${expected}: ${seen}`);
 });
 
-test('the mean luminance follows a dimmed luminaire linearly', async () => {
+test("the mean luminance is linear in a luminaire's dimming", async () => {
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
     p.walk.jump(p.live.scene.observers[0]);
@@ -304,7 +304,7 @@ test('the mean luminance follows a dimmed luminaire linearly', async () => {
       window.luxodus.page.live.shown.surfaces.sum.reduce((all, light) => all + light, 0));
   }
   assert.ok(at[1] > 1.3 * at[0]);
-  // Linear on surfaces; in smoke the share that goes one way is that of all lamps together.
+  // Linear on surfaces; in smoke the directed share is that of all lamps together.
   for (const [light, tolerance] of [[onSurfaces, 0.005], [at, 0.05]]) {
     const half = (light[0] + light[1]) / 2;
     assert.ok(Math.abs(light[0.5] / half - 1) < tolerance, `${light[0.5]} against ${half}`);
@@ -315,7 +315,7 @@ test('the mean luminance follows a dimmed luminaire linearly', async () => {
   assert.ok(sent.every((m) => m.group === 'lamp west'));
 });
 
-test('thicker smoke shows the old picture faded, then the new one', async () => {
+test('denser smoke shows the old picture faded, then the new one', async () => {
   const before = await mean();
   const old = await generation();
   await pull(page.locator('#smoke'), 0.6);
@@ -330,7 +330,7 @@ test('thicker smoke shows the old picture faded, then the new one', async () => 
   await page.waitForFunction((g) => window.luxodus.page.live.number === g, old + 2, patience);
 });
 
-test('a surface tells its light, a sign its verdicts, and the sign can be moved', async () => {
+test("a click shows a surface's light or a sign's verdicts, and the sign can be moved", async () => {
   await page.mouse.click(330, 520);
   await page.locator('dl dd').first().waitFor(patience);
   await page.getByText('standard error').waitFor(patience);
@@ -372,7 +372,7 @@ test('a selected sign is dragged along its wall', async () => {
   await page.keyboard.press('Escape');
 });
 
-test('false colours have a legend, the eye and the plan their own pictures', async () => {
+test("false colours have a legend, and the eye's view and the plan their own pictures", async () => {
   await page.getByRole('button', { name: 'Luminance' }).click();
   assert.ok(await page.locator('#legend').isVisible());
   await shot('luminance');
@@ -386,7 +386,7 @@ test('false colours have a legend, the eye and the plan their own pictures', asy
   await page.getByRole('button', { name: 'Walk' }).click();
 });
 
-test('a picture of the view is traced, grows, is shown and kept, and is stopped', async () => {
+test('a traced picture of the view is refined, shown and saved, and can be stopped', async () => {
   await page.getByRole('button', { name: 'Render this view' }).click();
   await page.locator('#traced', { hasText: '32 paths a pixel' }).waitFor(patience);
   const asked = server.heard.findLast((m) => m.type === 'render');
@@ -414,7 +414,7 @@ test('a picture of the view is traced, grows, is shown and kept, and is stopped'
   assert.equal(server.heard.filter((m) => m.type === 'stop_render').length, 1);
 });
 
-test('a scenario is one click, and an eye sees it darker than a camera', async () => {
+test("a click changes the scenario, and the eye's view is darker than the camera's", async () => {
   const old = await generation();
   await page.getByRole('button', { name: /smoke, emergency/ }).click();
   await page.waitForFunction((g) => window.luxodus.page.live.number > g, old, patience);
@@ -429,7 +429,7 @@ test('a scenario is one click, and an eye sees it darker than a camera', async (
   await page.getByRole('button', { name: 'Close' }).click();
 });
 
-test('0, 5 and 60 s after a failure are one click each, and nothing is traced', async () => {
+test('a click sets 0, 5 or 60 s after a failure, and nothing is traced', async () => {
   const old = await generation();
   const at = {};
   for (const time of ['full', '0 s', '5 s', '60 s']) {
@@ -443,7 +443,7 @@ test('0, 5 and 60 s after a failure are one click each, and nothing is traced', 
   assert.equal(await generation(), old);
 });
 
-test('a luminaire moves without the rest of the light fading', async () => {
+test('a luminaire moves without fading of the other light', async () => {
   const old = await generation();
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
@@ -457,14 +457,14 @@ test('a luminaire moves without the rest of the light fading', async () => {
   await page.keyboard.press('Escape');
 });
 
-/** A thing of the scene that is shown, and what is selected. */
+/** A thing of the shown scene, and the selection. */
 const thing = (list, name) => page.evaluate(([l, n]) =>
   window.luxodus.page.live.scene[l].find((t) => t.name === n), [list, name]);
 const selected = (name) => page.waitForFunction((n) =>
   (window.luxodus.page.panels.inspect.subject?.name ?? null) === n, name, patience);
 const groupsShown = () => page.evaluate(() => window.luxodus.page.live.shown.surfaces.groups.size);
 
-test('a copy of a luminaire stands beside it, is selected, moves, and goes', async () => {
+test('a copy of a luminaire stands beside it, is selected, moves, and is removed', async () => {
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
     p.selection.luminaire(p.live.scene.luminaires[0]);
@@ -489,7 +489,7 @@ test('a copy of a luminaire stands beside it, is selected, moves, and goes', asy
   assert.equal(await groupsShown(), 6);
 });
 
-test('a copy of a sign stands beside it along its width, is judged, and goes', async () => {
+test('a copy of a sign stands beside it along its width, is assessed, and is removed', async () => {
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
     p.selection.sign(p.live.scene.signs[0]);
@@ -515,7 +515,7 @@ test('a copy of a sign stands beside it along its width, is judged, and goes', a
   assert.ok((await mean()) < before);
 });
 
-test('an edit that is refused is said so', async () => {
+test('a refused edit is reported', async () => {
   await page.getByLabel('Name of the variant').fill('../out');
   await page.getByRole('button', { name: 'Save as' }).click();
   await page.locator('.toast', { hasText: 'Refused' }).waitFor(patience);
@@ -525,8 +525,8 @@ test('an edit that is refused is said so', async () => {
   await page.locator('.toast', { hasText: 'variant_2.toml' }).waitFor(patience);
 });
 
-test('of two viewers one edits; the other may take over', async () => {
-  await settled();  // who is at rest draws nothing, and leaves the machine to the other
+test('one of two viewers edits, and the other may take over', async () => {
+  await settled();  // at rest it draws nothing, and leaves the machine to the other
   const second = await open();
   assert.ok(await second.locator('#smoke').isDisabled());
   assert.ok(await page.locator('#smoke').isEnabled());
@@ -540,7 +540,7 @@ test('of two viewers one edits; the other may take over', async () => {
   await second.context().close();
 });
 
-test('a phone has room for it', async () => {
+test('the page fits on a phone', async () => {
   await settled();
   const phone = await open({ viewport: { width: 390, height: 780 }, hasTouch: true });
   await shot('phone', phone);
@@ -549,7 +549,7 @@ test('a phone has room for it', async () => {
   await phone.context().close();
 });
 
-test('a lost connection is said, and found again', async () => {
+test('a lost connection is reported, and restored', async () => {
   for (const viewer of server.viewers) viewer.terminate();
   await page.locator('#link[data-state=lost]').waitFor(patience);
   await page.locator('#link[data-state=open]').waitFor(patience);
@@ -557,7 +557,7 @@ test('a lost connection is said, and found again', async () => {
   assert.ok((await mean()) > 0.05);
 });
 
-test('rubbish on the wire is reported and does no harm', async () => {
+test('malformed frames are reported and do no harm', async () => {
   for (const viewer of server.viewers) {
     viewer.send('{"type":"scene"}');
     viewer.send(Buffer.alloc(7));

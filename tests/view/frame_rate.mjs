@@ -1,17 +1,17 @@
-// How many pictures a second the page draws while somebody turns around, and how fine they are:
-// `node frame_rate.mjs [ADDRESS]`; without an address, of the room of mock_server.mjs. LUX_GPU
-// holds the browser's flags for a graphics card, else it draws in software (SwiftShader); on one of
-// NVIDIA's: LUX_GPU='--use-angle=vulkan --enable-features=Vulkan --disable-vulkan-surface', and
-// --disable-frame-rate-limit for more than 60 pictures a second.
-// LUX_RASTER=0.5 keeps that share of the screen's raster, instead of letting the page learn it.
-// LUX_HEIGHT is that of the window, 1280 wide [px]. LUX_ROUNDS=5 counts in so many rounds of
-// LUX_SECONDS each, and says the least and the median of them. LUX_CLEAR=1 draws no smoke. The
-// processor time of a picture is that of all of the browser: it hardly depends on what else runs.
+// Measures how many pictures a second the page draws while the view turns around, and at what
+// resolution: `node frame_rate.mjs [ADDRESS]`; without an address, in the room of mock_server.mjs.
+// LUX_GPU holds the browser's flags for a graphics card, else it draws in software (SwiftShader);
+// on one of NVIDIA's: LUX_GPU='--use-angle=vulkan --enable-features=Vulkan
+// --disable-vulkan-surface', and --disable-frame-rate-limit for more than 60 pictures a second.
+// LUX_RASTER=0.5 fixes the share of the screen's resolution, which the page otherwise chooses.
+// LUX_HEIGHT is that of the window, 1280 wide [px]. LUX_ROUNDS=5 measures that many rounds of
+// LUX_SECONDS each, and prints their minimum and median. LUX_CLEAR=1 draws no smoke. The processor
+// time of a picture is that of the whole browser: it hardly depends on the machine's load.
 import { readdirSync, readFileSync } from 'node:fs';
 import { chromium } from 'playwright-core';
 import { MockServer } from './mock_server.mjs';
 
-/** The raster is learned first, and then kept. */
+/** The resolution is chosen first, and then kept. */
 const seconds = { learn: 12, count: Number(process.env.LUX_SECONDS ?? 8) };
 const rounds = Number(process.env.LUX_ROUNDS ?? 1);
 const software = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
@@ -20,7 +20,7 @@ const flags = ['--headless=new', '--no-sandbox', ...(process.env.LUX_GPU?.split(
 const raster = Number(process.env.LUX_RASTER ?? 0);
 const windowHeight = Number(process.env.LUX_HEIGHT ?? 800);
 
-/** Processor seconds of a process and of all that it has begun (Linux). */
+/** Processor seconds of a process and all its descendants (Linux). */
 function processorSeconds(root) {
   const all = readdirSync('/proc').filter((name) => /^\d+$/.test(name)).flatMap((pid) => {
     try {

@@ -1,6 +1,6 @@
 // A small building for tests of the page: two rooms, a doorway, three luminaires, a flame, signs,
-// and a smoke layer, lit by the inverse square law and a little light from everywhere. No physics
-// to be proud of; but linear in every group, as the page has to be.
+// and a smoke layer, lit by the inverse square law and a little ambient light. Physically crude,
+// but linear in every group, as the page must be.
 import { toHalf } from '../../actors/apps/view/page/src/protocol/half.js';
 
 export const low = [0, 0, 0];
@@ -24,7 +24,7 @@ export const surfaces = {
 };
 export const surfaceNames = Object.keys(surfaces);
 
-/** Triangles of parallelograms in tiles; the front is where u x v points. */
+/** Triangles of parallelograms in tiles; the front faces along u x v. */
 class Mesh {
   corners = [];
   kinds = [];
@@ -74,7 +74,7 @@ function makeMesh() {
 
 const mesh = makeMesh();
 
-/** The room with the faces of signs that were added, which come last. */
+/** The room with the faces of added signs, which come last. */
 function meshOf(state) {
   const added = state?.signs.filter((sign) => sign.added) ?? [];
   if (!added.length) return mesh;
@@ -103,7 +103,7 @@ export function geometryFrame(generation, state = null) {
   return frame;
 }
 
-/** What shines: intensity [cd] by colour, the same everywhere it looks. */
+/** Light sources: intensity [cd] by colour, equal in all directions. */
 export const sources = [
   { name: 'lamp west', kind: 'luminaire', position: [2.2, 3, 2.9], colour: [260, 250, 230] },
   { name: 'lamp door', kind: 'luminaire', position: [5.2, 3, 2.9], colour: [200, 195, 180] },
@@ -159,7 +159,7 @@ const voxelCentre = (i) => {
 
 const weigh = (c) => 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
 
-/** Of the smoke's scattering. */
+/** Mean cosine of the smoke's scattering. */
 const meanCosine = 0.6;
 
 /** Extinction [1/m]: a layer below the ceiling, a plume above the flame. */
@@ -181,7 +181,7 @@ const positionOf = (source, state) =>
   [...state.signs, ...state.luminaires].find((t) => t.name === source.name)?.position ??
   source.position;
 
-/** Illuminance per colour of a point that faces `normal`, without and with the rest. */
+/** Illuminance by colour at a point that faces `normal`, without and with the ambient light. */
 function lit(source, state, point, normal) {
   const to = minus(positionOf(source, state), point);
   const far2 = Math.max(0.02, dot(to, to));
@@ -284,7 +284,9 @@ export const flames = [
 const lampAcross_m = 0.3;
 const polar = 36;
 
-/** Lambertian: the density of directions by their cosine is 1 / pi below, and nothing above. */
+/**
+ * Lambertian: the density of directions divided by their cosine is 1 / pi below, and nothing above.
+ */
 function lambertTable() {
   const bytes = Buffer.alloc(2 * polar);
   for (let i = 0; i < polar / 2; ++i) bytes.writeUInt16LE(65535, 2 * i);
@@ -292,7 +294,7 @@ function lambertTable() {
 }
 export const lampTables = [lambertTable()];
 
-/** A disc that looks down at each luminaire. Along its axis it has the luminaire's intensity. */
+/** A disc that faces down at each luminaire. Along its axis it has the luminaire's intensity. */
 export const lampsOf = (state) => state.luminaires.map(({ name, position, group }) => ({
   group, shape: 'disc', position, axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
   size: [lampAcross_m, lampAcross_m, 0], corners: [], table: 0, of_luminaire: false,

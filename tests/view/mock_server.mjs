@@ -1,12 +1,12 @@
-// A server that speaks actors/apps/view/PROTOCOL.md without a simulation behind it.
-// By hand: `node mock_server.mjs 8099`, then open http://127.0.0.1:8099/
+// A server that speaks actors/apps/view/PROTOCOL.md without a simulation.
+// Manual use: `node mock_server.mjs 8099`, then open http://127.0.0.1:8099/
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { deflateSync } from 'node:zlib';
 import { fileURLToPath } from 'node:url';
 import * as room from './mock_room.mjs';
 
-/** A grey PNG file. Its checksums are right, so browsers show it. */
+/** A grey PNG file. Its checksums are correct, so browsers show it. */
 export function greyPng(width, height) {
   const crc = (bytes) => {
     let c = 0xffffffff;
@@ -44,7 +44,7 @@ const scenarios = [
 ];
 
 export class MockServer {
-  /** `traceMs`: how long the first light of a new generation is awaited. */
+  /** `traceMs`: delay of the first light of a new generation. */
   constructor({ traceMs = 400, pictureMs = 300 } = {}) {
     this.traceMs = traceMs;
     this.pictureMs = pictureMs;
@@ -61,7 +61,7 @@ export class MockServer {
   }
 
   async listen(port = 0) {
-    // Only who listens needs it: modules are tested without npm's packages of this folder.
+    // Imported only to listen: unit tests run without this folder's npm packages.
     const { WebSocketServer } = await import('ws');
     const page = readFileSync(pageFile);
     this.http = createServer(({ url }, answer) => {
@@ -154,8 +154,8 @@ export class MockServer {
   }
 
   /**
-   * A new generation: announced at once, its light comes later; that of groups not `new` stays.
-   * `relaid`: its triangles are others, and light of before comes with them.
+   * A new generation: announced at once, its light follows later; that of groups not `new` stays.
+   * `relaid`: its triangles differ, and light of before is sent with them.
    */
   begin(light = () => 'new', relaid = false) {
     ++this.generation;
@@ -254,7 +254,7 @@ export class MockServer {
     else this.tell(viewer, { type: 'refused', why: `"${name}" is no name for a file` });
   }
 
-  /** Grows by a pass whenever `pictureMs` have passed, until 32 paths. */
+  /** Refines by a pass every `pictureMs`, until 32 paths. */
   do_render(viewer, { id, width, height }) {
     clearInterval(this.rendering);
     let paths = 0;

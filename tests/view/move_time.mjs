@@ -1,7 +1,7 @@
-// How long after other smoke all groups have light, after dimming the page is told, and after a
-// move of a luminaire and of a sign, and a copy of each, its first light is there: `node
-// move_time.mjs [SCENE SCENARIO LUMINAIRE SIGN]`; LUX_PROGRAM names the program, LUX_OPTIONS what
-// is said to it besides (`LUX_OPTIONS="--nodes 2"`).
+// Measures latencies: from a change of smoke until all groups have light, from dimming until the
+// page is informed, and from a move of a luminaire and of a sign, and a copy of each, until its
+// first light: `node move_time.mjs [SCENE SCENARIO LUMINAIRE SIGN]`; LUX_PROGRAM names the program,
+// LUX_OPTIONS additional options (`LUX_OPTIONS="--nodes 2"`).
 import { spawn } from 'node:child_process';
 import { WebSocket } from 'ws';
 
@@ -10,7 +10,7 @@ const program = process.env.LUX_PROGRAM ?? `${root}/build/release/luxodus`;
 const [scene = `${root}/scenes/library/office_floor.toml`, scenario = 'smoke_emergency',
   luminaire = 'corridor emergency light 3', sign = 'exit east'] = process.argv.slice(2);
 const moves = Number(process.env.LUX_MOVES ?? 11);
-/** So long the view traces undisturbed between moves. */
+/** Time for which the view traces undisturbed between moves. */
 const rest_ms = 3000;
 
 const options = (process.env.LUX_OPTIONS ?? '').split(' ').filter(Boolean);
@@ -42,7 +42,7 @@ const until = (holds) => new Promise((resolve) => {
 const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 const median = (list) => list.toSorted((a, b) => a - b)[list.length >> 1];
 
-/** Until the light of a group in a generation to come. */
+/** Waits for the light of a group in a later generation. */
 async function light(message, group) {
   const before = known.generation;
   const start = performance.now();
@@ -69,7 +69,7 @@ function move(kind, name, i) {
   return light({ type: 'move', kind, name, position, facing }, group);
 }
 
-/** Adds a copy, and takes it away again. */
+/** Adds a copy, and removes it. */
 async function copy(kind, name) {
   const { position: [x, y, z], facing, group } = thingOf(kind, name);
   const found = await light(
@@ -81,7 +81,7 @@ async function copy(kind, name) {
   return found;
 }
 
-/** Smoke is other, so that all light begins anew: until each group has some. */
+/** Changes the smoke, so that all light begins anew: waits until each group has some. */
 async function thicken(i) {
   const before = known.generation;
   const start = performance.now();
@@ -94,7 +94,7 @@ async function thicken(i) {
   return (await end) - start;
 }
 
-/** Until the word that a group is dimmed has come to the page, which does the rest by itself. */
+/** Waits until the page is informed that a group is dimmed; the rest is done by the page. */
 async function dim(i) {
   const start = performance.now();
   const told = until(({ type }) => type === 'factors');

@@ -13,7 +13,7 @@ const scene = `${root}/scenes/library/office_floor.toml`;
 const shots = process.env.LUX_SHOTS ?? new URL('shots', import.meta.url).pathname;
 const flags = ['--headless=new', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader'];
-/** For what never comes. All waits are for states: how long they take counts for nothing. */
+/** Timeout for failures. All waits are for states, and no test depends on their duration. */
 const patience = { timeout: 180_000 };
 const lamp = 'corridor emergency light 3';
 
@@ -54,7 +54,7 @@ async function open() {
   return opened;
 }
 
-/** Waits until a generation, or a later one, is traced to its end and shown. */
+/** Waits until a generation, or a later one, is completely traced and shown. */
 const lit = (p, generation) => p.waitForFunction((wanted) => {
   const { live } = window.luxodus.page;
   return live.number >= wanted && live.shown?.surfaces?.groups.size > 10 &&
@@ -91,12 +91,12 @@ after(async () => {
   served?.kill('SIGINT');
 });
 
-test('the office floor loads, lit, and complains of nothing', async () => {
+test('the office floor loads, is lit, and reports no errors', async () => {
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
     p.walk.jump(p.live.scene.observers.find((o) => o.name === 'walker'));
   });
-  // They look along the corridor, to the east.
+  // The views face along the corridor, to the east.
   const yaw = await page.evaluate(() => window.luxodus.page.walk.motion.yaw);
   assert.ok(Math.abs(yaw) < 0.01, `they look ${yaw} rad off the corridor`);
   assert.ok((await mean()) > 0.01);
@@ -104,7 +104,7 @@ test('the office floor loads, lit, and complains of nothing', async () => {
   assert.deepEqual(complaints, []);
 });
 
-test('the mean luminance follows a dimmed luminaire linearly', async () => {
+test("the mean luminance is linear in a luminaire's dimming", async () => {
   const slider = page.locator(`li[data-name="${lamp}"] input[type=range]`);
   const at = {};
   for (const factor of [1, 0.5, 0]) {
@@ -125,7 +125,7 @@ test('smoke begins a new generation', async () => {
   assert.ok((await generation()) > old);
 });
 
-test('a luminaire moves, and its own light alone comes anew', async () => {
+test('a luminaire moves, and only its own light is sent again', async () => {
   const old = await generation();
   await page.evaluate((name) => {
     const { page: p } = window.luxodus;
@@ -141,7 +141,7 @@ test('a luminaire moves, and its own light alone comes anew', async () => {
   await page.keyboard.press('Escape');
 });
 
-test('a sign is judged, moved, and saved as a variant', async () => {
+test('a sign is assessed, moved, and saved as a variant', async () => {
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
     p.selection.sign(p.live.scene.signs.find((s) => s.name === 'exit east'));
@@ -163,7 +163,7 @@ const selected = (name) => page.waitForFunction((n) =>
 const lightOf = (light) => page.evaluate((l) =>
   window.luxodus.page.live.scene.groups.filter((g) => g.light === l).map((g) => g.name), light);
 
-test('a luminaire is added, the others keep their light, and it goes again', async () => {
+test('a luminaire is added, the others keep their light, and it is removed', async () => {
   const old = await generation();
   const others = await page.evaluate(() => window.luxodus.page.live.scene.groups.length);
   await page.evaluate((name) => {
@@ -182,7 +182,7 @@ test('a luminaire is added, the others keep their light, and it goes again', asy
   assert.equal((await lightOf('kept')).length, others);
 });
 
-test('a sign is added, judged, saved as a variant, and goes again', async () => {
+test('a sign is added, assessed, saved as a variant, and removed', async () => {
   const old = await generation();
   await page.evaluate(() => {
     const { page: p } = window.luxodus;
@@ -209,7 +209,7 @@ test('a sign is added, judged, saved as a variant, and goes again', async () => 
   assert.deepEqual(complaints, []);
 });
 
-test('a traced picture of the view grows, with its error', async () => {
+test('a traced picture of the view is refined, with its error', async () => {
   await page.getByRole('button', { name: 'Render this view' }).click();
   await page.locator('#traced', { hasText: /paths a pixel · ± [0-9.]+ %/ }).waitFor(patience);
   const size = await page.locator('#traced img').evaluate(async (image) => {
@@ -222,7 +222,7 @@ test('a traced picture of the view grows, with its error', async () => {
   assert.deepEqual(complaints, []);
 });
 
-test('a second viewer may look, not edit', async () => {
+test('a second viewer may watch, not edit', async () => {
   const second = await open();
   assert.ok(await second.locator('#smoke').isDisabled());
   await second.context().close();

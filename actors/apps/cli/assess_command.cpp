@@ -1,4 +1,4 @@
-// luxodus assess, compare: whether signs and routes do their job, as data and as a report.
+// luxodus assess, compare: assesses signs and routes, as data and as a report.
 #include "actors/apps/cli/assess_command.hpp"
 
 #include <fmt/format.h>
@@ -52,7 +52,7 @@ std::string ids_of(std::span<const NamedRules> rows) {
   return out;
 }
 
-/// A check that fails, or whose limit was read nowhere, in a line.
+/// Prints in a line a check that fails, or whose limit was not measured.
 void print_check(const Json& check) {
   if (check["verdict"] == "fail")
     std::printf("  fails: %s\n", check_words(check).c_str());
@@ -61,7 +61,7 @@ void print_check(const Json& check) {
                 english_in(check, "reasons").c_str());
 }
 
-/// Views of signs that the people on routes have behind them: read when they turn round.
+/// Views of signs behind people on routes, which are read after turning round.
 std::string behind_words(const Json& a) {
   size_t behind = 0, legible = 0;
   for (const Json& row : a["sights"]) {
@@ -96,7 +96,7 @@ void print_summary(const Json& a) {
     std::printf("%s", guidance_text(*over).c_str());
 }
 
-/// What stays to be done, from what is done.
+/// Estimates the remaining time from the work done.
 class Estimate {
  public:
   std::string left(double share) const {
@@ -169,7 +169,7 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
   if (!job.overwrite)
     if (auto ok = refuse_files_of_others(out->path(), plan.files); !ok) return ok.problem();
   ProgressLine line("assess");
-  std::optional<Estimate> estimate;  // of all times
+  std::optional<Estimate> estimate;  // over all times
   auto assessed = assess_states(
       {job.scene, job.times, reader_at_times(*job.scene, job.scene_file, FireFrames::nearest)},
       job.options, interrupt_flag(),

@@ -1,4 +1,4 @@
-// An assessment and the folder of its report, for the subcommands that make one.
+// Makes an assessment and the folder of its report, for the commands that need one. One thread.
 #pragma once
 
 #include <filesystem>
@@ -13,28 +13,28 @@
 
 namespace luxodus::cli {
 
-/// The times of the states that are assessed, and the scene at the last of them.
+/// The times of the assessed states, and the scene at the last of them.
 struct AssessedStates {
-  std::vector<double> times;  // none: the scene does not change in time
+  std::vector<double> times;  // empty: the scene does not change in time
   std::shared_ptr<const SceneDescription> last;
 };
 
-/// Without times those that the scene says. None after every problem was told.
+/// Without `times`, those that the scene states. None after every problem was reported.
 std::optional<AssessedStates> assessed_states(const std::string& file, std::vector<double> times);
 
 struct AssessmentJob {
-  std::shared_ptr<const SceneDescription> scene;  // of several states the last
+  std::shared_ptr<const SceneDescription> scene;  // with several states, the last
   std::string scene_file;
-  std::vector<double> times;  // of the states; one or none: there is one
+  std::vector<double> times;  // of the states; at most one: a single state
   std::filesystem::path folder;
   AssessOptions options;
-  bool overwrite = false;  // files that no assessment has written
-  bool strict = false;     // exit code 1 where anything is open
+  bool overwrite = false;  // even files that no assessment has written
+  bool strict = false;     // exit code 1 if anything is undecided
   ReportWords report;
 };
 
-/// Assesses, writes the report and prints the summary; until the interrupt flag is set, when
-/// nothing is written. Errors: of the folder, of writing; those of the scene are told here.
+/// Assesses, writes the report and prints the summary; if the interrupt flag is set, nothing is
+/// written. Errors: of the folder, of writing; those of the scene are printed here.
 Result<ExitCode> assess_into(const AssessmentJob& job);
 
 }  // namespace luxodus::cli

@@ -1,4 +1,4 @@
-// luxodus check: read everything a scene names, compile it, and say what was found.
+// luxodus check: reads everything that a scene names, compiles it, and reports what was found.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -127,7 +127,7 @@ void print(const Json& s) {
   std::printf("  batch      %lld particles\n", s["batch_particles"].get<long long>());
 }
 
-/// What compiling warned of, as findings beside those of the inspection, each once.
+/// Adds warnings of compiling, each once, to the findings of the inspection.
 void add_warnings(const CompiledScene& scene, std::vector<Finding>& out) {
   for (const Problem& w : scene.warnings) {
     const Finding finding{Severity::warning, "geometry", w};
@@ -137,8 +137,8 @@ void add_warnings(const CompiledScene& scene, std::vector<Finding>& out) {
   }
 }
 
-/// What assess would ask to be said, where there is something that it judges. Its options may say
-/// it, too: notes.
+/// Adds what assess would require, if there is something to assess. Its options may state it as
+/// well, so these are notes.
 void add_refusals(const SceneDescription& scene, std::vector<Finding>& out) {
   if (scene.packed ||
       (scene.routes.empty() && scene.open_areas.empty() && scene.task_areas.empty()))

@@ -1,5 +1,5 @@
-// luxodus cluster up: all processes of a cluster that belong on this machine, as children of this
-// one. When it ends, they have ended.
+// luxodus cluster up: runs all processes of a cluster that belong on this machine, as children of
+// this one. They have ended when it ends.
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -26,8 +26,8 @@ struct ClusterOptions {
   std::string host;
 };
 
-/// Child processes; those that still live when this ends are stopped. Ctrl-C and SIGTERM come to
-/// wait(), which tells them on.
+/// Child processes; the destructor stops those still alive. wait() forwards Ctrl-C and SIGTERM to
+/// them.
 class Children {
  public:
   Children() {
@@ -43,7 +43,7 @@ class Children {
   Children(const Children&) = delete;
   Children& operator=(const Children&) = delete;
 
-  /// Errors: the system starts no more.
+  /// Errors: the system starts no more processes.
   Result<void> start(const ClusterConfig& cluster, const ClusterProcess& process) {
     std::vector<std::string> words{"luxodus", "node", "--config",
                                    fs::absolute(cluster.file).string()};
@@ -55,7 +55,7 @@ class Children {
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     pid_t pid = 0;
-    // In a group of its own, so that Ctrl-C reaches it once, from here.
+    // In a process group of its own, so that it gets Ctrl-C only once, from here.
     posix_spawnattr_t apart;
     ::posix_spawnattr_init(&apart);
     ::posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
@@ -68,15 +68,15 @@ class Children {
     return {};
   }
 
-  /// Waits until all have ended. The process of the controller decides: where it fails, the others
-  /// are ended, and its exit code is returned; where it does not, the run went on without those
-  /// that failed. That of the display, which may write results for longer, is the next to decide.
-  /// Without a controller (it is on another host), the first that fails says the code.
+  /// Waits until all have ended. The controller's process decides: if it fails, the others are
+  /// ended, and its exit code is returned; if it succeeds, the run continued without those that
+  /// failed. The display's process, which may write results for longer, is the next to decide.
+  /// Without a controller (it is on another host), the first failure gives the exit code.
   int wait(const std::string& controller, const std::string& display) {
     for (reap(controller, display); !living_.empty(); reap(controller, display)) {
       int signal = 0;
       if (::sigwait(&watched_, &signal) != 0 || signal == SIGCHLD) continue;
-      if (told_) std::_Exit(ExitCode::interrupted);  // for the second time: it shall not wait
+      if (told_) std::_Exit(ExitCode::interrupted);  // a second signal: do not wait
       tell_all();
     }
     return result_ != 0 ? result_ : shown_;
@@ -88,7 +88,7 @@ class Children {
     std::string name;
   };
 
-  /// Takes leave of those that have ended.
+  /// Collects processes that have ended.
   void reap(const std::string& controller, const std::string& display) {
     int status = 0;
     for (pid_t pid = 0; (pid = ::waitpid(-1, &status, WNOHANG)) > 0;) {
@@ -106,7 +106,7 @@ class Children {
     }
   }
 
-  /// To end, once: a second word would have them end without their results.
+  /// Signals all to end, once: a second signal would end them without their results.
   void tell_all() {
     if (std::exchange(told_, true)) return;
     for (const Child& child : living_) ::kill(child.pid, SIGTERM);
@@ -117,7 +117,7 @@ class Children {
   std::vector<Child> living_;
   bool told_ = false;
   int result_ = 0;
-  int shown_ = 0;  // the display's
+  int shown_ = 0;  // exit code of the display
 };
 
 int cluster_up(const ClusterOptions& options) {

@@ -1,4 +1,4 @@
-// What all commands share: exit codes, and what is told on standard error.
+// What all commands share: exit codes, and messages on standard error. One thread.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ void tell(const Problem& problem);
 /// One line "file:line: warning: sentence" on standard error.
 void warn(const Problem& warning);
 
-/// The exit code of what a command did; that of bad input after its problem was told.
+/// The exit code of a command's result; for a problem, prints it and returns that of bad input.
 int exit_code_of(const Result<ExitCode>& result);
 int exit_code_of(const Result<void>& result);
 

@@ -1,4 +1,5 @@
-// The commands of the program, one function each, in the order of its help.
+// The commands of the program, one function each, in the order of its help. Each makes a table; one
+// thread.
 #pragma once
 
 #include "actors/apps/cli/options.hpp"
@@ -40,11 +41,10 @@ Command study_command();
 Command validate_command();
 Command keys_command();
 Command info_command();
-/// For commands of the whole program, which it does not hold: the tables of `all` are asked for
-/// when it runs.
+/// For commands about the whole program, which they do not hold: `program` is called when they run.
 Command completion_command(std::function<Command()> program);
 
-/// The program itself.
+/// The table of the whole program.
 Command luxodus_command();
 
 }  // namespace luxodus::cli

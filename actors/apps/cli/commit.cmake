@@ -1,4 +1,4 @@
-# Writes the commit of this source tree into a C++ file, which changes only with it:
+# Writes the commit of this source tree into a C++ file, and touches the file only if it changes:
 #   cmake -DSOURCE=FOLDER -DFILE=commit.cpp -P commit.cmake
 set(commit unknown)
 find_program(GIT git)

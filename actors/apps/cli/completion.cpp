@@ -8,8 +8,8 @@ namespace luxodus::cli {
 
 namespace {
 
-/// Calls `visit(command, words)` for a command and all below it; `words`: "topology amp", "" of the
-/// program itself.
+/// Calls `visit(command, words)` for a command and all its subcommands; `words`: "topology amp", ""
+/// for the program itself.
 void for_each_command(const Command& command, const std::string& words,
                       const std::function<void(const Command&, const std::string&)>& visit) {
   visit(command, words);
@@ -25,14 +25,14 @@ std::vector<std::string> names_of(const Option& option) {
   return {all.substr(0, comma), all.substr(comma + 1)};
 }
 
-/// What compgen is to offer for a value; "" where nobody knows.
+/// The arguments of compgen for a value; "" if unknown.
 std::string compgen_of(const Option& option) {
   if (!option.traits.choices.empty()) return "-W \"" + joined(option.traits.choices, " ") + "\"";
   if (option.traits.form == Form::folder) return "-d";
   return option.traits.form == Form::file || option.traits.form == Form::scene ? "-f" : "";
 }
 
-/// Lines of a bash `case` about the values of options, and about what else a command takes.
+/// Lines of a bash `case` about the values of options, and about arguments of a command.
 struct BashCases {
   std::string deeper, values, words;
 };
@@ -47,7 +47,7 @@ BashCases bash_cases(const Command& program) {
                       inner.name + "\" ;;\n";
       words.push_back(inner.name);
     }
-    std::string argument = "-f";  // what stands in no option: most often a file
+    std::string argument = "-f";  // completion of arguments: most often a file
     for (const Option& option : command.options) {
       const std::string offered = compgen_of(option);
       if (option.is_argument()) {
@@ -69,14 +69,14 @@ BashCases bash_cases(const Command& program) {
   return cases;
 }
 
-/// In single quotes of a shell.
+/// Quoted for a shell.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
 }
 
-/// Without what _arguments takes for its own signs.
+/// Escapes the special characters of _arguments.
 std::string spec_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -92,7 +92,7 @@ std::string zsh_action(const Option& option) {
   return option.traits.form == Form::file || option.traits.form == Form::scene ? "_files" : " ";
 }
 
-/// The lines by which _arguments knows a command's options and arguments.
+/// The specifications by which _arguments completes a command.
 std::string zsh_specs(const Command& command) {
   std::string out = "    '(-h --help)'{-h,--help}'[This text]' \\\n";
   for (const Option& option : command.options) {

@@ -1,4 +1,4 @@
-// Shell completion, made of the tables of commands and options. Pure.
+// Shell completion, generated from the tables of commands and options. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace luxodus::cli {
 
-/// A script for bash that completes the program's command lines: commands, options, words that an
-/// option may have, files and folders.
+/// A script for bash that completes the program's command lines: commands, options, choices of an
+/// option, files and folders.
 std::string bash_completion(const Command& program);
 
-/// The same for zsh, with what each command and option is.
+/// A script for zsh, which also describes each command and option.
 std::string zsh_completion(const Command& program);
 
 }  // namespace luxodus::cli

@@ -1,4 +1,4 @@
-// luxodus completion: what a shell completes command lines with.
+// luxodus completion: prints scripts for shell completion.
 #include <cstdio>
 #include <memory>
 #include <utility>

@@ -1,4 +1,4 @@
-// luxodus converge: how the error falls with particles and with seconds.
+// luxodus converge: measures how the error falls with particles and with seconds.
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -59,8 +59,8 @@ struct Course {
   bool interrupted = false;
 };
 
-/// One run that doubles, looked at after each doubling: every point is a run of its own would-be
-/// length.
+/// One run whose length doubles, measured after each doubling: every point is what a run of that
+/// length would give.
 Course trace_course(LocalRun& run, int64_t most) {
   Course course;
   ProgressLine line("converge");
@@ -81,7 +81,7 @@ Course trace_course(LocalRun& run, int64_t most) {
   }
 }
 
-/// Why a course that ran to its end has fewer than two points.
+/// Why a completed course has fewer than two points.
 std::string why_no_slope(const Course& course) {
   if (course.last_error == 0)
     return "the error is exactly 0: all that this scene measures is computed without chance, and "

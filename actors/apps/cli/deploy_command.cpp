@@ -1,4 +1,4 @@
-// luxodus deploy: writes what systemd, Slurm, ssh or Kubernetes start a cluster's processes with.
+// luxodus deploy: writes the files by which systemd, Slurm, ssh or Kubernetes start a cluster.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -30,7 +30,7 @@ struct DeployChoice {
 
 using Files = std::vector<DeployFile>;
 
-/// Of what never fails.
+/// Wraps a function that never fails.
 template <Files (*files)(const ClusterConfig&, const DeployOptions&)>
 Result<Files> always(const ClusterConfig& cluster, const DeployOptions& options) {
   return files(cluster, options);
@@ -52,7 +52,7 @@ constexpr std::array<Means, 4> all_means{{
 Result<void> write_file(const fs::path& path, const DeployFile& file) {
   std::error_code failed;
   fs::create_directories(path.parent_path(), failed);
-  if (file.secret) {  // a file keeps the rights that it has when it is written anew
+  if (file.secret) {  // an existing file keeps its permissions when rewritten
     if (const int made = ::open(path.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600); made >= 0)
       ::close(made);
     fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write, failed);
@@ -65,7 +65,7 @@ Result<void> write_file(const fs::path& path, const DeployFile& file) {
   return written;
 }
 
-/// A user's name goes into units as it is.
+/// A user's name is written into units unquoted.
 bool is_user_name(const std::string& name) {
   return name_fault(name).empty() && name.find('.') == std::string::npos;
 }

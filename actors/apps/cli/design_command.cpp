@@ -1,4 +1,4 @@
-// luxodus design: where emergency luminaires go, with the fewest or the least cost.
+// luxodus design: places emergency luminaires, with the smallest number or cost.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -53,7 +53,7 @@ Language language_of(const std::string& word) {
   return Language::en;
 }
 
-/// Errors: one of the files of a design is there, and no design has written it.
+/// Errors: a file with a name of a design's files exists, and no design has written it.
 Result<void> refuse_designs_of_others(const fs::path& folder) {
   constexpr uint64_t most_bytes = uint64_t{64} << 20;
   std::error_code failed;

@@ -1,4 +1,4 @@
-// luxodus export: a finished run for programs that read glTF.
+// luxodus export: writes a finished run for programs that read glTF.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -23,7 +23,7 @@ struct ExportOptions {
   double white_cd_m2 = 0;
 };
 
-/// Errors: a folder of no run, a scene that has changed, flux that cannot be read.
+/// Errors: a folder without a run, a scene that has changed, flux that cannot be read.
 Result<std::unique_ptr<LocalRun>> traced_run(const fs::path& folder) {
   const auto finished = read_finished_run(folder);
   if (!finished) return finished.problem();

@@ -1,4 +1,4 @@
-// What the inspection of a scene finds, as commands say it. One thread.
+// Prints the findings of a scene's inspection. One thread.
 #pragma once
 
 #include "actors/judge/inspect/inspect.hpp"
@@ -15,8 +15,8 @@ std::string count_text(const std::vector<Finding>& findings);
 /// [{"severity": "error", "kind": "inside", "file": "a.toml", "line": 3, "what": "..."}]
 Json findings_json(const std::vector<Finding>& findings);
 
-/// Inspects a scene before something is made of it, and tells what was found on standard error.
-/// Whether it may go on: an error refuses, told as the others are.
+/// Inspects a scene before it is used, and prints the findings on standard error. Returns whether
+/// to go on: false if there is an error.
 bool passes_inspection(const std::shared_ptr<const SceneDescription>& scene,
                        const std::vector<Scenario>& scenarios, int threads);
 

@@ -14,8 +14,7 @@ bool has_text(const Json& object, const char* key) {
   return object.is_object() && object.contains(key) && object[key].is_string();
 }
 
-/// What all particles took; nothing where a part of them was traced at a time that nobody wrote
-/// down.
+/// Time for all particles; nothing if a part of them was traced in an unrecorded time.
 std::optional<double> seconds_in(const Json& result) {
   const Json seconds = result.value("seconds", Json());
   if (!seconds.is_object() || !seconds.value("value", Json()).is_number()) return std::nullopt;

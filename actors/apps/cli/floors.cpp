@@ -13,23 +13,23 @@ namespace luxodus::cli {
 
 namespace {
 
-/// What is narrower [m] is the top of a wall or a beam, a shelf or a sill.
+/// Narrower surfaces [m] are tops of walls or beams, shelves or sills.
 constexpr double min_width_m = 0.5;
 constexpr double min_area_m2 = 1;
-/// Of the largest height's area: less is furniture.
+/// Share of the largest area: less is furniture.
 constexpr double min_share = 0.05;
 
-/// Horizontal surfaces at one height. Edges that two triangles share are inside.
+/// Horizontal surfaces at one height. Edges shared by two triangles are inner ones.
 struct Level {
   double area_m2 = 0, rim_m = 0;
-  std::set<std::array<int64_t, 4>> rim;  // edges that one triangle has so far, in millimetres
+  std::set<std::array<int64_t, 4>> rim;  // edges with only one triangle so far, in millimetres
 
   void add(const TriangleRecord& t) {
     area_m2 += 0.5 * static_cast<double>(glm::length(
                          glm::cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0])));
     for (size_t i = 0; i < 3; ++i) add_edge(t.corner[i], t.corner[(i + 1) % 3]);
   }
-  /// Of a long strip its width; of any other shape less than it, and of a square half.
+  /// The width of a long strip; less than the width for any other shape, half of it for a square.
   double width_m() const { return rim_m > 0 ? 2 * area_m2 / rim_m : 0; }
 
  private:

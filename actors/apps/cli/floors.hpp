@@ -1,4 +1,4 @@
-// Where the floors of a scene are, as `luxodus check` says it.
+// Finds the floors of a scene for `luxodus check`. One thread.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace luxodus::cli {
 
-/// Heights [m] at which floors lie, ascending: horizontal surfaces that face up, of a square metre
-/// or more, and wide enough to stand on. Tops of walls and beams are not. Errors: told on standard
-/// error, of a pack whose triangles cannot be read; then there are none.
+/// Heights [m] of floors, ascending: horizontal surfaces that face up, of a square metre or more,
+/// wide enough to stand on. Tops of walls and beams are excluded. If a pack's triangles cannot be
+/// read, prints the error and returns none.
 std::vector<double> floor_heights(const CompiledScene& scene);
 
 }  // namespace luxodus::cli

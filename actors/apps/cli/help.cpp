@@ -1,4 +1,4 @@
-// The help of a command, from its tables: usage, arguments, options and commands under their
+// Makes the help of a command from its tables: usage, arguments, options and commands under their
 // headings, notes.
 #include <algorithm>
 #include <cstdio>
@@ -19,7 +19,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// As the command line has it: an argument by its name in capitals, an option with its value.
+/// As on the command line: an argument by its name in capitals, an option with its value.
 std::string written(const Option& option) {
   if (option.is_argument()) return upper(option.name) + (option.is_list() ? "..." : "");
   const std::string word = option.value_word();

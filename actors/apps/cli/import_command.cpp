@@ -1,4 +1,4 @@
-// luxodus import: what other programs know of a building, as a scene that a person goes on with.
+// luxodus import: turns buildings of other programs into scenes that the user goes on with.
 #include <fmt/format.h>
 
 #include <cctype>
@@ -27,7 +27,7 @@ struct ImportOptions {
   std::vector<std::string> without;
 };
 
-/// What is imported, and where it comes from.
+/// The imported building and its source.
 struct FireImport {
   FireBuilding building;
   FireOrigin source;
@@ -57,8 +57,8 @@ Result<FireImport> of_results(const ImportOptions& options) {
   return out;
 }
 
-/// The results of a case lie beside its input file, or nowhere. Those of an input of several files
-/// (&CATF) have a name of their own.
+/// The index of the results beside an input file, if any. Input of several files (&CATF) has a name
+/// of its own for them.
 std::optional<std::string> index_beside(const std::string& file, const std::string& case_name) {
   for (const char* ending : {".smv", "_cat.smv"}) {
     const fs::path index = fs::path(file).parent_path() / (case_name + ending);

@@ -1,4 +1,5 @@
-// luxodus import dxf: a plan in lines as walls, and blocks as luminaires and signs.
+// luxodus import dxf: turns the lines of a plan into walls, and block references into luminaires
+// and signs.
 #include <filesystem>
 
 #include "actors/apps/cli/command.hpp"

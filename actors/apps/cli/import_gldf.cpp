@@ -1,4 +1,5 @@
-// luxodus import gldf: what a manufacturer's container holds, and tables of a scene that name it.
+// luxodus import gldf: lists the content of a manufacturer's container, and writes tables of a
+// scene that name it.
 #include <fmt/format.h>
 
 #include <set>
@@ -29,7 +30,7 @@ std::string lumens(const std::optional<double>& flux) {
   return flux ? fmt::format("{:.6g} lm", *flux) : std::string("not said");
 }
 
-/// What the light gives on emergency supply, in words.
+/// Describes the light's flux on emergency supply.
 std::string emergency_words(const GldfLight& light) {
   if (light.emergency_lm) return lumens(light.emergency_lm);
   if (light.ballast_factor) return fmt::format("{:.6g} of the rated flux", *light.ballast_factor);
@@ -43,7 +44,7 @@ std::string duration_words(const GldfVariant& variant) {
   return out;
 }
 
-/// What stands for the luminaire in a scene, in words; "" where the container has no shape of it.
+/// Describes the body of the luminaire in a scene; "" if the container has no shape of it.
 std::string body_words(const GldfProduct& product, const GldfVariant& variant) {
   std::string out;
   if (variant.model) {
@@ -81,15 +82,15 @@ void list_contents(const GldfProduct& product) {
   std::printf("%s", out.c_str());
 }
 
-/// A model of the product, as written to the folder.
+/// A model of the product, written to the folder.
 struct WrittenBody {
-  std::string file;   // within the folder
-  std::string fault;  // why it is not there; "" where it is
+  std::string file;   // name within the folder
+  std::string fault;  // why it was not written; "" if it was
   LuminaireBody body;
 };
 
 /// Writes the bodies of the product's models.
-/// Errors: a file that cannot be written. A model that cannot be read is said in its place.
+/// Errors: a file that cannot be written. A model that cannot be read becomes a fault in its place.
 Result<std::vector<WrittenBody>> write_bodies(const GldfProduct& product, const fs::path& folder) {
   ReadingShare share;
   for (const GldfModel& model : product.models)
@@ -116,7 +117,7 @@ Result<std::vector<WrittenBody>> write_bodies(const GldfProduct& product, const 
   return out;
 }
 
-/// A model as an import that has its luminous opening where the luminaire is.
+/// An import of a model whose luminous opening is at the luminaire.
 std::string model_text(const WrittenBody& body, const L3dModel& model, const std::string& opening,
                        const std::string& name, double x) {
   const BodyPlace place = body_place(model, body.body.mesh, opening);
@@ -141,7 +142,7 @@ std::string model_text(const WrittenBody& body, const L3dModel& model, const std
 }
 
 /// The housing as an object that stands on the luminous opening, a millimetre above it, so that it
-/// hides no light that goes down.
+/// blocks no light that goes down.
 std::string housing_text(const GldfVariant& variant, const std::string& name, double x) {
   constexpr double gap_m = 1e-3, z = 3 + gap_m;
   if (!variant.housing) return {};
@@ -180,7 +181,7 @@ std::string luminaire_text(const GldfVariant& variant, const GldfLight& light,
   return out;
 }
 
-/// What stands for the luminaire: the model, else the box or cylinder.
+/// The body of the luminaire: the model, else the box or cylinder.
 std::string body_text(const GldfProduct& product, const std::vector<WrittenBody>& bodies,
                       const GldfVariant& variant, size_t light, const std::string& name, double x) {
   if (!variant.model) return housing_text(variant, name, x);
@@ -192,7 +193,7 @@ std::string body_text(const GldfProduct& product, const std::vector<WrittenBody>
          housing_text(variant, name, x);
 }
 
-/// Tables of every light that can be had, in a row.
+/// Tables of all available lights, in a row.
 std::string luminaires_text(const GldfProduct& product, const std::vector<WrittenBody>& bodies,
                             const std::string& container) {
   std::string out = fmt::format(
@@ -237,7 +238,7 @@ Result<ExitCode> import_gldf(const ImportGldfOptions& options) {
   const auto folder = import_folder(options.out);
   if (!folder) return folder.problem();
   for (const GldfFile& file : product->photometry) {
-    // The last part of a name of others, as a name of ours: it leads nowhere else.
+    // Only the last part of a foreign name is used, so that it cannot lead out of the folder.
     const std::string name = as_name(fs::path(file.name).filename().string(), "photometry.ldt");
     if (auto ok = write_file_atomically(folder.value() / name, std::string_view(file.bytes)); !ok)
       return ok.problem();

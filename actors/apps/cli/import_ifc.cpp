@@ -1,4 +1,4 @@
-// luxodus import ifc: a building as its designers drew it, as a scene that a person goes on with.
+// luxodus import ifc: turns an IFC model into a scene that the user goes on with.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -28,7 +28,7 @@ struct ImportIfcOptions {
   double seconds = 600;
 };
 
-/// ifc_shapes.mjs of an installed program, or of the tree that this one was built from.
+/// ifc_shapes.mjs of an installed program, else of the source tree of this build.
 fs::path shapes_script() {
   const fs::path installed = shared_folder() / "ifc/ifc_shapes.mjs";
   std::error_code ignored;

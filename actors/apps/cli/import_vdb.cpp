@@ -1,4 +1,4 @@
-// luxodus import vdb: what grids an OpenVDB file has, and one of them as the smoke of a scene.
+// luxodus import vdb: lists the grids of an OpenVDB file, or imports one as the smoke of a scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,11 +23,11 @@ namespace fs = std::filesystem;
 struct ImportVdbOptions {
   std::string file, out, grid;
   double extinction_per_unit = 0;
-  uint32_t seconds = 0;  // 0: by the size of the file
+  uint32_t seconds = 0;  // 0: chosen by the file's size
   std::string units = "m", up = "z";
 };
 
-/// luxodus_vdb of an installed program, or beside this one.
+/// luxodus_vdb of an installed program, else the one beside this program.
 fs::path vdb_program() {
   std::error_code ignored;
   const fs::path installed =
@@ -46,7 +46,7 @@ void list_grids(const std::vector<VdbGrid>& grids) {
   }
 }
 
-/// The grid that is asked for; else "density", the usual name of smoke, or the only one there is.
+/// The requested grid; else "density", the usual name of smoke, or the only grid.
 Result<std::string> chosen_grid(const ImportVdbOptions& options,
                                 const std::vector<VdbGrid>& grids) {
   if (!options.grid.empty()) return options.grid;

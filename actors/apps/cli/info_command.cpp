@@ -1,4 +1,4 @@
-// luxodus info: what this program is made of, and whether this machine can run it.
+// luxodus info: prints the program's components, and whether this machine can run it.
 #include <fmt/format.h>
 
 #include <sstream>

@@ -1,4 +1,4 @@
-// luxodus keygen: the key pairs by which nodes of several hosts know each other.
+// luxodus keygen: makes the key pairs by which nodes of several hosts authenticate each other.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -21,7 +21,7 @@ struct KeygenOptions {
   bool force = false;
 };
 
-/// Takes names and folder from the cluster's file, where one is given. False: it was told why not.
+/// Takes names and folder from the cluster's file, if one is given. False: the problem was printed.
 bool take_cluster(KeygenOptions& options) {
   if (options.cluster.empty()) return true;
   const std::optional<ClusterConfig> read = load_cluster(options.cluster);
@@ -39,7 +39,7 @@ bool take_cluster(KeygenOptions& options) {
   return true;
 }
 
-/// The folder, for its owner alone: whoever can write into it can put a key of his own there.
+/// Makes the folder with access for its owner only: others could replace keys in it.
 std::optional<Problem> make_folder(const fs::path& folder) {
   std::error_code failed;
   if (fs::create_directories(folder, failed)) fs::permissions(folder, fs::perms::owner_all, failed);
@@ -52,7 +52,7 @@ std::optional<Problem> make_folder(const fs::path& folder) {
   return std::nullopt;
 }
 
-/// What keeps us from beginning, before a single key is written.
+/// Errors that can be found before a single key is written.
 std::optional<Problem> refusal(const KeygenOptions& options) {
   if (options.out.empty())
     return problem_in(

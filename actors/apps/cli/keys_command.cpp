@@ -1,4 +1,4 @@
-// luxodus keys: the help of keys, from the schemas by which files are read.
+// luxodus keys: prints help about keys from the schemas by which files are read.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -32,7 +32,7 @@ const toml::Schema& schema_of(const std::string& kind) {
                            : scene_schema();
 }
 
-/// Of a heading or a meaning, which are written for Markdown.
+/// Removes backquotes from headings and meanings, which are written for Markdown.
 std::string without_backquotes(std::string_view text) {
   std::string out;
   std::copy_if(text.begin(), text.end(), std::back_inserter(out), [](char c) { return c != '`'; });
@@ -51,7 +51,7 @@ std::string described_key(const toml::KeySpec& key) {
   return without_backquotes(key.meaning) + " (" + joined(more, "; ") + ")";
 }
 
-/// A table with those of its keys that `wanted` holds for; "" where it has none.
+/// A table with those keys for which `wanted` holds; "" without any.
 template <class Wanted>
 std::string table_text(const toml::TableSpec& table, const Wanted& wanted) {
   std::string rows;
@@ -60,7 +60,7 @@ std::string table_text(const toml::TableSpec& table, const Wanted& wanted) {
   return rows.empty() ? rows : "\n" + filled(without_backquotes(table.heading), 0) + "\n" + rows;
 }
 
-/// `word` names a table, which is shown with those of its kinds, or a key of some.
+/// `word` names a table, which is shown with its kinds, or a key.
 std::string text_of(const toml::Schema& schema, const std::string& word) {
   std::string out;
   const auto every = [](const toml::KeySpec&) { return true; };

@@ -1,4 +1,5 @@
-// Where the files are that an installed program has with it: beside it, wherever it was unpacked.
+// Finds the files that an installed program comes with: relative to it, wherever it was unpacked.
+// One thread.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +7,11 @@
 
 namespace luxodus::cli {
 
-/// share/luxodus beside the folder of this program; nothing need be there.
+/// share/luxodus beside the folder of this program; it need not exist.
 std::filesystem::path shared_folder();
 
-/// A scene as it is named on a command line: a file that is there, or one of the library that
-/// ships ("office_floor", "scenes/library/office_floor.toml"). What is neither comes back as it is.
+/// A scene named on a command line: an existing file, or a scene of the library that ships
+/// ("office_floor", "scenes/library/office_floor.toml"). Any other name is returned unchanged.
 std::string find_scene(const std::string& name);
 
 }  // namespace luxodus::cli

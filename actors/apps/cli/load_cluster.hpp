@@ -1,4 +1,4 @@
-// A cluster's file for the subcommands that take one.
+// Reads a cluster's file for commands that need one. One thread.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace luxodus::cli {
 
-/// The cluster of a file, or nothing after every problem was told. Warnings are logged.
+/// The cluster of a file, or nothing after every problem was printed. Warnings are logged.
 std::optional<ClusterConfig> load_cluster(const std::filesystem::path& file);
 
 }  // namespace luxodus::cli

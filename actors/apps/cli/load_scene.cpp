@@ -18,7 +18,7 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
     return open_scene(file, at_s, {}, frames, &share);
   }();
   for (const Problem& p : opened.problems.list()) tell(p);
-  // A pack's were told when it was made.
+  // A pack's warnings were printed when it was written.
   if (opened.scene && !opened.scene->packed && warnings == ReadingWarnings::told)
     for (const Problem& w : opened.scene->warnings) warn(w);
   return opened.scene;

@@ -1,4 +1,4 @@
-// The scene that a command is about, with all its problems told.
+// Loads the scene of a command, and prints all its problems. One thread.
 #pragma once
 
 #include <memory>
@@ -13,28 +13,28 @@
 
 namespace luxodus::cli {
 
-/// Who tells the warnings of reading: load_scene, or the inspection, whose findings they are, too.
+/// Who prints the warnings of reading: load_scene, or the inspection, whose findings include them.
 enum class ReadingWarnings { told, left_to_inspection };
 
-/// The scene of a scene file or a pack, or null after every problem was told. `at_s`: time of its
-/// fire simulations instead of the one that it states; a pack has one time. `frames`: what
-/// simulations have between two of theirs.
+/// The scene of a scene file or a pack, or null after every problem was printed. `at_s`: time for
+/// its fire simulations, replacing the stated one; a pack has one time. `frames`: the state of
+/// simulations between two frames.
 std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
                                                    ReadingWarnings warnings = ReadingWarnings::told,
                                                    std::optional<double> at_s = std::nullopt,
                                                    FireFrames frames = FireFrames::between);
 
-/// Reads a scene file at other times, where the scene has a clock; empty elsewhere, and of a pack.
+/// Reads a scene file at other times, if the scene has a clock; otherwise, and for a pack, empty.
 SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene,
                             FireFrames frames);
 
-/// The option --at, whose text goes to `at`.
+/// The option --at, whose value goes to `at`.
 Option at_option(std::string& at);
-/// The same option, which takes several times.
+/// The option --at with several times.
 Option times_option(std::vector<std::string>& at);
-/// Those it says, each once, ascending. Requires: they were read as that option.
+/// The given times, each once, ascending. Requires: they were read by times_option.
 std::vector<double> times_asked(const std::vector<std::string>& at);
-/// The time it says; none where it is empty. Requires: it was read as that option.
+/// The given time; none if it is empty. Requires: it was read by at_option.
 std::optional<double> time_asked(const std::string& at);
 
 }  // namespace luxodus::cli

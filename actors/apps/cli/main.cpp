@@ -62,8 +62,8 @@ Command luxodus_command() {
 
 namespace {
 
-/// The release is built for a processor generation; a machine that lacks it is told so, not crashed
-/// on.
+/// The release is built for a processor generation: an older machine gets a message instead of a
+/// crash.
 bool processor_is_good_enough() {
   __builtin_cpu_init();
   if (std::strcmp(luxodus::cli::build.architecture, "x86-64-v3") == 0 &&
@@ -77,19 +77,19 @@ bool processor_is_good_enough() {
   return true;
 }
 
-/// A standard stream that is closed would have its number given to the next file that is opened,
-/// and what is printed would go into a result.
+/// If a standard stream is closed, the next opened file would get its number, and printed text
+/// would go into a result.
 void hold_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
     // The lowest free number is this one. Nothing can be written to standard output then, which
-    // when_printed() finds out.
+    // when_printed() detects.
     (void)::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
   }
 }
 
-/// What was printed has arrived, or the exit code says that it has not: a script that reads a
-/// report cut off by a full disk must not take it for whole.
+/// Checks that all output was written, and else returns an error code: a script must not take a
+/// report for complete that a full disk has cut off.
 int when_printed(int exit_code) {
   const bool whole = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (whole) return exit_code;
@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
   if (const auto served = luxodus::serve_isolated_job(argc, argv)) return *served;
   if (!processor_is_good_enough()) return ExitCode::failure;
   hold_standard_streams();
-  // A reader that goes away is an error of writing, not the end of a run that has yet to be saved.
+  // A closed pipe is a write error, and must not end a run that has yet to be saved.
   std::signal(SIGPIPE, SIG_IGN);
   spdlog::set_default_logger(spdlog::stderr_color_mt("luxodus"));
   guard_terminal();
@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
     const std::string version = std::string("luxodus ") + build.version + " (" + build.commit + ")";
     exit_code = run_command_line(luxodus_command(), version, argc, argv);
   } catch (const std::exception& e) {
-    luxodus::cli::tell(luxodus::problem(e.what()));  // whatever is logged
+    luxodus::cli::tell(luxodus::problem(e.what()));  // printed even if logging is off
     exit_code = ExitCode::failure;
   }
   return when_printed(exit_code);

@@ -1,4 +1,4 @@
-// luxodus node: the nodes of one process of a cluster, started on the machine where they belong.
+// luxodus node: runs the nodes of one process of a cluster on the machine where they belong.
 #include <fmt/format.h>
 #include <poll.h>
 #include <spdlog/spdlog.h>
@@ -42,7 +42,7 @@ struct NodeOptions {
   std::vector<std::string> names;
 };
 
-/// The folder of the results, where this process is to write them: held until it ends.
+/// The folder of the results, if this process writes them: locked until it ends.
 Result<std::optional<OutputFolder>> claim_results(const ClusterConfig& cluster,
                                                   const ClusterProcessRun& process) {
   if (!process.shows()) return std::optional<OutputFolder>();
@@ -55,7 +55,7 @@ Result<std::optional<OutputFolder>> claim_results(const ClusterConfig& cluster,
   return std::optional(std::move(out).value());
 }
 
-/// What the node that shows the run leaves, as `luxodus run` does.
+/// Files of the node that displays the run, as for `luxodus run`.
 RunOutputOptions display_options(const ClusterConfig& cluster, const ClusterProcessRun& process,
                                  const fs::path& folder) {
   constexpr int preview_paths = 4;
@@ -74,7 +74,7 @@ RunOutputOptions display_options(const ClusterConfig& cluster, const ClusterProc
   return options;
 }
 
-/// A controller that traces brings its worker.
+/// Adds a worker to a controller that traces.
 void add_tracer(const ClusterConfig& cluster, std::vector<NodeId>& nodes) {
   const NodeId controller = cluster.controller();
   if (!cluster.node(controller).traces || std::count(nodes.begin(), nodes.end(), controller) == 0)
@@ -83,12 +83,12 @@ void add_tracer(const ClusterConfig& cluster, std::vector<NodeId>& nodes) {
   if (tracer && std::count(nodes.begin(), nodes.end(), *tracer) == 0) nodes.push_back(*tracer);
 }
 
-/// What one node says is read beside what others say, on other hosts: with its moment, in UTC.
+/// Logs of several hosts are read side by side, so lines get a time in UTC.
 void tell_the_time() {
   spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v", spdlog::pattern_time_type::utc);
 }
 
-/// Workers of states that are made by `states`, which outlives them.
+/// Workers of states that `states` makes, which outlives them.
 NodeWork work_of_states(StateMaker& states) {
   NodeWork work;
   work.worker = [&states](const RunSetup& run, const Machine& machine, const NodeSetup& node,
@@ -100,7 +100,7 @@ NodeWork work_of_states(StateMaker& states) {
   return work;
 }
 
-/// The nodes of a cluster whose file has a table [view].
+/// Runs the nodes of a cluster whose file has a table [view].
 Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
                                                 ClusterProcessRun& process) {
   const LocalRun& base = process.local_run();
@@ -132,14 +132,14 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
   return process.run(interrupt_flag(), work);
 }
 
-/// Why nobody will trace any more for whoever waits for workers. Any thread.
+/// Decides when workers will no longer come. Any thread.
 class WorkerWatch {
  public:
   WorkerWatch(const ClusterConfig& cluster, const NodeExecutor& executor)
       : cluster_(cluster), executor_(executor), without_since_(clock_.now()) {}
 
   std::optional<Problem> fault() {
-    // The executor asks with its own lock held: it is asked before this one is taken.
+    // The executor asks while it holds its own lock, so it is asked before this lock is taken.
     if (auto refused = executor_.fault()) return refused;
     const NodeExecutor::Counters counters = executor_.counters();
     const std::lock_guard lock(mutex_);
@@ -149,7 +149,7 @@ class WorkerWatch {
       stuck_since_.reset();
     else if (!stuck_since_)
       stuck_since_ = now;
-    else if (now - *stuck_since_ > patience.start)  // so long a worker that can may take to come
+    else if (now - *stuck_since_ > patience.start)  // a capable worker may take this long to come
       return problem_in(cluster_.file,
                         "no worker can trace what is asked for; their logs say why: raise what "
                         "they lack, and start anew");
@@ -158,7 +158,7 @@ class WorkerWatch {
       without_since_.reset();
       return std::nullopt;
     }
-    if (!without_since_) without_since_ = now;  // nobody may have asked for a while
+    if (!without_since_) without_since_ = now;  // there may have been no question for a while
     if (now - *without_since_ <= (any_ ? patience.lost : patience.start)) return std::nullopt;
     return problem_in(cluster_.file,
                       any_ ? "all workers were lost: see to them and start anew"
@@ -169,12 +169,13 @@ class WorkerWatch {
   const ClusterConfig& cluster_;
   const NodeExecutor& executor_;
   const SystemClock clock_;
-  std::mutex mutex_;  // guards all below
+  std::mutex mutex_;  // guards all members below
   std::optional<Nanoseconds> without_since_, stuck_since_;
   bool any_ = false;
 };
 
-/// What a cluster's file asks for in its table [assess]. None after every problem was told.
+/// The assessment that the table [assess] of a cluster's file asks for. None after every problem
+/// was printed.
 std::optional<AssessmentJob> assessment_of(const ClusterConfig& cluster, const LocalRun& base) {
   std::vector<double> times;
   if (cluster.run.at_s) times.push_back(*cluster.run.at_s);
@@ -195,7 +196,7 @@ std::optional<AssessmentJob> assessment_of(const ClusterConfig& cluster, const L
   return job;
 }
 
-/// The nodes of a cluster whose file has a table [assess].
+/// Runs the nodes of a cluster whose file has a table [assess].
 Result<ExitCode> assess_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process) {
   const auto& scene = process.local_run().scene().description;
   RoundStates states(scene,
@@ -237,7 +238,7 @@ PictureOptions pictures_of(const RenderChoice& render) {
   return picture;
 }
 
-/// The nodes of a cluster whose file has a table [render].
+/// Runs the nodes of a cluster whose file has a table [render].
 Result<ExitCode> render_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process) {
   const LocalRun& base = process.local_run();
   const SceneDescription& scene = *base.scene().description;

@@ -1,5 +1,4 @@
-// The option --nodes of commands that trace, and need no more of nodes than that they do. One
-// thread.
+// The option --nodes, for commands that only need nodes to trace. One thread.
 #pragma once
 
 #include <memory>

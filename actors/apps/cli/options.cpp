@@ -1,6 +1,6 @@
 // Reads a command line by the tables of options.hpp. CLI11 finds options, arguments and commands
-// among the words; values are read here, alike for all: a whole number is one of decimal digits
-// that fits, and what is refused is said with what would be right.
+// among the words; values are read here by common rules: a whole number consists of decimal digits
+// and fits its type, and a rejected value is reported with what would be valid.
 #include "actors/apps/cli/options.hpp"
 
 #include <CLI/CLI.hpp>
@@ -60,7 +60,7 @@ std::string read_text(const Option& option, std::string text) {
   return option.traits.form == Form::scene ? find_scene(text) : text;
 }
 
-/// Every word that was given for an option goes into its target.
+/// Stores all values of an option in its target.
 void store(const Option& option, const std::vector<std::string>& texts) {
   const auto read = [&]<class T>(const std::string& text, T& value) {
     if constexpr (std::is_same_v<T, std::string>)
@@ -84,7 +84,7 @@ void store(const Option& option, const std::vector<std::string>& texts) {
   std::visit(put, option.value);
 }
 
-/// Makes one name of an option known to the parser: its own, or the old one.
+/// Registers one name of an option with the parser: its own, or the old one.
 void add_name(CLI::App& app, const Option& option, const std::string& name) {
   const bool is_old = name != option.name;
   const auto take = [&option, name, is_old](const std::vector<std::string>& texts) {
@@ -123,7 +123,7 @@ void add_options(CLI::App& app, const Command& command) {
   }
 }
 
-/// `command` and its texts stay where they are while `app` lives.
+/// `command` and its texts must not move while `app` lives.
 void add_command(CLI::App& app, const Command& command, const std::string& path) {
   app.formatter_fn([&command, path](const CLI::App*, const std::string&, CLI::AppFormatMode) {
     return help_text(command, path);
@@ -134,7 +134,7 @@ void add_command(CLI::App& app, const Command& command, const std::string& path)
   if (!command.commands.empty() && !command.run) app.require_subcommand(1);
 }
 
-/// Changes of one character that make one word of the other.
+/// Edit distance of two words.
 size_t distance(std::string_view a, std::string_view b) {
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});
@@ -150,10 +150,10 @@ size_t distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// ": did you mean run? " of the nearest word, or "; ".
+/// ": did you mean run? " for the nearest word, or "; ".
 std::string guess(const std::string& word, const std::vector<std::string>& known) {
   std::string nearest;
-  size_t least = word.size() / 3 + 2;  // farther is another word
+  size_t least = word.size() / 3 + 2;  // a larger distance is another word
   for (const std::string& name : known)
     if (const size_t d = distance(word, name); d < least) {
       least = d;
@@ -162,8 +162,8 @@ std::string guess(const std::string& word, const std::vector<std::string>& known
   return nearest.empty() ? "; " : ": did you mean " + nearest + "? ";
 }
 
-/// A first word that is no command, with the command that was likely meant; nothing where all is
-/// well or the parser says it better.
+/// Reports a first word that is not a command, with the command probably meant; nothing if it is
+/// one, or if the parser's message is better.
 std::optional<std::string> unknown_command(const Command& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return std::nullopt;
   std::vector<std::string> names;
@@ -173,7 +173,7 @@ std::optional<std::string> unknown_command(const Command& program, int argc, cha
          program.name + " --help lists all commands";
 }
 
-/// The command that was called, and its words.
+/// The called command, and its words.
 std::pair<const Command*, std::string> called(const CLI::App& app, const Command& program) {
   const CLI::App* at = &app;
   const Command* command = &program;
@@ -187,7 +187,7 @@ std::pair<const Command*, std::string> called(const CLI::App& app, const Command
   return {command, path};
 }
 
-/// What is wrong with a command line, in a sentence, and where help is.
+/// Describes a wrong command line in a sentence, and where to find help.
 std::string sentence(const CLI::ParseError& error, const CLI::App& app, const Command& program) {
   const auto [command, path] = called(app, program);
   const std::string where = path + " --help lists what it takes";

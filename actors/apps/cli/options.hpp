@@ -1,6 +1,6 @@
-// The command line as data: commands, what they take, and what runs. Help, shell completion and
-// man pages are made of these tables; options.cpp alone reads a command line by them, and is the
-// only source that includes CLI11. Values are written while the command line is read. One thread.
+// The command line as data: commands, their options, and the functions they call. Help, shell
+// completion and man pages are generated from these tables; only options.cpp reads a command line
+// by them, and includes CLI11. Values are stored while the command line is read. One thread.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace luxodus::cli {
 
-/// Where a value goes. Its type says what may be written; a bool is a flag, which takes no value; a
-/// list takes several values, and may be given more than once.
+/// Where a value is stored. The type defines the syntax: a bool is a flag without a value; a list
+/// takes several values, and may be given more than once.
 using Target = std::variant<bool*, int*, uint16_t*, uint32_t*, int64_t*, uint64_t*, double*,
                             std::string*, std::vector<std::string>*, std::vector<double>*,
                             std::optional<uint16_t>*, std::optional<uint64_t>*>;
 
-/// What a text stands for: its word in the help, and what a shell completes it with. A scene is a
-/// file, or one that ships, by its name: see library.hpp.
+/// Meaning of a text: its word in the help, and how a shell completes it. A scene is a file, or the
+/// name of one that ships: see library.hpp.
 enum class Form { text, name, file, folder, scene, count, share, duration };
 
 /// Numbers from `low` to `high`, both included.
@@ -27,24 +27,24 @@ struct Range {
   double low, high;
 };
 
-/// What else an option may have.
+/// Optional properties of an option.
 struct OptionTraits {
   Form form = Form::text;
-  /// The default, for people. Without it the target's value is shown, where that says something.
+  /// The default, as displayed. If empty, the target's value is shown, if it says something.
   std::string otherwise = {};
   std::optional<Range> range = {};
-  std::vector<std::string> choices = {};  // words that may be written, in small letters
+  std::vector<std::string> choices = {};  // allowed words, in lower case
   const char* group = "Options";          // heading in the help
-  const char* old_name = nullptr;         // of one release ago: taken with a warning
-  const char* needs = nullptr;            // another option, without which this is refused
-  const char* excludes = nullptr;         // another option, with which this is refused
+  const char* old_name = nullptr;         // name of one release ago: accepted with a warning
+  const char* needs = nullptr;            // another option that this one requires
+  const char* excludes = nullptr;         // another option that excludes this one
   bool required = false;
   bool comma_separated = false;  // a list
-  /// Why a text is refused, for people; "" where it is not.
+  /// Why a text is rejected; "" if it is valid.
   std::function<std::string(const std::string&)> fault = {};
 };
 
-/// An option ("--out", "-o,--out"), or an argument by its place ("scene").
+/// An option ("--out", "-o,--out"), or a positional argument ("scene").
 struct Option {
   const char* name;
   Target value;
@@ -56,32 +56,33 @@ struct Option {
   bool is_list() const;
   /// "--out" of "-o,--out".
   std::string long_name() const;
-  /// "UINT", "FILE", "en|de|fr"; "" of a flag.
+  /// "UINT", "FILE", "en|de|fr"; "" for a flag.
   std::string value_word() const;
-  /// "default: 4", "default: all cores"; "" where there is none to speak of.
+  /// "default: 4", "default: all cores"; "" if there is none to show.
   std::string default_text() const;
 };
 
-/// A command, with commands of its own or without.
+/// A command, with or without subcommands.
 struct Command {
   std::string name;
   std::string summary;       // one line
-  const char* heading = "";  // under which it stands in the list of commands
+  const char* heading = "";  // its heading in the list of commands
   std::vector<Option> options = {};
-  /// Paragraphs and examples below the options. Lines that begin with blanks stay as they are;
-  /// others are filled.
+  /// Paragraphs and examples below the options. Lines that begin with blanks are kept; others are
+  /// filled.
   std::string notes = {};
   std::vector<Command> commands = {};
-  /// Its exit code. Without it one of `commands` must be named. Owns what `options` point into.
+  /// Returns its exit code. Without it one of `commands` must be named. Owns the targets of
+  /// `options`.
   std::function<int()> run = {};
 };
 
-/// What `luxodus NAME --help` prints. `path`: all words by which the command is called.
+/// The text of `luxodus NAME --help`. `path`: all words of the command.
 std::string help_text(const Command& command, const std::string& path);
 
-/// Reads a command line and runs what it asks for: an exit code. Help and version are printed;
-/// errors are told on standard error and give 2. Throws what a command throws.
-/// `version`: what --version prints.
+/// Reads a command line and runs the command: returns its exit code. Help and version are printed;
+/// errors are printed on standard error and give 2. Passes on a command's exceptions.
+/// `version`: the text of --version.
 int run_command_line(const Command& program, const std::string& version, int argc, char** argv);
 
 }  // namespace luxodus::cli

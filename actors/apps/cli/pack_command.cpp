@@ -1,4 +1,4 @@
-// luxodus pack: a scene as one file that many machines can share.
+// luxodus pack: writes a scene as one file that many machines can share.
 #include <filesystem>
 
 #include "actors/apps/cli/command.hpp"
@@ -30,7 +30,7 @@ struct PackOptions {
   bool json = false;
 };
 
-/// As many cells as keep each at `cell_kib` or below; cells differ by one triangle.
+/// The number of cells that keeps each at `cell_kib` or below; cells differ by one triangle.
 int cells_for(uint64_t triangles, double cell_kib) {
   const double per_cell = cell_kib * 1024 / sizeof(TriangleRecord);
   return static_cast<int>(std::max(1.0, std::ceil(static_cast<double>(triangles) / per_cell)));
@@ -56,7 +56,7 @@ Result<PackReport> pack_scene(const PackOptions& options) {
   if (!scenario) return scenario.problem();
   if (!passes_inspection(description, {scenario.value()}, default_threads()))
     return problem_in(options.scene, "the scene has errors, told above");
-  // Compiling tells how many triangles there are, and only then how many cells that makes.
+  // Only compiling gives the number of triangles, from which the number of cells follows.
   auto scene = compile_scene(description, scenario.value(), {});
   if (!scene) return scene.problem();
   const int cells = cells_for(scene.value()->triangles, options.cell_kib);

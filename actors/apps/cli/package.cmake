@@ -1,9 +1,9 @@
-# What an installed Luxodus consists of, and the Debian package of it:
+# The files of an installed Luxodus, and its Debian package:
 #   cmake --build build/release --target luxodus luxodus_python package_files
 #   cmake --install build/release --prefix /opt/luxodus       or
 #   cd build/release && cpack -G DEB
-# package_files are made by the program: man pages (where help2man is installed), scripts of shells;
-# and the documents as a site (where MkDocs is). tests/tools/package_test.sh does all of it.
+# The target package_files generates man pages (if help2man is installed), scripts of shells, and
+# the documents as a site (if MkDocs is). tests/tools/package_test.sh does all of it.
 include(GNUInstallDirs)
 set(made ${PROJECT_BINARY_DIR}/package)
 set(site ${made}/html)
@@ -27,14 +27,14 @@ if(LUX_HAS_VDB)  # apart, so that a package does not depend on OpenVDB: --compon
   install(TARGETS luxodus_vdb RUNTIME DESTINATION lib/luxodus COMPONENT vdb EXCLUDE_FROM_ALL)
 endif()
 if(LUX_HAS_PYTHON)
-  # Where Debian's Python looks for modules of packages, below the prefix /usr.
+  # The folder in which Debian's Python looks for modules of packages, below the prefix /usr.
   install(TARGETS luxodus_python LIBRARY DESTINATION lib/python3/dist-packages OPTIONAL)
 endif()
-# Where the program looks for scenes: actors/apps/cli/library.cpp.
+# The folder in which the program looks for scenes: actors/apps/cli/library.cpp.
 set(shared ${CMAKE_INSTALL_DATADIR}/luxodus)
 install(DIRECTORY scenes/library DESTINATION ${shared}/scenes
   PATTERN "*.expected.toml" EXCLUDE)
-# What computes shapes of IFC models, with its package where setup.sh has fetched it.
+# The script for shapes of IFC models, with its package if setup.sh has fetched it.
 install(DIRECTORY actors/import/shapes/ DESTINATION ${shared}/ifc PATTERN ".gitignore" EXCLUDE
   PATTERN ".package-lock.json" EXCLUDE)
 file(GLOB examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/actors/apps/cli/examples/*)

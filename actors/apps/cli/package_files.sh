@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# package_files.sh PROGRAM FOLDER: writes what a package has besides the program and is made by it:
-# completion of bash and zsh, and man pages of the program and each command where help2man is
+# package_files.sh PROGRAM FOLDER: writes the files of a package that the program generates:
+# completion of bash and zsh, and man pages of the program and each command if help2man is
 # installed.
 set -euo pipefail
 program=$1
@@ -16,7 +16,7 @@ if ! command -v help2man >/dev/null; then
   exit 0
 fi
 version=$("$program" --version | cut -d ' ' -f 2)
-# page NAME SUMMARY WORD...: of `luxodus WORD...`, as man1/NAME.1.gz.
+# page NAME SUMMARY WORD...: the man page of `luxodus WORD...`, as man1/NAME.1.gz.
 page() {
   local name=$1 summary=$2
   shift 2

@@ -13,7 +13,7 @@ namespace luxodus::cli {
 
 namespace {
 
-/// A number that was refused, with the option's name before the reason.
+/// A problem with a number, with the option's name before the reason.
 Problem of_option(const char* option, const Problem& refused) {
   return problem(std::string(option) + ": " + refused.text());
 }

@@ -1,5 +1,5 @@
 // How long pictures are refined and on what monitor they are shown: options of `luxodus run` and
-// `luxodus render`; and what is said of pictures on the way. One thread.
+// `luxodus render`, and messages about pictures. One thread.
 #pragma once
 
 #include <filesystem>
@@ -19,26 +19,26 @@ struct PictureChoices {
   std::optional<uint64_t> paths;
   std::string time, error;
   DisplayModel display;
-  std::vector<std::string> sight;  // limits; none are named: all are heeded
+  std::vector<std::string> sight;  // limits to apply; empty: all
 };
 
-/// `paths_name`: of the option that counts paths. Requires: `choices` outlives them.
+/// `paths_name`: the option that counts paths. Requires: `choices` outlives them.
 std::vector<Option> options_of(PictureChoices& choices, const char* paths_name);
 
-/// Without a number of paths, a time or an error that `picture` has alone ends it.
+/// Without a number of paths, only the time or the error in `picture` ends it.
 void limit_paths(const std::optional<uint64_t>& paths, PictureOptions& picture);
-/// Into `picture`, with limit_paths.
-/// Errors: a time or a share that is none, or not above 0; a monitor whose white is not above its
-/// black; limits of sight that exclude each other.
+/// Reads the choices into `picture`, with limit_paths.
+/// Errors: an invalid time or share, or one that is not above 0; a monitor whose white is not above
+/// its black; limits of sight that exclude each other.
 Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture);
 
 /// "34 %, 12 paths, error 18 %, about 40 s left".
 void show_pictures(ProgressLine& line, const PictureProgress& progress);
-/// Logs what pictures are there, and that they were interrupted.
+/// Logs which pictures were written, and whether they were interrupted.
 void tell_rendered(const RenderedViews& rendered);
-/// What pictures write into the folder of their run.
+/// The files of pictures in the folder of their run.
 OutputPlan plan_of_views(const SceneDescription& scene);
-/// render_views, with progress on the terminal and what is there in the end.
+/// render_views with progress on the terminal, and a list of the pictures at the end.
 Result<ExitCode> render_aloud(const std::filesystem::path& folder, const LocalRun& run,
                               const std::string& only_view, const PictureOptions& picture);
 

@@ -1,4 +1,5 @@
-// luxodus profile: count what a cluster's nodes will ask of geometry cells, for its run to plan by.
+// luxodus profile: counts the accesses of a cluster's nodes to geometry cells, by which its run is
+// planned.
 #include <filesystem>
 
 #include "actors/apps/cli/command.hpp"
@@ -34,7 +35,7 @@ int make_profile(const ProfileOptions& options) {
     tell(share.problem());
     return ExitCode::bad_input;
   }
-  cluster.keys.folder.clear();  // nobody is talked to
+  cluster.keys.folder.clear();  // no connections are made
   auto process = ClusterProcessRun::prepare(cluster, {});
   if (!process) {
     tell(process.problem());

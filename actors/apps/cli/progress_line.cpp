@@ -22,14 +22,14 @@ double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// As much of a line as the terminal shows in one row: what wraps cannot be rewritten.
+/// The part of a line that fits into one row of the terminal: a wrapped line cannot be rewritten.
 std::string in_one_row(std::string text) {
   winsize size{};
   if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return text;
   const size_t columns = size.ws_col - size_t{1};
   if (text.size() <= columns) return text;
   size_t end = columns;
-  // Not within a character of several bytes.
+  // Does not cut a character of several bytes.
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
   return text.substr(0, end);
 }
@@ -47,11 +47,11 @@ ProgressLine::~ProgressLine() {
 }
 
 bool ProgressLine::is_worth_a_line(bool last, std::optional<double> share) {
-  // Where nobody knows how much there is to do, a log of a day still has less than 300 lines.
+  // Without a known amount of work, a log of a day still has less than 300 lines.
   constexpr double soonest_s = 30, unknown_s = 300;
   const double waited = now_s() - logged_s_;
   const int tenths = share ? static_cast<int>(10 * *share) : 0;
-  tenths_ = std::min(tenths_, tenths);  // the work may turn out to be more
+  tenths_ = std::min(tenths_, tenths);  // the amount of work may grow
   const bool due = last ? shown_ || waited >= soonest_s
                         : waited >= (share ? soonest_s : unknown_s) && (!share || tenths > tenths_);
   if (!due) return false;
@@ -68,7 +68,7 @@ void ProgressLine::put(const std::string& text, bool last, std::optional<double>
     return;
   }
   if (!is_worth_a_line(last, share)) return;
-  shown_ = !last;  // one line at the end, however often it is said
+  shown_ = !last;  // the last line is printed once, however often it is set
   log_info("{}: {}", title_, text);
 }
 
@@ -115,7 +115,7 @@ void WaitingLine::tell() {
        pause = next) {
     const std::string since = time_text(now_s() - began_s);
     const auto share = share_ == nullptr ? std::nullopt : share_->share();
-    // All bytes are read, and something else goes on: nobody knows for how long.
+    // All bytes are read, and other work of unknown length goes on.
     if (!share || *share >= 1)
       line_.put(since, false);
     else if (share_->all_known())

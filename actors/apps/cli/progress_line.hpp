@@ -1,4 +1,4 @@
-// How far some work is, on standard error. One thread at a time.
+// Shows progress on standard error. One thread at a time.
 #pragma once
 
 #include <condition_variable>
@@ -15,15 +15,15 @@ class ReadingShare;
 namespace luxodus::cli {
 
 /// On a terminal one line that is rewritten; elsewhere a line in the log for each tenth of the
-/// work, not more often than every half minute, and one at the end of what took longer.
+/// work, at most every half minute, and a last one if the work took longer.
 class ProgressLine {
  public:
   explicit ProgressLine(const std::string& title);
   ~ProgressLine();
   void show(const Progress& progress);
-  /// Adds `what` is known beside it (", 12 paths"), and an estimate of the time that is left.
+  /// Shows the share, `what` beside it (", 12 paths"), and an estimate of the remaining time.
   void show_share(double share, const std::string& what = "");
-  /// `last`: all is done. `share`: of the work, where it is known.
+  /// `last`: all is done. `share`: of the work, if known.
   void put(const std::string& text, bool last, std::optional<double> share = {});
 
  private:
@@ -37,13 +37,13 @@ class ProgressLine {
   int tenths_ = 0;
 };
 
-/// Says since when something goes on, from two seconds on and as long as this lives: for work that
-/// is done elsewhere, or does not know its share. Nothing else is written to standard error
-/// meanwhile.
+/// Shows for how long some work has been going on, from two seconds on and as long as this lives:
+/// for work that is done elsewhere, or does not know its share. Nothing else may be written to
+/// standard error meanwhile.
 class WaitingLine {
  public:
-  /// `what`: "reading office.toml". `share`, which outlives this: what is known of the bytes; the
-  /// line then has the share, and an estimate of the time that is left where all files are known.
+  /// `what`: "reading office.toml". `share`, which outlives this: the known progress in bytes; the
+  /// line then has the share, and an estimate of the remaining time if all files are known.
   explicit WaitingLine(const std::string& what, const ReadingShare* share = nullptr);
   ~WaitingLine();
   WaitingLine(const WaitingLine&) = delete;
@@ -57,7 +57,7 @@ class WaitingLine {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool over_ = false;
-  std::thread thread_;  // the last: it begins when all else is there
+  std::thread thread_;  // declared last: it starts when all other members exist
 };
 
 }  // namespace luxodus::cli

@@ -9,7 +9,7 @@ namespace luxodus::cli {
 
 namespace {
 
-/// A number and what stands behind it.
+/// Splits a number from the text after it.
 bool split_number(const std::string& text, double& value, std::string& rest) {
   try {
     size_t used = 0;

@@ -1,4 +1,4 @@
-// Counts, shares and times as people write and read them. Pure.
+// Parses and prints counts, shares and times. Pure; any thread.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ namespace luxodus::cli {
 Result<int64_t> parse_count(const std::string& text);
 Result<double> parse_share(const std::string& text);
 Result<double> parse_seconds(const std::string& text);
-/// The same for a point in time, which may be zero or before it.
+/// Parses a point in time, which may be zero or negative.
 Result<double> parse_time(const std::string& text);
-/// Why a text is no time, as options refuse it; "" where it is one.
+/// Why a text is not a time, as options report it; "" if it is one.
 std::string fault_of_time(const std::string& text);
 
 /// "1.23 M", "45.6 k".

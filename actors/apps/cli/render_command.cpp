@@ -1,4 +1,4 @@
-// luxodus render: pictures from a finished run, without tracing particles again.
+// luxodus render: makes pictures from a finished run, without tracing particles again.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,11 +39,11 @@ struct RenderOptions {
   double speed = FilmedWalk().speed_m_s, fps = FilmedWalk().frames_per_s;
   double eye_height = FilmedWalk().eye_height_m;
   bool human = false;
-  std::string from, state_step = "1s";  // of the scene's clock
-  double clock = 1;                     // its seconds for each of the film
+  std::string from, state_step = "1s";  // on the scene's clock
+  double clock = 1;                     // its seconds for each second of the film
 };
 
-/// The route that is walked, by its name. Errors: there is none; the known ones are listed.
+/// The route of this name. Errors: it does not exist; the existing ones are listed.
 Result<const EscapeRoute*> route_named(const SceneDescription& scene, const std::string& name) {
   std::string known;
   for (const EscapeRoute& route : scene.routes) {
@@ -55,7 +55,7 @@ Result<const EscapeRoute*> route_named(const SceneDescription& scene, const std:
                         (known.empty() ? "are none: add a [[route]]" : "are: " + known));
 }
 
-/// Size and angle of view of a film: those of the camera that is named, or a camera's usual ones.
+/// Size and angle of view of a film: those of the named camera, or a camera's defaults.
 Result<Camera> lens_of(const SceneDescription& scene, const std::string& view) {
   if (auto ok = check_views(scene, view, {}); !ok) return ok.problem();
   for (const Camera& camera : scene.cameras)
@@ -63,7 +63,7 @@ Result<Camera> lens_of(const SceneDescription& scene, const std::string& view) {
   return Camera();
 }
 
-/// The keyframes of TIME=CAMERA. Errors: what is none, a camera that is not there.
+/// The keyframes of TIME=CAMERA. Errors: malformed text, an unknown camera.
 Result<std::vector<Keyframe>> keyframes_of(const SceneDescription& scene,
                                            const std::vector<std::string>& through) {
   std::vector<Keyframe> keys;
@@ -82,13 +82,13 @@ Result<std::vector<Keyframe>> keyframes_of(const SceneDescription& scene,
   return keys;
 }
 
-/// A film, the name that people know it by, and that of its files.
+/// A film, its name for display, and that of its files.
 struct NamedFilm {
   Film film;
   std::string name;
 };
 
-/// Nothing where none is asked for.
+/// Nothing if no film is requested.
 Result<std::optional<NamedFilm>> film_of(const SceneDescription& scene,
                                          const RenderOptions& options) {
   const bool walks = !options.route.empty(), flies = !options.through.empty();
@@ -128,8 +128,8 @@ Result<std::optional<NamedFilm>> film_of(const SceneDescription& scene,
   return std::optional(std::move(out));
 }
 
-/// The states of a film in which the scene's clock goes on: each is traced with the seed and as
-/// many particles as the run that is filmed, so that they differ by what changes alone.
+/// The states of a film in which the scene's clock advances: each is traced with the seed and the
+/// number of particles of the run, so that they differ only by the change.
 class FilmedClock {
  public:
   FilmedClock(const FinishedRun& of, const LocalRun& run, const RenderOptions& options,
@@ -141,13 +141,13 @@ class FilmedClock {
         per_frame_s_(options.clock / options.fps),
         frames_(frames_of_state(parse_time(options.state_step).value(), per_frame_s_)) {}
 
-  /// Errors: a last state that the scene cannot have, before the first is traced.
+  /// Errors: a last state that the scene cannot have; checked before the first is traced.
   Result<void> check() const {
     const auto last = scene_at((film_frames_ - 1) / frames_);
     if (!last) return last.problem();
     return {};
   }
-  /// `show`: what is being done.
+  /// `show` displays the current step.
   FilmedStates states(const std::function<void(const std::string& what)>& show) const {
     return {frames_, [this, show](size_t state) { return traced(state, show); }};
   }
@@ -155,8 +155,8 @@ class FilmedClock {
  private:
   using Traced = Result<std::shared_ptr<const LocalRun>>;
 
-  /// The middle of the frames that show it is what a state stands for; the film may end within the
-  /// last one's.
+  /// A state is taken at the middle of the frames that show it; the film may end before the last
+  /// one's.
   double time_of(size_t state) const {
     const size_t first = state * frames_;
     const size_t shown = std::min(frames_, film_frames_ - first);
@@ -167,7 +167,8 @@ class FilmedClock {
   Result<SceneOfRun> scene_at(size_t state) const {
     FinishedRun then = of_;
     then.at_s = time_of(state);
-    then.batch_shares.clear();  // dealt by the need of the run's state; lights may come and go
+    then.batch_shares.clear();  // they were allocated for the run's state, but lights may come and
+                                // go
     return scene_of_run(then);
   }
 
@@ -196,7 +197,7 @@ class FilmedClock {
   const size_t frames_;
 };
 
-/// Frames into DIR/films/NAME, and the film of them beside that. `clock`: null where it stands.
+/// Renders frames into DIR/films/NAME, and the film beside that. `clock`: null if it stands still.
 Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, const NamedFilm& named,
                                const RenderOptions& options, const PictureOptions& picture,
                                const FilmedClock* clock) {
@@ -205,7 +206,7 @@ Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, cons
   const fs::path file = folder / "films" / (name + ".mp4");
   const size_t count = film.cameras.size();
   std::error_code failed;
-  fs::remove(file, failed);  // of an earlier film, which these frames are not of
+  fs::remove(file, failed);  // of an earlier film with other frames
   if (failed) return problem_in(file, "cannot remove an earlier film: " + failed.message());
   std::optional<ProgressLine> line("film");
   double done = 0;

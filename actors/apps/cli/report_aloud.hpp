@@ -1,4 +1,4 @@
-// The report of a run, with its progress shown where that takes more than a moment.
+// Writes the report of a run, and shows progress if that takes more than a moment. One thread.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace luxodus::cli {
 
-/// Errors and what is required: as finish_results.
+/// Errors and requirements: as finish_results.
 Result<Json> finish_report_aloud(const std::filesystem::path& folder, const LocalRun& run,
                                  const RunRecord& record);
 

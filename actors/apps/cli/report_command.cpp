@@ -1,4 +1,4 @@
-// luxodus report: the report of an assessment, written again from its JSON.
+// luxodus report: writes the report of an assessment again from its JSON.
 #include "actors/apps/cli/command.hpp"
 #include "actors/apps/cli/commands.hpp"
 #include "actors/apps/cli/report_options.hpp"

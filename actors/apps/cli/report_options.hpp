@@ -1,4 +1,4 @@
-// Options of a report that `luxodus assess` and `luxodus report` have in common. For one thread.
+// Options of a report, shared by `luxodus assess` and `luxodus report`. One thread.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct ReportWords {
 /// --language, --paper, --grid-values, --pdf. Requires: `words` outlives the command.
 void add_report_options(Command& command, ReportWords& words);
 
-/// Writes the report and says where it is. Errors: as write_report.
+/// Writes the report and prints where it is. Errors: as write_report.
 Result<void> write_report_and_tell(const OutputFolder& folder, const Json& assessment,
                                    const ReportWords& words);
 

@@ -1,4 +1,4 @@
-// luxodus run: trace a scene, write everything that came of it.
+// luxodus run: traces a scene, and writes all results.
 #include <array>
 #include <filesystem>
 
@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a pixel in a preview: grainy, and there in seconds.
+/// Paths of a pixel in a preview: grainy, and done in seconds.
 constexpr int preview_paths = 4;
 
 Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_delay,
@@ -60,7 +60,7 @@ Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_d
   return nodes;
 }
 
-/// Traces with the plain loop; or on nodes, which have the run shown, and leave its results.
+/// Traces with the plain loop, or on nodes, which then display the run and write its results.
 Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path& folder,
                          const RunOptions& options, const StopRule& rule, RunOutput& display) {
   std::optional<ProgressLine> line(scenario.name);
@@ -89,7 +89,7 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path
   return reason;
 }
 
-/// What shows and leaves the run. Errors: spans of time that are none.
+/// Options for displaying and writing the run. Errors: invalid time spans.
 Result<RunOutputOptions> display_options(const RunFolder& folder, const RunRecord& record,
                                          const RunOptions& options) {
   RunOutputOptions display;
@@ -120,14 +120,14 @@ Result<RunOutputOptions> display_options(const RunFolder& folder, const RunRecor
   return display;
 }
 
-/// With a budget for scene parts, nothing else is to hold geometry either.
+/// With a memory budget for scene parts, geometry must not be held elsewhere either.
 std::unique_ptr<LocalRun> prepare(std::shared_ptr<const CompiledScene> scene, uint64_t seed,
                                   const RunOptions& options) {
   if (options.nodes == 0 || options.part_cache_mib == 0)
     return std::make_unique<LocalRun>(std::move(scene), seed, options.threads);
   OutOfCoreConfig config;
   config.threads = options.threads;
-  // The nodes have ended by then, and left room for as much again.
+  // The nodes have ended by then, and have freed this memory.
   config.object_bytes =
       options.part_cache_bytes() * static_cast<size_t>(std::max(options.threads, options.nodes));
   config.sharing = !options.no_sharing;
@@ -135,7 +135,7 @@ std::unique_ptr<LocalRun> prepare(std::shared_ptr<const CompiledScene> scene, ui
   return std::make_unique<LocalRun>(std::move(scene), seed, options.threads, std::move(rows));
 }
 
-/// What shows or saves a run of the plain loop while it goes on.
+/// Previews and checkpoints of a run of the plain loop in progress.
 struct Watchers {
   Watchers(LocalRun& run, const RunOutputOptions& options) {
     if (options.preview_asked != nullptr)
@@ -151,14 +151,15 @@ struct Watchers {
 
 struct Traced {
   StopReason reason;
-  Json result;  // null where the folder keeps a longer run
+  Json result;  // null if the folder keeps a longer run
 };
 
-/// One scenario, and the folder that is held for it.
+/// One scenario, and the folder that is locked for it.
 struct PreparedScenario {
   Scenario scenario;
-  std::shared_ptr<const CompiledScene> scene;  // of several scenarios compiled when it is its turn
-  std::optional<RunFolder> folder;             // none where nothing is to be written
+  std::shared_ptr<const CompiledScene> scene;  // with several scenarios, compiled when its turn
+                                               // comes
+  std::optional<RunFolder> folder;             // none if nothing is to be written
 };
 
 /// Checks that the scenario can be computed and written, before anything is traced.
@@ -174,7 +175,7 @@ Result<PreparedScenario> prepare_scenario(
     return ok.problem();
   PreparedScenario prepared{scenario, scene.value(), std::nullopt};
   if (options.plan) return prepared;
-  // Of several scenarios the later ones may not have been begun when the run was stopped.
+  // With several scenarios, the later ones may not have begun when the run was stopped.
   const bool begun = options.scenario != "all" || fs::exists(folder / "flux.lux");
   auto claimed =
       claim_run_folder(folder, *scene.value(),
@@ -184,8 +185,8 @@ Result<PreparedScenario> prepare_scenario(
   return prepared;
 }
 
-/// With the shares of its batches where these are allocated adaptively: those of the run that is to
-/// go on, or found by a first round.
+/// The scene with the shares of its batches if these are allocated adaptively: those of the resumed
+/// run, or found by a first round.
 Result<std::shared_ptr<const CompiledScene>> scene_to_trace(
     const std::shared_ptr<const SceneDescription>& description, const PreparedScenario& prepared,
     uint64_t seed, const RunOptions& options) {
@@ -218,7 +219,7 @@ Result<Traced> print_plan(const LocalRun& run, const Scenario& scenario,
   return Traced{StopReason::particles, {}};
 }
 
-/// One scenario into one folder.
+/// Runs one scenario into one folder.
 Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& description,
                             const PreparedScenario& prepared, const RunOptions& options,
                             const StopRule& rule) {
@@ -232,7 +233,7 @@ Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& descr
   const RunFolder& folder = *prepared.folder;
   if (folder.goes_on) {
     if (auto ok = load_flux(folder.path() / "flux.lux", run); !ok) return ok.problem();
-    // A flux file holds no time: the result beside it does, if it is of the same batches.
+    // A flux file holds no time: the result beside it does, if it describes the same batches.
     const auto before = read_finished_run(folder.path());
     if (before && before->batches == run.traced() && before->seconds)
       run.add_earlier_seconds(*before->seconds);
@@ -265,13 +266,13 @@ Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& descr
     std::printf("%s, in %s\n%s", description->name.c_str(), folder.output.named().string().c_str(),
                 summary_text(display.result(), options.verbose).c_str());
   }
-  // Pictures may have been interrupted; what was traced is written.
+  // Pictures may have been interrupted; the traced flux is written.
   if (interrupt_flag()) reason = StopReason::interrupted;
   return Traced{reason.value(), display.result()};
 }
 
-/// Folders of all scenarios are held before the first begins: who waits for hours is not to learn
-/// then that the second cannot be written.
+/// The folders of all scenarios are claimed before the first begins, so that a folder that cannot
+/// be written is reported at once, not hours later.
 Result<std::vector<PreparedScenario>> prepare_scenarios(
     const std::shared_ptr<const SceneDescription>& description,
     const std::vector<Scenario>& scenarios, const RunOptions& options, const StopRule& rule) {
@@ -293,7 +294,8 @@ Result<std::vector<PreparedScenario>> prepare_scenarios(
   return all;
 }
 
-/// The scenarios one after another, their results appended to `results`; an exit code.
+/// Runs the scenarios one after another, and appends their results to `results`; returns an exit
+/// code.
 int run_scenarios(const std::shared_ptr<const SceneDescription>& description,
                   const std::vector<Scenario>& scenarios, const RunOptions& options,
                   const StopRule& rule, Json& results) {

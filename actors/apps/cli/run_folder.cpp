@@ -17,12 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Most room that is kept for a flux file [bytes]: large ones are mostly zeros, which take none.
+/// Most room reserved for a flux file [bytes]: large ones are mostly zeros, which compress to
+/// little.
 constexpr uint64_t max_room = uint64_t{256} << 20;
-/// Two runs of the same time differ by a batch on every thread and by how busy the machine is.
+/// Two runs of the same time limit differ by a batch on every thread and by the machine's load.
 constexpr double time_slack = 1.1, time_slack_s = 2;
 
-/// The run whose flux lies in a folder; particles 0 where there is none of the same scene.
+/// The run whose flux is in a folder; particles 0 if there is none of the same scene.
 struct EarlierRun {
   int64_t particles = 0;
   Json result;  // result.json; null without one
@@ -55,7 +56,8 @@ double number_at(const Json& json, const char* key, const char* inner) {
   return value.is_number() ? value.get<double>() : std::nan("");
 }
 
-/// Whether a run that stops so has at least the particles of the earlier one, whatever stops it.
+/// Whether a run with this stopping rule has at least the particles of the earlier one, however it
+/// stops.
 bool is_surely_as_long(const StopRule& stop, const EarlierRun& earlier, int64_t batch_particles) {
   if (stop.particles) {
     const int64_t batches = (*stop.particles + batch_particles - 1) / batch_particles;
@@ -69,7 +71,7 @@ bool is_surely_as_long(const StopRule& stop, const EarlierRun& earlier, int64_t 
   if (stop.seconds) {
     const double took = number_at(earlier.result, "seconds", "value");
     const double asked = number_at(earlier.result, "stop_rule", "seconds");
-    // The same rule again, of a run that was not resumed; or one that had less time.
+    // An equal rule of an earlier run that was not resumed, or that had less time.
     const bool again = asked <= *stop.seconds && took <= *stop.seconds * time_slack + time_slack_s;
     if (!again && !(took <= *stop.seconds)) return false;
   }

@@ -1,11 +1,12 @@
-// The folder of a run: checked, held and kept from loss before anything is traced. The rule of what
-// may be replaced there:
-// - files that no run has written are not, without --overwrite;
-// - a run of another scene, scenario or state of the scene file is;
-// - a run of the same scene is by one that is sure to be at least as long, so that a command can be
-//   repeated; by one that may be shorter with --overwrite only: --resume was likely forgotten;
-// - until a run that is allowed to replace a longer one has become longer, and where it is
-//   interrupted before, that one stays.
+// The folder of a run: checked, locked and protected before anything is traced. Rules for what may
+// be replaced there:
+// - files that no run has written: only with --overwrite;
+// - a run of another scene, scenario or state of the scene file: always;
+// - a run of the same scene: if the new run is sure to be at least as long, so that a command can
+//   be repeated; if it may be shorter, only with --overwrite, since --resume was likely forgotten;
+// - a longer run that may be replaced stays until the new run has become longer; it also stays if
+//   the new run is interrupted before that.
+// One thread.
 #pragma once
 
 #include <memory>
@@ -25,15 +26,15 @@ struct RunFolderOptions {
 
 struct RunFolder {
   OutputFolder output;
-  bool goes_on = false;        // from the flux file that lies there
-  int64_t keep_particles = 0;  // of a run of the same scene there that is not resumed
+  bool goes_on = false;        // continues the flux file there
+  int64_t keep_particles = 0;  // particles of a run of the same scene there that is not resumed
   std::unique_ptr<RoomReserve> room = std::make_unique<RoomReserve>();
 
   const std::filesystem::path& path() const { return output.path(); }
 };
 
-/// Errors: as OutputFolder::claim; files of others, a run that may be longer, --resume where
-/// nothing is to be resumed.
+/// Errors: as OutputFolder::claim; files that are not a run's, a run that may be longer, --resume
+/// without anything to resume.
 Result<RunFolder> claim_run_folder(const std::filesystem::path& folder, const CompiledScene& scene,
                                    const RunFolderOptions& options);
 

@@ -1,4 +1,4 @@
-// What `luxodus run` is told: its options, and which of them fit together. One thread.
+// The options of `luxodus run`, and which of them can be combined. One thread.
 #pragma once
 
 #include <cstdint>
@@ -53,16 +53,16 @@ struct RunOptions {
 
 /// The table of options. Requires: `options` outlives it.
 std::vector<Option> options_of(RunOptions& options);
-/// What stands below it in the help.
+/// The notes below it in the help.
 const char* run_notes();
 
 /// Errors: options that need another one, or exclude each other.
 Result<void> fit_together(const RunOptions& options);
 
-/// When the run ends. Errors: a count, share or time that is none.
+/// When the run ends. Errors: an invalid count, share or time.
 Result<StopRule> stop_rule(const RunOptions& options);
 
-/// Errors: no span of time, longer than links can bear.
+/// Errors: an invalid time span, or one that is longer than links tolerate.
 Result<Nanoseconds> link_delay_of(const RunOptions& options);
 
 }  // namespace luxodus::cli

@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A disk that is full when hours of work are to be written may have room soon: somebody is told,
-/// and it is tried again for ten minutes.
+/// A disk that is full after hours of work may have room soon: logs a message, and tries again for
+/// ten minutes.
 Result<void> save_patiently(const fs::path& file, const LocalRun& run) {
   constexpr int tries = 60;
   constexpr int pause_ms = 10'000;
@@ -56,9 +56,9 @@ bool RunOutputFiles::preview_is_due() const {
           Clock::now() - last_preview_.load() >= std::chrono::duration<double>(options_.preview_s));
 }
 
-/// Sums, as they are and as they were before the step that is under way; light, errors and the
-/// features of the filter, twice: as traced and filtered. Of as many pictures as grow together; and
-/// what all of them choose emitters by.
+/// Memory for pictures: sums, now and before the step in progress; light, errors and features of
+/// the filter, traced and filtered; for as many pictures as are traced together, and the shared
+/// data for choosing emitters.
 uint64_t RunOutputFiles::picture_bytes() const {
   constexpr uint64_t floats_of_a_pixel = 2 * (4 + 4 + 1 + picture_features);
   uint64_t sums = 0, largest = 0, pixels = 0;
@@ -82,7 +82,8 @@ void RunOutputFiles::show(const LocalRun& run) {
                                          !std::exchange(checkpointed_, true));
       if (!saved) log_warning("checkpoint: {}; the run goes on", saved.problem().text());
     }
-    last_checkpoint_ = Clock::now();  // not before: a slow disk must not be all that is served
+    last_checkpoint_ = Clock::now();  // set after saving, so that a slow disk leaves time for other
+                                      // work
   }
   if (!preview_is_due()) return;
   *options_.preview_asked = false;
@@ -90,7 +91,7 @@ void RunOutputFiles::show(const LocalRun& run) {
   if (run.totals().balance().rays > 0) render_preview(options_.folder, run, options_.preview);
 }
 
-/// Of a run in the folder that is longer.
+/// Whether the folder keeps a longer run.
 bool RunOutputFiles::keeps_other(const LocalRun& run, StopReason reason) const {
   return reason == StopReason::interrupted && run.particles() <= options_.keep_particles;
 }
@@ -114,7 +115,7 @@ Result<void> RunOutputFiles::write_results(const LocalRun& run, StopReason reaso
   };
   const bool pictures = options_.pictures && !run.scene().description->cameras.empty();
   if (!pictures || reason == StopReason::interrupted) return report();
-  // First pictures are there within seconds. Direct light on planes may take longer.
+  // First pictures exist within seconds. Direct light on planes may take longer.
   bool reported = false;
   const auto report_once = [&] {
     reported = true;

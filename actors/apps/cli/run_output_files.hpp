@@ -1,6 +1,6 @@
-// What `luxodus run` and the nodes of a cluster show and leave of a run: checkpoints and previews
-// while it goes on, then the flux file, result.json, maps and pictures. The plain loop calls it
-// itself; on nodes the display does. Thread rule: as RunOutput.
+// What `luxodus run` and the nodes of a cluster write about a run: checkpoints and previews in
+// progress, then the flux file, result.json, maps and pictures. The plain loop calls it directly;
+// on nodes the display does. Thread rule: as RunOutput.
 #pragma once
 
 #include <atomic>
@@ -17,21 +17,21 @@ namespace luxodus::cli {
 
 struct RunOutputOptions {
   std::filesystem::path folder;
-  RunRecord record;                            // but for how the run ended
+  RunRecord record;                            // all except how the run ended
   double checkpoint_s = 0;                     // between checkpoints; 0: none
-  double preview_s = 0;                        // between previews; 0: only when they are asked for
-  std::atomic<bool>* preview_asked = nullptr;  // null: there are none
+  double preview_s = 0;                        // between previews; 0: only on request
+  std::atomic<bool>* preview_asked = nullptr;  // set to request a preview; null: no requests
   int64_t keep_particles = 0;  // of a run in the folder that a shorter one does not replace
-  bool pictures = false;       // when the run has ended
-  PictureOptions picture;      // of those
+  bool pictures = false;       // write pictures when the run has ended
+  PictureOptions picture;      // options of the pictures
   PictureOptions preview;
-  bool patient = false;                     // a disk that is full is tried again for ten minutes
-  std::function<void()> make_room = [] {};  // is called before the flux is written
+  bool patient = false;                     // retry for ten minutes if the disk is full
+  std::function<void()> make_room = [] {};  // called before the flux is written
 };
 
 class RunOutputFiles final : public RunOutput {
  public:
-  /// Requires: `base` outlives this; its geometry is that of all copies.
+  /// Requires: `base` outlives this; all copies share its geometry.
   RunOutputFiles(const LocalRun& base, RunOutputOptions options);
 
   std::unique_ptr<LocalRun> fresh_run() override { return base_.empty_copy(); }
@@ -41,7 +41,7 @@ class RunOutputFiles final : public RunOutput {
   Result<void> keep_flux(const LocalRun& run, StopReason reason) override;
   Result<void> write_results(const LocalRun& run, StopReason reason) override;
 
-  /// result.json as it was written; null where the folder keeps a longer run.
+  /// The written result.json; null if the folder keeps a longer run.
   const Json& result() const { return result_; }
 
  private:

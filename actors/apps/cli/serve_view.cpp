@@ -20,7 +20,7 @@ bool is_loopback(const std::string& address) {
   return address == "127.0.0.1" || address == "::1";
 }
 
-/// 128 bits that nobody guesses, from the system. Not the light's random numbers.
+/// 128 unpredictable bits from the system, unrelated to the random numbers of light.
 std::string new_token() {
   std::array<uint8_t, 16> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
@@ -30,7 +30,7 @@ std::string new_token() {
   return out;
 }
 
-/// By making a file there: permissions do not tell of a file system that is full or read-only.
+/// Tries to make a file there: permissions do not reveal a full or read-only file system.
 Result<void> can_save_in(const std::filesystem::path& folder) {
   std::string name = (folder / ".luxodus-view-XXXXXX").string();
   const int file = ::mkstemp(name.data());

@@ -1,4 +1,4 @@
-// The live view of a scene, served until Ctrl-C or until whoever traces for it cannot.
+// Serves the live view of a scene until Ctrl-C or until tracing fails. One thread.
 #pragma once
 
 #include "actors/apps/view/view_hub.hpp"
@@ -7,9 +7,9 @@
 
 namespace luxodus::cli {
 
-/// Prints where the page is. Beyond this machine it makes a token, which the page then demands.
-/// `fault`: what has befallen whoever traces, which ends the view. Errors: that; a pack; an address
-/// that is none, a port that is taken; a folder that nothing can be saved in.
+/// Prints the address of the page. Unless it is local, a token is made, which the page then
+/// requires. `fault`: the failure of tracing, which ends the view. Errors: that failure; a pack; an
+/// invalid address, a port in use; a folder that cannot be written.
 Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, HttpAddress server,
                         const HubOptions& options,
                         const std::function<std::optional<Problem>()>& fault = {});

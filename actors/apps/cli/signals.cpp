@@ -15,8 +15,8 @@ std::atomic<bool> interrupted_flag{false};
 std::atomic<int64_t> interrupted_at{0};
 static_assert(std::atomic<int64_t>::is_always_lock_free);
 
-/// The second time ends at once, if it is meant: one Ctrl-C may come twice, to the process and to
-/// its group.
+/// A deliberate second signal ends the program at once: one Ctrl-C may arrive twice, at the process
+/// and at its group.
 void on_interrupt(int) {
   constexpr int64_t one_press_ns = 300'000'000;
   timespec now{};

@@ -1,5 +1,5 @@
-// Signals that a command obeys: Ctrl-C (and SIGTERM), and SIGUSR1. Handlers and flags are the
-// process's; any thread may read them.
+// Signals that a command handles: Ctrl-C (and SIGTERM), and SIGUSR1. Handlers and flags are the
+// process'; any thread may read them.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@ namespace luxodus::cli {
 const std::atomic<bool>& interrupt_flag();
 void install_interrupt_handler();
 
-/// Set by SIGUSR1 once installed: somebody wants to see pictures now.
+/// Set by SIGUSR1 once installed: requests pictures now.
 std::atomic<bool>& preview_flag();
 void install_preview_handler();
 

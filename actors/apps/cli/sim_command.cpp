@@ -1,4 +1,4 @@
-// luxodus sim: runs on simulated nodes under faults, from seeds.
+// luxodus sim: runs on simulated nodes with faults, from seeds.
 #include <spdlog/spdlog.h>
 
 #include <charconv>
@@ -38,7 +38,7 @@ struct SimCommandOptions {
   bool log = false;
 };
 
-/// So many seeds, from the first on: the last may be the largest number that there is.
+/// A number of seeds from the first on; the last may be the largest representable number.
 struct SeedRange {
   uint64_t first = 0, count = 1;
 };
@@ -66,7 +66,7 @@ Result<Nanoseconds> span_of(const std::string& text) {
   return static_cast<Nanoseconds>(span_s.value() * 1e9);
 }
 
-/// Of a file, for nodes n0, n1, ... and controller.
+/// The fault plan of a file, for nodes n0, n1, ... and controller.
 Result<FaultPlan> fault_plan_in(const SimCommandOptions& options) {
   std::vector<std::string> names;
   for (int i = 0; i < options.nodes; ++i) names.push_back("n" + std::to_string(i));
@@ -81,11 +81,11 @@ Result<SimOptions> sim_options(const SimCommandOptions& options) {
   SimOptions sim;
   sim.nodes = options.nodes;
   sim.links = options.links;
-  auto graph = graph_of_process(sim.nodes, sim.links);  // once, for all seeds
+  auto graph = graph_of_process(sim.nodes, sim.links);  // made once, for all seeds
   if (!graph) return graph.problem();
   sim.fixed.graph = std::move(graph).value();
   sim.fan_out = options.fan_out;
-  // Leases of each level are four times as long as those of the next.
+  // Leases of each level last four times as long as those of the next.
   if (sim.fan_out > 0 ||
       usual_fan_out(static_cast<uint32_t>(sim.nodes)) < static_cast<uint32_t>(sim.nodes))
     sim.patience *= 4;
@@ -104,7 +104,7 @@ Result<SimOptions> sim_options(const SimCommandOptions& options) {
   return sim;
 }
 
-/// The scene with batches so small that there are many.
+/// The scene with many small batches.
 struct SimulatedScene {
   std::shared_ptr<const CompiledScene> scene;
   uint64_t seed = 0;
@@ -124,7 +124,7 @@ Result<SimulatedScene> sim_scene(const SimCommandOptions& options) {
   return SimulatedScene{scene.value(), description->run.seed, particles.value()};
 }
 
-/// The one command that repeats it.
+/// The command that repeats this run.
 std::string command_of(const SimCommandOptions& options, uint64_t seed) {
   std::string text = "luxodus sim " + options.scene + " --seed " + std::to_string(seed);
   const auto add = [&](const char* option, const std::string& value, const std::string& usual) {
@@ -177,7 +177,7 @@ void print_run(uint64_t seed, const SimReport& report) {
 
 using Simulator = std::function<Result<SimReport>(const SimOptions&)>;
 
-/// Of a run, or of states of a scene that changes.
+/// Simulates a run, or states of a scene that changes.
 Simulator simulator_of(const SimulatedScene& of, bool states) {
   if (states) {
     const auto all = std::make_shared<SimStates>(of.scene, of.seed, of.particles);
@@ -187,7 +187,7 @@ Simulator simulator_of(const SimulatedScene& of, bool states) {
   return [run](const SimOptions& options) { return simulate(*run, options); };
 }
 
-/// Errors: as simulate; with `twice`, a second run that is not the same.
+/// Errors: as simulate; with `twice`, a second run with another result.
 Result<SimReport> simulated(const Simulator& simulator, const SimOptions& options, bool twice) {
   auto report = simulator(options);
   if (!report || !twice || !report->failure.empty()) return report;

@@ -1,4 +1,4 @@
-// luxodus status: one line for each node of a run, asked of the processes that serve metrics.
+// luxodus status: prints one line for each node of a run, from the processes that serve metrics.
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// luxodus study: sweeps over graphs, delays, fibers, caches; and what they are charged from.
+// luxodus study: sweeps over graphs, delays, fibers and caches, and the costs they are charged by.
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -67,10 +67,10 @@ std::optional<Prepared> prepare_study(const std::string& file) {
   return prepared;
 }
 
-/// Every point and seed, one after another, with a line of how far it is.
+/// Runs every point and seed, one after another, with a progress line.
 class Sweep {
  public:
-  /// `log`: what nodes say of themselves is shown.
+  /// `log`: show the log of nodes.
   Sweep(const Prepared& prepared, bool log)
       : log_(log),
         study_(prepared.study),
@@ -95,11 +95,11 @@ class Sweep {
   const SystemClock clock_;
   Nanoseconds began_ = 0;
   size_t runs_ = 0;
-  double all_ = 0;  // weights of all runs
+  double all_ = 0;  // sum of the weights of all runs
   ProgressLine line_{"study"};
 };
 
-/// About as long as a run of it takes: particles to trace, and nodes to keep.
+/// Roughly proportional to the time of a run: particles to trace, and nodes to simulate.
 double Sweep::weight(const StudyPoint& point) const {
   return static_cast<double>(particles_of(study_, point)) + 100 * study_.number(point, "nodes");
 }
@@ -135,7 +135,7 @@ Result<StudyRow> Sweep::run_one(const StudyPoint& point, uint64_t seed) {
   return row;
 }
 
-/// Kept for other points: it depends on nothing that they vary but partition and chance.
+/// Cached for other points: it depends only on partition and random numbers.
 Result<std::shared_ptr<const Recording>> Sweep::recorded(const StudyRun& run) {
   const std::tuple key{study_.whole(run.point, "cells"), run.seed,
                        std::min(particles_of(study_, run.point), limits::recorded_particles)};

@@ -15,10 +15,10 @@ namespace luxodus::cli {
 
 namespace {
 
-/// What a line keeps of control characters.
+/// Control characters that are kept.
 constexpr std::string_view layout = "\n\t";
 
-/// The stream below, and the first byte of a character that a buffer has cut in two.
+/// The stream below, and the first byte of a character that a buffer has divided.
 struct Below {
   FILE* stream;
   std::string cut;
@@ -29,7 +29,7 @@ bool pass_on(const Below& below, const std::string& text) {
          std::fflush(below.stream) == 0;
 }
 
-/// fopencookie(3): all bytes taken, or 0 and errno.
+/// A write function for fopencookie(3): takes all bytes, or returns 0 and sets errno.
 ssize_t write_printable(void* cookie, const char* text, size_t size) noexcept {
   auto& below = *static_cast<Below*>(cookie);
   std::string whole = std::exchange(below.cut, {}) + std::string(text, size);
@@ -45,7 +45,7 @@ int close_printable(void* cookie) noexcept {
   return pass_on(*below, below->cut) ? 0 : EOF;
 }
 
-/// The message of a log line.
+/// Formats the message of a log line.
 class PrintableMessage final : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm&,
@@ -66,13 +66,13 @@ FILE* printable_stream(FILE* below) {
   calls.close = close_printable;
   auto cookie = std::make_unique<Below>(Below{below, {}});
   FILE* made = ::fopencookie(cookie.get(), "w", calls);
-  if (made != nullptr) cookie.release();  // the stream's, until it is closed
+  if (made != nullptr) cookie.release();  // now owned by the stream, until it is closed
   return made;
 }
 
 void guard_terminal() {
   if (FILE* guarded = printable_stream(stdout)) {
-    // A person gets line by line.
+    // A terminal gets line buffering.
     if (::isatty(STDOUT_FILENO) != 0) std::setvbuf(guarded, nullptr, _IOLBF, BUFSIZ);
     stdout = guarded;
   }

@@ -1,18 +1,16 @@
-// Where the program's words leave it: names, titles and paths in them are of others, and a terminal
-// obeys control characters. Both streams tell these instead. For main(), before anything is
-// printed; one thread.
+// Escapes control characters in the program's output: names, titles and paths come from files, and
+// a terminal obeys control characters. For main(), before anything is printed; one thread.
 #pragma once
 
 #include <cstdio>
 
 namespace luxodus::cli {
 
-/// A stream of text onto another, of which control characters arrive as \xNN, but for ends of lines
-/// and tabs. `below` stays open and gets everything on a flush. Null where there is no memory.
+/// A text stream that forwards to another, with control characters as \xNN, except line ends and
+/// tabs. `below` stays open and gets everything on a flush. Null if memory is exhausted.
 FILE* printable_stream(FILE* below);
 
-/// Has all that is printed to standard output pass through printable_stream, and all that is logged
-/// be printable.
+/// Makes standard output pass through printable_stream, and escapes all that is logged.
 void guard_terminal();
 
 }  // namespace luxodus::cli

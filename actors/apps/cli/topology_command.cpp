@@ -1,5 +1,4 @@
-// luxodus topology: who talks to whom. Makes, measures, compares and draws the graphs of links that
-// a cluster may have.
+// luxodus topology: makes, measures, compares and draws graphs of a cluster's links.
 #include <fmt/format.h>
 
 #include <functional>
@@ -25,7 +24,7 @@ namespace {
 
 struct TopologyOptions {
   AmpRequest amp;
-  std::string seconds;  // as given: "" for none
+  std::string seconds;  // as given; "" if none
   bool search = false;
   std::string kind;
   std::string in, out;
@@ -43,7 +42,7 @@ Result<Graph> read_graph(const std::string& file) {
   return parse_graph({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file);
 }
 
-/// Writes the graph, if it was asked for, and says what it is worth.
+/// Writes the graph, if requested, and prints its measures.
 int save_and_report(const TopologyOptions& options, const Graph& graph) {
   if (!options.out.empty()) {
     const auto written =
@@ -57,7 +56,7 @@ int save_and_report(const TopologyOptions& options, const Graph& graph) {
   return ExitCode::success;
 }
 
-/// Of the shipped graphs, unless a search is asked for.
+/// One of the shipped graphs, unless a search is requested.
 Result<Graph> amp_graph(const TopologyOptions& options) {
   AmpRequest request = options.amp;
   const ControllerRole role =
@@ -93,7 +92,7 @@ int amp(const TopologyOptions& options) {
   return save_and_report(options, graph.value());
 }
 
-/// The graphs with a name, and how each is made from nodes, links and seed.
+/// The named graphs, and how each is made from nodes, links and seed.
 struct Kind {
   const char* name;
   std::function<Result<Graph>(const AmpRequest&)> make;

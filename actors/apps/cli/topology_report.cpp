@@ -22,13 +22,13 @@ std::string hex(uint64_t hash) {
   return fmt::format("{:016x}", hash);
 }
 
-/// Where an average stands: at the bound, or against what is known for the size.
+/// How an average compares: equal to the bound, or relative to the best known for the size.
 std::string standing(const Graph& graph, const PartMeasures& all) {
   if (all.paths.hops == all.bound.hops) return "meets the bound: no wiring is shorter";
   if (graph.has_controller()) return "";
   const auto known = known_best(graph.workers(), graph.max_links());
   if (!known) return "";
-  // Known to six digits.
+  // Published to six digits.
   constexpr double equal = 1e-6;
   const double longer = all.paths.average() - known->average;
   if (longer < -equal)

@@ -1,4 +1,4 @@
-// What `luxodus topology` says of graphs: text for people, JSON for machines. Pure; one thread.
+// Reports of `luxodus topology` about graphs: text, and JSON for programs. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ std::string title_of(const Graph& graph);
 std::string measures_text(const Graph& graph, const Measures& measures);
 Json measures_json(const Graph& graph, const Measures& measures);
 
-/// A graph among others of as many nodes; without one, why there is none.
+/// A graph to compare with others of as many nodes, or why there is none.
 struct Compared {
   std::string name;
   std::optional<Graph> graph;

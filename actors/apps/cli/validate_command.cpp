@@ -1,4 +1,4 @@
-// luxodus validate: every case with a known answer, and a verdict by a rule written down
+// luxodus validate: runs every case with a known answer, and judges by a rule written down
 // beforehand.
 #include <fmt/format.h>
 
@@ -49,7 +49,7 @@ void print_verdict(const light::Verdict& verdict, const std::string& out, bool i
               interrupted ? " so far; interrupted" : "", out.c_str());
 }
 
-/// Every quantity that is out of bounds, on standard error.
+/// Prints every quantity that is out of bounds on standard error.
 void tell_failures(const std::vector<light::CaseResult>& results, const light::Verdict& verdict) {
   for (size_t i = 0; i < results.size(); ++i) {
     for (size_t k = 0; k < results[i].findings.size(); ++k) {

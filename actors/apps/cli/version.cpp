@@ -1,6 +1,6 @@
 #include "actors/apps/cli/version.hpp"
 
-// Of a source that the build writes anew where the commit has changed: see commit.cmake.
+// Defined in a source that the build rewrites if the commit has changed: see commit.cmake.
 extern const char* const luxodus_commit;
 
 namespace luxodus::cli {

@@ -1,4 +1,4 @@
-// luxodus view: a live walk through the building, in a browser.
+// luxodus view: serves a live walk through the building, in a browser.
 #include <filesystem>
 
 #include "actors/apps/cli/command.hpp"
@@ -29,7 +29,7 @@ struct ViewOptions {
   int nodes = 0;
 };
 
-/// What is asked for: a folder stands for what it is of.
+/// The requested scene; a folder stands for the scene of its run.
 Result<SceneState> wanted_state(const ViewOptions& options) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(options.scene, ignored))
@@ -53,7 +53,7 @@ Result<ExitCode> view(const ViewOptions& options) {
   install_interrupt_handler();
   const SceneAtTime scene_at = reader_of_times(wanted->scene_file, *scene, FireFrames::between);
   LiveStates states(scene, scene_at);
-  std::unique_ptr<ProcessExecutor> nodes;  // outlives whatever holds its executor
+  std::unique_ptr<ProcessExecutor> nodes;  // outlives all users of its executor
   HubOptions hub{options.live, {}, options.save_folder};
   hub.live.scene_at = scene_at;
   hub.live.judged = FrameScenes::of(*scene, wanted->scene_file, wanted->at_s);

@@ -7,7 +7,7 @@ namespace luxodus::cli {
 namespace {
 
 constexpr size_t help_columns = 90;
-/// Where descriptions begin; a longer name has a line of its own.
+/// The column of descriptions; a longer name gets a line of its own.
 constexpr size_t meaning_column = 30;
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Words and numbers as help, lists of keys, completion and messages of options show them. Pure.
+// Formats words and numbers for help, lists of keys, completion and messages of options. Pure; any
+// thread.
 #pragma once
 
 #include <cstdio>
@@ -7,7 +8,7 @@
 
 namespace luxodus::cli {
 
-/// As few digits as say it.
+/// With as few digits as needed.
 inline std::string number_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.15g", value);
@@ -20,10 +21,10 @@ inline std::string joined(const std::vector<std::string>& words, const char* bet
   return out;
 }
 
-/// Words of a text in lines of at most 90 columns, each but the first after `before` blanks.
+/// Fills a text to lines of at most 90 columns, each but the first after `before` blanks.
 std::string filled(const std::string& text, size_t before);
 
-/// A name and what it means, as help lists both: the meaning in a column of its own.
+/// A name and its meaning, as a line of the help: the meaning in a column of its own.
 std::string entry(const std::string& name, const std::string& meaning);
 
 }  // namespace luxodus::cli

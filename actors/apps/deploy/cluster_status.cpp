@@ -15,10 +15,10 @@ namespace luxodus {
 
 namespace {
 
-/// Asked at once: dead hosts then cost their patience once, and a thread is cheap.
+/// Processes asked in parallel: the timeouts of dead hosts then overlap, and a thread is cheap.
 constexpr size_t asked_at_once = 32;
 
-/// What one page says of one node, by the numbers' names; of several links or hops the sum.
+/// One node's numbers on a page, by name; several links or hops are added up.
 using Numbers = std::map<std::string, double, std::less<>>;
 
 struct Page {
@@ -30,7 +30,7 @@ struct Page {
 /// Names of nodes, by number.
 using NodeNames = std::map<std::string, std::string, std::less<>>;
 
-/// The neighbours' views of a node: the worst phase that any has of it.
+/// The neighbours' views of a node: the worst phase that any of them reports.
 using Suspicions = std::map<std::string, bool>;
 
 bool is_silent(double phase) {
@@ -103,7 +103,7 @@ NodeStatus row_of(const std::string& node, const Page& page, const Suspicions& s
   return row;
 }
 
-/// What stands in a column: the number in its unit, or a dash.
+/// The text of a column: the number in its unit, or a dash.
 std::string shown(const std::optional<double>& value, double unit, int digits) {
   return value ? fmt::format("{:.{}f}", *value / unit, digits) : "-";
 }
@@ -197,7 +197,7 @@ std::string status_table(const std::vector<NodeStatus>& rows) {
                      "process",  "fibers",      "waiting",      "letters",
                      "rejected", "restarts",    "hits %",       "credit KiB",
                      "batches",  "particles/s", "resident MiB", "process MiB"};
-  constexpr size_t words = 5;  // columns of words stand left, numbers right
+  constexpr size_t words = 5;  // columns of text are left-aligned, numbers right-aligned
   std::vector<Row> cells{headings};
   for (const NodeStatus& row : rows) cells.push_back(cells_of(row));
   std::array<size_t, std::tuple_size_v<Row>> widths{};

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The command line of a process, each word as the reader of the file wants it.
+/// The command line of a process, each word quoted for the reader of the file.
 template <class Quote>
 std::string node_command(const ClusterConfig& cluster, const ClusterProcess& process,
                          const DeployOptions& options, const Quote& quote) {
@@ -48,7 +48,7 @@ std::string unit_path(const fs::path& path) {
   return out;
 }
 
-/// A word that a shell takes as it is; in quotes where it must.
+/// A word quoted for a shell if necessary.
 std::string shell_word(const std::string& word) {
   const auto plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) ||
@@ -74,7 +74,7 @@ std::string unit_name(const ClusterConfig& cluster, const ClusterProcess& proces
   return "luxodus-" + cluster.run.name + "-" + process.name + ".service";
 }
 
-/// What a node never does: raise its rights, load code, touch devices or the kernel, write outside
+/// What a node never needs: more privileges, loading code, devices or the kernel, writing outside
 /// the folder of the results.
 constexpr std::string_view confinement =
     R"(NoNewPrivileges=yes
@@ -148,7 +148,7 @@ std::string shell_command(const ClusterConfig& cluster, const ClusterProcess& pr
   return node_command(cluster, process, options, shell_word);
 }
 
-/// Hosts that have a process, in their order.
+/// Hosts with a process, in their order.
 std::vector<std::string> used_hosts(const ClusterConfig& cluster) {
   std::vector<std::string> names;
   for (size_t host = 0; host < cluster.hosts.size(); ++host) {
@@ -161,10 +161,10 @@ std::vector<std::string> used_hosts(const ClusterConfig& cluster) {
   return names;
 }
 
-// The job ends as its controller does: a worker that fails is told of, and the run goes on without
-// it. A shell that has a trap ends after its child, which has got the signal as well.
-// Whole machines, since nodes are counted by the cluster's file and not by Slurm; each task goes to
-// the host that the file says, by SLURM_HOSTFILE and an arbitrary distribution.
+// The job ends with its controller: the failure of a worker is reported, and the run goes on
+// without it. A shell with a trap exits only after its child, which has got the signal as well.
+// Whole machines, since the cluster's file counts nodes, not Slurm; SLURM_HOSTFILE and an arbitrary
+// distribution place each task on the host that the file says.
 constexpr std::string_view slurm_script = R"(#!/bin/bash
 # Run {run}: {tasks} processes on {hosts} hosts.
 # Written by `luxodus deploy`; change the cluster's file instead.
@@ -212,8 +212,8 @@ commands=(
 {commands})
 )";
 
-// On each host a shell keeps the process: it notes its number in a file for `stop`, hands signals
-// on, and returns what it returned.
+// On each host a shell supervises the process: it writes its number to a file for `stop`, forwards
+// signals, and returns its exit code.
 constexpr std::string_view ssh_body = R"sh(
 # Run on the hosts: $0 is RUN/PROCESS, the rest its command.
 # shellcheck disable=SC2016

@@ -1,6 +1,6 @@
 // Manifests for Kubernetes. A process is a StatefulSet of one pod, because each has its own name,
-// its own keys and its own results; a headless Service gives the pods the names by which nodes
-// connect. Everything is in the cluster's file, so hosts of the file are called as their pods are.
+// keys and results; a headless Service gives the pods the host names by which nodes connect. The
+// cluster's file states everything, so its hosts have the names of their pods.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a file that a pod needs: a cluster's file, a key.
-constexpr uint64_t max_manifest_file_bytes = uint64_t{1} << 20;  // as much as a ConfigMap holds
+/// Size of a file that a pod needs: a cluster's file, a key.
+constexpr uint64_t max_manifest_file_bytes = uint64_t{1} << 20;  // the limit of a ConfigMap
 
 std::string service_of(const ClusterConfig& cluster) {
   return "luxodus-" + cluster.run.name;
@@ -26,12 +26,12 @@ std::string service_of(const ClusterConfig& cluster) {
 std::string set_of(const ClusterConfig& cluster, const ClusterProcess& process) {
   return service_of(cluster) + "-" + process.name;
 }
-/// By which other pods of the namespace find it.
+/// The host name by which other pods of the namespace find it.
 std::string address_of_pod(const ClusterConfig& cluster, const ClusterProcess& process) {
   return set_of(cluster, process) + "-0." + service_of(cluster);
 }
 
-/// A YAML string in double quotes, which is one of JSON as well.
+/// A YAML string in double quotes, which is also valid JSON.
 std::string yaml_text(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -56,7 +56,7 @@ std::string indented(std::string_view text, size_t blanks) {
   return out;
 }
 
-/// A label of the DNS: what names of pods and services are made of.
+/// Whether it is a DNS label, as names of pods and services must be.
 bool is_label(std::string_view name) {
   const auto fits = [](char c) {
     return std::islower(static_cast<unsigned char>(c)) ||
@@ -66,14 +66,14 @@ bool is_label(std::string_view name) {
          std::all_of(name.begin(), name.end(), fits);
 }
 
-/// Why pods cannot be made of this cluster; "" where they can.
+/// Why this cluster cannot run as pods; "" if it can.
 std::string pod_fault(const ClusterConfig& cluster) {
   std::vector<size_t> processes_on(cluster.hosts.size(), 0);
   std::string wrong;
   for (const ClusterProcess& process : cluster.processes) {
     const ClusterHost& host = cluster.hosts[process.host];
     const std::string set = set_of(cluster, process);
-    // The pod has "-0" behind it.
+    // The pod's name has "-0" appended.
     if (!is_label(set + "-0"))
       return fmt::format(
           "\"{}\" cannot name a pod: call run and process by lower-case letters, digits and "
@@ -118,8 +118,8 @@ data:
   cluster.toml: |2
 {config})";
 
-/// A pod is started again whatever its process returns, so one that has ended well rests. Signals
-/// are the shell's, which is the first process of the container; it hands them on.
+/// A pod is restarted whatever its process returns, so one that has ended well sleeps. The shell is
+/// the container's first process and receives signals; it forwards them.
 constexpr std::string_view keep_running =
     R"sh(stopped= told=
 "$0" "$@" & child=$!
@@ -201,7 +201,7 @@ std::string words_of(const ClusterConfig& cluster, const ClusterProcess& process
   return words;
 }
 
-/// What Kubernetes and people read; pods reach each other's ports without it.
+/// For Kubernetes and readers; pods reach each other's ports without it.
 std::string ports_of(const ClusterConfig& cluster, const ClusterProcess& process) {
   std::string ports;
   const auto add = [&](const std::string& name, int port) {
@@ -216,7 +216,7 @@ std::string ports_of(const ClusterConfig& cluster, const ClusterProcess& process
   return "          ports:\n" + ports;
 }
 
-/// Of a pod that writes results or journal: they outlive the pod.
+/// The volume claim of a pod that writes results or a journal, which outlive the pod.
 std::string claim_of(const ClusterConfig& cluster, const ClusterProcess& process) {
   if (!writes_results(cluster, process)) return "";
   return fmt::format(
@@ -260,7 +260,7 @@ std::string manifest_of(const ClusterConfig& cluster, const ClusterProcess& proc
       fmt::arg("volumes", volumes), fmt::arg("claims", claim_of(cluster, process)));
 }
 
-/// The keys of a process' own nodes, and the public ones of all.
+/// The keys of a process' own nodes, and the public keys of all.
 Result<std::string> secret_of(const ClusterConfig& cluster, const ClusterProcess& process) {
   std::string data;
   const auto add = [&](const fs::path& path) -> Result<void> {

@@ -14,10 +14,10 @@ namespace py = pybind11;
 
 namespace {
 
-/// Handlers of signals run so often at least: Ctrl-C seems to be obeyed at once.
+/// Interval of signal handlers: short enough that Ctrl-C seems immediate.
 constexpr std::chrono::milliseconds between_signals{50};
 
-/// What work throws that is no problem of the scene, as one.
+/// Turns exceptions of the work that are not problems of the scene into problems.
 void rethrow(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);
@@ -62,7 +62,7 @@ void work_apart(const py::object& progress, const std::function<void(Waiting&)>&
     }
     waiting.end();
   });
-  std::exception_ptr raised;  // here, where objects of Python may be
+  std::exception_ptr raised;  // raised here, where Python objects may be used
   for (bool ended = false; !ended;) {
     Waiting::Said said;
     {
@@ -79,7 +79,7 @@ void work_apart(const py::object& progress, const std::function<void(Waiting&)>&
       waiting.interrupt_ = true;
     }
   }
-  worker.join();  // it has said its last
+  worker.join();  // after its last message
   if (raised) std::rethrow_exception(raised);
   if (thrown) rethrow(thrown);
 }

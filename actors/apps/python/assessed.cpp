@@ -23,12 +23,12 @@ namespace py = pybind11;
 
 namespace {
 
-/// assessment.json as Python has it.
+/// assessment.json for Python.
 struct MadeAssessment {
   py::dict result;
 };
 
-/// Ascending, each once; those of the scene where none is asked for.
+/// Ascending, each once; those of the scene if none is given.
 std::vector<double> times_wanted(const OpenScene& scene, std::vector<double> asked) {
   const auto& own = scene.description()->time;
   if (asked.empty() && own && !scene.at_s()) return times_of(*own);

@@ -1,5 +1,5 @@
-// An assessment as Python has it: assessment.json, by its keys. Called with the interpreter's lock,
-// which is released while the assessment is made.
+// An assessment for Python: assessment.json, by its keys. Called with the interpreter's lock, which
+// is released while the assessment is made.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -11,7 +11,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// A basic string of TOML: characters that it may not have as they are stand escaped.
+/// A basic string of TOML, with escapes for characters that it may not contain.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -45,7 +45,7 @@ std::string toml_of(const py::handle& value, int line, const std::string& key, i
   if (py::isinstance<py::int_>(value)) return py::str(value).cast<std::string>();
   if (PyFloat_Check(value.ptr())) return py::repr(py::float_(value.cast<double>()));
   if (PyIndex_Check(value.ptr()) || PyNumber_Check(value.ptr())) {
-    // Numbers of NumPy, or an array of them.
+    // NumPy scalars, or an array.
     if (!py::hasattr(value, "tolist")) throw refuse();
     const py::object plain = value.attr("tolist")();
     if (py::type::of(plain).is(py::type::of(value)) || depth >= max_nesting) throw refuse();

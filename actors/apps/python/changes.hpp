@@ -1,4 +1,4 @@
-// Changes of a scene, given as dicts of Python, as the text that a scene file would have for them.
+// Converts changes of a scene, given as Python dicts, to the text that a scene file would have.
 // Called with the interpreter's lock.
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace luxodus::python {
 
-/// A [[change]] for each, the n-th on line n, so that a problem of it names that line; "" for none.
-/// Errors (Refused): a key or value that no TOML file can have.
+/// A [[change]] for each, the n-th on line n, so that a problem names that line; "" for none.
+/// Errors (Refused): a key or value that a TOML file cannot have.
 std::string changes_text(const pybind11::list& changes);
 
 }  // namespace luxodus::python

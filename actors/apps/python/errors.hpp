@@ -1,5 +1,6 @@
 // Problems as the Python exception luxodus.Error: its text is what the program prints, its
-// attributes say where. Thrown on any thread, raised where the interpreter's lock is held.
+// attributes give the place. Refused may be thrown on any thread; it becomes a Python exception
+// where the interpreter's lock is held.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -12,7 +13,7 @@
 
 namespace luxodus::python {
 
-/// What was refused, on its way to Python.
+/// Carries problems to Python.
 class Refused final : public std::exception {
  public:
   explicit Refused(Problem problem) : Refused(std::vector<Problem>{std::move(problem)}) {}
@@ -23,7 +24,7 @@ class Refused final : public std::exception {
 
  private:
   std::vector<Problem> problems_;
-  std::string text_;  // a line each
+  std::string text_;  // one line for each
 };
 
 /// The value, or its problem as an exception.
@@ -36,7 +37,7 @@ inline void succeed(const Result<void>& result) {
   if (!result) throw Refused(result.problem());
 }
 
-/// Adds Error to the module, and has Refused raised as that.
+/// Adds Error to the module, and translates Refused to it.
 void add_error(pybind11::module_& module);
 
 }  // namespace luxodus::python

@@ -1,4 +1,4 @@
-// Keys of JSON as attributes of an object that has others besides. Called with the interpreter's
+// Keys of JSON as attributes of an object that has other attributes. Called with the interpreter's
 // lock.
 #pragma once
 
@@ -8,9 +8,9 @@
 
 namespace luxodus::python {
 
-/// The value of a key. `values` is called when it is needed: notebooks ask every object for names
-/// that begin with an underscore, of which no key does.
-/// Errors: AttributeError, where there is no such key.
+/// The value of a key. `values` is called only if needed: notebooks ask every object for names that
+/// begin with an underscore, which no key has.
+/// Errors: AttributeError if there is no such key.
 template <class Values>
 pybind11::object value_of(const Values& values, const std::string& name, const char* type) {
   const pybind11::str key(name);
@@ -23,7 +23,7 @@ pybind11::object value_of(const Values& values, const std::string& name, const c
   throw pybind11::error_already_set();
 }
 
-/// What dir() tells: attributes of the type, and keys.
+/// The result of dir(): attributes of the type, and keys.
 inline pybind11::list names_with(const pybind11::object& self, const pybind11::dict& values) {
   pybind11::list out(pybind11::module_::import("builtins").attr("dir")(pybind11::type::of(self)));
   for (const auto& item : values) out.append(item.first);

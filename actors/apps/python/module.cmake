@@ -5,10 +5,11 @@ if(NOT LUX_PYTHON MATCHES "^(AUTO|ON|OFF)$")
   message(FATAL_ERROR "LUX_PYTHON is AUTO, ON or OFF, not \"${LUX_PYTHON}\"")
 endif()
 set(LUX_HAS_PYTHON OFF)
-# A module under sanitizers would need a Python that begins with them.
+# A module with sanitizers would need a Python that starts with them.
 if(LUX_PYTHON STREQUAL "ON" OR (LUX_PYTHON STREQUAL "AUTO" AND NOT LUX_SANITIZE))
   set(PYBIND11_FINDPYTHON ON)
-  # The system's, of which pybind11 and NumPy are packages, rather than another one on the path.
+  # Prefers the system's Python, which has pybind11 and NumPy as packages, to another one on the
+  # path.
   if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
     set(Python_EXECUTABLE /usr/bin/python3)
   endif()

@@ -22,7 +22,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// Before anything else: the module is compiled for a processor generation.
+/// Checked first: the module is compiled for a processor generation.
 void check_processor() {
   __builtin_cpu_init();
   if (std::strcmp(LUX_ARCH, "x86-64-v3") == 0 && !__builtin_cpu_supports("x86-64-v3"))
@@ -31,15 +31,15 @@ void check_processor() {
         "-DLUX_ARCH=x86-64-v2");
 }
 
-/// The file of this module; "" where nobody knows. Python says it only once the module is there.
+/// The file of this module; "" if unknown. Python knows it only once the module is loaded.
 std::string file_of_module() {
   Dl_info found{};
   if (::dladdr(reinterpret_cast<const void*>(&check_processor), &found) == 0) return {};
   return std::filesystem::absolute(found.dli_fname).string();
 }
 
-/// Files of others are read in a process of its own (runtime/core/isolated_job.hpp): Python again,
-/// with this module alone.
+/// Reads untrusted files in a separate process (runtime/core/isolated_job.hpp): Python again, with
+/// only this module.
 void have_jobs_begun() {
   constexpr const char* code =
       "import importlib.util as u, sys\n"
@@ -47,11 +47,11 @@ void have_jobs_begun() {
       "u.module_from_spec(s)._serve_job(sys.argv[2:])\n";
   const py::object python = py::module_::import("sys").attr("executable");
   const std::string file = file_of_module();
-  if (!py::isinstance<py::str>(python) || file.empty()) return;  // each file is refused then
+  if (!py::isinstance<py::str>(python) || file.empty()) return;  // then such files are refused
   luxodus::begin_isolated_jobs_by({python.cast<std::string>(), "-I", "-S", "-c", code, file});
 }
 
-/// Does the job and ends the process. Returns where these are no words of a job.
+/// Does the job and ends the process. Returns if the words are not those of a job.
 void serve_job(std::vector<std::string> words) {
   std::string program = "luxodus";
   std::vector<char*> argv{program.data()};
@@ -59,7 +59,7 @@ void serve_job(std::vector<std::string> words) {
   luxodus::serve_isolated_job(static_cast<int>(argv.size()), argv.data());
 }
 
-/// Standard output is the caller's, and so is what is told of how things go.
+/// Standard output is the caller's, and so is progress.
 void log_to_standard_error() {
   spdlog::set_default_logger(std::make_shared<spdlog::logger>(
       "luxodus", std::make_shared<spdlog::sinks::stderr_sink_mt>()));

@@ -1,5 +1,5 @@
-// Numbers that were given from Python, checked. Errors (Refused): not finite, out of range, not
-// whole.
+// Checks numbers given from Python. Errors (Refused): not finite, out of range, not whole. Pure;
+// any thread.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include "actors/apps/python/errors.hpp"
 
 namespace luxodus::limits {
-/// Threads of one run, as of `luxodus run`.
+/// Threads of one run, as in `luxodus run`.
 inline constexpr int threads = 1024;
 }  // namespace luxodus::limits
 
@@ -24,7 +24,7 @@ inline double between(const char* name, double value, double low, double high) {
   return value;
 }
 
-/// Whole, from `low` to `high`; 1e6 is.
+/// Whole, from `low` to `high`; 1e6 is accepted.
 inline int64_t whole_between(const char* name, double value, double low, double high) {
   if (!(value >= low && value <= high) || value != std::floor(value))
     throw Refused(problem(

@@ -1,5 +1,5 @@
-// A scene as Python has it: what it is made of by name, and what can be computed of it. Called with
-// the interpreter's lock, which is released while scenes are read and traced.
+// A scene for Python: its parts by name, and what can be computed from it. Called with the
+// interpreter's lock, which is released while scenes are read and traced.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -22,14 +22,14 @@ class OpenScene {
                         std::optional<double> at_s);
 
   const std::shared_ptr<const SceneDescription>& description() const { return description_; }
-  /// As the program writes it into results.
+  /// As in the program's results.
   const std::string& file() const { return file_; }
   std::optional<double> at_s() const { return at_s_; }
-  /// The same scene at other times, at frames of its simulations; of a pack, which has one time,
-  /// it refuses.
+  /// Reads the scene at other times, at frames of its simulations; refuses for a pack, which has
+  /// one time.
   SceneAtTime reader() const;
-  /// The scene as verdicts are made of it: at frames of its simulations; a pack as it is. Errors
-  /// (Refused): as reopen_scene.
+  /// The scene for verdicts: at frames of its simulations; a pack unchanged. Errors (Refused): as
+  /// reopen_scene.
   std::shared_ptr<const SceneDescription> at_frames() const;
 
  private:

@@ -24,7 +24,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// What is wanted of a run, as Python says it.
+/// The arguments of a run from Python.
 struct RunWish {
   std::string scenario;
   std::optional<double> particles, error, time_s;
@@ -86,7 +86,7 @@ std::unique_ptr<TracedRun> run_of(const OpenScene& scene, const RunWish& wish,
   return out;
 }
 
-/// The arrays of a plane, cells by [v, u], and its values of result.json.
+/// The arrays of a plane, cells by [v, u], and its values in result.json.
 py::object plane_of(const PlaneMap& map, const PlaneMeasure& plane, const py::dict& values) {
   const std::vector<py::ssize_t> shape{plane.cells_v, plane.cells_u};
   std::vector<double> total, error, indirect, at_points;
@@ -132,7 +132,7 @@ py::object view_of(const Camera& camera, const ShownView& view) {
 
 }  // namespace
 
-/// Keeps other threads of Python from the run.
+/// Keeps other Python threads from using the run.
 class TracedRun::Claim {
  public:
   explicit Claim(TracedRun& run) : run_(run) {
@@ -154,7 +154,7 @@ void TracedRun::trace(const StopRule& stop, const py::object& progress) {
   const Claim claim(*this);
   computed_ = false;
   std::string stopped_by = record_.stopped_by;
-  // Other threads of Python may ask for what follows while the work goes on: it changes here alone.
+  // Other Python threads may read the members below while the work goes on: only here they change.
   const auto note = [&] {
     record_.stopped_by = stopped_by;
     record_.stop = stop;

@@ -1,5 +1,5 @@
-// A run as Python has it: a scenario of a scene, traced on threads or nodes of this process, and
-// its results. Called with the interpreter's lock, which is released while something is computed.
+// A run for Python: a scenario of a scene, traced on threads or nodes of this process, and its
+// results. Called with the interpreter's lock, which is released during computations.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -20,10 +20,10 @@ class TracedRun {
   TracedRun(std::unique_ptr<LocalRun> run, std::unique_ptr<RunExecutor> executor, RunRecord record);
 
   /// Traces until the rule holds. Errors: as work_apart; Refused: as RunExecutor::run, another
-  /// thread of Python is tracing.
+  /// Python thread is tracing.
   void trace(const StopRule& stop, const pybind11::object& progress);
 
-  // Results, made when they are first asked for, and anew after more was traced.
+  // Results, made on first access, and again after further tracing.
   const pybind11::dict& result();  // result.json
   const pybind11::dict& planes();
   pybind11::object patches();
@@ -34,7 +34,7 @@ class TracedRun {
 
   const LocalRun& run() const { return *run_; }
   const std::string& stopped_by() const { return record_.stopped_by; }
-  /// As of the last call that traced.
+  /// At the end of the last call that traced.
   int64_t particles() const { return particles_; }
 
  private:
@@ -44,7 +44,7 @@ class TracedRun {
   std::unique_ptr<LocalRun> run_;
   std::unique_ptr<RunExecutor> executor_;
   RunRecord record_;
-  std::atomic<bool> taken_{false};  // by a thread of Python, which has released the lock
+  std::atomic<bool> taken_{false};  // by a Python thread that has released the lock
   bool computed_ = false;
   int64_t particles_ = 0;
   pybind11::dict result_, planes_;

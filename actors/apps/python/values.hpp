@@ -1,5 +1,5 @@
-// Values of results as objects of Python: JSON as dicts and lists, numbers over places as arrays of
-// NumPy. Called with the interpreter's lock.
+// Converts results to Python objects: JSON to dicts and lists, spatial values to NumPy arrays.
+// Called with the interpreter's lock.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -17,10 +17,10 @@ namespace luxodus::python {
 /// Objects become dicts in the same order, lists lists, null None.
 pybind11::object to_python(const Json& value);
 
-/// A whole number as Python's int, however long. Requires: `text` is one.
+/// A whole number of any length as a Python int. Requires: `text` is one.
 pybind11::object whole_number(const std::string& text);
 
-/// A copy in that shape. Requires: as many values.
+/// A copy with this shape. Requires: as many values.
 template <class T>
 pybind11::array_t<T> array_of(const std::vector<T>& values,
                               const std::vector<pybind11::ssize_t>& shape) {
@@ -33,7 +33,7 @@ pybind11::array_t<double> places_of(const std::vector<glm::dvec3>& places,
 /// Named values as attributes: types.SimpleNamespace.
 pybind11::object with_attributes(const pybind11::dict& named);
 
-/// "incident_front standard error [lx]" as a name of Python: incident_front_standard_error_lx.
+/// Makes a Python name of "incident_front standard error [lx]": incident_front_standard_error_lx.
 std::string attribute_name(const std::string& array_name);
 
 /// Adds each array of a file for ParaView as an attribute. `shape`: of its cells; an array of

@@ -25,8 +25,8 @@ bool same_units(const CompiledScene& a, const CompiledScene& b) {
          same_bands(a.bands, b.bands);
 }
 
-/// What a surface is of: an object by its number, which no viewer changes; a sign's face or a body
-/// by name.
+/// The owner of a surface: an object by its number, which no viewer changes; a sign's face or a
+/// luminaire's body by name.
 using Owner = std::tuple<uint32_t, std::string, bool>;
 
 Owner owner_of(const CompiledScene& scene, uint32_t surface) {
@@ -40,7 +40,7 @@ Owner owner_of(const CompiledScene& scene, uint32_t surface) {
   return {surface, "", false};
 }
 
-/// Blocks but for those of patches and surfaces have the same bins wherever units are the same.
+/// All blocks except those of patches and surfaces have the same bins wherever units are the same.
 bool same_blocks(const CompiledScene& a, const CompiledScene& b) {
   const auto& of_a = a.layout.blocks();
   const auto& of_b = b.layout.blocks();

@@ -25,7 +25,7 @@ Json copies_json(const std::vector<SceneEdits::Copy>& copies) {
   return out;
 }
 
-// What is not there or of another type is thrown by the library, and caught below.
+// The library throws for missing members and other types, which is caught below.
 
 glm::dvec3 read_vector(const Json& list) {
   return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};

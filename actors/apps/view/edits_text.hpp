@@ -1,4 +1,4 @@
-// What viewers edits, as text that travels to the nodes that trace it. Pure; any thread.
+// Edits of viewers as text, which is sent to the nodes that trace them. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ inline constexpr size_t edits_bytes = 1 << 20;
 /// Equal edits have equal texts, and numbers keep every bit.
 std::string edits_text(const SceneEdits& edits);
 
-/// Errors: not such a text.
+/// Errors: malformed text.
 Result<SceneEdits> parse_edits(std::string_view text);
 
 }  // namespace luxodus

@@ -12,12 +12,12 @@ namespace luxodus {
 
 namespace {
 
-/// Points of a flame lie in all of it but its rim: the box is larger by this share.
+/// Points of a flame leave out its rim: the box is larger than theirs by this share.
 constexpr double rim = 0.1;
-/// Points a side of a cell at which its glow is read.
+/// Points along a side of a cell at which its glow is read.
 constexpr int glow_points_a_side = 2;
 
-/// The mean emission per volume of each cell, of a unit total but for what cells miss of it.
+/// The mean emission per volume of each cell, scaled to a total of one.
 std::vector<double> glow_of(const CompiledScene& scene, const LiveFlame& flame,
                             ResidentData& data) {
   const glm::dvec3 cell = flame.size / glm::dvec3(flame.count);
@@ -60,7 +60,7 @@ LiveFlame flame_of(const CompiledScene& scene, const CompiledEmitter& e, Residen
   const std::vector<double> glow = glow_of(scene, out, data);
   const double brightest = *std::max_element(glow.begin(), glow.end());
   if (!(brightest > 0)) return out;
-  double sum = 0;  // of bytes: all of its light is shared out among them
+  double sum = 0;  // of bytes: the flame's light is distributed by them
   for (const double one : glow) {
     const auto byte = static_cast<unsigned char>(std::lround(255 * one / brightest));
     sum += byte;

@@ -1,5 +1,5 @@
-// Flames as a live view shows them: where within their box they glow, as cells. Pure; any thread,
-// but for what reads the scene's bricks.
+// Flames for a live view: where they glow within their box, as cells. Pure; any thread, as far as
+// the scene's bricks may be read.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace luxodus {
 
 namespace limits {
-/// Flames with a shape of their own in a live view; others glow as their voxels do.
+/// Flames with a shape of their own in a live view; others glow with their voxels.
 inline constexpr size_t view_flames = 8;
 /// Cells along the longest side of a flame.
 inline constexpr int view_flame_cells = 24;
@@ -24,13 +24,12 @@ struct LiveFlame {
   uint32_t medium = 0;
   glm::dvec3 low{0}, size{0};      // of its box [m], in the scene's coordinates
   glm::ivec3 count{1};             // of cells
-  std::array<double, 3> colour{};  // of a cell of 255: linear sRGB that a metre sends out
-                                   // [cd/(m2 m)]
-  std::string cells;               // a byte each, x fastest: glow by that of the brightest
+  std::array<double, 3> colour{};  // of a cell of 255: linear sRGB emitted by a metre [cd/(m2 m)]
+  std::string cells;               // a byte each, x fastest: glow relative to the brightest
 };
 
-/// The flames that give the most light, at most limits::view_flames. All cells of a flame together
-/// send out its luminous flux.
+/// The flames with the most light, at most limits::view_flames. All cells of a flame together emit
+/// its luminous flux.
 std::vector<LiveFlame> flames_of(const CompiledScene& scene, const SceneIndex& index);
 
 }  // namespace luxodus

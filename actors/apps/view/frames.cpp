@@ -28,7 +28,7 @@ constexpr double pi = std::numbers::pi;
 /// The largest half float: brighter patches are shown as bright as this [cd/m2].
 constexpr float max_half = 65504;
 
-/// Values in the order of the wire, little endian as every machine that runs this is.
+/// Writes values in wire order, little endian like every supported machine.
 class Writer {
  public:
   Writer(FrameKind kind, uint32_t generation, uint32_t a, uint32_t b = 0) {
@@ -49,13 +49,13 @@ class Writer {
   std::string text_;
 };
 
-/// A bin whose luminance is known worse than this has the colour of its group instead of its own,
-/// more and more: a path carries one band, so few paths give right luminances in wrong colours.
+/// A bin whose relative error exceeds this blends its own colour into its group's mean: a path
+/// carries one band, so with few paths luminances are right but colours are wrong.
 constexpr double colour_known_at = 0.1;
 
 using Colour = std::array<double, 3>;
 
-/// Where light is counted, and what a bin makes of it.
+/// A block of bins, and the factor that converts their values.
 struct LightBins {
   uint32_t block = 0, quantity = 0;
   const std::vector<float>* factors = nullptr;  // by bin and band; null: 1
@@ -68,12 +68,12 @@ class GroupColours {
   GroupColours(const Readout& readout, const CompiledScene& scene, const LightBins& bins, int group)
       : readout_(readout), scene_(scene), bins_(bins), group_(group) {}
 
-  /// Takes a bin into the group's mean colour.
+  /// Adds a bin to the group's mean colour.
   void learn(uint32_t bin) {
     const Colour xyz = xyz_of(bin);
     for (size_t i = 0; i < 3; ++i) mean_[i] += xyz[i];
   }
-  /// Of a bin, `per_watt` each. Requires: every bin was learned.
+  /// The colour of a bin, with `per_watt`. Requires: every bin was learned.
   Colour of(uint32_t bin, double per_watt) const {
     const Colour own = xyz_of(bin);
     if (own[1] <= 0 || mean_[1] <= 0) return {};
@@ -124,7 +124,7 @@ void put_colour(Writer& out, const Colour& rgb) {
   for (const double channel : rgb) out.half(channel);
 }
 
-/// Luminance that leaves both sides of each triangle.
+/// Luminance of both sides of each triangle.
 LiveFrame surface_light(const CompiledScene& scene, const Readout& readout,
                         const std::vector<LivePatch>& patches, uint32_t generation, int group) {
   Writer out(FrameKind::light, generation, static_cast<uint32_t>(group));
@@ -138,8 +138,7 @@ LiveFrame surface_light(const CompiledScene& scene, const Readout& readout,
   return out.take();
 }
 
-/// What flames of a group that are not shown apart send out themselves, by the voxels that they are
-/// in: X, Y, Z.
+/// Light emitted by those flames of a group that are not shown separately, by voxel: X, Y, Z.
 std::unordered_map<uint32_t, Colour> flames_in_voxels(const CompiledScene& scene,
                                                       const SceneIndex& index,
                                                       const std::vector<LiveFlame>& apart,
@@ -167,7 +166,7 @@ std::unordered_map<uint32_t, Colour> flames_in_voxels(const CompiledScene& scene
   return out;
 }
 
-/// Net flux of a group's light in a voxel by its fluence: which way it goes, and how much of it.
+/// Net flux of a group's light in a voxel relative to its fluence: its direction, and its degree.
 glm::dvec3 drift(const Readout& readout, const CompiledScene& scene, uint32_t voxel, int group) {
   const auto lumens = [&](uint32_t quantity) {
     return readout.lumens(scene.blocks.voxels, voxel, quantity, group).value;
@@ -178,8 +177,8 @@ glm::dvec3 drift(const Readout& readout, const CompiledScene& scene, uint32_t vo
   return out / std::max(1.0, glm::length(out));
 }
 
-/// What a metre of each voxel sends out, scattered and of flames, as the mean over directions; and
-/// what scatters of it, as a vector along the light that it is scattered from.
+/// Light emitted by a metre of each voxel, from scattering and flames, as the mean over directions;
+/// and the scattered part as a vector along the light that it is scattered from.
 LiveFrame smoke_light(const CompiledScene& scene, const SceneIndex& index, const Readout& readout,
                       const LiveSmoke& air, uint32_t generation, int group) {
   Writer out(FrameKind::smoke_light, generation, static_cast<uint32_t>(group));
@@ -203,11 +202,11 @@ LiveFrame smoke_light(const CompiledScene& scene, const SceneIndex& index, const
   return out.take();
 }
 
-/// Extinction and mean cosine of scattering in the middle band, nearest to what an eye sees best,
-/// and scattering coefficients of all bands. Means over points of the voxel.
+/// Extinction and mean cosine of scattering in the middle band, closest to the eye's best, and
+/// scattering coefficients of all bands. Means over points of the voxel.
 struct VoxelMedium {
   double extinction = 0;           // [1/m]
-  double cosine = 0;               // 0 where nothing scatters
+  double cosine = 0;               // 0 if nothing scatters
   std::vector<double> scattering;  // [1/m], by band
 };
 
@@ -314,7 +313,7 @@ LiveFrame readdressed(const LiveFrame& frame, uint32_t generation, uint32_t a) {
 std::shared_ptr<const std::vector<uint32_t>> triangles_from(const std::vector<LivePatch>& before,
                                                             const std::vector<LivePatch>& now,
                                                             const BinMap& bins) {
-  std::unordered_map<uint32_t, uint32_t> triangle;  // by the bin of its front
+  std::unordered_map<uint32_t, uint32_t> triangle;  // triangle by the bin of its front
   for (uint32_t i = 0; i < before.size(); ++i) triangle.try_emplace(before[i].front, i);
   auto out = std::make_shared<std::vector<uint32_t>>();
   out->reserve(now.size());

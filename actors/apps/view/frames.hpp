@@ -1,5 +1,5 @@
-// Binary frames of PROTOCOL.md: geometry, light on surfaces, light in smoke, from a run's totals.
-// Pure functions; any thread, while nobody adds to the totals.
+// Makes the binary frames of PROTOCOL.md: geometry, light on surfaces, light in smoke, from a run's
+// totals. Pure functions; any thread, while nobody adds to the totals.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace luxodus {
 
 using LiveFrame = std::shared_ptr<const std::string>;
 
-/// A triangle of a frame: both sides' bins, and its area.
+/// A triangle of a frame: the bins of both sides, and its area.
 struct LivePatch {
   uint32_t front = 0, back = 0;
   uint32_t surface = 0;
@@ -28,40 +28,41 @@ struct LiveGeometry {
 /// Every flux patch as a triangle. Errors: a packed scene that cannot be read.
 Result<LiveGeometry> geometry_of(const CompiledScene& scene, uint32_t generation);
 
-/// The air of a generation; nothing where no medium is.
+/// The smoke of a generation; empty without media.
 struct LiveSmoke {
   LiveFrame frame;
   /// Scattering coefficients by voxel and band [1/m].
   std::shared_ptr<const std::vector<float>> scattering;
-  /// Those that are shown apart: voxels do not glow with them.
+  /// Flames that are shown separately, whose glow is not in voxels.
   std::shared_ptr<const std::vector<LiveFlame>> flames;
 };
 
-/// Extinction of the voxels, and how much they scatter onwards.
+/// Extinction of the voxels, and how much they scatter forwards.
 LiveSmoke smoke_of(const CompiledScene& scene, const SceneIndex& index, uint32_t generation);
 
-/// Light of some source groups on surfaces and, where there is smoke, in it; by the run's threads.
-/// Requires: `smoke` is that of the run's scene.
+/// Light of some source groups on surfaces and, if there is smoke, in it; computed on the run's
+/// threads.
+/// Requires: `smoke` belongs to the run's scene.
 std::vector<LiveFrame> light_frames(const LiveRun& run, const std::vector<LivePatch>& patches,
                                     const LiveSmoke& smoke, uint32_t generation,
                                     const std::vector<int>& groups);
 
-/// What a frame says of itself.
+/// The head of a frame.
 struct FrameHead {
   uint32_t kind = 0, generation = 0, a = 0, b = 0;
 };
 FrameHead head_of(const LiveFrame& frame);
-/// Whether it is light of a group: then `a` is its number.
+/// Whether a frame is light of a group: then `a` is the group's number.
 bool is_light(const FrameHead& head);
 bool is_surface_light(const FrameHead& head);
-/// The same content in another generation; light as that of the group `a`.
+/// The frame's content for another generation; light becomes that of the group `a`.
 LiveFrame readdressed(const LiveFrame& frame, uint32_t generation, uint32_t a);
 
-/// Which triangle of before each of now was, or none_index.
+/// The triangle of before that corresponds to each triangle of now, or none_index.
 std::shared_ptr<const std::vector<uint32_t>> triangles_from(const std::vector<LivePatch>& before,
                                                             const std::vector<LivePatch>& now,
                                                             const BinMap& bins);
-/// Light on surfaces for other triangles: that of those that each was before, none on new ones.
+/// Light on surfaces for other triangles: each takes that of its counterpart before, new ones none.
 LiveFrame relaid(const LiveFrame& light, const std::vector<uint32_t>& triangles_before);
 
 }  // namespace luxodus

@@ -8,7 +8,7 @@ namespace luxodus {
 
 namespace {
 
-/// Of a share by band: linear sRGB, by that of a white of equal power in all bands.
+/// Linear sRGB of a share by band, relative to a white of equal power in all bands.
 template <class Share>
 std::array<double, 3> colour_of_share(const Bands& bands, const Share& share) {
   std::array<double, 3> xyz{}, white{};

@@ -1,5 +1,4 @@
-// What surfaces reflect as a mirror does, more or less sharply, as a live view shows it. Pure; any
-// thread.
+// Specular reflection of surfaces, sharp or rough, for a live view. Pure; any thread.
 #pragma once
 
 #include <array>
@@ -10,7 +9,7 @@
 namespace luxodus {
 
 namespace limits {
-/// Sides of a live view at most: others look matt. Pages read no more.
+/// Limit on glossy sides in a live view: others are shown matt. Pages read no more.
 inline constexpr size_t view_gloss = 4096;
 }  // namespace limits
 
@@ -19,11 +18,11 @@ struct LiveGloss {
   uint32_t surface = 0;
   bool back = false;
   std::array<double, 3> mirrored{};  // share of white light reflected in the lobe, linear sRGB
-  double spread = 1;                 // of the luminance that the side sends out: not in the lobe
-  double roughness = 0;              // GGX alpha; 0 of a mirror
+  double spread = 1;                 // share of the side's luminance that is not in the lobe
+  double roughness = 0;              // GGX alpha; 0 for a mirror
 };
 
-/// The first view_gloss glossy sides and mirrors, in the order of surfaces. A reflectance picture
+/// The first view_gloss glossy sides and mirrors, in the order of surfaces. A reflectance image
 /// counts as white.
 std::vector<LiveGloss> gloss_of(const CompiledScene& scene);
 

@@ -23,8 +23,8 @@ bool is_flat(const CompiledEmitter& e) {
   return e.kind == EmitterKind::rectangle || e.kind == EmitterKind::disc;
 }
 
-/// Of a direction in the frame of the table, whose pole is the luminaire's local -Z or a normal.
-/// The cosine is never 0: middles of cells keep off the plane of the face by half a cell.
+/// Density in a direction in the frame of the table, whose pole is the luminaire's local -Z or a
+/// normal. The cosine is never 0: centres of cells are half a cell away from the plane of the face.
 double brightness(const CompiledScene& scene, const CompiledEmitter& e, double polar,
                   double azimuth) {
   const double across = std::sin(polar);
@@ -32,7 +32,7 @@ double brightness(const CompiledScene& scene, const CompiledEmitter& e, double p
                              -std::cos(polar));
   const double cosine = std::abs(direction.z);
   if (e.distribution == Distribution::web) {
-    // In the luminaire's own frame, so that luminaires turned otherwise share the table.
+    // In the luminaire's own frame, so that luminaires with other orientations share the table.
     const double density = scene.webs[e.web]->pdf(direction);
     return is_flat(e) ? density / cosine : density;
   }
@@ -59,13 +59,13 @@ LampTable table_of(const CompiledScene& scene, const CompiledEmitter& e) {
   return out;
 }
 
-/// The tables of a scene, each once.
+/// The tables of a scene, without duplicates.
 class LampTables {
  public:
   LampTables(const CompiledScene& scene, std::vector<LampTable>& tables)
       : scene_(scene), tables_(tables) {}
 
-  /// Of an emitter; none where it sends out nothing, or where there is no room for another.
+  /// The table of an emitter; none if it emits nothing, or if the limit is reached.
   std::optional<uint32_t> index_of(const CompiledEmitter& e) {
     if (e.distribution != Distribution::web) return index_of(table_of(scene_, e));
     const std::pair key(e.web, is_flat(e));
@@ -91,7 +91,7 @@ class LampTables {
   std::map<std::pair<uint32_t, bool>, std::optional<uint32_t>> of_webs_;
 };
 
-/// What is brighter than pages read looks like the brightest that they read: white.
+/// Colours brighter than pages read are reduced to their limit, which looks white.
 std::array<double, 3> readable_colour(std::array<double, 3> rgb) {
   double most = 0;
   for (const double c : rgb) most = std::max(most, std::abs(c));

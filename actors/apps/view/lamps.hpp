@@ -1,5 +1,5 @@
-// Luminous faces of lamps as a live view shows them: where they are, and how bright each looks from
-// any side. Points and flames have no face, those of signs are told with the signs. Pure; any
+// Luminous faces of lamps for a live view: where they are, and how bright each looks from any
+// direction. Points and flames have no face; those of signs are sent with the signs. Pure; any
 // thread.
 #pragma once
 
@@ -16,24 +16,23 @@ namespace limits {
 /// Directions of a table: from the axis to its opposite, and around.
 inline constexpr int lamp_polar = 72;
 inline constexpr int lamp_azimuth = 24;
-/// Faces of a live view at most, their tables, triangles of one that is a mesh, corners of all of
-/// these, and the width of one [m]: others are not shown. So the text that tells them stays within
-/// what pages read.
+/// Limits on faces in a live view, their tables, triangles of a mesh, corners of all meshes, and
+/// the width of one [m]: others are not shown. They keep the message within what pages read.
 inline constexpr size_t view_lamps = 2048;
 inline constexpr size_t view_lamp_tables = 512;
 inline constexpr size_t view_lamp_triangles = 512;
 inline constexpr size_t view_lamp_corners = 32768;
 inline constexpr double view_lamp_m = 1e4;
-/// Flux by area, in each channel, at most [lm/m2], and the largest value of a table [1/sr].
+/// Limits on flux by area, in each channel [lm/m2], and on the largest value of a table [1/sr].
 inline constexpr double view_lamp_colour = 1e9;
 inline constexpr double view_lamp_peak = 1e9;
 }  // namespace limits
 
-/// What leaves a face by direction: density [1/sr] by the cosine to the axis; density alone where
-/// the axis is a luminaire's and the face is not flat. Cells of 180 / lamp_polar by
-/// 360 / lamp_azimuth degrees, azimuth fastest, at their middles.
+/// Light of a face by direction: density [1/sr] divided by the cosine to the axis; density alone if
+/// the axis is a luminaire's and the face is not flat. Cells of 180 / lamp_polar by 360 /
+/// lamp_azimuth degrees, azimuth fastest, at their centres.
 struct LampTable {
-  double peak = 0;     // of the largest value
+  double peak = 0;     // the largest value
   std::string values;  // two bytes each, little endian, 65535 for the peak
   bool operator==(const LampTable&) const = default;
 };
@@ -44,11 +43,11 @@ struct LiveLamp {
   glm::dvec3 origin{0};              // [m], in the scene's coordinates
   std::array<glm::dvec3, 3> axes{};  // unit
   glm::dvec3 size{0};                // [m]
-  std::vector<glm::dvec3> corners;   // mesh: three a triangle
+  std::vector<glm::dvec3> corners;   // mesh: three per triangle
   std::array<double, 3> colour{};    // flux by area, linear sRGB [lm/m2]
   uint32_t table = 0;
-  /// The table's axis is that of the luminaire, not the normal of each point. Where the face is not
-  /// flat, too, each point is brighter than the table says: by one over the cosine to its normal.
+  /// The table's axis is that of the luminaire, not the normal of each point. If the face is also
+  /// not flat, each point is brighter than the table by one over the cosine to its normal.
   bool of_luminaire = false;
 };
 
@@ -57,7 +56,7 @@ struct LiveLamps {
   std::vector<LampTable> tables;
 };
 
-/// What rays from eyes can meet, in the order of the scene.
+/// Faces that rays from eyes can hit, in the order of the scene.
 LiveLamps lamps_of(const CompiledScene& scene);
 
 }  // namespace luxodus

@@ -13,7 +13,7 @@ Json place(const glm::dvec3& p) {
   return {p.x, p.y, p.z};
 }
 
-/// Linear sRGB of a radiance by band, its weighted sum the luminance.
+/// Linear sRGB of a radiance by band; its weighted sum is the luminance.
 Json colour(const Bands& bands, const std::vector<double>& radiance) {
   std::array<double, 3> xyz{};
   for (size_t b = 0; b < radiance.size(); ++b) {
@@ -33,7 +33,7 @@ Json scenarios_json(const SceneDescription& scene) {
   return out;
 }
 
-/// Which times there are, and which is shown; null where there is one state.
+/// The times of all states, and the shown one; null with a single state.
 Json states_json(const SceneDescription& scene, const SceneEdits& edits) {
   if (!scene.time || !edits.at_s) return {};
   return {{"from", scene.time->from_s},

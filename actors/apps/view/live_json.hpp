@@ -1,4 +1,4 @@
-// The text messages to viewers (PROTOCOL.md). Pure; any thread.
+// Makes the text messages to viewers (PROTOCOL.md). Pure; any thread.
 #pragma once
 
 #include "actors/apps/view/live_trace.hpp"
@@ -6,18 +6,18 @@
 
 namespace luxodus {
 
-/// What viewers have changed that needs no tracing.
+/// Changes by viewers that need no tracing.
 struct LiveDimming {
-  std::map<std::string, double> factors;  // of groups; others 1
-  std::optional<double> seconds;          // since the mains have failed; none: fully on
-  std::map<std::string, double> shares;   // of what is traced, by then; others 1
+  std::map<std::string, double> factors;  // of groups; others are 1
+  std::optional<double> seconds;          // since the mains failure; none: fully on
+  std::map<std::string, double> shares;   // shares of the traced light at that time; others are 1
 
-  /// Of a group's light: factor and share.
+  /// Factor times share of each group's light.
   std::map<std::string, double> both() const;
 };
 
-/// What a generation is of, without its light. `follows`: to somebody who has the generation
-/// before, and may go on showing light of it. Requires: it has a look.
+/// Describes a generation, without its light. `follows`: for a viewer that has the previous
+/// generation, and may go on showing its light. Requires: it has a look.
 Json live_scene_json(const SceneDescription& scene, const LiveGeneration& generation,
                      const LiveDimming& dimming, bool editor, bool follows);
 Json progress_json(const LiveProgress& progress);

@@ -1,5 +1,5 @@
-// Which batches come next: those of the group that has least of what it is asked for. So a group
-// that begins anew is traced alone until it has caught up with the others.
+// Next are batches of the group that has the smallest part of its goal. So a group that begins anew
+// is traced alone until it has caught up with the others.
 #include "actors/apps/view/live_run.hpp"
 
 #include <algorithm>
@@ -17,10 +17,10 @@ namespace luxodus {
 namespace {
 
 constexpr double tick_every_s = 0.25;
-/// For batches under way, of whoever wants a stop soon: longer than a node has work at hand.
+/// How long to wait for batches in progress on a soft stop: longer than a node has work queued.
 constexpr double patience_s = 0.1;
-/// Light of before ends when a group's own has one in so many of its batches: errors twice as
-/// large, of the right building.
+/// A group stops showing light of before once its own has one batch for this many of the former:
+/// errors are twice as large, but the building is right.
 constexpr int64_t caught_up_at = 4;
 
 using SteadyClock = std::chrono::steady_clock;
@@ -46,7 +46,7 @@ std::vector<const CompiledEmitter*> emitters_of(const CompiledScene& scene, int 
   return out;
 }
 
-/// Whether a group sends out the same light from the same places.
+/// Whether a group emits the same light from the same places.
 bool same_emitters(const CompiledScene& a, int in_a, const CompiledScene& b, int in_b) {
   const auto same = [](const CompiledEmitter* x, const CompiledEmitter* y) {
     return x->origin == y->origin && x->axes == y->axes && x->size == y->size &&
@@ -96,7 +96,7 @@ void LiveRun::take_over(const LiveRun& before, const BinMap& bins) {
                  before.scene_->groups.end(), [](const Group& a, const Group& b) {
                    return a.name == b.name && a.band_share == b.band_share;
                  });
-  // With other groups or patches these have other numbers: then what they have is copied.
+  // With other groups or patches these have other numbers, so their light is copied.
   const std::shared_ptr<TracedTotals> copies =
       shares ? nullptr : std::make_shared<TracedTotals>(scene_);
   if (shares && same_geometry_) own_ = before.own_;
@@ -151,14 +151,14 @@ int64_t LiveRun::wanted(size_t group, int64_t level) const {
   return std::max<int64_t>(1, std::llround(batches));
 }
 
-/// Batches that are traced, or are being traced.
+/// Batches that are traced, or being traced.
 int64_t LiveRun::given(size_t group) const {
   int64_t out = issued_[group];
   for (const BatchRange& batches : again_[group]) out -= batches.count;
   return out;
 }
 
-/// The group that has least of its goal; none: -1.
+/// The group with the smallest part of its goal; none: -1.
 int LiveRun::neediest(const std::vector<int64_t>& goal) const {
   int chosen = -1;
   double least = 1;
@@ -174,7 +174,7 @@ int LiveRun::neediest(const std::vector<int64_t>& goal) const {
   return chosen;
 }
 
-/// The next batches of a group: first what was given back.
+/// The next batches of a group: first those that were given back.
 BatchRange LiveRun::give(size_t group, int64_t most) {
   if (again_[group].empty()) {
     const BatchRange out{static_cast<int>(group), stream_[group], issued_[group], most};
@@ -235,7 +235,7 @@ class LiveRun::LevelWork final : public Work {
   const SteadyClock::time_point start_;
   std::mutex mutex_;
   double ticked_ = 0;
-  mutable std::optional<double> waits_since_;  // of whoever asks stopped()
+  mutable std::optional<double> waits_since_;  // used by callers of stopped()
 };
 
 bool LiveRun::trace(int64_t level, Scope scope, Executor& executor,

@@ -16,7 +16,7 @@ namespace luxodus {
 
 namespace {
 
-/// Small batches, so that the first light of every group is there soon.
+/// Small batches, so that every group gets its first light soon.
 constexpr int64_t live_batch_particles = 1024;
 
 /// Signs face along their z, luminaires along their -z.
@@ -35,7 +35,7 @@ std::string numbers(const glm::dvec3& v) {
          "]";
 }
 
-/// Adds a copy of the one named; false where there is none.
+/// Adds a copy of the named element; false if there is none.
 template <class List>
 bool add_copy(List& list, const SceneEdits::Copy& copy) {
   const auto original =
@@ -74,7 +74,7 @@ Result<SceneDescription> live_description(const SceneDescription& scene, const S
   SceneDescription out = scene;
   clear_measurements(out);
   out.run.batch_particles = live_batch_particles;
-  out.run.groups = GroupRule::by_circuit;  // where a group that is named wins
+  out.run.groups = GroupRule::by_circuit;  // a named group wins over the circuit
   for (const SceneEdits::Copy& copy : edits.added)
     if (!(copy.is_sign ? add_copy(out.signs, copy) : add_copy(out.emitters, copy)))
       return problem_in(scene.file, "there is no \"" + copy.of + "\" to copy");
@@ -146,7 +146,7 @@ std::map<std::string, double> shares_after(const SceneDescription& scene, Operat
 
 namespace {
 
-/// The scenario that is asked for, in its smoke. What time does to its light are factors.
+/// The requested scenario with its smoke. The effect of time on its light is in factors.
 Result<Scenario> live_scenario(const SceneDescription& scene, const SceneEdits& edits) {
   auto scenario = find_scenario(scene, edits.scenario);
   if (!scenario) return scenario;
@@ -191,7 +191,7 @@ Result<std::shared_ptr<const CompiledScene>> compile_dimmed(
 
 std::string name_for_copy(const SceneDescription& scene, const SceneEdits& edits,
                           const std::string& of) {
-  // Groups are told apart by their names as well, and a luminaire's may look like that of a sign.
+  // Groups are identified by name, and a luminaire's may equal that of a sign.
   std::set<std::string> taken;
   const auto take = [&](const std::string& name, const std::string& group) {
     taken.insert(name);
@@ -231,7 +231,7 @@ std::string variant_text(const SceneDescription& scene, const SceneEdits& edits,
     const auto at = moves.find(of);
     return at == moves.end() ? nullptr : &at->second;
   };
-  // Before all else: what they copy is as the original has it.
+  // First of all: copies start from the unchanged original.
   for (const SceneEdits::Copy& copy : edits.added) {
     const auto& moves = copy.is_sign ? edits.signs : edits.luminaires;
     const auto group = copy.is_sign ? group_of_sign(copy.name) : group_of_luminaire(copy.name);
@@ -248,7 +248,7 @@ std::string variant_text(const SceneDescription& scene, const SceneEdits& edits,
     const auto* move = move_of(edits.signs, sign.name);
     if (move != nullptr || factor != 1) change("sign", sign.name, "", move, factor);
   }
-  // Grids of one fire simulation have one name.
+  // The grids of one fire simulation share a name.
   std::set<std::string> media;
   for (const Medium& medium : scene.media)
     if (edits.smoke != 1 && media.insert(medium.name).second)

@@ -1,5 +1,5 @@
-// States of the building as nodes that trace for a live view make them: of edits, as text.
-// Any thread.
+// States of the building on nodes that trace for a live view: made from the text of edits. Any
+// thread.
 #pragma once
 
 #include <memory>
@@ -11,13 +11,13 @@
 
 namespace luxodus {
 
-/// What the nodes of a process share: the last state that any of them was asked for.
+/// Shared by the nodes of a process: caches the last requested state.
 class LiveStates final : public StateMaker {
  public:
   /// `read`: the scene at other times, where it has a clock; may be empty.
   explicit LiveStates(std::shared_ptr<const SceneDescription> scene, SceneAtTime read = {})
       : scenes_(std::move(scene), std::move(read)) {}
-  /// Compiles it, unless it is the last. Errors: as parse_edits, TimedScenes::at and
+  /// Compiles the state, unless it is cached. Errors: as parse_edits, TimedScenes::at and
   /// compile_live.
   Result<std::shared_ptr<const TracedState>> make(const std::string& edits) override;
 

@@ -11,12 +11,12 @@ namespace luxodus {
 
 namespace {
 
-/// The first light is of at least so many batches, and at least one of each group.
+/// The first light has at least this many batches, and at least one of each group.
 constexpr int64_t first_batches = 16;
-/// What has no light yet comes to so many batches a group, on average, before light of before is
-/// traced anew beside it.
+/// Groups without light get this many batches each, on average, before light of before is replaced
+/// as well.
 constexpr int64_t hurry_batches = 32;
-/// Questions that wait; more are forgotten.
+/// Pending questions; more are dropped.
 constexpr size_t max_questions = 64;
 
 LiveAnswer answer_to(const LiveQuestion& question, const LiveRun& run, const LivePatch& patch) {
@@ -119,14 +119,14 @@ void LiveTrace::answer_all() {
       audience_.answers(answer_to(question, *run_, geometry_.patches[question.triangle]));
 }
 
-/// As nodes that trace for this make it (live_states.hpp).
+/// As nodes that trace for this object make it (live_states.hpp).
 StateObject LiveTrace::state_of(const SceneEdits& edits) const {
   return {options_.seed, edits_text(edits)};
 }
 
 namespace {
 
-/// Whether these are of one building, maybe at two times.
+/// Whether these describe one building, possibly at two times.
 bool same_but_for_time(SceneEdits a, const SceneEdits& b) {
   a.at_s = b.at_s;
   return edits_text(a) == edits_text(b);
@@ -176,7 +176,7 @@ void LiveTrace::begin(const SceneEdits& edits) {
   ++generation_;
   refined_ = false;
   error_ = std::numeric_limits<double>::quiet_NaN();
-  // What is kept is of another state than what is shown: no viewer has it.
+  // The cached light is of another state than the shown one: no viewer has it.
   const auto lights =
       again ? std::vector<ShownLight>(run_->lights().size(), ShownLight::none) : run_->lights();
   audience_.begins({generation_, edits, run_->shared_scene(), geometry_.frame, smoke_.frame, lights,
@@ -230,7 +230,7 @@ bool LiveTrace::reach(int64_t level, LiveRun::Scope scope) {
     if (asked_) answer_all();
   }
   const std::vector<int> groups = run_->news(scope);
-  // A few at a time: whoever moves something does not wait for the rest.
+  // A few at a time, so that an edit does not wait for the rest.
   const auto most = static_cast<size_t>(options_.threads);
   for (size_t first = 0; first < groups.size() && !interrupt_; first += most) {
     const auto begin = groups.begin() + static_cast<std::ptrdiff_t>(first);

@@ -1,7 +1,7 @@
-// The tracing behind a live view: one generation after another, each from few particles to many,
-// told of at every doubling, so that the first light is there at once and later ones cost little.
-// New edits end the generation under way, and take over of its light what still holds. Thread
-// rule: its own thread traces and tells; edits and questions may come from any other.
+// The tracing behind a live view: one generation after another, each refined from few particles to
+// many and sent at every doubling, so that the first light appears at once and later updates cost
+// little. New edits end the current generation, and reuse its light where it still holds. Thread
+// rule: its own thread traces and calls the audience; edits and questions may come from any other.
 #pragma once
 
 #include <condition_variable>
@@ -26,13 +26,13 @@ struct LiveProgress {
   bool done = false;
 };
 
-/// Light at a place of a surface, for somebody who has asked.
+/// A viewer's question for the light at a place of a surface.
 struct LiveQuestion {
   uint64_t viewer = 0;
   int64_t id = 0;
   uint32_t triangle = 0;
   bool front = true;
-  std::map<std::string, double> factors;  // of source groups, by name; others 1
+  std::map<std::string, double> factors;  // of source groups, by name; others are 1
 };
 struct LiveAnswer {
   uint64_t viewer = 0;
@@ -46,18 +46,19 @@ struct LiveGeneration {
   uint32_t number = 0;
   SceneEdits edits;
   std::shared_ptr<const CompiledScene> scene;
-  LiveFrame geometry;  // the frame of the generation before where triangles are the same
-  LiveFrame smoke;     // likewise; null where no medium is
-  std::vector<ShownLight> lights;  // of each group: what it goes on showing
-  /// Which triangle of the generation before each was, or none_index; null where all are the same
-  /// ones, or none is.
+  LiveFrame geometry;              // the previous generation's frame if the triangles are the same
+  LiveFrame smoke;                 // likewise; null without media
+  std::vector<ShownLight> lights;  // for each group: the light that it goes on showing
+  /// The triangle of the previous generation that corresponds to each, or none_index; null if all
+  /// are the same, or none is.
   std::shared_ptr<const std::vector<uint32_t>> triangles_before = nullptr;
-  /// Flames that are shown apart from voxels; null where no medium is.
+  /// Flames that are shown separately from voxels; null without media.
   std::shared_ptr<const std::vector<LiveFlame>> flames = nullptr;
-  std::shared_ptr<const LiveLook> look = nullptr;  // made once: it takes longer than telling it
+  std::shared_ptr<const LiveLook> look = nullptr;  // made once, because making it takes longer than
+                                                   // sending it
 };
 
-/// Who is told. Called on the tracing thread.
+/// Receives the results. Called on the tracing thread.
 class LiveAudience {
  public:
   virtual ~LiveAudience() = default;
@@ -65,36 +66,37 @@ class LiveAudience {
   virtual void lit(uint32_t generation, std::vector<LiveFrame> frames) = 0;
   virtual void goes_on(const LiveProgress& progress) = 0;
   virtual void answers(const LiveAnswer& answer) = 0;
-  /// The edits of that number cannot be had: what was traced before goes on.
+  /// The edits of that number are not possible: the previous ones stay in force.
   virtual void refuses(uint64_t number, const std::string& why) = 0;
 };
 
 struct LiveOptions {
   uint64_t seed = 1;
   int threads = 1;
-  int64_t particles = 100'000'000;           // of a generation, at most
-  double relative_error = 0.002;             // at which it ends
+  int64_t particles = 100'000'000;           // limit for a generation
+  double relative_error = 0.002;             // target at which it ends
   std::shared_ptr<Executor> executor = {};   // null: `threads` of this process
-  SceneAtTime scene_at = {};                 // at other times; empty: there is one state
-  std::shared_ptr<FrameScenes> judged = {};  // what verdicts are of; null: the scenes themselves
+  SceneAtTime scene_at = {};                 // other times; empty: a single state
+  std::shared_ptr<FrameScenes> judged = {};  // the scenes that verdicts use; null: the scenes
+                                             // themselves
 };
 
 namespace limits {
-/// States whose light is kept while another time is shown, and what their totals may take [bytes].
+/// States whose light is cached while another time is shown, and a limit on their totals [bytes].
 inline constexpr size_t kept_states = 8;
 inline constexpr size_t kept_state_bytes = size_t{1} << 30;
 }  // namespace limits
 
 class LiveTrace {
  public:
-  /// Begins at once. Requires: `audience` outlives this.
+  /// Starts immediately. Requires: `audience` outlives this.
   LiveTrace(std::shared_ptr<const SceneDescription> scene, const LiveOptions& options,
             SceneEdits first, LiveAudience& audience);
   ~LiveTrace();
   LiveTrace(const LiveTrace&) = delete;
   LiveTrace& operator=(const LiveTrace&) = delete;
 
-  /// `number`: under which it is refused, if it is; the first has 0.
+  /// `number`: identifies the edits if they are refused; the first have 0.
   void edits(SceneEdits edits, uint64_t number);
   /// The scene at a time, as TimedScenes::at.
   Result<std::shared_ptr<const SceneDescription>> scene_at(std::optional<double> at_s) {
@@ -105,18 +107,18 @@ class LiveTrace {
  private:
   void work();
   void begin(const SceneEdits& edits);
-  /// A new generation of edits whose light is not kept. False after it was refused.
+  /// Starts a generation for edits whose light is not cached. False after they were refused.
   bool begin_anew(const SceneEdits& edits,
                   std::shared_ptr<const std::vector<uint32_t>>& triangles_before);
-  /// The light of these edits, which differ from those that are traced in their time alone.
-  /// False where it is not kept.
+  /// Shows the cached light of these edits, which differ from the traced ones only in their time.
+  /// False if it is not cached.
   bool take_kept(const SceneEdits& edits);
-  /// Keeps what is traced, where another time of it is asked for, and forgets it elsewhere.
+  /// Caches what is traced if another time of it is requested, else discards it.
   void keep(const SceneEdits& next);
   StateObject state_of(const SceneEdits& edits) const;
-  /// Traces until it is good enough or something comes.
+  /// Traces until the target is reached or something is requested.
   void refine();
-  /// Traces groups to a level and tells of it; false where edits or the end have come.
+  /// Traces groups to a level and sends them; false if edits or the end have arrived.
   bool reach(int64_t level, LiveRun::Scope scope);
   void tell(bool done);
   void answer_all();
@@ -133,15 +135,15 @@ class LiveTrace {
   bool ends_ = false;
   std::atomic<bool> interrupt_{false};
   std::atomic<bool> asked_{false};
-  // Of the tracing thread.
+  // Used by the tracing thread only.
   uint32_t generation_ = 0;
-  uint64_t number_ = 0;  // of the edits that it looked at last
+  uint64_t number_ = 0;  // of the edits last looked at
   SceneEdits traced_;
   LiveGeometry geometry_;
   LiveSmoke smoke_;
   std::shared_ptr<const LiveLook> look_;
   std::unique_ptr<LiveRun> run_;
-  /// States of other times, the last shown first.
+  /// States at other times, the last shown first.
   struct Kept {
     SceneEdits edits;
     std::unique_ptr<LiveRun> run;
@@ -152,7 +154,7 @@ class LiveTrace {
   std::deque<Kept> kept_;
   bool refined_ = false;
   double error_ = 0;
-  std::thread thread_;  // the last: it begins when all else is there
+  std::thread thread_;  // declared last: it starts when all other members exist
 };
 
 }  // namespace luxodus

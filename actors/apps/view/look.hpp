@@ -1,4 +1,4 @@
-// What a live view draws besides geometry and light: faces of lamps, and gloss. Pure; any thread.
+// Data of a live view besides geometry and light: faces of lamps, and gloss. Pure; any thread.
 #pragma once
 
 #include "actors/apps/view/gloss.hpp"

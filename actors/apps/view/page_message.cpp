@@ -9,7 +9,7 @@ namespace luxodus {
 
 namespace {
 
-/// Reads one object's members; the first that is wrong is remembered.
+/// Reads one object's members; keeps the first error.
 class Members {
  public:
   explicit Members(const Json& object) : object_(object) {}
@@ -72,7 +72,7 @@ class Members {
     if (kind != "sign" && kind != "luminaire") refuse(key, "\"sign\" or \"luminaire\"");
     return kind == "sign";
   }
-  /// Says what a member should be; the first that is wrong is remembered.
+  /// Records what a member should be; keeps the first error.
   void refuse(const char* key, const char* should) {
     if (problem_.empty()) problem_ = std::string("\"") + key + "\" must be " + should;
   }
@@ -154,7 +154,7 @@ std::optional<PageMessage> read_message(const std::string& type, Members& m) {
 
 Result<PageMessage> decode_page_message(std::string_view text) {
   if (text.size() > limits::page_message_bytes) return problem("a message is at most 64 KiB");
-  // Not by recursion: a text of brackets alone would take the stack.
+  // Not recursive: a text of brackets only would overflow the stack.
   int depth = 0;
   for (const char c : text) {
     if (c == '[' || c == '{') ++depth;

@@ -1,5 +1,5 @@
-// What a viewer may say (PROTOCOL.md), read from untrusted text: types, ranges and lengths are
-// checked, all else is refused with a reason. Pure; any thread.
+// Decodes messages from viewers (PROTOCOL.md), which are untrusted: types, ranges and lengths are
+// checked, and invalid messages are refused with a reason. Pure; any thread.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -17,9 +17,9 @@ namespace limits {
 inline constexpr size_t page_message_bytes = 64 << 10;
 inline constexpr double max_view_factor = 10, max_view_smoke = 100, max_view_seconds = 1e6;
 inline constexpr size_t view_name_chars = 200;
-/// Copies in one view: each is a source group of its own, with its totals and its light.
+/// Limit on copies in a view: each is a source group of its own, with its totals and its light.
 inline constexpr size_t view_added = 256;
-/// Of a traced picture: 960 x 546. Its sums take 310 MB, twice while a pass may end early.
+/// Limit on a traced picture: 960 x 546. Its sums take 310 MB, twice while a pass may end early.
 inline constexpr int64_t view_picture_pixels = 1 << 19;
 inline constexpr int min_view_picture_edge = 16;
 }  // namespace limits
@@ -39,7 +39,7 @@ struct StateEdit {
   double at_s = 0;
 };
 struct TimeEdit {
-  std::optional<double> seconds;  // after the mains have failed; none: fully on
+  std::optional<double> seconds;  // since the mains failure; none: fully on
 };
 struct MoveEdit {
   bool is_sign = true;  // else a luminaire
@@ -70,7 +70,7 @@ struct ProbeAsk {
 struct JudgeAsk {
   std::string sign;
 };
-/// A traced picture of what the viewer looks at.
+/// Requests a traced picture of the viewer's view.
 struct RenderAsk {
   int64_t id = 0;
   glm::dvec3 eye{0}, target{1, 0, 0}, up{0, 0, 1};
@@ -78,9 +78,9 @@ struct RenderAsk {
   int width = 0, height = 0;
   bool human = false;  // as an adapted eye sees it, instead of one exposure
 };
-/// The viewer's picture is wanted no longer.
+/// Cancels the viewer's picture.
 struct RenderStop {};
-/// Where further luminaires would go, instead of those that are named.
+/// Asks for places of further luminaires, replacing the named ones.
 struct SuggestAsk {
   std::vector<std::string> free;
 };
@@ -88,10 +88,10 @@ using PageMessage = std::variant<FactorEdit, ScenarioEdit, SmokeEdit, StateEdit,
                                  AddEdit, RemoveEdit, SaveEdit, EditWish, ProbeAsk, JudgeAsk,
                                  RenderAsk, RenderStop, SuggestAsk>;
 
-/// Errors: what is no message, one sentence.
+/// Errors: an invalid message, one sentence.
 Result<PageMessage> decode_page_message(std::string_view text);
 
-/// Whether only the editor may say it.
+/// Whether only the editor may send it.
 bool is_edit(const PageMessage& message);
 
 }  // namespace luxodus

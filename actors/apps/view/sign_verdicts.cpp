@@ -13,7 +13,7 @@ namespace {
 
 constexpr int rounds = 3;
 
-/// The building with all that viewers have changed, dimming too.
+/// The building with all changes of viewers, including dimming.
 Result<SceneDescription> as_it_stands(const SceneDescription& scene, const SceneEdits& edits,
                                       const std::map<std::string, double>& factors) {
   auto out = dimmed_description(scene, edits, factors);
@@ -23,7 +23,7 @@ Result<SceneDescription> as_it_stands(const SceneDescription& scene, const Scene
   return out;
 }
 
-/// Why, and in which light, where that decides.
+/// The reason, and the light if that decides.
 std::string reason_of(const SightRow& row) {
   std::string out = row.sight.reason ? english().remark(*row.sight.reason) : "";
   if (row.other && row.other->sight.verdict != row.sight.verdict)
@@ -33,8 +33,8 @@ std::string reason_of(const SightRow& row) {
   return out;
 }
 
-/// " Smoke "fire" as at 60.03 s." of each simulation: that of a frame, where the view may lie
-/// between two.
+/// " Smoke "fire" as at 60.03 s." for each simulation: the time of a frame, while the view may show
+/// a state between two.
 std::string frames_note(const SceneDescription& scene) {
   std::string out;
   for (const Medium& medium : scene.media)
@@ -43,7 +43,7 @@ std::string frames_note(const SceneDescription& scene) {
   return out;
 }
 
-/// The state that verdicts are of, and what limits them. Its time is that of the view.
+/// The state that verdicts apply to, and their limits. Its time is that of the view.
 std::string state_note(const SceneDescription& scene, const Scenario& scenario) {
   const AssessedState state = state_of(scene, scenario, {});
   if (state.operation == Operation::mains)
@@ -70,7 +70,7 @@ Json sign_verdicts(const SceneDescription& scene, const SceneEdits& edits,
     return refused("there is no sign \"" + sign + "\"");
   auto scenario = find_scenario(scene, edits.scenario);
   if (!scenario) return refused(scenario.problem().what);
-  scenario->seconds_after_failure = 0;  // what time does is among the factors
+  scenario->seconds_after_failure = 0;  // the factors include the effect of time
   scenario->says_seconds = false;
   AssessOptions asked;
   asked.seed = options.seed;

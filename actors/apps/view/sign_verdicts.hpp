@@ -1,5 +1,5 @@
-// Verdicts on one sign for a live view, from its observers and routes, as it stands now: moved,
-// dimmed, in thicker smoke. Takes seconds; any thread.
+// Verdicts on one sign for a live view, from its observers and routes, in the present state: moved,
+// dimmed, in denser smoke. Takes seconds; any thread.
 #pragma once
 
 #include <atomic>

@@ -10,9 +10,9 @@ namespace luxodus {
 
 namespace {
 
-/// Of the search: somebody waits for it.
+/// Time limit of the search: a viewer waits for it.
 constexpr double search_seconds = 5;
-/// Places of the map of help, the best first: what a page draws.
+/// Places of the map of help, the best first: as many as a page draws.
 constexpr size_t most_helpful_places = 4000;
 
 Json list_of_places(std::vector<HelpfulPlace> places) {

@@ -1,4 +1,4 @@
-// Luminaires suggested to a live view, for the building as it stands: moved, with what was added.
+// Suggests luminaires to a live view, for the building in its present state, including additions.
 // Takes seconds; any thread, one at a time in a process.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace luxodus {
 
-/// A message of type "suggested", or "refused" with the reason. `free`: names of what was added in
-/// this view and need not stay; all other luminaires stay as they are.
+/// A message of type "suggested", or "refused" with the reason. `free`: names of luminaires added
+/// in this view that may be removed; all others stay as they are.
 Json suggestion(const SceneDescription& scene, const SceneEdits& edits,
                 const std::vector<std::string>& free, const LiveOptions& options,
                 const std::atomic<bool>& interrupt);

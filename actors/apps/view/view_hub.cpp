@@ -18,7 +18,7 @@ namespace luxodus {
 
 namespace {
 
-/// Of the building, that something may stand outside of it: across the street.
+/// Things may stand outside the building up to this multiple of its size: across the street.
 constexpr double sizes_outside = 10;
 
 LiveFrame text_of(const Json& message) {
@@ -37,7 +37,7 @@ bool is_mesh(const SceneDescription& scene, const std::string& luminaire) {
   });
 }
 
-/// A name that is a file of its own and nothing else.
+/// Whether a name is a plain file name.
 bool is_plain_name(const std::string& name) {
   return name.find_first_not_of(
              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_- ") ==
@@ -45,8 +45,8 @@ bool is_plain_name(const std::string& name) {
          !name.empty() && name.front() != ' ' && name.back() != ' ';
 }
 
-/// Under another name first, where it is read back and inspected as `luxodus check` does: a variant
-/// that is kept is a scene that may be computed.
+/// Written under another name first, where it is read back and inspected as by `luxodus check`: a
+/// saved variant is a scene that can be computed.
 Result<void> save_variant(const std::filesystem::path& file, const std::string& text,
                           const std::string& scenario, std::optional<double> at_s) {
   const auto trial = file.parent_path() / ("." + file.stem().string() + ".trial.toml");
@@ -69,7 +69,7 @@ Result<void> save_variant(const std::filesystem::path& file, const std::string& 
   return write_file_atomically(file, text);
 }
 
-/// How far a place is outside of the box [m].
+/// Distance of a place from the box [m].
 double outside(const Bounds& box, const glm::dvec3& place) {
   return glm::length(glm::max(glm::max(box.low - place, place - box.high), glm::dvec3(0)));
 }
@@ -123,7 +123,7 @@ void ViewHub::begins(const LiveGeneration& generation) {
       viewer->send_text(text_of(scene_json(*viewer, before.scene != nullptr)));
       if (!same_geometry) viewer->send_binary(generation.geometry, false);
       if (!same_smoke && generation.smoke) viewer->send_binary(generation.smoke, false);
-      if (generation.triangles_before)  // a viewer cannot carry over light of other triangles
+      if (generation.triangles_before)  // a viewer cannot reuse light of other triangles
         for (const auto& [at, frame] : light_) viewer->send_binary(frame, true);
       else
         for (const LiveFrame& frame : waiting)
@@ -182,7 +182,7 @@ void ViewHub::answers(const LiveAnswer& answer) {
 
 void ViewHub::refuses(uint64_t number, const std::string& why) {
   post_([this, number, why] {
-    // A later edits is judged by itself, with all that the refused one has left in it.
+    // Later edits are judged by themselves, including what remains of the refused ones.
     if (number == wish_number_) take_back();
     to_all({{"type", "refused"}, {"why", why}});
   });
@@ -192,7 +192,7 @@ void ViewHub::edits() {
   trace_->edits(edits_, ++wish_number_);
 }
 
-/// What is traced is in force again.
+/// Restores the edits that are traced.
 void ViewHub::take_back() {
   if (!generation_.scene) return;
   for (const SceneEdits::Copy& copy : edits_.added)
@@ -224,7 +224,7 @@ void ViewHub::leaves(Viewer& viewer) {
   if (editor_ == &viewer) editor_ = nullptr;
 }
 
-/// All that there is so far.
+/// Sends everything known so far.
 void ViewHub::greet(Viewer& viewer) {
   viewer.send_text(text_of(scene_json(viewer, false)));
   viewer.send_binary(readdressed(generation_.geometry, generation_.number, 0), false);
@@ -344,7 +344,8 @@ bool ViewHub::can_stand(Viewer& viewer, bool is_sign, const glm::dvec3& position
   if (generation_.scene) {
     const auto& box = generation_.scene->bounds;
     const double size = glm::length(box.high - box.low);
-    // Farther away nothing is lit, and what measures from the middle of all loses the building.
+    // Nothing is lit farther away, and whatever is measured from the centre of all would lose the
+    // building.
     if (const double far = outside(box, position); far > sizes_outside * size) {
       refuse(viewer, "that place is " + readable_number(far, 3) + " m outside of the building");
       return false;
@@ -360,7 +361,7 @@ void ViewHub::handle(Viewer& viewer, const AddEdit& edit) {
   if (edits_.added.size() >= limits::view_added)
     return refuse(viewer, "no more than " + std::to_string(limits::view_added) +
                               " can be added in one view: save it as a variant and view that");
-  // A copy of a copy is one of the scene's own, so that either may be removed.
+  // A copy of a copy refers to the scene's original, so that either may be removed.
   const auto copied = added(edit.of);
   const bool of_copy = copied != edits_.added.end() && copied->is_sign == edit.is_sign;
   const SceneEdits::Copy copy{edit.is_sign, of_copy ? copied->of : edit.of,
@@ -375,7 +376,7 @@ void ViewHub::handle(Viewer& viewer, const AddEdit& edit) {
   auto& moves = copy.is_sign ? edits_.signs : edits_.luminaires;
   SceneEdits::Move move{edit.position, edit.facing};
   if (const auto at = moves.find(edit.of); !move.facing && at != moves.end())
-    move.facing = at->second.facing;  // as the one it is a copy of stands now
+    move.facing = at->second.facing;  // as the original stands now
   moves[copy.name] = move;
   edits_.added.push_back(copy);
   const auto group_of = copy.is_sign ? group_of_sign : group_of_luminaire;
@@ -404,7 +405,7 @@ void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
   if (!is_plain_name(edit.name))
     return refuse(viewer, "a name is made of letters, digits, spaces, _ and -");
   const auto file = options_.save_folder / (edit.name + ".toml");
-  // A variant includes the file as it is now.
+  // A variant includes the file in its present state.
   if (const auto changed = scene_->files ? scene_->files->change_on_disk() : std::nullopt)
     return refuse(viewer, changed->text());
   std::error_code ignored;
@@ -462,7 +463,7 @@ void ViewHub::answer_next() {
   if (viewer_of(number) == nullptr) return answer_next();
   is_answering_ = true;
   if (answering_.joinable()) answering_.join();
-  // Beside the tracing: it shares the processors with it for some seconds.
+  // Runs beside the tracing, and shares the processors with it for some seconds.
   answering_ = std::thread(
       [this, asker = number, asked = question, edits = edits_, factors = dimming_.both()] {
         Json answer;
@@ -481,7 +482,7 @@ void ViewHub::answer_next() {
 
 Result<std::shared_ptr<const SceneDescription>> ViewHub::scene_as_opened(
     std::optional<double> at_s) const {
-  // What is asked of a scene that somebody has edited meanwhile is asked of the edited one.
+  // If the scene's file was edited meanwhile, the question would be about another scene.
   const auto changed = scene_->files ? scene_->files->change_on_disk() : std::nullopt;
   if (changed) return *changed;
   return trace_->scene_at(at_s);

@@ -1,6 +1,6 @@
-// The state that all viewers of a live view share: the latest frames for those who come late, the
-// factors of source groups, what is traced, and who may edit. Thread rule: everything is called on
-// the thread of the server; what the tracing thread tells is posted there.
+// The shared state of all viewers of a live view: the latest frames for viewers that join later,
+// the factors of source groups, what is traced, and who may edit. Thread rule: everything is called
+// on the server's thread; results of the tracing thread are posted there.
 #pragma once
 
 #include <deque>
@@ -15,21 +15,21 @@
 
 namespace luxodus {
 
-/// One connection, as the hub sees it.
+/// A viewer's connection.
 class Viewer {
  public:
   virtual ~Viewer() = default;
   virtual void send_text(const LiveFrame& text) = 0;
-  /// `light`: it may be taken back while it waits.
+  /// `light`: the frame may be withdrawn while it waits.
   virtual void send_binary(const LiveFrame& frame, bool light) = 0;
-  /// Takes back light that waits to be sent, in its order.
+  /// Withdraws light that waits to be sent, in order.
   virtual std::vector<LiveFrame> take_light() = 0;
 };
 
 struct HubOptions {
   LiveOptions live;
   SceneEdits first;
-  std::filesystem::path save_folder;  // where variants are written
+  std::filesystem::path save_folder;  // folder for saved variants
   ViewPictureLimits pictures = {};
 };
 
@@ -44,8 +44,7 @@ class ViewHub final : private LiveAudience {
   void leaves(Viewer& viewer);
   void says(Viewer& viewer, std::string_view text);
   size_t viewers() const { return viewers_.size(); }
-  /// Drawings that lie under plans, as JSON text: made once, before anybody asks, for no edit
-  /// changes them.
+  /// Drawings under plans, as JSON text: made once at the start, since no edit changes them.
   const std::string& backdrops() const { return backdrops_; }
 
  private:
@@ -70,37 +69,38 @@ class ViewHub final : private LiveAudience {
   void handle(Viewer& viewer, const RenderAsk& ask);
   void handle(Viewer& viewer, const RenderStop& stop);
   void handle(Viewer& viewer, const SuggestAsk& ask);
-  /// Has the edits traced. Until that begins it may be refused, and is taken back then.
+  /// Has the edits traced. They may be refused until that begins, and are then taken back.
   void edits();
   void take_back();
   void refuse(Viewer& viewer, const std::string& why);
   void to_all(const Json& message);
   void greet(Viewer& viewer);
-  /// A frame of the generation before as one of this; null where its group is gone or begins anew.
+  /// A frame of the previous generation for the present one; null if its group is gone or begins
+  /// anew.
   LiveFrame carried(const LiveFrame& frame, const LiveGeneration& from) const;
-  /// The copy of that name, or the end of what was added.
+  /// The copy with that name, or the end of the additions.
   std::vector<SceneEdits::Copy>::const_iterator added(const std::string& name) const;
-  /// Whether something can stand there; the viewer is told why not.
+  /// Whether something can be placed there; tells the viewer why not.
   bool can_stand(Viewer& viewer, bool is_sign, const glm::dvec3& position,
                  const std::optional<glm::dvec3>& facing);
   /// A question whose answer takes seconds: a sign to judge, or luminaires to suggest.
   using Question = std::variant<JudgeAsk, SuggestAsk>;
   void put(Viewer& viewer, Question question);
-  /// Begins with the next question that somebody waits for, where none is being answered.
+  /// Starts the next pending question, unless one is being answered.
   void answer_next();
-  /// The scene at a time, for answers and pictures. Errors: files that are others than when the
-  /// view was opened; as LiveTrace::scene_at.
+  /// The scene at a time, for answers and pictures. Errors: files that have changed since the view
+  /// was opened; as LiveTrace::scene_at.
   Result<std::shared_ptr<const SceneDescription>> scene_as_opened(std::optional<double> at_s) const;
   Json answer_to(const Question& question, const SceneEdits& edits,
                  const std::map<std::string, double>& factors) const;
   void make_editor(Viewer* viewer);
-  /// The scene at the time of the generation; as it was opened, before the first.
+  /// The scene at the time of the generation; as opened, before the first.
   const SceneDescription& scene_now() const {
     return generation_.scene ? *generation_.scene->description : *scene_;
   }
-  /// Takes over how long the mains have failed in a scenario of the scene as it is now.
+  /// Takes the time since the mains failure from a scenario of the present scene.
   void take_seconds(const std::string& scenario);
-  /// Brings the shares of groups up to the time and the scenario.
+  /// Updates the shares of groups to the time and the scenario.
   void share();
   Json scene_json(const Viewer& viewer, bool follows) const;
   Viewer* viewer_of(uint64_t number) const;
@@ -111,20 +111,20 @@ class ViewHub final : private LiveAudience {
   std::map<Viewer*, uint64_t> viewers_;
   uint64_t next_number_ = 1;
   Viewer* editor_ = nullptr;
-  SceneEdits edits_;  // what the last edit made of it
+  SceneEdits edits_;  // result of the last edit
   uint64_t wish_number_ = 0;
   LiveDimming dimming_;
   LiveGeneration generation_;
-  /// The latest by kind and group, of any generation that it holds for.
+  /// The latest frames by kind and group, of any generation that they are valid for.
   std::map<std::pair<uint32_t, uint32_t>, LiveFrame> light_;
   std::optional<LiveProgress> progress_;
   std::atomic<bool> ends_{false};
   std::thread answering_;
   bool is_answering_ = false;
-  std::deque<std::pair<uint64_t, Question>> questions_;  // by viewer: the last that each asked
+  std::deque<std::pair<uint64_t, Question>> questions_;  // by viewer: the last question of each
   const std::string backdrops_;
-  std::unique_ptr<LiveTrace> trace_;        // the last but one: it tells at once
-  std::unique_ptr<ViewPictures> pictures_;  // asks trace_ for the scene
+  std::unique_ptr<LiveTrace> trace_;        // declared last but one: it calls back at once
+  std::unique_ptr<ViewPictures> pictures_;  // uses the scene of trace_
 };
 
 }  // namespace luxodus

@@ -1,5 +1,5 @@
-// The page as bytes of the program. CMake says which file: what npm has built, or one that says why
-// it has not.
+// The page as bytes of the program. CMake selects the file: what npm has built, or a page that says
+// why there is none.
 #include <cstddef>
 
 #include "actors/apps/view/view_server.hpp"

@@ -15,10 +15,11 @@ namespace luxodus {
 
 namespace {
 
-/// Of what a pass takes, so much is left for its filter, its file, and a machine that slows down.
+/// Factor on the time of a pass that leaves room for its filter, its file, and a machine that slows
+/// down.
 constexpr double pass_slack = 1.3;
 
-/// Two orders of the same building have the same.
+/// Two orders of the same building have the same text.
 std::string state_text(const SceneEdits& edits, const std::map<std::string, double>& factors) {
   std::string out = edits_text(edits);
   for (const auto& [group, factor] : factors)
@@ -40,8 +41,8 @@ Camera camera_of(const RenderAsk& ask) {
 
 }  // namespace
 
-/// A run of the building in a state, what paths of its pictures end in, and what they choose
-/// emitters by.
+/// A run of the building in a state, the radiance that paths of its pictures end in, and the data
+/// by which they choose emitters.
 struct ViewPictures::Traced {
   std::string state;
   std::unique_ptr<LocalRun> run;
@@ -49,7 +50,7 @@ struct ViewPictures::Traced {
   std::shared_ptr<const EmitterSight> sight;
 };
 
-/// Tells one viewer of a picture, from its order on.
+/// Reports a picture to one viewer, from its order on.
 class ViewPictures::Growing {
  public:
   Growing(const Order& order, const Tell& tell) : order_(order), tell_(tell) {}
@@ -58,9 +59,9 @@ class ViewPictures::Growing {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   }
 
-  /// The flux has so many particles so far.
+  /// The flux has this many particles so far.
   void tell_flux(int64_t particles) { say(particles, 0, unknown, false, {}); }
-  /// One more picture. Errors: as encode_png.
+  /// Sends the next pass. Errors: as encode_png.
   Result<void> tell_picture(const PngImage& image, int64_t particles, int paths, double error,
                             bool done) {
     auto png = encode_png(image, {});
@@ -169,7 +170,7 @@ Result<const ViewPictures::Traced*> ViewPictures::flux_for(const Order& order, G
   return traced_.get();
 }
 
-/// Without a picture to show. Errors: it was not interrupted, but took too long.
+/// The end without a picture. Errors: it was not interrupted, but took too long.
 Result<void> ViewPictures::unfinished() const {
   if (interrupt_) return {};
   return problem("it would take longer than " + std::to_string(std::lround(limits_.seconds)) +

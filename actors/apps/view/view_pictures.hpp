@@ -1,7 +1,6 @@
-// Traced pictures of what viewers look at: of one viewer at a time, on a thread of its own, told
-// pass by pass while they grow. The building is as it stood when the picture was asked for. Its
-// flux is traced first, and kept for the next picture of the same building. Thread rule: any thread
-// may order and cancel.
+// Traces pictures of viewers' views: for one viewer at a time, on a thread of its own, sent pass by
+// pass. The building is in its state at the time of the order. Its flux is traced first, and cached
+// for the next picture of the same building. Thread rule: any thread may order and cancel.
 #pragma once
 
 #include <atomic>
@@ -18,12 +17,12 @@
 
 namespace luxodus {
 
-/// What a picture may take.
+/// Limits on a picture.
 struct ViewPictureLimits {
-  double seconds = 300;      // with the flux that it ends in
-  double flux_seconds = 15;  // of these, for the flux
+  double seconds = 300;      // including its flux
+  double flux_seconds = 15;  // part of it for the flux
   int64_t flux_particles = 4'000'000;
-  int paths = 256;  // of each pixel, where there is time for them
+  int paths = 256;  // for each pixel, if time allows
 };
 
 class ViewPictures {
@@ -32,7 +31,7 @@ class ViewPictures {
     uint64_t viewer = 0;
     RenderAsk ask;
     SceneEdits edits;
-    std::map<std::string, double> factors;  // of source groups; others 1
+    std::map<std::string, double> factors;  // of source groups; others are 1
   };
   using SceneAt =
       std::function<Result<std::shared_ptr<const SceneDescription>>(std::optional<double> at_s)>;
@@ -45,9 +44,9 @@ class ViewPictures {
   ViewPictures(const ViewPictures&) = delete;
   ViewPictures& operator=(const ViewPictures&) = delete;
 
-  /// In place of the picture that this viewer has ordered before.
+  /// Replaces this viewer's previous order.
   void order(Order order);
-  /// Whatever this viewer has ordered is not told any more, but for what is on its way.
+  /// Stops reports on this viewer's order, except those already on their way.
   void cancel(uint64_t viewer);
 
  private:
@@ -56,7 +55,7 @@ class ViewPictures {
   void work();
   Result<void> render(const Order& order);
   Result<void> unfinished() const;
-  /// The flux of the building as it is ordered, kept or traced. Null: it was interrupted.
+  /// The flux of the ordered building, cached or traced. Null: it was interrupted.
   Result<const Traced*> flux_for(const Order& order, Growing& growing);
 
   const LiveOptions options_;
@@ -65,12 +64,12 @@ class ViewPictures {
   const ViewPictureLimits limits_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Order> orders_;           // that wait, of each viewer one
-  std::optional<uint64_t> rendering_;  // the viewer whose picture grows
+  std::deque<Order> orders_;           // pending, one for each viewer
+  std::optional<uint64_t> rendering_;  // the viewer whose picture is being traced
   bool ends_ = false;
   std::atomic<bool> interrupt_{false};
-  std::unique_ptr<Traced> traced_;  // of the pictures' thread
-  std::thread thread_;              // the last: it begins when all else is there
+  std::unique_ptr<Traced> traced_;  // used by the pictures' thread
+  std::thread thread_;              // declared last: it starts when all other members exist
 };
 
 }  // namespace luxodus

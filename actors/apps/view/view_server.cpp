@@ -7,12 +7,12 @@ namespace luxodus {
 
 namespace {
 
-/// The page brings its script and style with it, and a stricter policy of its own.
+/// The page includes its script and style, and has a stricter policy of its own.
 constexpr const char* page_policy =
     "default-src 'none'; script-src 'unsafe-inline' blob:; style-src 'unsafe-inline'; "
     "img-src data: blob:; connect-src 'self'; worker-src blob:; frame-ancestors 'none'";
 
-/// One viewer's socket, as the hub sees it.
+/// One viewer's socket, with the interface for the hub.
 class SocketViewer final : public Viewer, public SocketListener {
  public:
   SocketViewer(WebSocket& socket, ViewHub& hub) : socket_(socket), hub_(hub) { hub_.joins(*this); }

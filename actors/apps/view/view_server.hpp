@@ -1,6 +1,6 @@
-// What a live view serves over HTTP: its page, and the socket of each viewer. How it listens, and
-// what it bounds, is runtime/http's. Thread rule: run() serves on the calling thread; post() may be
-// called from any.
+// Serves a live view over HTTP: its page, and the socket of each viewer. Listening and limits are
+// those of runtime/http. Thread rule: run() serves on the calling thread; post() may be called from
+// any.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +18,19 @@ class ViewHub;
 
 namespace limits {
 inline constexpr size_t viewers = 32;
-/// Left unread by a viewer before it is dropped [bytes]; light that newer light replaces is not
-/// counted.
+/// A viewer with more unread bytes is dropped; light that newer light replaces is not counted.
 inline constexpr size_t viewer_unread_bytes = 256 << 20;
 inline constexpr int viewer_messages_per_s = 50;
 }  // namespace limits
 
 class ViewServer {
  public:
-  /// Listens at once. Errors: an address that is none, a port that is taken.
+  /// Listens at once. Errors: an invalid address, a port in use.
   static Result<std::unique_ptr<ViewServer>> listen(const HttpAddress& at);
 
   uint16_t port() const { return server_->port(); }
-  /// Serves until `ends()`, asked often on the calling thread. Requires: `hub` outlives the call.
+  /// Serves until `ends()`, which is called often on the calling thread. Requires: `hub` outlives
+  /// the call.
   void run(ViewHub& hub, const std::function<bool()>& ends);
   /// Runs a function on the thread of run().
   void post(std::function<void()> function) { server_->post(std::move(function)); }
@@ -38,7 +38,7 @@ class ViewServer {
  private:
   ViewServer() = default;
 
-  ViewHub* hub_ = nullptr;  // null but in run()
+  ViewHub* hub_ = nullptr;  // null except in run()
   std::unique_ptr<HttpServer> server_;
 };
 

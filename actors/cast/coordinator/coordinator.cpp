@@ -11,9 +11,9 @@
 namespace luxodus {
 
 namespace {
-/// Late leases may follow each other closely; what is looked at is more than they.
+/// Late leases may be close together; a look examines more than one of them.
 constexpr Nanoseconds least_between_looks = milliseconds(20);
-/// Until what found no room in the network is said again.
+/// Pause before sending again after the network had no room.
 constexpr Nanoseconds say_again_after = milliseconds(20);
 }  // namespace
 
@@ -40,9 +40,10 @@ void Coordinator::start() {
   set_timer();
 }
 
-// ---- workers that come and go ------------------------------------------------------------------
+// ---- arrival and loss of workers ---------------------------------------------------------------
 
-/// A message of a worker says that it is here, in this life. False: it is of a life that has ended.
+/// Registers a worker and its incarnation. Returns false for a message of an incarnation that has
+/// ended.
 bool Coordinator::meet(Address worker, Incarnation life) {
   const auto at = peers_.find(worker.node);
   if (at == peers_.end()) return false;
@@ -78,7 +79,7 @@ void Coordinator::watch_workers(Nanoseconds now) {
       peer.unreachable_since.reset();
       continue;
     }
-    peer.told.reset();  // it may begin anew meanwhile
+    peer.told.reset();  // it may restart meanwhile
     if (!peer.unreachable_since) peer.unreachable_since = now;
     if (!(begun_ || over_) || !peer.here || !is_lost(peer)) continue;
     peer.here = false;
@@ -101,8 +102,8 @@ void Coordinator::fence(const std::vector<Lease>& leases, const char* why) {
   if (!leases.empty()) offer_batches();
 }
 
-/// Each node is told in as few messages as hold them: hundreds of leases may be fenced at once, and
-/// a message for each would leave no room for an answer that somebody waits for.
+/// Sends each node as few messages as possible: hundreds of leases may be fenced at once, and one
+/// message for each would leave no room for answers that others await.
 void Coordinator::tell_fenced(const std::vector<Lease>& leases) {
   counters_.fenced += leases.size();
   std::map<NodeId, LeasesFenced> told;
@@ -117,9 +118,10 @@ void Coordinator::tell_fenced(const std::vector<Lease>& leases) {
     if (!fenced.leases.empty()) send(node, sender().next_id(), fenced);
 }
 
-/// Who was told that there is no more would ask again when its patience is over. That is too late
-/// for batches that have come since. As many are told as there are batches: were all told, all but
-/// these would ask in vain. Each look tells as many others, in turn, and again who does not come.
+/// A worker that got no batch would ask again only after its retry time, which is too late for
+/// batches that have become available since. As many workers are told as there are batches:
+/// otherwise all but these would ask in vain. Each look tells as many others, in turn, and again
+/// those that do not come.
 void Coordinator::offer_batches() {
   if (!begun_ || over_) return;
   const RoundOpened more{round(), static_cast<uint64_t>(book_.end()), state()};
@@ -165,8 +167,7 @@ uint32_t Coordinator::tracers_of(NodeId worker) const {
   return worker.value < config_.below.size() ? config_.below[worker.value].tracers : 1;
 }
 
-/// Whether a question is an echo of one before the last of its kind, which has been answered: who
-/// asked has gone on since.
+/// Whether a question is an old copy of one before the last of its kind: its sender has moved on.
 bool Coordinator::is_older(const MessageId& question, const MessageId& last) {
   return question.incarnation == last.incarnation && question.sequence < last.sequence;
 }
@@ -175,12 +176,12 @@ uint32_t Coordinator::levels_below(NodeId worker) const {
   return worker.value < config_.below.size() ? config_.below[worker.value].levels : 0;
 }
 
-/// Who coordinates others waits for leases of theirs that are late.
+/// A node that coordinates others first waits for their late leases, so it has more time.
 Nanoseconds Coordinator::span_of(NodeId worker) const {
   return config_.lease_time << (2 * levels_below(worker));
 }
 
-/// Nobody takes more than its share of what is left, so that all end together.
+/// No worker gets more than its share of what is left, so that all finish together.
 uint32_t Coordinator::max_to_lend(NodeId worker) const {
   if (scheduler().rarely(Buggify::Site::small_grant)) return 1;
   const int64_t own = tracers_of(worker), all = std::max<int64_t>(tracers_, 1);
@@ -222,7 +223,8 @@ void Coordinator::on(const Letter<RequestLease>& request) {
   lent();
 }
 
-/// A worker has joined another coordinator, which tells it of the end, or ends before the run does.
+/// A worker has joined another coordinator, which will tell it of the end, or leaves before the
+/// end.
 void Coordinator::on(const Letter<EnterPhase>& leave) {
   const NodeId worker = leave.from.node;
   if (leave.body.phase != EndPhase::leave || !meet(leave.from, leave.id.incarnation)) return;
@@ -235,7 +237,7 @@ void Coordinator::on(const Letter<EnterPhase>& leave) {
   lent();
 }
 
-/// Asked for none, it returns those that it has.
+/// A request for no batches returns all leases of the worker.
 LentBatches Coordinator::lend(NodeId worker, uint32_t batches) {
   if (batches == 0) {
     fence(book_.fence_node(worker), "its worker returns it");
@@ -248,7 +250,7 @@ LentBatches Coordinator::lend(NodeId worker, uint32_t batches) {
   return lent;
 }
 
-/// A worker has tried these for as long as one waits for a lost node: it cannot have an object.
+/// A worker has failed on these for the lost-node timeout: it cannot obtain an object.
 void Coordinator::on(const Letter<LeasesFenced>& given_back) {
   const NodeId worker = given_back.from.node;
   if (!meet(given_back.from, given_back.id.incarnation)) return;
@@ -262,23 +264,22 @@ void Coordinator::on(const Letter<LeasesFenced>& given_back) {
 
 // ---- the end ---------------------------------------------------------------------------------
 
-// The end. Were this node to leave before a worker has heard of it, that worker would wait for
-// `lost` and take a run that ended well for one that failed; and were workers to leave as soon as
-// they have heard, those behind them would be cut off. So all stay until each has answered, or is
-// lost: a worker that no way leads to gives the run up by itself after the same time. What a worker
-// has heard it forgets when it crashes, so all are asked again and again until all have answered
-// lately.
-// Then all are let go, and tell their neighbours as they leave. Who interrupts the run waits for
-// nobody who is out of reach.
+// End of a run. If this node left before a worker has heard of the end, that worker would wait for
+// `lost` and take a successful run for a failed one; and if workers left as soon as they have
+// heard, nodes behind them would be cut off. So all stay until each has answered or is lost: an
+// unreachable worker gives up by itself after the same time. A worker forgets the end when it
+// crashes, so all are told repeatedly until each has answered recently.
+// Then all are released, and tell their neighbours as they leave. An interrupted run waits for no
+// unreachable worker.
 
 void Coordinator::end_work() {
   over_ = true;
   over_since_ = clock_.now();
-  go_on_counting();  // what is left is refused
+  go_on_counting();  // pending flushes are refused
 }
 
-/// Whom there was no room for the last time comes first, or a full outbox would hide the end from
-/// the same workers each time.
+/// Workers that the network had no room for come first next time; otherwise a full outbox would
+/// keep the end from the same workers each time.
 void Coordinator::tell_end() {
   if (keeps_end_to_itself()) return;
   before_end_is_told();
@@ -294,13 +295,13 @@ void Coordinator::tell_end_anew() {
   tell_end();
 }
 
-/// Who leads others says nothing until all of them know: to hear from it soon, it is asked at each
-/// look. There are few such.
+/// A node that leads others answers only after all of them know: it is asked at each look, to hear
+/// from it soon. There are few such nodes.
 RetryTimer Coordinator::end_timer(NodeId worker) const {
   return {config_.look_every / 2, levels_below(worker) > 0 ? config_.look_every / 2 : config_.lost};
 }
 
-/// Until the network has taken the word for each.
+/// Repeats until the network has taken the message for each.
 void Coordinator::tell_untold() {
   std::erase_if(untold_, [&](NodeId worker) {
     const SendOutcome outcome = send(worker, sender().next_id(), end_word());
@@ -315,8 +316,8 @@ void Coordinator::tell_untold() {
                            }));
 }
 
-/// Who asks for work then has begun anew since it was told. An answer without batches would have it
-/// wait for the next round, of a controller that may leave before it can say more.
+/// A worker that still asks for work has restarted since it was told. An answer without batches
+/// would make it wait for the next round, from a controller that may leave before it can send more.
 void Coordinator::answer_with_end(const Letter<RequestLease>& request) {
   if (keeps_end_to_itself()) {
     answer(request, grant_of(request.from.node, {}));
@@ -327,7 +328,8 @@ void Coordinator::answer_with_end(const Letter<RequestLease>& request) {
   if (letting_go_) tell(request.from, EnterPhase{EndPhase::leave, 0});
 }
 
-/// Who has not been heard of may wait for a word of the end, when an earlier life led it.
+/// A worker that was never heard may still wait for the end, if it was led by an earlier
+/// incarnation.
 bool Coordinator::is_told(const Peer& peer) const {
   return peer.here || (peer.expected && tells_all());
 }
@@ -342,7 +344,7 @@ bool Coordinator::knows_end(NodeId worker, const Peer& peer) const {
   return peer.told && clock_.now() - *peer.told <= is_fresh_for(peer);
 }
 
-/// Until it has been told anew three times.
+/// An answer counts for three intervals of telling.
 Nanoseconds Coordinator::is_fresh_for(const Peer& peer) const {
   return 3 * std::max(config_.look_every, peer.telling.rest());
 }
@@ -358,7 +360,7 @@ bool Coordinator::all_know_end() const {
                      [&](const auto& entry) { return knows_end(entry.first, entry.second); });
 }
 
-/// Until the network has taken the word for each that it can reach.
+/// Repeats until the network has taken the message for each worker that it can reach.
 void Coordinator::let_go() {
   letting_go_ = true;
   const EnterPhase leave{EndPhase::leave, 0};
@@ -382,9 +384,9 @@ std::string Coordinator::who_lacks_end() const {
   return text;
 }
 
-// ---- what passes with time -------------------------------------------------------------------
+// ---- timers ----------------------------------------------------------------------------------
 
-/// After `look_every`, or as soon as a lease is late.
+/// Fires after `look_every`, or as soon as a lease is late.
 void Coordinator::set_timer() {
   const Nanoseconds now = clock_.now();
   Nanoseconds next = now + config_.look_every;
@@ -404,7 +406,7 @@ void Coordinator::look() {
   offer_batches();
 }
 
-/// What finds no room or no way is asked for again by the worker, or said again by look().
+/// If there is no room or no route, the worker asks again, or look() repeats the message.
 SendOutcome Coordinator::send(NodeId worker, const MessageId& id, const Message& message) {
   return sender().send(address(), {worker, ActorName::tracer}, id, message);
 }

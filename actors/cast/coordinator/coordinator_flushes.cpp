@@ -1,5 +1,5 @@
-// What becomes of a flush at a coordinator: it is counted whole on the actor's fiber, where it
-// leads a run after it was kept for a crash, and answered; or refused, and its leases are fenced.
+// Handling of a flush: it is counted whole on the actor's fiber, in a run after it was journaled,
+// and answered; or it is refused, and its leases are fenced.
 #include <algorithm>
 #include <utility>
 
@@ -9,7 +9,7 @@
 namespace luxodus {
 
 namespace {
-/// Hashed at once: some 0.1 ms.
+/// Bytes hashed at once: about 0.1 ms.
 constexpr size_t bytes_of_a_step = 1 << 20;
 }  // namespace
 
@@ -23,7 +23,7 @@ void Coordinator::on(Letter<Flush>&& letter) {
     return;
   }
   if (std::count(uncounted_.begin(), uncounted_.end(), flush) > 0) return;  // it is being counted
-  // Who asks anew has given up what it asked before.
+  // A worker that sends a new flush has given up the previous one.
   if (uncounted_.size() >= 2 * peers_.size()) return;
   if (offer(CountFlush{std::move(letter)}) == Offered::taken) uncounted_.push_back(flush);
 }
@@ -32,21 +32,22 @@ void Coordinator::go_on_counting() {
   scheduler().fibers().wake_all(held_back_);
 }
 
-/// On the actor's fiber.
+/// Runs on the actor's fiber.
 void Coordinator::on(CountFlush&& count) {
   while (holds_back(count.letter.body.leases.size()))
     if (scheduler().fibers().wait(held_back_, "totals") == Wake::cancelled) return;
   counting_ = true;
   const std::string why = count_flush(count.letter);
   counting_ = false;
-  if (scheduler().fibers().cancelled()) return;  // its worker asks whoever comes after this node
+  if (scheduler().fibers().cancelled()) return;  // its worker asks this node's successor
   answer_flush(count.letter, why);
   std::erase(uncounted_, count.letter.id);
   sender().take_back(std::move(count.letter.body.leases));
   look_soon();
 }
 
-/// Not on the fiber that asks. One timer does for all flushes of a turn: hundreds may come at once.
+/// Not on the requesting fiber. One timer serves all flushes of a turn: hundreds may arrive at
+/// once.
 void Coordinator::look_soon() {
   if (std::exchange(looks_soon_, true)) return;
   scheduler().timers().set(clock_.now(), own_task([this] {
@@ -55,7 +56,7 @@ void Coordinator::look_soon() {
                            }));
 }
 
-/// `why` it is refused; "" where it was counted.
+/// `why` it is refused; "" if it was counted.
 void Coordinator::answer_flush(const Letter<Flush>& letter, const std::string& why) {
   const NodeId worker = letter.from.node;
   Answered& last = last_flush_[worker];
@@ -75,13 +76,13 @@ void Coordinator::answer_flush(const Letter<Flush>& letter, const std::string& w
   if (!why.empty()) fence(book_.fence_leases(worker, letter.body.leases), "its flush was refused");
 }
 
-/// Lets others have their turn. A node that is to end goes on: what is begun is whole in the end.
+/// Yields. A node that is ending still completes what has begun.
 bool Coordinator::take_turns() {
   (void)scheduler().fibers().yield();
   return true;
 }
 
-/// Takes a flush whole, or says why not.
+/// Counts a flush whole, or returns why not.
 std::string Coordinator::count_flush(const Letter<Flush>& letter) {
   const NodeId worker = letter.from.node;
   const std::vector<uint64_t>& leases = letter.body.leases;
@@ -96,7 +97,7 @@ std::string Coordinator::count_flush(const Letter<Flush>& letter) {
   }
   if (payload_hash_.value() != letter.body.payload_hash)
     return "the payload is not what its hash says";
-  // Others had turns: without leases that stand there may be nothing left to count into.
+  // Other fibers ran: the leases may have been fenced, and the totals replaced.
   if (!book_.stand(worker, leases)) return fenced;
   const auto rest = [this] { return take_turns(); };
   auto gain = reader_.read(letter.payload.bytes(), totals().groups(), bins(), rest);
@@ -105,13 +106,13 @@ std::string Coordinator::count_flush(const Letter<Flush>& letter) {
     return "its batches or its ledger do not add up";
   if (over_) return "the run has ended";
   if (!book_.stand(worker, leases)) return fenced;
-  // From here on no lease of it can be fenced, though others have turns.
+  // From here on none of its leases can be fenced, though other fibers run.
   const std::span<const int64_t> batches = book_.batches_of(leases);
   book_.hold(leases);
   adding_ = true;
   if (!keep(letter)) return "this node ends";
   book_.commit(leases, clock_.now());
-  // Of who coordinates others, one batch may be late there while the others come.
+  // In the subtree of a node that coordinates others, one batch may be late while others arrive.
   if (levels_below(worker) > 0) book_.renew(worker, clock_.now() + span_of(worker));
   gain->add_to(totals(), rest);
   reader_.take_back(std::move(gain).value());

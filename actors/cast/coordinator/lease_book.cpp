@@ -23,7 +23,7 @@ bool LeaseBook::open(int64_t batch) const {
   return batch >= next_ && batch < end_ && batch < next_ + look_ahead_ && ahead_.count(batch) == 0;
 }
 
-/// Whether a batch waits to be lent again, and this node may have it.
+/// Whether a batch waits to be leased again, and this node may have it.
 bool LeaseBook::may_again(NodeId node, int64_t batch) const {
   const auto given_back = given_back_.find(batch);
   return again_.count(batch) > 0 &&

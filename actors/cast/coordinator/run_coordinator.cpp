@@ -11,7 +11,7 @@
 namespace luxodus {
 
 namespace {
-/// Between lines about who is waited for.
+/// Interval of log lines about missing workers.
 constexpr Nanoseconds waiting_word = seconds(10);
 }  // namespace
 
@@ -46,8 +46,8 @@ void RunCoordinator::start() {
   end_run(book_.committed() >= target_ ? StopReason::particles : StopReason::error);
 }
 
-/// Whether what was counted by an earlier life is all that was asked for. Then nobody is waited
-/// for: workers that have heard of the end are gone.
+/// Whether an earlier incarnation has counted all that was asked for. Then no worker is awaited:
+/// those that have heard of the end are gone.
 bool RunCoordinator::nothing_left() const {
   if (book_.committed() >= target_) return true;
   if (!stop_.relative_error || book_.committed() == 0 || !book_.missing().empty()) return false;
@@ -55,7 +55,7 @@ bool RunCoordinator::nothing_left() const {
   return stop_.error_is_reached(Readout(run_.scene(), run_.totals()).worst_relative_error());
 }
 
-// ---- workers that come and go ------------------------------------------------------------------
+// ---- arrival and loss of workers ---------------------------------------------------------------
 
 void RunCoordinator::life_ended(NodeId worker, Incarnation life) {
   shards_.end_life(worker, life);
@@ -72,7 +72,7 @@ void RunCoordinator::begin() {
 
 void RunCoordinator::await_workers(Nanoseconds now) {
   if (const auto taken = network_.taken_elsewhere()) {
-    // Where its results go is in the words of the refusal, which the node adds to this.
+    // The refusal names the other run's results, and the node adds it to this.
     fault_ =
         problem(fmt::format("the run did not begin, since its workers are not free: let the "
                             "run that {} works for end first, or give this one other workers",
@@ -94,7 +94,7 @@ void RunCoordinator::await_workers(Nanoseconds now) {
   end_run(StopReason::workers_lost);
 }
 
-/// Who is not here, and why as far as this node can know: of its own links, that is.
+/// Names the missing workers, and why as far as this node can know: for its own links.
 std::string RunCoordinator::missing_workers() const {
   const std::vector<NodeId> own = network_.neighbours();
   std::string text;
@@ -111,15 +111,15 @@ std::string RunCoordinator::missing_workers() const {
 }
 
 void RunCoordinator::workers_watched() {
-  // With shards, who is out of reach is waited for until it is lost: then the run has failed.
+  // With shards, an unreachable worker is awaited until it is lost: then the run has failed.
   if (!begun_ || over_ || adding() || reading_ || !all_gone() || shards_.others() > 0) return;
   if (!closing_) return end_run(StopReason::workers_lost);
   end_run(interrupt_.load() ? StopReason::interrupted : StopReason::time);
 }
 
-/// Whether nobody is left to trace: all are lost, or out of reach when the run is ending anyway.
-/// A node that leads others and has returned its leases leads nobody any more. A node that traces
-/// and is led by another may come when that one is lost, as long as it is in reach.
+/// Whether no tracing worker is left: all are lost, or unreachable when the run is ending anyway. A
+/// node that leads others and has returned its leases has none left. A worker led by another node
+/// may still join when that node is lost, as long as it is reachable.
 bool RunCoordinator::all_gone() const {
   return std::all_of(peers_.begin(), peers_.end(), [&](const auto& entry) {
     const auto& [worker, peer] = entry;
@@ -129,7 +129,7 @@ bool RunCoordinator::all_gone() const {
   });
 }
 
-/// What a worker held of the totals is nowhere else.
+/// A shard's totals are nowhere else, so losing its worker ends the run.
 void RunCoordinator::lose_shard(NodeId worker, const char* how) {
   if (!begun_ || !shards_.owns(worker)) return;
   fail(
@@ -145,8 +145,8 @@ void RunCoordinator::fail(const std::string& what) {
   end_run(StopReason::workers_lost);
 }
 
-/// What nobody can trace is lost, and the run with it: what has been lent is brought to its end,
-/// and no more is lent, since the next batches would need the same objects.
+/// Batches that no worker can trace are lost, and the run fails with them: leased batches are
+/// completed, and no more are leased, since the next ones would need the same objects.
 void RunCoordinator::lose_batches() {
   if (!book_.has_given_back()) return;
   std::vector<NodeId> here;
@@ -187,9 +187,9 @@ void RunCoordinator::open_round() {
   offer_batches();
 }
 
-/// Ends the round when everything of it is counted, and lets somebody look at the totals where that
-/// is due. With shards the totals are first brought here, when every decision is answered.
-/// Meanwhile no flush is counted, so that they fit together.
+/// Ends the round when all of it is counted, and starts a reading of the totals if one is due. With
+/// shards the totals are first gathered here, after every decision is acknowledged. Meanwhile no
+/// flush is counted, so that they are consistent.
 void RunCoordinator::look_at_totals() {
   if (!begun_ || over_) return;
   if (shards_.fault()) return fail(*shards_.fault());
@@ -206,7 +206,7 @@ void RunCoordinator::look_at_totals() {
   read_totals(round_done);
 }
 
-/// Millions of bins, files and pictures take longer than a turn may.
+/// Not within a turn: millions of bins, files and pictures take longer.
 void RunCoordinator::read_totals(bool round_done) {
   reading_ = true;
   packing_ = shows_.begin_pack();
@@ -259,8 +259,8 @@ RunEnded RunCoordinator::end_word() const {
   return {round(), fault_ ? fault_->what.substr(0, limits::text_bytes) : ""};
 }
 
-/// Were this node to crash while its journal lacks work, that work would be traced again: by
-/// workers that have not heard of an end. After `lost` the disk is given up.
+/// If this node crashed while its journal lacks work, that work would have to be traced again, by
+/// workers that have not heard of an end. After `lost` it no longer waits for the disk.
 bool RunCoordinator::awaits_journal() const {
   return journal_ != nullptr && !journal_->is_whole() && !fault_ && !interrupt_.load() &&
          over_for() < config_.lost;
@@ -290,7 +290,7 @@ void RunCoordinator::wait_for_farewells(Nanoseconds now) {
            who_lacks_end(), seconds_in(config_.lost));
 }
 
-// ---- what passes with time -------------------------------------------------------------------
+// ---- timers ----------------------------------------------------------------------------------
 
 void RunCoordinator::look_at_work(Nanoseconds now) {
   if (!begun_) return await_workers(now);
@@ -345,8 +345,8 @@ BinRange RunCoordinator::bins() const {
   return shard_plan_.range(0, scene_.layout.totals());
 }
 
-/// Between two flushes somebody may look at the totals; where these lie in shards, or become a
-/// snapshot, the flushes that have come wait.
+/// Readers may look at the totals between two flushes; while shards are gathered or a snapshot is
+/// made, flushes wait.
 bool RunCoordinator::holds_back(size_t) {
   if (shards_.gathering() || reading_) return true;
   return shards_.others() > 0 && !over_ && (run_.pause_is_due() || shows_.wanted());
@@ -357,8 +357,8 @@ std::string RunCoordinator::objection(const Letter<Flush>& letter) const {
                                                              : "";
 }
 
-/// On a disk, before anybody is told: the run survives this node. Where that fails the run goes on
-/// without, since its totals are right all the same. False: this node ends.
+/// Journals a flush before it is acknowledged, so that the run survives this node. If that fails
+/// the run continues without, since its totals are right. Returns false if this node is ending.
 bool RunCoordinator::keep(const Letter<Flush>& letter) {
   if (journal_ == nullptr) return true;
   const std::span<const int64_t> batches = book_.batches_of(letter.body.leases);
@@ -383,7 +383,8 @@ void RunCoordinator::counted(const Letter<Flush>& letter, std::span<const int64_
   shards_.take(letter.id, letter.body.slice_hashes);
 }
 
-/// Between flushes, when the totals hold all that was kept. Until it is done no flush is counted.
+/// Runs between flushes, when the totals hold everything journaled. No flush is counted until it is
+/// done.
 void RunCoordinator::tidy_journal() {
   if (journal_ == nullptr || adding() || counting() || reading_) return;
   if (!journal_->tidying_is_due()) return;

@@ -1,9 +1,8 @@
-// The coordinator that leads a run: which batches there are is what its stopping rule says, round
-// by round; what is counted is kept in a journal, and is the run's result. A run begins with all
-// its workers or not at all; once begun it goes on as long as one is left. Where workers hold
-// shards of the totals, it tells these of every decision (shard_control.hpp), brings their totals
-// here before a round ends or somebody looks, and ends when one of them is lost.
-// Thread rule: its node's thread.
+// The coordinator of a run: its stopping rule defines the batches, round by round; what is counted
+// is journaled, and becomes the run's result. A run begins with all its workers or not at all;
+// afterwards it continues as long as one is left. If workers hold shards of the totals, it sends
+// them every decision (shard_control.hpp), gathers their totals before a round ends or a reader
+// looks, and ends when one of them is lost. Thread rule: its node's thread.
 #pragma once
 
 #include <atomic>
@@ -26,20 +25,20 @@ struct RunLead {
   const std::atomic<bool>& interrupt;
   std::function<void(const Progress&)> report;
   ShardPlan shards;                 // of the totals
-  BlockingCalls& calls;             // by which totals are read
-  JournalActor* journal = nullptr;  // of what is counted; null: none is kept
-  std::optional<NodeId> display;    // where the run is shown; nothing: nowhere
+  BlockingCalls& calls;             // reads the totals off the node's thread
+  JournalActor* journal = nullptr;  // null: no journal
+  std::optional<NodeId> display;    // node that shows the run; nothing: none
 };
 
 class RunCoordinator final : public Coordinator {
  public:
-  /// Goes on from the batches that the run holds. All that is referred to must outlive it.
+  /// Continues from the batches that the run holds. Requires: all references outlive this.
   RunCoordinator(const CoordinatorConfig& config, RunLead lead, Scheduler& scheduler,
                  Network& network, Sender& sender);
 
   ~RunCoordinator() override { calls_.finish(); }
 
-  /// Waits for the workers from now on. Requires: the scheduler has a fiber for it.
+  /// Begins to wait for the workers. Requires: the scheduler has a fiber for it.
   void start();
 
   void on(const Letter<FlushSettled>& settled) override;
@@ -47,15 +46,15 @@ class RunCoordinator final : public Coordinator {
   void on(const Letter<ShowTotals>& show) override;
   void on(const Letter<FluxSaved>& saved) override;
 
-  /// Ends the run, with this error: all that take part in it are told.
+  /// Ends the run with this error, and tells all workers.
   void fail(const std::string& what);
-  /// The display never will write the results: ends the run, or leaves them unwritten.
+  /// The display will never write the results: ends the run, or leaves them unwritten.
   void lose_display(const std::string& why);
 
   StopReason reason() const { return reason_; }
-  /// The run is over, and no display has written its results, as far as is known here.
+  /// Whether the run is over and no display has written its results, as far as is known here.
   bool lost_display() const { return lost_display_; }
-  /// From the moment when all workers were here to that when all was counted; 0 before it.
+  /// Time from the arrival of the last worker to the end of counting; 0 before that.
   Nanoseconds took() const { return over_ ? over_since_ - began_ : 0; }
   /// Why the run could not begin, or has no results.
   const std::optional<Problem>& fault() const { return fault_; }
@@ -117,25 +116,25 @@ class RunCoordinator final : public Coordinator {
   ShardControl shards_;
   ShowControl shows_;
   BatchPlan plan_;
-  std::vector<uint32_t> groups_;  // of batches, as far as asked; where groups are ranked
+  std::vector<uint32_t> groups_;  // of batches, computed on demand; only if groups are ranked
   int64_t target_;
   int64_t batches_at_start_;
   Nanoseconds began_;
   double error_;
-  bool done_before_ = false;   // an earlier life has counted all that was asked for
-  Nanoseconds next_word_ = 0;  // of whom it waits for
+  bool done_before_ = false;   // an earlier incarnation has counted all that was asked for
+  Nanoseconds next_word_ = 0;  // next log line about missing workers
   std::optional<Problem> fault_;
-  bool closing_ = false;  // no lease beyond the last: time is up or somebody interrupts
+  bool closing_ = false;  // time is up or the run was interrupted: no further leases
   StopReason reason_ = StopReason::particles;
-  bool reading_ = false;  // somebody reads the totals: nothing is added to them
+  bool reading_ = false;  // the totals are being read: nothing is added to them
   bool packing_ = false;  // for the display
   bool lost_display_ = false;
   std::optional<Incarnation> display_life_;
-  double read_error_ = 0;  // what was read last
+  double read_error_ = 0;  // error in the last reading
   std::exception_ptr reading_failed_;
-  bool reads_round_ = false;  // what is being read: its error
+  bool reads_round_ = false;  // whether the reading computes the round's error
   double read_seconds_ = 0;
-  bool gathered_ = false;  // the totals are those of all that is counted, shards included
+  bool gathered_ = false;  // the totals include all shards' counts
 };
 
 }  // namespace luxodus

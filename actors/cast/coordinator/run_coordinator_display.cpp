@@ -1,5 +1,5 @@
-// The coordinator and the display: it hands out its totals, and waits until the display has the
-// flux on a disk.
+// The coordinator's side of the display: it sends its totals, and waits until the display has saved
+// the flux on a disk.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 
 namespace luxodus {
 
-/// Of tracing, in this life.
+/// Seconds of tracing, in this incarnation.
 double RunCoordinator::shown_seconds() const {
   const Nanoseconds until = over_ ? over_since_ : clock().now();
   return seconds_in(until - began_);
 }
 
-/// Of a run that is over nothing is added any more.
+/// Once a run is over nothing is added any more.
 void RunCoordinator::show_last_totals() {
   if (!over_ || fault_ || reading_ || !shows_.wanted()) return;
   reading_ = packing_ = shows_.begin_pack();
@@ -29,8 +29,8 @@ void RunCoordinator::show_last_totals() {
   calls_.begin(read, own_task([this] { totals_read(false); }));
 }
 
-/// What a display has said in an earlier life holds no more. Its node may be led by another, whom
-/// alone its tracer tells that it began anew.
+/// What a display said in an earlier incarnation no longer holds. Another coordinator may lead its
+/// node, and its tracer reports the restart only to that one.
 void RunCoordinator::meet_display(Incarnation life) {
   if (display_life_ && *display_life_ != life) shows_.end_life(shows_.node());
   display_life_ = life;
@@ -53,15 +53,15 @@ void RunCoordinator::on(const Letter<FluxSaved>& saved) {
   let_go_when_told();
 }
 
-/// Whether the results are safe, or never will be written. The display is waited for as long as it
-/// lives: a disk may be slow, or full for a while. Who interrupts waits for nobody out of reach.
+/// Whether the results are saved, or never will be. The display is awaited as long as it lives: a
+/// disk may be slow, or full for a while. An interrupted run waits for no unreachable display.
 bool RunCoordinator::show_is_settled() {
   if (!shows_.any() || shows_.is_saved() || fault_) return true;
   const NodeId node = shows_.node();
   if (node == config_.self || network_.reaches(node)) return false;
   const Nanoseconds now = clock().now();
   const Nanoseconds since = peers_.at(node).unreachable_since.value_or(now);
-  // After an earlier life has counted all, it may yet have to come.
+  // After an earlier incarnation has counted all, it may still have to appear.
   const Nanoseconds patience = done_before_ ? std::max(config_.start, config_.lost) : config_.lost;
   if (!interrupt_.load() && now - std::max(since, over_since_) < patience) return false;
   if (book_.committed() == 0) return true;  // there is nothing to write

@@ -9,7 +9,7 @@
 namespace luxodus {
 
 namespace {
-/// Until workers have heard of the end; those that have not then give this node up by themselves.
+/// Time for workers to hear of the end; after it, the others give this node up by themselves.
 constexpr Nanoseconds farewell = seconds(1);
 }  // namespace
 
@@ -63,7 +63,8 @@ void StateCoordinator::begin(Work& work) {
   end_when_done();
 }
 
-/// As many batches wait here as all who trace may ask for at once: nobody waits for the work.
+/// Keeps as many batches here as all tracing nodes may ask for at once, so that none waits for the
+/// work.
 void StateCoordinator::fill_book() {
   if (work_ == nullptr || over_) return;
   const auto tracing = static_cast<size_t>(std::count_if(
@@ -115,7 +116,8 @@ void StateCoordinator::end_when_done() {
   done_();
 }
 
-/// What nobody who is here can trace is lent again at the next look: others may have come.
+/// Batches that no present node can trace are leased again at the next look: others may have
+/// joined.
 void StateCoordinator::take_back_lost() {
   std::vector<NodeId> here;
   for (const auto& [worker, peer] : peers_)
@@ -149,7 +151,7 @@ void StateCoordinator::worker_came(NodeId worker) {
   log_info("worker=here node={} text=\"{} is there\"", worker.value, name_of(worker));
 }
 
-/// Whoever has had workers waits for them; whoever is turned away at first would wait for ever.
+/// A node that has had workers waits for them; one whose workers refuse from the start gives up.
 void StateCoordinator::note_refusal() {
   const auto met = [](const auto& at) { return at.second.life != Incarnation{}; };
   if (fault_ || std::any_of(peers_.begin(), peers_.end(), met)) return;

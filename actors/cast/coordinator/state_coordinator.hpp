@@ -1,9 +1,8 @@
-// The coordinator of work that comes piece by piece, of states of a scene that change: for a live
-// view, say. Downwards it is a coordinator as the one that leads a run. Its batches come from the
-// work under way and its totals are that work's; nothing is kept for a crash, since whoever gave
-// the work is on this node. A lease names the state that its batch is of; who does not know that
-// asks for it. When another state is entered, all leases of the one before have been fenced.
-// Thread rule: its node's thread.
+// The coordinator of successive works on changing states of a scene, as in a live view. Towards its
+// workers it behaves like a run's coordinator. Batches come from the current work and are counted
+// into its totals; nothing is journaled, since the giver of the work is on this node. A lease names
+// the state of its batch; a worker that does not know it asks for it. When another state is
+// entered, all leases of the previous one have been fenced. Thread rule: its node's thread.
 #pragma once
 
 #include <functional>
@@ -17,35 +16,34 @@ namespace luxodus {
 
 class StateCoordinator final : public Coordinator {
  public:
-  /// `done` is called when a work is. All that is referred to must outlive it.
+  /// `done` is called after each work. Requires: all references outlive this.
   StateCoordinator(const CoordinatorConfig& config, const CompiledScene& first,
                    std::function<void()> done, Scheduler& scheduler, Network& network,
                    Sender& sender);
 
-  /// Waits for workers from now on, and does with those that come. Requires: the scheduler has a
-  /// fiber for it.
+  /// Begins to lead workers as they join. Requires: the scheduler has a fiber for it.
   void start();
 
-  /// Tells workers of a state that may be entered next.
+  /// Sends workers a state that may be entered next.
   void foresee(const StateObject& state);
-  /// Requires: no work is under way.
+  /// Requires: no work is in progress.
   void enter(const StateObject& state);
-  /// Lends what `work` gives. Requires: none is under way; `work` outlives it.
+  /// Leases the batches of `work`. Requires: none is in progress; `work` outlives it.
   void begin(Work& work);
-  /// What is lent, and not being counted, comes too late: it is given back.
+  /// Ends the work: leased batches that are not being counted are given back to it.
   void stop();
   bool working() const { return work_ != nullptr; }
-  /// Tells all that there is no more to come.
+  /// Tells all workers that there is no more work.
   void end();
 
   using Coordinator::on;
   void on(const Letter<AskState>& ask) override;
 
-  /// Workers that are here.
+  /// Number of workers present.
   size_t workers_here() const;
-  /// Looks in a row at which none of them could enter the state.
+  /// Consecutive looks at which none of them could enter the state.
   uint64_t stuck() const { return stuck_; }
-  /// Why none will ever come: they work for another.
+  /// Why none will ever join: they work for another run.
   const std::optional<Problem>& fault() const { return fault_; }
 
  private:
@@ -70,7 +68,7 @@ class StateCoordinator final : public Coordinator {
   void end_when_done();
   void leave_when_told();
   void note_refusal();
-  /// A state, and its name: to make that its bytes are hashed, which may be megabytes.
+  /// A state with its id: computing the id hashes its bytes, which may be megabytes.
   struct Named {
     StateObject object;
     ObjectId id;
@@ -80,8 +78,8 @@ class StateCoordinator final : public Coordinator {
   const std::function<void()> done_;
   std::optional<Named> state_, foreseen_;
   Work* work_ = nullptr;
-  bool all_given_ = false;  // the work has no more
-  std::set<int64_t> out_;   // its batches that are here, and neither counted nor given back
+  bool all_given_ = false;  // the work has no more batches
+  std::set<int64_t> out_;   // its batches that are here, neither counted nor given back
   uint64_t stuck_ = 0;
   std::optional<Problem> fault_;
 };

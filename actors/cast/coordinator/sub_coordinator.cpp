@@ -23,17 +23,17 @@ void SubCoordinator::start() {
 
 // ---- leases ----------------------------------------------------------------------------------
 
-/// Asks for nothing before: the run begins when all its nodes are there. Whoever has not come by
-/// then may have joined another coordinator.
+/// Asks for nothing before: the run begins when all its nodes are present. Nodes that are missing
+/// by then may have joined another coordinator.
 void SubCoordinator::begin(const std::string& how) {
   begun_ = true;
   log_info("coordinator=begun workers={} tracers={} text=\"{}\"", config_.workers.size(),
            tracers_here(), how);
-  // Though nobody should be here: the run waits for this node.
+  // Even if no worker is here: the run waits for this node.
   port_.want_leases(std::max<size_t>(wish(), 1));
 }
 
-/// A batch that is here already has a lease that was fenced, of which no word came.
+/// A batch that is here already has a lease whose fencing was not heard of.
 void SubCoordinator::add(uint64_t lease, int64_t batch) {
   if (lease_of_.insert_or_assign(batch, lease).second) book_.add(batch);
 }
@@ -52,8 +52,8 @@ void SubCoordinator::drop_all() {
   remove(std::move(batches));
 }
 
-/// A batch whose flush is being counted is merged under its lease all the same, and that flush
-/// upwards refused.
+/// A batch whose flush is being counted is merged under its lease all the same, and that flush is
+/// refused above.
 void SubCoordinator::remove(std::set<int64_t> batches) {
   std::set<int64_t> kept = batches;
   tell_fenced(book_.remove(kept));
@@ -81,8 +81,8 @@ std::string SubCoordinator::missing() const {
   return names;
 }
 
-/// As many batches shall wait here as all may ask for at once: nobody waits for an answer from
-/// above.
+/// As many batches wait here as all workers may ask for at once, so that none waits for an answer
+/// from above.
 size_t SubCoordinator::wish() const {
   return std::min<size_t>(config_.max_leases * tracers_here(), limits::leases);
 }
@@ -93,7 +93,7 @@ void SubCoordinator::want_more() {
   if (waiting < wish()) port_.want_leases(wish() - waiting);
 }
 
-/// Batches that none of those who are here can trace: others may.
+/// Gives back batches that none of the present workers can trace: others may.
 void SubCoordinator::give_back_lost() {
   if (!book_.has_given_back() && lost_.empty()) return;
   std::vector<NodeId> here;
@@ -104,7 +104,7 @@ void SubCoordinator::give_back_lost() {
   std::vector<uint64_t> leases;
   for (const int64_t batch : lost_)
     if (leases.size() < limits::leases) leases.push_back(lease_of_.at(batch));
-  if (leases.empty() || !port_.give_back(leases)) return;  // once more at the next look
+  if (leases.empty() || !port_.give_back(leases)) return;  // again at the next look
   for (size_t i = 0; i < leases.size(); ++i) {
     lease_of_.erase(*lost_.begin());
     lost_.erase(lost_.begin());
@@ -119,14 +119,15 @@ void SubCoordinator::look_at_work(Nanoseconds now) {
   fence(book_.fence_late(now), "late");
   give_back_lost();
   note_book();
-  // Though there may be none: the one above would keep batches for those who have left this node.
+  // Even if there are none: the coordinator above would keep batches for workers that have left
+  // this node.
   if (tracers_here() == 0) return port_.return_leases();
   want_more();
 }
 
 // ---- flushes ---------------------------------------------------------------------------------
 
-/// A flush upwards names all leases that it holds.
+/// A flush upwards must be able to name all its leases.
 bool SubCoordinator::holds_back(size_t leases) {
   if (over_ || port_.has_room_for(leases)) return false;
   port_.want_room();
@@ -157,7 +158,7 @@ void SubCoordinator::end(const std::string& why) {
   tell_end();
 }
 
-/// Those below find this node lost, and join another.
+/// Its workers find this node lost, and join another.
 void SubCoordinator::abandon() {
   abandoned_ = true;
   end_work();

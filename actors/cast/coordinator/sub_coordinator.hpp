@@ -1,10 +1,8 @@
-// The coordinator that leads some of a run's nodes in another coordinator's stead. Downwards it is
-// a coordinator as the one that leads the run. Upwards it behaves as a node that traces: the same
-// tracer asks for batches and flushes what is merged, and finds here, instead of photon-threads,
-// leases that are lent on. What it was given since its last flush upwards is nowhere else: should
-// it be lost, that is traced again. It has two sets of totals: one is merged into while the other
-// is packed.
-// Thread rule: its node's thread.
+// A coordinator that leads some of a run's nodes on behalf of another coordinator. Downwards it
+// behaves like the run's coordinator. Upwards it behaves like a tracing node: the node's tracer
+// asks for batches and flushes what is merged, but here leases are passed on, not traced. Work
+// merged since its last flush upwards is nowhere else: if the node is lost, it is traced again. It
+// has two sets of totals: one is filled while the other is packed. Thread rule: its node's thread.
 #pragma once
 
 #include <map>
@@ -19,14 +17,14 @@ namespace luxodus {
 
 class SubCoordinator final : public Coordinator, public LeasedWork {
  public:
-  /// All that is referred to must outlive it.
+  /// Requires: all references outlive this.
   SubCoordinator(const CoordinatorConfig& config, const CompiledScene& scene, LeasePort& port,
                  Scheduler& scheduler, Network& network, Sender& sender);
 
-  /// Waits for those whom it leads. Requires: the scheduler has a fiber for it.
+  /// Begins to wait for its workers. Requires: the scheduler has a fiber for it.
   void start();
 
-  // ---- upwards ----------------------------------------------------------------------------------
+  // ---- towards the coordinator above ------------------------------------------------------------
 
   void enter_round(uint32_t round) override { counters_.round = round; }
   void add(uint64_t lease, int64_t batch) override;
@@ -37,7 +35,7 @@ class SubCoordinator final : public Coordinator, public LeasedWork {
   bool may_give() const override { return !adding(); }
   const Totals& totals() const override { return totals_[0]; }
   size_t at_hand() const override { return lease_of_.size(); }
-  /// Since what was given last.
+  /// Totals merged since the last give_totals().
   const Totals& merged() const { return totals_[merging_]; }
   void end(const std::string& why) override;
   void abandon() override;
@@ -54,7 +52,7 @@ class SubCoordinator final : public Coordinator, public LeasedWork {
   bool holds_back(size_t leases) override;
   void counted(const Letter<Flush>& letter, std::span<const int64_t> batches) override;
   RunEnded end_word() const override { return {round(), why_ended_}; }
-  /// Whoever began anew may not have heard yet of those whom its earlier life led.
+  /// After a restart, it may not have heard yet of workers that its earlier incarnation led.
   bool tells_all() const override { return true; }
   void wait_for_farewells(Nanoseconds now) override;
 
@@ -69,7 +67,7 @@ class SubCoordinator final : public Coordinator, public LeasedWork {
   LeasePort& port_;
   Totals totals_[2];
   size_t merging_ = 0;
-  std::map<int64_t, uint64_t> lease_of_;  // of batches that are not merged: the one it was given
+  std::map<int64_t, uint64_t> lease_of_;  // of unmerged batches: the lease from above
   Nanoseconds began_ = 0;
   std::set<int64_t> lost_;  // batches to be given back
   std::string why_ended_;

@@ -33,8 +33,7 @@ void DisplayActor::begin() {
   set_timer();
 }
 
-/// A flux that is on a disk stays there, and what was written of it is what the results are made
-/// of.
+/// A flux that is on a disk stays there, and the other results are made from the same totals.
 void DisplayActor::reset() {
   State fresh;
   if (state_.saved) {
@@ -79,7 +78,7 @@ void DisplayActor::watch_coordinator() {
                           seconds_in(config_.lost))));
 }
 
-/// For all of them as they are now, from the first piece on.
+/// Requests the current totals, from the first piece on.
 void DisplayActor::ask() {
   ++show_;
   state_.copy.emplace(work_.fresh_run());
@@ -107,9 +106,9 @@ void DisplayActor::retry() {
 
 void DisplayActor::on(const Letter<TotalsShown>& shown) {
   if (shown.from != config_.coordinator) return;
-  if (!state_.question || state_.question->id != shown.id) return;  // an answer that came twice
+  if (!state_.question || state_.question->id != shown.id) return;  // a duplicate answer
   timer_.answered(clock_.now());
-  if (shown.body.pieces == 0) return ask();  // the coordinator has begun anew
+  if (shown.body.pieces == 0) return ask();  // the coordinator has restarted
   counters_.copied_bytes += shown.payload.bytes().size();
   if (auto taken = state_.copy->take(shown.body, shown.payload.bytes()); !taken)
     throw std::runtime_error(taken.problem().what);
@@ -134,13 +133,13 @@ void DisplayActor::copied() {
 
 // ---- the end ------------------------------------------------------------------------------------
 
-/// Said again until the coordinator knows that the flux is on a disk.
+/// Repeated until the coordinator knows that the flux is on a disk.
 void DisplayActor::on(const Letter<RunEnded>& ended) {
   if (ended.from != config_.coordinator) return;
   if (state_.saved || state_.fault) return tell_saved();
   if (state_.done) return;
   if (!ended.body.text.empty())
-    return end(std::nullopt);  // who is its tracer or controller says so
+    return end(std::nullopt);  // the node's tracer or controller reports the reason
   state_.over = true;
   look();
 }
@@ -178,7 +177,7 @@ void DisplayActor::call(Call what) {
   calls_.begin(work, [this, began = life()] { returned(began); });
 }
 
-/// An earlier life may have begun it: then nobody wants what came of it.
+/// The call may have been begun by an earlier life: then its outcome is ignored.
 void DisplayActor::returned(uint32_t began) {
   calling_ = false;
   called_with_.reset();

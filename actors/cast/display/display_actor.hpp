@@ -1,12 +1,13 @@
-// The display: an actor that has a copy of the run's totals and shows it. It may live on any node.
-// While the run goes on it asks the coordinator for totals when something is to be shown; when the
-// run is over it has the flux written to a disk, says so, and then writes all other results.
+// The display: an actor that has a copy of the run's totals and shows it. It may be on any node.
+// During the run it requests totals from the coordinator whenever something is to be shown; when
+// the run is over it has the flux written to a disk, confirms that, and then writes all other
+// results.
 //
 //   watching -> copying -> showing -> watching ...           while the run goes on
 //   watching -> copying -> keeping the flux -> writing results -> done
 //
-// What it has of the run is a copy: a display that fails, or whose node is begun again, asks anew.
-// What writes and renders runs on a thread of its own. Thread rule: the node's thread.
+// Its totals are a copy: a display that fails, or whose node restarts, requests them again. Writing
+// and rendering run on a thread of their own. Thread rule: the node's thread.
 #pragma once
 
 #include <exception>
@@ -25,9 +26,9 @@ struct DisplayConfig {
   NodeId self;
   Address coordinator;
   Nanoseconds look_every = milliseconds(250);
-  /// Then a question is asked again, and later where answers take long: see RetryTimer.
+  /// Time to the first retry, and more if answers take long: see RetryTimer.
   Nanoseconds answer_patience = seconds(2);
-  Nanoseconds lost = seconds(30);  // without a way to the coordinator for so long it is given up
+  Nanoseconds lost = seconds(30);  // a coordinator unreachable for this long is given up
 };
 
 class DisplayActor final
@@ -36,30 +37,31 @@ class DisplayActor final
                                    Accepts<Letter<RunEnded>, 8, WhenFull::reject>>,
                        DataLane<>> {
  public:
-  /// Requires: all outlive this.
+  /// Requires: all references outlive this.
   DisplayActor(const DisplayConfig& config, RunOutput& work, BlockingCalls& calls,
                Scheduler& scheduler, Network& network, Sender& sender);
   ~DisplayActor() override { calls_.finish(); }
 
-  /// Watches the run from now on.
+  /// Begins to watch the run.
   void begin();
 
-  // Of the coordinator.
+  // From the coordinator.
   void on(const Letter<TotalsShown>& shown);
   void on(const Letter<RunEnded>& ended);
 
-  /// Says that it has failed for good, as far as messages go.
+  /// Reports to the coordinator, if a message gets through, that it has failed for good.
   void tell_failure(const std::string& what);
 
-  /// Everything is written, or nothing will be: the run failed, or the coordinator was lost.
+  /// Whether everything is written, or nothing will be: the run failed, or the coordinator was
+  /// lost.
   bool done() const { return state_.done || failed(); }
-  /// Whether the run is over, as this has heard.
+  /// Whether the run is over, as far as the display has heard.
   bool is_ending() const { return state_.over; }
   /// Why not everything is written.
   const std::optional<Problem>& fault() const { return state_.fault; }
 
   struct Counters {
-    uint64_t copies = 0;  // of totals, whole ones
+    uint64_t copies = 0;  // of totals, complete ones
     uint64_t copied_bytes = 0;
     uint64_t asked_again = 0;
   };
@@ -68,16 +70,16 @@ class DisplayActor final
  private:
   struct Question {
     MessageId id;
-    bool left = false;  // this node
+    bool left = false;  // it has left this node
   };
-  /// All that a new life forgets.
+  /// State that a restart resets.
   struct State {
     std::optional<Question> question;
-    bool retries_soon = false;  // a timer puts again what has not left
+    bool retries_soon = false;  // a timer will retry what has not left
     std::optional<TotalsCopy> copy;
-    std::shared_ptr<const LocalRun> last;  // of the run that is over
+    std::shared_ptr<const LocalRun> last;  // of the finished run
     bool over = false;
-    bool saved = false;  // its flux is on the disk
+    bool saved = false;  // the flux is on the disk
     bool done = false;
     std::optional<Problem> fault;
     std::optional<Nanoseconds> unreachable_since;
@@ -103,11 +105,11 @@ class DisplayActor final
   RunOutput& work_;
   BlockingCalls& calls_;
   const Clock& clock_;
-  Network& network_;  // who is within reach
+  Network& network_;  // for reachability
   State state_;
   RetryTimer timer_;   // of the question
-  uint32_t show_ = 0;  // the last that was asked for, of all lives
-  // Of the call under way, which may be an earlier life's.
+  uint32_t show_ = 0;  // number of the last request, over all lives
+  // The current call, which may belong to an earlier life.
   bool calling_ = false;
   Call called_ = Call::show;
   std::shared_ptr<const LocalRun> called_with_;

@@ -10,7 +10,7 @@ ShowControl::ShowControl(const std::optional<NodeId>& display, const LocalRun& r
   if (display_) snapshot_.emplace(run.totals().groups(), run.totals().layout().totals());
 }
 
-/// A life of the display numbers its shows; another life has other ids.
+/// Each incarnation of the display numbers its shows; another one has other ids.
 void ShowControl::on(const Letter<ShowTotals>& letter) {
   const Wanted question{letter.from, letter.id, letter.body};
   const bool known = !packing_ && shown_ && shown_->asked.show == question.asked.show &&
@@ -39,7 +39,7 @@ void ShowControl::packed(bool over, StopReason reason) {
   shown_ = std::exchange(wanted_, std::nullopt);
   over_ = over;
   reason_ = reason;
-  if (!shown_) return;  // who asked has begun anew
+  if (!shown_) return;  // the requester has restarted
   answer(shown_->from, shown_->question, shown_->asked);
 }
 

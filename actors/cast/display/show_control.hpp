@@ -1,8 +1,8 @@
-// The coordinator's side of the display: hands out its totals, piece by piece, as they were when
-// they were asked for, and knows whether the flux of the run is on a disk. One show at a time, and
-// a later one takes its place. What if a message is lost, late, or comes twice? A piece that is
-// asked for again is told again; one of a show that is gone is answered by none at all, and who
-// asked begins anew. Thread rule: the node's thread, but for pack().
+// The coordinator's side of the display: sends a snapshot of its totals, piece by piece, and tracks
+// whether the run's flux is on a disk. One show at a time; a later one replaces it. Lost, late and
+// duplicate messages: a piece that is requested again is sent again; a request for a piece of a
+// replaced show gets an empty answer, and the requester starts again. Thread rule: the node's
+// thread, except pack().
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ namespace luxodus {
 
 class ShowControl {
  public:
-  /// `display`: the node where it lives; nothing: there is none. `self`: whom it asks.
-  /// Requires: `sender` outlives this.
+  /// `display`: its node; nothing: there is none. `self`: the coordinator that it asks. Requires:
+  /// `sender` outlives this.
   ShowControl(const std::optional<NodeId>& display, const LocalRun& run, const RetryTimer& timer,
               Sender& sender, Address self);
 
@@ -27,22 +27,23 @@ class ShowControl {
     return from.actor == ActorName::display && display_ == from.node;
   }
 
-  /// A question for a piece; one for the first waits until the totals are packed.
+  /// A request for a piece; one for the first waits until the totals are packed.
   void on(const Letter<ShowTotals>& letter);
-  /// Whether totals are to be packed, as soon as nobody adds to them.
+  /// Whether totals are to be packed, as soon as nothing is being added to them.
   bool wanted() const { return wanted_.has_value(); }
-  /// Whether pack() and packed() follow, since totals are wanted. Until then no piece is told.
+  /// Returns whether totals are wanted, so that pack() and packed() follow. Until then no piece is
+  /// sent.
   bool begin_pack();
-  /// Any thread. Requires: nobody adds to the totals meanwhile.
+  /// Any thread. Requires: nothing is added to the totals meanwhile.
   void pack(const LocalRun& run, double seconds);
-  /// Answers who waits; `over`: the run is, for this reason.
+  /// Answers the waiting request; `over`: the run is, for this reason.
   void packed(bool over, StopReason reason);
-  /// Says that the run is over, or that it failed and leaves nothing; but not while the display may
-  /// yet answer the last word of it.
+  /// Tells the display that the run is over, or that it failed and has no results; but not while
+  /// the display may yet answer the previous message.
   void tell_end(const RunEnded& ended, Nanoseconds now);
-  /// The display has said something.
+  /// The display has sent a message.
   void heard(Nanoseconds now) { telling_.answered(now); }
-  /// A node has begun anew: what a display there had said holds no more.
+  /// A node has restarted: what its display said before no longer holds.
   void end_life(NodeId node);
   /// The flux is on the disk.
   void saved();
@@ -61,13 +62,13 @@ class ShowControl {
     ShowTotals asked;
   };
   std::optional<Wanted> wanted_;
-  std::optional<Wanted> shown_;  // whose totals are packed
-  bool over_ = false;            // when they were
+  std::optional<Wanted> shown_;  // the request whose totals are packed
+  bool over_ = false;            // whether the run was over then
   StopReason reason_ = StopReason::particles;
-  bool packing_ = false;  // what is packed belongs to another thread
+  bool packing_ = false;  // the snapshot belongs to another thread
   bool saved_ = false;
   const RetryTimer new_timer_;
-  RetryTimer telling_ = new_timer_;  // it of the end
+  RetryTimer telling_ = new_timer_;  // retries of telling it the end
 };
 
 }  // namespace luxodus

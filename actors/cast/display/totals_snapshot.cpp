@@ -10,9 +10,9 @@ namespace {
 
 /// Bins of all source groups in one piece: about a millisecond to read.
 constexpr int64_t bins_of_a_shown_piece = 16384;
-/// Of a second.
+/// Resolution of times: microseconds.
 constexpr double ticks = 1e6;
-/// More than any run has; what is counted from it still fits 64 bits.
+/// More than any run has; numbers computed from it still fit 64 bits.
 constexpr uint64_t max_batches = uint64_t{1} << 40;
 
 int64_t shown_piece_of(int groups) {
@@ -42,7 +42,7 @@ void TotalsSnapshot::pack(const LocalRun& run, double seconds) {
   head_.untimed_rays = timing.untimed_rays;
   pieces_.clear();
   pieces_.push_back({0, 0, bytes_of(run.missing())});
-  FlushCounts counts = FlushCounts::with;  // of one piece
+  FlushCounts counts = FlushCounts::with;  // carried by one piece
   for (int64_t first = 0; first < end;) {
     int64_t begin = end;
     for (int g = 0; g < totals.groups(); ++g) begin = std::min(begin, totals.next_bin(g, first));

@@ -1,7 +1,7 @@
-// A run's totals at one moment, packed in pieces, for who shows them on whatever node: bins that
-// are not zero, the batches that are counted or missing, and the time that they took. Packed they
-// are a fraction of what the totals take. Each piece can be asked for again.
-// Thread rule: pack() on any thread while nobody adds to the totals; else the node's.
+// A snapshot of a run's totals, packed in pieces, for a display on any node: nonzero bins, the
+// counted and missing batches, and the time that they took. It takes a fraction of the totals'
+// memory. Each piece can be requested repeatedly. Thread rule: pack() on any thread while nothing
+// is added to the totals; otherwise the node's.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,13 @@ class TotalsSnapshot {
  public:
   TotalsSnapshot(int groups, int64_t totals);
 
-  /// Takes the place of what was packed before. `seconds`: of tracing, beside what `run` knows of.
+  /// Replaces the previous snapshot. `seconds`: of tracing, in addition to those in `run`.
   void pack(const LocalRun& run, double seconds);
   void forget() { pieces_.clear(); }
 
   uint32_t pieces() const { return static_cast<uint32_t>(pieces_.size()); }
-  /// Of a piece; who has run() and how it ended are for others to say. Requires: piece < pieces().
+  /// Header of a piece; the caller sets whether the run is over, and why. Requires: piece <
+  /// pieces().
   TotalsShown head(uint32_t piece) const;
   SharedBytes bytes(uint32_t piece) const;
 
@@ -40,10 +41,10 @@ class TotalsSnapshot {
   TotalsShown head_;
 };
 
-/// The other end: a copy of the totals, piece by piece.
+/// The receiver: a copy of the totals, assembled piece by piece.
 class TotalsCopy {
  public:
-  /// Requires: `empty` has no totals, and is of the same scene.
+  /// Requires: `empty` has no totals, and belongs to the same scene.
   explicit TotalsCopy(std::unique_ptr<LocalRun> empty) : run_(std::move(empty)) {}
 
   /// The number of the next piece.
@@ -62,7 +63,7 @@ class TotalsCopy {
 
   std::unique_ptr<LocalRun> run_;
   uint32_t next_ = 0;
-  uint32_t pieces_ = 0;  // 0: the first has not come
+  uint32_t pieces_ = 0;  // 0: the first has not arrived
   int64_t next_bin_ = 0;
   int64_t batches_ = 0;
   std::vector<int64_t> missing_;

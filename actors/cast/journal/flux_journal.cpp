@@ -10,7 +10,7 @@ namespace luxodus {
 
 namespace {
 
-/// Of a run whose flushes may be added to one another's.
+/// Hash of everything that two runs must share so that their flushes can be added.
 uint64_t identity_of(const LocalRun& run) {
   const CompiledScene& scene = run.scene();
   Hasher hash;
@@ -21,7 +21,7 @@ uint64_t identity_of(const LocalRun& run) {
   return hash.value();
 }
 
-/// Batches of a run, and what comes to them.
+/// Counts the records of a journal into a run.
 class Recovery {
  public:
   explicit Recovery(LocalRun& run) : run_(run) {
@@ -29,7 +29,7 @@ class Recovery {
     for (const int64_t batch : run.missing()) done_.erase(batch);
   }
 
-  /// False: it is no such record, or a part of it is counted already.
+  /// False: the record is invalid, or a part of it is counted already.
   bool count(std::span<const std::byte> record) {
     uint64_t batches = 0;
     if (record.size() < sizeof batches) return false;
@@ -42,7 +42,7 @@ class Recovery {
     if (distinct.size() != batches || *distinct.begin() < 0) return false;
     const auto known = std::count_if(numbers.begin(), numbers.end(),
                                      [&](int64_t batch) { return done_.count(batch) > 0; });
-    if (known == static_cast<int64_t>(batches)) return true;  // the flux file is the younger
+    if (known == static_cast<int64_t>(batches)) return true;  // the flux file is newer
     return known == 0 && add(distinct, record.subspan(batches * sizeof(int64_t)));
   }
 
@@ -50,7 +50,7 @@ class Recovery {
 
   void go_on() const {
     if (recovered_ == 0) return;
-    // A snapshot may know of batches that were lent beyond the last one that anybody has counted.
+    // A snapshot may know of batches that were leased beyond the last counted one.
     const int64_t end = std::max(run_.batches(), *done_.rbegin() + 1);
     std::vector<int64_t> missing;
     for (int64_t batch = 0; batch < end; ++batch)

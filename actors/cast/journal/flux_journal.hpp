@@ -1,7 +1,7 @@
-// What a controller has counted, on a disk before anybody is told: one record for each flush, the
-// batches and the bytes of it. A run that begins again counts them once more, and has the totals it
-// had, bit for bit. Together with a flux file that is older than some of its records, too. Thread
-// rule: as FlushKeeper.
+// A write-ahead journal of the flushes that a controller counts: one record for each flush, with
+// its batches and its bytes. A restarted run counts them again, and has the same totals, bit for
+// bit; also together with a flux file that is older than some of the records. Thread rule: that of
+// FlushKeeper.
 #pragma once
 
 #include <memory>
@@ -16,20 +16,22 @@ namespace luxodus {
 
 class FluxJournal final {
  public:
-  /// Counts into `run` what the store holds and the run does not, and has it go on from there.
-  /// Errors: as Journal::open; a record that does not belong to this run, or fits it in part only.
+  /// Counts into `run` what the store holds and the run does not, and lets it continue from there.
+  /// Errors: those of Journal::open; a record that does not belong to this run, or overlaps with it
+  /// only in part.
   static Result<std::unique_ptr<FluxJournal>> open(std::unique_ptr<AppendStore> store,
                                                    LocalRun& run);
 
-  /// Errors: as Journal::append.
+  /// Errors: those of Journal::append.
   Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush);
-  /// The run's flux file holds everything now. Errors: as Journal::restart.
+  /// Empties the journal, once the run's flux file holds everything. Errors: those of
+  /// Journal::restart.
   Result<void> restart() { return journal_.restart(); }
 
   uint64_t bytes() const { return journal_.bytes(); }
   uint64_t records() const { return journal_.records(); }
   uint64_t torn_bytes() const { return journal_.torn_bytes(); }
-  /// Batches that opening it has counted.
+  /// Number of batches that open() has counted.
   int64_t recovered() const { return recovered_; }
 
  private:

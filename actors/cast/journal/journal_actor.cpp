@@ -4,7 +4,8 @@
 
 namespace luxodus {
 
-/// False: the node ends, and the call has returned. What the call throws is thrown here.
+/// Returns false if the node is ending; the call has returned all the same. Rethrows the call's
+/// exception.
 bool JournalActor::make_call(std::function<void()> call) {
   working_ = true;
   returned_ = false;

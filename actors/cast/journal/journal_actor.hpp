@@ -1,7 +1,7 @@
-// The actor that keeps what a coordinator counts, so that a run survives its node. It alone touches
-// the keeper of flushes, and has its calls, which wait for a disk, made off the node's thread.
-// While a flush is being kept its leases cannot be fenced; it is counted when it is durable. Thread
-// rule: the node's thread.
+// The actor that journals what a coordinator counts, so that a run survives its node. Only it uses
+// the FlushKeeper, whose calls wait for a disk and run off the node's thread. While a flush is
+// being journaled its leases cannot be fenced; it is counted when it is durable. Thread rule: the
+// node's thread.
 #pragma once
 
 #include <exception>
@@ -12,21 +12,21 @@
 
 namespace luxodus {
 
-/// What has become of a flush that was given to the journal. Of whoever gives it.
+/// Outcome of a flush given to the journal; owned by the giver.
 struct Kept {
   bool done = false;
   Result<void> outcome;
   WaitList waiting;  // woken when it is done
 };
 
-/// Keep this flush. What it refers to lives until `kept->done`, or JournalActor::finish().
+/// Keep this flush. Its data must live until `kept->done`, or JournalActor::finish().
 struct KeepFlush {
   std::span<const int64_t> batches;
   std::span<const std::byte> flush;
   Kept* kept = nullptr;
 };
 
-/// Tidy up: the totals hold all that was kept, and nothing is added to them until `done` is called.
+/// Tidy up: the totals hold everything kept, and nothing is added to them until `done` is called.
 struct TidyJournal {
   Task done;
 };
@@ -35,7 +35,7 @@ class JournalActor final : public Actor<JournalActor, ControlLane<>,
                                         DataLane<Accepts<KeepFlush, 1, WhenFull::wait>,
                                                  Accepts<TidyJournal, 1, WhenFull::reject>>> {
  public:
-  /// Requires: all outlive this; start(), with a fiber for it.
+  /// Requires: all references outlive this; start(), with a fiber for it.
   JournalActor(Scheduler& scheduler, FlushKeeper& keeper, BlockingCalls& calls)
       : Actor(scheduler, "journal"), keeper_(keeper), calls_(calls), whole_(keeper.is_whole()) {}
 
@@ -44,12 +44,12 @@ class JournalActor final : public Actor<JournalActor, ControlLane<>,
   void on(const KeepFlush& keep);
   void on(const TidyJournal& tidy);
 
-  /// Whether all that was counted outlives the node: see FlushKeeper::is_whole.
+  /// Whether everything counted outlives the node: see FlushKeeper::is_whole.
   bool is_whole() const { return whole_ && !busy(); }
-  /// A message waits, or a call is under way.
+  /// Whether a message waits, or a call is in progress.
   bool busy() const { return working_ || waiting() > 0; }
   bool tidying_is_due() const { return !busy() && keeper_.rest_is_due(); }
-  /// Waits until no call is under way: its node ends.
+  /// Waits until no call is in progress, for shutdown.
   void finish() { calls_.finish(); }
 
  private:
@@ -57,11 +57,11 @@ class JournalActor final : public Actor<JournalActor, ControlLane<>,
 
   FlushKeeper& keeper_;
   BlockingCalls& calls_;
-  bool whole_;  // as the keeper said when it was last called
+  bool whole_;  // the keeper's answer after its last call
   bool working_ = false;
-  bool returned_ = false;      // the call that was made
-  std::exception_ptr thrown_;  // by it
-  WaitList returning_;         // this actor's fiber, while a call is under way
+  bool returned_ = false;      // the call has returned
+  std::exception_ptr thrown_;  // by the call
+  WaitList returning_;         // this actor's fiber, while a call is in progress
 };
 
 }  // namespace luxodus

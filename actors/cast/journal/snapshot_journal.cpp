@@ -11,8 +11,8 @@ Result<void> SnapshotJournal::keep(std::span<const int64_t> batches,
   return kept;
 }
 
-/// The snapshot has its name before the journal is cut: between the two, what the journal holds is
-/// known to be in the snapshot.
+/// The snapshot has its final name before the journal is emptied: after a crash between the two,
+/// the journal's content is recognised as part of the snapshot.
 Result<void> SnapshotJournal::cut() {
   if (auto made = make_snapshot_(); !made) return made.problem();
   ++snapshots_;
@@ -21,7 +21,7 @@ Result<void> SnapshotJournal::cut() {
 
 void SnapshotJournal::rest() {
   const auto made = cut();
-  // A disk that stays full would have a snapshot made after every flush.
+  // Otherwise a disk that stays full would cause a snapshot after every flush.
   if (lacks_ || !made) not_before_ = clock_.now() + config_.retry;
   if (made) {
     if (lacks_) log_info("journal=whole text=\"a snapshot has what the journal lacked\"");

@@ -1,7 +1,7 @@
-// A journal that does not grow for ever: when it is long, or lacks a flush that a full disk did not
-// take, the totals of the run become a snapshot, and the journal is cut. Where a snapshot fails it
-// is tried again every so often. Where snapshots lie is for the owner to say: beside the results,
-// or on a simulated disk. Thread rule: as FlushKeeper.
+// A journal of bounded size: when it is long, or lacks a flush because the disk was full, the run's
+// totals are saved as a snapshot, and the journal is emptied. A failed snapshot is retried at
+// intervals. The owner decides where snapshots are: beside the results, or on a simulated disk.
+// Thread rule: that of FlushKeeper.
 #pragma once
 
 #include <functional>
@@ -16,10 +16,11 @@ namespace luxodus {
 class SnapshotJournal final : public FlushKeeper {
  public:
   struct Config {
-    uint64_t max_bytes = 256 << 20;   // then it becomes a snapshot
-    Nanoseconds retry = seconds(10);  // between snapshots for want of room
+    uint64_t max_bytes = 256 << 20;  // beyond it a snapshot is made
+    // between snapshots that fail or are made because the disk is full
+    Nanoseconds retry = seconds(10);
   };
-  /// Puts the totals where they outlive the node, whole or not at all.
+  /// Saves the totals durably and atomically.
   using MakeSnapshot = std::function<Result<void>()>;
 
   /// Requires: `clock` outlives this.
@@ -32,11 +33,11 @@ class SnapshotJournal final : public FlushKeeper {
 
   Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte> flush) override;
   bool is_whole() const override { return !lacks_; }
-  /// Where the journal is long, or lacks a flush that the totals have.
+  /// Whether the journal is long, or lacks a flush that the totals have.
   bool rest_is_due() const override {
     return (lacks_ || journal_->bytes() >= config_.max_bytes) && clock_.now() >= not_before_;
   }
-  /// Makes a snapshot, from which on the journal begins anew.
+  /// Makes a snapshot and empties the journal.
   void rest() override;
 
   const FluxJournal& journal() const { return *journal_; }
@@ -49,7 +50,7 @@ class SnapshotJournal final : public FlushKeeper {
   const std::unique_ptr<FluxJournal> journal_;
   const MakeSnapshot make_snapshot_;
   const Clock& clock_;
-  bool lacks_ = false;  // a flush that the totals have
+  bool lacks_ = false;  // a flush that is in the totals
   Nanoseconds not_before_ = 0;
   uint64_t snapshots_ = 0;
 };

@@ -8,7 +8,7 @@ namespace {
 
 CoordinatorConfig lead_config(const RunSetup& setup, const NodeSetup& node) {
   CoordinatorConfig config = coordinator_config(setup, node);
-  // Who coordinates others lends on to whoever asks.
+  // A coordinator of others leases onwards to any of them, so ranks are not used.
   if (!setup.tree->has_levels()) config.group_ranks = node.group_ranks;
   return config;
 }
@@ -36,8 +36,8 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Loc
                    shell_.network(), shell_.actors());
 }
 
-/// The coordinator ends the run with this error; where it is itself what has failed, its workers
-/// are told in its place, and this node leaves.
+/// Makes the coordinator end the run with this error. If the coordinator itself has failed, tells
+/// its workers in its place; then this node leaves.
 bool ControllerNode::end_run(const Verdict& verdict) {
   if (verdict.actor != ActorName::coordinator) {
     verdict.actor == ActorName::display ? coordinator_.lose_display(verdict.text)
@@ -47,14 +47,14 @@ bool ControllerNode::end_run(const Verdict& verdict) {
   const std::string text = verdict.text.substr(0, limits::text_bytes);
   ActorSystem& actors = shell_.actors();
   for (uint16_t i = 0; i < setup_.graph.workers(); ++i) {
-    const Address worker{{i}, ActorName::tracer};  // some may have joined it
+    const Address worker{{i}, ActorName::tracer};  // some workers may have joined this coordinator
     actors.send(coordinator_.address(), worker, actors.next_id(), RunEnded{0, text});
     actors.send(coordinator_.address(), worker, actors.next_id(), EnterPhase{EndPhase::leave, 0});
   }
   return false;
 }
 
-/// Null where nothing is kept.
+/// Null without a journal.
 JournalActor* ControllerNode::make_journal(FlushKeeper* keeper, const NodeSeams& seams) {
   if (keeper == nullptr) return nullptr;
   disk_calls_ = seams.make_calls(shell_.scheduler());

@@ -1,5 +1,5 @@
-// The controller's node: lends, counts, ends the run; it passes others' messages on where the graph
-// has it do so. Made and run on one thread.
+// The controller's node: it leases batches, counts flushes and ends the run; it forwards messages
+// of others if the graph says so. Thread rule: made and run on one thread.
 #pragma once
 
 #include "actors/cast/coordinator/run_coordinator.hpp"
@@ -10,20 +10,20 @@ namespace luxodus {
 
 class ControllerNode {
  public:
-  /// Goes on from what `run` holds. What is counted is given to `keeper` first. Requires: all
-  /// outlive this.
+  /// Continues from what `run` holds. Every flush is first given to `keeper`. Requires: all
+  /// references outlive this.
   ControllerNode(const RunSetup& setup, const NodeSetup& node, LocalRun& run, const StopRule& stop,
                  const std::atomic<bool>& interrupt, std::function<void(const Progress&)> report,
                  const NodeSeams& seams, FlushKeeper* keeper = nullptr);
 
-  /// From the shell's next turn on this waits for the workers and runs the run, until it has ended
-  /// or `broken` says that it cannot go on.
+  /// From the shell's next turn on waits for the workers and runs the run, until it has ended or
+  /// `broken` returns true.
   void start(std::function<bool()> broken);
 
   NodeShell& shell() { return shell_; }
   const NodeShell& shell() const { return shell_; }
   const RunCoordinator& coordinator() const { return coordinator_; }
-  /// Null where the run is shown elsewhere, or nowhere.
+  /// Null if the run is shown elsewhere or not at all.
   const DisplayActor* display() const { return display_ ? &*display_ : nullptr; }
 
  private:
@@ -36,10 +36,10 @@ class ControllerNode {
   const NodeId self_;
   NodeShell shell_;
   std::unique_ptr<BlockingCalls> disk_calls_;  // of the journal
-  std::optional<JournalActor> journal_;        // where what is counted is kept
+  std::optional<JournalActor> journal_;        // if counted flushes are journaled
   std::unique_ptr<BlockingCalls> calls_;       // of the coordinator
   std::unique_ptr<BlockingCalls> display_calls_;
-  std::optional<DisplayActor> display_;  // where the run is shown here
+  std::optional<DisplayActor> display_;  // if the run is shown here
   RunCoordinator coordinator_;
   std::optional<NodeMetrics> metrics_;
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int64_t particles = 4096;
 
-/// A grey room with a lamp in smoke that scatters forwards: surfaces, layers, phases, splits.
+/// A grey room with a lamp in forward-scattering smoke: surfaces, layers, phases, splits.
 std::shared_ptr<const CompiledScene> tiny_room() {
   auto scene = std::make_shared<SceneDescription>();
   scene->name = "fingerprint";

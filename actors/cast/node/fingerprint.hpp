@@ -1,5 +1,5 @@
 // What two machines must have in common for equal bits: the instruction set that decides how
-// numbers are rounded, and, as a proof, the scores of particles traced on a tiny scene. Pure; any
+// numbers are rounded, and, as a check, the scores of particles traced in a tiny scene. Pure; any
 // thread.
 #pragma once
 
@@ -8,11 +8,11 @@
 
 namespace luxodus {
 
-/// The instruction set this program was built for and the largest that Embree's kernels take here.
+/// The instruction set of this build, and the largest that Embree's kernels use here.
 std::string isa_in_use();
 
-/// Hash of the scores of 4096 particles in a room with smoke; the same wherever bits are. Computed
-/// once a process.
+/// Hash of the scores of 4096 particles in a room with smoke; equal on all machines with equal
+/// bits. Computed once per process.
 uint64_t numeric_fingerprint();
 
 }  // namespace luxodus

@@ -7,9 +7,9 @@
 namespace luxodus {
 
 namespace {
-/// Often enough for a person who watches; a copy takes microseconds.
+/// Often enough for a person; a copy takes microseconds.
 constexpr Nanoseconds publish_every = milliseconds(250);
-/// A batch ends every few tenths of a second; shorter, and a rate of portions jumps.
+/// A batch ends every few tenths of a second; over a shorter span the rate would fluctuate.
 constexpr Nanoseconds rate_span = seconds(1);
 }  // namespace
 
@@ -44,7 +44,7 @@ void NodeMetrics::publish() {
   const Nanoseconds now = scheduler_.clock().now();
   for (const auto& sample : samples_) sample();
   renew_rates(now);
-  shown_->publish();  // somebody reads just now: then next time
+  shown_->publish();  // if a reader holds the lock: next time
   scheduler_.timers().set(now + publish_every, [this] { publish(); });
 }
 

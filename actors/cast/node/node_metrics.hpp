@@ -1,7 +1,6 @@
-// One node's numbers: what its parts count, registered before it starts, and published four times a
-// second by a timer of the node. Numbers that nobody counts are made just before: samples of links,
-// and rates.
-// Thread rule: the node's thread.
+// Metrics of one node: its parts register their counters before it starts, and a timer of the node
+// publishes them four times a second. Derived numbers are computed just before: samples of links,
+// and rates. Thread rule: the node's thread.
 #pragma once
 
 #include <functional>
@@ -17,16 +16,16 @@ namespace luxodus {
 
 class NodeMetrics {
  public:
-  /// Registers what every node has. `names` are those of all nodes, by number; `role` is a word.
+  /// Registers what every node has. `names` are those of all nodes, by number; `role` is one word.
   /// Requires: the shell outlives this; all its actors have been added.
   NodeMetrics(const std::vector<std::string>& names, NodeId self, const std::string& role,
               NodeShell& shell);
 
-  /// Where the node's other parts register theirs. Requires: not started.
+  /// Registry for the node's other parts. Requires: not started.
   Metrics& registry() { return *registered_; }
-  /// A gauge of how fast a counter grows [1/s], over the last second or two.
+  /// A gauge of a counter's growth [1/s], over the last one to two seconds.
   void add_rate(const MetricInfo& info, const uint64_t& counter);
-  /// Is called before each publication.
+  /// `sample` is called before each publication.
   void add_sample(std::function<void()> sample) { samples_.push_back(std::move(sample)); }
 
   /// Begins to publish. Requires: all numbers are registered; `seen` outlives the node.
@@ -45,7 +44,7 @@ class NodeMetrics {
   std::unique_ptr<Metrics> registered_;
   Metrics* shown_ = nullptr;
   std::vector<std::function<void()>> samples_;
-  std::list<Rate> rates_;  // their places are registered
+  std::list<Rate> rates_;  // a list, since the registry refers to its elements
   Nanoseconds mark_;
   uint64_t info_ = 1;
 };

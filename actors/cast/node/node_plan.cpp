@@ -31,7 +31,7 @@ void add_mailbox(MemoryPlan& plan, const char* actor, uint64_t bytes) {
            "the sum of its limits x the largest of its messages");
 }
 
-/// Of a worker that holds one: a part of each worker's flush, and the totals.
+/// For a worker that holds a shard: a part of each worker's flush, and the totals.
 void add_shard(MemoryPlan& plan, const RunSetup& run, size_t shard) {
   const uint64_t bins = bins_of(run, shard);
   const size_t workers = run.graph.workers();
@@ -50,8 +50,8 @@ void add_totals(MemoryPlan& plan, const CompiledScene& scene, uint64_t copies) {
                        scene.groups.size(), sizeof(Total)));
 }
 
-/// Of a node that shows the run: a copy of the totals, and what is made of them. The scene that it
-/// is rendered in is the process's.
+/// For a node that shows the run: a copy of the totals, and memory for its outputs. The scene for
+/// rendering belongs to the process.
 void add_display(MemoryPlan& plan, const RunSetup& run, const NodeSetup& node) {
   if (node.display == nullptr) return;
   add_mailbox(plan, "display", DisplayActor::memory_bytes());
@@ -69,7 +69,7 @@ uint64_t histogram_bytes(const RunSetup& run) {
   return (own + (run.objects != nullptr ? 2 : 0)) * sizeof(Histogram);
 }
 
-/// The most that its readers are given: a second copy of each number and histogram.
+/// An upper bound of the readers' copies: a second copy of each number and histogram.
 void add_metrics(MemoryPlan& plan, const RunSetup& run, uint64_t histograms) {
   if (run.observation == nullptr) return;
   plan.add("published numbers", histograms * sizeof(Histogram) + 512 * sizeof(uint64_t),
@@ -109,7 +109,7 @@ MemoryPlan process_plan(const RunSetup& run) {
   return plan;
 }
 
-/// The first of them, and how many more there are.
+/// The first few, and how many more there are.
 std::string list_of(const std::vector<std::string>& names) {
   constexpr size_t most = 8;
   std::string text;
@@ -123,20 +123,21 @@ std::string list_of(const std::vector<std::string>& names) {
 SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node) {
   SchedulerLimits limits;
   limits.fibers = node.fibers;
-  // And the one that packs flushes. Who coordinates has one that counts them instead.
+  // One more packs flushes. A coordinator has only one, which counts them.
   const bool coordinates = run.coordinates(node.net.self);
   limits.fibers.count = (coordinates ? 1 : node.photons.fibers) + 1;
-  if (run.shards.shard_of(node.net.self) != 0) ++limits.fibers.count;  // that adds parts of others'
+  // adds parts of others' flushes
+  if (run.shards.shard_of(node.net.self) != 0) ++limits.fibers.count;
   limits.stall = node.stall;
   limits.buggify = node.buggify;
-  // Leases, the watch for the end, publishing, and a few to spare.
+  // Leases, the watch for the end, publishing, and a few spare ones.
   limits.timers_beside_fibers = 16 + PartServer::max_timers(node.fetch);
   return limits;
 }
 
 NetConfig controller_net(const RunSetup& run, const NodeSetup& node) {
   NetConfig net = node.net;
-  // That a round begins, and an answer; and what became of flushes.
+  // A round's begin and an answer for each worker; and decisions about flushes.
   const size_t words = 2 * run.tree->children(node.net.self.value).size() +
                        ShardControl::max_decisions * run.shards.owners.size();
   if (words > defaults::outbox_messages) net.outbox_messages = std::max(net.outbox_messages, words);
@@ -188,12 +189,12 @@ MemoryPlan tally_plan(const CompiledScene& scene, const NodeSetup& node) {
   return plan;
 }
 
-/// Flushes of those whom a coordinator leads, and what it counts them into.
+/// Flushes of a coordinator's workers, and the totals into which it counts them.
 void add_coordinator(MemoryPlan& plan, const RunSetup& run, const NodeSetup& node,
                      uint64_t copies) {
   add_mailbox(plan, "coordinator", Coordinator::memory_bytes());
   add_totals(plan, run.scene, copies);
-  const uint64_t bins = bins_of(run, 0);  // others' shards have theirs
+  const uint64_t bins = bins_of(run, 0);  // other shards count their own
   plan.add("flush being counted", bins * (flush_bytes_of_bin + sizeof(TotalsGain::Bin)),
            fmt::format("{} bins x ({} B packed + {} B read)", bins, flush_bytes_of_bin,
                        sizeof(TotalsGain::Bin)));

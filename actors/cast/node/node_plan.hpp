@@ -1,6 +1,6 @@
-// What a node of a setup may take in memory, said before it takes it: one term for each pool, array
-// and budget, with the sentence that derives it. Beside what nodes take stands what their process
-// holds once for all of them, the scene. Pure functions of the setup; any thread.
+// Memory plan of a node: one term for each pool, array and budget, with the sentence that derives
+// it. It is made before anything is allocated, and includes what the process holds once for all its
+// nodes: the scene. Pure functions of the setup; any thread.
 #pragma once
 
 #include <optional>
@@ -13,30 +13,30 @@
 
 namespace luxodus {
 
-/// What a node's scheduler is made with.
+/// Limits of a node's scheduler.
 SchedulerLimits worker_limits(const RunSetup& run, const NodeSetup& node);
 SchedulerLimits controller_limits(const NodeSetup& node);
-/// Their networks: who coordinates may have two words at once for everyone whom it leads.
+/// Network settings: a coordinator may send everyone whom it leads two messages at once.
 NetConfig worker_net(const RunSetup& run, const NodeSetup& node);
 NetConfig controller_net(const RunSetup& run, const NodeSetup& node);
 
-/// The display's, where the node has one.
+/// The display's configuration, for a node that has one.
 DisplayConfig display_config(const NodeSetup& node);
 
 /// The cache of a worker that fetches objects.
 CacheConfig cache_config(const SceneObjects& objects, const NodeSetup& node);
 
-/// What a worker's tally takes: scores of open batches, totals and a flush, or its key
-/// `tally_bytes` where that is less.
+/// Memory of a worker's tally: scores of open batches, totals and a flush, or `tally_bytes` if that
+/// is smaller.
 MemoryPlan tally_plan(const CompiledScene& scene, const NodeSetup& node);
 
 MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node);
 MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node);
 
-/// Why the budgets of this worker do not do: which key, what it needs. Nothing where they do.
+/// Why this worker's budgets are too small: which key, and what it needs. Nothing if they suffice.
 std::optional<std::string> budget_fault(const RunSetup& run, const NodeSetup& node);
 
-/// Tables for people: nodes of equal plans share one. `workers` may be empty.
+/// Tables for people; nodes with equal plans share one. `workers` may be empty.
 std::string plan_text(const RunSetup& run, const std::vector<NodeSetup>& workers,
                       const std::optional<NodeSetup>& controller);
 

@@ -9,8 +9,8 @@
 namespace luxodus {
 
 namespace {
-/// Nodes that look for objects, shards, coordinators or the display in different places do not
-/// belong together.
+/// Hash of the run's identity: nodes that place objects, shards, coordinators or the display
+/// differently must not join one run.
 uint64_t hash_of(const RunSetup& run) {
   const NodeId controller{static_cast<uint16_t>(run.graph.controller())};
   const bool shown_elsewhere = run.display && *run.display != controller;
@@ -31,14 +31,14 @@ uint64_t hash_of(const RunSetup& run) {
   return hash.value();
 }
 
-/// Leases of different coordinators are never taken for each other's, nor those of two lives.
+/// A random first lease, so that leases of different coordinators or incarnations differ.
 uint64_t first_lease_of(Incarnation life) {
   Hasher hash;
   hash.add(life.value);
   return hash.value() >> 1;
 }
 
-/// A flush of ten million bins has a third of it.
+/// A flush of ten million bins takes a third of it.
 constexpr size_t longest_message = 1u << 30;
 }  // namespace
 

@@ -6,10 +6,11 @@ namespace luxodus {
 
 namespace {
 
-/// Between the end of a node's work and its leaving: others' farewells still pass through it.
+/// Time between the end of a node's work and its leaving: messages about others' end still pass
+/// through it.
 constexpr Nanoseconds linger_time = milliseconds(100);
-/// At what may have changed from outside: soon enough for who pressed Ctrl-C, and seldom enough
-/// that a node with nothing to do takes no processor from those that have.
+/// Interval of checks for changes from outside: short for a user who presses Ctrl-C, and long
+/// enough that an idle node takes no CPU time from busy ones.
 constexpr Nanoseconds look_every = milliseconds(50);
 
 }  // namespace
@@ -32,7 +33,7 @@ NodeRoutes routes_of(const ShellConfig& config, const Graph& graph) {
 
 }  // namespace
 
-/// The network as what the scheduler polls and waits in.
+/// The network as the scheduler's event source.
 class NodeShell::Source final : public EventSource {
  public:
   Source(const Clock& clock, Network& network, Transport& transport)
@@ -51,7 +52,7 @@ class NodeShell::Source final : public EventSource {
   Transport& transport_;
 };
 
-/// Brings what the network delivers to the node's actors, and makes its routes.
+/// Delivers messages from the network to the node's actors, and computes its routes.
 class NodeShell::Handler final : public NetHandler {
  public:
   explicit Handler(NodeShell& shell)
@@ -120,7 +121,7 @@ void NodeShell::linger() {
   left_at_ = clock_.now() + linger_time;
 }
 
-/// Who is being met waits for `start_s` if this node leaves without a word.
+/// A neighbour in its handshake would wait for `start_s` if this node left silently.
 bool NodeShell::may_leave() const {
   return clock_.now() >= left_at_ && !network_.meets_neighbour();
 }

@@ -1,6 +1,6 @@
-// A node put together: clock, network, scheduler, the system of its actors, and their supervisor.
-// Which actors those are makes it a worker or the controller. It keeps the routes. One OS thread
-// runs it, or a simulation gives it its turns. Thread rule: made and run on one thread; wake() from
+// The common parts of a node: clock, network, scheduler, its actor system, and their supervisor.
+// Its actors make it a worker or the controller. It computes the routes. It is run by one OS
+// thread, or by a simulation turn by turn. Thread rule: made and run on one thread; wake() from
 // any.
 #pragma once
 
@@ -20,9 +20,9 @@ std::vector<Edge> edges_of(const Graph& graph);
 struct ShellConfig {
   NetConfig net;
   SchedulerLimits scheduler;
-  size_t max_payload_bytes = 1 << 30;       // behind messages that wait in mailboxes
-  Nanoseconds shutdown_phase = seconds(5);  // for each step of its end
-  /// Of the whole graph, where somebody has made them for all nodes of the process.
+  size_t max_payload_bytes = 1 << 30;       // of messages that wait in mailboxes
+  Nanoseconds shutdown_phase = seconds(5);  // for each phase of its shutdown
+  /// Routes of the whole graph, if computed once for all nodes of the process.
   const Routes* routes = nullptr;
 };
 
@@ -40,28 +40,28 @@ class NodeShell {
   Supervisor& supervisor() { return supervisor_; }
   const Supervisor& supervisor() const { return supervisor_; }
 
-  /// An actor of this node, which others reach by its name and its supervisor watches.
-  /// Requires: it outlives the run.
+  /// Adds an actor of this node, which others reach by its name and the supervisor watches.
+  /// Requires: the actor outlives the run.
   template <class NodeActorType>
   void add(ActorName name, NodeActorType& actor) {
     actors_.add(name, actor);
     supervisor_.watch(name, actor);
   }
 
-  /// Says when this node's work is over: then it leaves, fibers end, neighbours are told. `ended`
-  /// is asked after every turn. It leaves as well when its supervisor has a verdict.
-  /// Requires: once, before the first turn.
+  /// `ended` is called after every turn and returns whether this node's work is over: then the node
+  /// leaves, fibers end, and neighbours are told. It also leaves when its supervisor has a verdict.
+  /// Requires: called once, before the first turn.
   void begin(std::function<bool()> ended);
-  /// Has `tell` called for each neighbour that is met while this node is about to leave: nobody
-  /// else may be left who could tell it that the run is over.
+  /// `tell` is called for each neighbour that completes a handshake while this node is about to
+  /// leave: no other node may be left to tell it that the run is over.
   void tell_newcomers(std::function<void(NodeId)> tell) { tell_newcomer_ = std::move(tell); }
   /// One turn, which never waits. Returns when the next is due, if nothing arrives before.
   Nanoseconds turn();
   /// Whether the node has left.
   bool finished() const { return scheduler_.shutdown().finished(); }
 
-  /// All turns and the waits between them. What `ended` asks may change while nothing arrives: it
-  /// is looked at every few milliseconds. Requires: begin().
+  /// Runs all turns and the waits between them. `ended` is called every few milliseconds even if
+  /// nothing arrives. Requires: begin().
   void run();
 
  private:

@@ -1,7 +1,7 @@
-// What people can see of one process: the numbers of all its nodes as one page over HTTP. A node
-// registers its numbers when it starts and publishes copies of them now and then; whoever reads
-// the page reads the copies, so no node ever waits for a reader, and no reader touches a node.
-// Thread rule: start() and the end on one thread; show() and page() on any.
+// Metrics and traces of one process: the numbers of all its nodes as one page over HTTP. A node
+// registers its numbers when it starts and publishes copies of them now and then; readers of the
+// page read the copies, so no node ever waits for a reader. Thread rule: start() and destruction on
+// one thread; show() and page() on any.
 #pragma once
 
 #include <filesystem>
@@ -20,40 +20,40 @@
 namespace luxodus {
 
 namespace limits {
-/// Events that a node's trace keeps, the last ones: 2 MiB of memory, 10 MB of the file.
+/// Events that a node's trace keeps, the newest: 2 MiB of memory, 10 MB in the file.
 inline constexpr size_t trace_events = 65'536;
 }  // namespace limits
 
 struct ObserveOptions {
   std::string address = "127.0.0.1";
-  std::optional<uint16_t> metrics_port;  // 0: any that is free; nothing: no page
-  uint64_t trace_every = 0;              // particles of which one is traced; 0: none
-  /// Names under which the page may be asked for, beside the address.
+  std::optional<uint16_t> metrics_port;  // 0: any free port; nothing: no page
+  uint64_t trace_every = 0;              // interval of sampled particles; 0: none
+  /// Further names that requests for the page may give.
   std::vector<std::string> allowed_hosts = {};
 };
 
 class Observation {
  public:
-  /// Errors: the port is taken, or the address is none of this machine.
+  /// Errors: the port is in use, or the address is not of this machine.
   static Result<std::unique_ptr<Observation>> start(const ObserveOptions& options);
 
-  /// Where the page is served; nothing where it is not.
+  /// Port of the page; nothing if there is none.
   std::optional<uint16_t> port() const;
 
-  /// Shows a node's numbers from now on, in place of those of an earlier node of that name, which
-  /// must have ended. They stay as they were published last when the node ends.
+  /// Shows a node's numbers from now on, in place of an earlier node of that name, which must have
+  /// ended. After the node ends its last published numbers stay.
   Metrics& show(std::unique_ptr<Metrics> node);
 
   std::string page() const;
 
-  /// Where a node tells what becomes of sampled particles; null where none are sampled. Its memory
-  /// is taken here, and kept when the node ends. A later node of that number begins anew.
+  /// The node's trace; null if no particles are sampled. Its memory is allocated here, and kept
+  /// when the node ends. A later node with this number starts a new trace.
   NodeTrace* trace_of(NodeId node);
   bool traces() const { return trace_every_ != 0; }
-  /// Whether nodes have anything to tell it.
+  /// Whether there is a page or a trace.
   bool watches() const { return server_ != nullptr || traces(); }
-  /// Writes what all nodes have told as Chrome's trace format, whole or not at all; nothing where
-  /// nothing is traced. Requires: the nodes have ended. Errors: as write_file_atomically.
+  /// Writes the traces of all nodes in Chrome's trace format, atomically; does nothing without
+  /// traces. Requires: the nodes have ended. Errors: those of write_file_atomically.
   Result<void> write_trace(const std::filesystem::path& file) const;
 
  private:
@@ -65,10 +65,10 @@ class Observation {
   std::vector<std::unique_ptr<Metrics>> nodes_;
   std::vector<std::unique_ptr<NodeTrace>> traces_;
   std::unique_ptr<HttpServer> server_;
-  std::jthread serving_;  // the last: it ends before what it reads
+  std::jthread serving_;  // last member: ends before the data that it reads
 };
 
-/// Memory of this process that is resident, as the system counts it [bytes]; 0 where it does not.
+/// Resident memory of this process, as the system counts it [bytes]; 0 if unknown.
 uint64_t resident_bytes_of_process();
 
 }  // namespace luxodus

@@ -1,6 +1,6 @@
-// From a profile to nodes that live by it: what the plan of residency must know of a run, what each
-// node's setup takes from the plan, and the table that holds what was expected against what came.
-// Pure but for what it is given; any thread.
+// From a reference profile to nodes: the residency plan's inputs from a run, each node's part of
+// the plan, and the table of expected and measured hit rates. Pure but for its output arguments;
+// any thread.
 #pragma once
 
 #include <string>
@@ -12,18 +12,18 @@
 
 namespace luxodus {
 
-/// What the workers may hold.
+/// Memory limits of the workers.
 struct ResidencyBudgets {
   std::vector<size_t> object_bytes;  // by worker
-  double pinned_share = 0;           // of it, at most
+  double pinned_share = 0;           // largest share of it for pinned objects
   uint32_t replicas = 1;
 };
 
-/// The cache of a node with this budget. Where that has no room for so many pins beside one object
-/// and one build, fewer may be pinned.
+/// The cache of a node with this budget. If there is no room for the pinned share beside one object
+/// and one build, the share is reduced.
 CacheConfig object_cache(const SceneObjects& objects, size_t object_bytes, double pinned_share);
 
-/// Links from one node to each node on the shortest way.
+/// Hops from one node to each node.
 std::vector<uint32_t> hops_from(const Graph& graph, Vertex from);
 
 /// The plan for a run's workers. Requires: the profile is of this scene and its objects.
@@ -31,10 +31,10 @@ Residency residency_for(const ReferenceProfile& profile, const CompiledScene& sc
                         const SceneObjects& objects, const Graph& graph,
                         const ResidencyBudgets& budgets);
 
-/// Gives a node its part of the plan; the controller takes whom to lend what.
+/// Applies the plan to a node; the controller gets the workers' group ranks.
 void settle(NodeSetup& node, const Residency& residency);
 
-/// Lines for people: by node, then of all that report, expected beside measured.
+/// Lines for people: by node, then over all reporting nodes, expected beside measured.
 std::vector<std::string> residency_table(const Residency& residency,
                                          const std::vector<WorkerReport>& nodes);
 

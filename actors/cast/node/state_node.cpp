@@ -6,10 +6,10 @@ namespace luxodus {
 
 namespace {
 
-/// Batches of one question: a worker wants as many as take some 40 ms.
+/// Batches of one request: a worker asks for as many as take about 40 ms.
 constexpr uint32_t leases_at_once = 256;
 
-/// Who is out of reach is not waited for: what it had is traced by others at once.
+/// Does not wait for unreachable workers: others trace their batches at once.
 CoordinatorConfig impatient_config(const RunSetup& run, const NodeSetup& node) {
   CoordinatorConfig config = coordinator_config(run, node);
   config.lost = 0;

@@ -1,5 +1,5 @@
-// The node of whoever has states of a scene traced: lends the batches of the work under way. Made
-// and run on one thread.
+// The node that has states of a scene traced: it leases the batches of the current work. Thread
+// rule: made and run on one thread.
 #pragma once
 
 #include "actors/cast/coordinator/state_coordinator.hpp"
@@ -10,11 +10,12 @@ namespace luxodus {
 
 class StateNode {
  public:
-  /// `done` is called when a work is. Requires: all outlive this.
+  /// `done` is called after each work. Requires: all references outlive this.
   StateNode(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams,
             std::function<void()> done);
 
-  /// Each turn of the shell asks `look` first; it ends when its workers have heard of the end.
+  /// Each turn of the shell calls `look` first; the node ends when its workers have heard of the
+  /// end.
   void start(std::function<void()> look);
 
   NodeShell& shell() { return shell_; }

@@ -7,7 +7,7 @@ namespace luxodus {
 
 namespace {
 
-/// Somebody looks at what is traced: it leaves before a person would notice.
+/// A person watches the picture: results leave before the delay is noticeable.
 constexpr Nanoseconds flush_states_every = milliseconds(20);
 
 TracingWorkerConfig tracer_config(const RunSetup& run, const NodeSetup& node, NodeTrace* trace) {
@@ -141,20 +141,20 @@ void Worker::start(std::function<bool()> stop) {
   shell_.scheduler().seal();
 }
 
-/// The run ends with its display. Should the coordinator not hear of it, this node is lost to it,
-/// as it is where what has failed leads others in the controller's stead.
+/// A failed display ends the run. If the coordinator does not hear of it, this node is lost to it,
+/// as if a sub-coordinator had failed.
 bool Worker::end_run(const Verdict& verdict) {
   if (display_ && verdict.actor == ActorName::display) display_->tell_failure(verdict.text);
   return false;
 }
 
-/// A display that has heard of the end stays until all is written.
+/// A display that has heard of the end stays until everything is written.
 bool Worker::may_leave() {
   const bool shows = display_ && !display_->done();
   if (tracer_.ended()) return !shows || tracer_.fault().has_value();
   if (!stop_()) return false;
   if (display_ && display_->is_ending()) return !shows;
-  if (tracer_.over()) return !shows;  // it would but have passed others' word on
+  if (tracer_.over()) return !shows;  // it would only forward messages
   return leaves_early();
 }
 
@@ -164,8 +164,8 @@ bool Worker::leaves_early() {
     leave_at_ = now + node_.shutdown_phase;
     tracer_.drain();
   }
-  // What it holds of the totals goes with it; the way to a display that is to write the results may
-  // lead through it: then it stays until the run ends, if that is soon.
+  // Its shard of the totals would be lost with it, and the route to the display may lead through
+  // it: then it stays until the run ends, if that is soon.
   const bool is_needed = shard_ || (run_.display && *run_.display != node_.controller);
   const bool leaves = (tracer_.drained() && !is_needed) || now >= leave_at_;
   if (leaves) tracer_.say_goodbye();

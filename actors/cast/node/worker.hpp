@@ -1,6 +1,6 @@
-// A worker: a node that traces, or coordinates others that do in the stead of the controller. It is
-// made and run on one thread; what it does for others (routes, objects it holds) it does between
-// the turns of its photon-threads.
+// A worker: a node that traces, or that coordinates others on behalf of the controller. Its
+// services for others (routing, objects that it holds) run between the turns of its photon-threads.
+// Thread rule: made and run on one thread.
 #pragma once
 
 #include "actors/cast/node/fetching_objects.hpp"
@@ -13,29 +13,27 @@ namespace luxodus {
 
 class Worker {
  public:
-  /// Requires: all outlive this.
+  /// Requires: all references outlive this.
   Worker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams);
   ~Worker();
 
-  /// From the shell's next turn on this traces until the controller says that the run has ended; or
-  /// until `stop` says so, when what is at hand is traced and given to the controller before this
-  /// node leaves.
+  /// From the shell's next turn on traces until the controller ends the run; or until `stop`
+  /// returns true: then work at hand is finished and flushed before this node leaves.
   void start(std::function<bool()> stop);
 
-  /// Runs it, or gives it its turns.
+  /// To run it, or to give it its turns.
   NodeShell& shell() { return shell_; }
   const NodeShell& shell() const { return shell_; }
   const TracingWorker& tracer() const { return tracer_; }
-  /// Null where it coordinates, or traces states.
+  /// Null if it coordinates, or traces states.
   const TracingFibers* photons() const { return photons_.get(); }
-  /// Null where it traces.
+  /// Null if it traces.
   const SubCoordinator* coordinator() const { return coordinator_.get(); }
-  /// Null where the node holds everything.
+  /// Null if the node holds the whole scene.
   const FetchingObjects* objects() const { return objects_.get(); }
 
-  /// What it did; a node that left since an actor of it had failed says so (WorkerReport::failed).
-  /// Errors: a controller that never came, was lost, or could not begin.
-  /// Requires: shell().finished().
+  /// Its statistics; WorkerReport::failed is set if it left since one of its actors failed. Errors:
+  /// a controller that never appeared, was lost, or could not begin. Requires: shell().finished().
   Result<WorkerReport> result() const;
 
  private:
@@ -52,17 +50,17 @@ class Worker {
 
   const RunSetup& run_;
   const NodeSetup& node_;
-  NodeTrace* const trace_;  // null where nothing is traced
+  NodeTrace* const trace_;  // null: no tracing
   NodeShell shell_;
-  std::unique_ptr<FetchingObjects> objects_;  // where the node does not hold everything
-  std::unique_ptr<TallyShard> shard_;         // where it holds one of the totals
+  std::unique_ptr<FetchingObjects> objects_;  // if the node does not hold the whole scene
+  std::unique_ptr<TallyShard> shard_;         // if it holds one
   TracingWorker tracer_;
-  // What is done with its leases: one of these.
+  // The executor of its leases: one of these.
   std::unique_ptr<TracingFibers> photons_;
   std::unique_ptr<SubCoordinator> coordinator_;
   std::unique_ptr<StateTracing> states_;
   std::unique_ptr<BlockingCalls> display_calls_;
-  std::optional<DisplayActor> display_;  // where the run is shown here
+  std::optional<DisplayActor> display_;  // if the run is shown here
   std::optional<NodeMetrics> metrics_;
   std::function<bool()> stop_;
   Nanoseconds leave_at_ = never;

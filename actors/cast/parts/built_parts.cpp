@@ -87,7 +87,7 @@ uint64_t built_bytes_beside_cells(const CompiledScene& scene) {
         packed != nullptr
             ? packed->tables[m]
             : BrickTable{!d.extinction.empty(), !d.albedo.empty(), !d.emission.empty(), {}};
-    // Of emission its running sum comes on top, in double.
+    // Emission needs a running sum besides, in double.
     const size_t floats =
         (has.has_extinction ? 1u : 0u) + (has.has_albedo ? 1u : 0u) + (has.has_emission ? 3u : 0u);
     bytes += brick_count(d) * (sizeof(BuiltBrick) + floats * limits::brick_cells * sizeof(float));

@@ -1,6 +1,6 @@
-// What a node makes of the parts of a scene: search structures over cells, bricks of smoke data,
-// tiles of pictures. Thread rule: a builder belongs to one node; what is built may be used and let
-// go on any thread.
+// Objects built from the parts of a scene: search structures over cells, bricks of smoke data,
+// tiles of pictures. Thread rule: a builder belongs to one node; built objects may be used and
+// released on any thread.
 #pragma once
 
 #include <memory>
@@ -13,15 +13,15 @@
 
 namespace luxodus {
 
-/// Where search structures are built, one at a time, so that what each takes can be told.
+/// Embree device for builds, one at a time, so that the memory of each can be measured.
 struct BuildDevice {
   /// Parts are small and come one by one: threads woken for each would mostly spin.
   EmbreeDevice embree{BuildThreads::calling};
-  /// Held while one is built, and while one is let go of by a node that shared it.
+  /// Held during a build, and while a node releases a shared object.
   std::mutex measuring;
 };
 
-/// A cell's records and the search structure over them.
+/// A cell's geometry and the search structure over it.
 class BuiltCell final : public BuiltObject {
  public:
   BuiltCell(std::shared_ptr<BuildDevice> device, GeometryCell cell);
@@ -62,13 +62,12 @@ class BuiltTile final : public BuiltObject {
 /// Builds on the node's own thread, between the turns of its fibers.
 class PartBuilder final : public ObjectBuilder {
  public:
-  /// `device`: one of several builders of a thread, or its own. Requires: scene and parts outlive
-  /// this.
+  /// `device` may be shared by builders of one thread. Requires: scene and parts outlive this.
   PartBuilder(const CompiledScene& scene, const SceneParts& parts,
               std::shared_ptr<BuildDevice> device = std::make_shared<BuildDevice>());
   void build(uint32_t object, SharedBytes bytes, Client& client) override;
 
-  /// The part of these bytes. Errors: bytes that are not of this part.
+  /// Builds a part. Errors: bytes that are not of this part.
   Result<std::shared_ptr<const BuiltObject>> built(uint32_t object,
                                                    std::span<const std::byte> bytes);
 
@@ -78,18 +77,18 @@ class PartBuilder final : public ObjectBuilder {
   const std::shared_ptr<BuildDevice> device_;
 };
 
-/// What a cell takes once it is built [bytes], from its bytes on the wire, for a plan before
-/// anything is built: of a triangle 64 travel; 64 and Embree's 111 stay (`luxodus_bench memory`).
+/// Estimated memory of a built cell [bytes] from its serialised size, for planning: a triangle has
+/// 64 bytes on the wire, and 64 plus Embree's 111 in memory (`luxodus_bench memory`).
 constexpr uint64_t built_bytes_of(uint64_t wire_bytes) {
-  constexpr uint64_t of_any_cell = 2048;  // an empty search structure, and what refers to it
+  constexpr uint64_t of_any_cell = 2048;  // an empty search structure, and its owner
   return of_any_cell + wire_bytes * 3;
 }
-/// And the most while it is built: Embree's builder takes up to 1.6 times the result.
+/// Peak memory during the build: Embree's builder takes up to 1.6 times the result.
 constexpr uint64_t peak_build_bytes_of(uint64_t wire_bytes) {
   return built_bytes_of(wire_bytes) * 8 / 5;
 }
-/// The same of any part. A brick of emission alone has 4 bytes a cell on the wire and 12 when its
-/// running sum is made; a tile's texels stay as they came.
+/// The estimate for any part. A brick of emission alone has 4 bytes a cell on the wire and 12 with
+/// its running sum; a tile's texels stay as they are.
 constexpr uint64_t built_bytes_of(ScenePart::Kind kind, uint64_t wire_bytes) {
   if (kind == ScenePart::Kind::tile) return wire_bytes + sizeof(BuiltTile);
   if (kind == ScenePart::Kind::brick) return wire_bytes * 3 + sizeof(BuiltBrick);
@@ -100,8 +99,8 @@ constexpr uint64_t peak_build_bytes_of(ScenePart::Kind kind, uint64_t wire_bytes
                                        : built_bytes_of(kind, wire_bytes);
 }
 
-/// What all data sets and pictures of a scene take once they are built, clear bricks included: the
-/// same of a scene and of its pack, and known without a look at the data.
+/// Memory of all built data sets and pictures of a scene, clear bricks included: equal for a scene
+/// and its pack, and known without reading the data.
 uint64_t built_bytes_beside_cells(const CompiledScene& scene);
 
 }  // namespace luxodus

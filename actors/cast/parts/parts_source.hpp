@@ -1,5 +1,5 @@
-// What tracers ask for, in terms of the objects of a run: cells, bricks and tiles by their numbers.
-// `Parts` says where a built object is: in a cache, in memory, or made when it is asked for.
+// The tracers' view of a run's objects: cells, bricks and tiles by their numbers. `Parts` provides
+// built objects: from a cache, from memory, or built on request. Thread rule: that of `Parts`.
 #pragma once
 
 #include "actors/cast/parts/built_parts.hpp"
@@ -8,7 +8,7 @@
 namespace luxodus {
 
 /// Requires: Parts has `const BuiltObject* part(uint32_t object, std::span<const Candidate> next)`,
-/// null where it cannot be had.
+/// which returns null if the object is unobtainable.
 template <class Parts>
 class PartsSource : public ObjectSource {
  public:

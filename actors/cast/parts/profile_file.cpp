@@ -31,7 +31,7 @@ std::string name_of_group(size_t group) {
   return "group " + std::to_string(group);
 }
 
-/// Reads blocks of known sizes; notes the first that is not as it must be.
+/// Reads blocks of known sizes; records the first invalid one.
 class Blocks {
  public:
   Blocks(const FluxFile& file, size_t objects) : file_(file), objects_(objects) {}
@@ -47,7 +47,7 @@ class Blocks {
   }
   ReferenceCounts take_counts(const std::string& name) {
     ReferenceCounts counts;
-    // More would be no number of particles, and is none that is divided by.
+    // Bounds the number, and keeps it usable as a divisor.
     counts.units = static_cast<int64_t>(take(name + "/units", 1)[0] & 0xFFFFFFFFFFFF);
     counts.references = take(name + "/references", objects_);
     counts.visits = take(name + "/visits", objects_);

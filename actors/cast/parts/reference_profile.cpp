@@ -14,12 +14,12 @@ namespace luxodus {
 
 namespace {
 
-/// Of a group that has next to no share: enough to see where its light goes.
+/// For a group with hardly any share: enough to see which parts its light visits.
 constexpr int64_t min_particles = 256;
-/// Added to the seed: the profile's histories are none of the run's.
+/// Added to the seed: the profile's histories differ from the run's.
 constexpr uint64_t other_histories = 0x9E3779B97F4A7C15;
 
-/// All parts of a scene for one tracer, built when they are asked for; counts who asks.
+/// All parts of a scene for one tracer, built on request; counts the requests.
 class CountingParts final : public PartsSource<CountingParts> {
  public:
   CountingParts(const CompiledScene& scene, const SceneObjects& objects, uint64_t budget_bytes)
@@ -31,7 +31,7 @@ class CountingParts final : public PartsSource<CountingParts> {
         visited_in_(built_.size(), 0),
         bytes_of_(built_.size(), 0) {}
 
-  /// What is asked for from now on counts here.
+  /// Counts requests into `counts` from now on.
   void count_into(ReferenceCounts& counts) {
     counts_ = &counts;
     counts.references.assign(built_.size(), 0);
@@ -86,9 +86,9 @@ class CountingParts final : public PartsSource<CountingParts> {
   PartBuilder builder_;
   uint64_t budget_bytes_;
   std::vector<Built> built_;
-  std::list<uint32_t> used_;  // the one unused for the longest first
+  std::list<uint32_t> used_;  // the least recently used first
   uint64_t resident_bytes_ = 0;
-  std::vector<uint64_t> visited_in_;  // by object: the last history that asked for it
+  std::vector<uint64_t> visited_in_;  // by object: the last history that requested it
   uint64_t history_ = 0;
   ReferenceCounts* counts_ = nullptr;
   std::vector<uint64_t> bytes_of_;

@@ -9,10 +9,10 @@ namespace luxodus {
 
 namespace {
 
-/// A node may hold so many times what an even deal would give it.
+/// Limit of a node's held bytes, relative to an even distribution.
 constexpr double holding_slack = 1.5;
 
-/// What an average batch of one group refers to, times the group's share of batches.
+/// References of an average batch of one group, times the group's share of batches.
 struct GroupDemand {
   std::vector<double> references, visits;  // by object
   double work = 0;                         // all references
@@ -57,7 +57,7 @@ double likeness(const GroupDemand& a, const GroupDemand& b) {
   return lengths > 0 ? dot(a, b) / lengths : 0;
 }
 
-/// Groups in a row, the one with the most work first, each beside the likest that is left.
+/// Orders groups, the one with the most work first, then each next to the most similar one left.
 std::vector<size_t> row_of(const std::vector<GroupDemand>& groups) {
   std::vector<size_t> left(groups.size()), row;
   std::iota(left.begin(), left.end(), size_t{0});
@@ -74,7 +74,7 @@ std::vector<size_t> row_of(const std::vector<GroupDemand>& groups) {
   return row;
 }
 
-/// The place of each group on a line from 0 to 1.
+/// The interval of each group on a line from 0 to 1.
 std::vector<Interval> line_of(const std::vector<GroupDemand>& groups) {
   double all = 0;
   for (const GroupDemand& group : groups) all += group.work;
@@ -104,7 +104,7 @@ std::vector<uint32_t> ranks_of(const Interval& segment, const std::vector<Interv
   return ranks;
 }
 
-/// [node][group]: the part of a group's work that lies in the node's segment.
+/// [node][group]: the share of a group's work in the node's segment.
 using Parts = std::vector<std::vector<double>>;
 
 Parts parts_of(const std::vector<Interval>& line, size_t nodes) {
@@ -152,7 +152,7 @@ double references_of(std::span<const ObjectDemand> objects) {
   return all;
 }
 
-/// Pinned objects are always found, the others as often as the rest of the cache allows.
+/// Pinned objects are always hits, the others at the rate of the rest of the cache.
 double expected_hits(const NodeResidency& node, std::vector<ObjectDemand> objects, uint64_t bytes) {
   const double all = references_of(objects);
   for (const uint32_t c : node.pins) objects[c] = {};
@@ -161,7 +161,7 @@ double expected_hits(const NodeResidency& node, std::vector<ObjectDemand> object
   return all - rest + rest * lru_hit_rate(objects, left);
 }
 
-/// Deals objects to holders.
+/// Assigns objects to holders.
 class Dealer {
  public:
   Dealer(const ResidencyRequest& request, const std::vector<GroupDemand>& groups,
@@ -178,7 +178,7 @@ class Dealer {
   std::vector<NodeId> deal(size_t object) {
     std::vector<NodeId> holders;
     while (holders.size() < request_.replicas) {
-      // A further replica is placed as if there were the first only.
+      // A further replica is placed as if only the first existed.
       const Costs& costs = holders.empty() ? alone_ : beside(holders.front().value);
       const size_t node = best(object, costs, holders);
       held_[node] += request_.wire_bytes[object];
@@ -189,7 +189,7 @@ class Dealer {
   const std::vector<uint64_t>& held() const { return held_; }
 
  private:
-  /// [group][node]: hops of all that the group's work asks for, if the node holds it.
+  /// [group][node]: hops of all references of the group's work if the node holds the object.
   using Costs = std::vector<std::vector<double>>;
 
   Costs costs_beside(std::optional<size_t> other) const {
@@ -242,7 +242,7 @@ class Dealer {
   std::vector<Costs> beside_;
 };
 
-/// Objects that cost most on the way choose first.
+/// Order of assignment: the objects with the highest cost choose first.
 std::vector<uint32_t> dealing_order(const ResidencyRequest& r,
                                     const std::vector<GroupDemand>& groups) {
   std::vector<double> traffic(r.wire_bytes.size(), 0);
@@ -261,8 +261,8 @@ std::vector<uint32_t> dealing_order(const ResidencyRequest& r,
 double lru_hit_rate(std::span<const ObjectDemand> objects, uint64_t bytes) {
   const double references = references_of(objects);
   if (references <= 0) return 1;
-  // Bytes of the objects that come within a time: those that are resident, where it is the
-  // characteristic one. It grows with the time, so halving finds it.
+  // Expected bytes of objects requested within a time; for the characteristic time this is the size
+  // of the cache. It grows with the time, so bisection finds it.
   const auto resident_after = [&](double time) {
     double sum = 0;
     for (const ObjectDemand& object : objects)

@@ -77,7 +77,7 @@ const BuiltObject* CachedObjects::part(uint32_t object, std::span<const Candidat
 }
 
 const BuiltObject* CachedObjects::wait_for(uint32_t object, std::span<const Candidate> next) {
-  // What this fiber traces is worth nothing any more, until it has been asked: no more waiting.
+  // This fiber's particles will be discarded, which it has not noticed yet: no more waiting.
   const FiberId self = fibers_.current()->id();
   if (std::find(refused_.begin(), refused_.end(), self) != refused_.end()) return nullptr;
   ahead_.clear();

@@ -1,6 +1,6 @@
-// The parts of a run's scene as bytes with a name (cells, bricks, tiles), who holds them, and what
-// tracers ask for them. Bytes are made once a process; a node's store answers for those that it
-// holds. Thread rule: SceneObjects is immutable once made; the rest belongs to one node.
+// The parts of a run's scene as bytes with ids (cells, bricks, tiles), their holders, and the
+// tracers' access to them. Bytes are made once per process; a node's store serves those that it
+// holds. Thread rule: SceneObjects is immutable after start; the rest belongs to one node.
 #pragma once
 
 #include <memory>
@@ -19,24 +19,25 @@ namespace luxodus {
 class SceneObjects {
  public:
   /// Object i is part i of the scene. It is held by the i-th of `holders`, modulo their number, and
-  /// by `replicas - 1` that follow. Requires: 1 <= replicas <= holders.size(); `scene` outlives
+  /// by the `replicas - 1` that follow. Requires: 1 <= replicas <= holders.size(); `scene` outlives
   /// this.
   SceneObjects(const CompiledScene& scene, std::span<const NodeId> holders, uint32_t replicas);
 
-  /// Other holders, by object. Requires: before any node is made; 1 to limits::holders of each.
+  /// Sets other holders, by object. Requires: before any node is made; 1 to limits::holders for
+  /// each.
   void place(const std::vector<std::vector<NodeId>>& holders);
 
   const SceneParts& parts() const { return parts_; }
   const std::vector<ObjectPlace>& places() const { return places_; }
-  /// Of a packed scene out of its file, and empty where that holds no objects.
+  /// For a packed scene read from its file; empty if that contains no objects.
   SharedBytes bytes(uint32_t object) const;
-  /// "scene part 7 of tower.luxpack"; of a scene that is not packed its file.
+  /// "scene part 7 of tower.luxpack"; for a scene that is not packed, its file.
   std::string stored_name(uint32_t object) const;
   uint64_t wire_bytes() const { return wire_bytes_; }
   uint64_t largest_wire_bytes() const { return largest_wire_bytes_; }
-  /// The most that any of them is expected to take while it is built.
+  /// Largest expected peak memory of a build.
   uint64_t largest_build_bytes() const { return largest_build_bytes_; }
-  /// What an object is expected to take once it is built.
+  /// Expected memory of a built object.
   uint64_t built_bytes(uint32_t object) const {
     return built_bytes_of(parts_[object].kind, places_[object].wire_bytes);
   }
@@ -54,11 +55,10 @@ class SceneObjects {
   uint64_t largest_build_bytes_ = 0;
 };
 
-/// What all parts of a scene are expected to take once they are built [bytes]: what budgets are
-/// shares of.
+/// Expected memory of all built parts of a scene [bytes]: budgets are given as shares of it.
 uint64_t built_bytes_of(const CompiledScene& scene);
 
-/// The objects that one node holds for all; beyond them what its process has stored, for itself.
+/// The objects that one node holds for all; for itself also what its process has stored.
 class HeldObjects final : public ObjectStore {
  public:
   HeldObjects(const SceneObjects& objects, NodeId self);
@@ -68,14 +68,14 @@ class HeldObjects final : public ObjectStore {
 
  private:
   const SceneObjects& objects_;
-  std::vector<std::pair<ObjectId, uint32_t>> held_;  // ascending by name
+  std::vector<std::pair<ObjectId, uint32_t>> held_;  // sorted by id
 };
 
-/// What a node's tracers ask for parts of the scene.
+/// The tracers' access to parts of the scene, through a node's cache.
 class CachedObjects final : public PartsSource<CachedObjects> {
  public:
-  /// Where a cell is waited for, `prefetch` of those that the ray enters next are asked for as
-  /// well. `trace` is told of waits of sampled particles; null: of none.
+  /// When a fiber waits for a cell, `prefetch` of the cells that the ray enters next are requested
+  /// as well. `trace` records waits of sampled particles; null: none.
   CachedObjects(const SceneParts& parts, ObjectCache& cache, const Fibers& fibers,
                 size_t prefetch = 0, NodeTrace* trace = nullptr)
       : PartsSource(parts), cache_(cache), fibers_(fibers), prefetch_(prefetch), trace_(trace) {}
@@ -92,8 +92,8 @@ class CachedObjects final : public PartsSource<CachedObjects> {
   const Fibers& fibers_;
   const size_t prefetch_;
   NodeTrace* const trace_;
-  std::vector<uint32_t> ahead_;   // to be asked for ahead of time
-  std::vector<FiberId> refused_;  // fibers that did not get what they asked for
+  std::vector<uint32_t> ahead_;   // to be prefetched
+  std::vector<FiberId> refused_;  // fibers whose request failed
 };
 
 }  // namespace luxodus

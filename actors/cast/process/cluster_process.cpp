@@ -26,9 +26,9 @@ namespace luxodus {
 
 namespace {
 
-/// A cell is at most this part of a budget, so that a cache holds several and a build finds room.
+/// A cell is at most this fraction of a budget, so that a cache holds several and a build fits.
 constexpr uint64_t cells_of_a_budget = 16;
-/// Of a budget, what a plan may pin.
+/// Largest share of a budget that a plan may pin.
 constexpr double pinned_share = CacheConfig{}.pinned_share;
 
 Incarnation fresh_incarnation() {
@@ -74,12 +74,12 @@ Result<Graph> graph_in_file(const ClusterConfig& cluster) {
                      cluster.topology.file.string());
 }
 
-/// Tells runs of one file apart, and is the same when a controller is started again.
+/// Identifies a run of a file; unchanged when its controller restarts.
 std::string where_results_go(const ClusterConfig& cluster) {
   const std::string text =
       cluster.view.live ? "a live view of " + cluster.file.string()
                         : std::filesystem::absolute(cluster.run.out).lexically_normal().string();
-  // The end of a long path tells it apart. Two such names have room in a refusal.
+  // The end of a long path is distinctive. A refusal has room for two such names.
   constexpr size_t max_chars = 180;
   return text.size() <= max_chars ? text : "..." + text.substr(text.size() - max_chars);
 }
@@ -155,7 +155,7 @@ Result<void> ClusterProcessRun::load_keys(const std::vector<NodeId>& nodes) {
 
 namespace {
 
-/// Assessments are of frames of simulations, all else lies between them.
+/// Assessments use frames of simulations; everything else interpolates between them.
 Result<std::shared_ptr<const SceneDescription>> described(const ClusterConfig& cluster) {
   const FireFrames frames = cluster.assess.asked ? FireFrames::nearest : FireFrames::between;
   OpenedScene opened = open_scene(cluster.run.scene, cluster.run.at_s, {}, frames);
@@ -203,7 +203,7 @@ Result<void> ClusterProcessRun::load_scene() {
 Result<void> ClusterProcessRun::check_stored_objects() const {
   const PackedScene* packed = run_->scene().description->packed.get();
   if (!fetches_ || packed == nullptr) return {};
-  // A host may have the skeleton alone: its workers say stores = false, its controller need not.
+  // A host may have only the skeleton: its workers say stores = false, its controller need not.
   const bool here = std::any_of(nodes_.begin(), nodes_.end(), [&](NodeId node) {
     return node == cluster_.controller() ? !packed->file->object(0).empty()
                                          : cluster_.node(node).stores;
@@ -281,7 +281,8 @@ ObserveOptions ClusterProcessRun::observe_options() const {
   options.address = cluster_.observe.metrics_address;
   const ClusterProcess& process = cluster_.processes[cluster_.node(nodes_.front()).process];
   if (process.metrics_port != 0) options.metrics_port = process.metrics_port;
-  // As `luxodus status` asks for it; behind address translation the host itself knows another.
+  // As `luxodus status` requests it; behind address translation the host itself has another
+  // address.
   options.allowed_hosts = {cluster_.hosts[process.host].address};
   if (!cluster_.observe.allow_host.empty())
     options.allowed_hosts.push_back(cluster_.observe.allow_host);
@@ -318,7 +319,7 @@ void ClusterProcessRun::make_room() const {
   if (journal_) journal_->make_room();
 }
 
-/// Beside the results, under the name of the process: several may share the folder.
+/// Beside the results, named after the process: several may share the folder.
 Result<void> ClusterProcessRun::write_trace(const Observation& seen) const {
   if (!seen.traces()) return {};
   std::error_code failed;
@@ -331,7 +332,7 @@ Result<void> ClusterProcessRun::write_trace(const Observation& seen) const {
       cluster_.run.out / ("trace-" + file_name_of(cluster_.processes[process].name) + ".json")));
 }
 
-/// What the nodes of the process are made from; they refer to it.
+/// Setup of the process's nodes, which refer to it.
 struct ClusterProcessRun::Prepared {
   Prepared(const LocalRun& run, const Graph& graph, uint32_t fan_out,
            std::span<const Admitted> admitted, const SceneIndex* index)
@@ -380,7 +381,7 @@ Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_
     auto planned = planned_residency(setup);
     if (!planned) return planned.problem();
     out->residency = std::move(planned).value();
-    // Where some workers have no storage, the plan's holders would be asked in vain.
+    // If some workers have no storage, the plan's holders might not have the objects.
     if (out->residency && holders_of(cluster_).size() == cluster_.workers())
       out->objects->place(out->residency->holders);
   }
@@ -410,7 +411,7 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
   auto prepared = prepare_nodes(display);
   if (!prepared) return prepared.problem();
   Prepared& nodes = *prepared.value();
-  // With shards the journal would hold a part of the totals.
+  // With shards the journal would hold only a part of the totals.
   if (nodes.controller && nodes.setup.shards.owners.empty())
     if (auto ok = open_journal(nodes.clock); !ok) return ok.problem();
   WorkerThreads threads(nodes.setup, nodes.machine, nodes.workers,

@@ -18,7 +18,7 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
                                 const std::atomic<bool>& interrupt,
                                 const std::function<void(const Progress&)>& report,
                                 NodesReport* counted) {
-  // All nodes have their objects of one file: what is damaged in it, none of them can give.
+  // All nodes read objects from one file: if an object is damaged in it, no node can deliver it.
   if (!run.resident())
     if (auto whole = check_objects(run.scene()); !whole) return whole.problem();
   const SystemClock clock;

@@ -1,6 +1,6 @@
 // A run on several nodes of this process: workers and a controller, each a thread, linked over
-// inproc as a minimum-path graph. The flux is that of the plain loop, bit for bit.
-// Thread rule: called from one thread, which becomes the controller's.
+// inproc as a minimum-path graph. The flux equals that of the plain loop, bit for bit. Thread rule:
+// called from one thread, which becomes the controller's.
 #pragma once
 
 #include "actors/cast/process/node_threads.hpp"
@@ -9,11 +9,11 @@
 
 namespace luxodus {
 
-/// What each node of such a run may take, in tables. Errors: as run_on_nodes.
+/// Memory plans of the nodes of such a run, as tables. Errors: those of run_on_nodes.
 Result<std::string> plan_on_nodes(const LocalRun& run, const NodesOptions& options);
 
-/// Traces until `stop` holds, into `run`'s totals; as LocalRun::run.
-/// Errors: no graph of so few links, no sockets left, a budget that is too small.
+/// Traces until `stop` holds, into `run`'s totals, like LocalRun::run. Errors: no graph with so few
+/// links, no sockets left, a budget that is too small.
 Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, const StopRule& stop,
                                 const std::atomic<bool>& interrupt,
                                 const std::function<void(const Progress&)>& report,
@@ -30,7 +30,7 @@ class RunNodes final : public RunExecutor {
   const NodesOptions options_;
 };
 
-/// So many, with usual options. Null for 0 nodes: then the threads of a run trace it.
+/// This many nodes, with default options. Null for 0 nodes: then the threads of a run trace it.
 std::unique_ptr<RunExecutor> nodes_that_trace(int nodes);
 
 }  // namespace luxodus

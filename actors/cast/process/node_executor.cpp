@@ -9,7 +9,7 @@ namespace luxodus {
 
 namespace {
 
-/// How often whoever traces asks whether it shall stop.
+/// How often trace() checks whether it should stop.
 constexpr std::chrono::milliseconds stop_every(5);
 
 }  // namespace
@@ -36,9 +36,9 @@ NodeExecutor::~NodeExecutor() {
   thread_.join();
 }
 
-// ---- whoever traces -----------------------------------------------------------------------------
+// ---- the caller's thread -----------------------------------------------------------------------
 
-/// Its thread looks by itself as well: where the handoff is full, a little later.
+/// The node's thread also checks by itself: if the handoff is full, a little later.
 void NodeExecutor::ask_node() {
   if (shell_ != nullptr) (void)shell_->scheduler().handoff().give([this] { do_what_is_wished(); });
 }
@@ -61,7 +61,7 @@ void NodeExecutor::trace(Work& work) {
   stops_ = false;
   tracing_ = true;
   ask_node();
-  // Where its node is gone, nothing comes any more; whoever traces hears so elsewhere (fault).
+  // If its node is gone, nothing more arrives; the caller learns that from fault().
   while (tracing_ && !(shell_ == nullptr && work.stopped())) {
     changed_.wait_for(lock, stop_every);
     if (!tracing_ || stops_ || !work.stopped()) continue;
@@ -91,7 +91,7 @@ void NodeExecutor::begun(std::optional<Problem> fault) {
   changed_.notify_all();
 }
 
-/// While it is open, whoever traces reaches the node.
+/// While it exists, the caller's thread can reach the node.
 class NodeExecutor::Door {
  public:
   Door(NodeExecutor& executor, StateNode& node) : executor_(executor) {
@@ -134,7 +134,7 @@ void NodeExecutor::work(const Machine& machine) {
   }
 }
 
-/// In the order in which it may have been wished.
+/// In the order in which requests may have been made.
 void NodeExecutor::do_what_is_wished() {
   const std::lock_guard lock(mutex_);
   if (coordinator_ == nullptr) return;

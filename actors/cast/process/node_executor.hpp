@@ -1,7 +1,6 @@
-// Nodes as an executor: the coordinator of states that change (StateCoordinator) on a node of its
-// own, with a thread of its own, and the door between that thread and whoever gives it work.
-// Thread rule: start(), Executor's functions and the end on the thread of whoever traces; fault()
-// and counters() from any.
+// Nodes as an executor: the coordinator of changing states (StateCoordinator) on a node with a
+// thread of its own, and the link between that thread and the caller's. Thread rule: start(),
+// Executor's functions and destruction on the caller's thread; fault() and counters() from any.
 #pragma once
 
 #include <condition_variable>
@@ -17,8 +16,8 @@ namespace luxodus {
 
 class NodeExecutor final : public Executor {
  public:
-  /// Listens, and waits for workers from now on. Requires: all outlive this.
-  /// Errors: as join_links.
+  /// Listens, and waits for workers from now on. Requires: all references outlive this. Errors:
+  /// those of join_links.
   static Result<std::unique_ptr<NodeExecutor>> start(const RunSetup& run, const Machine& machine,
                                                      const NodeSetup& node);
   /// Tells the workers that it ends.
@@ -26,21 +25,21 @@ class NodeExecutor final : public Executor {
   NodeExecutor(const NodeExecutor&) = delete;
   NodeExecutor& operator=(const NodeExecutor&) = delete;
 
-  /// Has workers make it.
+  /// Makes workers build the state in advance.
   void foresee(const StateObject& state) override;
   void enter(const StateObject& state) override;
-  /// Waits for workers where none is there; see Executor.
+  /// Waits for workers if there are none; see Executor.
   void trace(Work& work) override;
 
-  /// Why none of its workers will ever come: they work for another run.
+  /// Why none of its workers will ever join: they work for another run.
   std::optional<Problem> fault() const;
 
   struct Counters {
     uint64_t leases = 0;
     uint64_t fenced = 0;
     uint64_t refused = 0;  // flushes
-    size_t workers = 0;    // that are there
-    uint64_t stuck = 0;    // looks in a row at which no worker could enter the state
+    size_t workers = 0;    // present
+    uint64_t stuck = 0;    // consecutive looks at which no worker could enter the state
   };
   Counters counters() const;
 
@@ -55,18 +54,18 @@ class NodeExecutor final : public Executor {
 
   const RunSetup& run_;
   const NodeSetup& node_;
-  // Guards all below.
-  mutable std::recursive_mutex mutex_;  // a work may be done as it is begun
+  // Guards everything below.
+  mutable std::recursive_mutex mutex_;  // a work may be done while it is begun
   std::condition_variable_any changed_;
   std::optional<StateObject> foreseen_, entered_;  // and not passed on yet
   Work* next_ = nullptr;                           // to be begun
   bool stops_ = false;
-  bool tracing_ = false;  // a work is being traced, or is to be
+  bool tracing_ = false;  // a work is in progress, or requested
   bool ends_ = false;
   bool started_ = false;
   Counters counters_;
   std::optional<Problem> fault_;
-  // Of the node's thread.
+  // Owned by the node's thread.
   NodeShell* shell_ = nullptr;
   StateCoordinator* coordinator_ = nullptr;
   std::thread thread_;

@@ -11,7 +11,7 @@ namespace luxodus {
 
 namespace {
 
-/// Of the calling thread [ns]: what others do on the machine is not in it.
+/// CPU time of the calling thread [ns], without that of other processes.
 uint64_t processor_ns() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

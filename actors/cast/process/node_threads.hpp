@@ -1,5 +1,5 @@
-// The real nodes of a process: each a thread, by the machine's clock and sockets.
-// Thread rule: called from one thread, which becomes the controller's.
+// The real nodes of a process: each a thread, with the machine's clock and sockets. Thread rule:
+// called from one thread, which becomes the controller's.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace luxodus {
 
-/// What the nodes of a run did.
+/// Statistics of a run's nodes.
 struct NodesReport {
   uint64_t flushes = 0;
   uint64_t flush_bytes = 0;
@@ -23,31 +23,31 @@ struct NodesReport {
   uint64_t leases_fenced = 0;
   uint64_t frames = 0;
   ShardControl::Counters shards;
-  WorkerReport workers;  // of all together
+  WorkerReport workers;  // over all workers
   std::vector<WorkerReport> by_node;
-  std::optional<Residency> residency;  // where there was a plan
-  Nanoseconds took = 0;                // from all workers' being there to the last batch's count
-  uint64_t longest_turn = 0;           // [ns] of processor time, of the controller
+  std::optional<Residency> residency;  // if there was a plan
+  Nanoseconds took = 0;                // from the arrival of all workers to the last batch's count
+  uint64_t longest_turn = 0;           // [ns] of CPU time, of the controller
 };
 
-/// Runs a worker on the calling thread until it has left; see Worker::start.
-/// Errors: as join_links and Worker::result.
+/// Runs a worker on the calling thread until it has left; see Worker::start. Errors: those of
+/// join_links and Worker::result.
 Result<WorkerReport> run_worker(const RunSetup& run, const Machine& machine, const NodeSetup& node,
                                 const std::function<bool()>& stop);
-/// As it, with photon-threads that trace by another loop than the program's own.
+/// Like run_worker, with another tracing loop than the program's own.
 Result<WorkerReport> run_worker_by(const TracerMaker& make_tracer, const RunSetup& run,
                                    const Machine& machine, const NodeSetup& node,
                                    const std::function<bool()>& stop);
 
-/// As run_worker.
+/// The type of run_worker.
 using RunWorker =
     std::function<Result<WorkerReport>(const RunSetup& run, const Machine& machine,
                                        const NodeSetup& node, const std::function<bool()>& stop)>;
 
-/// Threads that run workers, each in one, and the first problem of any of them.
+/// Threads that run one worker each, and the first problem of any of them.
 class WorkerThreads {
  public:
-  /// Starts them. Requires: `run`, `machine` and `nodes` outlive this; `stop` may be called by all.
+  /// Starts them. Requires: `run`, `machine` and `nodes` outlive this; all threads may call `stop`.
   WorkerThreads(const RunSetup& run, const Machine& machine, const std::vector<NodeSetup>& nodes,
                 const std::function<bool()>& stop, const RunWorker& run_one = run_worker);
   ~WorkerThreads() { join(); }
@@ -58,8 +58,8 @@ class WorkerThreads {
   bool failed() const { return failed_; }
   /// Requires: failed().
   Problem problem() const;
-  /// Why a worker left before the end: one of its actors had failed. The others go on without it.
-  /// Requires: joined.
+  /// Why a worker left before the end: one of its actors had failed. The others continue without
+  /// it. Requires: joined.
   const std::optional<Problem>& lost() const { return lost_; }
   /// Requires: joined.
   WorkerReport report() const;
@@ -78,8 +78,8 @@ class WorkerThreads {
   std::vector<std::thread> threads_;
 };
 
-/// Runs the controller's node on the calling thread until the run has ended or `broken` says that
-/// it cannot go on. Errors: as join_links.
+/// Runs the controller's node on the calling thread until the run has ended or `broken` returns
+/// true. Errors: those of join_links.
 Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
                                   const NodeSetup& node, LocalRun& run, const StopRule& stop,
                                   const std::atomic<bool>& interrupt,

@@ -16,7 +16,7 @@ namespace luxodus {
 
 namespace {
 
-/// For a node that has no neighbours.
+/// For a node without neighbours.
 class NoTransport final : public Transport {
  public:
   explicit NoTransport(const Clock& clock) : quiet_(clock) {}
@@ -103,8 +103,7 @@ void work(const RunSetup& run, const NodeSetup& node, const Clock& clock,
   shell.run();
 }
 
-/// Why rows could not have a part of the scene: all of its file is looked through, now that it has
-/// failed.
+/// Why rows could not get a part of the scene: checks the whole file, after a failure.
 std::string unread_parts(const CompiledScene& scene) {
   if (const auto whole = check_objects(scene); !whole) return whole.problem().text();
   const auto& packed = scene.description->packed;
@@ -127,7 +126,7 @@ void OutOfCoreParallelFor::run(int64_t rows, const MakeWorker& make,
   node.net.incarnation = {1};
   node.net.nodes = 1;
   node.photons.fibers = config_.fibers;
-  node.stall = seconds(10);  // no beats wait for a row, which may be long
+  node.stall = seconds(10);  // no heartbeats wait for a row, which may take long
   node.object_bytes = config_.object_bytes / static_cast<size_t>(config_.threads);
   Rows shared(rows, finished);
   std::string wrong;

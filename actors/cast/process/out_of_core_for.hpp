@@ -1,6 +1,7 @@
-// Rows of work where a scene does not fit into memory: every thread is a node without links, whose
-// fibers wait for objects out of the scene's own storage, a pack or the process's memory. So what
-// is computed of a result (direct light, pictures) reaches the scene's parts as tracing does.
+// A parallel_for for scenes that do not fit into memory: every thread is a node without links,
+// whose fibers wait for objects from the scene's own storage, a pack or the process's memory. So
+// computations on a result (direct light, pictures) access the scene's parts as tracing does.
+// Thread rule: run() from one thread at a time.
 #pragma once
 
 #include <memory>
@@ -12,9 +13,9 @@ namespace luxodus {
 
 struct OutOfCoreConfig {
   int threads = 1;
-  size_t fibers = 256;      // of a thread
+  size_t fibers = 256;      // per thread
   size_t object_bytes = 0;  // for built objects, of all threads together
-  bool sharing = true;      // an object that several threads have is built once
+  bool sharing = true;      // an object used by several threads is built once
 };
 
 class OutOfCoreParallelFor final : public ParallelFor {

@@ -38,7 +38,7 @@ Endpoints endpoints_of(NodeId node, const std::string& sockets) {
   return {name, name + "-bulk"};
 }
 
-/// `common` is what all nodes' networks have in common.
+/// `common` is the network configuration that all nodes share.
 NodeSetup setup_of(const RunSetup& run, const NetConfig& common, NodeId self,
                    const NodesOptions& options, uint64_t run_id) {
   NodeSetup node;
@@ -67,7 +67,7 @@ NodeSetup setup_of(const RunSetup& run, const NetConfig& common, NodeId self,
   return node;
 }
 
-/// Particles of the profile: the share of those that the run will trace, as far as that is known.
+/// Particles of the profile: a share of those that the run will trace, as far as that is known.
 int64_t profile_size(const LocalRun& run, const StopRule& stop, const NodesOptions& options) {
   const int64_t left =
       stop.particles ? std::max<int64_t>(0, *stop.particles - run.particles()) : usual_particles;
@@ -155,7 +155,7 @@ PlannedNodes::PlannedNodes(const LocalRun& run, const NodesOptions& options, Gra
   if (options.sharing) setup_.shared = &shared_.emplace(objects_->places().size());
 }
 
-/// Who traces, holds and keeps what: before the nodes are set up, whose handshake covers it.
+/// Made before the nodes are set up, since their handshake covers the plan.
 Result<void> PlannedNodes::plan_residency(const LocalRun& run, const NodesOptions& options,
                                           const StopRule& stop) {
   if (!objects_) return {};

@@ -12,7 +12,7 @@ Result<std::unique_ptr<ProcessExecutor>> ProcessExecutor::start(
   std::unique_ptr<ProcessExecutor> out(new ProcessExecutor(std::move(scene)));
   ProcessExecutor& self = *out;
   const auto run_id = static_cast<uint64_t>(self.clock_.now()) | 1;
-  NodesOptions one_level = options;  // nobody coordinates for another there
+  NodesOptions one_level = options;  // without sub-coordinators
   one_level.fan_out = static_cast<uint32_t>(std::max(options.nodes, 2));
   auto nodes = PlannedNodes::make(self.run_, one_level, {}, run_id);
   if (!nodes) return nodes.problem();

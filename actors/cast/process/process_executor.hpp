@@ -1,5 +1,5 @@
-// Nodes of this process that trace what is given to them, a thread each, linked as a minimum-path
-// graph. Thread rule: made and ended on one thread.
+// Nodes of this process that trace whatever work they are given, one thread each, linked as a
+// minimum-path graph. Thread rule: made and destroyed on one thread.
 #pragma once
 
 #include <atomic>
@@ -13,12 +13,12 @@ namespace luxodus {
 
 class ProcessExecutor {
  public:
-  /// Nodes whose states are made by `states` of what is entered. `scene`: what their handshake is
-  /// about. Requires: `states` outlives this. Errors: no graph of so few links; no sockets left.
+  /// Starts nodes whose states are built by `states`. `scene` is compared in their handshake.
+  /// Requires: `states` outlives this. Errors: no graph with so few links; no sockets left.
   static Result<std::unique_ptr<ProcessExecutor>> start(std::shared_ptr<const CompiledScene> scene,
                                                         StateMaker& states,
                                                         const NodesOptions& options);
-  /// Requires: executor() is used no more.
+  /// Requires: executor() is no longer used.
   ~ProcessExecutor();
 
   const std::shared_ptr<NodeExecutor>& executor() const { return executor_; }

@@ -12,9 +12,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Room that is kept for a flux file at most [bytes]: large ones are mostly zeros, which take none.
+/// Most disk space reserved for a flux file [bytes]: large ones are mostly zeros, which take none.
 constexpr uint64_t max_room = uint64_t{256} << 20;
-/// And for what is written beside it.
+/// Reserved in addition for the other results.
 constexpr uint64_t room_beside = uint64_t{4} << 20;
 
 }  // namespace
@@ -24,7 +24,8 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& con
   std::error_code failed;
   const bool made_folder = fs::create_directories(config.folder, failed);
   RunJournalConfig real = config;
-  // Files are written into no folder that is a link; what the run's file names may be one.
+  // Files are not written into a folder that is a link; the folder named in the run's file may be
+  // one.
   if (!failed) real.folder = fs::canonical(config.folder, failed);
   if (failed)
     return problem_in(config.folder,
@@ -74,7 +75,7 @@ void RunJournal::leave_no_trace() {
 }
 
 void RunJournal::remove() {
-  std::error_code ignored;  // what is left is taken for what it is: a run that has ended
+  std::error_code ignored;  // whatever remains is recognised as a finished run's
   fs::remove(journal(), ignored);
   fs::remove(snapshot(), ignored);
 }

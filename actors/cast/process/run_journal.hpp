@@ -1,16 +1,16 @@
-// The journal of a cluster's controller, beside the results: what it has counted survives it. When
-// the node is started again, as by the same command, it goes on from there; when the results are
-// written, the journal goes. A journal that has grown long becomes a snapshot of the totals.
+// The journal of a cluster's controller, beside the results, so that counted work survives a crash.
+// A restarted node, by the same command, continues from it; once the results are written, it is
+// removed. A long journal is replaced by a snapshot of the totals.
 //
-//   OUT/run.snapshot   a flux file, where there was reason for one
-//   OUT/run.journal    flushes since
+//   OUT/run.snapshot   a flux file, if one was necessary
+//   OUT/run.journal    flushes since then
 //
-// A disk that fills up: room for a flux file is kept from the start. A flush that the journal
-// cannot take is in the totals; so the room is given back, the totals become a snapshot, and the
-// journal is cut, which gives room again. Where even that fails it is tried again every so often.
-// At the end the room is given back for the results.
+// Full disks: space for a flux file is reserved from the start. A flush that the journal cannot
+// take is in the totals; so the reserve is released, the totals are saved as a snapshot, and the
+// journal is emptied, which frees space again. If even that fails it is retried at intervals. At
+// the end the reserve is released for the results.
 //
-// Thread rule: as FlushKeeper.
+// Thread rule: that of FlushKeeper.
 #pragma once
 
 #include <filesystem>
@@ -25,16 +25,17 @@ namespace luxodus {
 
 struct RunJournalConfig {
   std::filesystem::path folder;
-  uint64_t max_bytes = 256 << 20;   // then it becomes a snapshot
-  Nanoseconds retry = seconds(10);  // between snapshots for want of room
+  uint64_t max_bytes = 256 << 20;  // beyond it a snapshot is made
+  // between snapshots that fail or are made because the disk is full
+  Nanoseconds retry = seconds(10);
   NodeId self;
   FaultPlan faults;
 };
 
 class RunJournal final : public FlushKeeper {
  public:
-  /// Makes the folder if need be, and counts into `run` what is kept there. Requires: all outlive
-  /// this. Errors: as FileStore::open, load_flux and FluxJournal::open.
+  /// Creates the folder if necessary, and counts the journaled work into `run`. Requires: all
+  /// references outlive this. Errors: those of FileStore::open, load_flux and FluxJournal::open.
   static Result<std::unique_ptr<RunJournal>> open(const RunJournalConfig& config, LocalRun& run,
                                                   const Clock& clock);
 
@@ -43,17 +44,17 @@ class RunJournal final : public FlushKeeper {
   }
   bool is_whole() const override { return journal_->is_whole(); }
   bool rest_is_due() const override { return journal_->rest_is_due(); }
-  /// In the room that was kept for it.
+  /// Uses the reserved space.
   void rest() override;
-  /// Gives back the room that was kept: now the results are written.
+  /// Releases the reserved space, so that the results can be written.
   void make_room() { room_.release(); }
 
-  /// Batches that were counted before this began.
+  /// Batches that were counted before this process started.
   int64_t recovered() const { return recovered_; }
   uint64_t torn_bytes() const { return journal_->journal().torn_bytes(); }
-  /// The results hold everything: removes both files.
+  /// Removes both files, once the results hold everything.
   void remove();
-  /// The run did not begin: where nothing was counted, nothing is left.
+  /// The run did not begin: if nothing was counted, removes all files.
   void leave_no_trace();
 
  private:

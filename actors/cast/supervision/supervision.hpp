@@ -1,5 +1,5 @@
-// What becomes of a node and its run when one of its actors fails: a table, which the table in
-// actors/README.md repeats. Plain values; any thread.
+// Supervision rules: what happens to a node and its run when one of its actors fails. The table in
+// actors/README.md repeats them. Plain values; any thread.
 #pragma once
 
 #include <array>
@@ -11,16 +11,16 @@
 
 namespace luxodus {
 
-/// What is done about a failure that does not end by the actor's beginning anew.
+/// What happens after a failure that is not followed by a restart.
 enum class Remedy : uint8_t {
-  leave,    // its node leaves; for the others it is lost
+  leave,    // its node leaves, and is lost for the others
   end_run,  // the run ends with an error
 };
 
 struct SupervisionRule {
   ActorName actor;
-  size_t restarts = 0;     // it begins anew so often
-  Nanoseconds within = 0;  // in a time of this length
+  size_t restarts = 0;     // at most this many restarts
+  Nanoseconds within = 0;  // within this time
   Remedy then = Remedy::leave;
 };
 
@@ -33,10 +33,10 @@ inline constexpr std::array supervision_rules{
     SupervisionRule{ActorName::display, 5, seconds(60), Remedy::end_run},
 };
 
-/// Null where there is none: such an actor is supervised by nobody.
+/// Null if there is none: such an actor is not supervised.
 const SupervisionRule* supervision_rule(ActorName actor);
 
-/// For people: "tally shard".
+/// The actor's name for people: "tally shard".
 std::string spoken_name(ActorName actor);
 
 /// For people, as in the table: "never", "5 times in 60 s"; "its node leaves", "the run ends".

@@ -60,11 +60,11 @@ void Supervisor::on_failure(Supervised& actor, const std::exception_ptr& why) no
   const auto at = std::find_if(watched_.begin(), watched_.end(),
                                [&](const Watched& watched) { return watched.actor == &actor; });
   const auto name = static_cast<ActorName>(at - watched_.begin());
-  // Each fails once until it is handled, so there is room for all.
+  // An actor fails only once until that is handled, so there is room for all.
   LUX_CHECK(offer(ActorFailed{name, what_of(why)}) == Offered::taken, "a failure for each actor");
 }
 
-/// Whether it has not begun anew too often of late; then it does once more.
+/// Whether it has been restarted few enough times recently; then counts another restart.
 bool Supervisor::may_restart(Watched& watched, const SupervisionRule& rule) {
   const Nanoseconds now = scheduler().clock().now();
   while (!watched.restarted.empty() && now - watched.restarted.front() >= rule.within)
@@ -108,7 +108,7 @@ void Supervisor::add_metrics(Metrics& metrics) const {
   }
 }
 
-// ---- rehearsals ---------------------------------------------------------------------------------
+// ---- fault injection ----------------------------------------------------------------------------
 
 void Supervisor::rehearse(const FaultPlan& plan) {
   began_ = scheduler().clock().now();

@@ -1,6 +1,6 @@
-// The supervisor of a node: it knows the actors that live there, and does what supervision.hpp says
-// when one of them fails. A failure comes to its mailbox as a message; until it has been handled
-// the actor does nothing. Thread rule: the node's thread.
+// The supervisor of a node: it watches the node's actors, and applies supervision.hpp when one of
+// them fails. A failure arrives in its mailbox as a message; until it is handled the actor does
+// nothing. Thread rule: the node's thread.
 #pragma once
 
 #include <deque>
@@ -16,7 +16,7 @@
 
 namespace luxodus {
 
-/// Of an actor to its supervisor: this has left one of its handlers.
+/// Sent to the supervisor: this exception has left one of the actor's handlers.
 struct ActorFailed {
   ActorName actor = ActorName::none;
   std::string what;
@@ -37,18 +37,18 @@ class Supervisor final
  public:
   Supervisor(Scheduler& scheduler, NodeId self) : Actor(scheduler, "supervisor"), self_(self) {}
 
-  /// Requires: there is a rule for it; one actor of a name; it outlives the use of this.
+  /// Requires: there is a rule for it; one actor of a name; the actor outlives this.
   void watch(ActorName name, Supervised& actor);
-  /// Has actors of this node fail when the plan says so.
+  /// Makes actors of this node fail by the plan.
   void rehearse(const FaultPlan& plan);
-  /// Is called where a run shall end, before there is a verdict; true: the run ends by itself, and
-  /// the node stays for that.
+  /// `end` is called when the run shall end, before there is a verdict. True: the run ends by
+  /// itself, and the node stays for that.
   void end_runs_by(std::function<bool(const Verdict&)> end) { end_run_ = std::move(end); }
 
   void on_failure(Supervised& actor, const std::exception_ptr& why) noexcept override;
   void on(const ActorFailed& failed);
 
-  /// The node is to leave.
+  /// Set when the node must leave.
   const std::optional<Verdict>& verdict() const { return verdict_; }
 
   struct Counters {
@@ -62,7 +62,7 @@ class Supervisor final
  private:
   struct Watched {
     Supervised* actor = nullptr;
-    std::deque<Nanoseconds> restarted;  // when, within the rule's time
+    std::deque<Nanoseconds> restarted;  // times of restarts within the rule's period
   };
   bool may_restart(Watched& watched, const SupervisionRule& rule);
   void fail_on_purpose();

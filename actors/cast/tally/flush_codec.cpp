@@ -14,19 +14,19 @@ namespace {
 constexpr int fast = 1;  // of zstd's levels: a flush is packed on the node's own thread
 constexpr size_t longest_number = 19;  // bytes of 128 bits, seven at a time
 constexpr size_t numbers_of_ledger = 11;
-/// A flush is packed to a fraction of what it may be; one that is longer takes memory as it grows.
+/// Most address space reserved: a flush is packed to a fraction of its bound; a longer one grows.
 constexpr uint64_t max_reserved_bytes = 64 << 20;
 constexpr uint64_t reserved_step_bins = 16384;
 
-/// Between two rests: about half a millisecond of either.
+/// Work between two yields: about half a millisecond each.
 constexpr size_t unpacked_between_rests = 512 << 10;
 constexpr int64_t bins_between_rests = 16384;
-/// Added at once: each may be the first on its page, which the system then finds memory for, 1 to
-/// 3 us in a virtual machine.
+/// Bins added between two yields: each may be the first on its page, which the system then has to
+/// provide, in 1 to 3 us in a virtual machine.
 constexpr size_t bins_added_between_rests = 1024;
 constexpr const char* abandoned = "the reading of the flush was broken off";
 
-/// Numbers on their way out: written where they fit for sure, then taken over at once.
+/// A write buffer for numbers with room for their longest form, flushed at once.
 class Numbers {
  public:
   void put(UInt128 v) {
@@ -67,7 +67,7 @@ void put_ledger(std::vector<std::byte>& out, const EnergyBalance& l) {
   numbers.move_to(out);
 }
 
-/// Reads numbers; once one is missing or too long, all that follow are 0 and ok() is false.
+/// Reads numbers; after a missing or too long one, all further ones are 0 and ok() is false.
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes)
@@ -112,7 +112,7 @@ class Reader {
   bool ok_ = true;
 };
 
-/// The group's next bin, which lies at or behind `after_last`; false where there is none.
+/// The group's next bin, at or after `after_last`; false if there is none.
 bool next_bin(Reader& in, uint64_t& after_last, const BinRange& bins, TotalsGain::Bin& bin) {
   const uint64_t distance = in.get_up_to(static_cast<uint64_t>(bins.end - bins.first));
   if (distance == 0) return false;
@@ -133,7 +133,7 @@ EnergyBalance get_ledger(Reader& in) {
   return l;
 }
 
-/// The most bytes that totals of this size can take.
+/// Upper bound of the bytes that totals of this size can take.
 size_t max_bytes(int groups, int64_t totals) {
   const auto bins = static_cast<size_t>(groups) * static_cast<size_t>(totals);
   return (bins * 3 + static_cast<size_t>(groups) * 2 + numbers_of_ledger + 1) * longest_number;
@@ -152,7 +152,7 @@ FlushEncoder::FlushEncoder(int groups, int64_t totals) : zstd_(std::make_unique<
   packed_.reserve(std::min(bins * flush_bytes_of_bin, max_reserved_bytes) + ZSTD_CStreamOutSize());
   raw_.reserve(reserved_step_bins * flush_bytes_of_bin);
   raw_.push_back({});
-  pack(false);  // zstd takes its own memory with the first byte of a stream
+  pack(false);  // zstd allocates with the first byte of a stream
 }
 
 uint64_t FlushEncoder::batches_of_group() {
@@ -191,7 +191,8 @@ void FlushEncoder::begin_bins(const BinRange& bins, FlushCounts counts) {
 
 FlushEncoder::~FlushEncoder() = default;
 
-/// A group is its batches, its bins (each the distance from the last one plus one), and a zero.
+/// A group is its batches, its bins (each as the distance from the previous one plus one), and a
+/// zero.
 bool FlushEncoder::step(int64_t bins) {
   Numbers numbers;
   next_ = std::min(totals_->next_bin(group_, next_), bins_.end);
@@ -234,7 +235,7 @@ size_t FlushEncoder::memory_bytes() const {
   return longest_raw_ + longest_packed_ + ZSTD_sizeof_CCtx(zstd_->context.get());
 }
 
-/// A stream's length is never known beforehand, so that zstd finds its memory as it left it.
+/// Never announces a stream's length, so that zstd reuses its memory.
 void FlushEncoder::pack(bool last) {
   ZSTD_inBuffer in{raw_.data(), raw_.size(), 0};
   while (in.pos < in.size) pack_more(in, ZSTD_e_continue);
@@ -245,7 +246,7 @@ void FlushEncoder::pack(bool last) {
   raw_.clear();
 }
 
-/// What zstd still has to write.
+/// Appends what zstd has yet to write.
 size_t FlushEncoder::pack_more(ZSTD_inBuffer_s& in, int how) {
   const size_t before = packed_.size();
   packed_.resize(before + ZSTD_CStreamOutSize());
@@ -267,12 +268,13 @@ FlushReader::FlushReader() : zstd_(std::make_unique<Zstd>()), piece_(ZSTD_DStrea
 FlushReader::~FlushReader() = default;
 FlushReader::FlushReader(FlushReader&&) noexcept = default;
 
-/// Unpacks frames whose size nobody has told, up to `most` bytes.
+/// Unpacks frames of unknown size, up to `most` bytes.
 Result<void> FlushReader::unpack(std::span<const std::byte> bytes, size_t most,
                                  const FlushRest& rest, std::vector<std::byte>& out) {
   ZSTD_DCtx_reset(zstd_->context.get(), ZSTD_reset_session_only);
   out.clear();
-  out.reserve(std::min<size_t>(most, max_reserved_bytes));  // address space, which memory follows
+  // address space, which becomes memory on use
+  out.reserve(std::min<size_t>(most, max_reserved_bytes));
   ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
   size_t hint = 1;
   size_t rest_at = unpacked_between_rests;

@@ -10,7 +10,7 @@
 namespace luxodus {
 
 namespace {
-/// Until a question is sent again: a shard may be adding a part of a million bins, in turns.
+/// Time to a retry: a shard may be adding a part of a million bins, in turns.
 constexpr Nanoseconds patience = seconds(1);
 }  // namespace
 
@@ -49,7 +49,7 @@ bool ShardControl::settled() const {
                      [](const Shard& shard) { return shard.decisions.empty(); });
 }
 
-/// The first ones, of each node the first.
+/// Sends the next decisions, for each node the oldest.
 void ShardControl::ask_decisions(Shard& shard) {
   std::set<NodeId> nodes;
   for (Decision& decision : shard.decisions) {
@@ -131,7 +131,7 @@ void ShardControl::end_gather() {
 
 // ---- questions and answers --------------------------------------------------------------------
 
-/// What finds no room is put again at the next look.
+/// If there is no room, look() tries again.
 void ShardControl::put(const Shard& shard, Question& question, const Message& message) {
   const SendOutcome outcome =
       sender_.send(self_, {shard.owner, ActorName::tally_shard}, question.id, message);
@@ -152,7 +152,7 @@ void ShardControl::look() {
   }
 }
 
-/// Null where it is nobody's, or nothing more is wanted of any.
+/// Null if the node owns no shard, or no answers are wanted any more.
 ShardControl::Shard* ShardControl::shard_of(NodeId owner) {
   const size_t index = plan_.shard_of(owner);
   return index == 0 || fault_ ? nullptr : &shards_[index - 1];

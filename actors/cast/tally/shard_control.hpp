@@ -1,12 +1,11 @@
-// The controller's side of shards: tells every shard what became of each flush, until the shard has
-// answered, and brings the shards' totals here when they are asked for. Decisions about one node
-// go to a shard one by one and in their order; those about different nodes, a few at a time: a slow
-// network would else make a round wait for as many answers as nodes flush. A shard whose range is
-// no longer whole is a fault, and ends the run.
-// What if a message is lost, late, or comes twice? A decision or a question is sent again until its
-// answer comes, under the same id; an answer to anything that is not asked is old, and passed over;
-// the shard does not do twice what it is told twice. A piece of the totals is added when its answer
-// comes for the first time, since the next question then has another id.
+// The coordinator's side of shards: sends every shard the decision about each flush until the shard
+// acknowledges it, and gathers the shards' totals on request. Decisions about one node are sent to
+// a shard one at a time and in order; those about different nodes, several at a time: otherwise on
+// a slow network a round would wait for as many round trips as nodes flush. A shard whose range is
+// no longer complete is a fault, and ends the run.
+// Lost, late and duplicate messages: a decision or a question is retried under the same id until
+// its answer arrives; other answers are old and ignored; the shard's handling is idempotent. A
+// piece of the totals is added only once, since the next question has another id.
 // Thread rule: the node's thread. Answers add totals, so they may not be handled on a fiber.
 #pragma once
 
@@ -25,36 +24,36 @@ namespace luxodus {
 
 class ShardControl {
  public:
-  /// `self` is the coordinator that it asks for. No question waits for longer than `lost` before it
-  /// is asked again. Requires: all that is referred to outlives it.
+  /// `self` is the coordinator on whose behalf it asks. Retries are at most `lost` apart. Requires:
+  /// all references outlive this.
   ShardControl(const ShardPlan& plan, Totals& totals, const Clock& clock, Nanoseconds lost,
                Sender& sender, Address self);
 
-  /// Decisions under way to a shard at once: half of what its mailbox holds.
+  /// Decisions in flight to a shard: half of its mailbox.
   static constexpr size_t max_decisions = 32;
-  /// Shards beside the controller's.
+  /// Shards other than the controller's.
   size_t others() const { return shards_.size(); }
   bool owns(NodeId worker) const { return plan_.shard_of(worker) != 0; }
 
-  /// Has every shard add its slice of a flush, or drop it. Requires: as many hashes as others().
+  /// Makes every shard add its slice of a flush, or drop it. Requires: as many hashes as others().
   void take(const MessageId& flush, const std::vector<uint64_t>& slice_hashes);
   void refuse(const MessageId& flush);
-  /// Of a worker's life that has ended no flush is taken any more.
+  /// No further flush of a worker's ended incarnation will be counted.
   void end_life(NodeId worker, Incarnation life);
-  /// Every shard has answered every decision.
+  /// Whether every shard has acknowledged every decision.
   bool settled() const;
 
-  /// Adds the shards' totals to those here, and calls `done` from on() or from here.
-  /// Requires: settled(), no gather under way; nothing is taken before it is done.
+  /// Adds the shards' totals to those here, and calls `done`, possibly within this call. Requires:
+  /// settled(), no gather in progress; no flush is taken until it is done.
   void gather(std::function<void()> done);
   bool gathering() const { return static_cast<bool>(done_); }
 
   /// Answers of shards.
   void on(const Letter<FlushSettled>& settled);
   void on(const Letter<TotalsTold>& told);
-  /// Sends again what got no answer in time.
+  /// Retries what got no answer in time.
   void look();
-  /// Why the totals cannot be had any more.
+  /// Why the totals are lost.
   const std::optional<std::string>& fault() const { return fault_; }
 
   struct Counters {
@@ -66,10 +65,10 @@ class ShardControl {
   const Counters& counters() const { return counters_; }
 
  private:
-  /// Something that a shard is to answer.
+  /// A message that a shard is to answer.
   struct Question {
     MessageId id;
-    RetryTimer timer;  // open once the network has taken the question
+    RetryTimer timer;  // runs once the network has taken the question
   };
   struct Decision {
     FlushDecided what;
@@ -78,10 +77,10 @@ class ShardControl {
   struct Shard {
     NodeId owner;
     BinRange bins;
-    std::deque<Decision> decisions;           // not answered yet
-    RetryTimer decision_timer, totals_timer;  // with what the last answers took
+    std::deque<Decision> decisions;           // not acknowledged yet
+    RetryTimer decision_timer, totals_timer;  // adapted to the last answers
     std::optional<Question> asked;            // for totals, in a gather
-    int64_t next = 0;                         // bin to ask for
+    int64_t next = 0;                         // first bin of the next question
   };
 
   void decide(size_t shard, const FlushDecided& decision);
@@ -101,7 +100,7 @@ class ShardControl {
   const Address self_;
   std::vector<Shard> shards_;
   uint32_t gather_ = 0;
-  std::function<void()> done_;  // of the gather under way
+  std::function<void()> done_;  // of the current gather
   std::optional<std::string> fault_;
   Counters counters_;
 };

@@ -1,7 +1,6 @@
-// Who holds which totals of a run: bins in as many contiguous ranges as there are shards, of all
-// source groups alike. The first is the controller's, who decides about flushes; the others are
-// held by workers. With one shard the controller holds everything.
-// Plain values; the same at every node.
+// Shards of a run's totals: as many contiguous ranges of bins as there are shards, for all source
+// groups. The controller, which decides about flushes, holds the first; workers hold the others.
+// With one shard the controller holds everything. Plain values, equal at every node; any thread.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +12,7 @@
 namespace luxodus {
 
 struct ShardPlan {
-  std::vector<NodeId> owners;  // of shards 1, 2, ...: different workers
+  std::vector<NodeId> owners;  // of shards 1, 2, ...: distinct workers
 
   size_t shards() const { return owners.size() + 1; }
   /// Requires: shard < shards().
@@ -25,7 +24,7 @@ struct ShardPlan {
     };
     return {place(shard), place(shard + 1)};
   }
-  /// The shard that a worker holds; 0 where it holds none.
+  /// The shard that a worker holds; 0 if it holds none.
   size_t shard_of(NodeId worker) const {
     for (size_t i = 0; i < owners.size(); ++i)
       if (owners[i] == worker) return i + 1;

@@ -33,7 +33,7 @@ void SliceSender::send(const MessageId& flush, Nanoseconds now) {
   timer_.forget();
   for (Slice& slice : slices_) {
     const auto& bytes = slice.encoder->bytes();
-    slice.hash = XXH3_64bits(bytes.data(), bytes.size());  // as Hasher, in no memory
+    slice.hash = XXH3_64bits(bytes.data(), bytes.size());  // as Hasher, but without allocating
     slice.held = false;
   }
   put_missing(now);
@@ -72,7 +72,7 @@ void SliceSender::ask_now(Nanoseconds now) {
   if (!placed()) put_missing(now);
 }
 
-/// The slice that this shard was asked to hold; null for answers about an earlier flush.
+/// The slice that this shard should hold; null for answers about an earlier flush.
 SliceSender::Slice* SliceSender::asked(NodeId owner, const MessageId& flush) {
   const size_t shard = plan_.shard_of(owner);
   return shard == 0 || flush != flush_ ? nullptr : &slices_[shard - 1];

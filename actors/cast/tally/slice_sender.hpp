@@ -1,6 +1,6 @@
-// A worker's side of shards: sends every shard its slice of a flush, again and again until the
-// slice is held there. Only then the flush itself goes to the controller, who so decides about
-// slices that are all in place. With one shard there is nothing to send. Thread rule: the node's
+// A worker's side of shards: sends every shard its slice of a flush, with retries, until the shard
+// holds it. Only then does the flush itself go to the controller, so that it decides only about
+// slices that are in place. With one shard there is nothing to send. Thread rule: the node's
 // thread.
 #pragma once
 
@@ -17,33 +17,33 @@ namespace luxodus {
 
 class SliceSender {
  public:
-  /// `self` is the tracer that it sends for. Requires: `sender` outlives it.
+  /// `self` is the tracer on whose behalf it sends. Requires: `sender` outlives this.
   SliceSender(const ShardPlan& plan, Sender& sender, Address self, const RetryTimer& timer)
       : plan_(plan), sender_(sender), self_(self), timer_(timer) {}
 
-  /// Takes room for flushes of so many source groups and totals each.
+  /// Reserves room for flushes of this many source groups and totals each.
   void make_room(int groups, int64_t totals);
 
   size_t slices() const { return plan_.owners.size(); }
-  /// The bins that stay with the flush; those of a slice.
+  /// Bins that stay with the flush, and those of a slice.
   BinRange own_bins() const { return plan_.range(0, totals_); }
   BinRange bins_of(size_t slice) const { return plan_.range(slice + 1, totals_); }
   FlushEncoder& encoder(size_t slice) { return *slices_[slice].encoder; }
-  /// Whether the network has let go of all slices of the last flush.
+  /// Whether the network has released all slices of the last flush.
   bool free() const;
   size_t memory_bytes() const;
 
-  /// Sends what is packed. Requires: free() before it was packed.
+  /// Sends the packed slices. Requires: free() before packing.
   void send(const MessageId& flush, Nanoseconds now);
-  /// Whether every slice is held, or one was refused, which the controller then is told.
+  /// Whether every slice is held, or one was refused, which the controller is then told.
   bool placed() const;
-  /// Of all slices; none where one was refused, so that the controller refuses the flush.
+  /// Hashes of all slices; empty if one was refused, so that the controller refuses the flush.
   std::vector<uint64_t> hashes() const;
-  /// Sends again what has had no answer for too long, or found no room in the network.
+  /// Retries slices without an answer in time, or for which the network had no room.
   void ask_again(Nanoseconds now);
-  /// Sends again what has had no answer: a way leads to others again.
+  /// Retries all slices without an answer: a route has come back.
   void ask_now(Nanoseconds now);
-  /// Answers of shards to the slices of a flush.
+  /// Answers of shards about the slices of a flush.
   void on(const Letter<SliceHeld>& held, Nanoseconds now);
   void on(const Letter<FlushRefused>& refused);
 

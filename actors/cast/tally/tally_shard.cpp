@@ -8,12 +8,12 @@
 namespace luxodus {
 
 namespace {
-/// Hashed at once: some 0.1 ms.
+/// Bytes hashed at once: about 0.1 ms.
 constexpr size_t bytes_of_a_step = 1 << 20;
-/// Bins of all source groups that one answer tells: about a millisecond to pack.
+/// Bins of all source groups in one answer: about a millisecond to pack.
 constexpr int64_t bins_of_a_piece = 16384;
 
-/// Of one source group: whole pages, so that those told of go back.
+/// Bins per source group: whole pages, so that sent ones can be returned to the system.
 int64_t piece_of(int groups) {
   constexpr int64_t page = SparseArray<Total>::page_elements;
   return std::max<int64_t>(1, bins_of_a_piece / groups / page) * page;
@@ -46,10 +46,10 @@ uint64_t TallyShard::decided(const Life& life) const {
 // ---- slices -------------------------------------------------------------------------------------
 
 void TallyShard::on(Letter<FlushSlice>&& slice) {
-  // The id is that of the worker's flush: nobody sends slices of another's.
+  // The id is the flush's, so only its worker may send slices of it.
   if (slice.id.node != slice.from.node) return;
   const Life life{slice.id.node, slice.id.incarnation};
-  if (slice.id.sequence <= decided(life)) return;  // it comes late, and again
+  if (slice.id.sequence <= decided(life)) return;  // a late duplicate
   if (const auto at = slices_.find(life); at != slices_.end()) {
     Slice& known = *at->second;
     if (known.flush == slice.id && known.gain) hold(known);
@@ -63,19 +63,19 @@ void TallyShard::on(Letter<FlushSlice>&& slice) {
   made->payload = std::move(slice.payload);
   slices_.emplace(life, made);
   counters_.held = slices_.size();
-  if (!work_on(*made)) forget(*made);  // it is sent again
+  if (!work_on(*made)) forget(*made);  // the worker sends it again
 }
 
 void TallyShard::hold(Slice& slice) {
   sender().send(address(), slice.from, slice.flush, SliceHeld{});
 }
 
-/// False: there is no room to remember it.
+/// False: there is no room to queue it.
 bool TallyShard::work_on(const Slice& slice) {
   return offer(WorkOnSlice{slice.flush.node, slice.flush.incarnation}) == Offered::taken;
 }
 
-/// On the actor's fiber.
+/// Runs on the actor's fiber.
 void TallyShard::on(const WorkOnSlice& work) {
   const auto at = slices_.find({work.node, work.life});
   if (at == slices_.end()) return;  // it was dropped
@@ -86,13 +86,13 @@ void TallyShard::on(const WorkOnSlice& work) {
     add(*slice);
 }
 
-/// Lets others have their turn. A node that is to end goes on: what is begun is whole in the end.
+/// Yields. A node that is ending still completes what has begun.
 bool TallyShard::take_turns() {
   (void)scheduler().fibers().yield();
   return true;
 }
 
-/// "" where the slice is right, and then held.
+/// "" if the slice is valid; it is then held.
 std::string TallyShard::reading_fault(Slice& slice) {
   Hasher hash;
   for (std::span<const std::byte> left = slice.payload.bytes(); !left.empty(); take_turns()) {
@@ -104,7 +104,7 @@ std::string TallyShard::reading_fault(Slice& slice) {
   auto gain = reader_.read(slice.payload.bytes(), totals_.groups(), config_.bins,
                            [&] { return take_turns() && !slice.dropped; });
   if (!gain) return gain.problem().what;
-  // Batches and where their weight went are told to the controller, once.
+  // Batches and the energy balance go to the controller, once.
   if (gain->batches() != 0 || gain->balance().particles != 0) return "a slice counts batches";
   slice.gain = std::move(gain).value();
   return "";
@@ -147,8 +147,8 @@ void TallyShard::on(const Letter<FlushDecided>& letter) {
   }
   const bool held =
       slice && slice->flush == decision.flush && slice->gain && slice->hash == decision.slice_hash;
-  if (!held) return settle(letter.id, false);    // this shard lacks what was counted
-  if (slice->taken || !work_on(*slice)) return;  // the answer follows; or it is asked again
+  if (!held) return settle(letter.id, false);    // this shard lacks counted work
+  if (slice->taken || !work_on(*slice)) return;  // the answer follows, or the controller retries
   slice->taken = letter.id;
 }
 
@@ -177,7 +177,7 @@ void TallyShard::on(const Letter<AskTotals>& letter) {
   const bool begins =
       question.gather > told_.gather && question.first == static_cast<uint64_t>(config_.bins.first);
   if (!again || told_.gather == 0) {
-    if (!goes_on && !begins) return;  // a question of before, that comes late
+    if (!goes_on && !begins) return;  // an old question that arrives late
     told_.gather = question.gather;
     told_.first = question.first;
     pack_next_piece();
@@ -185,7 +185,7 @@ void TallyShard::on(const Letter<AskTotals>& letter) {
   sender().send(address(), letter.from, letter.id, told_, {std::span(*told_bytes_), told_bytes_});
 }
 
-/// Takes the next bins that are not zero out of the totals.
+/// Moves the next nonzero bins out of the totals.
 void TallyShard::pack_next_piece() {
   TotalsTold& told = told_;
   int64_t first = config_.bins.end;
@@ -197,7 +197,7 @@ void TallyShard::pack_next_piece() {
   }
   told.next = static_cast<uint64_t>(end);
   counters_.totals_bytes = totals_.bytes();
-  // Else the last piece has not left yet.
+  // Otherwise the last piece has not been sent yet.
   if (told_bytes_.use_count() != 1) told_bytes_ = std::make_shared<std::vector<std::byte>>();
   *told_bytes_ = encoder_.bytes();
 }

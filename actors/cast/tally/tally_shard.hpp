@@ -1,21 +1,21 @@
-// A shard of the totals, at the worker that owns it. Slices of flushes arrive from all workers, are
-// checked and held apart, and answered when they are held. The controller then says what has become
-// of each flush: a slice of one that was taken is added, once; one of a flush that was refused is
+// A shard of the totals, at the worker that owns it. It receives slices of flushes from all
+// workers, validates them, holds them separately, and acknowledges them. The controller then
+// decides about each flush: a slice of a counted flush is added, once; one of a refused flush is
 // dropped. At the end of a round the controller asks for the totals, piece by piece; what it has
-// got is no longer here.
+// received is removed here.
 //
-// What if a message is lost, late, or comes twice?
-// - A slice: the worker sends it until it is told that the slice is held. One that comes again is
-//   answered again; one of a flush that was decided meanwhile is old, and gets no answer.
-// - A decision: the controller repeats it until it is answered. Of one node it sends them one by
-//   one, each when the one before was answered; so what is older than the last is answered, and
-//   nothing done.
-// - A question for totals: it names the piece. The last piece is kept until the next one is asked
-//   for, which says that it has come.
-// A life of a worker has one slice here at most: the next one gets no answer, so is sent again,
-// until the one before is decided. That bounds the memory, by one flush of each worker. When a life
-// ends the controller decides about all that was left of it, in one decision. What takes long, to
-// read a slice and to add it, is done on the actor's fiber. Thread rule: the node's thread.
+// Lost, late and duplicate messages:
+// - A slice: the worker retries until the shard acknowledges it. A duplicate is acknowledged again;
+//   one of a flush that was decided meanwhile is old, and gets no answer.
+// - A decision: the controller retries until it is acknowledged. It sends those about one node one
+//   at a time, so a decision older than the last is acknowledged without effect.
+// - A question for totals names its piece. The last piece is kept until the next one is asked for,
+//   which confirms its receipt.
+// Each incarnation of a worker has at most one slice here: the next one gets no answer, and so is
+// sent again, until the previous one is decided. This bounds the memory by one flush per worker.
+// When an incarnation ends, the controller decides about all its remaining slices in one decision.
+// Slow work (reading and adding a slice) is done on the actor's fiber. Thread rule: the node's
+// thread.
 #pragma once
 
 #include <map>
@@ -36,7 +36,7 @@ struct TallyShardConfig {
   BinRange bins;
 };
 
-/// Of a shard to itself: the next step of this life's slice is due.
+/// Sent by a shard to itself: take the next step with this incarnation's slice.
 struct WorkOnSlice {
   NodeId node;
   Incarnation life;
@@ -49,7 +49,7 @@ class TallyShard final
                                    Accepts<Letter<AskTotals>, 16, WhenFull::reject>>,
                        DataLane<Accepts<WorkOnSlice, 2048, WhenFull::reject>>> {
  public:
-  /// Requires: `layout` and `sender` outlive it; the scheduler has a fiber for it.
+  /// Requires: `layout` and `sender` outlive this; the scheduler has a fiber for it.
   TallyShard(const TallyShardConfig& config, const TallyLayout& layout, int groups,
              Scheduler& scheduler, Sender& sender);
 
@@ -61,8 +61,8 @@ class TallyShard final
   struct Counters {
     uint64_t slices = 0;  // added
     uint64_t slices_dropped = 0;
-    uint64_t slice_bytes = 0;   // that came
-    uint64_t held = 0;          // now
+    uint64_t slice_bytes = 0;   // received
+    uint64_t held = 0;          // at present
     uint64_t totals_bytes = 0;  // in memory
   };
   const Counters& counters() const { return counters_; }
@@ -70,14 +70,14 @@ class TallyShard final
   void add_metrics(Metrics& metrics) const;
 
  private:
-  /// A slice's way: read -> held -> added, or dropped from either of the first two.
+  /// States of a slice: read -> held -> added, or dropped from either of the first two.
   struct Slice {
     MessageId flush;
     Address from;
     uint64_t hash = 0;
     Payload payload;                 // until it is read
-    std::optional<FlushGain> gain;   // from then on: it is held
-    std::optional<MessageId> taken;  // the decision that says so
+    std::optional<FlushGain> gain;   // set once it is held
+    std::optional<MessageId> taken;  // the decision that it was counted
     bool dropped = false;
   };
   using Life = std::pair<NodeId, Incarnation>;
@@ -95,10 +95,10 @@ class TallyShard final
 
   const TallyShardConfig config_;
   Totals totals_;
-  /// Of slices: one that is done with leaves it to the next.
+  /// Memory of slices: a finished one leaves its memory to the next.
   std::pmr::unsynchronized_pool_resource memory_;
   std::pmr::map<Life, std::shared_ptr<Slice>> slices_{&memory_};
-  std::map<Life, uint64_t> decided_;  // by life, the sequence of the last flush decided about
+  std::map<Life, uint64_t> decided_;  // sequence number of the last decided flush
   FlushReader reader_;
   FlushEncoder encoder_;  // of pieces of the totals
   TotalsTold told_;       // the last piece

@@ -9,8 +9,8 @@ namespace luxodus {
 
 namespace {
 
-/// Leases at hand take about so long: short against what a person notices, long against the way to
-/// the coordinator and back.
+/// Duration of the leases at hand: short against what a person notices, long against the round trip
+/// to the coordinator.
 constexpr Nanoseconds leases_take = milliseconds(40);
 constexpr size_t min_leases = 4, max_leases = 256;
 
@@ -94,7 +94,7 @@ bool StateTracing::forget_merged() {
 
 // ---- leases -------------------------------------------------------------------------------------
 
-/// Others are asked for: nobody else knows that this node has nothing to do. A batch that is being
+/// Asks for other leases: only this node knows that it has nothing to do. A batch that is being
 /// merged leaves in a flush, which is refused.
 void StateTracing::drop(std::span<const uint64_t> leases) {
   const auto named = [&](const Waiting& waiting) {
@@ -118,7 +118,7 @@ void StateTracing::give_back_all() {
   drop_all();
 }
 
-/// Nothing is asked for while batches wait for their state.
+/// Asks for nothing while batches wait for their state.
 void StateTracing::look_again() {
   if (at_hand() == 0 || tracing_) ask_for_more();
   scheduler_.fibers().wake_all(work_);
@@ -143,10 +143,10 @@ void StateTracing::end(const std::string&) {
 
 // ---- tracing ------------------------------------------------------------------------------------
 
-/// What leaves it is a failure of the tracer.
+/// An exception is a failure of the tracer.
 void StateTracing::trace_until_the_end() try {
   Fibers& fibers = scheduler_.fibers();
-  ask_for_more();  // which says that this node is here
+  ask_for_more();  // also announces this node
   while (!ending_) {
     const Wake how = trace_portion() ? fibers.yield() : fibers.wait(work_, "work");
     if (how == Wake::cancelled) return;
@@ -181,8 +181,8 @@ void StateTracing::close() {
   port_.leases_done({&lease, 1});
 }
 
-/// Millions of bins take longer than a turn may: between steps others have theirs. False: this
-/// state was left meanwhile, and nobody wants its batch.
+/// Millions of bins take longer than a turn may: other fibers run between steps. Returns false if
+/// the state was left meanwhile, and its batch is no longer wanted.
 bool StateTracing::merge() {
   const auto state = counted_;  // must outlive the two below
   const auto worker = worker_;

@@ -1,7 +1,7 @@
-// What a node does of a scene that changes: batches of whatever state is entered, of which it
-// holds the whole. One photon-thread, a portion a turn; no object is ever waited for. How many
-// leases are at hand follows from how long a batch takes. Entering a state takes memory.
-// Thread rule: the node's thread.
+// A node's work on a scene that changes: batches of the state that is entered, all of which is in
+// memory. One photon-thread, one portion per turn; it never waits for an object. The number of
+// leases at hand follows from how long a batch takes. Entering a state allocates. Thread rule: the
+// node's thread.
 #pragma once
 
 #include <deque>
@@ -18,8 +18,8 @@ namespace luxodus {
 
 class StateTracing final : public LeasedWork {
  public:
-  /// Until a state is entered, totals are of `first`. A turn traces `portion` particles at most.
-  /// Requires: all that is referred to outlives it; portion >= 1.
+  /// Until a state is entered, totals belong to `first`. A turn traces at most `portion` particles.
+  /// Requires: all references outlive this; portion >= 1.
   StateTracing(const CompiledScene& first, StateMaker& maker, int64_t portion, Scheduler& scheduler,
                LeasePort& port, TracerMaker make_tracer = make_batch_tracer);
 
@@ -51,7 +51,7 @@ class StateTracing final : public LeasedWork {
     uint64_t states = 0;  // entered
   };
   const Counters& counters() const { return counters_; }
-  /// What the workers of all states have done.
+  /// Counters of the workers of all states.
   BatchWorker::Counters done() const;
   void add_metrics(Metrics& metrics) const;
 
@@ -78,18 +78,18 @@ class StateTracing final : public LeasedWork {
   Scheduler& scheduler_;
   LeasePort& port_;
   const TracerMaker make_tracer_;
-  std::optional<Known> learnt_;                 // the last
-  std::optional<Known> tracing_;                // the one that is entered
-  std::shared_ptr<const TracedState> counted_;  // that the totals are of
-  std::shared_ptr<BatchWorker> worker_;         // of the one that is entered
-  BatchWorker::Counters done_before_;           // by those of others
-  std::shared_ptr<Totals> totals_[2];           // one is merged into while the other is emptied
+  std::optional<Known> learnt_;                 // the last one
+  std::optional<Known> tracing_;                // the one entered
+  std::shared_ptr<const TracedState> counted_;  // to which the totals belong
+  std::shared_ptr<BatchWorker> worker_;         // of the one entered
+  BatchWorker::Counters done_before_;           // by previous ones
+  std::shared_ptr<Totals> totals_[2];           // one is filled while the other is emptied
   size_t merging_ = 0;
   std::deque<Waiting> leases_;   // not begun, the oldest first
   std::optional<Waiting> open_;  // in work
-  bool merges_ = false;          // it: what is merged is not given away meanwhile, nor forgotten
+  bool merges_ = false;  // the batch is being merged: totals are neither given away nor forgotten
   Nanoseconds opened_ = 0;
-  Nanoseconds batch_takes_ = 0;  // lately
+  Nanoseconds batch_takes_ = 0;  // recently
   WaitList work_;                // the fiber, while there is nothing to do
   bool ending_ = false;
   Counters counters_;

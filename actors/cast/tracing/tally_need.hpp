@@ -1,7 +1,7 @@
-// What a worker's tally takes: scores of batches in work, totals of which one half is filled while
-// the other is emptied, and the flush that they become. All bins of a scene at most; where a budget
-// is less, what batches touch is counted while they run, and the tally flushes when it is full.
-// Pure functions; any thread.
+// Memory of a worker's tally: scores of batches in work, totals of which one half is filled while
+// the other is emptied, and the flush packed from them. At most all bins of a scene; with a smaller
+// budget, the pages that batches touch are counted while they run, and the tally flushes when it is
+// full. Pure functions; any thread.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace luxodus {
 
-/// Bytes, if every bin were touched.
+/// Bytes if every bin were touched.
 struct TallyNeed {
   uint64_t scores = 0;
   uint64_t totals = 0;
@@ -26,8 +26,8 @@ inline TallyNeed tally_need(const CompiledScene& scene, uint64_t open_batches) {
           2 * bins * sizeof(Total), bins * flush_bytes_of_bin};
 }
 
-/// The least budget that a run is begun with: what packs flushes, the marks of pages, and room for
-/// a few pages of each kind. Whether a batch fits beside that is found when one is traced.
+/// The smallest budget with which a run begins: for packing flushes, the marks of pages, and a few
+/// pages of each kind. Whether a batch fits beside that shows when one is traced.
 inline uint64_t min_tally_bytes(const CompiledScene& scene) {
   constexpr uint64_t packing = 2 << 20;
   const TallyNeed need = tally_need(scene, 1);
@@ -35,8 +35,8 @@ inline uint64_t min_tally_bytes(const CompiledScene& scene) {
          64 * ZeroedMemory::page_bytes;
 }
 
-/// Of a budget that does not hold all bins, what merged batches may take before they are flushed:
-/// as much again is being emptied meanwhile, and the rest is for scores and the flush.
+/// Share of a budget that does not hold all bins: merged batches may take this much before they are
+/// flushed; as much again is being emptied meanwhile, and the rest is for scores and the flush.
 inline uint64_t totals_share(uint64_t tally_bytes) {
   return tally_bytes / 4;
 }

@@ -1,9 +1,9 @@
-// A fiber takes a portion, traces it, and looks for the next; with none left it rests in work_.
-// Portions of one batch go to whoever asks, so a batch ends with its slowest portion; meanwhile the
-// next batch is open. A batch is closed by the fiber that ends its last portion.
-// Where the tally may not hold all bins, a fiber that has scored or is to merge first looks whether
-// that has room, and rests until a flush has made some. A flush waits for no fiber of these, only
-// for the controller; so either room comes, or the one batch in work is more than the budget.
+// A fiber takes a portion, traces it, and looks for the next; if there is none it rests in work_.
+// Any fiber may take any portion of a batch, so a batch ends with its slowest portion; meanwhile
+// the next batch is open. The fiber that finishes the last portion closes the batch.
+// If the tally may not hold all bins, a fiber that has scored or is about to merge first checks for
+// room, and rests until a flush has made some. A flush waits only for the controller, never for
+// these fibers; so either there will be room, or the one batch in work exceeds the budget.
 #include "actors/cast/tracing/tracing_fibers.hpp"
 
 #include <fmt/format.h>
@@ -21,13 +21,13 @@ namespace luxodus {
 struct TracingFibers::OpenBatch {
   bool used = false;
   bool dropped = false;  // its lease was fenced
-  bool failed = false;   // an object was not to be had
+  bool failed = false;   // an object was unobtainable
   uint64_t lease = 0;
   Batch batch;
   BatchScores scores;
   bool cleared = true;          // the scores are zero
   int64_t next_particle = 0;    // of the batch, not yet given out
-  std::vector<uint32_t> order;  // of its particles; empty: as they are numbered
+  std::vector<uint32_t> order;  // of its particles; empty: by number
   uint32_t next_unit = 0;       // of the eye paths
   uint32_t portions_out = 0;
   Nanoseconds since = 0;
@@ -42,8 +42,8 @@ struct TracingFibers::Portion {
 
 namespace {
 
-/// So many particles that every fiber finds a few portions in the open batches: with fewer
-/// portions than fibers the rest would wait for work, and hide nothing.
+/// Particles per portion, so that every fiber finds a few portions in the open batches: with fewer
+/// portions than fibers, the others would be idle and hide no waits.
 int64_t portion_for(const PhotonConfig& config, int64_t batch_particles) {
   const auto open = static_cast<int64_t>(config.open_batches) * batch_particles;
   return std::clamp<int64_t>(open / (4 * static_cast<int64_t>(config.fibers)), 1, config.portion);
@@ -84,7 +84,7 @@ void TracingFibers::start() {
   }
 }
 
-/// What leaves it is a failure of the tracer.
+/// An exception is a failure of the tracer.
 void TracingFibers::trace_until_the_end(BatchTracer& tracer) {
   std::exception_ptr why;
   try {
@@ -93,7 +93,7 @@ void TracingFibers::trace_until_the_end(BatchTracer& tracer) {
     why = std::current_exception();
   }
   if (!why) return;
-  end("");  // the others would go on with what it has left
+  end("");  // the others would go on with its share
   port_.thread_failed(why);
 }
 
@@ -170,7 +170,7 @@ void TracingFibers::trace_portions(BatchTracer& tracer) {
     OpenBatch& open = *portion->batch;
     const Batch& batch = open.batch;
     if (open.failed || open.dropped) {
-      // Nobody will count it: the rest of it would be traced in vain.
+      // It will not be counted, so the rest of it is skipped.
     } else if (portion->count > 0) {
       trace_particles(tracer, *portion);
       counters_.particles += static_cast<uint64_t>(portion->count);
@@ -200,7 +200,7 @@ void TracingFibers::trace_particles(BatchTracer& tracer, const Portion& portion)
   }
 }
 
-/// Up to the next sampled particle in one go, and that one alone.
+/// Traces up to the next sampled particle at once, and that particle alone.
 void TracingFibers::trace_row(BatchTracer& tracer, OpenBatch& open, uint64_t first, int64_t count) {
   Fibers& fibers = scheduler_.fibers();
   NodeTrace* const trace = config_.trace;
@@ -220,7 +220,7 @@ void TracingFibers::trace_row(BatchTracer& tracer, OpenBatch& open, uint64_t fir
 
 std::optional<TracingFibers::Portion> TracingFibers::next_portion() {
   const uint32_t units = tracers_.front()->look_units();
-  OpenBatch* oldest = nullptr;  // it should end
+  OpenBatch* oldest = nullptr;  // should end next
   for (OpenBatch& open : open_) {
     const bool left = open.next_particle < scene_.batch_particles || open.next_unit < units;
     if (open.used && left && (oldest == nullptr || open.batch.number < oldest->batch.number))
@@ -266,18 +266,18 @@ TracingFibers::OpenBatch* TracingFibers::open_next() {
   ++counters_.batches_open;
   if (holds_sampled(*free))
     config_.trace->begin(TraceKind::batch, free->lease, static_cast<uint64_t>(free->batch.number));
-  scheduler_.fibers().wake_all(work_);  // there is work for more than who asked
+  scheduler_.fibers().wake_all(work_);  // there is work for more than this fiber
   return &*free;
 }
 
-// ---- a tally that may be full ----------------------------------------------------------------
+// ---- limits of the tally ---------------------------------------------------------------------
 
 void TracingFibers::count_totals() {
   for (size_t i = 0; i < 2; ++i) totals_bytes_[i] = totals_[i].bytes();
 }
 
-/// Whether the tally with `more` bytes is within its budget. Pages are counted only where what is
-/// known without counting does not tell.
+/// Whether the tally with `more` bytes is within its budget. Pages are counted only if bounds do
+/// not decide it.
 bool TracingFibers::fits(OpenBatch& open, size_t more) {
   const auto with = [&](size_t scores) {
     tally_bytes_ = port_.flush_bytes() + totals_bytes_[0] + totals_bytes_[1] + scores + more;
@@ -299,7 +299,8 @@ bool TracingFibers::room_for_batch() {
   return false;
 }
 
-/// Rests until the tally has `more` bytes free. False: the run has ended, or will for want of them.
+/// Rests until the tally has `more` bytes free. False: the run has ended, or will end for lack of
+/// room.
 bool TracingFibers::make_room(OpenBatch& open, size_t more) {
   for (bool waits = false; !open.dropped && !fits(open, more); waits = true) {
     if (!port_.room_to_come()) {
@@ -324,7 +325,7 @@ void TracingFibers::outgrown(const OpenBatch& open) {
       mebibytes(config_.tally_bytes))));
 }
 
-/// Closes a batch of which everything is traced, when the totals have room for it.
+/// Closes a fully traced batch when the totals have room for it.
 bool TracingFibers::finish(OpenBatch& open) {
   if (!tight_) {
     close(open);
@@ -336,7 +337,8 @@ bool TracingFibers::finish(OpenBatch& open) {
   };
   for (size_t more = needed();; more = needed()) {
     if (!make_room(open, more)) return false;
-    if (needed() <= more) break;  // else the totals were given up meanwhile, and these are empty
+    // otherwise the totals were given away meanwhile, and these are empty
+    if (needed() <= more) break;
   }
   close(open);
   if (!std::exchange(open.cleared, true)) open.scores.scores.clear();
@@ -352,7 +354,7 @@ void TracingFibers::close(OpenBatch& open) {
   --counters_.batches_open;
   if (holds_sampled(open))
     config_.trace->end(TraceKind::batch, open.lease, static_cast<uint64_t>(open.batch.number));
-  if (!counts && open.dropped) {  // somebody else traces it
+  if (!counts && open.dropped) {  // another node traces it
     ++counters_.batches_dropped;
     return;
   }
@@ -367,8 +369,8 @@ void TracingFibers::close(OpenBatch& open) {
   port_.leases_done({&open.lease, 1});
 }
 
-/// Millions of bins take longer than a turn may: between steps others have theirs. What is merged
-/// is not given away meanwhile, so it is always of whole batches.
+/// Millions of bins take longer than a turn may: other fibers run between steps. Totals are not
+/// given away meanwhile, so they always hold whole batches.
 void TracingFibers::merge(OpenBatch& open) {
   ++merges_;
   if (scheduler_.rarely(Buggify::Site::short_turn)) rest();
@@ -378,7 +380,7 @@ void TracingFibers::merge(OpenBatch& open) {
   open.cleared = true;
 }
 
-/// A node that is to end goes on: what is begun is whole in the end.
+/// Yields. A node that is ending still completes what has begun.
 void TracingFibers::rest() {
   (void)scheduler_.fibers().yield();
 }

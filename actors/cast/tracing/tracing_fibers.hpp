@@ -1,10 +1,9 @@
-// The photon-threads of a node: fibers that trace particles of the batches it has leased. A batch's
-// particles are shared out in small portions, so that many fibers work on one batch and wait for
-// different objects; its scores are one array, since all fibers of a node run on one thread and
-// integers do not mind the order. Finished batches are merged into the node's own totals, which
-// leave as a flush.
-// It knows no messages: LeasePort asks for leases and sends flushes.
-// Thread rule: the node's thread.
+// The photon-threads of a node: fibers that trace particles of leased batches. A batch's particles
+// are distributed in small portions, so that many fibers work on one batch and wait for different
+// objects. Its scores are one array, since all fibers of a node run on one thread and sums of
+// integers do not depend on order. Finished batches are merged into the node's own totals, which
+// leave as a flush. It sends no messages: LeasePort asks for leases and sends flushes. Thread rule:
+// the node's thread.
 #pragma once
 
 #include <algorithm>
@@ -24,23 +23,23 @@
 namespace luxodus {
 
 struct PhotonConfig {
-  /// Photon-threads. One is enough where everything is resident; what waits for objects takes as
-  /// many as hide the wait.
+  /// Number of photon-threads. One is enough if everything is resident; otherwise as many as hide
+  /// the waits for objects.
   size_t fibers = 1;
   /// Batches in work at once, each with an array of scores: the second one fills the time in which
   /// the last particles of the first end.
   size_t open_batches = 2;
-  /// Leases at hand, those of open batches included: when one is opened, others are asked for. Two
-  /// beside the open ones cover the time to an answer; more only wait here while others idle.
+  /// Leases at hand, including those of open batches: when a batch is opened, more are requested.
+  /// Two beside the open ones cover the time to an answer; more would only wait here while other
+  /// nodes idle.
   size_t leases = 4;
-  /// Particles of one portion at most. At 0.3 us a ray a portion is some 0.2 ms: short against a
+  /// Most particles of one portion. At 0.3 us a ray a portion takes about 0.2 ms: short against a
   /// turn of 1 ms, long against the 60 ns of a switch.
   int64_t portion = 128;
-  /// For scores, totals and a flush [B]. Where that is less than all bins take, one batch is in
-  /// work at a time, memory goes back as soon as it holds nothing, and the tally flushes when it is
-  /// full.
+  /// Budget for scores, totals and a flush [B]. If it is smaller than all bins, one batch is in
+  /// work at a time, empty memory is returned at once, and the tally flushes when it is full.
   uint64_t tally_bytes = UINT64_MAX;
-  /// Sampled particles are traced by themselves, which changes no bit. Null: none.
+  /// Sampled particles are traced separately, which changes no bit. Null: no tracing.
   NodeTrace* trace = nullptr;
 
   size_t batches_in_work() const { return std::min(open_batches, leases); }
@@ -48,7 +47,7 @@ struct PhotonConfig {
 
 class TracingFibers final : public LeasedWork {
  public:
-  /// All that is referred to must outlive it.
+  /// Requires: all references outlive this.
   TracingFibers(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
                 const PhotonConfig& config, Scheduler& scheduler, LeasePort& port,
                 const TracerMaker& make_tracer = make_batch_tracer);
@@ -60,7 +59,7 @@ class TracingFibers final : public LeasedWork {
   void drop(std::span<const uint64_t> leases) override;
   void drop_all() override;
   void look_again() override { scheduler_.fibers().wake_all(work_); }
-  /// Lets every fiber return at its next chance.
+  /// Makes every fiber return at its next chance.
   void end(const std::string& why) override;
 
   Totals& give_totals() override;
@@ -70,14 +69,14 @@ class TracingFibers final : public LeasedWork {
 
   struct Counters {
     uint64_t particles = 0;
-    uint64_t eye_units = 0;        // parts of signs, and probes, looked at
+    uint64_t eye_units = 0;        // views of signs and probes
     uint64_t batches = 0;          // merged
-    uint64_t batches_failed = 0;   // for want of an object
+    uint64_t batches_failed = 0;   // for lack of an object
     uint64_t batches_dropped = 0;  // their lease was fenced
     uint64_t rays = 0;             // of merged batches
     uint64_t collisions = 0;
     uint64_t batches_open = 0;
-    uint64_t fibers_idle = 0;  // that wait for work
+    uint64_t fibers_idle = 0;  // waiting for work
     uint64_t tally_full = 0;   // times that a batch waited for room
     uint64_t max_tally_bytes = 0;
   };
@@ -107,28 +106,28 @@ class TracingFibers final : public LeasedWork {
   bool holds_sampled(const OpenBatch& open) const;
 
   const CompiledScene& scene_;
-  ObjectSource* const source_;  // null where everything is resident
+  ObjectSource* const source_;  // null if everything is resident
   const uint64_t seed_;
-  const std::vector<uint32_t> places_;  // of emitters, where cells are waited for
+  const std::vector<uint32_t> places_;  // of emitters, if cells may be waited for
   const PhotonConfig config_;
   const int64_t portion_;
-  const bool tight_;  // the budget is less than all bins take
+  const bool tight_;  // the budget is smaller than all bins
   Scheduler& scheduler_;
   LeasePort& port_;
-  std::vector<std::unique_ptr<BatchTracer>> tracers_;  // one a fiber
+  std::vector<std::unique_ptr<BatchTracer>> tracers_;  // one per fiber
   std::vector<OpenBatch> open_;
-  Totals totals_[2];  // one is merged into while the other is emptied
+  Totals totals_[2];  // one is filled while the other is emptied
   size_t merging_ = 0;
-  size_t merges_ = 0;                // of batches, under way
-  size_t totals_bytes_[2] = {0, 0};  // in memory, when last counted: since then less at most
-  size_t tally_bytes_ = 0;           // of all, as fits() has found it, or more
+  size_t merges_ = 0;                // of batches, in progress
+  size_t totals_bytes_[2] = {0, 0};  // in memory, at the last count; an upper bound since then
+  size_t tally_bytes_ = 0;           // of everything, an upper bound found by fits()
   PlannedBatches planned_;
   struct WaitingLease {
     uint64_t id;
     int64_t batch;
   };
   std::vector<WaitingLease> leases_;  // not begun, the oldest first
-  WaitList work_;                     // fibers that found nothing to do
+  WaitList work_;                     // fibers without work
   bool ending_ = false;
   Counters counters_;
   Histogram batch_time_;  // from opening to merging

@@ -12,10 +12,10 @@
 namespace luxodus {
 
 namespace {
-/// At some 20 ns a bin this is half a turn of fibers.
+/// Bins per step: at about 20 ns a bin this is a third of a millisecond.
 constexpr int64_t bins_of_a_step = 16384;
 
-/// No question rests for longer than it takes to give a coordinator up.
+/// A question is retried at the latest after the time in which a coordinator is given up.
 RetryTimer retry_timer(const TracingWorkerConfig& config) {
   return {config.answer_patience, config.lost};
 }
@@ -45,7 +45,7 @@ void TracingWorker::start(LeasedWork& work) {
   set_timer();
 }
 
-/// For totals as they are now: another state of the scene may have others.
+/// Makes encoders for the present totals: another state of the scene may have other bins.
 void TracingWorker::make_encoders() {
   const Totals& totals = work_->totals();
   slices_.make_room(totals.groups(), totals.layout().totals());
@@ -94,7 +94,7 @@ void TracingWorker::on(const Letter<LeaseGranted>& granted) {
     });
     return;
   }
-  if (!asking_ || asking_->id != granted.id) return;  // an answer that came twice
+  if (!asking_ || asking_->id != granted.id) return;  // a duplicate answer
   const LeaseGranted& grant = granted.body;
   const uint32_t asked_for = std::get<RequestLease>(asking_->message).batches;
   asking_.reset();
@@ -109,16 +109,16 @@ void TracingWorker::on(const Letter<LeaseGranted>& granted) {
   counters_.leases += grant.batches;
   rumour_ = rumour_ && grant.batches == 0;
   if (grant.batches > 0 && !work_->is_in(grant.state)) begin_state(grant.state);
-  // What is merged and not flushed when another round begins is of leases that were fenced.
+  // Batches merged but not flushed when another round begins have fenced leases.
   if (grant.round != last_round && !done_.empty()) flush();
   work_->enter_round(grant.round);
   for (uint32_t i = 0; i < grant.batches; ++i) {
     work_->add(grant.first_lease + i, static_cast<int64_t>(grant.first_batch + i));
   }
-  wanted_ = 0;  // said before this answer
+  wanted_ = 0;  // wanted before this answer
   if (grant.batches > 0) {
     work_->look_again();
-    // Batches that this node prefers are seldom neighbours, and come in several answers.
+    // Preferred batches are seldom adjacent, and come in several answers.
     if (grant.batches < asked_for) want_leases(asked_for - grant.batches);
     return;
   }
@@ -126,7 +126,7 @@ void TracingWorker::on(const Letter<LeaseGranted>& granted) {
   flush_when_idle();
 }
 
-/// The next round is open, or may be: the word of it can be lost.
+/// The next round is open, or may be: the message may be lost.
 void TracingWorker::begin_round() {
   round_empty_ = false;
   work_->look_again();
@@ -134,7 +134,7 @@ void TracingWorker::begin_round() {
 
 // ---- states of the scene -----------------------------------------------------------------------
 
-/// What is here is of another state, whose leases are fenced.
+/// The work at hand is of another state, whose leases are fenced.
 void TracingWorker::begin_state(ObjectId state) {
   if (entering_ == state) return;
   entering_ = state;
@@ -149,7 +149,7 @@ void TracingWorker::ask_state(ObjectId state) {
   put(*learning_);
 }
 
-/// It is made here and now: until then this node has nothing else to do.
+/// Builds the state here and now: this node has nothing else to do until then.
 void TracingWorker::on(const Letter<StateTold>& told) {
   if (!hears(told.from) || !learning_ || learning_->id != told.id) return;
   learning_.reset();
@@ -161,10 +161,10 @@ void TracingWorker::on(const Letter<StateTold>& told) {
   enter_state();
 }
 
-/// As soon as it is known, and what is being packed of the one before is packed.
+/// Enters the state once it is known, and the previous one's flush is packed.
 void TracingWorker::enter_state() {
   if (!entering_ || packing_) return;
-  if (!work_->knows(*entering_)) {  // another was learnt meanwhile
+  if (!work_->knows(*entering_)) {  // another one was received meanwhile
     if (!learning_) ask_state(*entering_);
     return;
   }
@@ -173,7 +173,7 @@ void TracingWorker::enter_state() {
   work_->look_again();
 }
 
-/// Others may. One that was only foreseen is asked for again when it is entered.
+/// Other nodes may. A state that was only announced is requested again when it is entered.
 void TracingWorker::cannot_enter(const Problem& why) {
   if (!entering_) return;
   log_error("state=unknown text=\"this node cannot enter a state of the scene: {}\"", why.what);
@@ -182,7 +182,7 @@ void TracingWorker::cannot_enter(const Problem& why) {
   work_->look_again();
 }
 
-// ---- giving results --------------------------------------------------------------------------
+// ---- flushes ---------------------------------------------------------------------------------
 
 void TracingWorker::leases_done(std::span<const uint64_t> leases) {
   for (const uint64_t lease : leases)
@@ -195,14 +195,15 @@ void TracingWorker::leases_done(std::span<const uint64_t> leases) {
   flush_when_idle();
 }
 
-/// Whether the oldest merged batch has waited for as long as it may.
+/// Whether the oldest merged batch has waited for the flush interval.
 bool TracingWorker::rested(Nanoseconds now) const {
   const Nanoseconds most = flush_interval(config_.flush_every, flush_cost_, lease_time_);
   return !done_.empty() && now - first_done_ >= most;
 }
 
-/// A loss of the moment: the batch is traced anew, the lease stands until its deadline. A loss that
-/// lasts for as long as one waits for a lost node is for good: others may have the object.
+/// A momentary loss: the batch is traced again, and the lease is valid until its deadline. After
+/// the lost-node timeout the loss is permanent: the batch is given back, since others may have the
+/// object.
 void TracingWorker::lease_failed(uint64_t lease, int64_t batch) {
   ++counters_.leases_failed;
   if (over_) return;
@@ -222,13 +223,13 @@ void TracingWorker::return_leases() {
   if (over_) return;
   if (packing_ || flushing_ || !done_.empty()) return flush();
   if (asking_) return;
-  // Said now and then, too, while there is nothing to return: whoever begins anew does not know it.
+  // Repeated now and then, even with nothing to return: a restarted coordinator does not know it.
   if (work_->at_hand() == 0 && returned_ && !lease_timer_.has_rested(clock_.now())) return;
   asking_ = question(lease_timer_, RequestLease{0});
   put(*asking_);
 }
 
-/// Since when a batch has been traced in vain here, under whatever leases.
+/// Since when tries of a batch have failed here, under any lease.
 Nanoseconds TracingWorker::vain_since(uint64_t lease, int64_t batch) {
   const auto known = std::find_if(in_vain_.begin(), in_vain_.end(),
                                   [&](const InVain& vain) { return vain.batch == batch; });
@@ -245,14 +246,14 @@ void TracingWorker::want_room() {
   flush();
 }
 
-/// Nothing more is to be had in this round: the controller waits for what is here.
+/// The round has no more batches: the controller waits for those at hand.
 void TracingWorker::flush_when_idle() {
   if ((round_empty_ || draining_) && work_->at_hand() == 0) flush();
 }
 
 void TracingWorker::flush() {
   if (packing_ || flushing_ || over_ || done_.empty())
-    return;  // the answer to that one sends the next
+    return;  // the answer to the current one sends the next
   flush_due_ = !encoder_is_free() || !work_->may_give();
   if (flush_due_) return;
   room_wanted_ = false;
@@ -265,7 +266,7 @@ bool TracingWorker::encoder_is_free() const {
   return encoder_.use_count() == 1 && slices_.free();
 }
 
-/// On the actor's fiber, between the turns of the photon-threads.
+/// Runs on the actor's fiber, between the turns of the photon-threads.
 void TracingWorker::on(const PackFlush& pack) {
   packing_took_ = 0;
   if (!pack_all(*pack.totals)) {
@@ -274,7 +275,8 @@ void TracingWorker::on(const PackFlush& pack) {
     return enter_state();
   }
   const std::span<const std::byte> payload = encoder_->bytes();
-  const uint64_t hash = XXH3_64bits(payload.data(), payload.size());  // as Hasher, in no memory
+  // as Hasher, but without allocating
+  const uint64_t hash = XXH3_64bits(payload.data(), payload.size());
   packing_ = false;
   if (over_) return;
   flushing_ = question(flush_timer_, Flush{round_, hash, std::move(packed_leases_), {}},
@@ -285,10 +287,10 @@ void TracingWorker::on(const PackFlush& pack) {
   counters_.flush_bytes += payload.size();
   slices_.send(flushing_->id, clock_.now());
   put_flush();
-  work_->look_again();  // the totals that were packed are free
+  work_->look_again();  // the packed totals are free
 }
 
-/// False: the node is to end, or another state to be entered.
+/// False: the node is ending, or another state is to be entered.
 bool TracingWorker::pack_all(Totals& totals) {
   for (size_t slice = 0; slice < slices_.slices(); ++slice)
     if (!pack_bins(slices_.encoder(slice), totals, slices_.bins_of(slice), FlushCounts::without))
@@ -309,7 +311,7 @@ bool TracingWorker::pack_bins(FlushEncoder& encoder, Totals& totals, const BinRa
   return true;
 }
 
-/// For the first time when all slices are placed; then as often as no answer comes.
+/// Sends it when all slices are placed, and again whenever the answer is late.
 void TracingWorker::put_flush() {
   flushing_->asked = clock_.now();
   if (!slices_.placed()) return;
@@ -330,7 +332,7 @@ void TracingWorker::on(const Letter<FlushTaken>& taken) {
   if (hears(taken.from)) flush_answered(taken.id, true);
 }
 
-/// By a shard a slice is refused; the coordinator then is told so.
+/// A shard refuses a slice; the coordinator is then told so.
 void TracingWorker::on(const Letter<FlushRefused>& refused) {
   if (refused.from.actor == ActorName::tally_shard) {
     slices_.on(refused);
@@ -359,7 +361,7 @@ void TracingWorker::on(const Letter<RoundOpened>& opened) {
 }
 
 void TracingWorker::forget_flush() {
-  packed_leases_ = std::move(std::get<Flush>(flushing_->message).leases);  // its memory
+  packed_leases_ = std::move(std::get<Flush>(flushing_->message).leases);  // reuses its memory
   packed_leases_.clear();
   flushing_.reset();
 }
@@ -371,7 +373,7 @@ void TracingWorker::flush_answered(const MessageId& answered, bool taken) {
   flush_cost_ = packing_took_ + answer_took;
   if (config_.trace != nullptr) config_.trace->end(TraceKind::flush, trace_id(answered), taken);
   forget_flush();
-  if (!taken) ++counters_.flushes_refused;  // its leases are lent again: nothing to mend here
+  if (!taken) ++counters_.flushes_refused;  // its leases are leased again: nothing to do here
   flush_when_idle();
   if (room_wanted_) flush();
   work_->look_again();
@@ -392,13 +394,13 @@ void TracingWorker::say_goodbye() {
   tell(coordinator(), EnterPhase{EndPhase::leave, 0});
 }
 
-/// `abandoned`: this node gives the run up; else it has heard of the end.
+/// `abandoned`: this node gives the run up; otherwise it has heard of the end.
 void TracingWorker::stop_work(std::optional<Problem> fault, bool abandoned) {
   if (std::exchange(over_, true)) return;
   fault_ = std::move(fault);
   asking_.reset();
   learning_.reset();
-  flushing_.reset();  // all is counted, or nothing more will be
+  flushing_.reset();  // everything is counted, or nothing more will be
   abandoned ? work_->abandon() : work_->end(end_word_.text);
 }
 
@@ -408,13 +410,13 @@ void TracingWorker::end(std::optional<Problem> fault) {
   ended_ = true;
 }
 
-/// From the controller, which waits for an answer and lets all go when it has those of all; or from
-/// a neighbour that was let go. A neighbour's word could be of an earlier run, which that neighbour
-/// has outlived: until the controller has lent this node something, or has itself told it of the
-/// end, it is but a rumour, which is right if the controller never comes.
+/// Sent by the controller, which waits for all answers before it releases the workers; or by a
+/// neighbour that was released. A neighbour's message could be of an earlier run. Until the
+/// controller has leased something to this node, or has told it of the end itself, the message is
+/// only a rumour, which is believed if the controller never appears.
 void TracingWorker::on(const Letter<RunEnded>& ended) {
   const bool first_hand = hears(ended.from) || leads_still(ended.from);
-  // Of one that was left for another: it need not wait for this node.
+  // From a coordinator that was left for another: tells it not to wait for this node.
   if (!first_hand && ended.from.actor == ActorName::coordinator) {
     tell(ended.from, RequestLease{0});
     return;
@@ -424,7 +426,7 @@ void TracingWorker::on(const Letter<RunEnded>& ended) {
   if (rumour_) return;
   const auto says = [&] { return problem("the controller says: " + end_word_.text); };
   stop_work(end_word_.text.empty() ? std::nullopt : std::optional(says()), false);
-  // It says so again and again: until those below know, it is told nothing.
+  // The coordinator repeats this message: no answer until the workers below know.
   if (work_->end_is_known()) tell(first_hand ? ended.from : coordinator(), RequestLease{0});
   if (!first_hand) let_go();
 }
@@ -434,12 +436,12 @@ void TracingWorker::on(const Letter<EnterPhase>& phase) {
   if (first_hand && phase.body.phase == EndPhase::leave) let_go();
 }
 
-/// Neighbours are told first: with this node they may lose their way to the controller.
+/// Tells neighbours first: without this node they may have no route to the controller.
 void TracingWorker::let_go() {
   stop_work(std::nullopt, false);
   if (tell_) return;
   tell_ = network_.neighbours();
-  std::erase(*tell_, config_.coordinators.back().node);  // which has said so
+  std::erase(*tell_, config_.coordinators.back().node);  // which sent this message
   pass_on();
 }
 
@@ -472,7 +474,7 @@ void TracingWorker::watch_coordinator(Nanoseconds now) {
   };
   const Nanoseconds unreachable = unreachable_since_ ? now - *unreachable_since_ : 0;
   const bool lost = unreachable >= config_.lost;
-  // Begun again after a crash the controller would ask anew who has heard of the end.
+  // A controller restarted after a crash would ask again which workers know of the end.
   if (over_) return lost ? end(std::nullopt) : void();
   const Nanoseconds patience = heard_ ? std::min(config_.rejoin, config_.lost) : config_.start / 2;
   if (unreachable >= patience && join_another()) return;
@@ -482,8 +484,8 @@ void TracingWorker::watch_coordinator(Nanoseconds now) {
     give_up("no way has led to the controller", config_.lost, "lost_s");
 }
 
-/// The first coordinator that there is a way to; false: there is none. The leases of the lost one
-/// are gone, as is what it was told. A flush that has had no answer is put to the next one, which
+/// Joins the first reachable coordinator; returns false if there is none. The lost coordinator's
+/// leases are gone, and so is what it was told. An unanswered flush is sent to the next one, which
 /// knows none of its leases, and refuses it.
 bool TracingWorker::join_another() {
   size_t next = 0;
@@ -506,8 +508,8 @@ bool TracingWorker::join_another() {
   return true;
 }
 
-/// Again and again, as soon as there is a way to whom was left; but not before another coordinator
-/// knows of this node: somebody must wait for it at the end.
+/// Repeated, once the coordinator that was left is reachable; but not before another coordinator
+/// knows of this node, since one must wait for it at the end.
 void TracingWorker::take_leave() {
   if (!known_here_) return;
   for (const Left& left : left_)
@@ -519,7 +521,7 @@ void TracingWorker::take_leave() {
 
 TracingWorker::Question TracingWorker::question(RetryTimer& timer, Message message,
                                                 SharedBytes payload) {
-  timer.forget();  // the last one of its kind may have been given up
+  timer.forget();  // the previous one of its kind may have been given up
   return {sender().next_id(), &timer, std::move(message), std::move(payload)};
 }
 
@@ -534,7 +536,7 @@ void TracingWorker::put(Question& question) {
   scheduler().timers().set(question.asked + retry_after, own_task([this] { retry(); }));
 }
 
-/// What found no room or no way: nobody will answer it.
+/// Sends again what found no room or no route.
 void TracingWorker::retry() {
   retries_soon_ = false;
   if (asking_ && !asking_->left) put(*asking_);
@@ -542,8 +544,8 @@ void TracingWorker::retry() {
   if (flushing_ && !flushing_->left && slices_.placed()) put(*flushing_);
 }
 
-/// A way leads to the coordinator again. What was under way may be lost with the last one; or the
-/// coordinator has begun anew, and knows of nobody.
+/// The coordinator is reachable again. Messages in flight may be lost with the old route; or the
+/// coordinator has restarted, and knows of no worker.
 void TracingWorker::ask_now() {
   if (over_) return;
   if (asking_) put(*asking_);
@@ -575,7 +577,7 @@ void TracingWorker::on_timer() {
   set_timer();
 }
 
-/// Whether a letter is of the coordinator, which so has been heard.
+/// Whether a letter is from the coordinator; if so, it counts as heard.
 bool TracingWorker::hears(Address from) {
   if (from != coordinator()) return false;
   heard_ = known_here_ = true;

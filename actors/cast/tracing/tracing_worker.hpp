@@ -1,10 +1,10 @@
-// The actor of a node that works for a coordinator: asks it for batches, gives them to those who
-// trace them, and sends what these have merged, until the run ends or the coordinator is given up.
-// Those are the node's photon-threads or, where the node coordinates others, these (LeasedWork). A
-// coordinator that is lost is left for the next one: what was told to it is as good as lost. What
-// gets no answer is asked again under the same id; the coordinator answers a repeated question as
-// it did before. Where totals lie in shards, a flush goes to the coordinator when all shards hold
-// theirs. Thread rule: the node's thread.
+// The actor of a node that works for a coordinator: it asks for batches, gives them to the node's
+// LeasedWork, and flushes what that has merged, until the run ends or the coordinator is given up.
+// LeasedWork is the node's photon-threads or, if the node coordinates others, a sub-coordinator. If
+// a coordinator is lost it joins the next one; what the lost one was told counts as lost. Questions
+// without an answer are retried under the same id, and the coordinator's answers are idempotent. If
+// totals are sharded, a flush goes to the coordinator once all shards hold their slices. Thread
+// rule: the node's thread.
 #pragma once
 
 #include <algorithm>
@@ -22,31 +22,31 @@ namespace luxodus {
 
 struct TracingWorkerConfig {
   NodeId self;
-  /// By whom it may be led: first its own coordinator; where that is lost, the first of them that
-  /// there is a way to. Last the one that leads the run. At least one.
+  /// Its possible coordinators: its own first; if that is lost, the first that is reachable. The
+  /// last one leads the run. At least one.
   std::vector<Address> coordinators;
-  /// Then a question is asked again, and later where answers take long: see RetryTimer.
+  /// Time to the first retry, and more if answers take long: see RetryTimer.
   Nanoseconds answer_patience = seconds(2);
-  /// Merged batches rest here for so long at least, unless there is no more to do.
+  /// Merged batches wait at least this long, unless there is no more to do.
   Nanoseconds flush_every = seconds(5);
-  /// Until the coordinator is heard for the first time, and then without a way to it: after that it
-  /// is given up.
+  /// Time until the coordinator is first heard, and afterwards how long it may be unreachable: then
+  /// it is given up.
   Nanoseconds start = seconds(60);
   Nanoseconds lost = seconds(30);
-  /// Without a way to a coordinator, until the next one is joined, where there is one. Who has not
-  /// heard of its coordinator yet waits for half of `start`: a run begins with all its workers.
+  /// How long a coordinator may be unreachable before the next one is joined, if there is one.
+  /// Before it was ever heard, half of `start`: a run begins with all its workers.
   Nanoseconds rejoin = seconds(30);
-  NodeTrace* trace = nullptr;  // null: nothing is traced
+  NodeTrace* trace = nullptr;  // null: no tracing
 };
 
-/// How long merged batches rest, when a flush lately took `cost` (packing it here, and waiting for
-/// the answer of a controller that may be busy with others'): so long that flushes take a fiftieth
-/// of the time, but never more than a quarter of the leases' time, lest they be lent again.
+/// How long merged batches wait, if a recent flush took `cost` (packing it here, and waiting for a
+/// controller that may be busy with others): so that flushes take at most a fiftieth of the time,
+/// but never more than a quarter of the lease time, lest the batches be leased again.
 constexpr Nanoseconds flush_interval(Nanoseconds least, Nanoseconds cost, Nanoseconds lease_time) {
   return std::min(std::max(least, 50 * cost), lease_time / 4);
 }
 
-/// Of a tracer to itself: what is merged is to be packed, on its fiber.
+/// Sent by a tracer to itself: pack the merged totals, on its fiber.
 struct PackFlush {
   Totals* totals;
 };
@@ -65,14 +65,14 @@ class TracingWorker final
                        DataLane<Accepts<PackFlush, 1, WhenFull::fail>>>,
       public LeasePort {
  public:
-  /// Requires: all that is referred to outlives it.
+  /// Requires: all references outlive this.
   TracingWorker(const TracingWorkerConfig& config, const ShardPlan& shards, Scheduler& scheduler,
                 Network& network, Sender& sender);
 
-  /// Requires: once, before `work` starts; the scheduler has a fiber for it.
+  /// Requires: called once, before `work` starts; the scheduler has a fiber for it.
   void start(LeasedWork& work);
 
-  // Of the coordinator; the end of the run, of neighbours as well.
+  // From the coordinator; the end of the run also from neighbours.
   void on(const Letter<LeaseGranted>& granted);
   void on(const Letter<FlushTaken>& taken);
   void on(const Letter<FlushRefused>& refused);
@@ -81,7 +81,7 @@ class TracingWorker final
   void on(const Letter<StateTold>& told);
   void on(const Letter<RunEnded>& ended);
   void on(const Letter<EnterPhase>& phase);
-  // Of shards.
+  // From shards.
   void on(const Letter<SliceHeld>& held);
   void on(const PackFlush& pack);
 
@@ -102,18 +102,18 @@ class TracingWorker final
   /// Whether the run is over, as this node has heard; or the controller was given up.
   bool over() const { return over_; }
   /// Whether it is over and this node may leave. A node that has heard of the end stays until it is
-  /// let go, since others' word of it may have to pass through it.
+  /// released, since the message to others may have to pass through it.
   bool ended() const { return ended_ && work_->gone(); }
-  /// Passes the word of the run's end on to a neighbour, if this node has heard it.
+  /// Tells a neighbour of the run's end, if this node has heard of it.
   void tell_end(NodeId neighbour);
   /// Why the run ended without this node, or could not begin.
   const std::optional<Problem>& fault() const { return fault_; }
 
-  /// Asks for no more, and flushes what is at hand once it is traced: this node is to leave.
+  /// Asks for no more, and flushes what is at hand once it is traced: this node is about to leave.
   void drain();
-  /// Whether all that was at hand is with the controller.
+  /// Whether everything at hand has reached the controller.
   bool drained() const;
-  /// Tells the coordinator that this node leaves before the run has ended.
+  /// Tells the coordinator that this node leaves before the end of the run.
   void say_goodbye();
 
   struct Counters {
@@ -124,7 +124,7 @@ class TracingWorker final
     uint64_t asked_again = 0;
     uint64_t leases_failed = 0;
     uint64_t leases_given_back = 0;
-    uint64_t coordinators_left = 0;  // that were lost
+    uint64_t coordinators_left = 0;  // because they were lost
     uint64_t led_by = 0;             // number of the node whose coordinator leads this one
   };
   const Counters& counters() const { return counters_; }
@@ -178,54 +178,56 @@ class TracingWorker final
 
   TracingWorkerConfig config_;
   const Clock& clock_;
-  Network& network_;  // who is within reach
+  Network& network_;  // for reachability
   SliceSender slices_;
   LeasedWork* work_ = nullptr;
-  size_t led_by_ = 0;  // of config_.coordinators
-  /// Coordinators that were left, and have yet to answer that they heard so: they would keep
-  /// batches for this node.
+  size_t led_by_ = 0;  // index in config_.coordinators
+  /// Coordinators that were left, and have not confirmed it yet: they would keep batches for this
+  /// node.
   struct Left {
     Address whom;
-    MessageId word;  // that it was left: newer than all questions, whose answers may still come
+    // the message about leaving: newer than all questions, whose answers may still arrive
+    MessageId word;
   };
   std::vector<Left> left_;
   bool known_here_ = false;           // the coordinator was heard since it was joined
   std::optional<Question> asking_;    // for leases
-  std::optional<Question> flushing_;  // one at a time; put when all its slices are held
-  std::optional<Question> learning_;  // what a state of the scene is made from
+  std::optional<Question> flushing_;  // one at a time; sent when all its slices are held
+  std::optional<Question> learning_;  // for the description of a state
   RetryTimer lease_timer_, flush_timer_, state_timer_;
-  std::optional<ObjectId> entering_;  // batches of it are lent, and nothing is merged until it is
-  std::vector<uint64_t> done_;        // merged, in no flush yet
+  // its batches are leased, but nothing is merged until it is entered
+  std::optional<ObjectId> entering_;
+  std::vector<uint64_t> done_;  // merged, in no flush yet
   std::vector<uint64_t> packed_leases_;
   std::shared_ptr<FlushEncoder> encoder_;  // shared with the network while it sends
   bool packing_ = false;
-  bool room_wanted_ = false;      // the tally is full: flush as soon as that can be
-  bool flush_due_ = false;        // it waits for the network to let go of the last one
+  bool room_wanted_ = false;      // the tally is full: flush as soon as possible
+  bool flush_due_ = false;        // waits for the network to release the previous flush
   Nanoseconds packing_took_ = 0;  // of the last flush
-  Nanoseconds flush_cost_ = 0;    // of the last one that was answered
+  Nanoseconds flush_cost_ = 0;    // of the last answered flush
   Nanoseconds lease_time_ = 0;
-  Nanoseconds first_done_ = 0;  // when the oldest of them was merged
-  /// Batches that were traced in vain, under the lease of their last try, and since when.
+  Nanoseconds first_done_ = 0;  // when the oldest batch in done_ was merged
+  /// Batches whose tries failed, with the lease of the last try, and since when.
   struct InVain {
     uint64_t lease;
     int64_t batch;
     Nanoseconds since;
   };
   std::vector<InVain> in_vain_;
-  bool returned_ = false;      // the coordinator has heard that all are returned
-  bool retries_soon_ = false;  // a timer puts again what has not left
+  bool returned_ = false;      // the coordinator knows that all are returned
+  bool retries_soon_ = false;  // a timer will retry what has not left
   size_t wanted_ = 0;
   uint32_t round_ = 0;        // of the last grant: a round begins when all before is counted
-  bool round_empty_ = false;  // the controller had none: flush, and wait for the next round
-  // working --the run's end is heard of--> over --let go, or the controller is lost--> ended
+  bool round_empty_ = false;  // the controller had no batch: flush, and wait for the next round
+  // working --hears of the run's end--> over --released, or the controller is lost--> ended
   bool over_ = false;
   bool ended_ = false;
-  RunEnded end_word_;                        // as it was heard
-  std::optional<std::vector<NodeId>> tell_;  // neighbours that it has yet to be passed on to
-  bool rumour_ = false;  // a neighbour says that the run is over, of which nothing is known here
+  RunEnded end_word_;                        // as it was received
+  std::optional<std::vector<NodeId>> tell_;  // neighbours that still must be told
+  bool rumour_ = false;  // a neighbour reports the end, unconfirmed by the controller
   bool draining_ = false;
   std::optional<Problem> fault_;
-  bool heard_ = false;  // of the controller
+  bool heard_ = false;  // the controller was heard
   Nanoseconds began_;
   std::optional<Nanoseconds> unreachable_since_;
   Counters counters_;

@@ -1,14 +1,13 @@
-// The shapes of an IFC model as a binary glTF, computed by @ifc-lite/wasm: called by
-// `luxodus import ifc` (actors/import/ifc_shapes.cpp), which bounds its time and reads its answer
-// without trust.
+// Computes the shapes of an IFC model as a binary glTF with @ifc-lite/wasm. `luxodus import ifc`
+// (actors/import/ifc_shapes.cpp) calls it, limits its time and does not trust its answer.
 //   node ifc_shapes.mjs MODEL.ifc OUT.glb
-// Products are computed some at a time, so that it can be told how many are done. Nodes are called
-// by the GlobalId of their product, materials by opacity. The offset of the whole model is taken
-// out, since numbers of glTF are single precision, and told as text with all digits.
+// Products are computed in batches, so that progress can be reported. Nodes are named by the
+// GlobalId of their product, materials by opacity. The offset of the whole model is removed, since
+// glTF has single precision, and printed as text with all digits.
 // Lines on standard output:
 //   done SHARE            of the products, from 0 to 1
 //   offset X Y Z          of the model [m], axes of glTF (y up)
-//   note TEXT             what could not be computed, for people
+//   note TEXT             what could not be computed, for the user
 // Exit codes: 0 done; 3 the package is not installed; 4 the model has no shapes; 1 anything else.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -16,13 +15,13 @@ import { dirname, join } from 'node:path';
 
 const glb_magic = 0x46546c67;
 const json_chunk = 0x4e4f534a;
-/** Of a job: the number of its product, and where the statement of it begins and ends [bytes]. */
+/** A job has the number of its product, and the begin and end of its statement [bytes]. */
 const job_words = 3;
-/** Class of a mesh: the shape of a type that products have, and show in their places. */
+/** Class of a mesh: the shape of a type, which its products already have. */
 const of_used_type = 2;
-/** Of a model. Products share work within a batch. */
+/** Limit on batches of a model. Products share work within a batch. */
 const most_batches = 100;
-/** Products that are named for openings that were not cut; each batch names some. */
+/** Limit on products named for openings that were not cut; each batch names some. */
 const most_hosts = 16;
 
 /** The package, with its module of WebAssembly compiled from the disk. */
@@ -36,12 +35,12 @@ async function load_api() {
   }
   const lite = await import(main);
   lite.initSync({ module: readFileSync(join(dirname(main), 'ifc-lite_bg.wasm')) });
-  // Its own words, a few for each batch, are of no use to anybody here.
+  // The library's own messages, a few for each batch, are of no use here.
   console.info = console.warn = () => {};
   return new lite.IfcAPI();
 }
 
-/** What could not be computed, of all batches. */
+/** Collects what could not be computed, over all batches. */
 class Faults {
   constructor() {
     this.uncut = new Map();
@@ -68,7 +67,7 @@ class Faults {
   }
 }
 
-/** The meshes of all products in the order of the model; tells how many products are done. */
+/** The meshes of all products in the order of the model; prints how many products are done. */
 function computed_meshes(api, bytes, plan, faults) {
   api.setSourceBytes(bytes);
   const meshes = [];
@@ -93,7 +92,7 @@ function computed_meshes(api, bytes, plan, faults) {
   return meshes;
 }
 
-/** All the numbers that `of` gives of each mesh, one after the other. */
+/** Concatenates the numbers that `of` returns for each mesh. */
 function joined(Numbers, meshes, of) {
   const out = new Numbers(meshes.reduce((sum, mesh) => sum + of(mesh).length, 0));
   let at = 0;
@@ -117,7 +116,7 @@ function glb_of(api, meshes) {
     true, true, false);
 }
 
-/** JSON and what follows it of a binary glTF. */
+/** The JSON and the binary chunk of a binary glTF. */
 function taken_apart(glb) {
   const view = new DataView(glb.buffer, glb.byteOffset, glb.byteLength);
   if (view.getUint32(0, true) !== glb_magic || view.getUint32(16, true) !== json_chunk)
@@ -139,7 +138,7 @@ function put_together(json, rest) {
   return Buffer.concat([head, text, padding, rest]);
 }
 
-/** Takes the translation of the one root out, and gives it with that of the plan, which has z up. */
+/** Removes the translation of the single root; returns it plus that of the plan, which is z up. */
 function take_offset(json, plan) {
   const [x, y, z] = plan.needsShift ? plan.rtcOffset : [0, 0, 0];
   const roots = json.scenes?.[json.scene ?? 0]?.nodes ?? [];

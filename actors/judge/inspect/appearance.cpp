@@ -1,5 +1,5 @@
-// How bright surfaces and signs are stated to be: reflectances that no paint has, rooms that are
-// black all over, signs that are dark, reversed, or brighter than their kind can be.
+// Inspects stated reflectances and luminances: reflectances that no paint has, rooms that are black
+// all over, signs that are dark, reversed, or brighter than their kind can be.
 #include <algorithm>
 #include <cmath>
 
@@ -11,23 +11,23 @@ namespace luxodus {
 
 namespace {
 
-/// Fresh white paint reflects 0.85; more is the coating of measuring spheres.
+/// Fresh white paint reflects 0.85; only the coating of integrating spheres reflects more.
 constexpr double max_paint = 0.9;
-/// Below this a surface reflects nothing that matters.
+/// Below this a surface counts as black.
 constexpr double black_below = 0.01;
-/// Photoluminescent faces give some cd/m2 in the first minute and less than 1 after ten (ISO
-/// 17398); more is the luminance of a sign that is lit from within.
+/// Photoluminescent faces have some cd/m2 in the first minute and less than 1 after ten (ISO
+/// 17398); more is the luminance of an internally lit sign.
 constexpr double max_glow_cd_m2 = 10;
 constexpr double max_lit_cd_m2 = 5000;
-/// White over green (EN 1838: 5 to 15).
+/// Limits on white over green (EN 1838: 5 to 15).
 constexpr double min_mains_contrast = 2, max_mains_contrast = 50;
-/// Of a sign's shorter side; the details of pictograms are a tenth of it.
+/// Share of a sign's shorter side; the details of pictograms are a tenth of it.
 constexpr double large_detail = 0.34;
-/// Luminance ~ cos^n: with more, little is seen from aside.
+/// Luminance ~ cos^n: with a larger exponent little is visible from the side.
 constexpr double max_exponent = 2;
-/// Across the longer side of a drawn face, whose details are a tenth of the shorter one.
+/// Texels across the longer side of a drawn face, whose details are a tenth of the shorter one.
 constexpr int min_texels = 40;
-/// A glow that lasts this long is in minutes, or that of another sign [s].
+/// A glow that lasts this long is probably given in minutes, or belongs to another sign [s].
 constexpr double glow_s = 600, max_glow_share = 0.5;
 
 double luminous(const Spectrum& s) {
@@ -38,7 +38,7 @@ void tell_of(const Sign& sign, Severity severity, const std::string& what, Findi
   out.push_back({severity, "sign light", {sign.place, "sign \"" + sign.name + "\" " + what}});
 }
 
-/// Of a sign that shines: the luminances of one operation.
+/// Inspects the luminances of a self-luminous sign in one operation.
 void inspect_state(const Sign& sign, const SignState& state, const char* operation, Findings& out) {
   const double white = state.white_cd_m2, green = state.green_cd_m2;
   if (white == 0 && green == 0) return;

@@ -1,4 +1,4 @@
-// Areas that reach through walls: a grid of places over each, and which of them are joined by
+// Finds areas that extend through walls: lays a grid of places over each, and joins places by
 // straight steps that no wall crosses.
 #include <algorithm>
 #include <cmath>
@@ -11,25 +11,26 @@ namespace luxodus {
 
 namespace {
 
-/// Places are so far apart, narrower than any doorway, and so far within the outline [m].
+/// Spacing of places, less than any doorway, and their least distance from the outline [m].
 constexpr double part_step_m = 0.5;
 constexpr double part_border_m = 0.25;
-/// Larger areas are halls, and are looked at more coarsely.
+/// Larger areas are halls, and get a coarser grid.
 constexpr size_t max_part_places = 20'000;
-/// Over a floor, and over a task plane: above tables, below lintels [m].
+/// Height of tests above a floor, and above a task plane: above tables, below lintels [m].
 constexpr double over_floor_m = 1.65;
 constexpr double over_task_m = 0.8;
-/// The floor is looked for so far below the area's height [m].
+/// How far below the area's height the floor may be [m].
 constexpr double floor_slack_m = 0.3;
-/// What is narrower is a doorway: it joins two rooms, and does not make them one [m].
+/// A narrower opening is a doorway, which does not make two rooms one [m].
 constexpr double doorway_width_m = 1.25;
-/// A smaller share of the area, or one of fewer places, is a niche or lies behind a column.
+/// A part with a smaller share of the area, or with fewer places, is a niche or lies behind a
+/// column.
 constexpr double part_of_area = 0.1;
 constexpr size_t min_part_places = 6;
 
 struct PartGrid {
-  std::vector<glm::dvec3> places;               // at the height that walls are asked at
-  std::vector<std::pair<size_t, size_t>> legs;  // neighbours, to the east and to the north
+  std::vector<glm::dvec3> places;               // at the height of the wall tests
+  std::vector<std::pair<size_t, size_t>> legs;  // pairs of neighbours, to the east and to the north
 };
 
 PartGrid grid_over(const AssessedArea& area, double above_m) {
@@ -42,7 +43,7 @@ PartGrid grid_over(const AssessedArea& area, double above_m) {
   const double step = std::max(part_step_m, std::sqrt(size.x * size.y / max_part_places));
   PartGrid grid;
   grid.places = within(area, part_border_m, step);
-  // Neighbours are nearly one step apart, and all others of a row or a column two or more.
+  // Neighbours are about one step apart, all others of a row or a column two or more.
   std::map<std::pair<int64_t, int64_t>, size_t> at;
   const auto pitch = [&](double length) {
     const double inner = length - 2 * part_border_m;
@@ -61,7 +62,7 @@ PartGrid grid_over(const AssessedArea& area, double above_m) {
   return grid;
 }
 
-/// Whether somebody can be there: on a floor, in no wall; and not in a doorway.
+/// Whether a person can stand there: on a floor, not in a wall, not in a doorway.
 bool is_room_place(const Site& site, const GeometryAccess& access, const glm::dvec3& place,
                    double floor_within_m, const std::vector<char>& furniture) {
   if (!solid_ahead(site, access, place, glm::dvec3(0, 0, -1), floor_within_m)) return false;
@@ -77,7 +78,7 @@ bool is_room_place(const Site& site, const GeometryAccess& access, const glm::dv
   return true;
 }
 
-/// Places by the part that they belong to, the largest part first.
+/// Places by part, the largest part first.
 std::vector<std::vector<size_t>> parts_of(size_t places, const std::vector<char>& counts,
                                           const std::vector<std::pair<size_t, size_t>>& joined) {
   std::vector<size_t> root(places);
@@ -103,7 +104,7 @@ void tell_parts(const Site& site, const char* word, const AssessedArea& area, bo
   const PartGrid grid = grid_over(area, above);
   const std::vector<char> furniture = furniture_of(site);
   std::vector<char> counts(grid.places.size(), 0), free(grid.legs.size(), 0);
-  // A task plane is at a table's height above the floor.
+  // A task plane is at table height above the floor.
   const double floor_m = above + floor_slack_m + (is_floor ? 0 : over_floor_m);
   site.building.each(grid.places.size(), [&](const GeometryAccess& access, size_t i) {
     counts[i] = is_room_place(site, access, grid.places[i], floor_m, furniture) ? 1 : 0;

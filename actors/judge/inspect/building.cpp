@@ -9,7 +9,7 @@ namespace luxodus {
 
 namespace {
 
-/// Points along each edge of a face that are tried.
+/// Sample points along each edge of a face.
 constexpr int face_points = 3;
 
 }  // namespace

@@ -1,6 +1,6 @@
-// A scene compiled for questions about places: what emitters give there, what can be seen from
-// there. Its tallies are never made. Thread rule: made and asked from one thread; rows of work run
-// on several.
+// A scene compiled for questions about places: the light of emitters there, and what is visible
+// from there. Nothing is tallied. Thread rule: made and called from one thread; rows of work run on
+// several.
 #pragma once
 
 #include "actors/results/run/parallel_for.hpp"
@@ -17,19 +17,19 @@ class Building {
                                                 int threads);
 
   const CompiledScene& scene() const { return *scene_; }
-  /// Surfaces of rooms that show their backs to the inside, as turned_surfaces.
+  /// Surfaces of rooms whose backs face inwards, as turned_surfaces.
   const std::vector<char>& turned() const { return turned_; }
   glm::vec3 local(const glm::dvec3& place) const { return glm::vec3(place - scene_->local_origin); }
   /// Calls `work` with every number below `count`, on all threads.
   void each(size_t count,
             const std::function<void(const GeometryAccess& access, size_t i)>& work) const;
 
-  /// Whether a place lies in a closed body, as in_body says; rooms that are drawn with their faces
-  /// to the outside are none, and neither is what is `ignored`, by surface.
+  /// Whether a place lies in a closed body, as in_body; rooms drawn with their faces outwards are
+  /// not bodies, nor are `ignored` surfaces.
   bool in_solid(const GeometryAccess& access, const glm::dvec3& place,
                 std::span<const char> ignored = {}) const;
   const ParallelFor& rows() const { return rows_; }
-  /// Share of a sign's face that has a clear line to an eye.
+  /// Share of a sign's face with a clear line to an eye.
   double seen_share(const GeometryAccess& access, const Sign& sign, const SignView& view,
                     const glm::dvec3& eye) const;
 
@@ -43,7 +43,7 @@ class Building {
   std::vector<char> turned_;  // as turned_surfaces
 };
 
-/// A copy with nothing to tally: no planes, probes, groups, observers, cameras, voxels.
+/// A copy without measurements: no planes, probes, groups, observers, cameras, voxels.
 SceneDescription without_measurements(const SceneDescription& scene);
 
 }  // namespace luxodus

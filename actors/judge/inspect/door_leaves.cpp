@@ -1,5 +1,5 @@
-// Door leaves and the walls about them: leaves that stand in a wall, closed or as they open, before
-// a wall without an opening, or in no wall at all.
+// Inspects door leaves and the walls around them: leaves in a wall, closed or while opening, in
+// front of a wall without an opening, or in no wall at all.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,20 +12,20 @@ namespace luxodus {
 
 namespace {
 
-/// Leaves of doors: lower ones are flaps and hatches, wider and thicker ones gates [m].
+/// Sizes of door leaves: lower ones are flaps and hatches, wider and thicker ones gates [m].
 constexpr double min_leaf_height_m = 1.5;
 constexpr double min_leaf_width_m = 0.4;
 constexpr double max_leaf_width_m = 6;
 constexpr double max_leaf_depth_m = 0.3;
-/// A wall so near behind all of a closed leaf has no opening there [m].
+/// A wall this close behind all of a closed leaf has no opening there [m].
 constexpr double behind_leaf_m = 0.3;
-/// A frame is so near to a leaf's edge [m].
+/// A frame is this close to a leaf's edge [m].
 constexpr double to_frame_m = 0.3;
 constexpr double off_leaf_m = 5e-3;
-/// Asked at three by three places; more than half of them, and nearly all.
+/// Numbers of three by three sample places: more than half, and nearly all.
 constexpr int many_places = 5;
 constexpr int nearly_all_places = 8;
-/// Of the way from hinge to edge: what an opening leaf strikes there stands in its way.
+/// Range of the way from hinge to edge, as shares, in which a wall obstructs an opening leaf.
 constexpr double from_hinge = 0.03;
 constexpr double to_edge = 0.95;
 
@@ -39,7 +39,7 @@ struct Leaf {
   }
 };
 
-/// Along the axis that its corners spread most on, seen from above; none of what is no door.
+/// The leaf along the axis of largest spread, seen from above; none if the object is not a door.
 std::optional<Leaf> leaf_of(const Object& object) {
   const auto& p = object.mesh.positions;
   if (!object.door || p.empty() || std::abs(glm::normalize(object.door->axis).z) < 0.9)
@@ -82,7 +82,7 @@ Leaf opened(const Leaf& leaf, const Door& door) {
   return out;
 }
 
-/// Three by three places of a leaf, well within its edges.
+/// Three by three places of a leaf, within its edges.
 std::array<glm::dvec3, 9> places_of(const Leaf& leaf) {
   std::array<glm::dvec3, 9> out;
   for (size_t i = 0; i < out.size(); ++i)
@@ -91,7 +91,7 @@ std::array<glm::dvec3, 9> places_of(const Leaf& leaf) {
   return out;
 }
 
-/// Leaves and furniture, by surface: none of them is a wall.
+/// Leaves and furniture, by surface, which are not walls.
 std::vector<char> movables_of(const Site& site) {
   std::vector<char> out = furniture_of(site);
   for (size_t i = 0; i < out.size(); ++i)
@@ -108,7 +108,7 @@ bool stands_in_wall(const Site& site, const GeometryAccess& access, const Leaf& 
   return inside >= many_places;
 }
 
-/// A wall right behind nearly all of a closed leaf.
+/// A wall directly behind nearly all of a closed leaf.
 std::optional<uint32_t> wall_behind(const Site& site, const GeometryAccess& access,
                                     const Leaf& leaf) {
   for (const glm::dvec3& way : {leaf.normal, -leaf.normal}) {
@@ -126,7 +126,7 @@ std::optional<uint32_t> wall_behind(const Site& site, const GeometryAccess& acce
   return std::nullopt;
 }
 
-/// Whether anything is beside or above a closed leaf, in its plane or near to it.
+/// Whether there is anything beside or above a closed leaf, in or near its plane.
 bool has_frame(const Site& site, const GeometryAccess& access, const Leaf& leaf) {
   const auto meets = [&](const glm::dvec3& edge, const glm::dvec3& way) {
     for (const double aside : {0.0, 0.04, -0.04})
@@ -138,8 +138,8 @@ bool has_frame(const Site& site, const GeometryAccess& access, const Leaf& leaf)
          meets(leaf.at(0, 0.5), glm::dvec3(0, 0, 1));
 }
 
-/// What an open leaf passes through, at two heights of three and on both its faces: one that lies
-/// flat on a wall has the room before it.
+/// The wall that an open leaf passes through, tested at two of three heights and on both its faces,
+/// since a leaf that lies flat on a wall has the room in front.
 std::optional<uint32_t> wall_in_way(const Site& site, const GeometryAccess& access,
                                     const Leaf& leaf) {
   int met = 0;

@@ -6,16 +6,16 @@ namespace luxodus {
 
 namespace {
 
-/// Half of the widest opening that is a doorway [m].
+/// Half the width of the widest opening that counts as a doorway [m].
 constexpr double half_opening_m = 2;
-/// From the middle of the thickest wall to before it [m].
+/// Distance from the middle of the thickest wall to a place in front of it [m].
 constexpr double before_opening_m = 0.6;
-/// So much wider, and higher, is what an opening leads into [m].
+/// The space behind an opening is wider and higher by at least this [m].
 constexpr double wider_m = 0.15;
 constexpr double max_lintel_m = 3;
 
 struct Clear {
-  double width = 0, height = 0;  // the largest that is asked for where nothing is met
+  double width = 0, height = 0;  // the search range if nothing is hit
 };
 
 Clear clear_at(const Site& site, const GeometryAccess& access, const glm::dvec3& place,

@@ -1,8 +1,7 @@
-// Rooms that are not closed, by what matters of it: the light that gets out. A batch of particles
-// is traced with the walls, furniture and lamps of the scenario, without smoke, which would only
-// hide the hole, and with panes painted black, since light that leaves by a window is meant to.
-// These are numbers of their own: what a run tells in its results is its own traced light, smoke
-// and panes and all.
+// Finds rooms that are not closed by the light that escapes. A batch of particles is traced with
+// the walls, furniture and lamps of the scenario; without smoke, which would hide the hole, and
+// with panes painted black, since light through windows is intended. These numbers differ from
+// those of a run, whose results include smoke and panes.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -15,14 +14,14 @@ namespace luxodus {
 namespace {
 
 constexpr uint64_t escape_seed = 17;
-/// Of 1 % the standard error is then 0.08 %.
+/// The standard error of a share of 1 % is then 0.08 %.
 constexpr int64_t particles = 1 << 14;
 constexpr size_t pieces = 16;
 constexpr double told_share = 0.01;
-/// The least that a flame can be thinned to, so that it glows and hides nothing.
+/// Factor that makes a flame transparent but still glowing.
 constexpr double no_smoke = 1e-9;
 
-/// One source group and one band: shares of the light are then shares of the particles.
+/// One source group and one band: shares of light then equal shares of particles.
 SceneDescription bare(const SceneDescription& scene, const Misplaced& misplaced) {
   SceneDescription out = without_measurements(scene);
   out.run.error_of.clear();

@@ -1,5 +1,5 @@
-// Observers, cameras and probes: whether they are anywhere that something can be seen from, and
-// whether smoke leaves anything of it.
+// Inspects observers, cameras and probes: whether anything is visible from where they are, with and
+// without smoke.
 #include <algorithm>
 #include <cmath>
 
@@ -12,24 +12,24 @@ namespace luxodus {
 namespace {
 
 constexpr Real sight_m = 1e5_r;
-/// Smoke that passes less leaves nothing of the brightest lamp beside the darkest wall.
+/// With a lower transmission, the brightest lamp is invisible beside the darkest wall.
 constexpr double min_transmission = 1e-4;
-/// Of a camera: rays across and down its picture.
+/// Rays across and down a camera's picture.
 constexpr int rays_across = 16;
 constexpr int rays_down = 9;
 constexpr int rays_around = 128;
-/// A probe on a surface is looked at from before it [m].
+/// A probe on a surface is tested from this far in front of it [m].
 constexpr double before_probe_m = 1e-3;
-/// A probe that has a surface as near before it measures that surface [m].
+/// A probe with a surface this close in front of it measures that surface [m].
 constexpr Real shut_probe_m = 0.05_r;
 
 struct EyePlace {
   std::string name;  // camera "hall"
   SourcePlace place;
   glm::dvec3 at{0};
-  std::vector<Vec3> directions{};  // in which it looks
-  Vec3 ahead{0, 0, 1};             // their middle
-  Real min_cosine = -1;            // with it, of what it sees
+  std::vector<Vec3> directions{};  // of its gaze
+  Vec3 ahead{0, 0, 1};             // mean of the directions
+  Real min_cosine = -1;            // between `ahead` and what it sees
   bool is_camera = false, is_probe = false;
 };
 
@@ -80,7 +80,7 @@ bool is_open(const Facing& facing) {
   return facing.kind == MaterialKind::open;
 }
 
-/// Surfaces and lamps alike; where no surface is, nothing hides a lamp.
+/// Counts surfaces and lamps; where no surface is, nothing hides a lamp.
 bool sees_anything(const Site& site, const GeometryAccess& access, const EyePlace& eye) {
   const CompiledScene& scene = site.building.scene();
   const Vec3 at = site.building.local(eye.at);
@@ -95,7 +95,7 @@ bool sees_anything(const Site& site, const GeometryAccess& access, const EyePlac
          });
 }
 
-/// Whether all that it meets are backs: it stands under the floor or behind a wall.
+/// Whether all rays hit backs: then it is under the floor or behind a wall.
 bool sees_backs_alone(const Site& site, const GeometryAccess& access, const EyePlace& eye) {
   const Vec3 at = site.building.local(eye.at);
   bool any = false;
@@ -108,7 +108,7 @@ bool sees_backs_alone(const Site& site, const GeometryAccess& access, const EyeP
   return any;
 }
 
-/// Of those that this observer is asked about.
+/// Whether it sees one of the signs that concern this observer.
 bool sees_a_sign(const Site& site, const GeometryAccess& access, const Observer& observer) {
   const auto& signs = site.scene.signs;
   for (uint32_t i = 0; i < signs.size(); ++i) {
@@ -157,7 +157,7 @@ std::optional<Finding> wrong_eye(const Site& site, const GeometryAccess& access,
   return std::nullopt;
 }
 
-/// The most that smoke passes from an eye to a surface [1].
+/// The highest transmittance of smoke from an eye to a surface [1].
 double best_transmission(const Building& smoky, const GeometryAccess& access, const EyePlace& eye) {
   const CompiledScene& scene = smoky.scene();
   const Vec3 at = smoky.local(eye.at);
@@ -179,7 +179,7 @@ void inspect_eyes(const Site& site, Findings& out) {
   std::vector<std::optional<Finding>> found(eyes.size());
   site.building.each(eyes.size(), [&](const GeometryAccess& access, size_t i) {
     found[i] = wrong_eye(site, access, eyes[i]);
-    const auto& observers = site.scene.observers;  // the first of the eyes
+    const auto& observers = site.scene.observers;  // observers come first among the eyes
     if (found[i] || i >= observers.size() || site.scene.signs.empty()) return;
     if (!sees_a_sign(site, access, observers[i]))
       found[i] = Finding{Severity::warning,

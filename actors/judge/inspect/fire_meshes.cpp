@@ -1,5 +1,5 @@
-// Fire simulations: places of people, and what they look at, outside of the meshes. Nothing is
-// known of the air there, and clear air would make verdicts better than they are.
+// Finds places of people, and signs they look at, outside the meshes of fire simulations. The air
+// there is unknown, and assuming clear air would make verdicts too good.
 #include <algorithm>
 
 #include "actors/judge/inspect/site.hpp"
@@ -10,12 +10,12 @@ namespace luxodus {
 
 namespace {
 
-/// Between the places of people that are tried, and the samples of a line of sight [m].
+/// Spacing of the places of people, and of samples along a line of sight [m].
 constexpr double fire_places_m = 1, sight_step_m = 0.1;
-/// Lines of sight that are tried: so far [m], and so many.
+/// Limits on lines of sight: length [m], and number.
 constexpr double farthest_sight_m = 60;
 constexpr size_t max_fire_sights = 100'000;
-/// Things that hang on a wall or ceiling may lie a little outside of the gas [m].
+/// Things on a wall or ceiling may lie slightly outside the gas [m].
 constexpr double on_wall_m = 0.1;
 
 struct Tried {
@@ -42,7 +42,7 @@ std::vector<Tried> eyes_tried(const SceneDescription& scene) {
   return out;
 }
 
-/// The union of a simulation's meshes, asked in the coordinates of the scene.
+/// The union of a simulation's meshes, in scene coordinates.
 class KnownAir {
  public:
   explicit KnownAir(const FireSimulation& fire) : fire_(fire) {}
@@ -55,7 +55,7 @@ class KnownAir {
     });
   }
 
-  /// The first place of a line where nothing is known.
+  /// The first place on a line outside the meshes.
   std::optional<glm::dvec3> leaves(const glm::dvec3& from, const glm::dvec3& to) const {
     const int steps = static_cast<int>(glm::length(to - from) / sight_step_m) + 1;
     for (int i = 0; i <= steps; ++i) {
@@ -74,7 +74,7 @@ std::string outside_words(const Medium& m) {
          "\": nothing is known of the smoke there, and clear air would be optimistic";
 }
 
-/// Eyes that stand outside, the first of each route, area and observer.
+/// Reports eyes outside, the first one of each route, area and observer.
 void tell_places(const Medium& m, const KnownAir& air, const std::vector<Tried>& eyes,
                  Findings& out) {
   std::vector<std::string> told;
@@ -89,7 +89,7 @@ void tell_places(const Medium& m, const KnownAir& air, const std::vector<Tried>&
   }
 }
 
-/// Signs that are seen from an eye along a line that leaves the meshes, once each.
+/// Reports signs seen along a line that leaves the meshes, once each.
 void tell_sights(const SceneDescription& scene, const Building& smoky, const Medium& m,
                  const KnownAir& air, const std::vector<Tried>& eyes, Findings& out) {
   struct Line {

@@ -1,5 +1,5 @@
-// Points of emphasis: whether a door, an extinguisher or a call point can be where it is said to
-// be. Equipment hangs on something or stands on the floor, in reach; doors are in walls.
+// Inspects points of emphasis: whether a door, an extinguisher or a call point can be at its stated
+// place. Equipment hangs on something or stands on the floor, in reach; doors are in walls.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,18 +10,18 @@ namespace luxodus {
 
 namespace {
 
-/// Asked so far before the point, so that one in a wall's face is not in the wall [m].
+/// The point is tested this far in front, so that one in a wall's face is not in the wall [m].
 constexpr double before_point_m = 0.02;
-/// Equipment hangs at most so far before what it hangs on [m].
+/// Equipment is at most this far in front of what it hangs on [m].
 constexpr double hung_m = 0.5;
-/// Lower, it stands on the floor or a plinth; higher, nobody reaches it [m].
+/// Below the first, it stands on the floor or a plinth; above the second, it is out of reach [m].
 constexpr double stands_m = 0.5;
 constexpr double reach_m = 2.2;
-/// A door farther from every wall is in none: half of a wide open side, and some [m].
+/// A door farther from every wall is in none: half of a wide open side, plus a margin [m].
 constexpr double door_wall_m = 3;
-/// Marks of places on the floor are at most so high, door leaves included [m].
+/// Places marked on the floor are at most this high, including door leaves [m].
 constexpr double mark_height_m = 1.5;
-/// Front of equipment with something solid so near before it [m].
+/// The front of equipment is blocked by a solid this close [m].
 constexpr double shut_front_m = 0.3;
 constexpr double floor_far_below_m = 100;
 constexpr int directions_around = 16;
@@ -35,11 +35,11 @@ bool is_door(EmphasisKind kind) {
   return kind == EmphasisKind::exit_door || kind == EmphasisKind::final_exit;
 }
 
-/// Whether something solid is within `length_m` on the level, or right here.
+/// Whether there is a solid within `length_m` horizontally, or at the place itself.
 bool solid_around(const Site& site, const GeometryAccess& access, const glm::dvec3& place,
                   double length_m) {
   for (int i = 0; i < directions_around; ++i) {
-    // Off the axes, where rays run along walls.
+    // Directions off the axes, along which walls run.
     const double angle = 2 * std::numbers::pi * (i + 0.3) / directions_around;
     const glm::dvec3 way(std::cos(angle), std::sin(angle), 0);
     if (solid_ahead(site, access, place, way, length_m)) return true;
@@ -47,7 +47,7 @@ bool solid_around(const Site& site, const GeometryAccess& access, const glm::dve
   return false;
 }
 
-/// Outside by more than lying in a wall's plane explains.
+/// Outside by more than a place in a wall's plane.
 bool lies_outside(const Site& site, const GeometryAccess& access, const glm::dvec3& place) {
   constexpr double aside_m = 0.1;
   for (const glm::dvec2& aside : {glm::dvec2(0, 0), {-1, 0}, {1, 0}, {0, -1}, {0, 1}})
@@ -61,7 +61,7 @@ std::string outside_text(EmphasisKind kind) {
              : "no luminaire of the building is near to it there; is its position right?";
 }
 
-/// What is wrong with a point that is near to the building: kind, and what to say.
+/// What is wrong with a point near the building: kind and message.
 std::optional<std::pair<const char*, std::string>> fitted_wrong(const Site& site,
                                                                 const GeometryAccess& access,
                                                                 const EmphasisPoint& point) {

@@ -1,6 +1,6 @@
-// Luminaires by their numbers, as the scene and the photometric files state them: fluxes of the
-// wrong operation, factors that state a loss or never age, openings and fluxes of another unit.
-// What several luminaires share is told of the first, with the number of the others.
+// Inspects the numbers of luminaires in the scene and in photometric files: fluxes of the wrong
+// operation, factors that state a loss or ignore ageing, openings and fluxes in another unit. A
+// finding shared by several luminaires is reported for the first, with the number of the others.
 #include <algorithm>
 
 #include "actors/judge/inspect/site.hpp"
@@ -9,23 +9,24 @@ namespace luxodus {
 
 namespace {
 
-/// Of the flux of its file, on emergency supply: more is a percentage taken for a share, less may
-/// be a luminaire of the same make with more lamps.
+/// Ratio of the emergency flux to the flux of the file: more is a percentage taken for a share,
+/// less may be a luminaire of the same make with more lamps.
 constexpr double max_of_file = 4;
-/// Rounding of what files and designers write.
+/// Tolerance for rounding in files and designs.
 constexpr double rounding_share = 0.02;
-/// On a battery of its own a luminaire keeps 5 to 30 % of its mains flux.
+/// On its own battery a luminaire has 5 to 30 % of its mains flux.
 constexpr double mains_like_share = 0.9;
-/// Emergency luminaires of corridors and rooms give 30 to 1000 lm; those of high halls more.
+/// Emergency luminaires of corridors and rooms have 30 to 1000 lm; those of high halls more.
 constexpr double strong_emergency_lm = 2000, strongest_emergency_lm = 3000;
 constexpr double mains_like_lm = 1500;
-/// A share that was written for a flux.
+/// A smaller flux is a share written as a flux.
 constexpr double min_emergency_lm = 1;
-/// What is left of the light: lower values are what was lost more often than not.
+/// Factors for the remaining light: lower values usually state the loss instead.
 constexpr double low_maintenance = 0.4, low_end_of_duration = 0.3;
-/// Luminous openings: an LDT file in metres instead of millimetres, an IES file in feet.
+/// Limits on luminous openings: outside, an LDT file is in metres instead of millimetres, or an IES
+/// file in feet.
 constexpr double min_opening_m = 0.003, max_opening_m = 3.5;
-/// Fluxes that a luminaire's file adds up to.
+/// Limits on the flux of a luminaire's file.
 constexpr double min_file_lm = 5, max_file_lm = 2e5;
 
 double largest_of(const glm::dvec3& v) {
@@ -36,7 +37,7 @@ std::string lit_thing(const Emitter& e) {
   return (e.web ? "luminaire \"" : "emitter \"") + e.name + "\"";
 }
 
-/// Findings that luminaires share, told of the first.
+/// Findings that luminaires share, reported for the first.
 class SharedSlips {
  public:
   void add(Severity severity, const char* kind, const Emitter& e, std::string what) {
@@ -68,7 +69,7 @@ class SharedSlips {
   std::vector<Slip> slips_;
 };
 
-/// New light on emergency supply [lm, or W where radiometric].
+/// Flux of a new luminaire on emergency supply [lm, or W if radiometric].
 double new_emergency_flux(const Emitter& e) {
   return e.emergency_ageing > 0 ? e.emergency_flux / e.emergency_ageing : e.emergency_flux;
 }

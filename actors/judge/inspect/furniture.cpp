@@ -1,5 +1,5 @@
-// What stands and what turns: furniture that floats or is sunk in the floor, door leaves that turn
-// about a hinge that is not theirs.
+// Inspects furniture that floats or is sunk in the floor, and door leaves whose hinge is not at
+// their edge.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -11,29 +11,30 @@ namespace luxodus {
 
 namespace {
 
-/// Flatter is a slab: a table's top or a shelf, drawn without what bears it [m].
+/// A flatter thing is a slab: a table top or a shelf, drawn without its support [m].
 constexpr double slab_m = 0.15;
 /// Feet, castors and carpets [m].
 constexpr double foot_m = 0.05;
-/// What bears a thing that does not stand: a wall beside it, a ceiling above it [m].
+/// Distance of a support other than the floor: a wall beside it, a ceiling above it [m].
 constexpr double beside_m = 0.1;
-/// Asked so far below a foot [m].
+/// Tested this far below a foot [m].
 constexpr double below_foot_m = 1e-3;
 constexpr size_t feet_asked = 8;
-/// A hinge is at its leaf's edge; farther away the leaf leaves its opening [m].
+/// A hinge farther from its leaf's edge than this makes the leaf leave its opening [m].
 constexpr double hinge_slack_m = 0.15;
 constexpr double leaf_height_m = 1.5;
-/// A leaf that opens by less is open for nobody: radians, or a slip of the decimal point [deg].
+/// A smaller opening angle lets nobody pass: it is in radians, or has a wrong decimal point [deg].
 constexpr double min_open_deg = 10;
-/// So deep in the floor, furniture is not just pressed into a carpet [m].
+/// Furniture this deep in the floor is not just pressed into a carpet [m].
 constexpr double sunk_m = 0.03;
-/// So far beyond a wall's face on both sides, it reaches through and does not just touch [m].
+/// A thing this far beyond a wall's face on both sides passes through it, and does not just touch
+/// [m].
 constexpr double through_m = 0.03;
-/// Edges of a thing that are asked for walls; more are of round things, which have short ones.
+/// Number of a thing's edges tested against walls; round things have more, but short ones.
 constexpr size_t edges_asked = 400;
 constexpr double level_edge = 0.1;
 
-/// Lowest points of a mesh, some of them.
+/// Some of the lowest points of a mesh.
 std::vector<glm::dvec3> feet_of(const Mesh& mesh, double low) {
   std::vector<glm::dvec3> out;
   for (const glm::dvec3& p : mesh.positions)
@@ -41,14 +42,14 @@ std::vector<glm::dvec3> feet_of(const Mesh& mesh, double low) {
   return out;
 }
 
-/// How far the nearest of a thing's feet is above what is below it; none if something bears it.
+/// Distance from the lowest of a thing's feet to what is below it; none if something supports it.
 std::optional<double> floats_by(const Site& site, const GeometryAccess& access,
                                 const Object& object) {
   const Bounds box = bounds_of(object.mesh);
   const glm::dvec3 up(0, 0, 1), middle = (box.low + box.high) * 0.5;
   std::optional<double> least;
   for (const glm::dvec3& foot : feet_of(object.mesh, box.low.z)) {
-    // A little inwards, so that feet on an edge are above what bears them.
+    // Slightly inwards, so that feet on an edge are above their support.
     const glm::dvec3 inwards = glm::dvec3(middle.x - foot.x, middle.y - foot.y, 0) * 0.02;
     const glm::dvec3 from = foot + inwards - up * below_foot_m;
     if (site.in_body(access, from) || site.in_body(access, from - up * (foot_m / 2)))
@@ -67,7 +68,7 @@ std::optional<double> floats_by(const Site& site, const GeometryAccess& access,
   return *least + below_foot_m;
 }
 
-/// How deep all of a thing's feet are below a floor that it reaches above.
+/// Depth of all of a thing's feet below a floor that it extends above.
 std::optional<double> sunk_by(const Site& site, const GeometryAccess& access,
                               const Object& object) {
   const Bounds box = bounds_of(object.mesh);
@@ -90,7 +91,7 @@ std::optional<double> sunk_by(const Site& site, const GeometryAccess& access,
   return *least + below_foot_m;
 }
 
-/// A wall that level edges of a thing pass through, and where.
+/// A wall that horizontal edges of a thing pass through, and where.
 std::optional<std::pair<const Object*, glm::dvec3>> reaches_through(const Site& site,
                                                                     const GeometryAccess& access,
                                                                     const Object& object) {
@@ -100,7 +101,7 @@ std::optional<std::pair<const Object*, glm::dvec3>> reaches_through(const Site& 
   size_t asked = 0;
   for (const glm::uvec3& t : mesh.triangles)
     for (const auto& [from, to] : {std::pair(t.x, t.y), {t.y, t.z}, {t.z, t.x}}) {
-      // A little inwards, so that a back that touches its wall is before it.
+      // Slightly inwards, so that a back that touches its wall is in front of it.
       const glm::dvec3 a = glm::mix(mesh.positions[from], middle, 0.01);
       const glm::dvec3 b = glm::mix(mesh.positions[to], middle, 0.01);
       const double length = glm::length(b - a);
@@ -116,7 +117,7 @@ std::optional<std::pair<const Object*, glm::dvec3>> reaches_through(const Site& 
   return std::nullopt;
 }
 
-/// Of parts of one import, or copies of one thing, one is told.
+/// For parts of one import, or copies of one thing, only one is reported.
 void tell_sunk_or_through(const Site& site, Findings& out) {
   const auto& objects = site.scene.objects;
   std::vector<std::optional<double>> sunk(objects.size());
@@ -152,7 +153,7 @@ void inspect_furniture(const Site& site, Findings& out) {
   std::vector<std::optional<double>> floats(objects.size());
   site.building.each(objects.size(), [&](const GeometryAccess& access, size_t i) {
     const Object& object = objects[i];
-    // Parts of an import bear one another.
+    // Parts of an import support one another.
     const bool alone = object.name.find('.') == std::string::npos;
     if (!alone || !is_furniture(object) || object.mesh.positions.empty()) return;
     const Bounds box = bounds_of(object.mesh);

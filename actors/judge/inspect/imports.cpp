@@ -1,6 +1,6 @@
-// Imported buildings: whether they lie on their side, and whether their storeys have the height of
-// storeys or that of another unit. Told from their largest areas, and from the names of their
-// parts. Any building: whether all of its doors have the size of doors in feet.
+// Inspects imported buildings: whether they lie on their side, and whether their storey heights are
+// plausible or in another unit. Decided by their largest areas, and by names of their parts. For
+// any building: whether all of its doors have sizes in feet.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -13,32 +13,32 @@ namespace luxodus {
 
 namespace {
 
-/// Floors are at least as large, unless they are drawn in another unit; and so thin [m].
+/// Floors have at least this area, unless they are in another unit; and are at most this thin [m].
 constexpr double min_storey_area_m2 = 1e-4;
 constexpr double level_cosine = 0.99;
-/// Heights that are told apart, as a share of the building's height.
+/// Number of distinct levels over the building's height.
 constexpr int level_bins = 400;
-/// Of the area of a building's bounds that a floor, and a ceiling over it, cover.
+/// Share of a building's bounds that a floor, and a ceiling above it, cover.
 constexpr double floor_share = 0.5;
-/// Clear heights of storeys and halls; and those that a guess of the unit should give [m].
+/// Clear heights of storeys and halls; and those that a guessed unit should give [m].
 constexpr double min_clear_m = 1.9;
 constexpr double max_clear_m = 20;
 constexpr double usual_low_m = 2.2;
 constexpr double usual_high_m = 4.5;
-/// A building on its side: as thin as a storey is high, much higher than that, its largest areas
-/// upright [m].
+/// A building on its side: as thin as a storey is high, much higher than that, with its largest
+/// areas vertical [m].
 constexpr double min_storey_m = 2.2;
 constexpr double max_storey_m = 4.5;
 constexpr double min_aside_m = 6;
 constexpr double times_more = 2;
-/// A floor of this size that stands upright is no step's front [m2].
+/// A vertical floor of this size is not the front of a step [m2].
 constexpr double min_named_floor_m2 = 2;
 
-/// Leaves of doors [m]; and of those whose feet were read as metres.
+/// Sizes of door leaves [m], and of those whose feet were read as metres.
 constexpr glm::dvec2 leaf_width_m{0.55, 1.6}, leaf_height_in_m{1.8, 2.9};
 constexpr double metres_of_a_foot = 0.3048;
-/// Faces of signs are mostly 0.1 to 0.3 m high; a lone door in feet is believed if all are as high
-/// as this [m].
+/// Faces of signs are mostly 0.1 to 0.3 m high; a single door is taken to be in feet only if all
+/// signs are this high [m].
 constexpr double sign_in_feet_m = 0.45;
 
 struct Sided {
@@ -68,7 +68,7 @@ Sided sided(const std::vector<const Object*>& parts) {
   return out;
 }
 
-/// The faces of shape = "room" are no import, and their numbers stand in the scene.
+/// The faces of shape = "room" are not an import, and their numbers are in the scene.
 bool is_room_shape(const std::vector<const Object*>& parts) {
   return std::all_of(parts.begin(), parts.end(), [](const Object* part) {
     const std::string face = part->name.substr(part->name.find('.') + 1);
@@ -88,7 +88,7 @@ bool is_called(const Object& part, std::initializer_list<const char*> words) {
   });
 }
 
-/// A part that is called a floor or a ceiling, and is upright.
+/// A part called a floor or a ceiling that is vertical.
 const Object* upright_floor(const std::vector<const Object*>& parts) {
   for (const Object* part : parts) {
     if (!is_called(*part, {"floor", "ceiling", "slab", "boden", "decke", "plafond"})) continue;
@@ -128,7 +128,7 @@ void tell_on_side(const std::vector<const Object*>& parts, const Bounds& box,
                     name, length_text(size.z), length_text(size[thin]), lies_on_side)}});
 }
 
-/// From the largest floor of a building to the ceiling over it; none where it has not both.
+/// Height from the largest floor of a building to the ceiling above it; none if either is missing.
 std::optional<double> clear_height(const std::vector<const Object*>& parts, const Bounds& box) {
   const glm::dvec3 size = box.high - box.low;
   if (!(size.z > 0) || size.x * size.y < min_storey_area_m2) return std::nullopt;
@@ -148,8 +148,8 @@ std::optional<double> clear_height(const std::vector<const Object*>& parts, cons
   return std::nullopt;
 }
 
-/// Words on what the file's numbers would give if another unit were meant. Only ratios are known:
-/// which unit the import says is read and gone.
+/// Says what the file's numbers would give in another unit. Only ratios are known, since the unit
+/// of the import is not kept.
 std::string unit_guess(double clear_m) {
   struct Ratio {
     double factor;
@@ -171,7 +171,7 @@ std::string unit_guess(double clear_m) {
   return guess.empty() ? "?" : ": " + guess + "?";
 }
 
-/// Width and height of a part that may be a door's leaf: upright and thin.
+/// Width and height of a part that may be a door leaf: upright and thin.
 std::optional<glm::dvec2> leaf_size(const Object& part) {
   if (part.mesh.positions.empty() || is_furniture(part)) return std::nullopt;
   if (!part.door && !is_called(part, {"door", "tuer", "tür", "porte"})) return std::nullopt;
@@ -205,7 +205,7 @@ void inspect_feet(const SceneDescription& scene, Findings& out) {
   const bool large_signs = !scene.signs.empty() &&
                            std::all_of(scene.signs.begin(), scene.signs.end(),
                                        [](const Sign& s) { return s.height_m >= sign_in_feet_m; });
-  // A lone gate of a hall is as large.
+  // A single gate of a hall can have this size.
   if (in_feet == 0 || (in_feet == 1 && !large_signs)) return;
   out.push_back({Severity::warning,
                  "unit",
@@ -231,7 +231,7 @@ void inspect_imports(const SceneDescription& scene, Findings& out) {
     for (const Object* part : parts)
       for (const glm::dvec3& p : part->mesh.positions) box.extend(p);
     tell_on_side(parts, box, name, out);
-    if (no_buildings_size(box.high - box.low)) continue;  // told as a whole
+    if (no_buildings_size(box.high - box.low)) continue;  // reported for the whole
     const auto clear = clear_height(parts, box);
     if (!clear || (*clear >= min_clear_m && *clear <= max_clear_m)) continue;
     out.push_back({Severity::warning,

@@ -1,6 +1,6 @@
-// The order of inspecting: the scene as written; each state of the doors, with all lights lit; each
-// state of smoke; each state of light. Scenarios share states, and a finding that several of them
-// show is told once, with the scenarios it holds in unless it holds in all.
+// The order of inspecting: the scene as written; each state of the doors, with all lights on; each
+// state of smoke; each state of light. Scenarios share states, and a finding common to several is
+// reported once, with its scenarios unless it holds in all.
 #include "actors/judge/inspect/inspect.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// Findings as they come in, each with the scenarios it was found in.
+/// Collects findings, each with its scenarios.
 class Collected {
  public:
   void add(Findings found, const Names& scenarios) {
@@ -28,7 +28,7 @@ class Collected {
     }
   }
 
-  /// Errors first; of a kind at most limits::findings_of_a_kind one by one.
+  /// Errors first; for each kind at most limits::findings_of_a_kind separately.
   Findings told(size_t all_scenarios) && {
     std::stable_sort(list_.begin(), list_.end(), [](const Entry& a, const Entry& b) {
       return a.finding.severity > b.finding.severity;
@@ -72,7 +72,7 @@ Names names_of(const std::vector<const Scenario*>& scenarios) {
   return out;
 }
 
-/// Scenarios that are alike by a key, the first of each kind first.
+/// Groups scenarios with equal keys, in order of their first.
 template <class Key>
 std::vector<std::vector<const Scenario*>> alike(const std::vector<const Scenario*>& scenarios,
                                                 Key key) {
@@ -100,7 +100,7 @@ FactorList listed(const std::vector<Scenario::Factor>& factors) {
   return out;
 }
 
-/// All luminaires lit, so that each of them is compiled, in their order; nothing to tally.
+/// All luminaires lit, so that each is compiled, in order; nothing to tally.
 SceneDescription all_lit(const SceneDescription& scene) {
   SceneDescription out = scene;
   out.surface_groups.clear();
@@ -112,8 +112,8 @@ SceneDescription all_lit(const SceneDescription& scene) {
   out.run.band_edges_nm.clear();
   for (Object& object : out.objects) object.one_patch = true;
   for (Emitter& e : out.emitters) e.mains_flux = std::max({e.mains_flux, e.emergency_flux, 1e-3});
-  // With no luminaire the geometry is asked for all the same, and a scene must have a light: one
-  // that is behind all others and where something is, so that it changes no size.
+  // Without luminaires the geometry must still be compiled, which needs a light: adds one after all
+  // others, at existing geometry, so that bounds do not change.
   if (out.emitters.empty()) {
     Emitter any;
     any.mains_flux = 1;
@@ -132,7 +132,7 @@ Scenario lit_scenario(const Scenario& scenario) {
   return out;
 }
 
-/// `state`: scenarios with the same doors. What keeps it from being compiled, if anything does.
+/// `state`: scenarios with the same doors. Returns the problem that prevents compiling, if any.
 std::optional<Problem> inspect_doors_state(const SceneDescription& scene,
                                            const std::vector<const Scenario*>& state, int threads,
                                            Collected& out, Misplaced& misplaced) {
@@ -172,7 +172,7 @@ std::optional<Problem> inspect_doors_state(const SceneDescription& scene,
   return std::nullopt;
 }
 
-/// What keeps it from being compiled, if anything does.
+/// Returns the problem that prevents compiling, if any.
 std::optional<Problem> inspect_media_of(const SceneDescription& scene, const Scenario& scenario,
                                         int threads, Findings& out, Misplaced& misplaced) {
   SceneDescription smoky = all_lit(scene);
@@ -188,7 +188,7 @@ std::optional<Problem> inspect_media_of(const SceneDescription& scene, const Sce
   return std::nullopt;
 }
 
-/// The worst of the scenarios alone: their numbers differ a little, and the hole is the same.
+/// Only the worst scenario: the numbers differ slightly, but the hole is the same.
 void inspect_enclosure(const SceneDescription& scene, const std::vector<const Scenario*>& scenarios,
                        const Misplaced& misplaced, int threads, Collected& out) {
   const auto states =

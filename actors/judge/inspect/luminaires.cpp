@@ -1,6 +1,6 @@
-// Luminaires and emitters: where they stand. Whether one is in a wall is asked of its light, sent
-// out as the tracer sends it, so that lamps in a ceiling's plane or in a body of their own are
-// right where the tracer gets their light out.
+// Inspects the places of luminaires and emitters. Whether one is in a wall is decided by its light,
+// emitted as by the tracer, so that lamps in a ceiling's plane or in their own body are accepted if
+// the tracer's light escapes.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,24 +18,25 @@ namespace luxodus {
 
 namespace {
 
-/// Light that ends so near has not left the wall [m].
+/// Light that ends this close has not left the wall [m].
 constexpr Real near_m = 0.02_r;
-/// A lamp outside whose light ends so near on the outer side of a room was meant to be in it [m].
+/// A lamp outside, whose light ends this close on the outer side of a room, was meant to be inside
+/// [m].
 constexpr Real recess_m = 0.5_r;
 constexpr Real light_reach_m = 1e5_r;
-/// Rays of a first look, by which most luminaires are right, and of a second one.
+/// Rays of a first test, which most luminaires pass, and of a second one.
 constexpr int few_rays = 64;
 constexpr int many_rays = 1024;
 constexpr double few_share = 0.25;
-/// More than a half by two standard errors of the second look: a lamp that hangs right before a
-/// wall and shines all ways loses a half and is no mistake.
+/// More than a half by two standard errors of the second test: a lamp directly in front of a wall
+/// that shines in all directions loses a half, which is no mistake.
 constexpr double lost_share = 0.5 + 2 * 0.5 / 32;
 constexpr uint64_t ends_seed = 17;
-/// Two things nearer than this stand in one place [m].
+/// Two things closer than this are in the same place [m].
 constexpr double one_place_m = 0.01;
-/// A panel that stands for the sky is a few times as large as the building, and no lamp is.
+/// A panel that represents the sky is several times as large as the building; no lamp is.
 constexpr double times_building = 5;
-/// Two directions within 8 degrees are one.
+/// Two directions within 8 degrees count as equal.
 constexpr double one_direction = 0.99;
 
 std::string emitter_text(const Emitter& e) {
@@ -48,12 +49,12 @@ glm::dvec3 middle_of(const Emitter& e) {
   return std::accumulate(p.begin(), p.end(), glm::dvec3(0)) / static_cast<double>(p.size());
 }
 
-/// Where the light of one emitter ends: shares of all that is sent out.
+/// Where the light of one emitter ends: shares of its flux.
 struct Ends {
   double near = 0;                // within near_m
-  double back = 0;                // on backs: the inner side of a body, or the outer of a room
+  double back = 0;                // on backs: the inside of a body, or the outside of a room
   double close_back = 0;          // of these, within recess_m
-  uint32_t surface = none_index;  // on which most of either ends
+  uint32_t surface = none_index;  // the surface that gets most of either
 };
 
 Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, int rays) {
@@ -92,7 +93,7 @@ std::string surface_text(const Site& site, uint32_t surface) {
                                : "\"" + site.building.scene().surfaces[surface].name + "\"";
 }
 
-/// Of the longest side of all that is built; 0 where nothing is.
+/// The longest side of the building; 0 without geometry.
 double building_length(const SceneDescription& scene) {
   Bounds all;
   for (const Object& object : scene.objects) all.extend(bounds_of(object.mesh));
@@ -101,7 +102,7 @@ double building_length(const SceneDescription& scene) {
   return std::max({size.x, size.y, size.z});
 }
 
-/// What is wrong with one emitter's place; `stands_outside` where it is outside.
+/// What is wrong with one emitter's place; sets `stands_outside` if it is outside.
 std::optional<Finding> wrong_emitter(const Site& site, const GeometryAccess& access,
                                      uint32_t emitter, double building_m, char& stands_outside) {
   const Emitter& e = site.scene.emitters[emitter];
@@ -151,7 +152,7 @@ std::optional<Finding> wrong_emitter(const Site& site, const GeometryAccess& acc
       {e.place, emitter_text(e) + " stands outside the building, as luminaires at final exits do"}};
 }
 
-/// Both shine in one operation, alike, and to one side.
+/// Both shine in the same operation, with the same distribution, in one direction.
 bool same_light(const Emitter& a, const Emitter& b) {
   const bool together =
       (a.mains_flux > 0 && b.mains_flux > 0) || (a.emergency_flux > 0 && b.emergency_flux > 0);
@@ -184,20 +185,20 @@ void find_double_emitters(const SceneDescription& scene, Findings& out) {
 
 // ---- places that are judged ---------------------------------------------------------------------
 
-/// Points of calculation are this far apart, and so far above a floor [m].
+/// Spacing of points of calculation, and their height above a floor [m].
 constexpr double grid_m = 1;
 constexpr double above_floor_m = 0.02;
 constexpr size_t max_places = 4000;
-/// A fiftieth of the 0.5 lx that EN 1838 asks for: less lights nothing.
+/// A fiftieth of the 0.5 lx that EN 1838 requires: less counts as dark.
 constexpr double min_lx = 0.01;
-/// Of one route or area. A few dark places are corners; a doorway's shadow is no more.
+/// Limits for one route or area: a few dark places may be corners, or a doorway's shadow.
 constexpr size_t max_places_of_way = 400;
 constexpr double dark_share = 0.05;
-/// A place of a route has its floor so near below it [m].
+/// A place of a route has its floor within this distance below it [m].
 constexpr double on_floor_within_m = 0.5;
-/// A luminaire farther away is not the one that is missing [m].
+/// A luminaire farther away is not the missing one [m].
 constexpr double could_light_m = 8;
-/// Of fewer with one file, none is the odd one.
+/// Among fewer luminaires with one file, none is exceptional.
 constexpr size_t alike_at_least = 3;
 
 std::vector<glm::dvec3> judged_places(const SceneDescription& scene) {
@@ -221,7 +222,7 @@ std::vector<glm::dvec3> judged_places(const SceneDescription& scene) {
   return out;
 }
 
-/// `furnished`: furniture hides light; codes judge rooms without it, too.
+/// `furnished`: furniture blocks light; codes also judge rooms without it.
 bool lights(const Site& site, const GeometryAccess& access, uint32_t emitter,
             const std::vector<glm::dvec3>& places, bool furnished = true) {
   const CompiledScene& scene = site.building.scene();
@@ -234,7 +235,7 @@ bool lights(const Site& site, const GeometryAccess& access, uint32_t emitter,
     const auto distance = static_cast<double>(glm::length(way));
     if (!(distance > 0)) return true;
     const Vec3 direction = way / static_cast<Real>(distance);
-    // Round bodies shine from the side that is turned to the place.
+    // Round bodies shine from the side that faces the place.
     const bool round = e.kind == EmitterKind::sphere || e.kind == EmitterKind::tube;
     const EmissionPoint point{middle, round ? direction : -e.axes[2]};
     const auto density =
@@ -249,7 +250,7 @@ bool lights(const Site& site, const GeometryAccess& access, uint32_t emitter,
   });
 }
 
-/// Of a route or an open area: places that no emergency luminaire shines on.
+/// Places of a route or an open area that no emergency luminaire illuminates.
 struct DarkPlaces {
   size_t all = 0, dark = 0;
   glm::dvec3 first{0};
@@ -263,7 +264,7 @@ DarkPlaces dark_places(const Site& site, const std::vector<uint32_t>& luminaires
     some.push_back(places[i] + glm::dvec3(0, 0, above_floor_m));
   std::vector<char> dark(some.size(), 0);
   site.building.each(some.size(), [&](const GeometryAccess& access, size_t i) {
-    // Routes off their floor and in walls are told as such.
+    // Routes off their floor or in walls are reported elsewhere.
     if (!solid_ahead(site, access, some[i], glm::dvec3(0, 0, -1), on_floor_within_m) ||
         site.in_body(access, some[i] + glm::dvec3(0, 0, on_floor_within_m)))
       return;
@@ -284,7 +285,7 @@ DarkPlaces dark_places(const Site& site, const std::vector<uint32_t>& luminaires
   return out;
 }
 
-/// The nearest luminaire that fails with the mains, and could be meant to light a dark place.
+/// The nearest luminaire that goes off with the mains, and could be meant to light a dark place.
 std::string dark_lamp_near(const SceneDescription& scene, const glm::dvec3& place) {
   const Emitter* nearest = nullptr;
   double least = could_light_m;
@@ -325,7 +326,7 @@ void tell_dark_ways(const Site& site, const std::vector<uint32_t>& luminaires, F
 void inspect_odd_ones(const SceneDescription& scene, Findings& out) {
   struct OfFile {
     size_t all = 0, fail = 0;
-    const Emitter* first = nullptr;  // that fails with the mains
+    const Emitter* first = nullptr;  // of those that go off with the mains
   };
   std::map<std::string, OfFile> files;
   for (const Emitter& e : scene.emitters) {
@@ -363,7 +364,7 @@ void inspect_judged_places(const Site& site, Findings& out) {
   const auto places = judged_places(site.scene);
   if (places.empty()) return;
   const auto luminaires = emergency_luminaires(site.scene);
-  if (luminaires.empty()) return;  // told of the state that has none
+  if (luminaires.empty()) return;  // reported for the state without any
   tell_dark_ways(site, luminaires, out);
   std::vector<char> useful(luminaires.size(), 0);
   site.building.each(luminaires.size(), [&](const GeometryAccess& access, size_t i) {

@@ -1,7 +1,6 @@
-// Media: those that lie in one another, whose extinctions add, which is meant of a haze that lies
-// everywhere, and a mistake where one smoke is written twice; those that reach nothing of the
-// building, and so dim nothing, or lie beside it with most of their smoke; flames in bodies and
-// outside.
+// Inspects media: those that overlap, whose extinctions add, which is intended for a haze
+// everywhere, and a mistake if one smoke is written twice; those that reach no part of the
+// building, or lie outside with most of their smoke; flames in bodies and outside.
 #include <algorithm>
 #include <array>
 
@@ -12,13 +11,13 @@ namespace luxodus {
 
 namespace {
 
-/// Places along each edge of the box that two media share.
+/// Sample places along each edge of the box that two media share.
 constexpr int overlap_steps = 12;
-/// A flame of which more than this share burns outside was meant to be in a room.
+/// A flame with more than this share outside was meant to be in a room.
 constexpr double overlap_share = 0.1;
 constexpr double one_flame_m = 0.02;
 const Bounds everywhere{glm::dvec3(-1e9), glm::dvec3(1e9)};
-/// Where the thinner one adds less than this share of the thicker one it is a haze in it.
+/// If the thinner one adds less than this share of the thicker one, it is a haze within it.
 constexpr double haze_share = 0.25;
 
 struct Overlap {
@@ -75,15 +74,15 @@ bool apart(const Bounds& a, const Bounds& b) {
          glm::any(glm::greaterThanEqual(b.low, a.high));
 }
 
-/// Smoke of which so much lies outside dims little of what it was written for.
+/// Smoke with this share outside hardly attenuates what it was written for.
 constexpr double mostly_outside = 0.5;
-/// Another order of its numbers was meant where that leaves no more than this share outside.
+/// Another order of its numbers was meant if that leaves at most this share outside.
 constexpr double fits_inside = 0.1;
-/// A box that is nearly square is much the same with its axes swapped: the other order must bring
-/// so much of the smoke in to be worth a word.
+/// A nearly square box changes little when its axes are swapped: the other order must bring this
+/// share of the smoke inside to be suggested.
 constexpr double brings_in = 0.3;
 
-/// Of smoke: the share of it that lies outside the building, and of points carried elsewhere.
+/// The share of smoke outside the building, also after moving its points.
 class SmokePlaces {
  public:
   SmokePlaces(const Building& smoky, size_t medium) : smoky_(smoky) {
@@ -92,7 +91,7 @@ class SmokePlaces {
     const Medium* one = &scene.description->media[medium];
     Bounds box = media_bounds({&one, 1}, everywhere);
     if (box.empty() || box.high.x - box.low.x > unbounded_m) return;
-    // Heights are told apart from this, by tell_layers.
+    // Heights are reported separately, by tell_layers.
     const Bounds building = built(*scene.description);
     box.low.z = std::max(box.low.z, building.low.z);
     box.high.z = std::min(box.high.z, building.high.z);
@@ -116,7 +115,7 @@ class SmokePlaces {
 
   bool any() const { return !smoke_.empty(); }
   const Bounds& box() const { return box_; }
-  /// With the box's sides in plan given by these corners instead of its own.
+  /// With these corners of the box in plan instead of its own.
   double outside(const glm::dvec2& low, const glm::dvec2& high) const {
     std::vector<char> out(smoke_.size(), 0);
     smoky_.each(smoke_.size(), [&](const GeometryAccess& access, size_t i) {
@@ -128,7 +127,7 @@ class SmokePlaces {
   }
 
  private:
-  /// No box is as large, and what has none is everywhere [m].
+  /// No box is this large; an unbounded medium is everywhere [m].
   static constexpr double unbounded_m = 1e7;
   struct Point {
     glm::dvec3 place, share;
@@ -142,10 +141,10 @@ std::string corners_text(const glm::dvec2& low, const glm::dvec2& high) {
   return fmt::format("[[{:.4g}, {:.4g}], [{:.4g}, {:.4g}]]", low.x, low.y, high.x, high.y);
 }
 
-/// Of a flame: points across its box that burn, and where they are.
+/// Points across a flame's box that burn, and where they are.
 struct Burning {
   int all = 0, in_bodies = 0, outside = 0;
-  bool around = false;  // the middle of all that is built lies in its box
+  bool around = false;  // the centre of the building lies in its box
 };
 
 Burning burning_of(const Building& smoky, size_t index) {
@@ -186,7 +185,7 @@ std::string medium_text(const Medium& m) {
   return (m.emission ? "the flame \"" : "the medium \"") + m.name + "\"";
 }
 
-/// Layers that lie above or below all that is built.
+/// Reports layers above or below the whole building.
 void tell_layers(const Medium& m, const Bounds& building, Findings& out) {
   for (size_t i = 0; i < m.layers.size(); ++i) {
     const Layer& layer = m.layers[i];
@@ -233,7 +232,7 @@ void inspect_smoke_places(const Building& smoky, Findings& out) {
   for (size_t i = 0; i < media.size(); ++i) {
     const Medium& m = media[i];
     if (m.emission && m.kind != MediumKind::data_set) continue;    // a flame
-    if (m.simulation || m.kind == MediumKind::data_set) continue;  // its meshes reach outside
+    if (m.simulation || m.kind == MediumKind::data_set) continue;  // its meshes extend outside
     const SmokePlaces smoke(smoky, i);
     if (!smoke.any()) continue;
     const glm::dvec2 low(smoke.box().low), high(smoke.box().high);
@@ -254,12 +253,12 @@ void inspect_smoke_places(const Building& smoky, Findings& out) {
           corners_text(from, to), left > 0 ? percent_text(left) : "nothing");
       break;
     }
-    // A box that is drawn around all that is built loses nothing.
+    // A box around the whole building loses no smoke.
     const Bounds building = built(*smoky.scene().description);
     const bool around = glm::all(glm::lessThanEqual(low, glm::dvec2(building.low))) &&
                         glm::all(glm::greaterThanEqual(high, glm::dvec2(building.high)));
     const bool turned = !meant.empty();
-    // All of it outside is told by inspect_reach.
+    // inspect_reach reports smoke that is entirely outside.
     if (!turned && (around || outside <= mostly_outside || apart(smoke.box(), building))) continue;
     if (!turned) meant = ", where it dims nothing that is judged: is its place right?";
     const bool matters = turned && judges_people(*smoky.scene().description);

@@ -1,6 +1,6 @@
-// Meshes as wholes: whether their size is that of anything in a building, and whether rooms are
-// drawn with their faces to the inside. The parts of one import, or the faces of one room, stand in
-// one table of the scene file and are one thing here.
+// Inspects whole meshes: whether their size is plausible for a building, and whether rooms are
+// drawn with their faces inwards. The parts of one import, or the faces of one room, are in one
+// table of the scene file and count as one thing.
 #include <algorithm>
 #include <map>
 
@@ -18,7 +18,7 @@ Table table_of(const Object& object) {
   return {object.place.file, object.place.line};
 }
 
-/// NAME of NAME.PART, which is what imports and rooms are called by.
+/// NAME of NAME.PART, the names of imports and rooms.
 std::string whole_name(const Object& object) {
   return object.name.substr(0, object.name.find('.'));
 }
@@ -40,7 +40,7 @@ std::vector<Whole> wholes_of(const SceneDescription& scene) {
   return out;
 }
 
-/// A flat thing's front; of others nothing, as they are seen from all sides.
+/// The front of a flat thing; nothing for others, which are seen from all sides.
 glm::dvec3 front_of(const Object& object) {
   const Mesh& mesh = object.mesh;
   if (mesh.triangles.empty() || !is_flat(mesh)) return glm::dvec3(0);
@@ -49,7 +49,7 @@ glm::dvec3 front_of(const Object& object) {
                                    mesh.positions[t.z] - mesh.positions[t.x]));
 }
 
-/// Two things that fill one space, seen from one side.
+/// Whether two things fill the same space, seen from one side.
 bool coincide(const Whole& a, const Whole& b) {
   constexpr double one_space_m = 1e-3;
   const auto near = [](const glm::dvec3& p, const glm::dvec3& q) {
@@ -72,7 +72,7 @@ void inspect_sizes(const SceneDescription& scene, Findings& out) {
     const glm::dvec3 size = whole.bounds.high - whole.bounds.low;
     const double least = std::min({size.x, size.y, size.z});
     const double largest = std::max({size.x, size.y, size.z});
-    // A lone disc or quad may be a pilot lamp, or a plain to the horizon.
+    // A single disc or quad may be a pilot lamp, or a plain to the horizon.
     const bool may_be = largest < 1 ? !whole.in_parts : !(least > 0);
     if (!no_buildings_size(size) || may_be) continue;
     out.push_back(
@@ -113,7 +113,7 @@ void inspect_turned_rooms(const Site& site, Findings& out) {
       turned[table_of(site.scene.objects[i])].push_back(&site.scene.objects[i]);
   const SceneDescription& s = site.scene;
   const bool asks_for_walls = !s.routes.empty() || !s.open_areas.empty() || !s.planes.empty();
-  // Rooms drawn as single faces, each in a table of its own, are one room.
+  // Single faces in tables of their own can form one room.
   std::vector<const Object*> faces;
   for (auto at = turned.begin(); at != turned.end();) {
     const bool lone = at->second.size() == 1 && is_flat(at->second.front()->mesh);

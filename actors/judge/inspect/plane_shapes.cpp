@@ -1,5 +1,5 @@
-// Planes of measurement as they are written: nearly level, nearly upright, nearly rectangular,
-// aslant over the floor of a route, of a size that nothing is measured on, or of splinters for
+// Inspects the shapes of measurement planes: nearly horizontal, nearly vertical, nearly
+// rectangular, slanted above the floor of a route, of an implausible size, or with splinters for
 // cells.
 #include <algorithm>
 #include <cmath>
@@ -12,22 +12,23 @@ namespace luxodus {
 
 namespace {
 
-/// A plane that is tilted by less than this, and by more than rounding explains, was meant level or
-/// upright [deg], and ends so much too high or too low [m].
+/// A plane tilted by less than the first [deg], with a rise of more than the second [m], which
+/// rounding does not explain, was meant horizontal or vertical.
 constexpr double slight_tilt_deg = 5;
 constexpr double slight_rise_m = 2e-3;
-/// Ramps and rakes are tilted: so alike are the heights of a plane's corners above its floor [m].
+/// Planes along ramps and raked floors are tilted: tolerance of the heights of their corners above
+/// the floor [m].
 constexpr double along_floor_m = 2e-3;
-/// Smaller than a hand: millimetres [m].
+/// A smaller plane is smaller than a hand: it is in millimetres [m].
 constexpr double min_plane_m = 0.1;
-/// Light on a floor is measured on a level plane: one that lies over a route, no higher than this
-/// at its lower end, and is tilted by more than slight_tilt_deg is meant to be level. From here on
-/// it is a wall's.
+/// Light on a floor is measured on a horizontal plane. One above a route, at most this high at its
+/// lower end, and tilted by more than slight_tilt_deg, was meant to be horizontal; from the second
+/// angle on it belongs to a wall.
 constexpr double on_route_m = 0.5;
 constexpr double steepest_floor_deg = 60;
-/// Over stairs the floor follows a plane by steps.
+/// Over stairs a plane follows the floor in steps.
 constexpr double follows_share = 0.5;
-/// Cells longer than wide by more than this, which would be nearly square the other way round.
+/// Aspect ratio of splinter cells, which would be nearly square with their numbers swapped.
 constexpr double splinter = 5;
 constexpr double nearly_square = 2;
 
@@ -35,7 +36,7 @@ double degrees(double radians) {
   return radians * 180 / std::numbers::pi;
 }
 
-/// Whether a plane follows a floor that is tilted as it is, within `slack_m`.
+/// Whether a plane follows a floor with the same tilt, within `slack_m`.
 bool follows_floor(const Site& site, const PlaneMeasure& plane, double slack_m = along_floor_m) {
   std::vector<double> heights;
   site.building.each(1, [&](const GeometryAccess& access, size_t) {
@@ -51,7 +52,7 @@ bool follows_floor(const Site& site, const PlaneMeasure& plane, double slack_m =
   return *most - *least < slack_m;
 }
 
-/// The route or area over whose floor a plane lies.
+/// The route or area above whose floor a plane lies.
 std::optional<std::string> judged_floor(const SceneDescription& scene, const PlaneMeasure& plane) {
   const glm::dvec3 middle = plane.corner + 0.5 * (plane.edge_u + plane.edge_v);
   const double low = plane.corner.z + std::min(0.0, plane.edge_u.z) + std::min(0.0, plane.edge_v.z);
@@ -65,7 +66,7 @@ std::optional<std::string> judged_floor(const SceneDescription& scene, const Pla
   return std::nullopt;
 }
 
-/// Cells that are splinters, and would not be with their numbers swapped.
+/// Reports splinter cells that would not be splinters with their numbers swapped.
 std::optional<std::string> splintered(const PlaneMeasure& plane) {
   const double u = glm::length(plane.edge_u), v = glm::length(plane.edge_v);
   const auto ratio = [](double a, double b) { return std::max(a, b) / std::min(a, b); };
@@ -79,7 +80,7 @@ std::optional<std::string> splintered(const PlaneMeasure& plane) {
       length_text(across), length_text(along), plane.cells_v, plane.cells_u);
 }
 
-/// What of its edges is not as it was meant.
+/// Reports edges that differ slightly from what was probably meant.
 std::optional<std::string> slanted(const Site& site, const PlaneMeasure& plane) {
   const glm::dvec3 u = glm::normalize(plane.edge_u), v = glm::normalize(plane.edge_v);
   const glm::dvec3 normal = glm::normalize(glm::cross(u, v));

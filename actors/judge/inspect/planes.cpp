@@ -7,17 +7,17 @@ namespace luxodus {
 
 namespace {
 
-/// A plane that has a surface as near before it counts that surface's light [m].
+/// A plane with a surface this close in front of it measures that surface's light [m].
 constexpr Real shut_m = 0.05_r;
-/// People's heads are lower than that; a plane so near above a ceiling was meant below it [m].
+/// People's heads are lower; a plane this close above a ceiling was meant below it [m].
 constexpr double head_height_m = 2;
 constexpr double close_above_m = 0.5;
-/// Of the cells: more than these shares are no coincidence.
+/// Share of the cells that is no coincidence.
 constexpr double max_share = 0.9;
 constexpr double part_share = 0.1;
 
-/// Of the cells of a plane, as many as tell: those that lie outside, and those that have a surface
-/// right before them, and which.
+/// Sampled cells of a plane: those outside, and those with a surface directly in front, and which
+/// surface.
 struct CellPlaces {
   int all = 0, outside = 0, shut = 0;
   uint32_t surface = 0;
@@ -58,7 +58,7 @@ CellPlaces places_of_cells(const Site& site, const PlaneMeasure& p,
   return out;
 }
 
-/// Where a plane reaches out of the building, or looks into what it lies on.
+/// Reports a plane that extends outside the building, or faces a surface directly.
 void tell_places(const Site& site, const PlaneMeasure& plane, const CellPlaces& cells,
                  bool rooms_are_lit, Findings& out) {
   const std::string name = "plane \"" + plane.name + "\"";

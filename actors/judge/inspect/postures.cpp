@@ -1,5 +1,5 @@
-// Signs as they hang, and eyes as they look: faces that look up or lie on their side, heights and
-// sizes that no sign has, arrows that point back; eyes that look away, pictures upside down.
+// Inspects the orientation of signs and eyes: faces that look up or lie on their side, implausible
+// heights and sizes, arrows that point back; eyes that look away, pictures upside down.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -12,24 +12,25 @@ namespace luxodus {
 
 namespace {
 
-/// More than 45 degrees from the level, or from upright.
+/// Cosine of more than 45 degrees from horizontal, or from upright.
 constexpr double steep = 0.7;
-/// Faces of exit signs are from 5 cm to 1.5 m high [m].
+/// Faces of exit signs are 5 cm to 1.5 m high [m].
 constexpr double min_face_m = 0.05;
 constexpr double max_face_m = 1.5;
-/// A face that takes more of the room's height is drawn too large, and codes take the distance it
-/// is seen from by its height.
+/// A face with a larger share of the room's height is too large; codes derive the viewing distance
+/// from its height.
 constexpr double max_of_room = 0.2;
-/// ISO 3864: a lit sign is made to be seen from 200 times its height.
+/// ISO 3864: the viewing distance of a lit sign is 200 times its height.
 constexpr double lit_distance_factor = 200;
-/// Signs hang above people or low on walls, as guidance in smoke does: between these heights of
-/// the lower edge above the floor people and furniture hide them [m].
+/// Signs hang above people, or low on walls for guidance in smoke: with the lower edge between
+/// these heights above the floor, people and furniture hide them [m].
 constexpr double low_sign_m = 0.6;
 constexpr double high_sign_m = 1.5;
-/// Of an observer: an eye is so high above what it stands on [m].
+/// Limits on the height of an observer's eye above the floor [m].
 constexpr double min_eye_m = 0.2;
 constexpr double max_eye_m = 2.3;
-/// A route is judged by a sign's arrow if it leads by so near [m], and on for so far [m].
+/// A sign's arrow applies to a route that passes within the first distance, and goes on for the
+/// second [m].
 constexpr double passes_near_m = 6;
 constexpr double leads_on_m = 2;
 constexpr double against = -0.7;
@@ -60,7 +61,7 @@ std::optional<Finding> sized_wrong(const Sign& sign) {
                                   length_text(sign.width_m), length_text(sign.height_m)));
 }
 
-/// A wall, ceiling or leaf that cuts the face: on the way from its middle to a corner.
+/// Reports a wall, ceiling or leaf that cuts the face: between its centre and a corner.
 std::optional<Finding> cut_face(const Site& site, const GeometryAccess& access, const Sign& sign) {
   constexpr double before_m = 2e-3;
   const auto& axes = sign.frame.axes;
@@ -107,8 +108,8 @@ std::optional<Finding> hung_wrong(const Site& site, const GeometryAccess& access
   return std::nullopt;
 }
 
-/// 1: its arrow points to the reader's right, -1: to the left, 0: neither, or it is not known. Told
-/// by the name of its drawing, as those of ISO 7010 are called, or by an arrow in its text.
+/// 1: its arrow points to the reader's right, -1: to the left, 0: neither, or unknown. Decided by
+/// the name of its drawing, as in ISO 7010, or by an arrow in its text.
 int arrow_of(const Sign& sign) {
   std::string words = sign.file.substr(sign.file.find_last_of('/') + 1) + " " + sign.text;
   std::transform(words.begin(), words.end(), words.begin(),
@@ -121,8 +122,8 @@ int arrow_of(const Sign& sign) {
   return right ? 1 : -1;
 }
 
-/// Where a route leads on from its place nearest to the sign; none if it ends there, or if nobody
-/// on it reads the sign.
+/// Direction in which a route continues from its point nearest to the sign; none if it ends there,
+/// or if nobody on it reads the sign.
 std::optional<glm::dvec3> way_on(const EscapeRoute& route, const Sign& sign) {
   const auto steps = walkers(route, 0.5);
   if (steps.empty()) return std::nullopt;
@@ -144,7 +145,7 @@ std::optional<glm::dvec3> way_on(const EscapeRoute& route, const Sign& sign) {
   return glm::normalize(on->foot - near->foot);
 }
 
-/// An arrow that points back on every route that leads by.
+/// Reports an arrow that points back on every route that passes.
 std::optional<Finding> points_back(const SceneDescription& scene, const Sign& sign) {
   const int arrow = arrow_of(sign);
   if (arrow == 0) return std::nullopt;

@@ -1,5 +1,5 @@
-// Escape routes as lines on a plan: whether they end where one gets out, turn back on themselves,
-// or are written twice.
+// Inspects escape routes in plan: whether they end at an exit, turn back on themselves, or are
+// written twice.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,24 +12,24 @@ namespace luxodus {
 
 namespace {
 
-/// A door, an opening or a point of emphasis is so near to the end of the route that leads to it,
-/// and a sign [m].
+/// A door, an opening, a point of emphasis, or a sign, belongs to the end of a route within this
+/// distance [m].
 constexpr double exit_within_m = 2.5;
 constexpr double sign_within_m = 3;
-/// On one storey [m].
+/// Limit on height differences within one storey [m].
 constexpr double one_storey_m = 2.2;
 constexpr double waist_of_walker_m = 1;
 constexpr double eye_of_walker_m = 1.65;
-/// Signs hang at most so high above a walker's floor [m].
+/// Signs hang at most this high above a route's floor [m].
 constexpr double highest_sign_m = 6;
 constexpr double doorway_step_m = 0.1;
 constexpr int ways_out = 8;
-/// Beside a route that one joins [m].
+/// Largest distance of a route's end from a route that it joins [m].
 constexpr double joins_m = 1;
-/// Steps along a route by which two stretches are compared, and what is one place of them [m].
+/// Steps by which two stretches of routes are compared, and the tolerance for equal places [m].
 constexpr double stretch_step_m = 0.25;
 constexpr double one_line_m = 0.2;
-/// Cosine between ways that are opposite, and that are one.
+/// Cosines between opposite, and between equal directions.
 constexpr double opposite = -0.9;
 constexpr double one_way = 0.95;
 
@@ -38,7 +38,7 @@ bool is_way_out(EmphasisKind kind) {
          kind == EmphasisKind::stairs || kind == EmphasisKind::refuge;
 }
 
-/// A scene that names no way out says nothing about where routes should lead.
+/// Without named exits, routes cannot be checked for leading to one.
 bool names_exits(const SceneDescription& scene) {
   const auto& points = scene.emphasis;
   const auto& objects = scene.objects;
@@ -53,7 +53,7 @@ bool is_near(const glm::dvec3& a, const glm::dvec3& b, double within_m) {
   return glm::length(glm::dvec2(a - b)) <= within_m && std::abs(a.z - b.z) <= one_storey_m;
 }
 
-/// What a scene names as an exit near a place on the floor: a point of emphasis, or a door's leaf.
+/// Whether the scene has an exit near a place on the floor: a point of emphasis, or a door leaf.
 bool has_named_exit(const SceneDescription& scene, const glm::dvec3& foot) {
   for (const EmphasisPoint& point : scene.emphasis)
     if (is_way_out(point.kind) && is_near(point.position, foot, exit_within_m)) return true;
@@ -77,7 +77,7 @@ bool has_sign(const SceneDescription& scene, const EscapeRoute& route, const glm
   });
 }
 
-/// An opening within reach of a place on the floor, or the way out of the building.
+/// Whether there is an opening near a place on the floor, or the outside of the building.
 bool has_opening(const Site& site, const GeometryAccess& access, const glm::dvec3& foot,
                  const glm::dvec3& ahead) {
   const glm::dvec3 place = foot + glm::dvec3(0, 0, waist_of_walker_m);
@@ -95,7 +95,7 @@ bool has_opening(const Site& site, const GeometryAccess& access, const glm::dvec
   return false;
 }
 
-/// Whether another route takes over where this one ends, and does not just go back.
+/// Whether another route continues where this one ends, other than back.
 bool is_led_on(const SceneDescription& scene, const EscapeRoute& route) {
   const glm::dvec3 end = route.path.back();
   const glm::dvec3 ahead = glm::normalize(end - route.path[route.path.size() - 2]);
@@ -136,7 +136,7 @@ std::optional<Finding> ends_nowhere(const Site& site, const GeometryAccess& acce
                             : "lead it on to the exit")}};
 }
 
-/// Two stretches of one line that lead opposite ways.
+/// Reports two stretches of one line in opposite directions.
 std::optional<Finding> turns_back(const EscapeRoute& route) {
   const auto steps = walkers(route, stretch_step_m);
   for (size_t i = 0; i < steps.size(); ++i)

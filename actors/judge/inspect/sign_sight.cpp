@@ -1,4 +1,5 @@
-// Signs and those they are for: faces that a route sees from the edge, signs in doorways.
+// Inspects signs from where they should be read: faces seen edge-on from a route, signs in
+// doorways.
 #include <algorithm>
 #include <cmath>
 
@@ -9,27 +10,28 @@ namespace luxodus {
 
 namespace {
 
-/// A face is seen from its edge where its normal is turned from the eye by more than 75 degrees.
+/// A face is seen edge-on if its normal is more than 75 degrees from the eye.
 constexpr double edge_cosine = 0.26;
-/// A route that leads by so near is one that the sign serves; read from as far, and no nearer [m].
+/// A sign serves routes that pass within the first distance; it is read between the two [m].
 constexpr double serves_m = 6;
 constexpr double furthest_reader_m = 20;
 constexpr double nearest_reader_m = 1;
-/// Higher above an eye, a sign is of another storey [m].
+/// A sign higher above an eye than this belongs to another storey [m].
 constexpr double highest_above_eye_m = 4;
-/// Half of 120 degrees around the way ahead.
+/// Cosine of half of 120 degrees around the direction ahead.
 constexpr double ahead_cosine = 0.5;
 constexpr double reader_eye_m = 1.65;
 constexpr double reader_step_m = 0.5;
-/// Fewer places say nothing of a route.
+/// Fewer places are not enough to judge a route.
 constexpr size_t min_readers = 4;
-/// Beside a sign's edge, and before its face [m].
+/// Beside a sign's edge, and in front of its face [m].
 constexpr double beside_sign_m = 0.05;
-/// A lintel is at most so far above a sign in its opening; lower, a sign is struck [m].
+/// The first is the largest distance of a lintel above a sign in its opening; below the second,
+/// people strike the sign [m].
 constexpr double under_lintel_m = 0.6;
 constexpr double strikes_head_m = 2;
 
-/// Cosine between the face that is turned to an eye and the eye; negative: it sees a lone back.
+/// Cosine between the face turned to an eye and the eye; negative: only a back is visible.
 double turned_to(const Sign& sign, const glm::dvec3& eye) {
   const glm::dvec3 to = eye - sign.frame.origin;
   const double cosine = glm::dot(sign.frame.axes[2], to) / glm::length(to);
@@ -46,8 +48,8 @@ bool sees_place_of(const Site& site, const GeometryAccess& access, const Sign& s
 
 enum class EdgeView { none, edge, back, face };
 
-/// How those on a route who have a sign ahead of them see it: the best of their views. A back may
-/// be right: it is the other way's sign.
+/// How people on a route with the sign ahead see it: the best of their views. A back may be
+/// correct, if the sign serves the other direction.
 EdgeView view_from_route(const Site& site, const GeometryAccess& access, const Sign& sign,
                          const EscapeRoute& route) {
   size_t readers = 0, backs = 0;

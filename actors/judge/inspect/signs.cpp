@@ -1,5 +1,5 @@
-// Signs: whether their faces can be seen at all. A face is tried at points of its own, its light
-// sent out as from a matt surface.
+// Inspects whether faces of signs are visible at all. A face is tested at sample points, with light
+// emitted as by a matt surface.
 #include <algorithm>
 
 #include "actors/judge/inspect/site.hpp"
@@ -12,7 +12,7 @@ namespace luxodus {
 namespace {
 
 constexpr Real near_face_m = 0.02_r;
-/// A face that has a surface as near before it shows itself to nobody [m].
+/// A face with a surface this close in front of it is invisible [m].
 constexpr Real before_sign_m = 0.3_r;
 constexpr int points_per_side = 3;
 constexpr int rays_per_point = 16;
@@ -29,8 +29,8 @@ Face face_of(const Sign& sign, bool back) {
   return {sign.frame.origin - axes[2] * sign.thickness_m, -axes[0], axes[1], -axes[2]};
 }
 
-/// Shares of a face's light that ends within near_face_m, and of its points that look at something
-/// within before_sign_m; on which surface.
+/// The share of a face's light that ends within near_face_m, and of its points that face something
+/// within before_sign_m; and on which surface.
 struct Before {
   double near = 0, close = 0;
   uint32_t surface = none_index;
@@ -72,7 +72,7 @@ Before before(const Site& site, const GeometryAccess& access, const Sign& sign, 
   return out;
 }
 
-/// Whether the back face lies in the very plane of a wall, where a ray meets one of the two: asked
+/// Whether the back face lies in the plane of a wall, where a ray hits one of the two: tested
 /// beside its edges.
 bool lies_on_wall(const Site& site, const GeometryAccess& access, const Sign& sign) {
   constexpr double aside_m = 0.01, beyond_m = 1e-3;

@@ -9,9 +9,9 @@ namespace luxodus {
 
 namespace {
 
-/// So many heights of the building away, nothing belongs to it.
+/// Beyond this multiple of the building's height nothing belongs to it.
 constexpr double heights_away = 10;
-/// What is flatter, as a share of its longer side, has no height of its own: a lone floor.
+/// Below this ratio of height to longer side a thing has no height of its own: a single floor.
 constexpr double flat_share = 0.01;
 constexpr double min_size_m = 0.02;
 constexpr double max_size_m = 1000;

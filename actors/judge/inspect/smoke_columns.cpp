@@ -1,5 +1,5 @@
-// Smoke over the places that are judged, from their floor to their ceiling: smoke that is over none
-// of them, that lies on the floor under clear air, that leaves a gap, or that is above all eyes.
+// Inspects smoke over the judged places, from floor to ceiling: smoke that is over none of them, on
+// the floor under clear air, interrupted by a gap, or above all eyes.
 #include <algorithm>
 #include <array>
 
@@ -11,22 +11,22 @@ namespace luxodus {
 
 namespace {
 
-/// Between the places that are looked at, and how many of them [m].
+/// Spacing of places, and their largest number [m].
 constexpr double column_spacing_m = 2;
 constexpr size_t max_columns = 400;
-/// Samples of a column, and how far its ends keep from floor and ceiling [m].
+/// Samples of a column, and the distance of its ends from floor and ceiling [m].
 constexpr size_t column_steps = 48;
 constexpr double from_ends_m = 0.01;
-/// A ceiling is looked for from above furniture [m].
+/// A ceiling is searched from above furniture [m].
 constexpr double over_furniture_m = 1.9;
 constexpr Real highest_ceiling_m = 200;
-/// Less is clear air [1/m].
+/// Lower extinctions count as clear air [1/m].
 constexpr double clear_air = 1e-3;
-/// Smoke rises: its lower half is no denser than its upper half but for layers that have cooled.
+/// Smoke rises: its lower half is denser than its upper half by this factor only in cooled layers.
 constexpr double upside_down = 1.5;
 constexpr double min_gap_m = 0.1;
 
-/// A place that somebody is at.
+/// A place of a person.
 struct JudgedPlace {
   std::string of;  // route "corridor"
   SourcePlace place;
@@ -46,7 +46,7 @@ std::vector<JudgedPlace> judged_feet(const SceneDescription& scene) {
   return out;
 }
 
-/// Extinctions from the floor up; without a ceiling there is none.
+/// Extinctions from the floor up; none without a ceiling.
 struct Column {
   bool any = false;
   double floor_m = 0, ceiling_m = 0;
@@ -96,7 +96,7 @@ Column column_over(const Building& smoky, const GeometryAccess& access, const gl
 
 /// What is wrong with one column, the worst first.
 struct ColumnFault {
-  int rank = 0;  // of the kinds of faults; 0: none
+  int rank = 0;  // severity of the fault; 0: none
   std::string text;
 };
 
@@ -108,7 +108,7 @@ ColumnFault fault_of(const Column& c) {
                            "{:.3g} /m in the upper one, from z = {:.4g} to {:.4g} m. Smoke rises: "
                            "are its layers upside down, or does it end below the ceiling?",
                            low, high, c.floor_m, c.ceiling_m)};
-  size_t top = column_steps;  // one above the highest smoke
+  size_t top = column_steps;  // index above the highest smoke
   while (top > 0 && !c.smoky(top - 1)) --top;
   size_t bottom = 0;
   while (bottom < top && !c.smoky(bottom)) ++bottom;
@@ -138,7 +138,7 @@ ColumnFault fault_of(const Column& c) {
                          c.height(at - longest / 2))};
 }
 
-/// Whether all eyes of people there are in clear air with smoke above them.
+/// Whether all eyes there are in clear air below smoke.
 bool eyes_below(const SceneDescription& scene, const Column& c) {
   const auto& heights = scene.assessment.eye_heights_m;
   const double highest = c.floor_m + *std::max_element(heights.begin(), heights.end());

@@ -1,5 +1,5 @@
-// Smoke by its numbers, as the scene states it and its scenarios scale it: extinctions and optics
-// that no smoke in a building has, and settings that contradict it.
+// Inspects the numbers of smoke, as stated and as scaled by scenarios: extinctions and optics that
+// no smoke in a building has, and settings that contradict it.
 #include <algorithm>
 #include <cmath>
 
@@ -10,29 +10,29 @@ namespace luxodus {
 
 namespace {
 
-/// Smoke through which people still walk has 0.05 to 3 /m, that of a fire's own room some 10 /m.
+/// Smoke that people still walk through has 0.05 to 3 /m, that in a fire's own room about 10 /m.
 constexpr double thickest = 20, thinnest = 5e-4;
-/// People do not walk through what is denser.
+/// People do not walk through denser smoke.
 constexpr double impassable = 5;
-/// In a cell of a fire simulation, beside the fire.
+/// Limit in a cell of a fire simulation, near the fire.
 constexpr double thickest_cell = 200;
 /// Soot of flaming fires absorbs: its albedo is 0.15 to 0.3, that of white smoke up to 0.99.
 constexpr double flaming_albedo = 0.6, min_albedo = 0.05, max_albedo = 0.995;
 /// Mean cosine of smoke: 0.5 to 0.8.
 constexpr double max_g = 0.95;
-/// Extinction follows wavelength^-1 of soot, up to ^-3.5 of brown smoke.
+/// Extinction follows wavelength^-1 for soot, up to ^-3.5 for brown smoke.
 constexpr double max_angstrom = 3.5, min_nm = 350, max_nm = 1100;
 
 double albedo_of(const SmokeOptics& optics) {
   return optics.albedo.integral_with(cie_y()) / cie_y().integral();
 }
 
-/// Said of flaming fires' soot: extinction follows 1/wavelength.
+/// Flaming fires' soot: extinction follows 1/wavelength.
 bool is_flaming(const SmokeOptics& optics) {
   return !optics.extinction.table && optics.extinction.angstrom == 1;
 }
 
-/// Of a layer of a medium, or of all of it.
+/// Inspects a layer of a medium, or all of it.
 class SmokePart {
  public:
   SmokePart(const SceneDescription& scene, const Medium& medium, const SmokeOptics& optics,
@@ -158,7 +158,7 @@ bool smokes(const SceneDescription& scene, const Scenario& scenario) {
   });
 }
 
-/// Cells of a file in /m: what its numbers are taken for when their unit is another.
+/// Cells of a file are read as 1/m, although their numbers may be in another unit.
 void inspect_cells(const SceneDescription& scene, const Medium& m, Findings& out) {
   const std::vector<float>& cells = m.data.extinction;
   if (cells.empty()) return;
@@ -168,7 +168,7 @@ void inspect_cells(const SceneDescription& scene, const Medium& m, Findings& out
                    "smoke optics",
                    {m.place, "the data set \"" + m.name + "\" " + std::move(what)}});
   };
-  // Grids of one fire simulation have one name, and some have no smoke yet.
+  // Grids of one fire simulation share a name, and some have no smoke yet.
   const bool others_smoke =
       std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& other) {
         return other.name == m.name &&
@@ -192,7 +192,7 @@ void inspect_cells(const SceneDescription& scene, const Medium& m, Findings& out
                     most));
 }
 
-/// Of what fires make that burn with flames.
+/// A medium that comes from a flaming fire.
 const Medium* from_flames(const SceneDescription& scene) {
   for (const Medium& m : scene.media) {
     if (m.emission) return &m;

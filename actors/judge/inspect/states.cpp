@@ -1,6 +1,6 @@
-// Scenarios and settings of the assessment, as they are written: factors that are percentages,
-// emergency states in which nothing is lit, times that batteries and glows do not last or that are
-// not said, smoke that is scaled down to clear air, people who see more than most.
+// Inspects scenarios and settings of the assessment as written: factors that are percentages,
+// emergency states without light, times that exceed batteries and glows or are not stated, smoke
+// that is scaled to clear air, people with better than normal sight.
 #include <algorithm>
 
 #include "actors/judge/inspect/site.hpp"
@@ -11,17 +11,18 @@ namespace luxodus {
 namespace {
 
 constexpr double hour_s = 3600;
-/// The longest rated duration that codes ask for.
+/// The longest rated duration that codes require.
 constexpr double max_hours = 3;
 constexpr double young_years = 40;
-/// Nobody who walks has eyes below, and hardly anybody above [m].
+/// Eyes of a walking adult are never lower, and hardly ever higher [m].
 constexpr double min_standing_m = 1.4, max_standing_m = 1.9;
 constexpr double far_apart_m = 5;
-/// Tasks of high risk are done in 100 lx and more.
+/// High-risk tasks are done in 100 lx and more.
 constexpr double min_task_lx = 50;
-/// Lit signs are seen through this for 160 m (Jin, 8/K): no sign of a building is lost in it [1/m].
+/// In this extinction, lit signs are visible for 160 m (Jin, 8/K): it hides no sign of a building
+/// [1/m].
 constexpr double hides_nothing = 0.05;
-/// A factor this small is a percentage more often than a share.
+/// A smaller factor is probably a share written as a percentage.
 constexpr double small_factor = 0.1;
 
 void tell_state(const Scenario& s, Severity severity, const std::string& what, Findings& out) {
@@ -38,7 +39,7 @@ void tell_circuit_factors(const Scenario& s, Findings& out) {
                  out);
 }
 
-/// Emergency luminaires that are off in an emergency state, and signs.
+/// Reports emergency luminaires, and signs, that are off in an emergency state.
 void tell_switched_off(const SceneDescription& scene, const Scenario& s, Findings& out) {
   if (s.operation != Operation::emergency) return;
   std::string first;
@@ -67,7 +68,7 @@ void tell_switched_off(const SceneDescription& scene, const Scenario& s, Finding
                out);
 }
 
-/// Glows are brightest at the failure, and those who walk see them minutes later.
+/// Glows are brightest at the failure, and people see them minutes later.
 void tell_fresh_glow(const SceneDescription& scene, const Scenario& s, Findings& out) {
   if (!judges_people(scene)) return;
   for (const Sign& sign : scene.signs) {
@@ -92,7 +93,8 @@ double largest_extinction(const Medium& m) {
   return most;
 }
 
-/// Smoke that is something as it is written, and nothing in this state, without being left out.
+/// Reports smoke that has an extinction as written, and almost none in this state, without being
+/// removed.
 void tell_thinned(const SceneDescription& scene, const Scenario& s, Findings& out) {
   if (!judges_people(scene)) return;
   for (const Medium& m : scene.media) {
@@ -184,7 +186,7 @@ void tell_people(const SceneDescription& scene, const std::vector<Scenario>& sce
          "that is in force decides");
 }
 
-/// Smoke that is described, and left out of every state.
+/// Reports smoke that is described, but absent in every state.
 void tell_unused_smoke(const SceneDescription& scene, const std::vector<Scenario>& scenarios,
                        Findings& out) {
   const auto first = std::find_if(scene.media.begin(), scene.media.end(),

@@ -1,4 +1,5 @@
-// Escape routes and areas: whether people can be where they are judged. Furniture is walked around.
+// Inspects escape routes and areas: whether people can be where they are judged. People walk around
+// furniture.
 #include <algorithm>
 
 #include "actors/judge/inspect/site.hpp"
@@ -8,39 +9,38 @@ namespace luxodus {
 
 namespace {
 
-/// A floor is looked for within this above and below a route [m].
+/// A floor is searched within this distance above and below a route [m].
 constexpr double floor_within_m = 0.3;
-/// And told where it is, within this.
+/// If there is none, the nearest floor within this distance is reported.
 constexpr double floor_far_m = 100;
-/// A level route that is farther from its floor is not on it [m].
+/// A horizontal route farther from its floor than this is not on it [m].
 constexpr double on_floor_m = 0.05;
 constexpr double standing_eye_m = 1.65;
-/// What stands from here to the eye is no step, sill or table [m].
+/// An obstacle from here up to the eye is not a step, sill or table [m].
 constexpr double waist_m = 1.0;
 /// Higher than any step, and lower than a sill or a barrier [m].
 constexpr double knee_m = 0.35;
 constexpr double chest_m = 1.35;
-/// People walk upright below what hangs higher [m].
+/// People walk upright below obstacles higher than this [m].
 constexpr double headroom_m = 1.9;
-/// Steps along a route at which its width is measured [m].
+/// Spacing of width measurements along a route [m].
 constexpr double width_step_m = 0.5;
-/// Less than so much is plaster [m].
+/// A smaller difference is plaster [m].
 constexpr double width_slack_m = 0.05;
-/// Doorways are narrower than routes: a corridor is too narrow on more than this share.
+/// Doorways are narrower than routes: only if more than this share is too narrow, the corridor is.
 constexpr double narrow_share = 0.1;
 constexpr size_t narrow_steps = 3;
-/// Escape routes are 0.8 m wide or more, for few people (a person's shoulders need 0.6 m).
+/// Escape routes are at least 0.8 m wide for few people (a person's shoulders need 0.6 m).
 constexpr double min_width_m = 0.6;
 /// EN 1838: wider routes are judged in strips [m].
 constexpr double strip_m = 2;
-/// Of areas: points are so far apart, and so far within the outline [m].
+/// Spacing of points in areas, and their distance from the outline [m].
 constexpr double area_step_m = 1;
 constexpr double area_border_m = 0.25;
-/// On more than this share of its points an area is not where it should be.
+/// If more than this share of its points is wrong, an area is misplaced.
 constexpr double area_share = 0.1;
 
-/// What stands in the way of people: objects that are no furniture. Signs and luminaires are passed
-/// under.
+/// What obstructs people: objects that are not furniture. People pass under signs and luminaires.
 auto passable(const Site& site) {
   return [&site](const Facing& f) {
     return f.surface >= site.scene.objects.size() || f.kind == MaterialKind::open ||
@@ -55,8 +55,8 @@ std::optional<Facing> first_wall(const Site& site, const GeometryAccess& access,
                     static_cast<Real>(length_m), passable(site));
 }
 
-/// Height of a place above the nearest floor below it, if there is one within `below_m`; floors a
-/// little above it count, too.
+/// Height of a place above the nearest floor below it, within `below_m`; floors slightly above it
+/// count, too.
 std::optional<double> above_floor(const Site& site, const GeometryAccess& access,
                                   const glm::dvec3& place, double below_m) {
   const auto may_pass = passable(site);
@@ -71,18 +71,18 @@ std::optional<double> above_floor(const Site& site, const GeometryAccess& access
       });
   std::optional<double> floor;
   if (met) floor = static_cast<double>(met->distance_m) - floor_within_m;
-  // Furniture that stands on the floor has its bottom in the floor's plane, where a ray meets
-  // one of the two: the floor is then where the furniture stands.
+  // Furniture on the floor has its bottom in the floor's plane, where a ray hits one of the two:
+  // then the furniture's bottom counts as the floor.
   const bool stands_here = foot && std::abs(*foot) <= on_floor_m;
   if (stands_here && (!floor || std::abs(*floor) > on_floor_m)) return foot;
   return floor;
 }
 
-/// What of one route is wrong, by its places.
+/// What is wrong along one route, by place.
 struct Walk {
   std::vector<glm::dvec3> places;
-  std::vector<std::optional<double>> above;  // the floor; none: no floor near
-  std::vector<char> inside;                  // a wall, at the eye
+  std::vector<std::optional<double>> above;  // height above the floor; none: no floor near
+  std::vector<char> inside;                  // whether the eye is in a wall
 };
 
 Walk walk_along(const Site& site, const EscapeRoute& route) {
@@ -129,7 +129,7 @@ bool among(const std::vector<Obstacle>& list, const Obstacle& one) {
                      [&](const Obstacle& other) { return other.object == one.object; });
 }
 
-/// What stands in the way from waist to eye, each object once.
+/// Obstacles from waist to eye, each object once.
 std::vector<Obstacle> obstacles(const Site& site, const Walk& walk) {
   const size_t legs = walk.places.empty() ? 0 : walk.places.size() - 1;
   std::vector<std::vector<Obstacle>> met(legs);
@@ -146,7 +146,7 @@ std::vector<Obstacle> obstacles(const Site& site, const Walk& walk) {
   return out;
 }
 
-/// What stands in the way on level ground at one height alone: a barrier, a sill or a beam.
+/// Obstacles on level ground at one height only: a barrier, a sill or a beam.
 std::optional<Obstacle> met_at(const Site& site, const Walk& walk, double height_m) {
   const size_t legs = walk.places.empty() ? 0 : walk.places.size() - 1;
   std::vector<std::vector<Obstacle>> met(legs);
@@ -187,7 +187,7 @@ void tell_floor(const EscapeRoute& route, const Walk& walk, Findings& out) {
   }
 }
 
-/// How far it is free to the left and to the right of the places of a route [m], up to its width.
+/// Free distances to the left and right of the places of a route [m], up to its width.
 struct Width {
   std::vector<double> left, right;
   std::vector<glm::dvec3> places;
@@ -216,8 +216,7 @@ Width width_along(const Site& site, const EscapeRoute& route) {
   return width;
 }
 
-/// Of the steps, those where less than `wanted_m` is free aside; none where they are as few as
-/// doorways are.
+/// Places with less than `wanted_m` free; none if there are no more than doorways explain.
 std::optional<size_t> too_narrow(const std::vector<double>& aside, double wanted_m) {
   std::optional<size_t> first;
   size_t count = 0;
@@ -256,7 +255,7 @@ void tell_width(const Site& site, const EscapeRoute& route, Findings& out) {
   }
 }
 
-/// What is met neither at the waist nor at the eye, or at one of them alone.
+/// Reports obstacles that are missed at waist and eye height, or hit at only one of them.
 void tell_barriers(const Site& site, const EscapeRoute& route, const Walk& walk, Findings& out) {
   const auto told = [&](double height_m, const char* how, const char* advice) {
     const auto met = met_at(site, walk, height_m);

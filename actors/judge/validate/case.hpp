@@ -1,6 +1,5 @@
-// A case: a scene whose light is known from elsewhere, and the quantities that are compared. Cases
-// of one kind are made by one file, cases_*.cpp; all_cases() is the table of them all. Plain
-// values; any thread.
+// A case: a scene whose light is known from elsewhere, and the quantities to compare. Cases of one
+// kind are in one file, cases_*.cpp; all_cases() lists all. Plain values; any thread.
 #pragma once
 
 #include <functional>
@@ -17,26 +16,26 @@ inline constexpr double pi = std::numbers::pi;
 /// The reference table of closed forms, each with its id.
 inline constexpr const char* exact_table = "misc_exact.csv";
 
-/// Of the first sign's white part, at the first eye.
+/// For the first sign's white part, at the first eye.
 inline Estimate first_view(const Traced& run, EyeQuantity quantity) {
   return run.value(run.blocks().views, 0, static_cast<uint32_t>(quantity));
 }
 
-/// What tracing estimates, and what it ought to be.
+/// An estimate of tracing, and its reference.
 struct Quantity {
   std::string name;
   double reference = 0;
   std::function<Estimate(const Traced&)> read;
-  /// Declared beforehand, in the reference's unit: of a mesh that stands for a round thing, of a
-  /// source that stands off its wall, of the digits of a table.
+  /// Declared in advance, in the reference's unit: of a mesh that replaces a round body, of a
+  /// source in front of its wall, of the digits of a table.
   double bias = 0;
-  /// About the most that all particles can bring, should each do so; 0: the power of the scene.
+  /// About the largest possible total of all particles; 0: the power of the scene.
   double unit = 0;
-  /// Equal to the reference within the bias, whatever chance does.
+  /// Equal to the reference within the bias, without statistical error.
   bool certain = false;
 };
 
-/// What is computed without chance.
+/// A quantity that is computed deterministically.
 struct Computed {
   std::string name;
   double reference = 0;
@@ -44,12 +43,12 @@ struct Computed {
   double tolerance = 0;  // relative
 };
 
-/// A case made ready.
+/// A case ready to be traced.
 struct PreparedCase {
   SceneDescription scene;
   std::vector<BinSum> sums;
   std::vector<WeightedSum> weighted;
-  std::vector<Quantity> quantities;  // none: nothing is traced
+  std::vector<Quantity> quantities;  // empty: nothing is traced
   std::vector<Computed> computed;
   int64_t quick_particles = 1 << 18;
   int64_t batch_particles = 4096;
@@ -58,12 +57,12 @@ struct PreparedCase {
   Quantity& add(std::string name, double reference, std::function<Estimate(const Traced&)> read,
                 double bias = 0);
   void compute(std::string name, double reference, double value, double tolerance);
-  /// Direct light in a scene that is compiled already [lx].
+  /// Direct light in a compiled scene [lx].
   void compute_direct(std::string name, double lux, const std::shared_ptr<const Traced>& lamp,
                       const glm::dvec3& point, const glm::dvec3& normal, double tolerance);
   /// No light leaves the scene.
   void add_closed();
-  /// Few particles, on which nothing here depends, and so many paths from the eye for each of them
+  /// Few particles, on which no quantity depends, and this many paths from the eye for each of them
   /// to each part of the only sign.
   void look_rather(double paths_per_particle);
 };
@@ -71,7 +70,7 @@ struct PreparedCase {
 struct Case {
   std::string group;   // "stack"
   std::string name;    // unique: "stack 5 L1 lambert from top"
-  std::string source;  // of the reference: a table, or the law
+  std::string source;  // source of the reference: a table, or the law
   std::function<PreparedCase()> plan;
 };
 
@@ -94,7 +93,7 @@ void add_glossy_cases(Cases& cases);
 
 /// Every case that has a reference.
 Cases all_cases();
-/// Those whose name holds the text, small and capital letters alike; all for "".
+/// Cases whose name contains the text, ignoring case; all for "".
 Cases cases_named(const std::string& text);
 
 }  // namespace luxodus::light

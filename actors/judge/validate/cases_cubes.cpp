@@ -1,5 +1,5 @@
-// Closed cubes with diffuse walls against the continuous radiosity solution, wall by wall and in
-// 4 x 4 parts of each; and filled with absorbing gas, between black walls.
+// Closed cubes with diffuse walls against the continuous radiosity solution, for each wall and for
+// 4 x 4 parts of it; and cubes filled with absorbing gas, between black walls.
 #include <algorithm>
 #include <cmath>
 
@@ -55,7 +55,7 @@ SceneDescription cube_of(const std::vector<Row>& walls) {
   return scene;
 }
 
-/// Parts that the reference gives one and the same flux: images of one another, as a rule.
+/// Parts with equal reference flux: usually mirror images of one another.
 struct Alike {
   std::vector<uint32_t> parts;  // numbers of objects: walls, i, j, in the order of the table
   double incident = 0;          // flux into all of them
@@ -84,7 +84,7 @@ PreparedCase cube_plan(const std::string& set) {
   plan.scene = cube_of(walls);
   // A hundred reflections at 0.95 take as long as five histories.
   plan.quick_particles = set.starts_with("p05") ? 1 << 16 : 1 << 18;
-  // Sources stand 0.01 mm off their walls.
+  // Biases of sources that are 0.01 mm in front of their walls.
   constexpr double of_walls = 2e-5, of_parts = 1e-4;
   for (uint32_t w = 0; w < walls.size(); ++w) {
     plan.add(
@@ -99,7 +99,7 @@ PreparedCase cube_plan(const std::string& set) {
         "flux into " + std::to_string(alike.parts.size()) + " parts like " +
             plan.scene.objects[alike.parts[0]].name,
         alike.incident, [c](const Traced& run) { return run.sum(c); }, of_parts);
-    // Each on its own, so that none of them makes up for another.
+    // Each part separately, so that their errors cannot cancel.
     const auto count = static_cast<double>(alike.parts.size());
     for (const uint32_t part : alike.parts) {
       const std::string name = plan.scene.objects[part].name;

@@ -19,7 +19,7 @@ Mesh sphere_mesh(double radius, double sagitta) {
   return std::move(shape.value().mesh);
 }
 
-/// Over a closed surface of one reflectance the flux does not depend on its shape.
+/// In a closed surface of uniform reflectance the flux does not depend on the shape.
 PreparedCase sphere_plan(double reflectance, double irradiance) {
   PreparedCase plan;
   add_mesh(plan.scene, "sphere", sphere_mesh(1, 1e-3), add_grey(plan.scene, reflectance));
@@ -51,7 +51,7 @@ PreparedCase indirect_plan(double reflectance, double irradiance) {
   const double lm_per_w = efficacy_lm_per_w(scene.emitters[0].spectrum);
   scene.run.eye_path_factor = 10;
   plan.quick_particles = reflectance > 0.9 ? 1 << 11 : 1 << 13;
-  // Facets stand off the sphere by up to 0.025 %, and no point of one sees its own.
+  // Facets deviate from the sphere by up to 0.025 %, and points of a facet do not see each other.
   constexpr double of_facets = 1.5e-3;
   for (uint32_t p = 0; p < scene.probes.size(); ++p) {
     plan.add(
@@ -73,14 +73,14 @@ PreparedCase port_plan(double reflectance, double share, double exact_share) {
     return (open.positions[t[0]].z + open.positions[t[1]].z + open.positions[t[2]].z) / 3 >
            1 - 2 * share;
   });
-  // Whole facets are cut, so the port's share is that of this mesh, and the law holds for it.
+  // Whole facets are cut out, so the port's share is that of this mesh, for which the law holds.
   const double cut = 1 - area_of(open) / area_of(closed);
   add_mesh(plan.scene, "sphere", open, add_grey(plan.scene, reflectance));
   add_point(plan.scene, {0, 0, 0}, 1);
   plan.sums.push_back(every_side());
   const double through = cut / (1 - reflectance * (1 - cut));
   plan.compute("through the port, of the mesh", exact_share, through, 2e-2);
-  constexpr double of_facets = 2e-3;  // solid angle and area of the cut differ by so much
+  constexpr double of_facets = 2e-3;  // bias from solid angle and area of the cut
   plan.add(
       "through the port", through, [](const Traced& run) { return run.sum(0); }, of_facets);
   return plan;
@@ -90,7 +90,7 @@ PreparedCase concentric_plan(const std::string& p, double inside, double outside
   PreparedCase plan;
   SceneDescription& scene = plan.scene;
   const double r1 = parameter(p, "r1"), r2 = parameter(p, "r2");
-  // Cut alike, so that the ratio of their areas is exact.
+  // Meshed alike, so that the ratio of their areas is exact.
   add_mesh(scene, "outer", sphere_mesh(r2, 1e-3 * r2), add_grey(scene, parameter(p, "rho2")));
   const int material = add_grey(scene, parameter(p, "rho1"));
   Emitter& e = add_emitter(scene, EmitterShape::mesh, {0, 0, 0}, {0, 0, -1}, 1);
@@ -107,8 +107,8 @@ PreparedCase concentric_plan(const std::string& p, double inside, double outside
   return plan;
 }
 
-/// Two unit squares facing each other between perfect mirrors: infinite plates. The lower one
-/// emits 1.
+/// Two unit squares that face each other between perfect mirrors, which makes them infinite plates.
+/// The lower one emits 1.
 PreparedCase plates_plan(const std::string& p) {
   constexpr double distance = 0.5;
   PreparedCase plan;
@@ -125,7 +125,7 @@ PreparedCase plates_plan(const std::string& p) {
   return plan;
 }
 
-/// Rows of two names that stand in the same order, side by side.
+/// Combines rows of two names in the same order.
 template <class Make>
 void for_each_pair(const std::string& first, const std::string& second, const Make& make) {
   const std::vector<Row> a = rows_where(exact_table, "id", first),

@@ -1,4 +1,4 @@
-// How far light gets in endless fog before it is absorbed: moments of the point of absorption under
+// How far light travels in infinite fog before absorption: moments of the point of absorption under
 // Henyey-Greenstein scattering, for extinction 1/m, albedo c and mean cosine g.
 #include <cmath>
 
@@ -22,17 +22,17 @@ Moments moments_of(double albedo, double g) {
 
 // ---- second moments ----------------------------------------------------------------------------
 
-/// Four points of Gauss on [-1, 1].
+/// Four Gauss points on [-1, 1].
 constexpr double gauss_place[] = {0.339981043584856, 0.861136311594053};
 constexpr double gauss_weight[] = {0.652145154862546, 0.347854845137454};
 
-/// A piece of an integral over heights.
+/// A node of an integral over heights.
 struct Node {
   double height = 0;
   double weight = 0;
 };
-/// From 0 to `far`, in panels that widen: flows fall like sums of exp(-z / length) with lengths
-/// from zero to that of diffusion.
+/// From 0 to `far`, in panels of increasing width: net flows fall like sums of exp(-z / length),
+/// with lengths from zero to that of diffusion.
 std::vector<Node> nodes_up_to(double far) {
   std::vector<Node> nodes;
   for (double low = 0; low < far;) {
@@ -47,7 +47,7 @@ std::vector<Node> nodes_up_to(double far) {
   return nodes;
 }
 
-/// A plane across the axis (0: x, 2: z) there, forward away from the origin.
+/// A plane across an axis (0: x, 2: z), with forward away from the origin.
 void add_crossing(SceneDescription& scene, int axis, double there, double edge) {
   CountingPlaneMeasure plane;
   plane.name = "plane " + std::to_string(scene.counting_planes.size());
@@ -62,9 +62,10 @@ void add_crossing(SceneDescription& scene, int axis, double there, double edge) 
   scene.counting_planes.push_back(plane);
 }
 
-/// What crosses a plane forward less what comes back ends beyond it, so the mean square of where it
-/// ends is the integral of 2 z (net flow through z), and on the other side alike. Across the beam
-/// all sides are one. Gauss's points on the panels err by less than a ten-thousandth.
+/// The net flow through a plane is absorbed beyond it, so the mean square of the place of
+/// absorption is the integral of 2 z (net flow through z), and likewise on the other side.
+/// Directions across the beam are equivalent. The error of Gauss's rule on the panels is below one
+/// ten-thousandth.
 void add_second_moments(PreparedCase& plan, double far, double mean_z2, double mean_r2) {
   SceneDescription& scene = plan.scene;
   WeightedSum z2{&TallyBlocks::counting, {}};
@@ -73,17 +74,18 @@ void add_second_moments(PreparedCase& plan, double far, double mean_z2, double m
     add_crossing(scene, axis, there, edge);
     for (uint32_t q = 0; q < 4; ++q) sum.terms.push_back({bin, q, q < 2 ? weight : -weight});
   };
-  const double edge = 2 * far;  // all that the scene has
+  const double edge = 2 * far;  // larger than all geometry
   const std::vector<Node> nodes = nodes_up_to(far);
   for (const Node& n : nodes) {
     for (const double side : {1.0, -1.0})
       add_plane(2, side * n.height, edge, 2 * n.height * n.weight, z2);
   }
-  WeightedSum r2 = z2;  // and twice that of x, of which one half is looked at
+  WeightedSum r2 = z2;  // and twice that of x, of which one half is measured
   for (const Node& n : nodes) add_plane(0, n.height, edge, 8 * n.height * n.weight, r2);
   plan.weighted = {std::move(z2), std::move(r2)};
   constexpr double of_panels = 1e-4;
-  // Squares of what falls exponentially: their mean square is some twelve times their squared mean.
+  // Squares of an exponentially distributed quantity: their mean square is about twelve times their
+  // squared mean.
   constexpr double spread = 12;
   plan.add(
           "mean z2 of absorption", mean_z2, [](const Traced& run) { return run.weighted_sum(0); },
@@ -98,10 +100,11 @@ void add_second_moments(PreparedCase& plan, double far, double mean_z2, double m
 // ---- cases -------------------------------------------------------------------------------------
 
 /// The vector flux of one voxel around everything is the sum of all displacements, so its component
-/// along the beam is the mean place of absorption; the fluence is the mean path.
+/// along the beam gives the mean place of absorption; the fluence gives the mean path.
 PreparedCase moments_plan(const std::string& parameters, const Moments& mean) {
   const double albedo = parameter(parameters, "c"), g = parameter(parameters, "g");
-  // Fluence falls by e in at least 1 / sqrt(3 (1 - c) (1 - c g)) metres: nothing is 20 such away.
+  // Fluence falls by a factor e in at least 1 / sqrt(3 (1 - c) (1 - c g)) metres: beyond 20 of them
+  // nothing is left.
   const double far = 10 + 20 / std::sqrt(3 * (1 - albedo) * (1 - albedo * g));
   PreparedCase plan;
   SceneDescription& scene = plan.scene;
@@ -131,7 +134,7 @@ void add_fog_cases(Cases& cases) {
     const Moments mean{row.number("value"), exact("hg_mean_z2", p), exact("hg_mean_r2", p)};
     cases.push_back({"moments", "beam in fog, " + p, table, [=] { return moments_plan(p, mean); }});
   }
-  // Where inversions of the phase function lose their digits.
+  // Where inverting the phase function loses digits.
   for (const std::string g : {"-0.999", "-1e-7", "1e-7", "0.999"}) {
     const std::string p = "c=0.9;g=" + g;
     const Moments mean = moments_of(0.9, std::stod(g));

@@ -1,5 +1,5 @@
-// What a uniform field of light does in smoke: nothing, however dense that is, where it absorbs
-// nothing or is as hot as the walls. Exact for every voxel, layer and body.
+// A uniform radiation field stays uniform in smoke of any density that does not absorb, or is as
+// hot as the walls. Exact for every voxel, layer and body.
 #include <cmath>
 
 #include "actors/judge/validate/case.hpp"
@@ -13,7 +13,7 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double off_the_walls = 2e-5;  // sources stand 0.01 mm off them
+constexpr double off_the_walls = 2e-5;  // bias of sources 0.01 mm in front of the walls
 constexpr const char* walls[] = {"x0", "x1", "y0", "y1", "z0", "z1"};
 constexpr const char* kinds[] = {"homogeneous", "layers", "a ball", "cells",
                                  "all over one another"};
@@ -28,7 +28,7 @@ void add_glowing_box(SceneDescription& scene, const glm::dvec3& size, double ref
   }
 }
 
-/// Smoke of one of the kinds that absorbs nothing, in a box of `size`.
+/// Smoke without absorption, of one of the kinds, in a box of `size`.
 void add_white_smoke(SceneDescription& scene, const glm::dvec3& size, size_t kind) {
   const bool all = kind == 4;
   if (kind == 0 || all) add_homogeneous(scene, smoke(1.5, 1, 0.6));
@@ -80,7 +80,7 @@ PreparedCase room_plan(size_t kind) {
   add_path(plan, 3, "a shell", fluence * (ball(0.45) - ball(0.3)));
   add_walls(plan, 1);
   for (const std::string wall : walls) {
-    // The two sides of its first triangle: what maps and pictures are made of.
+    // Both sides of its first triangle: the bins of maps and pictures.
     plan.add(
         "flux into half of " + wall, 0.5,
         [wall](const Traced& run) { return run.into_patch(wall, 0); }, off_the_walls);
@@ -98,7 +98,7 @@ PreparedCase room_plan(size_t kind) {
   return plan;
 }
 
-/// Smoke of varying density, scattering too, that glows as the walls do.
+/// Smoke of varying density that scatters and glows like the walls.
 PreparedCase hot_smoke_plan() {
   PreparedCase plan;
   SceneDescription& scene = plan.scene;
@@ -133,7 +133,7 @@ PreparedCase hot_smoke_plan() {
   return plan;
 }
 
-/// Blanco and Fournier: the mean path through a body is four volumes over surface.
+/// Blanco and Fournier: the mean path through a body is four volumes divided by its surface.
 PreparedCase box_path_plan(size_t kind) {
   PreparedCase plan;
   SceneDescription& scene = plan.scene;
@@ -164,7 +164,7 @@ PreparedCase body_path_plan(const Mesh& body, double exact_mean) {
   add_layer_group(scene, -5, 5);
   plan.quick_particles = 1 << 15;
   plan.batch_particles = 2048;
-  // Of the mesh itself, for which the law is exact as well.
+  // For the mesh itself, for which the law is exact, too.
   const double mean = 4 * std::abs(signed_volume_of(body)) / area_of(body);
   add_path(plan, 0, "the body", mean);
   plan.compute("mean path of the mesh", exact_mean, mean, 3e-3);

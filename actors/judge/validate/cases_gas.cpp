@@ -1,4 +1,4 @@
-// Infinite layers of gas that absorb and glow and do not scatter: exponential integrals.
+// Infinite layers of gas that absorb and glow without scattering: exponential integrals.
 #include "actors/judge/validate/case.hpp"
 #include "actors/judge/validate/reference.hpp"
 #include "actors/judge/validate/scene_kit.hpp"
@@ -8,9 +8,9 @@ namespace luxodus::light {
 
 namespace {
 
-constexpr double gas_edge = 4;  // [m] of the mirrored box that stands for infinity
+constexpr double gas_edge = 4;  // [m] of the mirrored box that represents infinity
 
-/// Black floor and ceiling (objects 4 and 5) around gas of `height`, which is infinite otherwise.
+/// Black floor and ceiling (objects 4 and 5) around gas of `height`, otherwise infinite.
 SceneDescription black_plates(double height) {
   SceneDescription scene;
   scene.run.voxels = false;
@@ -22,7 +22,8 @@ SceneDescription black_plates(double height) {
   return scene;
 }
 
-/// Gas of one extinction from `low` to `high` that glows evenly with a power of 1 and absorbs.
+/// Gas of uniform extinction from `low` to `high` that emits uniformly with a power of 1 and
+/// absorbs.
 void add_glowing_gas(SceneDescription& scene, double low, double high, double extinction) {
   Medium& gas = add_cells(
       scene, {0, 0, low}, {gas_edge, gas_edge, high - low}, 2,
@@ -37,7 +38,7 @@ PreparedCase layer_plan(const std::string& depth, double passed) {
   plan.scene = black_plates(1);
   add_homogeneous(plan.scene, smoke(parameter(depth, "tau"), 0));
   add_face_emitter(plan.scene, faces_of_box({0, 0, 0}, {gas_edge, gas_edge, 1})[5], 1);
-  constexpr double off_the_ceiling = 5e-5;  // the light stands 0.01 mm off it
+  constexpr double off_the_ceiling = 5e-5;  // bias of a light 0.01 mm in front of it
   plan.add(
       "absorbed", 1 - passed, [](const Traced& run) { return run.absorbed_by_medium(0); },
       off_the_ceiling);
@@ -47,8 +48,8 @@ PreparedCase layer_plan(const std::string& depth, double passed) {
   return plan;
 }
 
-/// A black body's exitance would be 1 / (4 tau) where the gas gives off 1: what meets a plate is
-/// its emissivity times that.
+/// A black body's exitance would be 1 / (4 tau) if the gas emits 1: a plate receives its emissivity
+/// times that.
 PreparedCase glowing_layer_plan(double tau, double escaping, double emissivity) {
   PreparedCase plan;
   plan.scene = black_plates(1);

@@ -1,6 +1,6 @@
 // One reflection by a glossy plate (GGX facets with Smith's height-correlated masking, in the
-// textbook's form, double precision): a beam's by quadrature over the walls that it reaches, a
-// lamp's by quadrature over the plate that a probe looks at.
+// textbook's form, double precision): for a beam by quadrature over the walls that it reaches, for
+// a lamp by quadrature over the plate that a probe faces.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ int add_glossy(SceneDescription& scene, double alpha) {
   return number;
 }
 
-/// Midpoint rule over a parallelogram; f is given a place, and is per area.
+/// Midpoint rule over a parallelogram; f takes a place, and is per area.
 double over(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v,
             const std::function<double(const glm::dvec3&)>& f) {
   constexpr int steps = 400;
@@ -52,7 +52,7 @@ double over(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v,
 
 constexpr double of_quadrature = 1e-4;
 
-/// A beam meets the plate, which is the floor of a black box, in the middle.
+/// A beam hits the centre of the plate, which is the floor of a black box.
 PreparedCase beam_plan(double alpha, double degrees) {
   PreparedCase plan;
   SceneDescription& scene = plan.scene;
@@ -84,7 +84,7 @@ PreparedCase beam_plan(double alpha, double degrees) {
   return plan;
 }
 
-/// A lamp over the plate, and a probe that looks at the plate.
+/// A lamp above the plate, and a probe that faces the plate.
 PreparedCase probe_plan(double alpha) {
   constexpr double lamp_lm = 1000;
   const glm::dvec3 lamp(-0.8, 0, 1), eye(0.9, 0.1, 1.2);

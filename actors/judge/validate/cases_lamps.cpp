@@ -1,5 +1,5 @@
-// Light that has met nothing yet: point and area sources, computed without chance and traced; and
-// what smoke and glass leave of it. (CIE 171:2006, 5.2, 5.3 and 5.5 are of this kind.)
+// Direct light: point and area sources, computed deterministically and traced; and its attenuation
+// by smoke and glass. (CIE 171:2006, 5.2, 5.3 and 5.5 are of this kind.)
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,11 +13,11 @@ namespace luxodus::light {
 namespace {
 
 constexpr double bare_lamp_lm = 1000;
-constexpr double computed = 1e-3;  // what computed direct light may err by
-constexpr double cell = 0.25;      // edge of those that the table averages over [m]
+constexpr double computed = 1e-3;  // tolerance of computed direct light
+constexpr double cell = 0.25;      // edge of the cells that the table averages over [m]
 constexpr const char* points_table = "area_light_points.csv";
 
-/// A lamp in a black room: only a large floor.
+/// A lamp in a black room, of which only a large floor exists.
 SceneDescription lamp_of(const Row& row) {
   SceneDescription scene;
   const std::vector<double> r = row.numbers("rect_x0;x1;y0;y1");
@@ -72,7 +72,7 @@ PreparedCase receivers_in_smoke_plan(const std::vector<Row>& points,
   return plan;
 }
 
-/// Cells of 0.25 m around the points of a table row and around its mirror images under the lamp.
+/// Cells of 0.25 m around the points of a table row and around their mirror images below the lamp.
 std::vector<PlaneMeasure> cells_like(const Row& row) {
   const double x = row.number("x"), y = row.number("y");
   std::vector<glm::dvec2> centres = {{x, y}, {-x, y}, {x, -y}, {-x, -y}};

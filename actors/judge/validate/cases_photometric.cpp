@@ -1,5 +1,5 @@
-// Photometric files that are written here, in both formats, for a luminaire of known intensity:
-// what the readers make of them, and where the tracer sends their light.
+// Photometric files written here, in both formats, for a luminaire of known intensity: what the
+// readers return, and where the tracer sends the light.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace luxodus::light {
 
 namespace {
 
-/// Leaning towards C0: I = I0 cos(gamma) (1 + cos(C) / 2) below the horizon, none above.
+/// Asymmetric towards C0: I = I0 cos(gamma) (1 + cos(C) / 2) below the horizon, none above.
 constexpr double peak_cd = 500;
 double intensity(double c_deg, double gamma_deg) {
   if (gamma_deg >= 90) return 0;
@@ -25,7 +25,7 @@ double intensity(double c_deg, double gamma_deg) {
 
 constexpr double c_step = 5, gamma_step = 2.5;  // [deg]
 
-/// The table, C plane by C plane, from 0 to `gamma_last`.
+/// The table, one C plane after another, from 0 to `gamma_last`.
 std::vector<double> candela(double c_last, double gamma_last) {
   std::vector<double> out;
   for (double c = 0; c <= c_last; c += c_step) {
@@ -35,7 +35,7 @@ std::vector<double> candela(double c_last, double gamma_last) {
   return out;
 }
 
-/// A lamp of 2000 lm, so that the table is in cd/klm and the readers have a factor to apply.
+/// A lamp of 2000 lm, so that the table is in cd/klm and the readers must apply a factor.
 PhotometricFile ldt_file() {
   constexpr double lamp_lm = 2000;
   std::string text;
@@ -78,9 +78,9 @@ PhotometricFile ies_file() {
   return std::move(file).value();
 }
 
-constexpr double flux_digits = 1e-5;  // of single precision, and of the files' numbers
+constexpr double flux_digits = 1e-5;  // digits of single precision, and of the files' numbers
 
-/// The lamp over a floor: its light there, computed, in directions that the table holds.
+/// The lamp above a floor: its computed light there, in directions of the table.
 void add_places(PreparedCase& plan, const PhotometricFile& file) {
   constexpr double height = 2;
   SceneDescription scene;
@@ -104,7 +104,7 @@ void add_places(PreparedCase& plan, const PhotometricFile& file) {
   }
 }
 
-/// What scatters of its light into a line of sight.
+/// Its light scattered into a line of sight.
 PreparedCase luminaire_veil(const PhotometricFile& file) {
   constexpr double g = 0.5;
   VeilCase veil;
@@ -118,13 +118,14 @@ PreparedCase luminaire_veil(const PhotometricFile& file) {
   veil.candela = [](const glm::dvec3& way) {
     return intensity(std::atan2(way.y, way.x) * 180 / pi, std::acos(-way.z) * 180 / pi);
   };
-  veil.bias = 1e-3;  // between the angles of the table: (5 deg)^2 / 8 and (2.5 deg)^2 / 8 of it
+  veil.bias = 1e-3;  // interpolation between the angles of the table: (5 deg)^2 / 8 and (2.5 deg)^2
+                     // / 8
   return veil_plan(veil);
 }
 
-/// Trapezoids in C and lines in gamma are what the table says between its values: in both angles
-/// their integrals are closed forms. Mean of cos(C) over a half turn that is cut into steps, as a
-/// share of the true one, and integral of the polar part, as a share of I0 / 2.
+/// The table is interpolated linearly in C and gamma; the integrals over both angles have closed
+/// forms. Mean of cos(C) over a half turn divided into steps, as a share of the exact one, and
+/// integral of the polar part, as a share of I0 / 2.
 double share_of_trapezoids(double step_deg) {
   const double d = step_deg * pi / 180;
   return 0.5 * d / std::tan(0.5 * d);
@@ -155,8 +156,9 @@ PreparedCase luminaire_plan(const PhotometricFile& file) {
   Emitter& e = add_point(scene, {0, 0, 0}, 1);
   e.distribution = Distribution::web;
   e.web = file.web;
-  // A floor right below the lamp, in two halves, gets all but what leaves within 1e-3 of the
-  // horizon, 1e-6 of it. Rays know to a millionth of their size where its halves meet.
+  // A floor directly below the lamp, in two halves, receives everything except what leaves within
+  // 1e-3 of the horizon, 1e-6 of it. Rays resolve the seam of its halves to a millionth of their
+  // size.
   constexpr double below = 1e-2, wide = 10, edge = 1e-4;
   add_quad(scene, "towards C0", {0, -wide, -below}, {wide, 0, 0}, {0, 2 * wide, 0},
            add_grey(scene, 0));

@@ -1,6 +1,6 @@
 // Room lighting by closed forms, in the manner of CIE 171:2006: flux of a point source on a
-// rectangle (5.2), conservation through an opening (5.4), reflection by a diffuse surface (5.6)
-// and past an obstruction (5.7), the mean of all reflections (5.8), and a mirror.
+// rectangle (5.2), conservation through an opening (5.4), reflection by a diffuse surface (5.6) and
+// with an obstruction (5.7), the mean of all reflections (5.8), and a mirror.
 #include <cmath>
 
 #include "actors/judge/validate/case.hpp"
@@ -18,7 +18,7 @@ double corner_angle(double a, double b, double h) {
   return std::atan(a * b / (h * std::sqrt(a * a + b * b + h * h)));
 }
 
-/// Of [x0, x1] x [y0, y1] from a distance h above the origin.
+/// Solid angle of [x0, x1] x [y0, y1] from a distance h above the origin.
 double solid_angle(double x0, double x1, double y0, double y1, double h) {
   return corner_angle(x1, y1, h) - corner_angle(x0, y1, h) - corner_angle(x1, y0, h) +
          corner_angle(x0, y0, h);
@@ -54,7 +54,7 @@ PreparedCase point_behind_sheet() {
   return plan;
 }
 
-/// A sheet hides one half of an area lamp from a point that it is symmetrical about.
+/// A sheet hides one half of an area lamp from a point on its plane of symmetry.
 PreparedCase half_hidden_lamp() {
   const auto lamp = [](bool sheet) {
     SceneDescription scene;
@@ -72,8 +72,8 @@ PreparedCase half_hidden_lamp() {
   return plan;
 }
 
-/// A lamp as large as the opening of a black box, one edge above it: what passes the opening is
-/// what the walls receive.
+/// A lamp as large as the opening of a black box, one edge above it: the walls receive what passes
+/// the opening.
 PreparedCase opening() {
   PreparedCase plan;
   SceneDescription& scene = plan.scene;
@@ -86,7 +86,7 @@ PreparedCase opening() {
     inside.objects.push_back(faces[f].name);
   }
   scene.surface_groups.push_back(inside);
-  // Outside the walls are black as well: they receive nothing of a lamp right above.
+  // Outside, the walls are black as well: they receive nothing from a lamp directly above.
   add_rectangle(scene, {0.5, 0.5, 1}, {0, 0, -1}, 1, 1, 1);
   CountingPlaneMeasure plane;
   plane.name = "opening";
@@ -94,7 +94,7 @@ PreparedCase opening() {
   plane.edge_u = {0, 1, 0};
   plane.edge_v = {1, 0, 0};
   scene.counting_planes.push_back(plane);
-  constexpr double of_the_rim = 2e-5;  // light that meets the walls' upper edges from outside
+  constexpr double of_the_rim = 2e-5;  // light on the walls' upper edges from outside
   plan.add("through the opening", to_opposite,
            [](const Traced& run) { return run.watts(run.blocks().counting, 0, 0); });
   plan.add(
@@ -102,7 +102,7 @@ PreparedCase opening() {
   return plan;
 }
 
-/// A beam covers one wall of a black cube; the wall reflects it evenly.
+/// A beam covers one wall of a black cube; the wall reflects it diffusely.
 PreparedCase diffuse_wall() {
   constexpr double reflectance = 0.6;
   PreparedCase plan;
@@ -173,7 +173,7 @@ PreparedCase mirror_wall() {
   SceneDescription& scene = plan.scene;
   add_point(scene, {1, 0, 2}, 1);
   add_floor(scene, "floor", 0, 3, -2, 2, 0);
-  // Tall and wide enough for every ray from the image to the floor.
+  // High and wide enough for every ray from the image to the floor.
   add_quad(scene, "mirror", {0, -9, 0}, {0, 18, 0}, {0, 0, 9}, add_mirror(scene, specular));
   const double direct = solid_angle(-1, 2, -2, 2, 2), image = solid_angle(1, 4, -2, 2, 2);
   plan.add("flux", (direct + specular * image) / (4 * pi), into_floor);

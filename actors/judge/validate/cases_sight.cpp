@@ -1,6 +1,5 @@
-// What smoke leaves to be seen: Smokeview's greys, Koschmieder's law, and the C of Jin's law
-// V = C / K, for signs in smoke that is lit evenly. Medium and sign are traced from the eye; the
-// laws are not put in anywhere.
+// Visibility in smoke: Smokeview's greys, Koschmieder's law, and the C of Jin's law V = C / K, for
+// signs in uniformly lit smoke. Medium and sign are traced from the eye; the laws are used nowhere.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,7 +13,7 @@ namespace {
 
 // ---- Smokeview ---------------------------------------------------------------------------------
 
-/// Verification Guide, "Verifying Smoke Transparency": soot of 7.922e-5 kg/m3 at 8700 m2/kg takes
+/// Verification Guide, "Verifying Smoke Transparency": soot of 7.922e-5 kg/m3 at 8700 m2/kg reduces
 /// 255 to 128 in a metre.
 constexpr double soot_extinction = 7.922e-5 * 8700;  // [1/m]
 struct Grey {
@@ -23,7 +22,7 @@ struct Grey {
 };
 constexpr Grey greys[] = {{0.5, 181}, {1, 128}, {2, 64}, {3, 32}, {4, 16}, {5, 8}};
 
-/// A beam through soot in cells of that edge, 6 m long.
+/// A beam through soot in cells with this edge, 6 m long.
 PreparedCase grey_plan(double cell_m) {
   constexpr double length = 6;
   PreparedCase plan;
@@ -44,13 +43,13 @@ PreparedCase grey_plan(double cell_m) {
     scene.counting_planes.push_back(plane);
     const std::string where = fmt::format("grey at {} m", greys[i].distance_m);
     const double grey = 255 * std::pow(128.0 / 255, greys[i].distance_m);
-    constexpr double of_the_density = 1e-4;  // its four digits, over 5 m
+    constexpr double of_the_density = 1e-4;  // from its four digits, over 5 m
     plan.add(
             where, grey,
             [i](const Traced& run) { return run.watts(run.blocks().counting, i, 0) * 255; },
             of_the_density)
         .unit = 255;
-    // Published greys are whole numbers.
+    // Published greys are integers.
     plan.compute(where + ", rounded", greys[i].published, grey, 0.5 / greys[i].published);
   }
   return plan;
@@ -61,9 +60,9 @@ PreparedCase grey_plan(double cell_m) {
 constexpr double sight_extinction = 3;  // [1/m]
 constexpr double far_sign_x = 4.8;
 
-/// A sign of `luminance` that reflects nothing and is too small to light or shade the smoke that
-/// it is seen through; smoke that absorbs nothing, between walls that all glow: everything receives
-/// `lux`, from all sides, and the smoke's own luminance is J = lux / pi.
+/// A sign of `luminance` that reflects nothing and is too small to light or shade the smoke in
+/// front of it; smoke without absorption, between walls that all glow: everything receives `lux`,
+/// from all sides, and the smoke's own luminance is J = lux / pi.
 SceneDescription lit_smoke(double lux, double luminance, double distance, double g) {
   SceneDescription scene;
   scene.run.max_bands = 1;
@@ -81,9 +80,9 @@ SceneDescription lit_smoke(double lux, double luminance, double distance, double
   return scene;
 }
 
-/// The sign's own light brightens the smoke right before it, over a length of about its edge: a
-/// share of what arrives of the sign. Measured with an edge of 2 mm: 0.72 of this bound with g =
-/// 0.6, 0.2 with g = 0.
+/// The sign's own light brightens the smoke directly in front of it, over a length of about its
+/// edge: a share of the sign's light at the eye. Measured with an edge of 2 mm: 0.72 of this bound
+/// with g = 0.6, 0.2 with g = 0.
 constexpr double of_the_sign = sight_extinction * tiny_sign_m;
 
 PreparedCase koschmieder_plan(double depth, double g) {
@@ -102,7 +101,7 @@ PreparedCase koschmieder_plan(double depth, double g) {
       EyeQuantity::at_eye);
   add("luminance of the path [cd/m2]", horizon * (1 - passed), EyeQuantity::path);
   add("transmission", passed, EyeQuantity::transmission);
-  // No chance in it; places are single precision.
+  // Deterministic; places are in single precision.
   plan.quantities.back().certain = true;
   plan.quantities.back().bias = 1e-5 * passed;
   return plan;
@@ -110,10 +109,10 @@ PreparedCase koschmieder_plan(double depth, double g) {
 
 // ---- Jin ---------------------------------------------------------------------------------------
 
-constexpr double threshold = 0.01;  // least contrast that is seen
+constexpr double threshold = 0.01;  // smallest visible contrast
 constexpr double jin_cd_m2[] = {2, 10, 86, 100, 500, 2000};
-/// C by illuminance in the smoke [lx] and luminance of the sign; signs darker than the smoke are
-/// seen dark on bright.
+/// C by illuminance in the smoke [lx] and luminance of the sign; signs darker than the smoke appear
+/// dark on bright.
 struct JinRow {
   double lux;
   double c[std::size(jin_cd_m2)];
@@ -124,15 +123,15 @@ constexpr JinRow jin_table[] = {{1, {6.27, 8.02, 10.20, 10.35, 11.96, 13.35}},
                                 {80, {4.52, 4.11, 5.47, 5.68, 7.53, 8.96}},
                                 {180, {4.57, 4.41, 3.91, 4.31, 6.65, 8.13}}};
 
-/// The sign is looked at from where the table says that its contrast is just seen; C follows from
-/// the contrast that the eye receives there.
+/// The sign is viewed from the distance at which, by the table, its contrast is just visible; C
+/// follows from the contrast at the eye.
 PreparedCase jin_plan(double lux, double luminance, double c) {
   PreparedCase plan;
   plan.scene = lit_smoke(lux, luminance, c / sight_extinction, 0);
   plan.look_rather(8);
   const double smoke_cd_m2 = lux / pi;
   const double sign = luminance > smoke_cd_m2 ? 1 : -1;
-  constexpr double digits = 0.005;  // of the table, in C
+  constexpr double digits = 0.005;  // digits of the table, in C
   plan.add(
           "luminance at the eye [cd/m2]", smoke_cd_m2 * (1 + sign * threshold),
           [](const Traced& run) { return first_view(run, EyeQuantity::at_eye); },
@@ -146,8 +145,8 @@ PreparedCase jin_plan(double lux, double luminance, double c) {
   });
   measured.bias = digits + of_the_sign;
   measured.unit = c;
-  // The veil is all chance in it, and smoke as bright as it is in an even field is known: what is
-  // passed of the sign's contrast says C to the digits of the table.
+  // The only statistical error is in the veil, but the luminance of smoke in a uniform field is
+  // known: the transmitted contrast of the sign gives C to the digits of the table.
   Quantity& passed = plan.add("C, of the contrast that is passed", c, [=](const Traced& run) {
     const double own = first_view(run, EyeQuantity::own).value;
     const double contrast =

@@ -1,6 +1,6 @@
 // Scattering layers between perfect mirrors, which make them infinite, against discrete ordinates
-// of many streams: what is reflected, passed, passed unscattered, and in every layer absorbed and
-// travelled. And a half space against Chandrasekhar's H function.
+// with many streams: reflected, transmitted and unscattered light, and in every layer absorbed
+// light and path length. And a half space against Chandrasekhar's H function.
 #include <algorithm>
 #include <cmath>
 
@@ -16,17 +16,17 @@ constexpr double slab_edge = 20;    // [m], wide: few reflections on the mirrors
 constexpr double stack_height = 3;  // of every stack
 constexpr double gap = 1e-3;        // clear air between stack and receiving face
 
-/// Albedos are single precision and err by 6e-8, at each of many collisions; the table has nine
-/// digits.
+/// Albedos are in single precision with an error of 6e-8 at each of many collisions; the table has
+/// nine digits.
 constexpr double slab_rounding = 1e-6;
 
-/// Particles for a quick look at a history that collides some `depth` times.
+/// Particles for a quick run whose histories have about `depth` collisions.
 int64_t affordable(double depth) {
   return static_cast<int64_t>((1 << 19) / std::max(2.0, depth));
 }
 
-/// Light of power 1 enters the stack at its illuminated face and may leave there; it meets "far"
-/// beyond the other.
+/// Light of power 1 enters the stack at its illuminated face and may leave there; beyond the other
+/// face it reaches "far".
 SceneDescription stack_of(const Row& row) {
   SceneDescription scene;
   scene.run.voxels = false;
@@ -51,7 +51,7 @@ SceneDescription stack_of(const Row& row) {
   }
   add_layers(scene, 0, thickness, optics);
 
-  CountingPlaneMeasure plane;  // forward is the way of the light
+  CountingPlaneMeasure plane;  // forward is the direction of the light
   plane.name = "before far";
   plane.corner = {0, 0, from_top ? -gap / 2 : stack_height + gap / 2};
   plane.edge_u = from_top ? glm::dvec3(0, slab_edge, 0) : glm::dvec3(slab_edge, 0, 0);
@@ -86,14 +86,14 @@ PreparedCase stack_plan(const Row& row) {
     Quantity& path =
         add("path" + layer, track[i], [i](const Traced& run) { return run.track_length(i); });
     path.bias = 2 * slab_rounding * track[i];
-    // A particle that gets deep into a thick layer stays there for long [m].
+    // A particle deep in a thick layer stays there for long [m].
     path.unit = std::max(2.0, 0.5 * tau);
   }
   return plan;
 }
 
-/// Scattering gas so deep that nothing comes back from its end, between mirrors that make it
-/// infinite; a beam of that cosine enters, diffuse light for 0.
+/// Scattering gas so deep that nothing returns from its end, between mirrors that make it infinite;
+/// a beam with this cosine enters, or diffuse light for 0.
 PreparedCase half_space_plan(double albedo, double cosine, double reflected) {
   PreparedCase plan;
   SceneDescription& scene = plan.scene;
@@ -101,8 +101,8 @@ PreparedCase half_space_plan(double albedo, double cosine, double reflected) {
   const double top = stack_height + 10 * gap;
   add_mirror_walls(scene, {0, 0, 0}, {slab_edge, slab_edge, top});
   add_quad(scene, "end", {0, 0, 0}, {slab_edge, 0, 0}, {0, slab_edge, 0}, add_grey(scene, 0));
-  // Fluence falls by e in at least 1 / sqrt(3 (1 - albedo)) free paths; what is scattered beyond
-  // would have to come back as well.
+  // Fluence falls by a factor e in at least 1 / sqrt(3 (1 - albedo)) free paths; light scattered
+  // beyond would also have to return.
   const double depth = 15 + 8 / std::sqrt(3 * (1 - albedo));
   add_layers(scene, 0, {stack_height}, {smoke(depth / stack_height, albedo)});
   const bool beam = cosine > 0;

@@ -1,4 +1,4 @@
-// A point source in endless fog (Case), balls of smoke (collision probabilities), and the glowing
+// A point source in infinite fog (Case), balls of smoke (collision probabilities), and the glowing
 // cube of Burns and Christon (quadrature).
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ PreparedCase fog_plan(double albedo, const std::vector<Row>& rows) {
   add_homogeneous(scene, smoke(1, albedo));
   for (uint32_t i = 0; i < rows.size(); ++i) {
     const double r = rows[i].number("r_in_mfp");
-    // Half the relative thickness of a shell. Fluence bends most over a free path: 0.1 of it.
+    // Half the relative thickness of a shell. Fluence curves most over a free path: 0.1 of it.
     const double t = std::min(0.02, 0.1 / r);
     add_shell_group(scene, {0, 0, 0}, 0, r);
     add_shell_group(scene, {0, 0, 0}, r * (1 - t), r * (1 + t));
@@ -34,9 +34,9 @@ PreparedCase fog_plan(double albedo, const std::vector<Row>& rows) {
     const double share = rows[i].number("absorbed_fraction_within_r");
     plan.add("absorbed within" + where, share,
              [i](const Traced& run) { return run.absorbed_in(2 * i); });
-    // Far away, where few particles come, one of them stays in the shell for twice its thickness.
+    // Far away, where few particles come, each stays in the shell for twice its thickness.
     const double area = 4 * pi * r * r, thickness = 2 * r * t;
-    constexpr double of_shells = 3e-3;  // fluence bends within them
+    constexpr double of_shells = 3e-3;  // curvature of the fluence within them
     plan.add(
             "path about" + where, area * thickness * rows[i].number("fluence_sigma_t=1"),
             [i, t](const Traced& run) {
@@ -64,7 +64,7 @@ PreparedCase ball_plan(const Row& row) {
   } else if (quantity.starts_with("escape fraction of central")) {
     add_point(scene, {0.2, -0.1, 0.3}, 1);
   } else {
-    // Within walls of one exitance M the field is the same everywhere: M x 4 pi r^2 enters a ball.
+    // Within walls of uniform exitance M the field is uniform: M x 4 pi r^2 enters a ball.
     for (const BoxFace& f : faces_of_box({-1.2, -1.5, -1.1}, {1.6, 1.3, 1.7}))
       add_face_emitter(scene, f, 1 / 6.0);
     entering = 4 * pi * radius * radius / (6 * 2.8 * 2.8);
@@ -87,8 +87,8 @@ double kappa_of_burns_christon(const glm::dvec3& p) {
   return 0.9 * f(p.x) * f(p.y) * f(p.z) + 0.1;
 }
 
-/// A box about a point of the cube's centre line and its five images: the line is six half lines of
-/// one and the same field. `from` and `to` are distances from the centre, `half` is half the width.
+/// A box around a point of the cube's centre line, and its five images: the field is the same along
+/// six half lines. `from` and `to` are distances from the centre, `half` is half the width.
 std::vector<uint32_t> add_images(SceneDescription& scene, double from, double to, double half) {
   std::vector<uint32_t> numbers;
   for (int axis = 0; axis < 3; ++axis) {
@@ -107,18 +107,18 @@ std::string fluence_at(const Row& row) {
   return "fluence at x = " + row.text("x");
 }
 
-/// Cells of 1/80 and the average over a box take that off the fluence: where kappa has its peak
+/// Cells of 1/80 and averaging over a box reduce the fluence by this much: at the peak of kappa
 /// 0.37 % in a box of 3 cm, elsewhere up to 0.26 %, by quadrature along rays.
 constexpr double of_cells = 4e-3;
 
-/// [W]; every particle carries as much as the others.
+/// [W]; all particles carry the same power.
 double emitted_in_all() {
   return rows_where("burns_christon.csv", "x", "total emitted (4*int kappa)")
       .front()
       .number("divQ");
 }
 
-/// Fluence, and emission less absorption, at a point of the centre line.
+/// Fluence, and emission minus absorption, at a point of the centre line.
 void add_centre(PreparedCase& plan, const Row& row) {
   constexpr double half = 0.015;
   const double x = row.number("x"), kappa = row.number("kappa");
@@ -131,7 +131,8 @@ void add_centre(PreparedCase& plan, const Row& row) {
           fluence_at(row), row.number("G_incident_radiation"),
           [=](const Traced& run) { return run.sum(number) * (1 / volume); }, of_cells)
       .unit = emitted_in_all() * diagonal / volume;
-  // Of the box: kappa is 0.1 + 0.9 times the product of three hats, each of them averaged.
+  // Averages over the box: kappa is 0.1 + 0.9 times the product of three hat functions, each
+  // averaged.
   const double side = 1 - half, along = x == 0.5 ? side : 2 * (1 - x);
   const double mean_kappa = 0.1 + 0.9 * along * side * side;
   plan.add("emission less absorption at x = " + row.text("x"), row.number("divQ"),
@@ -140,12 +141,13 @@ void add_centre(PreparedCase& plan, const Row& row) {
              return Estimate{4 * kappa - absorbed.value, absorbed.standard_error};
            })
       .bias = 2 * of_cells * kappa * row.number("G_incident_radiation");
-  // As rare as what is absorbed.
+  // Its count is that of the absorbed light.
   const double absorbed = kappa * row.number("G_incident_radiation");
   plan.quantities.back().unit = emitted_in_all() / volume * row.number("divQ") / absorbed;
 }
 
-/// At the wall, from three thin boxes before it: the quadratic whose averages they have.
+/// At the wall, extrapolated from three thin boxes in front of it, by the quadratic with their
+/// averages.
 void add_wall_point(PreparedCase& plan, const Row& row) {
   constexpr double thin = 0.01, half = 0.015;
   constexpr double shares[] = {11.0 / 6, -7.0 / 6, 2.0 / 6};
@@ -168,7 +170,7 @@ PreparedCase burns_christon_plan() {
   const int black = add_grey(scene, 0);
   for (const BoxFace& f : faces_of_box({0, 0, 0}, {1, 1, 1}))
     add_quad(scene, f.name, f.corner, f.u, f.v, black);
-  // An even number of cells: their centres' values are the averages, as kappa is linear within
+  // With an even number of cells their centres' values are the averages, as kappa is linear within
   // each.
   Medium& m = add_cells(scene, {0, 0, 0}, {1, 1, 1}, 80, kappa_of_burns_christon, 0);
   m.data.emission = m.data.extinction;

@@ -1,5 +1,5 @@
-// Light scattered, or given off by glowing gas, into one line of sight: integrals along that line.
-// A uniform field looks alike whatever a phase function says; a single lamp does not.
+// Light that is scattered, or emitted by glowing gas, into one line of sight: integrals along that
+// line. Unlike a single lamp, a uniform field gives the same result for every phase function.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,8 +14,8 @@ namespace {
 
 constexpr double sign_x = 4;             // the eye is at the origin
 constexpr double veil_extinction = 0.3;  // [1/m]
-/// So little is scattered that nothing is twice: what is looked for is in proportion to it, and
-/// nothing of it is left to chance.
+/// So little is scattered that nothing is scattered twice: the result is proportional to it, and
+/// has no statistical error.
 constexpr double albedo = 1e-5;
 
 /// Simpson's rule.
@@ -48,7 +48,7 @@ PreparedCase veil_plan(const VeilCase& veil) {
   add_homogeneous(scene, optics);
   double from = 0;
   if (veil.sheet) {
-    // Level, half-way down: it hides the lamp from what is nearer to the eye than `from`.
+    // Horizontal, half-way down: it hides the lamp from everything nearer to the eye than `from`.
     constexpr double edge = 1.5, half = 0.5;
     add_quad(scene, "sheet", {-4, -4, half * veil_lamp.z}, {4 + edge, 0, 0}, {0, 8, 0},
              add_grey(scene, 0));
@@ -75,7 +75,7 @@ PreparedCase veil_plan(const VeilCase& veil) {
 
 namespace {
 
-/// Gas that glows and only absorbs, about the whole line or about a part of it.
+/// Gas that glows and absorbs without scattering, around all or part of the line.
 PreparedCase glow_plan(double depth, double gas_from, double gas_to) {
   constexpr double power_w = 0.05, luminance = 20;
   PreparedCase plan;
@@ -99,7 +99,7 @@ PreparedCase glow_plan(double depth, double gas_from, double gas_to) {
   const auto add = [&](const std::string& name, double reference, EyeQuantity quantity) {
     Quantity& q = plan.add(
         name, reference, [quantity](const Traced& run) { return first_view(run, quantity); }, 2e-5);
-    q.certain = true;  // places are single precision
+    q.certain = true;  // places are in single precision
   };
   add("luminance of the path [cd/m2]", glow, EyeQuantity::path);
   add("luminance at the eye [cd/m2]", luminance * std::exp(-depth) + glow, EyeQuantity::at_eye);

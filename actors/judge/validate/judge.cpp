@@ -11,8 +11,9 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Whether too few particles make the quantity, or, where no error was seen, what it lacks to the
-/// unit: a run may meet none of the few that are not absorbed, and has no error bar then.
+/// Whether too few particles contribute to the quantity, or, if no error was observed, to the
+/// difference from the unit: a run may meet none of the few that are not absorbed, and then has no
+/// error bar.
 bool is_rare(const QuantityResult& f, int64_t particles) {
   const auto few = [&](double value) {
     return value > 0 && value * static_cast<double>(particles) < rule::min_count * f.unit;
@@ -21,8 +22,8 @@ bool is_rare(const QuantityResult& f, int64_t particles) {
          (f.estimate.standard_error == 0 && few(f.unit - std::abs(f.reference)));
 }
 
-/// Whether chance has a part in it: an estimate that came out alike in every batch has no error
-/// bar, and is judged as what is computed.
+/// Whether it has a statistical error: an estimate that is equal in every batch has no error bar,
+/// and is judged like a computed one.
 bool by_chance(const QuantityResult& f) {
   return f.statistical && f.estimate.standard_error > 0;
 }
@@ -32,7 +33,7 @@ double z_of(const QuantityResult& f, int64_t batches) {
   return normal_of_student(t, static_cast<double>(batches - 1));
 }
 
-/// What is left of a deviation once the declared bias is taken off, as a normal deviate.
+/// The deviation beyond the declared bias, as a normal deviate.
 double excess_z(const QuantityResult& f, int64_t batches) {
   const double excess = std::abs(f.estimate.value - f.reference) - f.bias;
   return normal_of_student(excess / f.estimate.standard_error, static_cast<double>(batches - 1));
@@ -42,7 +43,7 @@ bool unbiased(const QuantityResult& f) {
   return f.bias <= rule::unbiased * f.estimate.standard_error;
 }
 
-/// The first of the largest references among those of a case that are judged by chance.
+/// The first of the largest references among a case's statistical quantities.
 size_t lead_of(const CaseResult& result) {
   size_t lead = result.findings.size();
   double largest = 0;
@@ -65,7 +66,7 @@ void judge_findings(const CaseResult& result, double max_z, Verdict& verdict) {
       ++verdict.rare;
     } else if (by_chance(f)) {
       j.z = z_of(f, result.batches);
-      // Not "at most": a NaN must not pass.
+      // Written so that NaN fails.
       if (!(excess_z(f, result.batches) <= max_z)) j.judgement = Judgement::failed;
       if (unbiased(f)) verdict.z.push_back(j.z);
       if (std::abs(j.z) > std::abs(verdict.z_largest) && unbiased(f)) {
@@ -82,7 +83,7 @@ void judge_findings(const CaseResult& result, double max_z, Verdict& verdict) {
   }
 }
 
-/// Whether a case that traces knows one of its quantities well enough to have shown something.
+/// Whether a traced case knows one of its quantities well enough to be a test.
 bool known(const CaseResult& result) {
   bool chance = false;
   for (const QuantityResult& f : result.findings) {
@@ -123,7 +124,7 @@ Verdict judge(const std::vector<CaseResult>& results) {
     for (const QuantityResult& f : r.findings) quantities += f.statistical ? 1 : 0;
     unknown += known(r) ? 0 : 1;
   }
-  // Bonferroni: however the quantities of a case hang together, all of them pass with 1 - alarm.
+  // Bonferroni: whatever the correlation of a case's quantities, all of them pass with 1 - alarm.
   const double each = rule::false_alarm / static_cast<double>(std::max<size_t>(1, quantities));
   verdict.max_z = normal_exceeded(each / 2);
   std::vector<double> leads;

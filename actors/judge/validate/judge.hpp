@@ -1,5 +1,5 @@
 // Pass or fail, by a rule that was written down before any run: README.md of this folder has it in
-// full, rule_text() says it on every page. Pure; any thread.
+// full, rule_text() gives it for every page. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 namespace luxodus::light {
 
 namespace rule {
-/// Chance that a right program fails each of the four tests below.
+/// Probability that a correct program fails each of the four tests below.
 inline constexpr double false_alarm = 1e-3;
-/// A quantity is judged once so many particles, each bringing its unit, would make its reference:
-/// of fewer the distribution is not normal.
+/// A quantity is judged only if at least this many particles, each with its unit, would make its
+/// reference: with fewer the distribution is not normal.
 inline constexpr double min_count = 1000;
-/// Declared biases below this share of the standard error leave the distribution of z as it is.
+/// Declared biases below this share of the standard error do not affect the distribution of z.
 inline constexpr double unbiased = 0.1;
-/// A case that knows none of its quantities better than this has shown nothing.
+/// A case that knows none of its quantities better than this is no test.
 inline constexpr double min_known = 0.05;
-/// Fewer independent z than this are no distribution to be judged.
+/// Fewer independent z are too few for a distribution.
 inline constexpr size_t min_leads = 20;
 }  // namespace rule
 
@@ -32,11 +32,11 @@ enum class Judgement {
 
 struct QuantityVerdict {
   Judgement judgement = Judgement::passed;
-  double z = 0;       // NaN for what is no matter of chance
-  bool lead = false;  // the one of its case that stands in the distribution of z
+  double z = 0;       // NaN without a statistical error
+  bool lead = false;  // the case's representative in the distribution of z
 };
 
-/// One of the tests over all.
+/// One of the tests over all cases.
 struct OverallTest {
   std::string name;
   std::string found;
@@ -46,7 +46,7 @@ struct OverallTest {
 
 struct Verdict {
   std::vector<std::vector<QuantityVerdict>> judged;  // by case and finding
-  double max_z = 0;                                  // allowed of one quantity
+  double max_z = 0;                                  // limit for one quantity
   size_t statistical = 0, computed = 0, rare = 0, failed = 0;
   double z_largest = 0;
   std::string z_largest_of;  // case and quantity

@@ -1,5 +1,5 @@
-// The page of a validation: the verdict and its rule, how z is distributed, and every case with its
-// quantities and the course of its error. Everything on it stands in it, drawings included.
+// The page of a validation: the verdict and its rule, the distribution of z, and every case with
+// its quantities and the course of its error. It is one file, including drawings.
 #include <fmt/format.h>
 
 #include <algorithm>

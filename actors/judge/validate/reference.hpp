@@ -1,6 +1,6 @@
-// The reference solutions of tests/reference, compiled into the program: a table is there wherever
-// the program is. A name, column or key that is not there is a mistake of the caller's and ends the
-// program. Any thread.
+// The reference solutions of tests/reference, compiled into the program, so that every installation
+// has them. An unknown name, column or key is a programmer's mistake and ends the program. Any
+// thread.
 #pragma once
 
 #include <map>
@@ -24,7 +24,7 @@ class Row {
 
 /// All rows of a file of tests/reference.
 std::vector<Row> reference_table(const std::string& file);
-/// Those whose column has that text. Requires: there is one.
+/// Rows whose column has that text. Requires: there is one.
 std::vector<Row> rows_where(const std::string& file, const std::string& column,
                             const std::string& text);
 /// The value of a row of misc_exact.csv.

@@ -1,5 +1,5 @@
-// The files of tests/reference as text. CMake writes the source of this header's function when it
-// configures: actors/judge/validate/reference_files.cpp.in. Any thread.
+// The files of tests/reference as text. CMake generates the source of this header's function when
+// it configures: actors/judge/validate/reference_files.cpp.in. Any thread.
 #pragma once
 
 #include <string_view>

@@ -217,7 +217,7 @@ Emitter& add_face_emitter(SceneDescription& scene, const BoxFace& face, double f
                           double inset) {
   const glm::dvec3 centre = face.corner + 0.5 * (face.u + face.v) + inset * face.inward;
   Emitter& e = add_rectangle(scene, centre, face.inward, 1, 1, flux_w);
-  // Along which edge local x lies depends on the aim.
+  // The edge along which local x lies depends on the aim.
   const bool x_is_u = std::abs(glm::dot(e.frame.axes[0], face.u)) > 0.5 * glm::length(face.u);
   const double u = glm::length(face.u) - 2 * inset, v = glm::length(face.v) - 2 * inset;
   e.size = {x_is_u ? u : v, x_is_u ? v : u, 0};

@@ -1,7 +1,7 @@
-// Scenes in a few lines, for whoever compares the tracer with numbers that others can check: tests
-// and `luxodus validate`. They are grey and radiometric (one band, watts) unless said otherwise, so
-// results are plain fluxes. What cannot be built is a mistake of the caller's and ends the program.
-// Pure; any thread.
+// Builds scenes in a few lines, for comparisons of the tracer with independent numbers: in tests
+// and in `luxodus validate`. They are grey and radiometric (one band, watts) unless said otherwise,
+// so results are plain fluxes. A scene that cannot be built is a programmer's mistake and ends the
+// program. Pure; any thread.
 #pragma once
 
 #include <functional>
@@ -21,11 +21,10 @@ Object& add_mesh(SceneDescription& scene, const std::string& name, Mesh mesh, in
 /// Front towards cross(u, v).
 Object& add_quad(SceneDescription& scene, const std::string& name, const glm::dvec3& corner,
                  const glm::dvec3& u, const glm::dvec3& v, int material);
-/// A black square of 1 mm at a place where no light matters: a scene has some geometry.
+/// A black square of 1 mm at a place without relevant light, because a scene needs geometry.
 void add_speck(SceneDescription& scene, const glm::dvec3& at);
 
-/// An emitter of `flux_w` that looks along `direction`; local x lies along +x where it looks up or
-/// down.
+/// An emitter of `flux_w` that aims along `direction`; local x is along +x if it aims up or down.
 Emitter& add_emitter(SceneDescription& scene, EmitterShape shape, const glm::dvec3& origin,
                      const glm::dvec3& direction, double flux_w);
 /// A Lambertian rectangle of extents (along local x, y).
@@ -45,8 +44,8 @@ Medium& add_cells(SceneDescription& scene, const glm::dvec3& low, const glm::dve
                   const std::function<double(const glm::dvec3&)>& extinction, double albedo,
                   double g = 0);
 
-/// A white sign that faces -x and reflects nothing, too small to light or shade what it is seen
-/// through.
+/// A white sign that faces -x and reflects nothing, too small to light or shade the medium in front
+/// of it.
 inline constexpr double tiny_sign_m = 1e-4;
 void add_tiny_sign(SceneDescription& scene, const glm::dvec3& at, double luminance_cd_m2);
 void add_eye(SceneDescription& scene, const glm::dvec3& at);
@@ -62,10 +61,10 @@ struct BoxFace {
   glm::dvec3 inward;
 };
 std::vector<BoxFace> faces_of_box(const glm::dvec3& low, const glm::dvec3& high);
-/// Perfect mirrors upright around a box: whatever is level between them is infinite.
+/// Perfect vertical mirrors around a box: horizontal layers between them become infinite.
 void add_mirror_walls(SceneDescription& scene, const glm::dvec3& low, const glm::dvec3& high);
-/// A Lambertian rectangle that covers the face, `inset` [m] in front of it and within its edges: it
-/// touches no wall.
+/// A Lambertian rectangle that covers the face, `inset` [m] in front of it and within its edges, so
+/// that it touches no wall.
 Emitter& add_face_emitter(SceneDescription& scene, const BoxFace& face, double flux_w,
                           double inset = 1e-5);
 

@@ -11,7 +11,8 @@ double normal_below(double z) {
 }
 
 double normal_exceeded(double p) {
-  // erfc has no inverse in the library; it falls, so halving finds it to the last bit that matters.
+  // The library has no inverse of erfc; since it is monotonic, bisection finds it to the last
+  // relevant bit.
   double low = -40, high = 40;
   for (int step = 0; step < 80; ++step) {
     const double middle = 0.5 * (low + high);

@@ -21,18 +21,18 @@ uint64_t seed_of(const Case& c, uint64_t seed) {
   return hasher.value();
 }
 
-/// Enough batches for an error of a quick run to be known to 3 %.
+/// Enough batches to know the error of a quick run to 3 %.
 constexpr int64_t quick_batches = 512;
 constexpr int64_t first_share = 16;  // a course begins with a 16th of a quick run, and doubles:
 constexpr size_t quick_checkpoints = 5;
 
-/// Shares of less than a hundredth of what a quantity could be are wanted to a hundredth of the
-/// error, absolutely.
+/// Quantities below a hundredth of their possible value need the error only relative to that
+/// hundredth.
 constexpr double min_share = 0.01;
-/// More particles tell little where the error bar is less than this share of the declared bias.
+/// More particles are useless if the error bar is below this share of the declared bias.
 constexpr double useful_share = 0.25;
 
-/// How many times more particles would bring the worst quantity to the error.
+/// Factor on the particles by which the worst quantity would reach the error.
 double need(const CaseResult& result, double error) {
   double most = 0;
   for (const QuantityResult& f : result.findings) {
@@ -44,7 +44,8 @@ double need(const CaseResult& result, double error) {
   return most;
 }
 
-/// The balance as findings: it closes in integers, and no history passed the cap on its events.
+/// The energy balance as quantities: it closes in integers, and no history exceeded the cap on its
+/// events.
 void add_ledger(const EnergyBalance& balance, std::vector<QuantityResult>& findings) {
   const Int128 missing = balance.emitted + balance.roulette_gain - balance.absorbed_surfaces -
                          balance.absorbed_media - balance.escaped - balance.roulette_loss -
@@ -53,7 +54,7 @@ void add_ledger(const EnergyBalance& balance, std::vector<QuantityResult>& findi
   findings.push_back({"weight of endless histories", 0, {static_cast<double>(balance.lost()), 0}});
 }
 
-/// Single-precision reflectances and integer weights: nothing is promised below a millionth.
+/// Single-precision reflectances and integer weights limit the accuracy to a millionth.
 constexpr double rounding = 1e-6;
 
 std::vector<QuantityResult> read_quantities(const PreparedCase& plan, const Traced& run) {
@@ -77,7 +78,7 @@ CoursePoint course_point(const CaseResult& result) {
     point.standard_error += std::pow(f.estimate.standard_error / f.reference, 2);
     point.deviation += std::pow(f.estimate.value / f.reference - 1, 2);
   }
-  point.standard_error = std::sqrt(point.standard_error / n);  // NaN for none
+  point.standard_error = std::sqrt(point.standard_error / n);  // NaN without any
   point.deviation = std::sqrt(point.deviation / n);
   return point;
 }
@@ -90,10 +91,10 @@ void fit_slopes(CaseResult& result) {
     error.push_back(p.standard_error);
     deviation.push_back(p.deviation);
   }
-  // A standard error is known the better the more batches it comes from.
+  // A standard error from more batches is better known, so it gets more weight.
   result.slope_particles = log_slope(particles, error, particles);
   result.slope_seconds = log_slope(seconds, error, particles);
-  // A deviation is as much a matter of chance after many particles as after few.
+  // A deviation is as random after many particles as after few.
   const std::vector<double> alike(particles.size(), 1.0);
   result.slope_deviation = log_slope(particles, deviation, alike);
 }
@@ -154,7 +155,7 @@ void Suite::show(size_t done, const std::string& name, double of_this) {
   report_(p);
 }
 
-/// A quick run of each case tells how long it will take to the error.
+/// A quick run of each case predicts its time to the error.
 void Suite::predict() {
   std::vector<double> expected;
   for (const Case& c : cases_) {
@@ -213,7 +214,7 @@ void Suite::trace(const Case& c, const PreparedCase& plan, double error, CaseRes
     }
     result.short_of = error > 0 ? need(result, error) : 0;
     if (result.short_of <= 1 || n >= limits::case_particles) break;
-    // A little more than the error asks for, since it is itself an estimate.
+    // Slightly more than the error requires, since it is itself an estimate.
     const double growth = std::min(std::clamp(1.02 * result.short_of, 1.1, 2.0),
                                    options_.case_seconds / result.seconds);
     if (growth < 1.1) break;  // little more time than has passed

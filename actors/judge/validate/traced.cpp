@@ -23,7 +23,7 @@ std::shared_ptr<const CompiledScene> compile(SceneDescription scene, int cells) 
 
 namespace {
 
-/// The scene with one more block for each sum, and the blocks' numbers.
+/// The scene with an additional block for each sum, and the numbers of these blocks.
 std::shared_ptr<const CompiledScene> with_sums(const CompiledScene& scene,
                                                const std::vector<BinSum>& sums,
                                                std::vector<uint32_t>& numbers) {
@@ -67,7 +67,7 @@ std::shared_ptr<const CompiledScene> with_weighted_sums(const CompiledScene& sce
   return out;
 }
 
-/// Another tracer, and after each of its batches the weighted sums of what that has scored.
+/// Wraps another tracer, and after each of its batches scores the weighted sums.
 class SummingTracer final : public BatchTracer {
  public:
   SummingTracer(std::unique_ptr<BatchTracer> tracer, const CompiledScene& scene,

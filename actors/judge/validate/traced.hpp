@@ -1,5 +1,5 @@
-// A scene compiled and traced, and what was counted, read by the names of the scene's things. Same
-// scene, seed and particles: same estimates, for any number of threads. Thread rule: one caller.
+// A scene compiled and traced, whose results are read by the names in the scene. Same scene, seed
+// and particles: same estimates, for any number of threads. Thread rule: one caller.
 #pragma once
 
 #include <functional>
@@ -13,16 +13,16 @@ namespace luxodus::light {
 
 /// Bins of one block that are judged as one: equal by symmetry, or integrated over by the
 /// reference. They are added batch by batch, like the tracer's own aggregates, so that the standard
-/// error is that of the sum, however its parts are correlated.
+/// error is that of the sum, whatever their correlation.
 struct BinSum {
   uint32_t TallyBlocks::*block;
   std::vector<uint32_t> bins;
 };
-/// All that leaves the scene.
+/// All light that leaves the scene.
 BinSum every_side();
 
-/// Scores of one block with weights of any sign, added in every batch right after it was traced, so
-/// that the standard error is that of the sum: an integral over bins, or what they extrapolate to.
+/// Scores of one block with weights of any sign, added in every batch after it was traced, so that
+/// the standard error is that of the sum: an integral over bins, or an extrapolation from them.
 struct WeightedSum {
   struct Term {
     uint32_t bin = 0;
@@ -33,7 +33,7 @@ struct WeightedSum {
   std::vector<Term> terms;
 };
 
-/// Direct light at a point, computed without chance: direct_light_at, but for tests.
+/// Direct light at a point, computed deterministically: direct_light_at, except in tests.
 using DirectLightAt =
     std::function<DirectLight(const CompiledScene&, const GeometryAccess&, const Vec3& point,
                               const Vec3& normal, const DirectOptions&)>;
@@ -43,12 +43,12 @@ std::shared_ptr<const CompiledScene> compile(SceneDescription scene, int cells =
 
 class Traced {
  public:
-  /// Traces nothing yet.
+  /// Does not trace yet.
   Traced(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads,
          const std::vector<BinSum>& sums = {}, const std::vector<WeightedSum>& weighted = {});
   Traced(const Traced&) = delete;
   Traced& operator=(const Traced&) = delete;
-  /// Has batches traced by another loop than the program's own.
+  /// Replaces the program's loop that traces batches.
   void trace_with(const LocalRun::MakeTracer& make);
 
   const CompiledScene& scene() const { return run_->scene(); }
@@ -60,25 +60,25 @@ class Traced {
 
   /// Requires: one band.
   Estimate watts(uint32_t block, uint32_t bin, uint32_t quantity = 0) const;
-  /// A plain value (probes).
+  /// A dimensional value (probes).
   Estimate value(uint32_t block, uint32_t bin, uint32_t quantity = 0) const;
-  /// Flux into, and absorbed by, the object of that name.
+  /// Flux into, and absorbed by, the object with this name.
   Estimate into(const std::string& surface) const;
   Estimate absorbed_by(const std::string& surface) const;
-  /// Flux into one patch of the object: of each triangle first those in front, then those behind.
+  /// Flux into one patch of the object: for each triangle first those in front, then those behind.
   Estimate into_patch(const std::string& surface, uint32_t patch) const;
   Estimate into_group(uint32_t surface_group) const;
-  /// Escaped through sides of the bounding box: x-, x+, y-, y+, z-, z+.
+  /// Light that escaped through sides of the bounding box: x-, x+, y-, y+, z-, z+.
   Estimate escaped(uint32_t side) const;
   Estimate track_length(uint32_t volume_group) const;
   Estimate absorbed_in(uint32_t volume_group) const;
   Estimate absorbed_by_medium(uint32_t medium) const;
-  /// The BinSum of that number, in the unit of its bins.
+  /// The BinSum with this number, in the unit of its bins.
   Estimate sum(uint32_t number, uint32_t quantity = 0) const;
-  /// The WeightedSum of that number, in the unit of its bins times that of its weights.
+  /// The WeightedSum with this number, in the unit of its bins times that of its weights.
   Estimate weighted_sum(uint32_t number) const;
 
-  /// Direct light at a point, computed without chance [lx]. Scene coordinates.
+  /// Direct light at a point, computed deterministically [lx]. Scene coordinates.
   double direct_lx(const glm::dvec3& point, const glm::dvec3& normal,
                    const DirectLightAt& direct_light = direct_light_at) const;
 
@@ -86,12 +86,12 @@ class Traced {
   uint32_t surface_index(const std::string& name) const;
   std::vector<uint32_t> sum_blocks_;
   std::vector<WeightedSum> weighted_;  // weights at most 1
-  std::vector<double> scales_;         // what they were divided by
+  std::vector<double> scales_;         // divisors of the weights
   std::vector<uint32_t> weighted_blocks_;
   std::unique_ptr<LocalRun> run_;
 };
 
-/// A scene ready for direct light to be computed in.
+/// A scene ready for computing direct light.
 std::shared_ptr<const Traced> lit(SceneDescription scene);
 
 }  // namespace luxodus::light

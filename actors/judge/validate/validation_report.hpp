@@ -1,5 +1,5 @@
-// What a validation found, for people and for other programs: one page that needs nothing beside
-// itself, and the same as JSON. Files are whole or not there. Any thread.
+// The results of a validation: one self-contained page, and JSON for programs. Files are written
+// atomically. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,10 @@ struct SuiteRecord {
   uint64_t seed = 1;
   int threads = 1;
   double error = 0;                                               // 0: quick
-  double case_seconds = std::numeric_limits<double>::infinity();  // SuiteOptions
+  double case_seconds = std::numeric_limits<double>::infinity();  // of SuiteOptions
   std::string only;                                               // "" for all cases
   bool interrupted = false;
-  /// What the record tells of: the error asked for, or that of a full run.
+  /// The error that the record refers to: the requested one, or that of a full run.
   double wanted_error() const { return error > 0 ? error : defaults::suite_error; }
 };
 
@@ -29,7 +29,7 @@ Json suite_json(const std::vector<CaseResult>& results, const Verdict& verdict,
 /// Errors: as svg_plot_text.
 Result<std::string> suite_page(const std::vector<CaseResult>& results, const Verdict& verdict,
                                const SuiteRecord& record);
-/// validate.json and validate.html, in a folder that is made where it is missing.
+/// Writes validate.json and validate.html into a folder that is made if missing.
 Result<void> write_suite(const std::filesystem::path& folder,
                          const std::vector<CaseResult>& results, const SuiteRecord& record,
                          const Verdict& verdict);

@@ -1,5 +1,5 @@
-// The veil that one lamp lays over a line of sight through thin smoke: scattered once, so that an
-// integral along the line is exact. For cases of lamps and of luminaires alike. Pure; any thread.
+// The veil of one lamp over a line of sight through thin smoke, scattered once, so that an integral
+// along the line is exact. For cases of lamps and of luminaires. Pure; any thread.
 #pragma once
 
 #include <functional>
@@ -14,10 +14,10 @@ inline constexpr glm::dvec3 veil_lamp{1.2, 0.35, 1.1};
 
 struct VeilCase {
   Phase phase;
-  std::function<double(double cosine)> density;  // of the phase function [1/sr]
+  std::function<double(double cosine)> density;  // phase function [1/sr]
   double flux_lm = 0;
-  std::function<double(const glm::dvec3&)> candela;  // by the direction in which light leaves
-  std::shared_ptr<const PhotometricWeb> web;         // none: even
+  std::function<double(const glm::dvec3&)> candela;  // by the direction of emission
+  std::shared_ptr<const PhotometricWeb> web;         // none: uniform
   bool sheet = false;                                // hides the lamp from half of the line
   double bias = 0;                                   // relative
 };

@@ -4,8 +4,8 @@ namespace luxodus {
 
 namespace {
 
-/// What a fiber has computed since it was last charged: a batch's balance counts it. Other fibers
-/// count there too, but only while this one is suspended.
+/// Measures what a fiber has computed since it was last charged, by the batch's energy balance.
+/// Other fibers count there too, but only while this one is suspended.
 class TracingMeter {
  public:
   TracingMeter(SimClock& clock, const SimCosts& costs)
@@ -15,7 +15,7 @@ class TracingMeter {
     ledger_ = &scores.balance;
     look_up();
   }
-  /// Charges for what was counted since.
+  /// Charges for what was counted since the last call.
   void settle() {
     const EnergyBalance& now = *ledger_;
     meter_.charge(costs_.ray_ns * static_cast<double>(now.rays - rays_) +
@@ -45,7 +45,7 @@ class ChargedSource final : public ObjectSource {
   template <class Ask>
   auto charged(Ask&& ask) {
     meter_.settle();
-    const auto* const object = ask();  // others may have run meanwhile
+    const auto* const object = ask();  // other fibers may have run meanwhile
     meter_.look_up();
     meter_.reference();
     return object;
@@ -97,7 +97,7 @@ class ChargedTracer final : public BatchTracer {
   std::unique_ptr<BatchTracer> real_;
 };
 
-/// A builder works on its node's own thread, so that a build holds up everything else there.
+/// A builder works on its node's own thread, so a build delays everything else there.
 class ChargedBuilder final : public ObjectBuilder {
  public:
   ChargedBuilder(std::unique_ptr<ObjectBuilder> real, SimClock& clock, const SimCosts& costs)

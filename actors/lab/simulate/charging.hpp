@@ -1,7 +1,6 @@
-// Production parts of a node that do what they always do, and let the node's virtual clock pass as
-// if it had taken what it costs. Time passes where the work is done: between two objects that a ray
-// looks into, not at the end of its particle, so that what a fiber waits for overlaps with what
-// others compute as it does on a real node.
+// Production parts of a node that work as usual and advance the node's virtual clock by the cost of
+// the work. Time passes where the work is done: between two objects on a ray, not at the end of its
+// particle, so that one fiber's waits overlap with other fibers' computation as on a real node.
 // Thread rule: the simulation's thread.
 #pragma once
 
@@ -13,7 +12,7 @@
 
 namespace luxodus {
 
-/// A clock that is charged by fractions of a nanosecond: what is left over is charged later.
+/// Charges fractions of a nanosecond to a clock: the remainder is charged later.
 class Meter {
  public:
   /// Requires: `clock` outlives this.
@@ -31,9 +30,9 @@ class Meter {
   double owed_ns_ = 0;
 };
 
-/// Traces for real. Requires of all makers: the clock outlives what is made.
+/// Real tracing. All makers require: the clock outlives what they make.
 TracerMaker charged_tracers(SimClock& clock, const SimCosts& costs);
-/// Has `make` build for real.
+/// Real building by `make`.
 BuilderMaker charged_builders(SimClock& clock, const SimCosts& costs, const BuilderMaker& make);
 
 }  // namespace luxodus

@@ -9,7 +9,7 @@ namespace luxodus {
 
 namespace {
 
-/// Draws about nodes, in one order.
+/// Random draws about nodes, in a fixed order.
 class Draw {
  public:
   explicit Draw(uint64_t seed) : random_(seed, RandomStream::faults) { random_.start(1); }
@@ -24,7 +24,7 @@ class Draw {
   Random random_;
 };
 
-/// Room for the largest cell and one that is built, `more` times over.
+/// Room for the largest cell and one build, `more` times over.
 size_t tight_budget(const CompiledScene& scene, size_t more) {
   const std::array holders{NodeId{0}};
   const SceneObjects objects(scene, holders, 1);
@@ -46,11 +46,11 @@ NodesOptions draw_nodes(Draw& draw, const CompiledScene& scene, const SimOptions
   nodes.prefetch = draw.one_of<size_t>({0, 0, 1, 4});
   nodes.replicas = std::min(draw.one_of<uint32_t>({1, 2, 3}), static_cast<uint32_t>(options.nodes));
   nodes.tally_shards = std::min(draw.one_of<int>({1, 1, 2, 3}), options.nodes + 1);
-  if (options.fan_out > 0) nodes.tally_shards = 1;  // there is one level with them
+  if (options.fan_out > 0) nodes.tally_shards = 1;  // shards require a single level
   return nodes;
 }
 
-/// Times and windows so small or so large that seldom ways are taken often.
+/// Draws extreme times and windows, so that rare paths are taken often.
 void draw_habits(Draw& draw, NodeSetup& node) {
   node.net.small_chunk_bytes = draw.one_of<size_t>({256, 1024, 4096});
   node.net.bulk_chunk_bytes = draw.one_of<size_t>({1024, 8192, 65536});
@@ -71,10 +71,10 @@ uint64_t draw_life(uint64_t seed, NodeId node, uint32_t life) {
   return random.bits64() | 1;
 }
 
-/// Maps for guards of stacks that all nodes may have: they are of one process, of which the kernel
-/// allows 65 530, and what nodes hold takes most of them where there are a thousand.
+/// Memory maps for stack guards of all nodes together: they share one process, for which the kernel
+/// allows 65 530, and a thousand nodes take most of them otherwise.
 constexpr size_t all_maps = 8'192;
-/// Of RandomStream::faults: the swarm, the nodes' habits and torn ends have those before.
+/// In RandomStream::faults, after those of the swarm, the nodes' habits and torn ends.
 constexpr uint64_t rare_ways_stream = uint64_t{1} << 32;
 
 }  // namespace
@@ -88,7 +88,7 @@ FaultPlan faults_of(const SimOptions& options, const RunSetup& run,
                     const std::vector<NodeId>& spared) {
   if (options.plan) {
     FaultPlan plan = *options.plan;
-    plan.seed ^= options.seed;  // the same faults, otherwise by chance
+    plan.seed ^= options.seed;  // the same faults with other random numbers
     return plan;
   }
   if (!options.faults) {
@@ -116,7 +116,7 @@ DrawnSetups::DrawnSetups(const PlannedNodes& nodes, const CompiledScene& scene,
   Draw draw(options.seed);
   (void)draw_nodes(draw, scene, options);  // these draws come first
   if (options.draw_nodes) draw_habits(draw, habits);
-  // A turn shall be short against a beat.
+  // A turn should be short against a heartbeat.
   const auto portion = std::clamp<int64_t>(
       milliseconds(5) / std::max<Nanoseconds>(whole_ns(costs.particle_ns), 1), 1, 128);
   for (NodeSetup& node : setups_) {
@@ -130,12 +130,13 @@ DrawnSetups::DrawnSetups(const PlannedNodes& nodes, const CompiledScene& scene,
     node.photons.leases = habits.photons.leases;
     node.photons.open_batches = habits.photons.open_batches;
     node.photons.portion = std::min(node.photons.portion, portion);
-    // Who waits so long sees the healing, and the world sees who has waited in vain.
+    // A node that waits this long sees the end of all faults, and the world notices whether it
+    // waited in vain.
     node.start = node.lost = options.patience / 2;
     node.stall = seconds(3600);
     node.fibers.max_maps =
         std::max<size_t>(2, std::min(node.fibers.max_maps, all_maps / setups_.size()));
-    node.faults = faults;  // of its stores
+    node.faults = faults;  // for its stores
   }
   if (!options.draw_nodes && !options.rare_ways) return;
   rare_ways_.reserve(setups_.size());

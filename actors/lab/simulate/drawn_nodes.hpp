@@ -1,4 +1,4 @@
-// What the nodes of a simulated run are like, drawn from its seed. Thread rule: one thread.
+// Draws the nodes' configuration of a simulated run from its seed. Thread rule: one thread.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,15 @@
 
 namespace luxodus {
 
-/// What nodes are made from. The draws depend on the seed and the scene alone.
+/// Options of the nodes. The draws depend only on the seed and the scene.
 NodesOptions drawn_nodes(const CompiledScene& scene, const SimOptions& options);
 
-/// The faults of a run: those of the plan, or a quiet rack's, or drawn. `spared`: nodes that are
-/// never crashed by what is drawn.
+/// The faults of a run: those of the plan, a quiet rack's, or drawn ones. `spared`: nodes that
+/// drawn faults never crash.
 FaultPlan faults_of(const SimOptions& options, const RunSetup& run,
                     const std::vector<NodeId>& spared);
 
-/// The setups of all nodes, with habits that make seldom ways frequent.
+/// The setups of all nodes, with extreme settings that make rare paths frequent.
 class DrawnSetups {
  public:
   DrawnSetups(const PlannedNodes& nodes, const CompiledScene& scene, const SimOptions& options,
@@ -26,15 +26,15 @@ class DrawnSetups {
   NodeSetup& of(NodeId node) { return setups_[node.value]; }
   size_t count() const { return setups_.size(); }
   NodeId controller() const { return {static_cast<uint16_t>(setups_.size() - 1)}; }
-  /// Of its n-th life, 0 at first.
+  /// The setup of a node's n-th life, counted from 0.
   NodeSetup& of_life(NodeId node, uint32_t life);
-  /// Rare ways that were taken on purpose, by all.
+  /// Number of rare paths taken by all nodes.
   uint64_t rare_ways_taken() const;
 
  private:
   const uint64_t seed_;
   std::vector<NodeSetup> setups_;   // the controller's is the last
-  std::vector<Buggify> rare_ways_;  // of each, of all its lives
+  std::vector<Buggify> rare_ways_;  // per node, for all its lives
 };
 
 }  // namespace luxodus

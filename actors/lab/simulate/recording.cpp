@@ -10,7 +10,7 @@ namespace luxodus {
 
 namespace {
 
-/// Of every group, however small its share.
+/// Minimum for every group, however small its share.
 constexpr int64_t min_recorded = 256;
 
 class ReplayTracer final : public BatchTracer {
@@ -34,7 +34,7 @@ class ReplayTracer final : public BatchTracer {
     const Recording::Particle &here = group.particles[number], &next = group.particles[number + 1];
     for (uint32_t s = here.first_step; s < next.first_step; ++s) {
       meter_.charge(group.steps[s].before_ns);
-      if (!ask(group.steps[s].object)) break;  // the batch is worth nothing now
+      if (!ask(group.steps[s].object)) break;  // the batch will be discarded
       meter_.charge(costs_.reference_ns);
     }
     meter_.charge(here.after_ns);
@@ -61,7 +61,7 @@ class ReplayTracer final : public BatchTracer {
   const SimCosts costs_;
 };
 
-/// Traces one particle after another and notes what it asks for.
+/// Traces one particle after another and records its references.
 class Recorder {
  public:
   Recorder(const CompiledScene& scene, const SceneObjects& objects, uint64_t seed,
@@ -139,7 +139,7 @@ Result<std::shared_ptr<const Recording>> Recording::make(const CompiledScene& sc
   const std::vector<double> shares = BatchPlan(scene).shares();
   made->groups_.resize(shares.size());
   for (size_t g = 0; g < shares.size(); ++g) {
-    // As many as the run has of it, whole batches.
+    // As many as the run has of the group, in whole batches.
     const int64_t wanted = static_cast<int64_t>(shares[g] * static_cast<double>(particles)) +
                            2 * scene.batch_particles;
     recorder.record(made->groups_[g], static_cast<int>(g),

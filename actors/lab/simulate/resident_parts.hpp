@@ -1,5 +1,5 @@
-// All parts of a scene for one tracer, built when they are asked for and kept; it counts and tells
-// who asks. For measuring and recording what tracing refers to. Thread rule: one thread.
+// All parts of a scene for one tracer, built on request and kept; it counts and reports the
+// requests. For measuring and recording references. Thread rule: one thread.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace luxodus {
 
 class ResidentParts final : public PartsSource<ResidentParts> {
  public:
-  /// Told of an object before it is given.
+  /// Called before an object is returned.
   using EmitterSample = std::function<void(uint32_t object)>;
 
   /// Requires: both outlive this.
@@ -28,7 +28,7 @@ class ResidentParts final : public PartsSource<ResidentParts> {
   uint64_t references() const { return references_; }
   /// Why a part could not be built.
   const std::optional<Problem>& problem() const { return problem_; }
-  /// What a part has taken once built; 0 where nobody asked for it.
+  /// Memory of a built part; 0 if it was never requested.
   size_t built_bytes(uint32_t object) const {
     return built_[object] == nullptr ? 0 : built_[object]->bytes();
   }

@@ -25,7 +25,7 @@ std::string fault_of(const NodeShell& shell, const Fibers& fibers) {
 
 namespace {
 
-/// Of what waits for a disk, which takes virtual time.
+/// Blocking calls that take virtual time.
 CallsMaker calls_in_virtual_time(Buggify* buggify) {
   return [buggify](Scheduler& scheduler) {
     return std::make_unique<SimulatedCalls>(scheduler, [buggify] {
@@ -71,7 +71,7 @@ SimWorker::~SimWorker() {
   all_.add(report);
 }
 
-/// What the loop did beside tracing and building is charged when its turn has ended.
+/// Charges the loop's work other than tracing and building, after its turn.
 Nanoseconds SimWorker::turn() {
   const Nanoseconds due = worker_.shell().turn();
   const uint64_t resumes = worker_.shell().scheduler().counters().resumes;
@@ -150,7 +150,7 @@ std::string SimController::fault() const {
   return "";
 }
 
-/// A display that has written the results may be gone when a controller begins anew.
+/// A display that has written the results may be gone when a controller restarts.
 std::string SimController::regret() const {
   return coordinator().fault() && !coordinator().lost_display() ? coordinator().fault()->what : "";
 }

@@ -1,5 +1,5 @@
-// Workers and controllers as a simulated world drives them: the production nodes, whose clock and
-// links are the world's and whose tracing takes virtual time. Thread rule: the simulation's thread.
+// Workers and controllers in a simulated world: production nodes with the world's clock and links,
+// whose tracing takes virtual time. Thread rule: the simulation's thread.
 #pragma once
 
 #include <string>
@@ -11,33 +11,33 @@
 
 namespace luxodus {
 
-/// A node that also tells what is wrong with it.
+/// A node whose invariants are checked.
 class CheckedNode : public SimNode {
  public:
-  /// The first of its invariants that does not hold, for people; "" where all do. Cheap.
+  /// The first invariant that does not hold, for people; "" if all do. Cheap.
   virtual std::string fault() const = 0;
-  /// Why it has left without having done its part, for people; "" where it has done it.
+  /// Why it has left without having done its part, for people; "" if it has done it.
   virtual std::string regret() const = 0;
-  /// For how long it takes those whom it leads to know of the end that have said so.
+  /// How long it trusts its workers' confirmations of the end.
   virtual Nanoseconds word_is_fresh() const { return 0; }
 };
 
-/// Has all fibers return, as they do when they are cancelled.
+/// Makes all fibers return, as after a cancellation.
 void end_fibers(Fibers& fibers);
-/// What is wrong with the fibers of a node; "" where nothing is.
+/// A violated invariant of a node's fibers; "" if there is none.
 std::string fault_of(const NodeShell& shell, const Fibers& fibers);
 
-/// A node's place in the world, where work is real and takes what it costs.
+/// A node's access to the world, in which real work takes the time of its cost.
 NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs,
                         const BuilderMaker& builders, Buggify* buggify = nullptr);
 
-/// Builders of all nodes of a world, on one device: a thousand devices of Embree take more memory
-/// maps than a process may have.
+/// Builders of all nodes of a world, on one device: a thousand Embree devices need more memory maps
+/// than a process may have.
 BuilderMaker builders_on_one_device();
 
 class SimWorker final : public CheckedNode {
  public:
-  /// What its cache did is added to `all` when it ends. Requires: all references outlive this;
+  /// Adds the node's cache statistics to `all` at its end. Requires: all references outlive this;
   /// `clock` is that of the seams.
   SimWorker(const RunSetup& run, const NodeSetup& node, const NodeSeams& seams, SimClock& clock,
             const SimCosts& costs, WorkerReport& all);
@@ -67,7 +67,7 @@ class SimWorker final : public CheckedNode {
 
 class SimController final : public CheckedNode {
  public:
-  /// Requires: all outlive this.
+  /// Requires: all references outlive this.
   SimController(const RunSetup& setup, const NodeSetup& node, LocalRun& run, const StopRule& stop,
                 SimWorld& world, const SimCosts& costs, FlushKeeper* keeper);
 
@@ -78,7 +78,7 @@ class SimController final : public CheckedNode {
   std::string regret() const override;
   Nanoseconds word_is_fresh() const override { return coordinator().word_is_fresh(); }
   const RunCoordinator& coordinator() const { return node_.coordinator(); }
-  /// Of its loop [ns], of what was charged.
+  /// Longest turn of its loop [ns], by charged time.
   uint64_t longest_turn() const { return node_.shell().scheduler().counters().longest_turn; }
 
  private:

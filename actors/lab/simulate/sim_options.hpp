@@ -1,4 +1,4 @@
-// What a simulated run is like, and what is told of it. Plain values.
+// Options and report of a simulated run. Plain values; any thread.
 #pragma once
 
 #include <optional>
@@ -13,21 +13,21 @@ struct SimOptions {
   uint64_t seed = 0;
   int nodes = 4;  // workers
   int links = 4;
-  uint32_t fan_out = 0;  // nodes that a coordinator leads; 0: as usual for so many
-  /// What the nodes are like is drawn from the seed: fibers, budgets, windows, times.
+  uint32_t fan_out = 0;  // nodes that a coordinator leads; 0: the default for their number
+  /// Draws the nodes' configuration from the seed: fibers, budgets, windows, times.
   bool draw_nodes = true;
-  NodesOptions fixed;      // otherwise
-  bool rare_ways = false;  // on purpose, of nodes that are not drawn as well
+  NodesOptions fixed;      // used if nodes are not drawn
+  bool rare_ways = false;  // enables rare paths also for nodes that are not drawn
   bool faults = true;      // drawn from the seed, unless there is a plan
   Nanoseconds faults_last = seconds(30);
   std::optional<FaultPlan> plan;
-  /// All particles on one worker take so long.
+  /// Duration of all particles on one worker.
   Nanoseconds work = seconds(60);
-  /// After healing, a run that has not ended is stuck.
+  /// A run that has not ended this long after healing is stuck.
   Nanoseconds patience = seconds(1800);
 };
 
-/// What tracing costs in such a run.
+/// Cost of tracing in such a run.
 inline SimCosts costs_of(const SimOptions& options, int64_t particles) {
   SimCosts costs;
   costs.particle_ns = static_cast<double>(options.work) / static_cast<double>(particles);
@@ -35,19 +35,19 @@ inline SimCosts costs_of(const SimOptions& options, int64_t particles) {
 }
 
 struct SimReport {
-  std::string failure;  // "": the run ended as it must
+  std::string failure;  // "": the run ended correctly
   Nanoseconds virtual_time = 0;
-  Nanoseconds took = 0;  // of it, from the first lease to the last flush that was counted
+  Nanoseconds took = 0;  // of it, from the first lease to the last counted flush
   uint64_t trace_hash = 0;
   SimWorld::Counters world;
-  int64_t recovered = 0;   // batches, by controllers that began anew
-  uint64_t snapshots = 0;  // that journals became
+  int64_t recovered = 0;   // batches, by restarted controllers
+  uint64_t snapshots = 0;  // made from journals
   uint64_t leases = 0;
   uint64_t leases_fenced = 0;
   uint64_t flushes_refused = 0;
-  WorkerReport caches;     // of all lives of all workers
-  uint64_t rare_ways = 0;  // taken on purpose, of Buggify
-  std::string nodes;       // what they were like, for people
+  WorkerReport caches;     // over all lives of all workers
+  uint64_t rare_ways = 0;  // taken by Buggify
+  std::string nodes;       // their configuration, for people
 };
 
 }  // namespace luxodus

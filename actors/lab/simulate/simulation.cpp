@@ -47,7 +47,7 @@ std::string SimScene::difference(const LocalRun& run) const {
 
 namespace {
 
-/// A display's disk, which outlives it. It looks at the run every now and then.
+/// A display's disk, which outlives the display. It asks for the run's totals now and then.
 class SimDisplay final : public RunOutput {
  public:
   explicit SimDisplay(const SimScene& scene) : scene_(scene) {}
@@ -61,7 +61,7 @@ class SimDisplay final : public RunOutput {
   }
   Result<void> write_results(const LocalRun&, StopReason) override { return {}; }
 
-  /// What is wrong with what it has; "" where it is the flux of the plain loop.
+  /// What is wrong with its flux; "" if it equals that of the plain loop.
   std::string fault() const {
     if (!whole_) return "the display was shown a part of a flush";
     if (!flux_) return "the display has not kept the flux";
@@ -78,11 +78,11 @@ class SimDisplay final : public RunOutput {
   std::optional<FluxFile> flux_;
 };
 
-/// Of RandomStream::faults: behind those of drawn_nodes.cpp.
+/// In RandomStream::faults, after those of drawn_nodes.cpp.
 constexpr uint64_t journal_stream = uint64_t{1} << 33;
 constexpr uint64_t display_stream = journal_stream + 1;
 
-/// Anywhere; where nodes are not drawn, at the controller's.
+/// At any node; at the controller's if nodes are not drawn.
 NodeId drawn_display(const SimOptions& options) {
   const auto nodes = static_cast<uint16_t>(options.nodes);
   if (!options.draw_nodes) return options.fixed.display_node.value_or(NodeId{nodes});
@@ -115,9 +115,10 @@ class Simulation {
   const SimScene& scene_;
   const SimOptions options_;
   const SimDisplay& display_;
-  std::unique_ptr<LocalRun> run_;     // of the controller's present life
-  std::vector<std::byte> disk_;       // of the controller: its journal,
-  std::optional<FluxFile> snapshot_;  // and the snapshot, for which there is room, as on a real one
+  std::unique_ptr<LocalRun> run_;  // of the controller's present life
+  std::vector<std::byte> disk_;    // the controller's disk: its journal,
+  // and the snapshot, for which there is space, as on a real one
+  std::optional<FluxFile> snapshot_;
   std::unique_ptr<SnapshotJournal> journal_;
   const RunSetup& setup_;
   const SimCosts costs_;
@@ -128,9 +129,9 @@ class Simulation {
   SimReport report_;
   std::unique_ptr<SimWorld> world_;
   std::optional<StopReason> reason_;
-  Nanoseconds let_go_ = never;       // when the controller let all nodes go
-  Nanoseconds fresh_ = 0;            // and for how long what they had said was taken to hold
-  std::vector<Nanoseconds> begins_;  // of each node's present life
+  Nanoseconds let_go_ = never;       // when the controller released all nodes
+  Nanoseconds fresh_ = 0;            // how long confirmations counted then
+  std::vector<Nanoseconds> begins_;  // start of each node's present life
 };
 
 Simulation::Simulation(const SimScene& scene, const SimOptions& options, PlannedNodes& nodes,
@@ -151,7 +152,7 @@ Simulation::Simulation(const SimScene& scene, const SimOptions& options, Planned
   world_ = std::make_unique<SimWorld>(world);
 }
 
-/// A shard of the totals does not survive its node, nor a run in shards its controller.
+/// A shard of the totals does not survive its node, nor a sharded run its controller.
 std::vector<NodeId> Simulation::spared() const {
   if (!sharded()) return {};
   std::vector<NodeId> out = setup_.shards.owners;
@@ -172,7 +173,7 @@ std::unique_ptr<SimNode> Simulation::make(NodeId node, uint32_t life) {
                                      world_->clock(node), costs_, report_.caches);
 }
 
-/// Its totals are those of its journal, at the end of which may stand what a crash has torn.
+/// Restores its totals from its journal, which may end in a torn record.
 void Simulation::begin_controller(uint32_t life) {
   if (life > 0) {
     Random random(options_.seed, RandomStream::faults);
@@ -200,7 +201,7 @@ void Simulation::begin_controller(uint32_t life) {
   report_.recovered += run_->traced() - before;
 }
 
-/// Some are so short that they become snapshots often.
+/// Some limits are so low that snapshots are frequent.
 SnapshotJournal::Config Simulation::drawn_journal() const {
   SnapshotJournal::Config config;
   if (!options_.draw_nodes) return config;
@@ -224,7 +225,7 @@ void Simulation::note_last(const SimController& controller) {
   fresh_ = controller.word_is_fresh() + longest_word_below();
 }
 
-/// Words of those below are told on when they may be as old as this, level by level.
+/// Confirmations are passed up when they may be this old, level by level.
 Nanoseconds Simulation::longest_word_below() {
   Nanoseconds longest = 0;
   for (uint16_t node = 0; node < setup_.graph.workers(); ++node)
@@ -233,9 +234,9 @@ Nanoseconds Simulation::longest_word_below() {
   return longest * (setup_.tree->height(setup_.tree->root()) - 1);
 }
 
-/// A worker has heard of the end, however it was parted from the others. Who begins anew when all
-/// have been let go finds nobody who could tell it; nor may who does so shortly before, when what
-/// its former life said is still fresh.
+/// A worker has left: checks that it has heard of the end, however it was cut off. Exempt is a node
+/// that restarts after all were released, since none is left to tell it; and one that restarts
+/// shortly before, while confirmations of its earlier life still count.
 void Simulation::note_left(NodeId node, const CheckedNode& left) {
   if (let_go_ != never && begins_[node.value] >= let_go_ - fresh_) return;
   if (auto why = left.regret(); !why.empty())
@@ -264,7 +265,7 @@ void Simulation::go() {
   report_.virtual_time = world_->now();
   report_.trace_hash = world_->trace_hash();
   report_.world = world_->counters();
-  world_.reset();  // its nodes add what they did
+  world_.reset();  // its nodes add their statistics
   report_.rare_ways = setups_.rare_ways_taken();
 }
 

@@ -1,6 +1,6 @@
-// A run on simulated nodes: the production code of all nodes in one thread, by virtual time, under
-// the faults of a plan; checked after every event, and its flux against the plain loop's, bit for
-// bit. Thread rule: one thread.
+// A run on simulated nodes: the production code of all nodes in one thread, in virtual time, under
+// a fault plan. Invariants are checked after every event, and the flux is compared with the plain
+// loop's, bit for bit. Thread rule: one thread.
 #pragma once
 
 #include <memory>
@@ -10,19 +10,19 @@
 
 namespace luxodus {
 
-/// A scene for many simulated runs, and what they must leave.
+/// A scene for many simulated runs, and its reference result.
 class SimScene {
  public:
-  /// Traces the reference with the plain loop. Requires: a scene of several cells where runs shall
-  /// fetch; particles >= 1.
+  /// Traces the reference with the plain loop. Requires: a scene of several cells if runs fetch;
+  /// particles >= 1.
   SimScene(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int64_t particles);
 
   const std::shared_ptr<const CompiledScene>& scene() const { return scene_; }
   uint64_t seed() const { return seed_; }
   int64_t particles() const { return particles_; }
-  /// A run that has traced nothing. `resident`: with all geometry at hand.
+  /// A run that has traced nothing. `resident`: with all geometry in memory.
   std::unique_ptr<LocalRun> fresh_run(bool resident) const;
-  /// What differs from the plain loop's result, for people; "" where no bit does.
+  /// The difference from the plain loop's result, for people; "" if all bits are equal.
   std::string difference(const LocalRun& run) const;
 
  private:

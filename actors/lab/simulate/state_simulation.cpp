@@ -21,12 +21,12 @@ SimStates::SimStates(const std::shared_ptr<const CompiledScene>& scene, uint64_t
 
 namespace {
 
-/// Of RandomStream::faults: behind those of the nodes and the display.
+/// In RandomStream::faults, after those of the nodes and the display.
 constexpr uint64_t viewer_stream = (uint64_t{1} << 33) + 2;
 
 const std::string no_state = "a state that nobody can make";
 
-/// All states are the same scene, which is traced with the state's own seed.
+/// All states are the same scene, traced with the state's own seed.
 class OneScene final : public StateMaker {
  public:
   explicit OneScene(std::shared_ptr<const CompiledScene> scene)
@@ -44,17 +44,17 @@ StateObject object_of(const SimScene& state) {
   return {state.seed(), "state"};
 }
 
-/// Who has states traced: goes from one to the next, drawn from the seed, and at last through all
-/// that are not done.
+/// Has states traced: goes from one to the next, drawn from the seed, and finally through all that
+/// are not done.
 class Viewer {
  public:
   Viewer(const SimStates& states, const SimOptions& options);
 
-  /// Once in every turn of the coordinator's node.
+  /// Called once in every turn of the coordinator's node.
   void look(StateCoordinator& coordinator, Nanoseconds now);
-  /// A work has been done, or has ended since it was stopped.
+  /// A work is done, or has ended after stop().
   void work_is_done();
-  /// What differs from the plain loops; "" where no bit does.
+  /// The difference from the plain loops; "" if all bits are equal.
   std::string difference() const;
 
  private:
@@ -64,14 +64,14 @@ class Viewer {
   void foresee(StateCoordinator& coordinator);
 
   const SimStates& states_;
-  const Nanoseconds ends_after_;  // when all is healed
-  const Nanoseconds looks_for_;   // at a state, at most, until then
+  const Nanoseconds ends_after_;  // time at which all faults have ended
+  const Nanoseconds looks_for_;   // longest stay in one state before that time
   Random random_;
   std::vector<std::unique_ptr<LocalRun>> runs_;
-  std::vector<int64_t> batches_;  // of each state, when it is done
+  std::vector<int64_t> batches_;  // of each state that is done
   size_t state_ = 0;
-  std::optional<PiecesOfRun> pieces_;  // under way
-  Nanoseconds leaves_ = never;         // the state that is traced
+  std::optional<PiecesOfRun> pieces_;  // the current work
+  Nanoseconds leaves_ = never;         // when to leave the current state
 };
 
 Viewer::Viewer(const SimStates& states, const SimOptions& options)
@@ -100,7 +100,7 @@ void Viewer::look(StateCoordinator& coordinator, Nanoseconds now) {
   if (now >= ends_after_) coordinator.end();
 }
 
-/// Any of those that are not done; the last where all are.
+/// Any state that is not done; the last if all are.
 size_t Viewer::next_state() {
   const size_t first = random_.bits() % states_.count();
   for (size_t i = 0; i < states_.count(); ++i)
@@ -120,7 +120,7 @@ void Viewer::begin(StateCoordinator& coordinator, Nanoseconds now) {
   coordinator.begin(*pieces_);
 }
 
-/// At times what is never entered, or cannot be made.
+/// Sometimes one that is never entered, or that cannot be built.
 void Viewer::foresee(StateCoordinator& coordinator) {
   switch (random_.bits() % 4) {
     case 0:
@@ -148,10 +148,10 @@ std::string Viewer::difference() const {
   return "";
 }
 
-/// The node of the coordinator as the world drives it.
+/// The coordinator's node in the simulated world.
 class SimStateNode final : public CheckedNode {
  public:
-  /// Requires: all outlive this.
+  /// Requires: all references outlive this.
   SimStateNode(const RunSetup& run, const NodeSetup& node, SimWorld& world, Viewer& viewer)
       : node_(run, node, NodeSeams{world.clock(node.net.self), world.transport(node.net.self)},
               [&viewer] { viewer.work_is_done(); }) {
@@ -195,12 +195,12 @@ class StateSimulation {
   SimReport report_;
   std::unique_ptr<SimWorld> world_;
   bool ended_ = false;
-  Nanoseconds let_go_ = never;       // when all nodes were
-  Nanoseconds fresh_ = 0;            // and for how long what they had said was taken to hold
-  std::vector<Nanoseconds> begins_;  // of each node's present life
+  Nanoseconds let_go_ = never;       // when all nodes were released
+  Nanoseconds fresh_ = 0;            // how long confirmations counted then
+  std::vector<Nanoseconds> begins_;  // start of each node's present life
 };
 
-/// Whoever has states traced is on the coordinator's node, which therefore lives as long as he.
+/// The requester of states is on the coordinator's node, which therefore never crashes.
 StateSimulation::StateSimulation(const SimStates& states, const SimOptions& options,
                                  PlannedNodes& nodes, StateMaker& maker)
     : options_(options),
@@ -228,7 +228,7 @@ std::unique_ptr<SimNode> StateSimulation::make(NodeId node, uint32_t life) {
                                      world_->clock(node), costs_, report_.caches);
 }
 
-/// As for a run: who begins anew when all have been let go finds nobody who could tell it.
+/// As for a run: a node that restarts after all were released finds none that could tell it.
 void StateSimulation::note_left(NodeId node, const CheckedNode& left) {
   if (let_go_ != never && begins_[node.value] >= let_go_ - fresh_) return;
   if (auto why = left.regret(); !why.empty())
@@ -269,7 +269,7 @@ SimReport StateSimulation::run() {
   report_.virtual_time = world_->now();
   report_.trace_hash = world_->trace_hash();
   report_.world = world_->counters();
-  world_.reset();  // its nodes add what they did
+  world_.reset();  // its nodes add their statistics
   report_.rare_ways = setups_.rare_ways_taken();
   return std::move(report_);
 }

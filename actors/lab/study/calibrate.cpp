@@ -15,8 +15,8 @@ namespace luxodus {
 
 namespace {
 
-/// Particles of a piece that is timed: some 100 us, long against reading the clock; of different
-/// sizes, so that what a particle costs by itself is told from what its rays cost.
+/// Particles of a timed piece: about 100 us, long against reading the clock; of different sizes, so
+/// that the costs of a particle and of its rays can be separated.
 constexpr int64_t piece_particles[] = {8, 16, 32, 64};
 constexpr int pieces = 4000;
 constexpr int warm_pieces = 200;
@@ -25,7 +25,7 @@ constexpr int64_t merged_batches = 200;
 constexpr int64_t bins_of_a_step = 16384;  // as a node packs them
 constexpr int flushes = 20;
 
-/// The processor's own words.
+/// The model name that the processor reports.
 std::string machine_name() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)
@@ -33,8 +33,9 @@ std::string machine_name() {
   return "an unnamed processor";
 }
 
-/// Of every part, by its bytes. All are built in turn, so that none finds its data in a near cache
-/// from the last time: a node builds what has just come, and after much else.
+/// Measures the build of every part, by its bytes. The parts are built in turn, so that none finds
+/// its data in a near cache from the last time: a node builds what has just arrived, after other
+/// work.
 Result<void> measure_builds(const CompiledScene& scene, const SceneObjects& objects,
                             SimCosts& costs) {
   PartBuilder builder(scene, objects.parts());
@@ -55,7 +56,7 @@ Result<void> measure_builds(const CompiledScene& scene, const SceneObjects& obje
   return {};
 }
 
-/// Rounds over batches in their order, a piece of each.
+/// Rounds over batches in order, one piece of each.
 void measure_pieces(const CompiledScene& scene, BatchTracer& tracer, const ResidentParts& parts,
                     SimCosts& costs) {
   BatchPlan plan(scene);

@@ -1,6 +1,6 @@
-// What work costs on this machine, measured on the production parts of a node, by the processor
-// time of one thread where that can be, so that others who use the machine disturb little. Takes
-// about twenty seconds. Thread rule: the calling thread, and one more while links are measured.
+// Measures the costs of work on this machine, with the production parts of a node and mostly by the
+// CPU time of one thread, so that other load disturbs little. Takes about twenty seconds. Thread
+// rule: the calling thread, and one more while links are measured.
 #pragma once
 
 #include <functional>
@@ -12,12 +12,12 @@
 
 namespace luxodus {
 
-/// Requires: a scene in parts. `report` is told what is measured now. Errors: parts that cannot be
-/// built; links that cannot be had.
+/// Requires: a scene in parts. `report` receives what is being measured. Errors: parts that cannot
+/// be built; links that cannot be opened.
 Result<MeasuredCosts> calibrate(const CompiledScene& scene,
                                 const std::function<void(const std::string&)>& report);
 
-// The parts of it.
+// The separate measurements.
 
 /// particle, ray, collision, reference, look, build, build_byte.
 Result<void> measure_tracing(const CompiledScene& scene, SimCosts& costs);
@@ -27,8 +27,8 @@ Result<void> measure_counting(const CompiledScene& scene, SimCosts& costs);
 Result<void> measure_loop(SimCosts& costs);
 
 /// Non-negative x with the least squares of the relative errors of `rows` x = `values`, scaled so
-/// that the sums agree. Rows of more than `disturbed` times what the others say, which something
-/// else has held up, are left out. Requires: as many rows as values, rows of one length.
+/// that the sums agree. Rows that are more than `disturbed` times the prediction of the others were
+/// delayed by other load and are left out. Requires: as many rows as values, rows of one length.
 std::vector<double> fitted_costs(const std::vector<std::vector<double>>& rows,
                                  const std::vector<double>& values, double disturbed = 3);
 

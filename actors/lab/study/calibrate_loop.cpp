@@ -1,6 +1,6 @@
-// Fiber switches under a scheduler; and frames between two networks over memory, whose both ends
-// run on one thread, so that its processor time is all they cost. Links of other machines cost a
-// node's thread alike; what their kernels and I/O threads do comes on top.
+// Fiber switches under a scheduler; and frames between two networks over memory. Both ends run on
+// one thread, so its CPU time is their whole cost. Links to other machines cost a node's thread the
+// same; the work of kernels and I/O threads comes on top.
 #include <algorithm>
 #include <atomic>
 #include <thread>
@@ -62,7 +62,7 @@ NetConfig config_of(NodeId self) {
   return config;
 }
 
-/// Asks, or answers: for object 0 "not here", for object n with n bytes.
+/// Sends requests, or answers them: for object 0 "not here", for object n with n bytes.
 class Peer final : public NetHandler {
  public:
   Peer(ZmqContext& context, NodeId self)
@@ -82,7 +82,7 @@ class Peer final : public NetHandler {
     return true;
   }
   std::span<std::byte> room_for(const MessageId&, NodeId, ActorPair, size_t) override {
-    return std::as_writable_bytes(std::span(room_));  // nobody reads it
+    return std::as_writable_bytes(std::span(room_));  // the content is ignored
   }
   void abandoned(const MessageId&, Kind) override {}
   bool intercept(const Delivery&) override { return false; }
@@ -110,7 +110,7 @@ void poll_both(Peer& first, Peer& second) {
   second.network.poll(now);
 }
 
-/// Of one question with its answer, eight at a time [ns].
+/// Cost of one request with its answer, eight in flight at a time [ns].
 double question_cost(Peer& first, Peer& second, uint64_t object, int count) {
   first.answers = 0;
   size_t asked = 0;
@@ -125,10 +125,10 @@ double question_cost(Peer& first, Peer& second, uint64_t object, int count) {
   return thread_nanoseconds_since(start) / count;
 }
 
-/// Of a question with its answer between two threads that rest meanwhile [ns].
+/// Cost of a request with its answer between two threads that are idle meanwhile [ns].
 struct RoundTrip {
-  double span;  // from sending to answer, the middle of many
-  double work;  // the asking thread's processor time
+  double span;  // from sending to the answer, median of many
+  double work;  // CPU time of the asking thread
 };
 
 RoundTrip round_trip(Peer& first, Peer& second) {
@@ -169,14 +169,14 @@ Result<void> measure_frames(SimCosts& costs) {
   double start = thread_seconds();
   for (int i = 0; i < turns; ++i) poll_both(first, second);
   costs.turn_ns += thread_nanoseconds_since(start) / (2 * turns);
-  (void)question_cost(first, second, 0, questions / 10);  // warm
+  (void)question_cost(first, second, 0, questions / 10);  // warm-up
   const double small = question_cost(first, second, 0, questions);
   const double large = question_cost(first, second, object_bytes, objects);
-  // Two frames, each of which is sent and received; the object's bytes at both ends.
+  // Two frames, each sent and received; the object's bytes at both ends.
   costs.send_ns = costs.receive_ns = small / 4;
   costs.frame_byte_ns = std::max(0.0, large - small) / (2.0 * object_bytes);
   const RoundTrip trip = round_trip(first, second);
-  // Each end sends a frame and receives one, and rests once.
+  // Each end sends one frame, receives one, and goes idle once.
   costs.rest_ns = std::max(0.0, trip.work - small / 2);
   costs.wake_ns = std::max(0.0, trip.span / 2 - small / 2 - costs.rest_ns);
   return {};

@@ -1,5 +1,5 @@
-// Least squares by normal equations, which are small and positive here; a cost that comes out
-// negative is none.
+// Least squares by normal equations, which are small and positive here; a negative cost is set to
+// zero.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int rounds = 3;
 
-/// Solves a x = b by elimination with pivots; unknowns that nothing tells are 0.
+/// Solves a x = b by elimination with pivots; undetermined unknowns are 0.
 std::vector<double> solved(std::vector<std::vector<double>> a, std::vector<double> b) {
   const size_t n = b.size();
   std::vector<double> x(n, 0);
@@ -42,7 +42,7 @@ double product(const std::vector<double>& row, const std::vector<double>& x) {
   return sum;
 }
 
-/// Rows weigh by what they say, not by how long they took.
+/// Rows are weighted by their relative errors, not by their duration.
 std::vector<double> fit(const std::vector<std::vector<double>>& rows,
                         const std::vector<double>& values, const std::vector<bool>& taken,
                         const std::vector<bool>& free) {

@@ -1,4 +1,4 @@
-// The page of a study: everything on it stands in it, drawings included.
+// The page of a study: self-contained, including its drawings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,7 +65,7 @@ std::string comparison_part(const StudyComparison& comparison) {
   return out + "</table>\n";
 }
 
-/// Points that could not be, each reason once.
+/// Reasons of points without a result, each once.
 std::string refusals(const StudyOutcome& outcome) {
   std::vector<std::string> told;
   for (const StudyRow& row : outcome.rows)

@@ -11,8 +11,8 @@ namespace {
 
 using R = const StudyResult&;
 
-/// A particle that travels: its place, direction, weight, band, path and number of draws are 64 B;
-/// a frame's head and check as many.
+/// A particle in transit: position, direction, weight, band, path and number of draws are 64 B; a
+/// frame's head and check take as many.
 constexpr double moved_bytes = 128;
 
 double per(double value, double of) {

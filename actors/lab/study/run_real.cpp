@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A new folder of the system's place for such, for sockets; gone in the end.
+/// A temporary folder for sockets, removed at the end.
 class SocketFolder {
  public:
   SocketFolder() {
@@ -25,14 +25,14 @@ class SocketFolder {
   }
   SocketFolder(const SocketFolder&) = delete;
   SocketFolder& operator=(const SocketFolder&) = delete;
-  /// Empty if there is none.
+  /// Empty if it could not be made.
   const std::string& path() const { return path_; }
 
  private:
   std::string path_;
 };
 
-/// As run_on_nodes, with each worker in a process of its own.
+/// Like run_on_nodes, with each worker in a process of its own.
 Result<StopReason> run_on_processes(LocalRun& run, NodesOptions options, const StopRule& stop,
                                     const std::atomic<bool>& interrupt, NodesReport& counted) {
   const SocketFolder folder;

@@ -1,6 +1,6 @@
-// A run in a world of virtual time. It differs from actors/lab/simulate/simulation.hpp in what it
-// is for: that one looks for faults under swarms of trouble, this one measures on a quiet network,
-// and everything that takes time on a real node is charged here.
+// A run in a simulated world. Unlike actors/lab/simulate/simulation.hpp, which searches for bugs
+// under swarms of faults, this measures on a quiet network, and everything that takes time on a
+// real node is charged here.
 #include <fmt/format.h>
 
 #include "actors/lab/simulate/recording.hpp"
@@ -11,14 +11,14 @@ namespace luxodus {
 
 namespace {
 
-/// Virtual time after which a run does not end any more.
+/// Virtual time after which a run is taken to be stuck.
 constexpr Nanoseconds longest_run = seconds(100'000);
-/// Between two looks at whether somebody interrupts [events].
+/// Interval of checks for an interrupt [events].
 constexpr uint64_t look_every = 4096;
-/// Memory maps for guards of all fibers' stacks: half of what a process has.
+/// Memory maps for stack guards of all fibers: half of what a process has.
 constexpr size_t maps_of_all_nodes = 32'768;
 
-/// Links between two workers, on average.
+/// Mean number of links between two workers.
 double mean_path(const RunSetup& setup) {
   const auto workers = static_cast<double>(setup.graph.workers());
   double hops = 0;
@@ -69,11 +69,11 @@ class SimulatedRun {
 void SimulatedRun::settle_in(NodeSetup& node) {
   node.start = node.lost = longest_run;
   node.stall = seconds(3600);
-  // However long a particle takes, others' messages pass through the node meanwhile.
+  // However long a particle takes, messages of others must pass through the node meanwhile.
   const Nanoseconds particle = std::max<Nanoseconds>(whole_ns(run_.costs.particle_ns), 1);
   node.photons.portion = std::clamp<int64_t>(milliseconds(1) / particle, 1, node.photons.portion);
   node.fibers.max_maps = std::max<size_t>(2, maps_of_all_nodes / setups_.size());
-  node.faults = {};  // the world's links do it
+  node.faults = {};  // the world's links inject them
 }
 
 SimSetup SimulatedRun::world_setup() const {
@@ -167,7 +167,8 @@ void SimulatedRun::note_world() {
 
 Result<StudyResult> SimulatedRun::go(const std::atomic<bool>& interrupt) {
   world_->start([this](NodeId node, uint32_t life) { return make(node, life); });
-  // When all is counted nothing more is measured; a thousand farewells would take as long again.
+  // Nothing is measured after the last count; the release of a thousand nodes would take as long
+  // again.
   while (!reason_ && world_->step()) {
     if (world_->last() == controller()) look_at_controller();
     if (world_->now() > longest_run) return problem("a simulated run does not end");
@@ -178,7 +179,7 @@ Result<StudyResult> SimulatedRun::go(const std::atomic<bool>& interrupt) {
   if (*reason_ != StopReason::particles)
     return problem(fmt::format("the run ended by {}, not by its particles", name_of(*reason_)));
   note_world();
-  world_.reset();  // its workers add what they did
+  world_.reset();  // its workers add their statistics
   return result_;
 }
 

@@ -13,7 +13,7 @@ namespace luxodus {
 namespace {
 
 constexpr uint32_t controller_links = 4;
-/// Of searches for a minimum-path graph that does not ship.
+/// Runs of the search for a minimum-path graph that does not ship.
 constexpr uint32_t amp_runs = 4;
 
 Result<Graph> named_graph(const std::string& topology, uint32_t nodes, uint32_t links) {
@@ -68,7 +68,7 @@ Result<NodesOptions> nodes_of(const StudyRun& run) {
   if (number("cache") > 0)
     nodes.object_bytes =
         static_cast<size_t>(number("cache") * static_cast<double>(built_bytes_of(*run.scene)));
-  // Pins are what a plan wants kept.
+  // Only a plan pins objects.
   if (nodes.profile_share <= 0) nodes.pinned_share = 0;
   return nodes;
 }

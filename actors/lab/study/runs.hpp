@@ -1,7 +1,6 @@
-// One run of a study: on simulated nodes, by virtual time and measured costs, or on real nodes of
-// this process. Either way the nodes are the production ones, set up by the same code, and the
-// numbers are counted by the same counters.
-// Thread rule: the calling thread.
+// One run of a study: on simulated nodes, in virtual time with measured costs, or on real nodes of
+// this process. Either way the nodes are the production ones, set up by the same code and measured
+// by the same counters. Thread rule: the calling thread.
 #pragma once
 
 #include <atomic>
@@ -13,23 +12,24 @@
 
 namespace luxodus {
 
-/// What one run is of. All that is referred to outlives the run.
+/// Inputs of one run. All references outlive the run.
 struct StudyRun {
   const Study& study;
   const StudyPoint& point;
   std::shared_ptr<const CompiledScene> scene;
   uint64_t seed = 1;
   SimCosts costs;                        // of simulated nodes
-  const Recording* recording = nullptr;  // replayed instead of tracing, where there is one
+  const Recording* recording = nullptr;  // replayed instead of tracing, if there is one
 };
 
-/// Of a kind, with a controller. Errors: no such graph; more nodes than a graph may have.
+/// A graph of this topology, with a controller. Errors: no such graph; more nodes than a graph may
+/// have.
 Result<Graph> study_graph(const std::string& topology, uint32_t nodes, uint32_t links);
 
-/// Particles of the run, whole batches.
+/// Particles of the run, in whole batches.
 int64_t particles_of(const Study& study, const StudyPoint& point);
 
-/// Nodes as the point wants them. Errors: as study_graph; a cache without room.
+/// Options for the point's nodes. Errors: those of study_graph; a cache without room.
 Result<NodesOptions> nodes_of(const StudyRun& run);
 
 /// Errors: options that contradict each other or the scene; a run that does not end; `interrupt`.

@@ -7,7 +7,7 @@ namespace luxodus {
 
 StudyScenes::StudyScenes(const Study& study, const SceneDescription& description)
     : scenario_(study.scenario), description_(description) {
-  // Geometry, media and light, and so every fetch of a particle, stay what they are.
+  // Geometry, media and light are unchanged, and so is every fetch of a particle.
   if (!study.whole_tally) count_by_object(description_);
 }
 

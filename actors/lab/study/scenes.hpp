@@ -1,5 +1,5 @@
-// The scene of a study, compiled for each partition and size of batch that it asks for, once.
-// Thread rule: one thread.
+// The scene of a study, compiled once for each partition and batch size that it asks for. Thread
+// rule: one thread.
 #pragma once
 
 #include <map>
@@ -13,10 +13,10 @@ namespace luxodus {
 
 class StudyScenes {
  public:
-  /// `description`: as it was read.
+  /// `description`: as read from the file.
   StudyScenes(const Study& study, const SceneDescription& description);
 
-  /// Errors: a scenario that is not there; a scene that cannot be compiled.
+  /// Errors: an unknown scenario; a scene that cannot be compiled.
   Result<std::shared_ptr<const CompiledScene>> get(int cells, int64_t batch_particles);
 
  private:

@@ -58,7 +58,7 @@ Problems only(const Problem& problem) {
   return problems;
 }
 
-/// Gives `take` each value of a sweep: the one that stands there, or those of a list.
+/// Calls `take` with each value of a sweep: a single one, or those of a list.
 template <class Take>
 void for_each_value(TableReader& keys, std::string_view key, const Take& take) {
   const toml::Value* said = keys.value(key);
@@ -106,7 +106,7 @@ const std::vector<double>& values_of(const std::vector<StudyAxis>& axes, std::st
       ->numbers;
 }
 
-/// Every point has to run: a study takes hours, and would find the one that cannot at its end.
+/// Every point must be able to run: a study takes hours, and would fail only at its end.
 void check_coordination(TableReader& keys, const std::vector<StudyAxis>& axes) {
   for (const double nodes : values_of(axes, "nodes"))
     for (const double fan_out : values_of(axes, "fan_out"))

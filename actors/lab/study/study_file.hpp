@@ -1,6 +1,6 @@
-// What a study asks, as its file says it: a scene, what is varied, what is drawn. Every problem of
-// a file is reported with its line; a study comes out only where there is none. It reads that file
-// and no other. Plain values; any thread.
+// A study as its file describes it: a scene, the varied parameters, the plots. Every problem of a
+// file is reported with its line; a study is returned only if there is none. It reads no other
+// file. Plain values; any thread.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ inline constexpr size_t study_plots = 16;
 inline constexpr size_t study_runs = 10'000;  // points x seeds
 }  // namespace limits
 
-/// A key of `[sweep]` and its values, words or numbers.
+/// A key of `[sweep]` with its values: words or numbers.
 struct StudyAxis {
   std::string key;
   std::vector<std::string> words;
@@ -29,7 +29,7 @@ struct StudyAxis {
 
   bool of_words() const { return !words.empty(); }
   size_t size() const { return of_words() ? words.size() : numbers.size(); }
-  /// A value as people write it.
+  /// A value as text.
   std::string text(size_t value) const;
 };
 
@@ -43,12 +43,12 @@ struct StudyPlot {
   std::string explain;
 };
 
-/// A combination: by axis, the number of its value.
+/// A combination of parameters: the index of the value on each axis.
 struct StudyPoint {
   std::vector<size_t> values;
 };
 
-/// Of the words of `on`: whether nodes run by the clock on the wall.
+/// Whether this word of `on` means real nodes and wall-clock time.
 inline bool is_real(std::string_view on) {
   return on == "nodes" || on == "processes";
 }
@@ -73,13 +73,13 @@ struct Study {
   double number(const StudyPoint& point, std::string_view key) const;
   int64_t whole(const StudyPoint& point, std::string_view key) const;
   const std::string& word(const StudyPoint& point, std::string_view key) const;
-  /// Those with more than one value.
+  /// Axes with more than one value.
   std::vector<const StudyAxis*> varied() const;
   /// All combinations; the last axis runs fastest.
   std::vector<StudyPoint> points() const;
 };
 
-/// Either a study, with warnings that do not hinder, or problems.
+/// A study, possibly with warnings, or problems.
 struct ReadStudy {
   std::optional<Study> study;
   Problems problems;
@@ -87,10 +87,10 @@ struct ReadStudy {
 };
 
 ReadStudy read_study(const std::filesystem::path& file);
-/// The same of a text; `file` is named in problems, and paths are relative to its folder.
+/// Parses a text; problems name `file`, and paths are relative to its folder.
 ReadStudy parse_study(std::string_view text, const std::filesystem::path& file);
 
-/// Costs as they were measured, and on what.
+/// Measured costs, and the machine and scene.
 struct MeasuredCosts {
   SimCosts costs;
   std::string machine;
@@ -103,7 +103,7 @@ struct ReadCosts {
 };
 
 ReadCosts read_costs(const std::filesystem::path& file);
-/// The text of a file that read_costs() reads to the same costs.
+/// A text that read_costs() reads back to the same costs.
 std::string costs_text(const MeasuredCosts& measured);
 
 }  // namespace luxodus

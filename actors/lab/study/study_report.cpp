@@ -12,17 +12,17 @@ namespace luxodus {
 
 namespace {
 
-/// What simulations are judged by.
+/// Columns by which simulations are compared with real runs.
 constexpr std::array compared_columns{
     "particles_per_s", "busy_us_per_particle", "fetches_per_particle", "builds_per_particle",
     "hit_rate",        "wait_p50_ms",          "wait_p99_ms"};
 
-/// The number of an axis among all.
+/// The index of an axis.
 size_t number_of(const Study& study, const StudyAxis& axis) {
   return static_cast<size_t>(&axis - study.axes.data());
 }
 
-/// A point's values on the varied axes but for `without`.
+/// A point's values on the varied axes except `without`.
 std::string label_of(const Study& study, const StudyPoint& point, std::string_view without) {
   std::string label;
   for (const StudyAxis* axis : study.varied()) {
@@ -34,7 +34,8 @@ std::string label_of(const Study& study, const StudyPoint& point, std::string_vi
   return label.empty() ? "measured" : label;
 }
 
-/// All points that are the same but for one axis, by what they share; in the order of the study.
+/// Groups the points that differ only on one axis, labelled by what they share; in the order of the
+/// study.
 std::vector<std::pair<std::string, std::vector<StudyPoint>>> series_of(const Study& study,
                                                                        std::string_view along) {
   std::vector<std::pair<std::string, std::vector<StudyPoint>>> out;

@@ -1,6 +1,6 @@
-// A study's results for people and for other programs: a table of all runs, the same as JSON, a
-// drawing for each plot with the spread over seeds, and one page that explains them all and needs
-// nothing beside itself. Equal results give equal bytes. Files are whole or not there. Any thread.
+// A study's results: a table of all runs, the same as JSON, a drawing for each plot with the
+// spread over seeds, and one self-contained page that explains them. Equal results give equal
+// bytes. Files are written atomically. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -21,24 +21,24 @@ struct StudyRow {
   std::string refused;  // why there is no result
 };
 
-/// What a study found.
+/// The outcome of a study.
 struct StudyOutcome {
   const Study& study;
   MeasuredCosts measured;
   std::vector<StudyRow> rows;
 };
 
-/// Over the seeds of a point.
+/// Statistics over the seeds of a point.
 struct StudySpread {
   size_t runs = 0;
   double mean = 0;
-  double deviation = 0;  // standard deviation of one run; 0 of a single one
+  double deviation = 0;  // standard deviation of one run; 0 for a single one
 };
 StudySpread spread_of(const StudyOutcome& outcome, const StudyPoint& point,
                       const StudyColumn& column);
 
-/// A kind of run held against another at points that are equal otherwise: simulation against real
-/// nodes, replay against tracing.
+/// A comparison of two kinds of runs at points that are equal otherwise: simulation against real
+/// nodes, or replay against tracing.
 struct StudyComparison {
   std::string of, against;  // words of `on`
   struct Row {
@@ -48,7 +48,7 @@ struct StudyComparison {
     double error() const { return against != 0 ? of / against - 1 : 0; }
   };
   std::vector<Row> rows;
-  /// The largest and the mean size of errors of a column.
+  /// The largest and the mean magnitude of a column's errors.
   struct Error {
     std::string column;
     double mean = 0, most = 0;
@@ -60,14 +60,14 @@ std::vector<StudyComparison> comparisons_of(const StudyOutcome& outcome);
 CsvTable study_table(const StudyOutcome& outcome);
 Json study_json(const StudyOutcome& outcome);
 SvgPlot study_plot(const StudyOutcome& outcome, const StudyPlot& plot);
-/// Errors: as svg_plot_text.
+/// Errors: those of svg_plot_text.
 Result<std::string> study_page(const StudyOutcome& outcome);
 
-/// What write_study writes.
+/// The files that write_study writes.
 OutputPlan study_output(const Study& study);
 
-/// results.csv, results.json, NAME.svg of each plot, index.html.
-/// Errors: as write_file_atomically; a folder that cannot be made.
+/// Writes results.csv, results.json, NAME.svg for each plot, and index.html. Errors: those of
+/// write_file_atomically; a folder that cannot be made.
 Result<void> write_study(const std::filesystem::path& folder, const StudyOutcome& outcome);
 
 }  // namespace luxodus

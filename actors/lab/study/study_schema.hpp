@@ -1,6 +1,5 @@
-// Every table and key of a study's file and of a file of costs, stated once for runtime/toml, which
-// reads by it. README.md repeats the same rows, and a test compares the two. Constant data; any
-// thread.
+// Every table and key of study files and cost files, declared once for runtime/toml. README.md
+// repeats the same rows, and a test compares the two. Constant data; any thread.
 #pragma once
 
 #include "runtime/toml/schema.hpp"

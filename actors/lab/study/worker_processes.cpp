@@ -16,7 +16,7 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<WorkerReport>, "it is sent as it lies in memory");
 
-/// Of a worker's process, from its first to its last moment.
+/// The whole life of a worker's process.
 [[noreturn]] void work(const PlannedNodes& nodes, const NodeSetup& node, int report) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const SystemClock clock;
@@ -26,11 +26,11 @@ static_assert(std::is_trivially_copyable_v<WorkerReport>, "it is sent as it lies
     const auto did = run_worker(nodes.setup(), {clock, context}, node, [] { return false; });
     if (did) ok = ::write(report, &did.value(), sizeof(WorkerReport)) == sizeof(WorkerReport);
   }
-  // What the other process began (files, threads) is for that one to end.
+  // Only the parent may clean up what it began (files, threads).
   ::_exit(ok ? 0 : 1);
 }
 
-/// As a pipe has it, in as many pieces as it likes.
+/// Reads from a pipe, in any number of pieces.
 bool read_report(int from, WorkerReport& report) {
   auto* at = reinterpret_cast<char*>(&report);
   for (size_t got = 0; got < sizeof report;) {

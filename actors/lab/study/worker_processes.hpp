@@ -1,6 +1,6 @@
-// Workers of a run, each in a process of its own on this machine: copies of this process as it is
-// when they start, so they have the same scene and plan. They meet through local sockets.
-// Thread rule: one thread, and no other of this process may hold a lock when workers start.
+// Workers of a run, each in a process of its own on this machine: copies of this process at the
+// time of their start, so they have the same scene and plan. They connect through local sockets.
+// Thread rule: one thread, and no other thread of this process may hold a lock when workers start.
 #pragma once
 
 #include <sys/types.h>
@@ -14,24 +14,24 @@ namespace luxodus {
 
 class WorkerProcesses {
  public:
-  /// Stops those that still run.
+  /// Kills those that still run.
   ~WorkerProcesses();
   WorkerProcesses() = default;
   WorkerProcesses(const WorkerProcesses&) = delete;
   WorkerProcesses& operator=(const WorkerProcesses&) = delete;
 
-  /// All workers of the plan. Requires: no context of sockets is open here yet.
-  /// Errors: the system starts no more.
+  /// Starts all workers of the plan. Requires: no ZeroMQ context is open here yet. Errors: the
+  /// system cannot start a process.
   Result<void> start(const PlannedNodes& nodes);
   /// Whether one has ended with an error.
   bool failed();
-  /// Waits until all have ended: what they did, together. Errors: one that failed.
+  /// Waits until all have ended, and returns their combined statistics. Errors: one that failed.
   Result<WorkerReport> join();
 
  private:
   struct Worker {
     pid_t pid;
-    int report;  // a pipe's end
+    int report;  // reading end of a pipe
     bool runs;
   };
   void reap(Worker& worker, int options);

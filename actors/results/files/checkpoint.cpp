@@ -1,6 +1,6 @@
-// Order: the maps of the earlier run go, result.json names the run that goes on, then its totals
-// take the place of those before. Should the process end between two of these, flux.lux is still
-// whole, and of the earlier run.
+// Order: first the maps of the earlier run are removed, then result.json names the current run,
+// then its totals replace the earlier ones. If the process ends between two steps, flux.lux is
+// still whole, and that of the earlier run.
 #include "actors/results/files/checkpoint.hpp"
 
 #include "actors/results/files/result_files.hpp"
@@ -32,7 +32,8 @@ void Checkpoint::take() {
     else
       log_warning("checkpoint: {}; the run goes on", saved.problem().text());
   }
-  last_ = Clock::now();  // not before: a slow disk must not have the run do nothing else
+  last_ = Clock::now();  // set after saving, so that with a slow disk the run still traces in
+                         // between
 }
 
 Result<void> Checkpoint::save() {

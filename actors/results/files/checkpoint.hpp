@@ -1,6 +1,6 @@
-// The totals of a run on disk while it goes on, so that a run that is killed is resumed with what
-// it had, bit for bit. Between batches flux.lux is replaced whole; result.json says that the run
-// has not ended. Thread rule: made and destroyed by whoever runs the run.
+// Checkpoints: saves the totals of a run while it goes on, so that a killed run can be resumed from
+// them, bit for bit. Between batches flux.lux is replaced atomically; result.json says that the run
+// has not ended. Thread rule: made and destroyed by the thread that runs the run.
 #pragma once
 
 #include <chrono>
@@ -10,17 +10,17 @@
 
 namespace luxodus {
 
-/// Puts the totals of a run that goes on into its folder, with the time that they took. With the
-/// `first` of a run the maps of an earlier one go. Errors: as write_json and save_flux.
+/// Writes the totals of a run in progress, with their tracing time, into its folder. The `first`
+/// checkpoint of a run removes the maps of an earlier one. Errors: as write_json and save_flux.
 Result<void> save_checkpoint(const std::filesystem::path& folder, const LocalRun& run,
                              const RunRecord& record, double seconds, bool first);
 
 class Checkpoint {
  public:
-  /// Saves from now on while `run` traces, `every_s` seconds apart. What the folder holds of an
-  /// earlier run is replaced with the first: not before the run has more than `keep_particles`.
-  /// A checkpoint that cannot be written is logged; the run goes on. Requires: `run` outlives this;
-  /// `every_s` is longer than it takes to begin a batch, or the run does nothing else.
+  /// Saves every `every_s` seconds from now on while `run` traces. The first checkpoint replaces an
+  /// earlier run's files in the folder, once the run has more than `keep_particles`. A checkpoint
+  /// that cannot be written is logged; the run goes on. Requires: `run` outlives this; `every_s` is
+  /// longer than beginning a batch takes, or the run does nothing else.
   Checkpoint(std::filesystem::path folder, LocalRun& run, RunRecord record, double every_s,
              int64_t keep_particles);
   ~Checkpoint();

@@ -1,5 +1,5 @@
-// What the run has counted on surfaces and in the air, as ParaView reads it. Values are means over
-// a patch or a voxel, with the standard error of that bin; bins are never combined, so whole
+// Writes the run's counts on surfaces and in the air for ParaView. Values are means over a patch or
+// a voxel, with the standard error of that bin; errors of bins cannot be combined, so whole
 // triangles, which are sums of patches, have none.
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct SurfaceArrays {
 
 constexpr const char* side_names[2] = {"front", "back"};
 
-/// Appends a triangle's patches, whose corners are shared within it.
+/// Appends a triangle's patches, which share corners.
 void add_patches(const TriangleRecord& t, uint32_t n, const glm::dvec3& origin, VtkSurface& out) {
   const auto first = static_cast<uint32_t>(out.points.size());
   const glm::dvec3 a(t.corner[0]), b(t.corner[1]), c(t.corner[2]);

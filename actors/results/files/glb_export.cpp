@@ -18,13 +18,13 @@ namespace luxodus {
 namespace {
 
 constexpr double lit_share_below_white = 0.98;
-/// Corners nearer to each other are one [m]; normals that differ by less are one.
+/// Corners closer than this are merged [m]; so are normals that differ by less.
 constexpr float one_place_m = 1e-4f, same_normal = 1e-2f;
 
-/// What a patch sends back: luminance as XYZ [cd/m2] of a surface that scatters evenly.
+/// Reflected light of a patch: luminance as XYZ [cd/m2] of a surface that scatters evenly.
 using PatchXyz = std::array<double, 3>;
 
-/// XYZ of light of so many watts in each band, Y in lumens.
+/// XYZ of light with these watts in each band, Y in lumens.
 template <class WattsOf>
 std::array<double, 3> xyz_of_bands(const Bands& bands, const WattsOf& watts_of) {
   std::array<double, 3> out{};
@@ -38,7 +38,8 @@ std::array<double, 3> xyz_of_bands(const Bands& bands, const WattsOf& watts_of) 
   return out;
 }
 
-/// The corners of one side of a surface, by place and normal, with the light of the patches there.
+/// The corners of one side of a surface, merged by place and normal, with the light of their
+/// patches.
 class SideOfSurface {
  public:
   void add(const std::array<glm::vec3, 3>& corners, const glm::vec3& normal, const PatchXyz& light,
@@ -63,7 +64,7 @@ class SideOfSurface {
       PatchXyz mean = sums_[i];
       for (double& c : mean) c /= areas_[i] * white_cd_m2;
       const auto rgb = linear_srgb_from_xyz(mean);
-      // Colours outside what screens show are made so that they do.
+      // Clamps colours outside the gamut of screens.
       out.colours.push_back(glm::clamp(glm::vec3(rgb[0], rgb[1], rgb[2]), 0.0f, 1.0f));
     }
     return out;
@@ -87,19 +88,19 @@ class SideOfSurface {
 
   std::map<Key, uint32_t> indices_;
   std::vector<glm::vec3> points_;
-  std::vector<PatchXyz> sums_;  // times area
+  std::vector<PatchXyz> sums_;  // weighted by area
   std::vector<double> areas_;   // [m2]
   std::vector<uint32_t> triangles_;
   double sent_ = 0;
 };
 
-/// Area by the luminance that it has.
+/// Areas sorted by luminance.
 class LitArea {
  public:
   void add(double luminance, double area_m2) {
     if (luminance > 0) parts_.push_back({luminance, area_m2});
   }
-  /// 0 where nothing is lit.
+  /// The luminance that this share of the lit area stays below; 0 where nothing is lit.
   double luminance_above(double share) {
     std::sort(parts_.begin(), parts_.end());
     double all = 0, below = 0;
@@ -192,9 +193,9 @@ bool shines_one_way(const CompiledEmitter& emitter) {
          emitter.kind != EmitterKind::sphere;
 }
 
-/// A punctual light has no curve of intensities: a cone of the same flux stands for it. In a cone
-/// of 90 degrees KHR_lights_punctual has intensity fall with the square of the cosine, which adds
-/// up to 2 pi / 3 of that at its axis.
+/// A punctual light has no intensity distribution: a cone of the same flux replaces it. In a cone
+/// of 90 degrees the intensity of KHR_lights_punctual falls with the square of the cosine, whose
+/// integral is 2 pi / 3 of the intensity on its axis.
 GlbLight light_of(const CompiledScene& scene, const CompiledEmitter& emitter) {
   GlbLight out;
   out.name = emitter.name;

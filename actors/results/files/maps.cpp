@@ -1,6 +1,6 @@
-// Planes. Maps and means are of cells' areas; minimum, maximum and uniformity are of the grid
-// points, the cells' centres, as codes want them. The indirect light of a grid point is the mean of
-// its cell.
+// Maps of planes. Maps and means are over the area of cells; minimum, maximum and uniformity are
+// over grid points, the centres of cells, as the codes require. The indirect light of a grid point
+// is its cell's mean.
 #include "actors/results/files/maps.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace luxodus {
 
 namespace {
 
-/// Of the cells that are not left out.
+/// The mean over the cells that are not left out.
 double mean_of(const std::vector<double>& values) {
   double sum = 0, count = 0;
   for (const double v : values) {
@@ -28,7 +28,8 @@ double mean_of(const std::vector<double>& values) {
   return sum / count;
 }
 
-/// Smallest and largest of the cells that are not left out; the first where all are.
+/// The smallest and the largest of the cells that are not left out; the first cell twice if all
+/// are.
 std::pair<size_t, size_t> extremes_of(const std::vector<double>& values) {
   const auto first =
       std::find_if_not(values.begin(), values.end(), [](double v) { return std::isnan(v); });
@@ -45,13 +46,13 @@ double area_of(const CompiledPlane& plane) {
   return plane.cell_area_m2 * plane.cells_u * plane.cells_v;
 }
 
-/// Of the cells that are not left out.
+/// The area of the cells that are not left out.
 double area_of(const CompiledPlane& plane, const PlaneMap& map) {
   return plane.cell_area_m2 * static_cast<double>(map.centres().size() - map.left_out.size());
 }
 
-/// What the run has traced to the cells of a plane that are not left out [lm]. The error is that of
-/// the whole plane: those in bodies have next to no light, and so no part in it.
+/// Lumens that the run has traced to the cells of a plane that are not left out [lm]. The error is
+/// that of the whole plane: cells in bodies have almost no light, and so add almost no error.
 Estimate traced_lumens(const CompiledScene& scene, const Readout& readout, const PlaneMap& map,
                        uint32_t index, uint32_t quantity, int group = -1) {
   Estimate out = readout.lumens(scene.blocks.planes, index, quantity, group);
@@ -78,15 +79,15 @@ Json at_grid_points(Json item) {
   return item;
 }
 
-/// A value computed without chance and what its quadrature may err by.
+/// A deterministic value, with the bound of its quadrature error.
 Json bounded_json(double value, double bound) {
   Json item = exact_json(value, "lx");
   item["quadrature_bound"] = number_json(bound);
   return item;
 }
 
-/// A mean over a plane: standard error of its traced part, bound of its computed part, and where it
-/// lies: within two standard errors and the bound.
+/// A mean over a plane: standard error of the traced part, bound of the computed part, and its
+/// interval: two standard errors plus the bound.
 Json mean_json(const Estimate& mean, double bound) {
   Json item = lux(mean);
   item["quadrature_bound"] = number_json(bound);
@@ -95,8 +96,8 @@ Json mean_json(const Estimate& mean, double bound) {
   return item;
 }
 
-/// What codes calculate: of luminaires alone, in clear air; the mean over the area, extremes at the
-/// grid points.
+/// The quantity of the codes: luminaires only, in clear air; the mean over the area, extremes at
+/// the grid points.
 Json clear_air_json(const PlaneMap& map, Operation operation) {
   const std::vector<double>& e = map.light.point_clear_lx;
   const auto [low, high] = extremes_of(e);
@@ -116,7 +117,7 @@ Estimate plus_exact(double exact, const Estimate& e) {
   return {exact + e.value, e.standard_error};
 }
 
-/// Minimum over mean; the error to first order, the two taken as independent.
+/// Minimum over mean; the error to first order, with both taken as independent.
 Json uniformity_json(const Estimate& least, const Estimate& mean) {
   if (!(mean.value > 0)) return measured_json(std::nan(""), std::nan(""), "1");
   const double ratio = least.value / mean.value;
@@ -175,7 +176,7 @@ Json plane_json(const CompiledScene& scene, const Readout& readout, const PlaneM
 // ---- files -------------------------------------------------------------------------------------
 
 Result<void> write_table(const std::filesystem::path& path, const PlaneMap& map) {
-  // Cells' means, then the values at their centres.
+  // Means of cells, then the values at their centres.
   CsvTable table({"x", "y", "z", "direct_lx", "indirect_lx", "indirect_se_lx", "total_lx",
                   "luminaires_direct_clear_air_lx", "point_direct_lx",
                   "point_luminaires_direct_clear_air_lx"});
@@ -194,8 +195,8 @@ Result<void> write_table(const std::filesystem::path& path, const PlaneMap& map)
   return write_csv(path, table);
 }
 
-/// Levels that lighting people know, where they cut the map: those of the codes first, 1, 2, 5 per
-/// decade where fewer than three of them fit.
+/// Contour levels that lighting designers know, as far as they cut the map: those of the codes
+/// first, or 1, 2, 5 per decade where fewer than three of them fit.
 std::vector<double> contour_levels(const std::vector<double>& values) {
   const auto [low, high] = extremes_of(values);
   std::vector<double> code, fine;
@@ -210,8 +211,7 @@ std::vector<double> contour_levels(const std::vector<double>& values) {
   return code.size() >= 3 ? code : fine;
 }
 
-/// Name and start of an axis of the picture: a coordinate of the scene where the edge runs along
-/// one.
+/// Name and start of a picture's axis: a scene coordinate if the edge runs along one.
 struct PictureAxis {
   std::string label;
   double start = 0;
@@ -251,7 +251,7 @@ FalseColourPicture picture_of(const CompiledScene& scene, const PlaneMeasure& pl
   return p;
 }
 
-/// `stem`: of its files, without their endings.
+/// `stem`: path of its files without their endings.
 Result<void> write_pictures(const std::filesystem::path& stem, const LocalRun& run, size_t index,
                             const PlaneMap& map) {
   const CompiledScene& scene = run.scene();
@@ -285,7 +285,7 @@ Result<void> write_pictures(const std::filesystem::path& stem, const LocalRun& r
 PlaneMaps make_plane_maps(const LocalRun& run, const ShareDone& progress) {
   const CompiledScene& scene = run.scene();
   const Readout readout(scene, run.totals());
-  int64_t rows = 0, before = 0;  // of all planes, of those done
+  int64_t rows = 0, before = 0;  // rows of all planes, and of finished planes
   for (const PlaneMeasure& plane : scene.description->planes) rows += plane.cells_v;
   PlaneMaps maps;
   for (size_t i = 0; i < scene.planes.size(); ++i) {

@@ -6,11 +6,11 @@ namespace luxodus {
 
 namespace {
 
-/// Right above the floor half of all directions show a body's bottom, or the floor that it stands
-/// on and that lies in the same plane. So high up few do [m].
+/// Just above the floor, half of all directions hit a body's bottom, or the floor that it stands on
+/// in the same plane. At this height few do [m].
 constexpr Real off_the_floor_m = 0.25_r;
 
-/// In a body where it is, or as what is above it with nothing in between.
+/// Whether a place lies in a body, or directly below one with nothing in between.
 bool lies_in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place,
                   const Vec3& normal, std::span<const char> turned) {
   if (in_body(scene, access, place, turned)) return true;

@@ -1,5 +1,5 @@
-// Cells of planes that lie inside bodies: no light comes there and nobody is, so they are no part
-// of a plane's mean, minimum or map. Called from one thread; works on several.
+// Finds cells of planes inside bodies: no light reaches them, so they are excluded from a plane's
+// mean, minimum and map. Called from one thread; works on several.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace luxodus {
 
-/// A plane that lies in a floor or a table's top is looked at from above it [m].
+/// A plane in a floor or a table top is tested from this far above it [m].
 inline constexpr double above_plane_m = 1e-3;
 
 /// Whether the middle of each cell of a plane lies in a body, index v * cells_u + u. A pure
-/// function of the scene, whatever the rows are run by.
+/// function of the scene; `rows` only distributes the work.
 std::vector<char> cells_in_bodies(const CompiledScene& scene, const ParallelFor& rows,
                                   size_t plane);
 

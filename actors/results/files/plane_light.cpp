@@ -1,10 +1,10 @@
-// A cell's error is bounded by what changes within it. Light that is seen from all its points
-// alike is smooth, and the rule errs by the square of what one point would err by. Where the
-// visible share of an emitter differs between points, the edge of a shadow crosses the cell, and a
-// quarter of that light is at stake; the edges of several emitters' shadows lie independently.
-// Along one edge errors may be alike, so those of cells are added. Corners tell of edges that pass
-// beside the four points: those of quarters are always looked at, those of whole cells where a
-// neighbour sees other emitters.
+// The error bound of a cell comes from what changes within it. Light that all its points see alike
+// is smooth: the rule's error is at most the square of a single point's. Where the visible share of
+// an emitter differs between points, a shadow's edge crosses the cell, and a quarter of that light
+// is uncertain; the edges of several emitters' shadows are independent. Along one edge errors may
+// be correlated, so those of cells are added. Corners reveal edges that pass beside the four
+// points: those of quarters are always evaluated, those of whole cells only if a neighbour sees
+// other emitters.
 #include "actors/results/files/plane_light.hpp"
 
 #include <algorithm>
@@ -21,13 +21,15 @@ namespace luxodus {
 namespace {
 
 constexpr double gauss[2] = {0.2113248654051871, 0.7886751345948129};
-/// Of a cell's edge, how far inside corners are looked at: on it they may touch a wall.
+/// How far inside a cell its corners are evaluated, as a share of its edge: on the edge they may
+/// touch a wall.
 constexpr double inset = 0.01;
-/// Of the light that comes into sight within a cell, what its mean may err by.
+/// Share of the light that becomes visible within a cell by which its mean may err.
 constexpr double edge_share = 0.25;
-/// Quarters narrower than this share of their cell stay: float tells their points hardly apart.
+/// Quarters narrower than this share of their cell are not divided: float hardly resolves their
+/// points.
 constexpr double narrowest = 0x1p-10;
-/// For points whose mean is taken.
+/// Tolerance at points whose mean is taken.
 constexpr double averaged_tolerance = 1e-2;
 
 /// A piece of a cell; edges as shares of the plane's.
@@ -37,17 +39,18 @@ struct Piece {
   double share() const { return (u1 - u0) * (v1 - v0); }
 };
 
-/// Mean light over a piece, and what it may err by.
+/// Mean light over a piece, and the bound of its error.
 struct PieceLight {
   double lx = 0, clear_lx = 0;
   double error_lx = 0, error_clear_lx = 0;
-  /// By source group, with media, then in clear air; kept only while it is needed, and only where
-  /// there are several.
+  /// Light by source group, with media, then in clear air; kept only while needed, and only if
+  /// there are several groups.
   std::vector<double> groups;
-  /// By emitter, of all its points: kept for quarters, which need look at the others alone.
+  /// What all its points see of each emitter: kept for quarters, which then evaluate only the
+  /// others.
   std::vector<KnownSight> known;
 
-  /// So little that it need not be followed.
+  /// Whether the error is too small to refine.
   bool is_settled() const {
     return error_lx <= settled * lx && error_clear_lx <= settled * clear_lx;
   }
@@ -61,7 +64,7 @@ struct Leaf {
 
 using Lights = std::vector<DirectFromEmitter>;
 
-/// Looks at the points of one plane; a copy for every thread.
+/// Evaluates the points of one plane; each thread has a copy.
 class PlanePoints {
  public:
   PlanePoints(const CompiledScene& scene, size_t index, const GeometryAccess& access)
@@ -81,7 +84,7 @@ class PlanePoints {
                          options);
   }
 
-  /// Of a whole cell, whose centre was looked at.
+  /// Mean of a whole cell, whose centre is given.
   PieceLight mean(const Piece& piece, const Lights& centre) const {
     std::vector<Lights> points = rule_points(piece, {});
     PieceLight out = sum_of(points);
@@ -90,7 +93,7 @@ class PlanePoints {
     return out;
   }
 
-  /// With corners. `known`: from around.
+  /// Mean including corners. `known`: from the surrounding points.
   PieceLight mean(const Piece& piece, std::span<const KnownSight> known) const {
     std::vector<Lights> points = rule_points(piece, known);
     PieceLight out = sum_of(points);
@@ -110,7 +113,7 @@ class PlanePoints {
   }
 
  private:
-  /// At a place of a piece, u and v from 0 to 1.
+  /// Light at a place of a piece, u and v from 0 to 1.
   Lights in(const Piece& piece, double u, double v, std::span<const KnownSight> known) const {
     return look(piece.u0 + u * (piece.u1 - piece.u0), piece.v0 + v * (piece.v1 - piece.v0),
                 averaged_tolerance, known);
@@ -122,7 +125,7 @@ class PlanePoints {
     return points;
   }
 
-  /// Emitters that all points see whole, or none at all.
+  /// Emitters that all points see whole, or not at all.
   static std::vector<KnownSight> known_of(const std::vector<Lights>& points) {
     std::vector<KnownSight> known(points.front().size(), KnownSight::nothing);
     for (size_t e = 0; e < known.size(); ++e) {
@@ -154,7 +157,7 @@ class PlanePoints {
     return out;
   }
 
-  /// The first four points are the rule's, the fifth is the centre.
+  /// The first four points are those of the rule, the fifth is the centre.
   void add_errors(const std::vector<Lights>& points, PieceLight& out) const {
     double open_mean = 0, open_centre = 0;
     double squares = 0, clear_squares = 0;
@@ -187,7 +190,7 @@ class PlanePoints {
     out.error_clear_lx += smooth * out.clear_lx;
   }
 
-  /// Visible shares that differ by less do so by rounding.
+  /// Visible shares that differ by less are equal but for rounding.
   static constexpr double same_share = 1e-3;
 
   const CompiledScene& scene_;
@@ -196,7 +199,7 @@ class PlanePoints {
   const GeometryAccess access_;
 };
 
-/// Which emitters are seen: whole, in part, not at all.
+/// Hash of which emitters are seen whole, in part, or not at all.
 uint64_t sight_hash(const Lights& lights) {
   Hasher hash;
   for (size_t e = 0; e < lights.size(); ++e) {
@@ -232,7 +235,7 @@ class PlaneQuadrature {
 
   size_t cells() const { return columns_ * rows_; }
   bool is_left_out(size_t cell) const { return !left_out_.empty() && left_out_[cell] != 0; }
-  /// Those that means are taken over, as a share of all cells.
+  /// Share of all cells that means are taken over.
   double share_in() const {
     const auto out =
         std::count_if(left_out_.begin(), left_out_.end(), [](char c) { return c != 0; });
@@ -291,7 +294,7 @@ class PlaneQuadrature {
     return false;
   }
 
-  /// Cells beside which something else is seen are looked at again, with their corners.
+  /// Evaluates corners of cells next to which other emitters are seen.
   void look_at_corners() {
     std::vector<char> doubtful(cells(), 0);
     for (size_t cell = 0; cell < cells(); ++cell) doubtful[cell] = neighbour_sees_others(cell);
@@ -306,12 +309,12 @@ class PlaneQuadrature {
     }
     measure(again);
     for (Leaf& leaf : again) {
-      leaf.light.known = {};  // of all cells they would take too much memory
+      leaf.light.known = {};  // for all cells they would take too much memory
       keep(leaf);
     }
   }
 
-  /// Among those that may be quartered, or settled.
+  /// Puts a leaf among those to be quartered, or settles it.
   void keep(Leaf& leaf) {
     leaf.light.groups = {};
     keep(std::as_const(leaf));
@@ -344,7 +347,7 @@ class PlaneQuadrature {
     return sum;
   }
 
-  /// How much of what is allowed a leaf takes, of whichever mean is worse off.
+  /// Share of the allowed error that a leaf takes, for the mean that is worse off.
   double weight_of(const Leaf& leaf, const ErrorBounds& allowed) const {
     const double cell_edge = 1 / static_cast<double>(columns_);
     if (leaf.piece.u1 - leaf.piece.u0 < narrowest * cell_edge) return 0;
@@ -376,7 +379,7 @@ class PlaneQuadrature {
     }
   }
 
-  /// Those that may err most, until what is left may err by half of what is allowed.
+  /// Chooses the leaves with the largest errors, until the rest errs by half of what is allowed.
   std::vector<size_t> choose(const ErrorBounds& allowed, size_t most) const {
     std::vector<double> weight;
     for (const Leaf& leaf : leaves_) weight.push_back(weight_of(leaf, allowed));
@@ -394,7 +397,7 @@ class PlaneQuadrature {
   }
 
   void quarter(const std::vector<size_t>& worst) {
-    // What a leaf gave to each source group, and what it sees, is computed again where it was not
+    // What a leaf gave to each source group, and what it sees, is computed again if it was not
     // kept.
     std::vector<Leaf> parents, quarters;
     for (const size_t i : worst) parents.push_back(leaves_[i]);
@@ -429,7 +432,7 @@ class PlaneQuadrature {
     }
   }
 
-  /// A leaf's light into the means, or out of them.
+  /// Adds a leaf's light to the means, or removes it.
   void take(const Leaf& leaf, double sign) {
     const double of_cell = sign * leaf.piece.share() * static_cast<double>(cells());
     out_.mean_lx[leaf.piece.cell] += of_cell * leaf.light.lx;
@@ -444,7 +447,8 @@ class PlaneQuadrature {
 
   PlaneLight finish() {
     const ErrorBounds last = bounds();
-    // Shares are of all cells, means of those that are not left out; without any nothing is known.
+    // Shares refer to all cells, means to those that are not left out; without any, nothing is
+    // known.
     const double over = 1 / share_in();
     out_.bound_lx = last.lx * over;
     out_.bound_clear_lx = last.clear_lx * over;
@@ -457,7 +461,7 @@ class PlaneQuadrature {
       }
     }
     for (std::vector<double>* means : {&out_.mean_lx, &out_.mean_clear_lx})
-      for (double& lux : *means) lux = std::max(0.0, lux);  // sums that came to nothing
+      for (double& lux : *means) lux = std::max(0.0, lux);  // rounding may leave less than zero
     for (size_t cell = 0; cell < cells(); ++cell)
       if (is_left_out(cell))
         out_.point_lx[cell] = out_.point_clear_lx[cell] = out_.mean_lx[cell] =
@@ -475,7 +479,7 @@ class PlaneQuadrature {
   std::vector<double> group_rows_;  // [row][2 * groups]; quarters' changes are in the first
   std::vector<std::vector<Leaf>> row_leaves_;
   std::vector<Leaf> leaves_;
-  ErrorBounds settled_;  // errors of what is not followed
+  ErrorBounds settled_;  // errors of leaves that are not refined
 };
 
 }  // namespace

@@ -17,13 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The endings of what is written of each plane and of each camera.
+/// Endings of the files of each plane and of each camera.
 constexpr std::array plane_endings{".csv", ".png", "_direct_clear_air.png"};
 constexpr std::array view_endings{".exr", ".png", "_human.png", "_luminance.png"};
-/// What every run writes; the last two not of every scene.
+/// Files that every run writes; the last two only for some scenes.
 constexpr std::array own_files{"flux.lux", "result.json", "patches.vtp", "volume.vti"};
 
-/// The folder's result.json; null where there is none, or none of a run.
+/// The folder's result.json; null where there is none, or it is not a run's.
 Json old_result(const fs::path& folder) {
   const auto bytes = read_whole_file(folder / "result.json", limits::max_result_bytes);
   if (!bytes) return nullptr;
@@ -33,7 +33,7 @@ Json old_result(const fs::path& folder) {
   return result;
 }
 
-/// Whether this is a name of a file in `folder`, and leads nowhere else.
+/// Whether this is the name of a file directly in `folder`.
 bool lies_in(const std::string& file, const std::string& folder) {
   if (!file.starts_with(folder + "/")) return false;
   const std::string name = file.substr(folder.size() + 1);
@@ -42,8 +42,8 @@ bool lies_in(const std::string& file, const std::string& folder) {
 }
 
 /// Adds the files of the planes or cameras that `list` names, in this folder. The names come from a
-/// file: one that would lead out of the folder is passed over. Results before the key "files" was
-/// there were called as the things themselves.
+/// file: one that would lead out of the folder is skipped. Results older than the key "files" have
+/// files named like the planes and cameras themselves.
 void add_files(const Json& list, const std::string& folder, std::span<const char* const> endings,
                std::set<std::string>& files) {
   if (!list.is_array()) return;
@@ -62,7 +62,7 @@ void add_files(const Json& list, const std::string& folder, std::span<const char
   }
 }
 
-/// Maps and pictures of a run, by its result.
+/// Maps and pictures of a run, according to its result.
 std::set<std::string> maps_of(const Json& result) {
   std::set<std::string> files{"patches.vtp", "volume.vti"};
   add_files(result.value("planes", Json()), "planes", plane_endings, files);
@@ -70,7 +70,7 @@ std::set<std::string> maps_of(const Json& result) {
   return files;
 }
 
-/// By its first bytes: what a run was killed over may lie there without a result.json.
+/// By its first bytes: a killed run may have left a flux file without a result.json.
 bool is_flux_file(const fs::path& file) {
   std::array<char, 7> begin{};
   std::ifstream in(file, std::ios::binary);
@@ -135,7 +135,7 @@ Result<void> remove_old_maps(const fs::path& folder) {
   const Json result = old_result(folder);
   if (result.is_null()) return {};
   std::error_code error;
-  // Through a link in a subfolder's place something else would be removed.
+  // If a subfolder were a symbolic link, files elsewhere would be removed.
   const auto is_own = [&](const std::string& file) {
     const fs::path parent = (folder / file).parent_path();
     return (parent == folder || fs::is_directory(fs::symlink_status(parent, error))) &&
@@ -149,7 +149,7 @@ Result<void> remove_old_maps(const fs::path& folder) {
                         "cannot remove this file of an earlier run: " + error.message());
     }
   }
-  // A folder that holds something else is not empty and stays.
+  // A folder with other files is not empty and stays.
   for (const char* name : {"planes", "views"}) {
     if (fs::is_directory(fs::symlink_status(folder / name, error)))
       fs::remove(folder / name, error);

@@ -1,7 +1,7 @@
-// What a run leaves in its folder: how the files are called, what may be replaced, and what the
-// next run there clears away. Only files that the folder's own result.json names are ever removed
-// or replaced; what else lies there is somebody's own. Not for two runs into one folder at a time:
-// see actors/results/formats/output_folder.hpp.
+// The files of a run in its folder: their names, which may be replaced, and which the next run
+// removes. Only files that the folder's own result.json names are ever removed or replaced; all
+// others belong to somebody else. Any thread, but only one run at a time may use a folder: see
+// actors/results/formats/output_folder.hpp.
 #pragma once
 
 #include <filesystem>
@@ -18,15 +18,15 @@ namespace limits {
 inline constexpr uint64_t max_result_bytes = uint64_t{1} << 30;
 }  // namespace limits
 
-/// The files of each plane and each camera, without folder and ending, in the scene's order: names
-/// of the scene with nothing in them that a shell or another system minds.
+/// The files of each plane and each camera, without folder and ending, in the scene's order: the
+/// scene's names without characters that are special to a shell or another system.
 struct ResultNames {
   std::vector<std::string> planes, views;
 };
 ResultNames result_names(const SceneDescription& scene);
 
-/// Whether there are pictures of a plane, and a map of luminance of a camera: to a limit of cells
-/// and pixels.
+/// Whether pictures of a plane, and a luminance map of a camera, are written: up to a limit of
+/// cells and pixels.
 bool is_drawn(const PlaneMeasure& plane);
 bool is_mapped(const Camera& camera);
 
@@ -34,17 +34,17 @@ bool is_mapped(const Camera& camera);
 std::vector<std::string> files_of_plane(const SceneDescription& scene, size_t plane);
 std::vector<std::string> files_of_view(const SceneDescription& scene, size_t camera);
 
-/// Everything that a run writes; without `views` no pictures.
+/// All files that a run writes; without `views` no pictures.
 OutputPlan run_output(const SceneDescription& scene, bool views);
 
 /// Removes the maps and pictures of an earlier run: those that result.json names, patches.vtp and
-/// volume.vti. Keeps flux.lux and result.json, which the next run replaces whole. A folder without
-/// a result of ours is left as it is.
+/// volume.vti. Keeps flux.lux and result.json, which the next run replaces atomically. A folder
+/// without a result of ours is left unchanged.
 /// Errors: a file that cannot be removed, with the system's reason.
 Result<void> remove_old_maps(const std::filesystem::path& folder);
 
-/// Errors: a file that is to be written, is there, and is not of a run: one that the folder's
-/// result.json does not name, or any where result.json is no result of a run.
+/// Errors: a file to be written exists already and is not a run's: the folder's result.json does
+/// not name it, or is not the result of a run.
 Result<void> refuse_foreign_files(const std::filesystem::path& folder, const OutputPlan& plan);
 
 }  // namespace luxodus

@@ -117,7 +117,7 @@ Json escape_json(const CompiledScene& scene, const Readout& readout) {
   return out;
 }
 
-/// A probe's indirect value of one source group; the only group's is the whole.
+/// A probe's indirect value from one source group; with a single group it is the whole.
 Estimate probe_of_group(const CompiledScene& scene, const Readout& readout, uint32_t probe,
                         uint32_t group, uint32_t quantity) {
   const auto groups = static_cast<uint32_t>(scene.groups.size());
@@ -125,7 +125,7 @@ Estimate probe_of_group(const CompiledScene& scene, const Readout& readout, uint
   return readout.value(scene.blocks.probes_by_group, probe * groups + group, quantity);
 }
 
-/// Direct light at a probe by source group, and of luminaires alone as if there were no media.
+/// Direct light at a probe by source group, and of luminaires only as if there were no media.
 struct ProbeLight {
   DirectLight groups;
   double luminaires_clear_lx = 0;
@@ -189,7 +189,7 @@ Json probes_json(const LocalRun& run, const Readout& readout) {
 
 using NamedQuantities = std::initializer_list<std::pair<const char*, GroupEyeQuantity>>;
 
-/// What each source group gives to a part of a sign, where there are several.
+/// The contribution of each source group to a part of a sign, if there are several groups.
 void add_groups_of_sign_part(Json& part, const CompiledScene& scene, const Readout& readout,
                              uint32_t bin, NamedQuantities quantities) {
   const auto groups = static_cast<uint32_t>(scene.groups.size());
@@ -278,14 +278,14 @@ Json views_json(const CompiledScene& scene, const Readout& readout) {
   return out;
 }
 
-/// A relative standard error and what it is of.
+/// A relative standard error and the value that it belongs to.
 struct NamedError {
   double error;
   Json of;
 };
 
-/// Median and worst of the relative standard errors of one kind of values that are above 0, which
-/// are those a run is judged by. Null where there is none, or where a value has no error yet.
+/// Median and largest of the relative standard errors of one kind of values that are above 0, by
+/// which a run is judged. Null where there is none, or where a value has no error yet.
 Json spread_json(std::vector<NamedError> errors) {
   if (errors.empty())
     return {{"median", exact_json(std::nan(""), "1")},
@@ -299,13 +299,14 @@ Json spread_json(std::vector<NamedError> errors) {
           {"worst_of", errors.back().of}};
 }
 
-/// What a value is of: a name, or a sign and who looks at it.
+/// Which value it is: a name, or a sign and its observer.
 Json subject_of(const Json& item) {
   if (!item.contains("sign")) return {{"name", item["name"]}};
   return {{"sign", item["sign"]}, {"observer", item["observer"]}};
 }
 
-/// The parts of worst_relative_error: far signs in smoke must not hide how good the planes are.
+/// The parts of worst_relative_error: poorly known distant signs in smoke must not hide well known
+/// planes.
 Json relative_errors_json(const Json& result) {
   const auto of = [&](const char* list, const auto& judged) {
     std::vector<NamedError> errors;
@@ -370,7 +371,7 @@ std::string why_no_errors(const LocalRun& run) {
          std::to_string(least) + ": trace more particles";
 }
 
-/// What every result.json begins with.
+/// The head of every result.json.
 Json head_json(const CompiledScene& scene, const RunRecord& record) {
   Json head = {{"schema", result_schema},
                {"program", "luxodus"},
@@ -393,7 +394,7 @@ Json result_json(const LocalRun& run, const RunRecord& record, const PlaneMaps& 
   const double error = readout.worst_relative_error();
   const double seconds = run.seconds();
   const auto rays = static_cast<double>(run.timed_rays());
-  // Of statistical errors and of the whole run's time.
+  // From statistical errors and the whole run's time.
   const bool all_timed = run.timed_particles() == run.particles();
   const double fom =
       error > 0 && seconds > 0 && all_timed ? 1 / (error * error * seconds) : std::nan("");
@@ -469,7 +470,8 @@ Result<void> begin_results(const std::filesystem::path& folder, const LocalRun& 
   std::error_code error;
   std::filesystem::create_directories(folder / "planes", error);
   if (error) return problem_in(folder, "cannot make this folder: " + error.message());
-  // Should this process be killed before the end, the files to come are known to be a run's.
+  // Written first, so that the files to come are recognised as a run's even if this process is
+  // killed.
   return write_json(folder / "result.json", begun_json(run, record, run.seconds()));
 }
 

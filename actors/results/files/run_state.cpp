@@ -35,12 +35,12 @@ Json run_state_json(const CompiledScene& scene) {
       luminaires.insert(e.name);
   }
   Json smoke = Json::array(), flames = Json::array();
-  std::set<std::string> told;  // grids of one fire simulation have one name
+  std::set<std::string> told;  // the grids of one fire simulation share a name
   for (const Medium& medium : d.media) {
     if (medium.emission && scenario.emission_factor > 0 &&
         std::find(flames.begin(), flames.end(), medium.name) == flames.end())
       flames.push_back(medium.name);
-    // A flame is no smoke; a data set of a fire holds both.
+    // A flame is not smoke; a data set of a fire holds both.
     if (medium.emission && medium.kind != MediumKind::data_set) continue;
     const double factor = extinction_factor(scenario, medium.name);
     if (!(factor > 0) || !told.insert(medium.name).second) continue;

@@ -1,5 +1,5 @@
-// The state of the building that a run has computed, in words of who designs it: what supplies the
-// light, how much of it is lit, where smoke is. Pure; any thread.
+// Describes the state of the building that a run has computed, in a designer's terms: operation,
+// how many lights are on, where smoke is. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace luxodus {
 /// {"scenario", "operation", "after_failure", "luminaires", "signs", "smoke", "flames"}.
 Json run_state_json(const CompiledScene& scene);
 
-/// The same in one line: "smoke_emergency: emergency operation 60 s after the failure; 12 of 40
+/// The state in one line: "smoke_emergency: emergency operation 60 s after the failure; 12 of 40
 /// luminaires lit; 6 of 6 signs lit; smoke: layer". Requires: `state` is a run_state_json.
 std::string run_state_text(const Json& state);
 

@@ -1,5 +1,5 @@
-// The lines that a run ends with on the terminal. They read result.json, not the run: what a person
-// sees is what the file says.
+// The lines at the end of a run on the terminal. They are made from result.json, not from the run,
+// so that both agree.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ double number(const Json& j) {
   return j.is_number() ? j.get<double>() : std::nan("");
 }
 
-/// "  12.3 +- 0.4 lx", with the bound of what is computed, where there is one.
+/// " 12.3 +- 0.4 lx", with the bound of the computed part, if there is one.
 std::string measured_text(const Json& m) {
   const std::string unit = m["unit"].get<std::string>();
   std::string text = fmt::format("{:8.4g} ", number(m["value"]));
@@ -33,7 +33,7 @@ std::string name_of(const Json& item) {
   return item["name"].get<std::string>();
 }
 
-/// "0.8 at (1.2, 3, 0)", of a value with its place [m].
+/// "0.8 at (1.2, 3, 0)": a value with its place [m].
 std::string placed_text(const Json& value) {
   std::string text = fmt::format("{:.3g}", number(value["value"]));
   if (!value.contains("position")) return text;
@@ -68,7 +68,7 @@ std::string fluxes(const Json& result) {
   return text;
 }
 
-/// What each observer has before him, in the scene's order.
+/// The signs that each observer sees, in the scene's order.
 std::string signs(const Json& result) {
   std::vector<std::string> observers;
   for (const Json& s : result["signs"])
@@ -90,7 +90,7 @@ std::string signs(const Json& result) {
   return text;
 }
 
-/// What is not all is never rounded to it.
+/// A share below one is never rounded to 100 %.
 std::string percent(double share) {
   if (share < 1 && share > 0.995) return fmt::format("{:.4g} %", 100 * share);
   return share < 0.0995 ? fmt::format("{:.2g} %", 100 * share)
@@ -116,7 +116,7 @@ std::string spread_text(const char* what, const Json& spread) {
                      percent(spread["worst"]), subject_text(spread["worst_of"]));
 }
 
-/// The errors of each kind of value, and of what the run was judged by where that was chosen.
+/// The errors of each kind of value, and of the target if one was chosen.
 std::string errors(const Json& result) {
   if (result.contains("standard_errors_unknown"))
     return "  standard errors: " + result["standard_errors_unknown"].get<std::string>() + "\n";
@@ -136,7 +136,7 @@ std::string errors(const Json& result) {
   return "  relative standard errors: " + text + "\n";
 }
 
-/// Of the light that left the sources; sums of 128 bits stand in result.json as text.
+/// A part's share of the emitted light; sums of 128 bits stand in result.json as text.
 double share_of(const Json& balance, const char* part) {
   const double emitted = std::stod(balance["emitted"].get<std::string>());
   return emitted > 0 ? std::stod(balance[part].get<std::string>()) / emitted : 0;
@@ -149,7 +149,7 @@ std::string side_word(const std::string& side) {
   return std::string(side_words[2 * axis + (side[1] == '+' ? 1 : 0)]);
 }
 
-/// Sides of the building's box that light leaves by, the largest first.
+/// Sides of the building's box through which light escapes, the largest first.
 std::string sides_text(const Json& escape, double escaped) {
   std::vector<std::pair<double, std::string>> sides;
   double all = 0;
@@ -166,7 +166,7 @@ std::string sides_text(const Json& escape, double escaped) {
   return text.empty() ? "" : text + ")";
 }
 
-/// Where the light went.
+/// The energy balance.
 std::string whereabouts(const Json& result) {
   const Json& balance = result["ledger"];
   const double escaped = share_of(balance, "escaped"), lost = share_of(balance, "lost");
@@ -183,7 +183,7 @@ std::string whereabouts(const Json& result) {
   return text;
 }
 
-/// What the run is judged by and has no light: no error tells of it.
+/// Targets of the run without light, whose error is unknown.
 std::string unlit(const Json& result) {
   constexpr size_t shown = 8;
   const Json& names = result["unlit"];
@@ -201,7 +201,7 @@ std::string effort(const Json& result) {
                      result["stopped_by"].get<std::string>());
 }
 
-/// For who looks into the program.
+/// Internals, for developers.
 std::string internals(const Json& result) {
   const Json& balance = result["ledger"];
   return fmt::format(

@@ -1,5 +1,5 @@
-// Each square gives up to two pieces between two of its edges. An inner edge belongs to two
-// squares, so the pieces form chains over edges; a chain is walked from a free end, or from
+// Each square gives up to two segments between two of its edges. An inner edge belongs to two
+// squares, so segments form chains over edges; a chain is followed from a free end, or from
 // anywhere if it is closed.
 #include "actors/results/formats/contour_lines.hpp"
 
@@ -11,7 +11,7 @@
 namespace luxodus {
 namespace {
 
-// Edges have numbers: even ones run along x from point (i, j), odd ones along y.
+// Edges are numbered: even ones run along x from point (i, j), odd ones along y.
 using Edge = uint64_t;
 constexpr Edge no_edge = ~Edge{0};
 

@@ -14,7 +14,7 @@ struct ContourLine {
   bool closed = false;
 };
 
-/// All lines where the values pass `level`. values[j * x.size() + i] stands at (x[i], y[j]);
+/// All lines where the values cross `level`. values[j * x.size() + i] belongs to (x[i], y[j]);
 /// squares with a corner that is not finite are left out. A saddle is decided by the mean of its
 /// corners. Requires: values.size() == x.size() * y.size(), x and y ascending.
 std::vector<ContourLine> contour_lines(std::span<const double> x, std::span<const double> y,

@@ -1,7 +1,6 @@
-// Tables as comma-separated values after RFC 4180, rows ended by a line feed. Numbers take the
-// shortest form that reads back to the same bits; a number that is not one (NaN, infinity) is an
-// empty cell, while an empty text is "" in quotes. Builds text in memory; not shared between
-// threads.
+// Tables as comma-separated values by RFC 4180, rows ended by a line feed. Numbers take the
+// shortest form that reads back to the same bits; NaN and infinity are an empty cell, while an
+// empty text is "" in quotes. Builds text in memory; a table is for one thread.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +15,8 @@
 
 namespace luxodus {
 
-/// A text as one CSV cell: in quotes where it holds a comma, a quote, a line break, a space at an
-/// end, or nothing.
+/// A text as one CSV cell: quoted if it is empty, or holds a comma, a quote, a line break, or a
+/// space at an end.
 std::string csv_cell(std::string_view text);
 
 class CsvTable {
@@ -50,7 +49,8 @@ class CsvTable {
 /// Errors: as write_file_atomically.
 Result<void> write_csv(const std::filesystem::path& path, const CsvTable& table);
 
-/// A table that not every run has: one of an earlier run would be taken for this one's, and goes.
+/// Writes a table that not every run has. Without one, the earlier run's table is removed, which
+/// would be taken for this run's.
 /// Errors: as write_file_atomically; a file that cannot be removed.
 Result<void> write_or_remove(const std::filesystem::path& path,
                              const std::optional<CsvTable>& table);

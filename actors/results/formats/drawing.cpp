@@ -7,7 +7,7 @@
 namespace luxodus {
 namespace {
 
-/// Where the pixel (x, y) lies; nullptr when the surface has no memory.
+/// The memory of the pixel (x, y); nullptr if the surface has no memory.
 uint32_t* pixel_at(cairo_surface_t* surface, int x, int y) {
   unsigned char* data = cairo_image_surface_get_data(surface);
   if (data == nullptr) return nullptr;
@@ -22,7 +22,7 @@ Canvas::Canvas(int width, int height)
       height_(height),
       surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)),
       context_(cairo_create(surface_)) {
-  // Grey antialiasing and no hinting of metrics: the same picture whatever the desktop is set to.
+  // Grey antialiasing and no hinting of metrics give the same picture on any desktop.
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
@@ -96,8 +96,8 @@ void Canvas::rimmed_text(double x, double y, const std::string& text, TextAlign 
 std::string Canvas::fitted(const std::string& text, double width_px) {
   std::string out = clean_utf8(text);
   if (text_width(out) <= width_px) return out;
-  // Bisection over the bytes kept; a cut never falls between the bytes of one character, whose
-  // continuation bytes are 10xxxxxx.
+  // Bisects the number of bytes kept; never cuts within a character, whose continuation bytes are
+  // 10xxxxxx.
   const auto cut_at = [&](size_t length) {
     while (length > 0 && (static_cast<uint8_t>(out[length]) & 0xC0) == 0x80) --length;
     return out.substr(0, length);

@@ -1,5 +1,6 @@
-// A thin hold on cairo for the pictures of this room: a canvas that frees itself, text that always
-// is valid, colours by name. Internal to actors/results/formats. A canvas belongs to one thread.
+// A thin wrapper of cairo for the pictures of this room: a canvas that frees itself, text that is
+// always valid, colours by name. Internal to actors/results/formats. A canvas belongs to one
+// thread.
 #pragma once
 
 #include <cairo.h>
@@ -21,7 +22,7 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// False once cairo has failed (out of memory): nothing more is drawn then.
+  /// False once cairo has failed (out of memory): then nothing more is drawn.
   bool good() const;
   std::string failure() const;
   cairo_t* context() { return context_; }
@@ -33,7 +34,7 @@ class Canvas {
   /// `y` is the base line. The text turns by `turn` radians about (x, y), clockwise.
   void text(double x, double y, const std::string& text, TextAlign align = TextAlign::left,
             double turn = 0);
-  /// The same with a dark rim, readable on every colour.
+  /// Text with a dark outline, readable on every colour.
   void rimmed_text(double x, double y, const std::string& text, TextAlign align, double turn);
   /// The text, ending in "…" where it would be wider than `width_px`.
   std::string fitted(const std::string& text, double width_px);
@@ -46,7 +47,7 @@ class Canvas {
   std::vector<uint8_t> rgb();
 
  private:
-  /// Keeps the state, which the caller restores, and goes to where a text begins.
+  /// Saves the state, which the caller restores, and moves to where a text begins.
   void go_to_text(double x, double y, const std::string& text, TextAlign align, double turn);
 
   int width_;

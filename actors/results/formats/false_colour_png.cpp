@@ -1,6 +1,6 @@
-// From the outside in: the frame is laid out (plot, scale bar, lines of text), the canvas gets the
-// height that takes, then the values, contours, axes, bar and texts are drawn over each other. A
-// long floor has its scale bar below, others beside, so that the plot gets the room.
+// From the outside in: the frame is laid out (plot, scale bar, lines of text), which gives the
+// canvas its height; then values, contours, axes, bar and texts are drawn over each other. Long
+// floors have the scale bar below, others beside, so that the plot gets more room.
 #include "actors/results/formats/false_colour_png.hpp"
 
 #include <algorithm>
@@ -29,14 +29,16 @@ constexpr double bar_thickness = 34;
 constexpr double max_plot_height = 1100;
 constexpr double min_plot_height = 70;
 constexpr double wide_aspect = 2.1;
-// From this ratio of largest to smallest value on, a linear scale shows the small ones as black.
+// From this ratio of largest to smallest value on, a linear scale would show the small ones as
+// black.
 constexpr double logarithmic_ratio = 15;
-// More than this between the ends of an automatic logarithmic scale hides what is bright.
+// A larger ratio between the ends of an automatic logarithmic scale would hide differences of
+// bright values.
 constexpr double max_scale_ratio = 1e4;
 
 struct Statistics {
   double low = 0, mean = 0, high = 0;
-  double low_positive = 0;  // 0: none
+  double low_positive = 0;  // 0 if there is none
   size_t low_index = 0;
   size_t count = 0;
 };
@@ -65,7 +67,7 @@ bool has_gaps(const FalseColourPicture& picture, const Statistics& s) {
   return s.count > 0 && s.count < picture.values.size();
 }
 
-/// From values to places on the colour scale.
+/// Maps values to places on the colour scale.
 struct Scale {
   bool logarithmic = false;
   double low = 0;
@@ -94,7 +96,7 @@ Scale scale_of(const FalseColourPicture& picture, const Statistics& s) {
         round_down_125(std::min(std::max(low, scale.high / max_scale_ratio), scale.high / 2)));
     return scale;
   }
-  // Zero belongs on the scale unless the values stay far from it.
+  // The scale begins at zero unless the values stay far from it.
   double low = s.low < 0 || s.low > 0.6 * s.high ? s.low : 0;
   double high = s.high;
   const double span = high > low ? high - low : std::max(std::abs(high), 1.0);
@@ -130,11 +132,11 @@ Layout lay_out(const FalseColourPicture& p, size_t note_lines) {
   const double left = margin + 88;
   const double right = l.bar_below ? margin + 14 : margin + 190;
   const double room = design_width - left - right;
-  // Floors longer than what fits are drawn squeezed; both axes say how long they are.
+  // Longer floors are compressed; both axes state their length.
   const double height = std::clamp(room / aspect, min_plot_height, max_plot_height);
   const double width = std::min(room, std::max(height * aspect, 120.0));
   l.plot = {left + (room - width) / 2, y, width, height};
-  y += height + 82;  // ticks and the axis' name
+  y += height + 82;  // room for ticks and the axis' name
   if (l.bar_below) {
     l.bar = {left, y + 40, room, bar_thickness};
     y += 40 + bar_thickness + 44;
@@ -205,10 +207,10 @@ class Painter {
   Scale scale_;
   Layout l_;
   Canvas canvas_;
-  std::vector<glm::dvec2> labels_;  // where contour labels stand already
+  std::vector<glm::dvec2> labels_;  // places of contour labels
 };
 
-/// The value at a place in cells from the corner, bilinear between the centres that have one.
+/// The value at a place in cells from the corner, bilinear between the cell centres with a value.
 double Painter::smooth_value(double u, double v) const {
   const int nearest_u = std::clamp(static_cast<int>(u), 0, p_.cells_u - 1);
   const int nearest_v = std::clamp(static_cast<int>(v), 0, p_.cells_v - 1);
@@ -257,7 +259,7 @@ void Painter::paint_values() {
   canvas_.changed();
 }
 
-/// Centres of the cells with both ends of the axis: lines then reach the border.
+/// Centres of the cells plus both ends of the axis, so that lines extend to the border.
 std::vector<double> contour_axis(int cells, double origin, double length) {
   std::vector<double> out = {origin};
   for (int i = 0; i < cells; ++i) out.push_back(origin + length * (i + 0.5) / cells);
@@ -300,8 +302,7 @@ void Painter::draw_contour(const ContourLine& line) {
   }
 }
 
-/// Writes a label along the line, at the straightest place that is free; none on a line too short
-/// for it.
+/// Writes a label along the line, at the straightest free place; none on a line that is too short.
 void Painter::label_contour(const std::vector<glm::dvec2>& path, const std::string& label) {
   canvas_.font(contour_text_size, true);
   const double width = canvas_.text_width(label) + 16;
@@ -323,7 +324,7 @@ void Painter::label_contour(const std::vector<glm::dvec2>& path, const std::stri
     const double inside_x = std::min(middle.x - l_.plot.x, l_.plot.x + l_.plot.width - middle.x);
     const double inside_y = std::min(middle.y - l_.plot.y, l_.plot.y + l_.plot.height - middle.y);
     if (inside_x < width * 0.6 || inside_y < contour_text_size) continue;
-    double bend = 0;  // the largest distance of the line from its chord
+    double bend = 0;  // largest distance of the line from its chord
     for (size_t m = i; m <= j; ++m) {
       const glm::dvec2 d = path[m] - path[i];
       bend = std::max(bend, std::abs(chord.x * d.y - chord.y * d.x) / chord_length);
@@ -408,7 +409,7 @@ void Painter::draw_bar() {
   for (int i = 0; i < steps; ++i) {
     const LightColour c = light_colour((i + 0.5) / steps);
     canvas_.colour(c[0] / 255.0, c[1] / 255.0, c[2] / 255.0, 1);
-    // Each piece reaches to the end of the bar: the next covers it, and no gaps show.
+    // Each piece extends to the end of the bar: the next one covers it, which avoids gaps.
     const double from = static_cast<double>(i) / steps;
     if (l_.bar_below) {
       cairo_rectangle(context, at(from), bar.y, at(1) - at(from), bar.height);

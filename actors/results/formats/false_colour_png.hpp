@@ -1,7 +1,7 @@
-// A grid of values as a picture people can read numbers from: false colours (light_colours.hpp), a
-// scale bar with its unit, axes in metres, labelled contour lines at given values, the smallest
-// value marked, and minimum, mean and maximum in words. Values are shown as computed; between cell
-// centres they are interpolated (off on request). Any thread; one call uses nothing of another's.
+// Draws a grid of values so that people can read numbers from it: false colours
+// (light_colours.hpp), a scale bar with its unit, axes in metres, labelled contour lines at given
+// values, a mark at the smallest value, and minimum, mean and maximum as text. Values are shown as
+// computed; between cell centres they are interpolated (can be turned off). Pure; any thread.
 #pragma once
 
 #include <filesystem>
@@ -35,7 +35,7 @@ struct FalseColourPicture {
   std::string unit;           // "lx"
   std::string label_u = "x";  // names of the axes; their unit is added
   std::string label_v = "y";
-  std::string length_unit = "m";  // "px" where the grid is a picture; the lengths below are in it
+  std::string length_unit = "m";  // "px" for a grid that is a picture; unit of the lengths below
   int cells_u = 0;
   int cells_v = 0;
   std::vector<double>
@@ -52,11 +52,11 @@ struct FalseColourPicture {
   bool mark_minimum = true;
   int width_px = 1600;
   std::vector<std::string> notes;  // lines under the picture: method, particles, standard error
-  std::vector<ImageText> text;     // metadata of the PNG; Title and Description are there anyway
+  std::vector<ImageText> text;     // metadata of the PNG; Title and Description are always set
 };
 
-/// Errors: a grid whose sizes do not fit together, lengths that are not larger than zero, a scale
-/// whose ends are not in order.
+/// Errors: a grid whose sizes do not match, lengths that are not positive, a scale whose ends are
+/// not ascending.
 Result<PngImage> draw_false_colour(const FalseColourPicture& picture, const SourcePlace& place);
 /// Errors: as draw_false_colour and write_png.
 Result<void> write_false_colour_png(const std::filesystem::path& path,

@@ -1,5 +1,5 @@
-// Names of files made of names of things. A plane may be called "before the sign" or "Flur 1/2";
-// files are called so that shells, links and other systems take them. Pure; any thread.
+// Makes file names from names in a scene. A plane may be called "before the sign" or "Flur 1/2";
+// file names must be safe in shells, links and other systems. Pure; any thread.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@ namespace luxodus {
 std::string file_name_of(std::string_view name);
 
 /// One file name for each thing, in their order. Each thing has a file for every ending, and no two
-/// files have the same name, also where capitals do not count: the later thing gets "-2", "-3", ...
+/// files have the same name, even ignoring case: the later thing gets "-2", "-3", ...
 std::vector<std::string> file_names_of(std::span<const std::string> names,
                                        std::span<const char* const> endings);
 

@@ -1,7 +1,6 @@
-// Reading goes through the records in order, so that the message can name the block that is
-// damaged; the whole-file checksum comes last and catches what the records do not cover (names,
-// reserved fields). Every size is compared with the bytes that are left and with the limits before
-// it is used.
+// Reads the records in order, so that a message can name the damaged block; the whole-file checksum
+// comes last and covers what the records do not (names, reserved fields). Every size is compared
+// with the remaining bytes and the limits before it is used.
 #include "actors/results/formats/flux_file.hpp"
 
 #include <xxhash.h>
@@ -19,7 +18,7 @@ namespace luxodus {
 namespace {
 
 constexpr std::array<char, 8> magic = {'L', 'U', 'X', 'F', 'L', 'U', 'X', '\0'};
-// Level 3 is zstd's default; 9 takes three times as long and saves a few percent of float data.
+// Level 3 is zstd's default; 9 takes three times as long and saves a few per cent of float data.
 constexpr int compression_level = 3;
 constexpr size_t start_bytes = 16;
 constexpr size_t checksum_bytes = 16;
@@ -64,7 +63,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
-/// Appends one record. Errors: a sentence from zstd (out of memory).
+/// Appends one record. Errors: zstd's message (out of memory).
 Result<void> put_record(std::vector<std::byte>& out, std::string_view name,
                         std::span<const std::byte> raw, const SourcePlace& place) {
   std::vector<std::byte> packed(ZSTD_compressBound(raw.size()));
@@ -84,13 +83,13 @@ Result<void> put_record(std::vector<std::byte>& out, std::string_view name,
   return {};
 }
 
-/// Reads records one after another from bytes it does not trust.
+/// Reads records one after another from untrusted bytes.
 class RecordReader {
  public:
   RecordReader(std::span<const std::byte> bytes, const SourcePlace& place)
       : bytes_(bytes), place_(place) {}
 
-  /// The next record. `which`: how to call it until its name is known.
+  /// The next record. `which`: what messages call it until its name is known.
   Result<Block> next(const std::string& which);
   uint64_t left() const { return bytes_.size() - at_; }
 
@@ -147,7 +146,7 @@ Result<std::vector<std::byte>> RecordReader::unpack(const std::string& what, uin
                                                     uint64_t packed_size) const {
   const std::byte* packed = bytes_.data() + at_;
   const auto size = static_cast<size_t>(packed_size);
-  // Compared before memory is taken: both sizes must tell the same, and one frame fills the record.
+  // Compared before memory is allocated: both sizes must agree, and one frame fills the record.
   if (ZSTD_getFrameContentSize(packed, size) != raw_size ||
       ZSTD_findFrameCompressedSize(packed, size) != size) {
     return damaged(what, "is not compressed as its record says");

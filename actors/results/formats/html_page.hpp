@@ -1,5 +1,5 @@
-// The frame of every page that stands for itself as a file: head, style and end. What is on it, the
-// caller writes. The page of the live view is none of these: npm builds it. Pure; any thread.
+// The frame of every page that is a single file: head, style and end. The caller writes the
+// content. The page of the live view is built by npm instead. Pure; any thread.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@ namespace {
 
 }  // namespace
 
-/// Builds a value of what nlohmann's parser reads, without recursion.
+/// Builds a value from the events of nlohmann's parser, without recursion.
 class JsonBuilder {
  public:
   explicit JsonBuilder(Json& out) : out_(out) {}
@@ -52,7 +52,7 @@ class JsonBuilder {
   }
   bool open(Json value) {
     if (open_.size() >= limits::json_nesting) return false;
-    // What is open stays where it is: only the last of these grows.
+    // Open values do not move: only the last of these grows.
     open_.push_back(&place(std::move(value)));
     return true;
   }

@@ -1,6 +1,6 @@
-// A JSON value: null, truth, number, text, list, or object whose keys keep the order they were put
-// in. It reads and writes as nlohmann::ordered_json does, whose names it has; that library, which
-// takes seconds to compile, is included by json.cpp alone. Pure; any thread.
+// A JSON value: null, boolean, number, text, list, or object whose keys keep their order. Its
+// interface and text are those of nlohmann::ordered_json; only json.cpp includes that library,
+// which takes seconds to compile. Plain values; any thread.
 #pragma once
 
 #include <concepts>
@@ -20,7 +20,7 @@
 namespace luxodus {
 
 namespace limits {
-/// Lists and objects within each other, of what is read: deeper text is damaged or made to harm.
+/// Nesting of lists and objects that are read: deeper text is damaged or malicious.
 inline constexpr size_t json_nesting = 500;
 }  // namespace limits
 
@@ -29,7 +29,7 @@ struct JsonMember;
 
 class Json {
  public:
-  /// A value was asked for as what it is not, or a key that there is not.
+  /// A value was accessed as another kind, or a key does not exist.
   class exception : public std::runtime_error {
    public:
     using std::runtime_error::runtime_error;
@@ -54,7 +54,7 @@ class Json {
   Json(const char* text);       // NOLINT: implicit
   Json(std::string text);       // NOLINT: implicit
   Json(std::string_view text);  // NOLINT: implicit
-  /// A list or an object of what a container holds.
+  /// A list or an object from a container.
   template <class T>
   Json(const std::vector<T>& values) : Json(array()) {  // NOLINT: implicit
     for (const T& value : values) push_back(Json(value));
@@ -63,7 +63,7 @@ class Json {
   Json(const std::map<std::string, T>& values) : Json(object()) {  // NOLINT: implicit
     for (const auto& [key, value] : values) member(key) = Json(value);
   }
-  /// An object, where all items are pairs of a text and a value; else a list.
+  /// An object if all items are pairs of a text and a value; else a list.
   Json(std::initializer_list<JsonItem> items);
 
   Json(const Json& other);
@@ -79,10 +79,10 @@ class Json {
   static Json array(std::initializer_list<JsonItem> items);
   static Json object();
 
-  /// The value that a text is. Errors: is_discarded(), where it is none.
+  /// Parses a text. Errors: is_discarded() if it is not JSON.
   static Json parse(std::string_view text);
-  /// The text of the value: in one line, or with that many spaces of indent. Bytes that are not
-  /// UTF-8 become U+FFFD, numbers that are not finite null.
+  /// The value as text: on one line, or indented by this many spaces. Bytes that are not UTF-8
+  /// become U+FFFD, numbers that are not finite become null.
   std::string dump(int indent = -1) const;
 
   bool is_null() const { return kind_ == Kind::null; }
@@ -97,7 +97,7 @@ class Json {
   bool is_structured() const { return is_array() || is_object(); }
   bool is_discarded() const { return kind_ == Kind::discarded; }
 
-  /// The value as a T: truth, number, text or vector. Errors: throws, where it is none.
+  /// The value as a T: boolean, number, text or vector. Errors: throws if it is of another kind.
   template <class T>
   T get() const {
     if constexpr (std::same_as<T, bool>) {
@@ -119,15 +119,15 @@ class Json {
   operator T() const {  // NOLINT: implicit, as numbers and texts are taken out
     return get<T>();
   }
-  /// Errors: throws, where it is no text.
+  /// Errors: throws if it is not a text.
   const std::string& text() const;
 
-  /// The items of a list, or values of an object; 1 of all else but null.
+  /// Number of items of a list or of keys of an object; 0 for null, else 1.
   size_t size() const;
   bool empty() const { return size() == 0; }
   void clear();
 
-  /// The item of a list, which null becomes.
+  /// An item of a list; null becomes a list.
   template <std::integral I>
   Json& operator[](I index) {
     return item(static_cast<size_t>(index));
@@ -136,11 +136,11 @@ class Json {
   const Json& operator[](I index) const {
     return item(static_cast<size_t>(index));
   }
-  /// The value of a key, which is added where there is none; null becomes an object.
+  /// The value of a key, which is added if it is missing; null becomes an object.
   Json& operator[](const char* key) { return member(key); }
   Json& operator[](const std::string& key) { return member(key); }
   Json& operator[](std::string_view key) { return member(key); }
-  /// Errors: throws, where there is no such key.
+  /// Errors: throws if there is no such key.
   const Json& operator[](const char* key) const { return at(key); }
   const Json& operator[](const std::string& key) const { return at(key); }
   const Json& operator[](std::string_view key) const { return at(key); }
@@ -154,12 +154,12 @@ class Json {
   Json& back() { return item(size() - 1); }
 
   bool contains(std::string_view key) const { return value_of(key) != nullptr; }
-  /// The value at keys and numbers of items that are parted by slashes ("state/media/0"), or none.
+  /// The value at a path of keys and item numbers, separated by slashes ("state/media/0"), or none.
   const Json* at_path(std::string_view path) const;
   Json* at_path(std::string_view path) {
     return const_cast<Json*>(std::as_const(*this).at_path(path));
   }
-  /// The value of a key, or another where there is none. Errors: throws, where it is no T.
+  /// The value of a key, or another if there is none. Errors: throws if it is not a T.
   template <class T>
   T value(std::string_view key, T otherwise) const {
     const Json* const found = value_of(key);
@@ -176,13 +176,13 @@ class Json {
 
   void push_back(Json value);
   void emplace_back(Json value) { push_back(std::move(value)); }
-  /// Sets all that the other object holds.
+  /// Sets all keys of the other object.
   void update(const Json& other);
-  /// Takes out a key, and tells how many there were.
+  /// Removes a key, and returns how many were removed.
   size_t erase(std::string_view key);
   void erase(size_t index);
 
-  /// Goes over the items of a list or the values of an object.
+  /// Iterates over the items of a list or the values of an object.
   template <bool Const>
   class Walk {
    public:
@@ -226,8 +226,8 @@ class Json {
   const_iterator end() const;
   iterator find(std::string_view key);
   const_iterator find(std::string_view key) const;
-  /// The keys and values of an object, none of null: `for (const auto& [key, value] : ...)`.
-  /// Errors: throws, where it is neither.
+  /// The keys and values of an object, empty for null: `for (const auto& [key, value] : ...)`.
+  /// Errors: throws for other kinds.
   const std::vector<JsonMember>& items() const;
 
   friend bool operator==(const Json& a, const Json& b) { return a.equals(b); }
@@ -281,7 +281,7 @@ struct JsonMember {
   Json value;
 };
 
-/// What stands between braces: a value, or more braces.
+/// The content of an initializer list: a value, or a nested list.
 class JsonItem {
  public:
   JsonItem() noexcept = default;

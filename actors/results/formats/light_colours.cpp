@@ -32,8 +32,8 @@ bool in_gamut(const std::array<double, 3>& rgb) {
 LightColour computed_colour(double t) {
   const double lightness = 0.10 + 0.87 * t;
   const double hue = (-78 + 186 * t) * std::numbers::pi / 180;  // violet, red, orange, yellow
-  // Less colour at both ends, where sRGB holds little; the rest is cut to what it holds, by
-  // bisection, so that no steps show.
+  // Reduces the chroma at both ends, where sRGB holds little; bisection cuts the rest to the gamut,
+  // so that no steps show.
   double chroma = 0.175 * std::pow(std::sin(std::numbers::pi * (0.06 + 0.86 * t)), 0.8);
   if (!in_gamut(linear_srgb_of_oklch(lightness, chroma, hue))) {
     double inside = 0;
@@ -51,7 +51,7 @@ LightColour computed_colour(double t) {
 }  // namespace
 
 LightColour light_colour(double t) {
-  // A picture asks for millions of colours; 8 bits a channel tell fewer than these apart.
+  // A picture needs millions of colours; this many are as fine as 8 bits a channel.
   static const std::vector<LightColour> table = [] {
     std::vector<LightColour> out;
     for (int i = 0; i <= table_steps; ++i)

@@ -1,6 +1,6 @@
-// The lock is flock() on a file in the folder, since the system takes it back from whoever dies.
-// The file is removed at the end; who has waited on one that has gone meanwhile sees it by its
-// inode and opens anew.
+// The lock is flock() on a file in the folder, since the system releases it when the process dies.
+// The file is removed at the end; a process that has waited for a file removed meanwhile notices by
+// its inode and opens it again.
 #include "actors/results/formats/output_folder.hpp"
 
 #include <fcntl.h>
@@ -20,15 +20,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* lock_name = ".luxodus.lock";
-/// Somebody else removes the lock file at his end between our opening and locking it: once is
-/// likely, so often is not.
+/// Another process may remove the lock file between our opening and locking it: once is likely,
+/// this often is not.
 constexpr int max_lock_attempts = 100;
 
 std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
-/// Folders that are missing on the way to `folder`, the outermost first.
+/// The missing parents of `folder` and itself, the outermost first.
 std::vector<fs::path> missing_folders(const fs::path& folder) {
   std::vector<fs::path> missing;
   std::error_code error;
@@ -41,7 +41,7 @@ std::vector<fs::path> missing_folders(const fs::path& folder) {
   return missing;
 }
 
-/// "process 1234", as far as the lock file says.
+/// "process 1234", from the content of the lock file.
 std::string holder_of(int file) {
   std::array<char, 128> text{};
   const ssize_t n = ::pread(file, text.data(), text.size() - 1, 0);
@@ -58,7 +58,7 @@ std::string own_name() {
   return "process " + std::to_string(::getpid()) + " on " + host.data() + "\n";
 }
 
-/// What a planned subfolder is, where it is none. A link among them would lead out of the folder.
+/// Fails if a planned subfolder exists as something else. A link would lead out of the folder.
 Result<void> check_subfolder(const fs::path& path) {
   struct stat about {};
   if (::lstat(path.c_str(), &about) != 0 || S_ISDIR(about.st_mode)) return {};
@@ -81,7 +81,7 @@ Result<void> check_target(const fs::path& path) {
 struct OutputFolder::State {
   ~State() {
     if (lock >= 0) {
-      // Still locked: who opens it now finds out that it has no name any more.
+      // Removed while locked: a process that opens it now notices that it has no name any more.
       ::unlinkat(handle, lock_name, 0);
       ::close(lock);
     }
@@ -121,7 +121,7 @@ struct OutputFolder::State {
         return problem_in(path / lock_name, "this is no regular file: remove it");
       }
       if (::flock(lock, LOCK_EX | LOCK_NB) != 0) {
-        // Not every file system has locks; the check of the folder holds without.
+        // Not every file system has locks; the check of the folder still holds.
         if (errno != EWOULDBLOCK) return {};
         const std::string holder = holder_of(lock);
         forget_lock();
@@ -144,7 +144,7 @@ struct OutputFolder::State {
     ::close(lock);
     lock = -1;
   }
-  /// Into the lock file; it also shows that the disk takes bytes.
+  /// Writes the process into the lock file, which also shows that the disk accepts bytes.
   Result<void> say_who() {
     const std::string who = own_name();
     const ssize_t put = ::ftruncate(lock, 0) == 0 ? ::pwrite(lock, who.data(), who.size(), 0) : -1;

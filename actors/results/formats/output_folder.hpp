@@ -1,6 +1,6 @@
 // The folder that a command writes its results into: checked before the work begins, so that hours
-// of tracing do not end at a folder that cannot be written, and held by one process at a time.
-// Any thread; the lock belongs to the process.
+// of tracing do not fail at an unwritable folder, and held by one process at a time. Any thread;
+// the lock belongs to the process.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace luxodus {
 
-/// What a command is about to write, by paths within its folder.
+/// The files that a command is about to write, by paths within its folder.
 struct OutputPlan {
   std::vector<std::string> files;
   std::vector<std::string> folders;
@@ -22,20 +22,20 @@ struct OutputPlan {
 
 class OutputFolder {
  public:
-  /// Makes the folder if need be, and locks it until this ends, however it ends. Stale temporary
-  /// files of killed writers are removed.
+  /// Makes the folder if missing, and locks it until this object or the process ends. Stale
+  /// temporary files of killed writers are removed.
   /// Errors: a folder that cannot be made or written; another process that writes into it, by its
-  /// number; what is planned as a file and is a folder, a device or a symbolic link; what is
-  /// planned as a subfolder and is none.
+  /// number; a planned file that exists as a folder, a device or a symbolic link; a planned
+  /// subfolder that exists as something else.
   static Result<OutputFolder> claim(const std::filesystem::path& folder, const OutputPlan& plan);
   OutputFolder(OutputFolder&&) noexcept;
   OutputFolder& operator=(OutputFolder&&) noexcept;
-  /// Unlocks. A folder that claim() has made and that nothing was written into is removed.
+  /// Unlocks. A folder that claim() has made and that is still empty is removed.
   ~OutputFolder();
 
-  /// Without symbolic links, so that files are written into it and nowhere else.
+  /// With symbolic links resolved, so that files are written there and nowhere else.
   const std::filesystem::path& path() const;
-  /// As it was named, for people.
+  /// As the user named it.
   const std::filesystem::path& named() const;
 
  private:
@@ -45,7 +45,7 @@ class OutputFolder {
   std::unique_ptr<State> state_;
 };
 
-/// Whether a file that a command is about to write can be: by its place and by its folder.
+/// Checks whether a file can be written, by its path and its folder.
 /// Errors: as write_file_atomically, before anything is computed.
 Result<void> check_output_file(const std::filesystem::path& file);
 

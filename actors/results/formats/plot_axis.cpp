@@ -10,14 +10,14 @@
 namespace luxodus {
 namespace {
 
-// Positions are compared with this slack, in steps: ticks at the ends must not be lost to rounding.
+// Tolerance of positions, in steps, so that rounding does not lose ticks at the ends.
 constexpr double slack = 1e-6;
 
 double power10(int exponent) {
   return std::pow(10.0, exponent);
 }
 
-/// A multiple of a step as text without the digits that rounding left.
+/// A multiple of a step as text, without digits from rounding.
 std::string step_label(double value, double step) {
   const int exponent = static_cast<int>(std::floor(std::log10(step) + slack));
   if (std::max(std::abs(value), step) >= 1e6 || step < 1e-5) return readable_number(value, 6);
@@ -63,7 +63,7 @@ std::vector<AxisTick> log_ticks(double low, double high, int max_labels) {
   const double decades = std::log10(high) - std::log10(low);
   const int every =
       std::max(1, static_cast<int>(std::ceil((last - first + 1) / double(max_labels))));
-  // One way of writing per axis: powers as soon as one label would be long.
+  // One notation per axis: powers as soon as one label would be long.
   const bool plain = first >= -3 && last <= 5;
   std::vector<AxisTick> ticks;
   for (int exponent = first; exponent <= last; ++exponent) {
@@ -76,7 +76,7 @@ std::vector<AxisTick> log_ticks(double low, double high, int max_labels) {
       } else if (decades < 2 && (mantissa == 2 || mantissa == 5 || decades < 0.7)) {
         tick.label = readable_number(value);
       } else if (every > 1 && (mantissa != 1 || every > 9)) {
-        continue;  // so many decades leave no room for ticks between them
+        continue;  // this many decades leave no room for ticks between them
       }
       ticks.push_back(std::move(tick));
     }

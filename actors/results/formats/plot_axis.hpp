@@ -1,5 +1,5 @@
-// Where the ticks of an axis stand and what is written at them; shared by every picture with axes.
-// Pure functions; any thread.
+// Places ticks of an axis and labels them; shared by every picture with axes. Pure functions; any
+// thread.
 #pragma once
 
 #include <string>
@@ -16,9 +16,9 @@ struct AxisTick {
 /// (never more than about twice). Requires: low < high, finite.
 std::vector<AxisTick> linear_ticks(double low, double high, int about);
 
-/// Ticks of a logarithmic axis: every power of ten with a label (every n-th where there are more
-/// than `max_labels`), 2..9 between them without; 2 and 5 too take labels on less than two
-/// decades. Requires: 0 < low < high, finite.
+/// Ticks of a logarithmic axis: every power of ten with a label (every n-th if there are more than
+/// `max_labels`), and 2..9 between them without; over less than two decades 2 and 5 have labels,
+/// too. Requires: 0 < low < high, finite.
 std::vector<AxisTick> log_ticks(double low, double high, int max_labels = 9);
 
 /// The largest number 1, 2 or 5 times a power of ten that is <= value, the smallest >= value.

@@ -16,10 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of what a program says, so much is repeated [bytes]. Files of what it said are read so far.
+/// How much of a program's output is repeated [bytes], and read from the end of its file.
 constexpr size_t repeated_bytes = 4000;
 constexpr uint64_t max_said_bytes = uint64_t{1} << 20;
-/// How a shell, and some libraries, say that there is no such program.
+/// Exit code of a shell, and of some libraries, if there is no such program.
 constexpr int not_found = 127;
 
 }  // namespace

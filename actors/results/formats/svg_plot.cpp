@@ -1,6 +1,6 @@
 // The plot is drawn back to front: grid, reference, error bars, lines, markers, frame, texts.
-// Colours are those of Okabe and Ito (2008), told apart by colour-blind eyes; markers differ in
-// shape as well.
+// Colours are those of Okabe and Ito (2008), which colour-blind readers can distinguish; markers
+// differ in shape as well.
 #include "actors/results/formats/svg_plot.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr double marker_radius = 4.6;
 constexpr double legend_line = 24;
 constexpr double label_gap = 10;  // between a point and its label
 
-/// A coordinate to a hundredth of a unit: more is noise and makes files long.
+/// A coordinate to a hundredth of a unit: further digits only make files long.
 std::string coordinate(double value) {
   std::array<char, 40> buffer;
   const double rounded = std::round(value * 1e2) / 1e2;
@@ -32,7 +32,7 @@ std::string coordinate(double value) {
   return {buffer.data(), end.ptr};
 }
 
-/// log(a / b) without the quotient, which may be too large for a double.
+/// log(a / b) without the quotient, which may overflow a double.
 double log_ratio(double a, double b) {
   return std::log(a) - std::log(b);
 }
@@ -70,7 +70,7 @@ struct Range {
 void fit(Axis& axis, Range range) {
   if (!(range.low <= range.high)) range = axis.logarithmic ? Range{1, 10} : Range{0, 1};
   if (axis.logarithmic) {
-    // A little air; whole decades only where the data nearly fill them.
+    // Adds a margin; whole decades only if the data nearly fill them.
     const double air = std::max(std::exp(0.05 * log_ratio(range.high, range.low)), 1.25);
     axis.low = std::max(range.low / air, std::numeric_limits<double>::min());
     axis.high = std::min(range.high * air, std::numeric_limits<double>::max());
@@ -100,7 +100,7 @@ class SvgPainter {
         range_y.take(s.y[i]);
         const double e = s.error.empty() ? 0 : s.error[i];
         if (y_.shows(s.y[i] + e)) range_y.take(s.y[i] + e);
-        // On a logarithmic axis a bar that reaches zero would stretch the axis without end.
+        // On a logarithmic axis an error bar down to zero would stretch the axis without limit.
         if (!p_.log_y || s.y[i] - e > s.y[i] / 10) range_y.take(s.y[i] - e);
       }
     }
@@ -215,12 +215,12 @@ void SvgPainter::error_bars(const PlotSeries& s) {
     const double high = y_.clamped(s.y[i] + s.error[i]);
     line(x, low, x, high, "stroke-width=\"1.4\"");
     line(x - 4, high, x + 4, high, "stroke-width=\"1.4\"");
-    // A bar that goes on below the axis has no lower end to show.
+    // A bar that continues below the axis has no lower end to show.
     if (s.y[i] - s.error[i] > y_.low) line(x - 4, low, x + 4, low, "stroke-width=\"1.4\"");
   }
 }
 
-/// To the right of a point, or to the left of one in the right half.
+/// Labels to the right of a point, or to the left in the right half.
 void SvgPainter::labels(const PlotSeries& s) {
   const double middle = 0.5 * (x_.from + x_.to);
   for (size_t i = 0; i < s.labels.size(); ++i) {
@@ -262,7 +262,7 @@ void SvgPainter::series(const PlotSeries& s, size_t index) {
   out_ += "<g stroke=\"" + colour + "\" fill=\"none\">\n";
   error_bars(s);
   if (s.line) {
-    // A point that is not shown breaks the line: it is not bridged.
+    // A point that is not shown interrupts the line.
     bool open = false;
     for (size_t i = 0; i < s.x.size(); ++i) {
       if (!shown(s, i)) {
@@ -292,7 +292,7 @@ void SvgPainter::frame() {
           "\" fill=\"none\" stroke=\"#444b55\" stroke-width=\"1.4\"/>\n";
 }
 
-/// Where the legend stands: in the corner that has the fewest points behind it.
+/// Position of the legend: the corner with the fewest points behind it.
 std::pair<double, double> SvgPainter::legend_place(double width, double height) const {
   constexpr double margin = 12;
   using Place = std::pair<double, double>;
@@ -335,8 +335,7 @@ void SvgPainter::legend() {
         longest, static_cast<size_t>(std::count_if(clean.begin(), clean.end(),
                                                    [](char c) { return (c & 0xC0) != 0x80; })));
   }
-  // An SVG cannot measure text; 8.6 units a letter is what DejaVu Sans, the widest of the fonts
-  // named, takes.
+  // SVG cannot measure text; 8.6 units a letter suit DejaVu Sans, the widest of the named fonts.
   const double width = std::min(62 + 8.6 * static_cast<double>(longest), (x_.to - x_.from) - 24);
   const double height = legend_line * static_cast<double>(entries.size()) + 12;
   const auto [x, y] = legend_place(width, height);

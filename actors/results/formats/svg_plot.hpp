@@ -1,7 +1,6 @@
 // Line plots as self-contained SVG: several series with error bars, linear or logarithmic axes, a
-// reference slope, a legend. For error against particles and seconds, and whatever else is a curve.
-// The text is plain XML with a sans-serif font and no scripts; equal content gives equal bytes. Any
-// thread.
+// reference slope, a legend; used for error against particles and seconds. The text is plain XML
+// with a sans-serif font and no scripts; equal content gives equal bytes. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -29,8 +28,8 @@ struct PlotSeries {
   std::vector<std::string> labels = {};  // beside the points; empty: none
 };
 
-/// A dashed line of known slope through the first point that is shown of the first series: y ~
-/// x^slope on two logarithmic axes, y = slope x + constant on two linear ones.
+/// A dashed line of known slope through the first shown point of the first series: y ~ x^slope on
+/// two logarithmic axes, y = slope x + constant on two linear ones.
 struct PlotReference {
   double slope = -0.5;
   std::string label = "slope −1/2";
@@ -49,9 +48,9 @@ struct SvgPlot {
   int height = 640;
 };
 
-/// The SVG. Points that are not finite, or not above zero on a logarithmic axis, are left out and
-/// counted in a line below the plot. Errors: a series whose columns differ in length, too much of
-/// anything, a reference slope with one logarithmic axis.
+/// The SVG. Points that are not finite, or not positive on a logarithmic axis, are left out and
+/// counted in a line below the plot. Errors: a series whose columns differ in length, more than the
+/// limits, a reference slope with one logarithmic axis.
 Result<std::string> svg_plot_text(const SvgPlot& plot, const SourcePlace& place);
 /// Errors: as svg_plot_text and write_file_atomically.
 Result<void> write_svg_plot(const std::filesystem::path& path, const SvgPlot& plot);

@@ -16,7 +16,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "GLB files are little-endian");
 
-// Numbers of glTF 2.0.
+// Constants of glTF 2.0.
 constexpr int component_float = 5126, component_uint = 5125;
 constexpr int target_vertices = 34962, target_indices = 34963;
 constexpr uint32_t glb_magic = 0x46546C67, glb_version = 2;
@@ -41,13 +41,13 @@ Json numbers(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
 
-/// From z up to y up. Exact.
+/// From z up to y up, exactly.
 template <class Vector>
 Vector y_up(const Vector& v) {
   return {v.x, v.z, -v.y};
 }
 
-/// Turns local -Z to `direction`, and local +Y as near to `up` as can be.
+/// Rotates local -Z to `direction`, and local +Y as close to `up` as possible.
 Json rotation_to(const glm::dvec3& direction, glm::dvec3 up) {
   const glm::dvec3 z = -glm::normalize(direction);
   if (std::abs(glm::dot(z, glm::normalize(up))) > 0.999) up = glm::dvec3(0, 1, 0);
@@ -57,7 +57,7 @@ Json rotation_to(const glm::dvec3& direction, glm::dvec3 up) {
   return {q.x, q.y, q.z, q.w};
 }
 
-/// The parts of the file, as they are put together.
+/// Collects the parts of the file.
 class GlbWriter {
  public:
   Result<std::string> write(const GlbScene& scene) {
@@ -79,7 +79,7 @@ class GlbWriter {
                       {"byteOffset", static_cast<int64_t>(binary_.size())},
                       {"byteLength", static_cast<int64_t>(bytes)},
                       {"target", target}});
-    binary_.append(static_cast<const char*>(data), bytes);  // all are of four bytes
+    binary_.append(static_cast<const char*>(data), bytes);  // all values are of four bytes
     return static_cast<int>(views_.size()) - 1;
   }
 
@@ -164,7 +164,7 @@ class GlbWriter {
   }
 
   void add_node(Json node) {
-    children_.push_back(static_cast<int64_t>(nodes_.size()) + 1);  // behind the root
+    children_.push_back(static_cast<int64_t>(nodes_.size()) + 1);  // children follow the root
     nodes_.push_back(std::move(node));
   }
 
@@ -200,7 +200,7 @@ class GlbWriter {
     return out;
   }
 
-  /// Chunks are filled up to four bytes: the text with blanks, the numbers are of four bytes.
+  /// Chunks are padded to four bytes: the text with blanks; the numbers are of four bytes.
   Result<std::string> file_of(std::string head) const {
     head.resize((head.size() + 3) / 4 * 4, ' ');
     const uint64_t all = 12 + 8 + head.size() + 8 + binary_.size();

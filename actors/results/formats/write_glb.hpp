@@ -1,7 +1,7 @@
-// A building, perhaps with its light, for programs that read glTF 2.0: one GLB file. Meshes that
-// carry linear colours in their vertices are drawn as they are (KHR_materials_unlit); lights are
-// those of KHR_lights_punctual. Coordinates are the scene's, z up [m], and are written as glTF has
-// them, y up, to the bit. Writes only. Any thread.
+// Writes a building, perhaps with its light, as one glTF 2.0 file (GLB). Meshes with linear vertex
+// colours are drawn unlit (KHR_materials_unlit); lights are those of KHR_lights_punctual.
+// Coordinates are the scene's, z up [m], and are written y up, as glTF requires, without rounding.
+// Any thread.
 #pragma once
 
 #include <array>
@@ -17,15 +17,15 @@
 namespace luxodus {
 
 namespace limits {
-/// A GLB file counts its bytes in 32 bits.
+/// A GLB file states its size in 32 bits.
 inline constexpr uint64_t glb_bytes = (uint64_t{1} << 32) - 1;
 }  // namespace limits
 
-/// Triangles are seen from the side from which their corners run counter-clockwise.
+/// The front of a triangle is the side from which its corners run counter-clockwise.
 struct GlbMesh {
   std::string name;
   std::vector<glm::vec3> points;    // relative to the scene's origin [m], finite
-  std::vector<glm::vec3> colours;   // of each point: linear RGB, 1 is white; or none
+  std::vector<glm::vec3> colours;   // of each point: linear RGB, 1 is white; or empty
   std::vector<uint32_t> triangles;  // three points each
   std::string material = "light as traced";
 };
@@ -35,8 +35,8 @@ struct GlbLight {
   glm::dvec3 position{0};                 // relative to the scene's origin [m]
   std::array<double, 3> colour{1, 1, 1};  // linear RGB, the largest 1
   double intensity_cd = 0;
-  /// Of one that shines one way: where, and half its cone [rad], from full to none. 0: to all
-  /// sides.
+  /// For a light in one direction: the direction, and its half cone [rad], over which it falls from
+  /// full to none. 0: to all sides.
   glm::dvec3 direction{0, 0, -1};
   double inner_rad = 0, outer_rad = 0;
   Json extras;

@@ -1,4 +1,4 @@
-// The file is an XML head whose DataArray elements name offsets into one appended section: each
+// The file is an XML head whose DataArray elements give offsets into one appended section: each
 // array there is a UInt64 byte count followed by its bytes. The head is made while the arrays are
 // appended.
 #include "actors/results/formats/write_vtk.hpp"
@@ -25,7 +25,7 @@ constexpr const char* vtk_type() {
   if constexpr (std::is_same_v<T, int64_t>) return "Int64";
 }
 
-/// Collects the appended section and hands out the elements that point into it.
+/// Collects the appended section and returns the elements that refer to it.
 class Appended {
  public:
   template <class T>
@@ -146,7 +146,7 @@ Result<void> write_vtp(const std::filesystem::path& path, const VtkSurface& surf
           "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
           std::to_string(surface.triangles.size()) + "\">\n";
   head += cell_data_elements(surface.cell_data, appended);
-  // One statement each: the order in which operands of + are evaluated is not defined.
+  // Separate statements, because the evaluation order of operands of + is not defined.
   head += "      <Points>\n";
   head += appended.element("Points", 3, points);
   head += "      </Points>\n      <Polys>\n";

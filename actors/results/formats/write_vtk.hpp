@@ -1,6 +1,6 @@
-// Results for ParaView and every other program that reads VTK's XML files: surfaces as PolyData
+// Writes results for ParaView and other programs that read VTK's XML files: surfaces as PolyData
 // (.vtp), volumes as ImageData (.vti), values per cell. Raw appended binary, UInt64 sizes, little
-// endian, file version 1.0 (VTK User's Guide, "VTK XML file formats"). Writes only. Any thread.
+// endian, file version 1.0 (VTK User's Guide, "VTK XML file formats"). Any thread.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 namespace luxodus {
 
 namespace limits {
-/// Cells or points of one file; 2^31 - 1 is where 32-bit readers end.
+/// Limit on cells or points of a file: readers with 32-bit indices end at 2^31 - 1.
 inline constexpr uint64_t max_vtk_cells = (uint64_t{1} << 31) - 1;
 }  // namespace limits
 
@@ -31,7 +31,7 @@ struct VtkArray {
 };
 
 struct VtkSurface {
-  std::string comment;                // stands at the top of the file
+  std::string comment;                // the comment at the top of the file
   std::vector<glm::dvec3> points;     // [m], finite
   std::vector<glm::uvec3> triangles;  // indices of points
   std::vector<VtkArray> cell_data;    // per triangle
@@ -45,7 +45,7 @@ struct VtkVolume {
   std::vector<VtkArray> cell_data;  // per voxel
 };
 
-/// Errors: an array of the wrong length or without a name of its own, an index out of range, a
+/// Errors: an array of the wrong length or without a unique name, an index out of range, a
 /// coordinate that is not finite; else as write_file_atomically.
 Result<void> write_vtp(const std::filesystem::path& path, const VtkSurface& surface);
 Result<void> write_vti(const std::filesystem::path& path, const VtkVolume& volume);

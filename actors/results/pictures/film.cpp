@@ -19,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How far ahead somebody looks who walks [m].
+/// How far ahead a walking person looks [m].
 constexpr double look_ahead_m = 1.5;
-/// What is so near is the same place, as in a hairpin bend [m].
+/// Points closer than this are the same place, as in a hairpin bend [m].
 constexpr double same_place_m = 1e-3;
-/// A mean of two gazes that is as short has no direction.
+/// A mean of two gazes shorter than this has no direction.
 constexpr double min_gaze = 1e-3;
 
 Camera camera_at(const EscapeRoute& route, double along_m, const FilmedWalk& walk,
@@ -60,9 +60,9 @@ Result<void> make_frame_folder(const fs::path& folder) {
   return {};
 }
 
-/// Between two frames' keys: a cubic Hermite spline whose tangents are those of the parabola
-/// through three keys, and at the ends the straight line's. `at` of the way from key `i` to the
-/// next.
+/// Interpolates between two keys: a cubic Hermite spline whose tangents are those of the parabola
+/// through three keys, and at the ends those of the straight line. `at`: position from key `i` to
+/// the next, 0 to 1.
 glm::dvec3 between(const std::vector<double>& times, const std::vector<glm::dvec3>& values,
                    size_t i, double at) {
   const auto slope = [&](size_t k) {
@@ -92,7 +92,7 @@ Problem too_many_frames(const SourcePlace& place, const std::string& of, double 
 Result<std::vector<Camera>> cameras_of(const EscapeRoute& route, const FilmedWalk& walk,
                                        const Camera& lens) {
   const double step_m = walk.speed_m_s / walk.frames_per_s;
-  // A step that ends at the end but for rounding is one.
+  // A step that ends at the end but for rounding counts.
   const double steps = std::floor(length_of(route) / step_m * (1 + 1e-12));
   if (!(steps < limits::max_film_frames))
     return problem_in(route.place,
@@ -123,7 +123,7 @@ Result<std::vector<Camera>> cameras_through(const std::vector<Keyframe>& keys, d
   }
   if (keys.size() < 2) return problem("a film goes through two cameras at least");
   const double seconds = times.back() - times.front();
-  // A frame at the end but for rounding is one.
+  // A frame at the end but for rounding counts.
   const double frames = std::floor(seconds * frames_per_s * (1 + 1e-12));
   if (!(frames < limits::max_film_frames))
     return too_many_frames(keys[0].camera.place, "film from camera \"" + keys[0].camera.name + "\"",
@@ -171,7 +171,7 @@ std::string name_of_frame(size_t frame) {
 
 namespace {
 
-/// Frames of one state, with which the flux travels.
+/// Frames that share a state, and with it one transfer of the flux.
 constexpr size_t frames_of_a_state = 16;
 
 std::vector<TiledView> frames_from(const std::vector<Camera>& cameras, size_t first) {
@@ -196,7 +196,7 @@ class FramesOfRun {
         options_(options),
         flux_(picture_flux(run, options)) {}
 
-  /// False where it was interrupted. Errors: as write_shown_png.
+  /// False if it was interrupted. Errors: as write_shown_png.
   Result<bool> render(size_t k, const std::function<void(double frames)>& progress) {
     const Camera& camera = film_.cameras[k];
     ViewPasses view(run_, camera, 0, flux_.radiance.get(), flux_.sight);
@@ -222,7 +222,7 @@ class FramesOfRun {
   const Film& film_;
   const PictureOptions& options_;
   const PictureFlux flux_;
-  std::optional<PictureExecutor> elsewhere_;  // where others trace
+  std::optional<PictureExecutor> elsewhere_;  // traces on other nodes
 };
 
 }  // namespace
@@ -265,15 +265,15 @@ Result<size_t> render_film(const fs::path& folder, const FilmedStates& states, c
 
 Result<bool> write_video(const fs::path& file, const fs::path& folder, size_t frames,
                          double frames_per_s) {
-  // Under another name until it is whole. It runs where the frames are: in a folder's name a %
-  // would stand for a number.
+  // Written under another name until complete. ffmpeg runs in the folder of the frames, because a %
+  // in a folder's name would stand for a number.
   const fs::path unfinished =
       fs::absolute(file.parent_path()) / (".unfinished-" + file.filename().string());
   const fs::path said = file.parent_path() / (".said-" + file.filename().string() + ".txt");
   const auto code = run_program({"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y",
                                  "-framerate", fmt::format("{:g}", frames_per_s), "-i", "%06d.png",
                                  "-frames:v", std::to_string(frames), "-vf",
-                                 // H.264 takes even edges.
+                                 // H.264 requires even edges.
                                  "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p",
                                  "-movflags", "+faststart", unfinished.string()},
                                 said, folder);

@@ -18,13 +18,14 @@ namespace luxodus {
 namespace {
 
 constexpr size_t max_voxel_table_bytes = size_t{256} << 20;
-/// Of a voxel's light, what its second differences to its neighbours may be where eyes read it.
+/// Largest share of a voxel's light in second differences to its neighbours at which eyes read it.
 /// With 0.75 and more the veil in the kitchen was 3 % too bright.
 constexpr double most_curved = 0.5;
-/// Of all light in a voxel, what the third moment of the scattered light is unknown by, after one
-/// more scattering, where eyes read it. Without a limit the veil in haze was 4 to 6 % too bright.
+/// Largest share of all light in a voxel by which the third moment of the scattered light may be
+/// unknown, after one more scattering, if eyes read it. Without a limit the veil in haze was 4 to 6
+/// % too bright.
 constexpr double most_unknown = 0.2;
-/// Voxels along an edge of a block whose light errs alike.
+/// Edge of a block, in voxels, whose errors are taken as fully correlated.
 constexpr uint32_t err_alike = 2;
 
 class FluxRadiance final : public KnownRadiance {
@@ -79,7 +80,7 @@ class FluxRadiance final : public KnownRadiance {
     uint32_t voxel = voxel_of(grid, place);
     for (int axis = 0; axis < 3; ++axis) {
       const Real cell = std::floor(at[axis]);
-      const Real off = at[axis] - cell - 0.5_r;  // from the voxel's middle
+      const Real off = at[axis] - cell - 0.5_r;  // from the voxel's centre
       if (chance[axis] >= std::abs(off)) continue;
       const int next = static_cast<int>(cell) + (off > 0 ? 1 : -1);
       if (next < 0 || next >= count[static_cast<size_t>(axis)]) continue;
@@ -100,8 +101,8 @@ class FluxRadiance final : public KnownRadiance {
     return turned(values, direction, phase, which);
   }
 
-  /// By the errors of a voxel's quantities as if they were independent: the squares of what each
-  /// changes in `turned`.
+  /// Propagates the errors of a voxel's quantities as if they were independent: sums the squares of
+  /// the changes of `turned`.
   KnownError error_of_medium(uint32_t voxel, const Vec3& direction, const PhaseFunction& phase,
                              Known which) const override {
     std::array<Estimate, voxel_quantities> read;
@@ -129,8 +130,9 @@ class FluxRadiance final : public KnownRadiance {
   }
 
  private:
-  /// A voxel is known where its volume is, but for the inside of flames; and of light straight from
-  /// emitters, which varies beside them, where none is within an edge.
+  /// Marks voxels that are known: their gas volume is, and they are not inside flames. Light
+  /// straight from emitters, which varies close to them, is known where no emitter is within an
+  /// edge.
   void find_known_voxels() {
     const LitPlaces lit{
         [&](uint32_t voxel) { return lumens(scene_.blocks.voxels, voxel, 0).value > 0; },
@@ -151,7 +153,7 @@ class FluxRadiance final : public KnownRadiance {
   double side_lm_m2(const TriangleRecord& t, bool front) const {
     const uint32_t side = uint32_t{t.subdivision} * t.subdivision;
     const uint32_t first = t.first_patch + (front ? 0 : side);
-    double most = 0;  // of in and out: a pane lets light out that has come in by its other side
+    double most = 0;  // of light in and out: a pane transmits light that entered on its other side
     for (const uint32_t quantity : {0u, 1u}) {
       double sum = 0;
       for (uint32_t patch = first; patch < first + side; ++patch)
@@ -162,7 +164,7 @@ class FluxRadiance final : public KnownRadiance {
     return most / (surface.one_patch ? surface.area_m2 : side * surface.patch_area_m2(t));
   }
 
-  /// Calls visit(neighbour) for the voxels side by side with one that are known and joined to it.
+  /// Calls visit(neighbour) for adjacent voxels that are known and connected to it.
   template <class Visit>
   void for_each_neighbour(size_t voxel, Visit&& visit) const {
     const VoxelGrid& grid = scene_.voxels;
@@ -179,8 +181,8 @@ class FluxRadiance final : public KnownRadiance {
     }
   }
 
-  /// A voxel's mean, and what lies between two of them, are smoother than the light: by an eighth
-  /// of its second differences, which is taken off here.
+  /// A voxel's mean, and the interpolation between means, are smoother than the light by an eighth
+  /// of the second differences, which is subtracted here.
   void sharpen_voxels() {
     eyes_read_.assign(known_.size(), false);
     if (voxels_.empty()) return;
@@ -199,7 +201,7 @@ class FluxRadiance final : public KnownRadiance {
     }
   }
 
-  /// Whether taking off an eighth of the second differences does.
+  /// Whether subtracting an eighth of the second differences is enough.
   bool is_even(const std::vector<float>& means, size_t voxel) const {
     const double light = luminous(means, voxel, first_scattered_quantity);
     double second = 0;
@@ -208,9 +210,9 @@ class FluxRadiance final : public KnownRadiance {
     return std::abs(second) <= most_curved * light;
   }
 
-  /// Of all light in a voxel, about what the third moment of the scattered light is unknown by
-  /// after one more scattering. Of a beam and of light from everywhere it is known; between them a
-  /// mean cosine m leaves it open by some m (1 - m^2). Scattering leaves g^3 of it, which weighs 7
+  /// The share of a voxel's light by which the third moment of the scattered light is unknown,
+  /// after one more scattering. It is known for a beam and for isotropic light; for a mean cosine m
+  /// between them it is uncertain by about m (1 - m^2). Scattering keeps g^3 of it, and it weighs 7
   /// times as much as the fluence.
   double unknown_share(const std::vector<float>& means, size_t voxel) const {
     const double all = luminous(means, voxel, 0);
@@ -227,7 +229,7 @@ class FluxRadiance final : public KnownRadiance {
     return voxel_quantities * (voxel * bands_ + band) + quantity;
   }
 
-  /// A quantity of a voxel in all bands, from `values` that are placed like `voxels_`.
+  /// A quantity of a voxel in lumens over all bands, from `values` laid out like `voxels_`.
   double luminous(const std::vector<float>& values, size_t voxel, size_t quantity) const {
     double sum = 0;
     for (size_t b = 0; b < bands_; ++b)
@@ -236,7 +238,7 @@ class FluxRadiance final : public KnownRadiance {
     return sum;
   }
 
-  /// In the voxels of a cube.
+  /// Lowers to `most` what is known of the voxels in a cube.
   void know_at_most(Known most, const Vec3& centre, Real reach) {
     const VoxelGrid& grid = scene_.voxels;
     const glm::vec3 middle = (glm::vec3(centre) - grid.low) / grid.edge;
@@ -254,7 +256,7 @@ class FluxRadiance final : public KnownRadiance {
     }
   }
 
-  /// Voxels that err alike: a particle leaves light in several side by side.
+  /// Voxels whose errors are correlated: a particle scores in several adjacent ones.
   uint64_t block_of(uint32_t voxel) const {
     const auto nx = static_cast<uint32_t>(scene_.voxels.nx);
     const auto ny = static_cast<uint32_t>(scene_.voxels.ny);
@@ -268,8 +270,9 @@ class FluxRadiance final : public KnownRadiance {
     return t.first_patch + (front ? 0 : n * n) + sub_triangle(hit.u, hit.v, n);
   }
 
-  /// What one scattering sends against `direction` of a voxel's light. All light by its moments up
-  /// to the first; scattered light, which eyes look at straight, by those up to the second.
+  /// Radiance that one scattering sends against `direction` from a voxel's light. For all light
+  /// from the moments up to the first; for scattered light, which eyes see directly, up to the
+  /// second.
   static double turned(const float* values, const Vec3& direction, const PhaseFunction& phase,
                        Known which) {
     if (which == Known::scattered) values += first_scattered_quantity;
@@ -298,9 +301,8 @@ class FluxRadiance final : public KnownRadiance {
           static_cast<float>(readout_.watts(scene_.blocks.voxels, voxel, band, q).value / volume);
   }
 
-  /// Every path that ends in a voxel reads it in all bands: from sums of 128 bits that takes longer
-  /// than to trace the path. Where there are too many voxels for that, they are read as they are
-  /// asked for.
+  /// Every path that ends in a voxel reads all its bands, and reading 128-bit sums takes longer
+  /// than tracing the path. So they are converted once; if there are too many voxels, on demand.
   void fill_voxels() {
     const size_t bytes =
         known_.size() * voxel_quantities * (bands_ * sizeof(float) + sizeof(Estimate));
@@ -323,8 +325,8 @@ class FluxRadiance final : public KnownRadiance {
                  [&] { return fill_row; });
   }
 
-  /// Of all source groups. A group of one batch does not know its error: what it brings counts as
-  /// quite uncertain.
+  /// Sums all source groups. A group with one batch has no error estimate: its contribution counts
+  /// as fully uncertain.
   Estimate lumens(uint32_t block, uint32_t bin, uint32_t quantity) const {
     Estimate sum;
     double variance = 0;

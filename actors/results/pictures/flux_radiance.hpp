@@ -1,5 +1,5 @@
-// Light that paths of pictures end in: what a run has counted in patches and voxels, as radiance.
-// Its own errors are common to all paths that end there. Made after a run; then any thread.
+// The radiance that paths of pictures end in: a run's counts on patches and in voxels. All paths
+// that end there share its errors. Made after a run; then immutable, any thread.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace luxodus {
 
-/// Outgoing radiance of every patch of the run, spread evenly over directions; and of smoke, by
-/// the fluence and the net flux of its voxels. Requires: the run outlives it and traces nothing
-/// meanwhile. Throws std::runtime_error where a packed scene cannot be read.
+/// Outgoing radiance of every patch of the run, uniform over directions; and of smoke, from the
+/// fluence and the net flux of its voxels. Requires: the run outlives it and traces nothing
+/// meanwhile. Throws std::runtime_error if a packed scene cannot be read.
 std::unique_ptr<KnownRadiance> flux_radiance(const LocalRun& run);
 
 }  // namespace luxodus

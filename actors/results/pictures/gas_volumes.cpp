@@ -16,24 +16,24 @@
 namespace luxodus {
 
 namespace limits {
-/// Of a voxel: more cost more than they tell.
+/// Triangles in a voxel: more are not worth their cost.
 inline constexpr size_t triangles_in_voxel = 512;
-/// Pairs of a voxel and a triangle; where there are more, no voxel that a surface touches is known.
+/// Pairs of a voxel and a triangle; with more, no voxel that touches a surface is known.
 inline constexpr size_t voxel_triangles = 2'000'000;
-/// Of a voxel's volume: less is not known well enough.
+/// Smallest share of a voxel's volume that is known well enough.
 inline constexpr float least_gas = 1.0f / 16;
-/// Of the light that borders of a voxel's parts get: a part with less is the inside of something
-/// solid, where single precision has let a particle in.
+/// Share of the light that reaches a voxel's parts: a part with less is the inside of a solid that
+/// a particle has entered by rounding.
 inline constexpr float dark_share = 1e-3f;
 }  // namespace limits
 
 namespace {
 
-/// A voxel's places that are told apart: a lattice of posts. The outer ones stand just inside the
-/// voxel's faces, on the near side of a wall that runs along one.
+/// Sample points of a voxel: a lattice of posts. The outer ones lie just inside the voxel's faces,
+/// on the near side of a wall that coincides with one.
 constexpr int posts = 5;
 constexpr int all_posts = posts * posts * posts;
-constexpr double inset = 1e-3;  // of an edge
+constexpr double inset = 1e-3;  // share of an edge
 constexpr std::array<double, posts> post_at = {inset, 0.25, 0.5, 0.75, 1 - inset};
 constexpr int post_of(const glm::ivec3& p) {
   return (p.z * posts + p.y) * posts + p.x;
@@ -49,21 +49,21 @@ void for_each_post(Visit&& visit) {
       for (int x = 0; x < posts; ++x) visit(glm::ivec3(x, y, z));
 }
 
-/// Points of a voxel whose share says its volume.
+/// Points by which a voxel's volume is estimated.
 constexpr int volume_points = 256;
-/// Of an edge: what lies so near to a voxel's face may be on either side, by rounding.
+/// Share of an edge: points this close to a voxel's face may be on either side, by rounding.
 constexpr float rounding = 1e-3f;
-/// By how much of its size a triangle is wider than it says: no line slips through a seam.
+/// Share by which triangles are enlarged, so that no line passes through a seam.
 constexpr double seam = 1e-6;
 constexpr uint8_t no_part = 255;
 
 /// In edges of the grid, from its corner.
 struct Triangle {
   glm::dvec3 corner, side_a, side_b;
-  double light[2];  // that its front and its back get [lm/m2]
+  double light[2];  // light on its front and its back [lm/m2]
 };
 
-/// Where a line meets a triangle, by its length; beyond 1: nowhere.
+/// Where a line meets a triangle, as a share of its length; beyond 1: nowhere.
 constexpr double nowhere = 2;
 double crossing(const Triangle& t, const glm::dvec3& from, const glm::dvec3& way) {
   const glm::dvec3 p = glm::cross(way, t.side_b);
@@ -79,7 +79,7 @@ double crossing(const Triangle& t, const glm::dvec3& from, const glm::dvec3& way
   return along >= 0 && along <= 1 ? along : nowhere;
 }
 
-/// Sets that grow together, by number.
+/// A union-find structure over numbers.
 class JoinedSets {
  public:
   explicit JoinedSets(size_t count) : parent_(count) {
@@ -95,14 +95,14 @@ class JoinedSets {
   std::vector<uint32_t> parent_;
 };
 
-/// A voxel that surfaces touch, and the parts that they cut it into.
+/// A voxel that touches surfaces, and the parts that they divide it into.
 struct CutVoxel {
   uint32_t voxel = 0;
-  uint32_t first = 0, count = 0;  // among the pairs
-  uint8_t parts = 0;              // 0: too many triangles to tell
+  uint32_t first = 0, count = 0;  // range among the pairs
+  uint8_t parts = 0;              // 0: too many triangles to decide
   std::array<uint8_t, all_posts> part;
-  std::vector<float> light;  // of parts, where there are several: the most that a side gets which
-                             // they border on [lm/m2]
+  std::vector<float> light;  // of each part, if there are several: the largest light on a side that
+                             // borders it [lm/m2]
 };
 
 class GasVolumes {
@@ -200,7 +200,7 @@ class GasVolumes {
                  in_edges(t.corner[1]) - corner,
                  in_edges(t.corner[2]) - corner,
                  {lit_.side_lm_m2(t, true), lit_.side_lm_m2(t, false)}};
-    // The front is where the normal says, whichever way the corners go around.
+    // The normal defines the front, whatever the order of the corners.
     if (glm::dot(glm::cross(own.side_a, own.side_b), glm::dvec3(n)) < 0)
       std::swap(own.light[0], own.light[1]);
     triangles_.push_back(own);
@@ -225,14 +225,14 @@ class GasVolumes {
     }
   }
 
-  /// Whether nothing of a voxel's is in the way. Places in edges of the grid.
+  /// Whether no triangle of a voxel is between two places, in edges of the grid.
   bool clear(const CutVoxel& c, const glm::dvec3& from, const glm::dvec3& to) const {
     for (uint32_t i = c.first; i < c.first + c.count; ++i)
       if (crossing(triangles_[pairs_[i].triangle], from, to - from) <= 1) return false;
     return true;
   }
 
-  /// What the side gets that is first in the way [lm/m2].
+  /// The light on the first side between two places [lm/m2].
   float light_ahead(const CutVoxel& c, const glm::dvec3& from, const glm::dvec3& to) const {
     double nearest = nowhere, light = 0;
     for (uint32_t i = c.first; i < c.first + c.count; ++i) {
@@ -298,7 +298,7 @@ class GasVolumes {
   // ---- where light has been
   // ---------------------------------------------------------------------
 
-  /// Of each part of each voxel, by number, whether light has been in the gas that it is joined to.
+  /// For each part of each voxel, by number: whether light has been in the gas connected to it.
   std::vector<char> follow_light() {
     first_set_.resize(grid_.count() + size_t{1});
     for (uint32_t v = 0; v < grid_.count(); ++v) {
@@ -352,10 +352,10 @@ class GasVolumes {
     });
   }
 
-  /// Pairs of parts, by number, of posts on both sides of a face with nothing between.
+  /// Pairs of parts, by number, with posts on both sides of a face and nothing between them.
   using Joins = std::vector<std::pair<uint32_t, uint32_t>>;
 
-  /// With the voxel's neighbour along an axis. Of two that are cut, the lower one looks.
+  /// Joins to the voxel's neighbour along an axis. If both are cut, only the lower one is asked.
   Joins find_joins(const CutVoxel& c, int axis, int step) const {
     Joins joins;
     if (c.parts == 0) return joins;
@@ -403,7 +403,7 @@ class GasVolumes {
     return share >= limits::least_gas ? share : 0;
   }
 
-  /// The part that a place of the voxel is of: that of a post around it that it sees; -1: none.
+  /// The part that a place of the voxel belongs to: that of a visible post around it; -1: none.
   int part_at(const CutVoxel& c, const glm::dvec3& place) const {
     const glm::dvec3 low(cell_of(c.voxel));
     const glm::dvec3 scaled = place * static_cast<double>(posts - 1);
@@ -426,7 +426,7 @@ class GasVolumes {
   std::vector<Triangle> triangles_;
   std::vector<Pair> pairs_;
   std::vector<CutVoxel> cut_;
-  std::vector<uint32_t> cut_at_;     // by voxel; none_index: nothing touches it
+  std::vector<uint32_t> cut_at_;     // by voxel; none_index: no surface touches it
   std::vector<uint32_t> first_set_;  // by voxel
   std::optional<JoinedSets> sets_;
   LitGas gas_;

@@ -1,6 +1,6 @@
-// Which part of a voxel is gas that light passes. A voxel counts all light in its cube, so its mean
-// needs the volume that the light fills, and no wall may part two rooms in it. Threads of its own;
-// what it asks of the run it asks on the caller's.
+// Finds the part of each voxel that is gas reached by light. A voxel counts all light in its cube,
+// so its mean needs the volume that the light fills, and no wall may divide it between two rooms.
+// It uses threads of its own; callbacks run on the caller's thread.
 #pragma once
 
 #include <functional>
@@ -11,24 +11,24 @@
 
 namespace luxodus {
 
-/// What a run knows of where light has been.
+/// What a run knows about where light has been.
 struct LitPlaces {
-  std::function<bool(uint32_t voxel)> voxel;  // whether it has passed a voxel
-  /// What a side of a triangle gets, or lets through.
+  std::function<bool(uint32_t voxel)> voxel;  // whether light has passed a voxel
+  /// Light that reaches a side of a triangle, or passes through it.
   std::function<double(const TriangleRecord& triangle, bool front)> side_lm_m2;
 };
 
-/// Of each voxel; empty without voxels.
+/// For each voxel; empty without voxels.
 struct LitGas {
-  /// The share of its volume that lit gas fills, known to 1 %; 0 where a wall parts two lit places
-  /// in it, or where little is left or too many triangles meet: no light may be read there.
+  /// The share of its volume that lit gas fills, known to 1 %; 0 if a wall divides two lit places
+  /// in it, if little gas is left, or if too many triangles meet: its light may not be read then.
   std::vector<float> share;
   /// Bits: whether most of the face to the next voxel along x, y, z is open.
   std::vector<uint8_t> open;
 };
 
-/// Gas is followed from lit voxels that nothing solid touches through gaps as wide as a quarter of
-/// an edge: what is narrower does not count. Errors: a packed scene that cannot be read.
+/// Gas is followed from lit voxels without surfaces through gaps at least a quarter of an edge
+/// wide; narrower ones do not count. Errors: a packed scene that cannot be read.
 Result<LitGas> find_lit_gas(const CompiledScene& scene, const LitPlaces& lit, int threads);
 
 }  // namespace luxodus

@@ -10,18 +10,18 @@ namespace luxodus {
 
 namespace {
 
-/// With fewer paths a half has less than six to know its error by.
+/// With fewer paths a half has less than six to estimate its error from.
 constexpr int least_paths = 16;
-/// Of every four paths a half has two: so both ends of a pixel are multiples.
+/// Each half has two of every four paths, so both ends of a pixel are multiples of this.
 constexpr int step = 4;
 constexpr double most_times = 32;
 /// A pixel darker than this share of the mean counts as that bright.
 constexpr double dark = 0.05;
-/// A pixel is taken to err as much as those around it, as far as this: who has missed rare paths
-/// knows neither its error nor whom it is like.
+/// A pixel's error is taken as the mean over its neighbours up to this far: a pixel that missed
+/// rare paths knows neither its error nor which pixels it resembles.
 constexpr int shared_reach_px = 1;
 
-/// What one half knows of the luminance of all pixels.
+/// The luminance of all pixels, from one half.
 UncertainLight luminance_of(const std::vector<PixelSums>& pixels, size_t half) {
   UncertainLight out;
   for (const PixelSums& sums : pixels) {
@@ -34,7 +34,7 @@ UncertainLight luminance_of(const std::vector<PixelSums>& pixels, size_t half) {
   return out;
 }
 
-/// Of every pixel, the square of the relative error that the filter will leave, as one half knows.
+/// For every pixel, the squared relative error that the filter will leave, estimated from one half.
 std::vector<float> squared_errors(const UncertainLight& light, int width, int height,
                                   const ShareWork& share) {
   const std::vector<float> errors =
@@ -56,14 +56,14 @@ std::vector<float> squared_errors(const UncertainLight& light, int width, int he
   return out;
 }
 
-/// Where paths end by which an error falls to the allowed one.
+/// The number of paths at which an error falls to the allowed one.
 int end_of(float squared_error, double allowed, int paths) {
   const double times = std::clamp(static_cast<double>(squared_error) / allowed, 1.0, most_times);
   const auto steps = static_cast<int>(std::ceil(paths / step * times));
   return std::min(step * steps, limits::max_paths_per_pixel);
 }
 
-/// The least squared error to which all pixels can be brought.
+/// The least squared error that all pixels can reach.
 double attainable(const std::vector<float>& squared_errors, int paths, int more) {
   const auto needed = [&](double allowed) {
     double sum = 0;
@@ -95,7 +95,7 @@ std::vector<HalfEnds> allocate_paths(const std::vector<PixelSums>& pixels, int w
     const std::vector<float> errors =
         squared_errors(luminance_of(pixels, 1 - half), width, height, share);
     const double allowed = attainable(errors, paths, more);
-    if (!(allowed > 0)) continue;  // there is no light, or no doubt of it
+    if (!(allowed > 0)) continue;  // there is no light, or no error
     for (size_t i = 0; i < out.size(); ++i) out[i][half] = end_of(errors[i], allowed, paths);
   }
   return out;

@@ -1,6 +1,6 @@
-// A batch is 32 x 8 pixels with four paths each, some ten milliseconds, or with what is allocated
-// to them: what is lost with a node is little, and a lease, its flush and their answers are short
-// against it.
+// A batch is 32 x 8 pixels with four paths each, or with their allocated paths: some ten
+// milliseconds. So little is lost with a node, and a lease, its flush and their replies are short
+// in comparison.
 #include "actors/results/pictures/picture_tiles.hpp"
 
 #include <algorithm>
@@ -20,11 +20,11 @@ namespace luxodus {
 namespace {
 
 constexpr int tile_width = 32, tile_height = 8;
-/// Paths that are traced in one go, up to a pixel's: some milliseconds in thick smoke.
+/// Paths of a pixel traced without a pause: some milliseconds in thick smoke.
 constexpr int paths_of_portion = 32;
 
-/// A step is a stream of BatchRange: 0 is the first picture, 1 is what is allocated, then come four
-/// paths after four.
+/// A step is a stream of BatchRange: 0 is the first picture, 1 the allocated paths, then four paths
+/// each.
 constexpr int first_picture_step = 0, allocated_step = 1;
 constexpr int step_of(int path) {
   return 2 + path / PictureExecutor::paths_of_tile;
@@ -74,7 +74,7 @@ class TileWorker final : public BatchWorker {
     return done_ < sums_.size();
   }
 
-  /// A tile is a few pixels: it needs no rest.
+  /// A tile is a few pixels: merging needs no pauses.
   void merge_into(Totals& totals, const std::function<void()>&) override {
     std::vector<Total> bins;
     for (int row = area_.first_row; row < area_.end_row; ++row) {
@@ -196,7 +196,7 @@ class TilePass final : public Work {
   Totals& totals_;
   const int view_;
   const int64_t tiles_;
-  std::mutex mutex_;  // guards all below
+  std::mutex mutex_;  // guards all members below
   int step_;
   const int end_step_;
   int64_t tile_ = 0;
@@ -237,7 +237,7 @@ TiledView view_of(const Json& object) {
   return view;
 }
 
-/// Of what has come from elsewhere.
+/// Checks a view from another process.
 bool is_picture(const TiledView& view) {
   const Camera& camera = view.camera;
   return camera.width > 0 && camera.height > 0 && camera.width <= limits::max_picture_edge &&
@@ -247,7 +247,7 @@ bool is_picture(const TiledView& view) {
          camera.up != glm::dvec3(0) && view.number >> 16 == 0;
 }
 
-/// Ends are multiples of four, of 2^16 at most: two bytes each, the lower one first.
+/// Ends are multiples of four, up to 2^16: two bytes each, the lower one first.
 void add_ends(const std::vector<HalfEnds>& ends, std::string& text) {
   for (const HalfEnds& of_pixel : ends)
     for (const int end : of_pixel) {
@@ -257,8 +257,8 @@ void add_ends(const std::vector<HalfEnds>& ends, std::string& text) {
     }
 }
 
-/// Takes the ends of a view off the front of `bytes`. False where there are not as many, or one is
-/// out of range.
+/// Takes the ends of a view off the front of `bytes`. False if there are too few, or one is out of
+/// range.
 bool take_ends(std::string_view& bytes, int paths_per_pixel, TiledView& view) {
   const size_t pixels =
       static_cast<size_t>(view.camera.width) * static_cast<size_t>(view.camera.height);
@@ -350,7 +350,7 @@ Result<std::shared_ptr<const TracedState>> PictureStates::make(const std::string
   if (!pictures) return pictures.problem();
   auto radiance = radiance_of(pictures->flux);
   if (!radiance) return radiance.problem();
-  pictures->flux.clear();  // it is there as radiance
+  pictures->flux.clear();  // it is kept as radiance
   state_ = std::make_shared<PictureState>(run_, std::move(pictures).value(),
                                           std::move(radiance).value(), sight_);
   text_ = text;
@@ -367,7 +367,7 @@ struct KnownFlux {
 
 }  // namespace
 
-/// Pictures that follow one another end in the same flux.
+/// Consecutive pictures usually end in the same flux.
 Result<std::shared_ptr<const KnownRadiance>> PictureStates::radiance_of(const std::string& flux) {
   if (flux.empty()) return std::shared_ptr<const KnownRadiance>();
   if (flux == flux_) return radiance_;

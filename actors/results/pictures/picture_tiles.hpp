@@ -1,7 +1,7 @@
 // Pictures as work for an executor: a state of the scene whose batches are tiles of pictures.
-// Whoever traces them elsewhere knows the scene; cameras and the flux that paths end in come with
-// the state. Sums are whole numbers, so pixels are the same bits as those of threads
-// (ViewPasses::add), whoever traces which tile.
+// Tracers elsewhere know the scene; the state carries cameras and the flux that paths end in. Sums
+// are integers, so pixels are bit for bit those of threads (ViewPasses::add), whoever traces a
+// tile. PictureStates: any thread; all others: one thread at a time.
 #pragma once
 
 #include <memory>
@@ -19,33 +19,32 @@ namespace limits {
 inline constexpr size_t max_tiled_views = 4096;
 }  // namespace limits
 
-/// A picture that is made of tiles.
+/// A picture made of tiles.
 struct TiledView {
   Camera camera;
-  uint64_t number = 0;  // of the random numbers; see ViewPasses
-  bool first = false;   // whether its first picture is traced before it (ViewPasses::add_first)
-  /// Of all pixels, where paths end that are allocated (ViewPasses::allocate); none: there are
-  /// none.
+  uint64_t number = 0;  // seed part of its random numbers; see ViewPasses
+  bool first = false;   // whether a first picture is traced before it (ViewPasses::add_first)
+  /// Ends of the allocated paths of all pixels (ViewPasses::allocate); empty without allocation.
   std::vector<HalfEnds> ends = {};
 };
 
-/// What the tiles of a state are of.
+/// The pictures of a state.
 struct TiledPictures {
   std::vector<TiledView> views;
-  int paths_per_pixel = 0;  // at most; what is allocated follows
-  std::string flux;         // the bytes of a flux file, in which paths end; none: they do not
+  int paths_per_pixel = 0;  // at most; allocated paths follow
+  std::string flux;         // the bytes of the flux file that paths end in; "" if they do not
 };
 
-/// JSON, whose numbers read back to the same bits; behind it ends of paths, and the flux.
+/// JSON, whose numbers read back to the same bits, followed by ends of paths and the flux.
 std::string tiles_text(const TiledPictures& pictures);
-/// Errors: a text that is none; views that are no pictures, or take more memory than
+/// Errors: malformed text; views that are not pictures, or take more memory than
 /// limits::max_view_bytes; too many of them.
 Result<TiledPictures> parse_tiles(const std::string& text);
 
-/// A state whose batches are tiles: of view `group`, where `stream` says which paths of each pixel.
+/// A state whose batches are tiles: `group` is the view, `stream` selects the paths of each pixel.
 class PictureState final : public TracedState {
  public:
-  /// `flux`: of `pictures`, or null. `sight`: of make_emitter_sight.
+  /// `flux`: that of `pictures`, or null. `sight`: from make_emitter_sight.
   /// Requires: the run is resident, and outlives this.
   PictureState(const LocalRun& run, TiledPictures pictures,
                std::shared_ptr<const KnownRadiance> flux,
@@ -65,16 +64,15 @@ class PictureState final : public TracedState {
   const LocalRun& run_;
   const TiledPictures pictures_;
   const std::shared_ptr<const KnownRadiance> flux_;
-  const std::shared_ptr<const EmitterSight> sight_;  // of all workers
+  const std::shared_ptr<const EmitterSight> sight_;  // shared by all workers
   TallyLayout layout_;
 };
 
-/// Pictures of one run's scene, as nodes make them. The nodes of a process share the last that any
-/// of them was asked for. Any thread.
+/// Makes states of pictures of one run's scene, on nodes. The nodes of a process share the last one
+/// made. Any thread.
 class PictureStates final : public StateMaker {
  public:
-  /// Whatever the run has traced does not count. Requires: it is resident, and outlives this and
-  /// all states.
+  /// The run's own totals are not used. Requires: it is resident, and outlives this and all states.
   explicit PictureStates(const LocalRun& run);
   /// Errors: as parse_tiles; a flux of another scene, scenario or seed than the run's.
   Result<std::shared_ptr<const TracedState>> make(const std::string& text) override;
@@ -83,40 +81,42 @@ class PictureStates final : public StateMaker {
   Result<std::shared_ptr<const KnownRadiance>> radiance_of(const std::string& flux);
 
   const LocalRun& run_;
-  const std::shared_ptr<const EmitterSight> sight_;  // of all states: cameras do not matter to it
-  std::mutex mutex_;                                 // guards all below
+  const std::shared_ptr<const EmitterSight> sight_;  // shared by all states: it does not depend on
+                                                     // cameras
+  std::mutex mutex_;                                 // guards all members below
   std::string text_, flux_;
-  std::shared_ptr<const KnownRadiance> radiance_;  // of the flux
+  std::shared_ptr<const KnownRadiance> radiance_;  // radiance of the flux
   std::shared_ptr<const TracedState> state_;
 };
 
-/// Light that the paths of pictures end in, for those who trace here and elsewhere; and what they
-/// choose emitters by. For all pictures of a run.
+/// Light that the paths of pictures end in, for tracers here and elsewhere, and the data for
+/// choosing emitters. Shared by all pictures of a run.
 struct PictureFlux {
-  std::shared_ptr<const KnownRadiance> radiance;  // null: they are traced to their end
-  std::string bytes;                              // of a flux file; none where nobody asks for them
-  std::shared_ptr<const EmitterSight> sight;      // of make_emitter_sight
+  std::shared_ptr<const KnownRadiance> radiance;  // null: paths are traced to their end
+  std::string bytes;                              // bytes of a flux file; empty if nobody needs
+                                                  // them
+  std::shared_ptr<const EmitterSight> sight;      // from make_emitter_sight
 };
 
-/// That of a run, as `options` ask for it. Requires: the run outlives it.
+/// The flux of a run, as `options` ask for it. Requires: the run outlives it.
 /// Throws std::runtime_error: as flux_radiance; more than a flux file can hold.
 PictureFlux picture_flux(const LocalRun& run, const PictureOptions& options);
 
-/// Has pictures traced by an executor.
+/// Traces pictures by an executor.
 class PictureExecutor {
  public:
-  /// Enters their state. `paths`: of all pixels, at most. Requires: the run is resident;
-  /// options.executor is there; all that is referred to outlives this.
+  /// Enters their state. `paths`: of each pixel, at most. Requires: the run is resident;
+  /// options.executor is set; all that is referred to outlives this.
   PictureExecutor(const LocalRun& run, std::vector<TiledView> views, int paths,
                   const PictureOptions& options, const PictureFlux& flux);
 
-  /// As ViewPasses::add_first and ViewPasses::add, of the picture of `view`.
-  /// Requires: `passes` are of that picture and have only been added to here; of add(): that they
-  /// have a number of paths that is a multiple of `paths_of_tile`, as has the sum, or the most.
+  /// Like ViewPasses::add_first and ViewPasses::add, for the picture of `view`.
+  /// Requires: `passes` belong to that picture and have only been extended here; for add(): they
+  /// have a number of paths that is a multiple of `paths_of_tile`, as has the sum, or the maximum.
   bool add_first(size_t view, ViewPasses& passes, const ShareDone& progress = {});
   bool add(size_t view, ViewPasses& passes, int paths, const ShareDone& progress = {});
-  /// As ViewPasses::add_allocated, of the ends that the view has. Requires: `passes` have the paths
-  /// per pixel that the state says.
+  /// Like ViewPasses::add_allocated, with the ends of the view. Requires: `passes` have the number
+  /// of paths per pixel that the state says.
   bool add_allocated(size_t view, ViewPasses& passes, int more, const ShareDone& progress = {});
 
   /// Paths of each pixel of a tile.

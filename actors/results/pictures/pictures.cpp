@@ -16,7 +16,7 @@ namespace luxodus {
 
 namespace {
 
-/// Pixels that one fiber traces in one go.
+/// Pixels that one fiber traces without a pause.
 constexpr int columns_at_once = 32;
 
 ShareWork shared_by(int threads) {
@@ -25,7 +25,8 @@ ShareWork shared_by(int threads) {
   };
 }
 
-/// Of a mean of so many, by their sum and that of their squares. NaN with one.
+/// Variance of a mean, from the number of values, their sum and the sum of their squares. NaN with
+/// one.
 double variance_of_mean(double sum, double squares, double count) {
   if (count < 2) return std::numeric_limits<double>::quiet_NaN();
   const double mean = sum / count;
@@ -64,10 +65,10 @@ uint64_t ViewPasses::bytes_of(const Camera& camera) {
 template <class PathsOf>
 bool ViewPasses::trace(const PictureOptions& options, const ShareDone& progress,
                        const PathsOf& paths_of) {
-  // What may be interrupted is to leave no trace; at first there is nothing to keep.
+  // An interrupted pass leaves no trace, so earlier sums are kept; at first there are none.
   const bool keeps = paths_ + first_paths_ > 0 && options.may_end_early();
   const std::vector<PixelSums> before = keeps ? sums_ : decltype(sums_)();
-  // Parts of a row, so that there is work for many fibers.
+  // Rows are divided, so that many fibers have work.
   const int parts = (camera_.width + columns_at_once - 1) / columns_at_once;
   const auto make = [&](const GeometryAccess& access) {
     auto tracer = std::make_shared<PixelTracer>(run_.scene(), access, run_.seed(), camera_, number_,
@@ -154,7 +155,7 @@ void ViewPasses::take_allocated(Totals& totals, int group, int more) {
 
 namespace {
 
-/// Room for a picture of so many pixels.
+/// An empty picture of this size.
 TracedPicture empty_picture(int width, int height) {
   TracedPicture out;
   out.light.width = out.noisy.width = width;
@@ -175,7 +176,7 @@ TracedPicture empty_picture(int width, int height) {
   return out;
 }
 
-/// Adds to each of a row the values as far as `reach` around it, its own included.
+/// Sums for each value of a row those up to `reach` away, including itself.
 void add_neighbours(const std::vector<double>& values, size_t begin, size_t stride, size_t count,
                     size_t reach, std::vector<double>& into) {
   for (size_t i = 0; i < count; ++i)
@@ -192,8 +193,8 @@ std::vector<double> around(const std::vector<double>& values, size_t width, size
   return out;
 }
 
-/// Pixels whose known light is taken to err alike, relative to it, reach so far: a few draws of
-/// signs alone would know an error to a third.
+/// Radius in pixels over which the errors of known light are averaged, relative to it: a few sign
+/// draws alone would know an error only to a third.
 constexpr size_t known_reach_px = 3;
 
 }  // namespace
@@ -216,8 +217,8 @@ TracedPicture ViewPasses::first_picture() const {
 
 namespace {
 
-/// Of the mean known luminance of each pixel's paths, the relative variance that is common to many
-/// of them.
+/// The relative variance of the mean known luminance of each pixel that is common to many pixels'
+/// paths.
 std::vector<double> known_variances(const std::vector<const PixelSums*>& all, size_t width) {
   std::vector<double> squares, variances;
   for (const PixelSums* sums : all) {
@@ -232,7 +233,7 @@ std::vector<double> known_variances(const std::vector<const PixelSums*>& all, si
   return variances;
 }
 
-/// Puts the light of a pixel's paths into a picture; `share`: that of each half in its mean.
+/// Puts the light of a pixel's paths into a picture; `share`: the weight of each half in the mean.
 void put_light(const PixelSums& sums, size_t pixel, const HalfShares& share, TracedPicture& out) {
   for (const size_t h : {size_t{0}, size_t{1}}) {
     if (sums.paths(h) == 0) continue;
@@ -323,9 +324,9 @@ double mean_turned_luminance(const NoisyPicture& noisy) {
   return sum / (2 * static_cast<double>(noisy.pixels()));
 }
 
-/// Features as the smoke lets them be seen: a surface behind it must not show in the fit more than
-/// its light does in the picture. And the light that emitters send straight, in [0, 1): it tells
-/// the glow on a lamp from what is beside it.
+/// Attenuates features by smoke: a surface behind smoke must not weigh more in the fit than its
+/// light does in the picture. Adds a feature of emitted light, in [0, 1), which separates the glow
+/// on a lamp from its surroundings.
 NoisyPicture with_seen_features(const TracedPicture& traced) {
   constexpr size_t transmittance = 4, count = picture_features + 1;
   NoisyPicture out = traced.noisy;
@@ -359,8 +360,8 @@ FilteredView filter_traced(const TracedPicture& traced, int threads,
     for (const size_t c : {size_t{0}, size_t{1}, size_t{2}}) out.light.xyz.push_back(value(c));
     out.light.scotopic.push_back(value(3));
   }
-  // The halves share their flux: what that errs by does not show in their difference, and a filter
-  // does not make it larger.
+  // Both halves end in the same flux: its error does not show in their difference, and filtering
+  // does not increase it.
   for (size_t i = 0; i < traced.light.pixels(); ++i)
     out.standard_error_y.push_back(
         std::hypot(filtered.standard_error_y[i], traced.flux_error_y[i]));

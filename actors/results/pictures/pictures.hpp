@@ -1,12 +1,11 @@
-// Pictures of a run's cameras: luminance data first (OpenEXR, cd/m2), pixels second. Paths are
-// traced from the eye; a path ends in the run's flux at the first event after something diffuse, on
-// a surface or in smoke (final gather), so a picture takes seconds once the flux is there. What is
-// traced is neither clamped nor blurred; what PNG files show is filtered (regression_filter.hpp).
-// The standard error of a pixel is that of its paths and of the flux that they end in, which is
-// common to many of them. The last quarter of the paths goes where the filter would leave most
-// error (path_allocation.hpp). Pixels depend on the scene, the flux, the seed and the paths per
-// pixel, never on the number of threads, nor on whether their paths were traced at once or in
-// passes. One call at a time per run.
+// Pictures of a run's cameras: luminance data (OpenEXR, cd/m2) and pixels (PNG). Paths are traced
+// from the eye; a path ends in the run's flux at the first event after a diffuse one, on a surface
+// or in smoke (final gather), so a picture takes seconds once the flux exists. Traced data are
+// neither clamped nor blurred; PNG files show filtered data (regression_filter.hpp). The standard
+// error of a pixel includes that of its paths and that of the flux, which many paths share. The
+// last quarter of the paths is allocated to pixels where the filter would leave most error
+// (path_allocation.hpp). Pixels depend on the scene, the flux, the seed and the paths per pixel,
+// never on the number of threads or of passes. One call at a time per run.
 #pragma once
 
 #include <atomic>
@@ -30,33 +29,34 @@ namespace luxodus {
 class Executor;
 
 namespace limits {
-/// Memory of the sums of one picture [bytes], of 36 megapixels; and of those that grow together.
+/// Memory of the sums of one picture [bytes], of 36 megapixels; and of those that are traced
+/// together.
 inline constexpr uint64_t max_view_bytes = uint64_t{20} << 30;
 inline constexpr uint64_t max_growing_bytes = uint64_t{1} << 30;
 }  // namespace limits
 
 struct PictureOptions {
-  /// On average; at most, where one of the two below may end a picture before.
+  /// On average; a maximum if one of the two limits below ends a picture earlier.
   int paths_per_pixel = 28;
-  /// Of all pictures of a call, with what filters and writes them [s]; 0: as long as it takes.
+  /// Limit for all pictures of a call, including filtering and writing [s]; 0: none.
   double max_seconds = 0;
-  /// Of the worst picture (ViewError): it may end where it is no more; 0: never.
+  /// Stop once the worst picture's error (ViewError) is this low; 0: never.
   double target_error = 0;
-  /// Writes what there is as it grows, the first after one path for each pixel.
+  /// Write intermediate pictures, the first after one path for each pixel.
   bool progressive = false;
-  /// End paths in the run's flux. Without it they are traced to their end: slower and noisier, free
-  /// of the patches' size. A run that has traced nothing has no flux to end in.
+  /// End paths in the run's flux. Without it they are traced to their end: slower and noisier, but
+  /// independent of the size of patches. A run that has traced nothing has no flux to end in.
   bool gather = true;
-  /// PNG files show light as traced, instead of filtered. All pixels have as many paths then;
-  /// without it some go where the filter leaves most error (even_paths).
+  /// PNG files show traced instead of filtered light. All pixels then have the same number of
+  /// paths; otherwise some are allocated where the filter leaves most error (even_paths).
   bool raw = false;
   HumanTone human;  // monitor and limits of sight of human views; angles are those of each camera
-  /// When it is set, what is under way ends within a pixel, and pictures that are not whole are not
-  /// written. Null: nobody interrupts.
+  /// When set, the current work ends within a pixel, and incomplete pictures are not written. Null:
+  /// no interruption.
   const std::atomic<bool>* interrupt = nullptr;
-  /// Whether what is under way shall end for another reason, likewise; none: there is none.
+  /// Whether the current work shall end for another reason; empty: none.
   std::function<bool()> gives_up = {};
-  /// Who traces the pictures, tile by tile; null: the threads of the run.
+  /// Traces the pictures, tile by tile; null: the threads of the run.
   Executor* executor = nullptr;
 
   bool may_end_early() const { return interrupt != nullptr || gives_up; }
@@ -65,54 +65,56 @@ struct PictureOptions {
   }
 };
 
-/// A camera's picture, the standard error of its luminance, and what a filter needs of it.
+/// A camera's picture, the standard error of its luminance, and the input of a filter.
 struct TracedPicture {
   XyzPicture light;                     // with scotopic luminance from the bands
   std::vector<float> standard_error_y;  // [cd/m2]; NaN with one path per pixel
-  std::vector<float> flux_error_y;      // of it, what the run's flux errs by
-  /// X, Y, Z, scotopic of what emitters send straight to the eye, without chance but for where in
-  /// the pixel [cd/m2]; the halves of `noisy` are without it.
+  std::vector<float> flux_error_y;      // the part of it that the run's flux causes
+  /// X, Y, Z, scotopic of light straight from emitters to the eye, deterministic except for the
+  /// position in the pixel [cd/m2]; the halves of `noisy` exclude it.
   std::vector<float> emitted;
   NoisyPicture noisy;
 };
 
 struct FilteredView {
   XyzPicture light;
-  std::vector<float> standard_error_y;  // [cd/m2] by the difference of two halves
+  std::vector<float> standard_error_y;  // [cd/m2] from the difference of two halves
 };
 
-/// Paths that a filter needs of a pixel: each half two, to know its error.
+/// Paths that a filter needs of a pixel: two for each half, to estimate its error.
 inline constexpr int min_filtered_paths = 4;
 
-/// Requires: min_filtered_paths per pixel at least; threads >= 1. The same for any threads.
+/// Requires: at least min_filtered_paths per pixel; threads >= 1. The result is the same for any
+/// number of threads.
 FilteredView filter_traced(const TracedPicture& traced, int threads,
                            const RegressionFilter& filter = {});
 
-/// Error of a picture as people see it: the root of the mean over pixels of the relative standard
-/// error of luminance, squared. A pixel darker than a hundredth of the mean counts as that bright.
-/// The worst hundredth of the pixels is left out: beside lamps a filtered error is that of its
-/// brighter neighbours. NaN where errors are not known.
+/// Visible error of a picture: the root mean square over pixels of the relative standard error of
+/// luminance. A pixel darker than a hundredth of the mean counts as that bright. The worst
+/// hundredth of the pixels is left out: beside lamps a filtered error is that of brighter
+/// neighbours. NaN if errors are not known.
 double relative_error(const XyzPicture& light, const std::vector<float>& standard_error_y);
 
-/// Pixels of the first picture, of half the size: one of four.
+/// Whether a pixel belongs to the first picture, of half the size: one of four does.
 constexpr bool comes_first(int column, int row) {
   return column % 2 == 0 && row % 2 == 0;
 }
 
-/// Paths that a pass adds at least, and that a first picture has in one pixel of four.
+/// Least number of paths that a pass adds, and that a first picture has in one pixel of four.
 inline constexpr int min_pass = 4;
 static_assert(min_pass >= min_filtered_paths);
-/// How many paths all pixels have, of those that there are on average.
+/// How many of the average paths are the same for all pixels.
 int even_paths(const PictureOptions& options);
-/// How many paths a pixel has after the next pass: 4, 8, 16, 32, 48, 64, 96 and so on.
+/// Number of paths of a pixel after the next pass: 4, 8, 16, 32, 48, 64, 96 and so on.
 int next_pass(int paths);
 
-/// A camera's picture as it grows, path by path. Pixels are the same bits however paths were added.
+/// A camera's picture that grows path by path. Its bits do not depend on how paths were added. One
+/// thread at a time.
 class ViewPasses {
  public:
-  /// `number`: of the random numbers, a camera's own; below 2^16. `flux`: where paths end, or null.
-  /// `sight`: of make_emitter_sight, for all pictures of the run; pixels do not depend on what it
-  /// has learned before. Whoever only takes what others have traced needs neither.
+  /// `number`: seeds the random numbers, one per camera; below 2^16. `flux`: the light that paths
+  /// end in, or null. `sight`: from make_emitter_sight, shared by all pictures of the run; pixels
+  /// do not depend on its cache. Both may be null if only the results of others are taken.
   /// Requires: run and flux outlive this.
   ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number, const KnownRadiance* flux,
              std::shared_ptr<const EmitterSight> sight);
@@ -122,29 +124,29 @@ class ViewPasses {
   /// Memory that the sums of a picture take [bytes].
   static uint64_t bytes_of(const Camera& camera);
 
-  /// Adds the first paths of one pixel of four, those of even columns and rows. False where it was
-  /// interrupted. Requires: paths() == 0, and add() adds as many at least.
+  /// Adds the first paths of one pixel of four, those of even columns and rows. False if it was
+  /// interrupted. Requires: paths() == 0, and add() then adds at least as many.
   bool add_first(int paths, const PictureOptions& options, const ShareDone& progress = {});
   /// These pixels as a picture of half the size. Requires: add_first() was the last call.
   TracedPicture first_picture() const;
-  /// Adds so many paths to each pixel. False where it was interrupted: then none was added.
+  /// Adds this many paths to each pixel. False if it was interrupted: then none was added.
   /// Requires: paths() + `paths` <= limits::max_paths_per_pixel.
   bool add(int paths, const PictureOptions& options, const ShareDone& progress = {});
-  /// Where `more` paths for each pixel on average are to end (path_allocation.hpp).
+  /// The ends of each pixel's paths if `more` per pixel on average are added (path_allocation.hpp).
   /// Requires: paths() is a multiple of four and the same for all pixels.
   std::vector<HalfEnds> allocate(int more) const;
-  /// Adds paths up to these ends, which are of allocate(more): the last that are added. False where
-  /// it was interrupted: then none was added.
+  /// Adds paths up to these ends, which come from allocate(more); no others may follow. False if it
+  /// was interrupted: then none was added.
   bool add_allocated(const std::vector<HalfEnds>& ends, int more, const PictureOptions& options,
                      const ShareDone& progress = {});
-  /// The same of what others have traced, who begin where this stands: sums of pixels as bins of a
-  /// group of totals, which are taken out of them (PixelSums::bin).
+  /// Takes paths that others have traced from the present state: sums of pixels as bins of a group
+  /// of totals, which are removed from the totals (PixelSums::bin).
   void take_first(Totals& totals, int group, int paths);
   void take(Totals& totals, int group, int paths);
   void take_allocated(Totals& totals, int group, int more);
-  /// Of each pixel; with allocated ones, on average.
+  /// Paths of each pixel; including allocated ones, on average.
   int paths() const { return paths_ + allocated_; }
-  /// What there is of it. Requires: paths() > 0.
+  /// The picture so far. Requires: paths() > 0.
   TracedPicture picture() const;
 
  private:
@@ -159,40 +161,40 @@ class ViewPasses {
   const Camera camera_;
   const uint64_t number_;
   const KnownRadiance* flux_;
-  std::shared_ptr<const EmitterSight> sight_;  // of all pictures and threads
+  std::shared_ptr<const EmitterSight> sight_;  // shared by all pictures and threads
   std::vector<PixelSums> sums_;
   int paths_ = 0;        // of each pixel
-  int allocated_ = 0;    // beside them, on average
-  int first_paths_ = 0;  // that pixels of even columns and rows have when others have none
+  int allocated_ = 0;    // in addition, on average
+  int first_paths_ = 0;  // of pixels of even columns and rows, while others have none
 };
 
-/// One camera's picture; an empty one where it was interrupted. `flux`: where paths end, or
-/// null. Requires: camera is one of the scene's; 1 <= paths_per_pixel <=
+/// Traces one camera's picture; an empty one if it was interrupted. `flux`: the light that paths
+/// end in, or null. Requires: camera is one of the scene's; 1 <= paths_per_pixel <=
 /// limits::max_paths_per_pixel.
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
                             const KnownRadiance* flux, const ShareDone& progress = {});
 
-/// How far the pictures of a call are.
+/// Progress of the pictures of a call.
 struct PictureProgress {
-  double share = 0;           // of the work, as far as anybody knows
-  int paths = 0;              // that every pixel has
+  double share = 0;           // of the work, as estimated so far
+  int paths = 0;              // of every pixel
   double relative_error = 0;  // of the worst picture that was shown; NaN: not known yet
 };
 
 struct RenderedViews {
-  bool interrupted = false;   // before all was done that was asked for
+  bool interrupted = false;   // ended before all requested paths
   int paths = 0;              // per pixel, of the picture with the fewest
   double relative_error = 0;  // of the worst picture as PNG files show it; NaN: not known
 };
 
 /// Traces every camera, or the one named `only_view`, and writes into folder/views (made if
-/// missing): NAME.exr (light as traced and filtered, errors, features), NAME.png (one exposure),
-/// NAME_human.png (what an adapted eye tells apart), NAME_luminance.png (false colours with a
-/// scale; up to 8192 pixels an edge); NAME is that of result_names(). A scene without cameras has
-/// no pictures, which is no error. Where it is interrupted, pictures of the paths that all of their
-/// pixels have are there. `after_first` is called once, as soon as there are first pictures or none
-/// are to be awaited, and takes none of their time; not where this fails before. Only views that
-/// grow together with the first one (within max_growing_bytes) have theirs by then.
+/// missing): NAME.exr (traced and filtered light, errors, features), NAME.png (one exposure),
+/// NAME_human.png (the view of an adapted eye), NAME_luminance.png (false colours with a scale; up
+/// to 8192 pixels an edge); NAME is that of result_names(). A scene without cameras has no
+/// pictures, which is no error. An interrupted call leaves pictures of the paths that all pixels
+/// have. `after_first` is called once, as soon as first pictures exist or none will, and its time
+/// does not count against theirs; not after an earlier failure. Only views that are traced together
+/// with the first one (within max_growing_bytes) exist by then.
 /// Errors: as check_views; a file that cannot be written; those of `after_first`.
 Result<RenderedViews> render_views(const std::filesystem::path& folder, const LocalRun& run,
                                    const std::string& only_view, const PictureOptions& options,

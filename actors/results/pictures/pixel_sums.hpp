@@ -1,5 +1,5 @@
-// What the paths of one pixel have found, summed in whole numbers: the same bits for any order of
-// paths, any number of threads, and wherever they were traced. Plain values; any thread.
+// Integer sums over the paths of one pixel: the same bits for any order of paths, any number of
+// threads or nodes. Plain values; any thread.
 #pragma once
 
 #include <algorithm>
@@ -21,23 +21,23 @@ namespace luxodus {
 /// the albedo, relative to white. Each is the mean over the pixel's paths.
 inline constexpr size_t picture_features = 8;
 
-/// Draws of the signs of bins of known light: as many samples of its error.
+/// Draws of random signs for bins of known light: each is a sample of its error.
 inline constexpr size_t sign_draws = 8;
 
 /// Light by channels of a picture: X, Y, Z, scotopic [cd/m2].
 using ChannelLight = std::array<double, light_channels>;
 
-/// In which half of a pixel's paths a path is, by two bits of its number. Of every four paths two
-/// are in each half, and from 16 on both halves see all quarters of the pixel alike. The parity of
-/// all bits would not do: it is the first digit of a Sobol' point's second dimension, so that the
-/// halves would be the upper and the lower half of the pixel.
+/// The half of a pixel's paths that a path belongs to, by two bits of its number. Each half has two
+/// of every four paths, and from 16 paths on both halves cover all quarters of the pixel evenly.
+/// The parity of all bits would not do: it is the first digit of a Sobol' point's second dimension,
+/// so the halves would be the upper and the lower half of the pixel.
 constexpr size_t half_of(int path) {
   return static_cast<size_t>(std::popcount(static_cast<unsigned>(path) & 0b110u) % 2);
 }
 
-/// What each half counts in a pixel's mean. Of so many paths that all pixels have: what it has of
-/// them. Whatever is added to a half later does not change it: a mean by the numbers of paths would
-/// have a bias where chance decides these.
+/// Weight of each half in a pixel's mean: its share of the paths that all pixels have. Paths added
+/// to a half later do not change it: weights by the numbers of paths would be biased, because
+/// chance decides these.
 using HalfShares = std::array<double, 2>;
 constexpr HalfShares shares_of_halves(int paths) {
   HalfShares shares{};
@@ -45,7 +45,7 @@ constexpr HalfShares shares_of_halves(int paths) {
   return shares;
 }
 
-/// Paths of a pixel by number: of each half those from `begin` to its own end, which is left out.
+/// Paths of a pixel by number: each half has those from `begin` up to, and excluding, its end.
 using HalfEnds = std::array<int, 2>;
 struct PathRange {
   int begin = 0;
@@ -57,7 +57,7 @@ constexpr PathRange all_paths(int begin, int end) {
 
 class PixelSums {
  public:
-  /// Adds what a path has found: light that has turned, light that emitters send straight, the
+  /// Adds the result of a path: scattered and reflected light, light straight from emitters, the
   /// known light that its parts have ended in, and features.
   void add(int path, const ChannelLight& turned, const ChannelLight& straight,
            std::span<const KnownEnd> ends, const std::array<double, picture_features>& features) {
@@ -73,22 +73,22 @@ class PixelSums {
     for (size_t i = 0; i < ends.size(); ++i) add_known(ends, i);
   }
 
-  /// Of a half.
+  /// Number of paths of a half.
   int paths(size_t half) const { return static_cast<int>(sums_[paths_at + half]); }
   int paths() const { return paths(0) + paths(1); }
-  // Sums over the paths of a half: of light [cd/m2], of its squares [cd2/m4].
+  // Sums over the paths of a half: light [cd/m2], its squares [cd2/m4].
   double turned(size_t half, size_t channel) const { return sum(turned_at(half, channel)); }
   double straight(size_t half, size_t channel) const { return sum(straight_at(half, channel)); }
   double turned_squares(size_t half, size_t channel) const {
     return square(turned_square_at(half, channel));
   }
-  /// Of luminance, of all light.
+  /// Luminance of all light, squared.
   double luminance_squares(size_t half) const { return square(luminance_square_at + half); }
-  /// Of all light [cd/m2].
+  /// All light [cd/m2].
   double mean_of_half(size_t half, size_t channel) const {
     return (turned(half, channel) + straight(half, channel)) / paths(half);
   }
-  /// Of both halves [cd/m2].
+  /// Mean of both halves [cd/m2].
   ChannelLight mean(const HalfShares& shares) const {
     ChannelLight light{};
     for (size_t c = 0; c < light_channels; ++c)
@@ -96,7 +96,7 @@ class PixelSums {
         if (paths(h) > 0) light[c] += shares[h] * mean_of_half(h, c);
     return light;
   }
-  /// Of its luminance [(cd/m2)2]. NaN with one path.
+  /// Variance of the mean luminance [(cd/m2)2]. NaN with one path.
   double luminance_variance(const HalfShares& shares) const {
     const double all = paths();
     if (all < 2) return std::numeric_limits<double>::quiet_NaN();
@@ -112,10 +112,10 @@ class PixelSums {
   }
   // Sums over all paths.
   double feature(size_t k) const { return sum(features_at + k); }
-  /// Luminance that paths have ended in, as it is known [cd/m2].
+  /// Sum of the luminance that paths have ended in [cd/m2].
   double known() const { return sum(known_at); }
-  /// Of the sum of known luminances, the variance that paths have in common. What it has of each
-  /// path by itself is in the spread of the paths.
+  /// The part of the variance of the sum of known luminances that paths share. The part of each
+  /// path alone is in the spread of the paths.
   double known_variance() const {
     double squared = 0;
     for (size_t k = 0; k < sign_draws; ++k)
@@ -123,7 +123,7 @@ class PixelSums {
     return squared - square(known_square_at);
   }
 
-  /// The same sums as bins of totals, for the way from node to node.
+  /// The sums as bins of totals, for transfer between nodes.
   static constexpr size_t bins =
       2 * light_channels + 2 * light_channels + 2 + 1 + sign_draws + picture_features;
   Total bin(size_t k) const { return {sums_[k], k < square_count ? squares_[k] : UInt128{0}}; }
@@ -133,7 +133,7 @@ class PixelSums {
   }
 
  private:
-  // Places among the sums.
+  // Indices among the sums.
   static constexpr size_t turned_at(size_t half, size_t c) { return half * light_channels + c; }
   static constexpr size_t straight_at(size_t half, size_t c) {
     return (2 + half) * light_channels + c;
@@ -142,18 +142,18 @@ class PixelSums {
   static constexpr size_t known_at = paths_at + 2;
   static constexpr size_t signed_at = known_at + 1;
   static constexpr size_t features_at = signed_at + sign_draws;
-  // Among the squares.
+  // Indices among the squares.
   static constexpr size_t turned_square_at(size_t half, size_t c) { return 3 * half + c; }
   static constexpr size_t luminance_square_at = 6;
   static constexpr size_t known_square_at = 8;
   static constexpr size_t square_count = 9;
 
-  /// A sum is in units of 2^-28 cd/m2, a square of 2^-44. Brighter than 2^33 cd/m2, five times the
-  /// sun, nothing is: so a number has 61 bits, and 2^16 squares of 110 bits fit into 128.
+  /// A sum is in units of 2^-28 cd/m2, a square in 2^-44. Nothing is brighter than 2^33 cd/m2, five
+  /// times the sun, so a number has 61 bits, and 2^16 squares of 110 bits fit into 128.
   static constexpr double sum_scale = 0x1p28, root_scale = 0x1p22;
   static constexpr double brightest = 0x1p33;
 
-  /// Of no number: 0.
+  /// NaN becomes 0.
   static int64_t rounded(double value, double scale) {
     if (std::isnan(value)) return 0;
     return std::llrint(std::clamp(value, -brightest, brightest) * scale);
@@ -166,7 +166,7 @@ class PixelSums {
   double sum(size_t at) const { return to_double(sums_[at]) / sum_scale; }
   double square(size_t at) const { return to_double(squares_[at]) / (root_scale * root_scale); }
 
-  /// A random sign for each draw, one bit each: a mix of the bin's number (SplitMix64: G. L.
+  /// A random sign for each draw, one bit each: a hash of the bin's number (SplitMix64: G. L.
   /// Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
   static uint64_t signs_of(uint64_t bin) {
     uint64_t z = (bin + 1) * 0x9E3779B97F4A7C15u;
@@ -174,8 +174,8 @@ class PixelSums {
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
     return z ^ (z >> 31);
   }
-  /// By draws of signs: who ends in the same bin errs alike. Of the path's own square, the end's
-  /// and its products with earlier ends in that bin.
+  /// Estimates shared errors by sign draws, since ends in the same bin have the same error. The
+  /// path's own squares get that of the end, and its products with earlier ends in that bin.
   void add_known(std::span<const KnownEnd> ends, size_t i) {
     const KnownEnd& end = ends[i];
     const double error = end.luminance * end.error.relative;

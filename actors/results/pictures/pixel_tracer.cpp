@@ -21,7 +21,7 @@ Pinhole::Pinhole(const Camera& camera, const glm::dvec3& local_origin)
   forward_ = glm::normalize(camera.target - camera.eye);
   glm::dvec3 right = glm::cross(forward_, camera.up);
   if (glm::length(right) <= 1e-9 * glm::length(camera.up)) {
-    // Looking along `up`: any direction across will do; y is up on a plan.
+    // If the gaze is along `up`, any perpendicular direction will do; y is up on a plan.
     const glm::dvec3 other = std::abs(forward_.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     right = glm::cross(forward_, other);
   }
@@ -61,8 +61,8 @@ void PixelTracer::trace(int column, int row, uint64_t pixel, const PathRange& pa
   }
 }
 
-/// The first paths have a set of points of their own: one with room for all takes longer to make
-/// than they take to trace. Points do not depend on how many are wanted.
+/// The first paths use a smaller set of points: making one for all paths takes longer than tracing
+/// them. Points do not depend on the size of the set.
 void PixelTracer::start(uint64_t first, int path) {
   constexpr int few = 64;
   if (path < few) return tracer_->start(first, few, static_cast<uint32_t>(path));

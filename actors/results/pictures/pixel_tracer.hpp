@@ -1,7 +1,7 @@
-// Traces the paths of pixels, whoever sums them up. A path carries all bands, and one of them, its
-// hero, decides how it goes on. Places in a pixel and heroes are drawn together by points of one
-// scrambled Sobol' set, so that the paths of a pixel are spread over its area and over the bands at
-// once. Thread rule: one thread or fiber.
+// Traces the paths of pixels; the caller sums them up. A path carries all bands, and one of them,
+// its hero, decides its directions. Positions in a pixel and heroes are drawn together from one
+// scrambled Sobol' set, so that the paths of a pixel are spread evenly over its area and over the
+// bands. Thread rule: one thread or fiber.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int max_paths_per_pixel = 1 << 16;  // 17 bits of a path's number
-inline constexpr int max_picture_edge = 1 << 14;     // of a scene's cameras, too
+inline constexpr int max_picture_edge = 1 << 14;     // also of a scene's cameras
 }  // namespace limits
 
 /// A camera without a lens: every ray passes through one point.
@@ -23,7 +23,7 @@ class Pinhole {
  public:
   Pinhole(const Camera& camera, const glm::dvec3& local_origin);
 
-  /// Through a place in pixels from the picture's upper left corner.
+  /// The ray through a position in pixels from the picture's upper left corner.
   Ray ray(double x, double y) const;
 
  private:
@@ -33,8 +33,9 @@ class Pinhole {
 
 class PixelTracer {
  public:
-  /// `number`: of the random numbers, a camera's own; below 2^16. `flux`: where paths end, or null.
-  /// `sight`: of make_emitter_sight. Requires: what is referred to outlives this.
+  /// `number`: seeds the random numbers, one per camera; below 2^16. `flux`: the light that paths
+  /// end in, or null.
+  /// `sight`: from make_emitter_sight. Requires: what is referred to outlives this.
   PixelTracer(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
               const Camera& camera, uint64_t number, const KnownRadiance* flux,
               std::shared_ptr<const EmitterSight> sight);
@@ -53,7 +54,7 @@ class PixelTracer {
   Pinhole pinhole_;
   uint64_t first_path_;
   const KnownRadiance* flux_;
-  ChannelLight white_;  // of a reflectance of 1 in all bands
+  ChannelLight white_;  // of reflectance 1 in all bands
   FirstHit first_;      // of the last path
 };
 

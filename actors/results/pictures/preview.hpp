@@ -1,7 +1,7 @@
-// Pictures of a run while it goes on: every so often, or when somebody asks, the totals are copied
-// and rendered from with few paths, on a thread of its own beside the tracing. The flux of a
-// preview is that of whole batches; the run's result does not depend on it.
-// Thread rule: made and destroyed by whoever runs the run.
+// Pictures of a run in progress: at intervals, or on request, the totals are copied and rendered
+// with few paths, on a thread of its own beside the tracing. The flux of a preview consists of
+// whole batches; the run's result does not depend on it.
+// Thread rule: made and destroyed by the thread that runs the run.
 #pragma once
 
 #include <atomic>
@@ -14,18 +14,18 @@
 
 namespace luxodus {
 
-/// Renders into folder/preview/views. What goes wrong is logged: the run goes on.
+/// Renders into folder/preview/views. Errors are logged: the run goes on.
 void render_preview(const std::filesystem::path& folder, const LocalRun& run,
                     const PictureOptions& options);
 
 class Preview {
  public:
-  /// Writes into folder/preview/views from now on, while `run` traces: `every_s` seconds apart (0:
-  /// never), and whenever `requested` is set, which it unsets. Takes as much memory again as the
-  /// totals. Requires: `run` and `requested` outlive this.
+  /// Writes into folder/preview/views from now on, while `run` traces: every `every_s` seconds (0:
+  /// never), and whenever `requested` is set, which it resets. Takes as much memory as the totals.
+  /// Requires: `run` and `requested` outlive this.
   Preview(std::filesystem::path folder, LocalRun& run, double every_s, std::atomic<bool>& requested,
           const PictureOptions& options);
-  /// Waits for the pictures under way.
+  /// Waits for pictures in progress.
   ~Preview();
   Preview(const Preview&) = delete;
   Preview& operator=(const Preview&) = delete;
@@ -40,7 +40,7 @@ class Preview {
 
   const std::filesystem::path folder_;
   LocalRun& run_;
-  const std::unique_ptr<LocalRun> copy_;  // of its totals
+  const std::unique_ptr<LocalRun> copy_;  // copy of its totals
   const std::chrono::duration<double> every_;
   std::atomic<bool>& requested_;
   const PictureOptions options_;

@@ -1,7 +1,8 @@
-// Pictures of all cameras, as they grow. All of them get a few paths, then all a few more, so that
-// each is there early; the last ones are allocated. Steps follow from the number of paths alone,
-// and where a time or an error ends a picture it does so between steps: the picture is that of as
-// many paths at once. Files are replaced whole. What they cost bounds how often that is done.
+// Pictures of all cameras, refined together. All of them get a few paths, then all a few more, so
+// that each exists early; the last paths are allocated. Steps follow from the number of paths
+// alone, and a time or error limit ends a picture between steps: the result is that of the same
+// number of paths at once. Files are replaced atomically. The cost of writing limits how often it
+// is done.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -19,23 +20,23 @@ namespace luxodus {
 namespace {
 
 static_assert(min_pass == PictureExecutor::paths_of_tile);
-/// Smaller pictures are there at once.
+/// Smaller pictures take no time.
 constexpr int64_t min_first_pixels = 10'000;
-/// Before it is known what a writing takes, none is due [s].
+/// Before the cost of writing is known, none is due earlier than this [s].
 constexpr double unknown_writing_s = 5;
-/// Between two writings, so many times what one takes is spent on paths.
+/// Between two writings, this many times the cost of one is spent on paths.
 constexpr double paths_per_writing = 10;
-/// What a writing takes before one was, in units of what the first pictures have taken: these are
-/// of one pixel of four, and of one file of four.
+/// Estimates the first cost of writing, in units of that of the first pictures: these have one
+/// pixel of four, and one file of four.
 constexpr double whole_by_first = 4;
-/// Of the time, what is left for the last writing beside what the one before took: later pictures
-/// compress no better.
+/// The last writing gets this many times the time of the one before: later pictures compress no
+/// better.
 constexpr double writing_slack = 1.2;
 
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
-  /// Of something else, which counts for nothing.
+  /// Seconds of other work, which do not count.
   template <class Work>
   auto left_out(const Work& work) {
     const auto before = Clock::now();
@@ -73,7 +74,7 @@ struct GrowingView {
 
   double pixels() const { return static_cast<double>(camera.width) * camera.height; }
 
-  /// Small ones are there at once.
+  /// Small pictures take no time, and need no first one.
   bool shows_first(const PictureOptions& options) const {
     return options.progressive && options.paths_per_pixel > min_pass &&
            int64_t{camera.width} * camera.height >= min_first_pixels;
@@ -83,17 +84,17 @@ struct GrowingView {
   size_t number;
   ViewPasses passes;
   std::filesystem::path stem;
-  std::optional<ShownView> shown;  // until it is written
+  std::optional<ShownView> shown;  // kept until it is written
   int shown_paths = 0, written_paths = 0;
-  double error = std::numeric_limits<double>::quiet_NaN();  // of what was shown last
+  double error = std::numeric_limits<double>::quiet_NaN();  // of the last shown picture
 };
 
-/// Views that grow together.
+/// Views that are refined together.
 class GrowingViews {
  public:
   using Progress = std::function<void(const PictureProgress&)>;
 
-  /// `seconds`: for all of them; 0: as long as it takes.
+  /// `seconds`: limit for all of them; 0: none.
   GrowingViews(const LocalRun& run, const PictureOptions& options, const PictureFlux& flux,
                double seconds, Progress progress)
       : run_(run),
@@ -107,8 +108,8 @@ class GrowingViews {
     pixels_ += views_.back().pixels();
   }
 
-  /// Until all is done that was asked for, or somebody interrupts; then all is written.
-  /// `after_first`: called when first pictures are there.
+  /// Refines until all requested paths are done, or it is interrupted; then writes everything.
+  /// `after_first`: called when first pictures exist.
   Result<void> grow(const std::function<Result<void>()>& after_first) {
     if (options_.executor != nullptr)
       elsewhere_.emplace(run_, tiled_views(), options_.paths_per_pixel, options_, flux_);
@@ -120,7 +121,7 @@ class GrowingViews {
       add_paths(added);
       if (interrupted_) break;
       seconds_per_path_ = (watch_.seconds() - before_s) / added;
-      // The filter says how good a picture is: that needs no files.
+      // The filter estimates the error, which needs no files.
       if (options_.target_error > 0) look();
       if (!should_write()) continue;
       if (auto ok = write(); !ok) return ok;
@@ -135,7 +136,7 @@ class GrowingViews {
     for (const GrowingView& view : views_) fewest = std::min(fewest, view.passes.paths());
     return fewest;
   }
-  /// Of the worst; NaN where one is not known.
+  /// Error of the worst view; NaN if one is not known.
   double error() const {
     double worst = 0;
     for (const GrowingView& view : views_)
@@ -169,14 +170,14 @@ class GrowingViews {
     return options_.target_error > 0 && error() <= options_.target_error;
   }
 
-  /// Paths for each pixel that there is time for.
+  /// Paths for each pixel that fit into the time.
   int fitting() const {
     const double left_s = seconds_ - watch_.seconds() - writing_slack * writing_s_;
     return static_cast<int>(
         std::clamp(left_s / seconds_per_path_, 0.0, double{limits::max_paths_per_pixel}));
   }
 
-  /// How many paths all pixels have after the next step; 0: there is none.
+  /// Number of paths of all pixels after the next step; 0: no step follows.
   int next_target() const {
     const int target = std::min(even_paths(options_), next_pass(paths_));
     if (target <= paths_ || is_good_enough()) return 0;
@@ -187,19 +188,19 @@ class GrowingViews {
     return steps <= 0 ? 0 : std::min(target, paths_ + steps * min_pass);
   }
 
-  /// How many paths are allocated, for each pixel on average; 0: none.
+  /// Number of paths to allocate, per pixel on average; 0: none.
   int next_allocation() const {
     if (options_.raw || interrupted_ || is_good_enough()) return 0;
     const int even = even_paths(options_);
     const int more = options_.paths_per_pixel - even;
     if (paths_ == even && !(seconds_ > 0)) return more;
-    // As many as if what has fitted into the time had been asked for.
+    // As many as if the paths that fit into the time had been requested.
     const int fit = std::min({options_.paths_per_pixel - paths_, (paths_ + 2) / 3, fitting()});
     return even_paths(paths_ + fit) == paths_ ? fit : 0;
   }
 
-  /// Calls add(number, view, tell) for each view, which adds `count` paths for each pixel; until
-  /// one returns false, as it was interrupted and left the view as it was.
+  /// Calls add(number, view, tell) for each view, which adds `count` paths per pixel, until one
+  /// returns false, because it was interrupted and has changed nothing.
   template <class Add>
   void add_to_views(int count, const Add& add) {
     double before = 0;
@@ -236,7 +237,7 @@ class GrowingViews {
     if (!progress_) return;
     double share = paths / options_.paths_per_pixel;
     if (seconds_ > 0) share = std::max(share, watch_.seconds() / seconds_);
-    // It falls with the root of the paths.
+    // The error falls with the root of the paths.
     if (options_.target_error > 0 && error() > options_.target_error)
       share = std::max(share, paths / looked_ * std::pow(options_.target_error / error(), 2));
     progress_({std::min(share, 1.0), paths_, error()});
@@ -244,13 +245,13 @@ class GrowingViews {
 
   bool should_write() const {
     if (!options_.progressive) return false;
-    // What a writing takes is known after one: that is needed where a time must be kept.
+    // One writing measures its cost, which a time limit needs.
     if (written_ == 0 && (seconds_ > 0 || !(writing_s_ > 0)))
       return seconds_ > 0 || watch_.seconds() > unknown_writing_s;
     return watch_.seconds() - written_s_ > paths_per_writing * writing_s_;
   }
 
-  /// Filters the views that have grown since they were last, or were interrupted.
+  /// Filters views with new paths since they were filtered, or interrupted.
   void look() {
     const double before_s = watch_.seconds();
     bool any = false;
@@ -268,7 +269,7 @@ class GrowingViews {
     if (progress_) show_progress(paths_);
   }
 
-  /// Writes the views that have grown since they were written.
+  /// Writes views with new paths since they were written.
   Result<void> write() {
     look();
     const double before_s = watch_.seconds();
@@ -279,7 +280,7 @@ class GrowingViews {
     return {};
   }
 
-  /// By all threads: a file is packed by one.
+  /// On all threads: each file is compressed by one.
   Result<void> write_files() {
     std::vector<GrowingView*> shown;
     for (GrowingView& view : views_)
@@ -315,17 +316,17 @@ class GrowingViews {
   const double seconds_;
   const Progress progress_;
   std::deque<GrowingView> views_;
-  std::optional<PictureExecutor> elsewhere_;  // where others trace
+  std::optional<PictureExecutor> elsewhere_;  // traces on other nodes
   double pixels_ = 0;
   int paths_ = 0;  // of all views
   bool interrupted_ = false;
   Stopwatch watch_;
   double seconds_per_path_ = 0;
-  int looked_ = 0;        // paths of what was filtered last
-  double looking_s_ = 0;  // what that took
-  int written_ = 0;       // paths of what is written
+  int looked_ = 0;        // paths of the last filtered pictures
+  double looking_s_ = 0;  // time for filtering
+  int written_ = 0;       // paths of the last written pictures
   double written_s_ = 0;  // when
-  double writing_s_ = 0;  // what that took, with its filter
+  double writing_s_ = 0;  // time for writing, with filtering
 };
 
 /// Views that fit into memory together, one group after another.

@@ -1,4 +1,4 @@
-// From traced pictures to files.
+// Turns traced pictures into files.
 #include "actors/results/pictures/view_files.hpp"
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ void add_xyz(ExrImage& image, const std::string& prefix, const XyzPicture& light
   image.channels.push_back({prefix + "scotopic", light.scotopic});
 }
 
-/// Features by the names that renderers and filters give them.
+/// Features by their names in renderers and filters.
 void add_features(ExrImage& image, const NoisyPicture& noisy) {
   constexpr std::array<const char*, picture_features> names{
       "N.X", "N.Y", "N.Z", "nearness", "transmittance", "albedo.X", "albedo.Y", "albedo.Z"};
@@ -57,7 +57,7 @@ void add_features(ExrImage& image, const NoisyPicture& noisy) {
   }
 }
 
-/// Angle of view of a pixel in the middle, from bottom to top.
+/// Angle of view of a pixel in the centre, from bottom to top.
 double degrees_per_pixel(const Camera& camera) {
   return glm::degrees(2 * std::tan(glm::radians(camera.vertical_fov_deg) / 2) / camera.height);
 }
@@ -79,7 +79,7 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view
     for (size_t c = 0; c < 3; ++c)
       image.channels[light_channels + c].values[i] = static_cast<float>(rgb[static_cast<int>(c)]);
   }
-  // An error needs two paths: where there are none, there is no channel of it, instead of NaN.
+  // An error needs two paths: without them its channel is omitted instead of NaN.
   const bool has_error = view.paths >= 2;
   if (has_error) {
     image.channels.push_back({"standard_error.Y", traced.standard_error_y});
@@ -113,11 +113,11 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view
   return image;
 }
 
-/// Light that an eye or a camera takes for white: within this of black bodies of these
+/// Light that an eye or a camera adapts to as white: within this of black bodies of these
 /// temperatures. Flames alone stay orange.
 constexpr double min_white_kelvin = 2500, max_white_kelvin = 10000, max_white_duv = 0.02;
 
-/// The picture as it looks to who is adapted to the scene's lamps, on a monitor whose white is D65.
+/// The picture as seen by an eye adapted to the scene's lamps, on a monitor whose white is D65.
 XyzPicture white_balanced(const CompiledScene& scene, XyzPicture picture) {
   Xyz light{0, 0, 0};
   for (const Group& g : scene.groups) {
@@ -138,7 +138,7 @@ XyzPicture white_balanced(const CompiledScene& scene, XyzPicture picture) {
     const Xyz colour{static_cast<double>(p[0]), static_cast<double>(p[1]),
                      static_cast<double>(p[2])};
     const Xyz seen = adapt_white(colour, light, d65_white);
-    // Scaled back to the pixel's own luminance: adaptation is to change colours only.
+    // Keeps the pixel's luminance: adaptation is to change colours only.
     const double scale = seen[1] > 0 ? colour[1] / seen[1] : 0;
     for (size_t c = 0; c < 3; ++c) p[c] = static_cast<float>(seen[c] * scale);
   }
@@ -181,7 +181,7 @@ FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera, cons
   return p;
 }
 
-/// The limits of sight that a human view heeds.
+/// The limits of sight that a human view applies.
 std::string limits_of_sight(const HumanTone& human) {
   std::string out = "contrast";
   if (human.glare) out += ", glare";
@@ -190,7 +190,7 @@ std::string limits_of_sight(const HumanTone& human) {
   return out;
 }
 
-/// What an eye before the picture sees.
+/// The picture as an eye in front of it would see the scene.
 PngImage human_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced,
                    HumanTone human) {
   human.degrees_per_pixel = degrees_per_pixel(camera);
@@ -213,7 +213,7 @@ PngImage plain_png(const LocalRun& run, const Camera& camera, const XyzPicture& 
                 "file");
 }
 
-/// A picture of half the size, enlarged: linear between its pixels.
+/// Enlarges a picture of half the size, linearly between pixels.
 XyzPicture enlarged(const XyzPicture& half, int width, int height) {
   XyzPicture out{width, height, {}, {}};
   for (int y = 0; y < height; ++y)

@@ -10,22 +10,22 @@ namespace luxodus {
 
 namespace {
 
-/// Of more fluxes (patches), as many are looked at, evenly among them.
+/// Number of fluxes (patches) evaluated, evenly chosen among more.
 constexpr size_t max_fluxes = 4096;
-/// What is known worse than this after a first round says nothing of its deviation.
+/// After a first round, a flux with a larger relative error says nothing about its deviation.
 constexpr double known = 0.5;
-/// Sum of the relative variances to this power: near enough to their largest.
+/// The sum of the relative variances to this power approximates their largest.
 constexpr double power_of_worst = 4;
 constexpr int steps = 100;
-/// Of the first round, of each group: a variance is then known to a quarter. Small, for only ratios
-/// of variances count.
+/// Batches of each group in the first round: a variance is then known to a quarter. They are small,
+/// since only ratios of variances count.
 constexpr int64_t first_batches = 32, first_batch_particles = 512;
 constexpr double min_of_usual = 0.1;
 
 /// A flux by which a run is judged: the square of its relative deviation per batch, by group.
 struct Need {
   std::vector<double> variance;
-  /// 1 where the mean over all counts, as of patches: the worst of these is a matter of chance.
+  /// 1 if the mean over all counts, as for patches, the worst of which is a matter of chance.
   double power = power_of_worst;
 };
 
@@ -65,7 +65,7 @@ void scale_to_one(std::vector<double>& shares) {
   for (double& share : shares) share /= sum;
 }
 
-/// Neyman's shares for the sum of all variances, each weighted by how bad it is with `shares`.
+/// Neyman's shares for the sum of all variances, each weighted by its size with `shares`.
 std::vector<double> better_shares(const std::vector<Need>& needs,
                                   const std::vector<double>& shares) {
   std::vector<double> now;
@@ -100,7 +100,7 @@ std::vector<double> adaptive_shares(const CompiledScene& scene, const Totals& to
   std::vector<double> shares = usual;
   for (int step = 0; step < steps; ++step) {
     const std::vector<double> better = better_shares(needs, shares);
-    // Half the way, for the worst of two needs takes turns; a share of 0 would be one for ever.
+    // Only half the way, because the worst of two needs alternates; a share of 0 would stay 0.
     for (size_t g = 0; g < shares.size(); ++g)
       shares[g] = std::sqrt(shares[g] * std::max(better[g], min_of_usual * usual[g]));
     scale_to_one(shares);

@@ -1,6 +1,6 @@
-// Groups take turns by largest deficit. Their shares are the scene's; where it has none, half of
-// the batches go evenly, half in proportion to lumens, since a designer may ask for a weak circuit
-// alone.
+// Groups take turns by largest deficit. Their shares are the scene's; if it states none, half of
+// the batches are distributed evenly, half in proportion to lumens, since a designer may look at a
+// weak circuit alone.
 #include "actors/results/run/batch_plan.hpp"
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 namespace luxodus {
 
 namespace {
-/// Batches of the first round and group: enough for a standard error that is itself good to 25 %.
+/// Batches of each group in the first round: enough for a standard error that is itself known to 25
+/// %.
 constexpr int64_t first_round_batches = 8;
 
 std::vector<double> shares_by_lumens(const CompiledScene& scene) {

@@ -1,6 +1,6 @@
-// Which batch is what: batch k belongs to one source group and is a fixed range of its particle
-// ids. A pure function of the scene, so nodes, threads and resumed runs agree on it without
-// talking.
+// Assigns batches: batch k belongs to one source group and is a fixed range of its particle ids. A
+// pure function of the scene, so nodes, threads and resumed runs agree on it without communication.
+// A plan is for one thread.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,14 @@ class BatchPlan {
 
   /// The next batch in order.
   Batch next();
-  /// Skips to where `count` batches have been given out.
+  /// Skips until `count` batches have been given out.
   void skip(int64_t count);
   int64_t given() const { return given_; }
-  /// Of all batches, those of each group [1].
+  /// Share of each group in all batches [1].
   const std::vector<double>& shares() const { return share_; }
 
-  /// Batches of the first round, and after that the end of the round that `done` batches lie in:
-  /// rounds grow by a quarter, so that a run oversteps its target by little.
+  /// The end of the first round, or after it the end of the round that contains batch `done`:
+  /// rounds grow by a quarter, so that a run exceeds its target by little.
   int64_t round_end(int64_t done) const;
 
  private:

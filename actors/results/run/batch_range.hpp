@@ -1,6 +1,6 @@
-// Batches of a scene state that changes: each source group has its own, counted from 0, and its own
-// stream of random numbers. In a lease a batch has one number, which says all three; those of a
-// group follow each other. Plain values; any thread.
+// Batches of a state of a scene that changes in time: each source group counts its own from 0, and
+// has its own stream of random numbers. In a lease a batch has one number that encodes all three;
+// those of a group are consecutive. Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace luxodus {
 
-/// Batches [first, first + count) of a source group; of a run, by their numbers: then group and
+/// Batches [first, first + count) of a source group; or of a run, by their numbers: then group and
 /// stream are 0.
 struct BatchRange {
   int group = 0;
-  int stream = 0;  // what stands for the group in the ids of its particles
+  int stream = 0;  // replaces the group in the ids of its particles
   int64_t first = 0;
   int64_t count = 0;
 
@@ -24,14 +24,14 @@ struct BatchRange {
 uint64_t first_particle_of(const CompiledScene& scene, int stream, int64_t batch);
 
 namespace limits {
-inline constexpr int batch_bits = 30;   // of a batch within its group
-inline constexpr int stream_bits = 19;  // ids of particles have room for one more
+inline constexpr int batch_bits = 30;   // number of a batch within its group
+inline constexpr int stream_bits = 19;  // ids of particles have one more bit
 inline constexpr int group_bits = 13;
 }  // namespace limits
 
 /// The number of the first of these batches. Requires: all within the limits.
 int64_t number_of(const BatchRange& batches);
-/// The one batch of a number. Requires: number >= 0.
+/// The single batch of a number. Requires: number >= 0.
 BatchRange batch_of(int64_t number);
 
 }  // namespace luxodus

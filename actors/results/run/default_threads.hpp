@@ -1,4 +1,4 @@
-// How many threads trace where nobody says. Any thread.
+// The default number of threads that trace. Any thread.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace luxodus {
 
-/// As many as there are processors.
+/// The number of processors.
 inline int default_threads() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }

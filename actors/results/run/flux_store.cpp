@@ -10,7 +10,7 @@
 namespace luxodus {
 
 namespace limits {
-/// Squares of their scores leave 128 bits beyond: see Totals::square_shift.
+/// With more, squares of their scores would exceed 128 bits: see Totals::square_shift.
 inline constexpr int64_t batches = int64_t{1} << 26;
 }  // namespace limits
 
@@ -72,7 +72,7 @@ Json describe_run(const LocalRun& run) {
   return header;
 }
 
-/// Batches that the totals lack. Errors: no numbers of batches that ascend.
+/// Batches that the totals lack. Errors: not an ascending list of batch numbers.
 Result<std::vector<int64_t>> missing_of(const Json& header, int64_t batches,
                                         const SourcePlace& place) {
   std::vector<int64_t> missing;
@@ -89,17 +89,17 @@ Result<std::vector<int64_t>> missing_of(const Json& header, int64_t batches,
   return missing;
 }
 
-/// What the totals hold, as the header says it.
+/// The content of the totals, according to the header.
 struct Counted {
-  int64_t batches = 0;           // given out
-  std::vector<int64_t> missing;  // of them, those that the totals lack
+  int64_t batches = 0;           // batches given out
+  std::vector<int64_t> missing;  // those of them that the totals lack
   std::vector<int64_t> groups;   // batches of each source group in the totals
 
   int64_t traced() const { return batches - static_cast<int64_t>(missing.size()); }
 };
 
-/// Errors: counts that are no counts, or not those of the plan that all runs of the scene have:
-/// with fewer than there are, batches would be traced and counted once more.
+/// Errors: invalid counts, or counts that contradict the plan that all runs of the scene share: too
+/// low a count would have batches traced and counted twice.
 Result<Counted> counted_of(const Json& header, const LocalRun& run, const SourcePlace& place) {
   const auto count_in = [](const Json& object) -> int64_t {
     if (!object.is_object() || !object.contains("batches")) return -1;

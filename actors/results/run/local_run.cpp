@@ -12,7 +12,7 @@ namespace luxodus {
 
 namespace {
 
-/// Another run's way to geometry.
+/// Reaches geometry through another run.
 class RowsOfAnother final : public ParallelFor {
  public:
   explicit RowsOfAnother(const ParallelFor& rows) : rows_(rows) {}

@@ -1,6 +1,6 @@
-// A run on this machine: threads that trace batches until a stopping rule holds, all into the same
-// totals. The flux depends on (scene, seed, which batches) only; threads and timing decide how
-// fast, never what.
+// A run on this machine: threads trace batches into the same totals until a stopping rule holds.
+// The flux depends on scene, seed and the set of batches only, never on threads or timing. Thread
+// rule: one caller, except where a function says otherwise.
 #pragma once
 
 #include <algorithm>
@@ -23,28 +23,29 @@ class LocalRun {
   /// Takes all geometry into memory. Requires: threads >= 1.
   /// Errors (exception): a packed scene whose triangles cannot be read.
   LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads);
-  /// Leaves geometry where it is: others trace, and what is computed of the result reaches geometry
+  /// Does not load geometry: others trace, and what is computed from the result reaches geometry
   /// through `rows`.
   LocalRun(std::shared_ptr<const CompiledScene> scene, uint64_t seed, int threads,
            std::unique_ptr<ParallelFor> rows);
 
-  /// Traces until `stop` holds or `interrupt` is set; batches in flight are finished. May be called
-  /// again to go on. `report` is called about four times a second, from one thread at a time.
+  /// Traces until `stop` holds or `interrupt` is set; batches in progress are finished. May be
+  /// called again to continue. `report` is called about four times a second, from one thread at a
+  /// time.
   /// Requires: resident().
   StopReason run(const StopRule& stop, const std::atomic<bool>& interrupt,
                  const std::function<void(const Progress&)>& report);
 
-  /// Makes what traces a batch. Called once on each thread.
+  /// Makes a batch tracer. Called once on each thread.
   using MakeTracer = std::function<std::unique_ptr<BatchTracer>(
       const CompiledScene&, const GeometryAccess&, uint64_t seed)>;
-  /// Has batches traced by another loop than the program's own.
+  /// Replaces the program's loop that traces batches.
   void trace_with(MakeTracer make) { make_tracer_ = std::move(make); }
   const MakeTracer& make_tracer() const { return make_tracer_; }
 
-  /// Has `pause` called between batches whenever `due` says so, while nobody adds to the totals and
-  /// these hold all batches() but the missing ones: by run() on its thread, by a coordinator on one
-  /// that reads for it. Until remove_pause() of the same owner. Requires: the run does not go on
-  /// meanwhile.
+  /// Calls `pause` between batches whenever `due` says so, while nobody adds to the totals and
+  /// these hold all batches() except the missing ones: run() calls it on its thread, a coordinator
+  /// on one that reads for it. Until remove_pause() with the same owner. Requires: the run does not
+  /// continue meanwhile.
   void add_pause(const void* owner, std::function<bool()> due, std::function<void()> pause) {
     pauses_.push_back({owner, std::move(due), std::move(pause)});
   }
@@ -59,23 +60,23 @@ class LocalRun {
       if (pause.due()) pause.take();
   }
 
-  /// Goes on from totals that hold the first `batches` batches, but for those `missing`: these are
+  /// Continues from totals that hold the first `batches` batches except those `missing`, which are
   /// traced before others. Requires: `missing` ascend and are among them; batches >= batches().
   void resume(int64_t batches, std::vector<int64_t> missing = {});
-  /// Adds time that somebody else has traced into the totals.
+  /// Adds time in which others have traced into the totals.
   void add_seconds(double seconds) { seconds_ += seconds; }
-  /// What the totals hold took a time that is not known: rates are of what is traced from here on.
+  /// Marks the time of the totals as unknown: rates count what is traced from here on.
   void forget_time() { untimed_ = {traced(), totals_.balance().rays}; }
-  /// The time that the batches resumed from took is known after all.
+  /// Sets the time of the batches resumed from, which is known after all.
   void add_earlier_seconds(double seconds) {
     seconds_ += seconds;
     untimed_ = {};
   }
 
-  /// What is known of the time that the totals took, to carry over to a copy of the run.
+  /// The known timing of the totals, to copy to another run.
   struct Timing {
     double seconds = 0;
-    int64_t untimed_batches = 0;  // resumed from, of unknown time
+    int64_t untimed_batches = 0;  // resumed from, with unknown time
     uint64_t untimed_rays = 0;
   };
   Timing timing() const { return {seconds_, untimed_.batches, untimed_.rays}; }
@@ -84,11 +85,11 @@ class LocalRun {
     untimed_ = {timing.untimed_batches, timing.untimed_rays};
   }
 
-  /// A run of the same scene without totals, which reaches geometry as this one does.
+  /// A run of the same scene without totals, which shares this one's access to geometry.
   /// Requires: this outlives it.
   std::unique_ptr<LocalRun> empty_copy() const;
 
-  /// Of the run: which batches it consists of, and where its rounds end.
+  /// The batches of the run, and the ends of its rounds.
   const BatchPlan& plan() const { return plan_; }
 
   const CompiledScene& scene() const { return *scene_; }
@@ -96,18 +97,18 @@ class LocalRun {
   bool resident() const { return index_ != nullptr; }
   /// Requires: resident().
   const SceneIndex& index() const { return *index_; }
-  /// For work beside tracing that needs geometry.
+  /// For other work that needs geometry.
   const ParallelFor& rows() const { return *rows_; }
   Totals& totals() { return totals_; }
   const Totals& totals() const { return totals_; }
   const EmbreeDevice& device() const { return device_; }
-  /// Batches given out so far; of these, those that the totals lack: of nodes that were lost.
+  /// Batches given out so far, and those of them that the totals lack, because nodes were lost.
   int64_t batches() const { return plan_.given(); }
   const std::vector<int64_t>& missing() const { return missing_; }
   int64_t traced() const { return plan_.given() - static_cast<int64_t>(missing_.size()); }
   int64_t particles() const { return traced() * scene_->batch_particles; }
   double seconds() const { return seconds_; }
-  /// Of particles() and their rays, those that took seconds().
+  /// The particles, and their rays, that took seconds().
   int64_t timed_particles() const {
     return particles() - untimed_.batches * scene_->batch_particles;
   }
@@ -140,7 +141,7 @@ class LocalRun {
     int64_t batches = 0;
     uint64_t rays = 0;
   };
-  Untimed untimed_;  // resumed from, of unknown time
+  Untimed untimed_;  // resumed from, with unknown time
   double error_ = 0;
   int64_t batches_at_start_ = 0;
   MakeTracer make_tracer_ = make_batch_tracer;

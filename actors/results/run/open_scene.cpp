@@ -29,12 +29,12 @@ OpenedScene open_pack(const std::filesystem::path& file, bool other_time, bool c
 
 using ReadState = Result<std::shared_ptr<const SceneDescription>>;
 
-/// The scene at a time, from files that are as they were: `files`, null where nobody knows.
+/// The scene at a time, from unchanged files: `files`, null if they are not known.
 ReadState opened_as(const FilesAsRead* files, const std::filesystem::path& file,
                     std::optional<double> at_s, const std::string& changes, FireFrames frames) {
   OpenedScene opened = open_scene(file, at_s, changes, frames);
   if (!opened.scene) {
-    // What is wrong with an edited file is not what the one who asks needs to know first.
+    // If a file was edited, that is reported before the file's own problems.
     const auto changed = files != nullptr ? files->change_on_disk() : std::nullopt;
     return changed ? *changed : opened.problems.list().front();
   }

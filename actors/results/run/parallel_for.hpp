@@ -1,6 +1,6 @@
-// Work on rows, shared by threads or fibers. Which of them does which row is left to chance, so a
-// row's work must depend on its number alone; then the result is the same for any number of them.
-// Blocks until all rows are done; may be called from any thread.
+// Parallel loops over rows, on threads or fibers. The assignment of rows is not deterministic, so a
+// row's work must depend on its number alone; then the result is the same for any number of
+// threads. Blocks until all rows are done; may be called from any thread.
 #pragma once
 
 #include <atomic>
@@ -15,8 +15,9 @@
 
 namespace luxodus {
 
-/// Calls `make()` once on each of `threads` threads, and what it returns with every row of [0,
-/// rows). `finished(n)` hears how many rows are done, from one thread at a time; may be empty.
+/// Calls `make()` once on each of `threads` threads, and the function it returns for every row of
+/// [0, rows). `finished(n)` receives the number of rows done, from one thread at a time; may be
+/// empty.
 /// Requires: threads >= 1.
 template <class Make>
 void parallel_for(int64_t rows, int threads, const Make& make,
@@ -25,8 +26,8 @@ void parallel_for(int64_t rows, int threads, const Make& make,
   std::mutex mutex;
   int64_t done = 0;
   const auto work = [&] {
-    // Always on threads of our own: the caller's arithmetic stays as it is, and every row is
-    // computed under the same rule.
+    // Always on new threads: the caller's floating-point mode is not changed, and every row is
+    // computed in the same mode.
     flush_denormals();
     auto worker = make();
     for (int64_t row = next++; row < rows; row = next++) {
@@ -41,10 +42,10 @@ void parallel_for(int64_t rows, int threads, const Make& make,
   for (std::thread& t : all) t.join();
 }
 
-/// Told how much of some work is done, 0 to 1; from one thread at a time.
+/// Receives the share of some work that is done, 0 to 1; from one thread at a time.
 using ShareDone = std::function<void(double share)>;
 
-/// Rows of work that reaches geometry, wherever that is.
+/// Parallel loops for work that needs geometry, wherever the geometry is.
 class ParallelFor {
  public:
   using Worker = std::function<void(int64_t row)>;
@@ -52,12 +53,12 @@ class ParallelFor {
   using Finished = std::function<void(int64_t done)>;
 
   virtual ~ParallelFor() = default;
-  /// Calls `make` once for every thread or fiber, and what it returns with every row of [0, rows).
-  /// `finished` as parallel_for. Errors (exception): geometry that cannot be had.
+  /// Calls `make` once for every thread or fiber, and the function it returns for every row of [0,
+  /// rows). `finished`: as in parallel_for. Errors (exception): geometry that is not available.
   virtual void run(int64_t rows, const MakeWorker& make, const Finished& finished = {}) const = 0;
 };
 
-/// All in memory: threads.
+/// All geometry in memory: uses threads.
 class ResidentParallelFor final : public ParallelFor {
  public:
   ResidentParallelFor(const SceneIndex& index, int threads) : index_(index), threads_(threads) {}

@@ -1,4 +1,4 @@
-// Traces batches of particles, with the paths from the eye that belong to them.
+// Traces batches of particles, with their paths from the eye. Thread rule: one thread or fiber.
 #pragma once
 
 #include <functional>
@@ -11,19 +11,19 @@
 
 namespace luxodus {
 
-/// Makes what traces: make_batch_tracer, but in a simulation.
+/// Makes a batch tracer: make_batch_tracer, except in a simulation.
 using TracerMaker = std::function<std::unique_ptr<BatchTracer>(
     const CompiledScene& scene, const GeometryAccess& access, uint64_t seed)>;
 
-/// What the number of a batch says.
+/// How a batch's number is read.
 enum class BatchNumbers {
   of_groups,  // BatchRange: a source group, a stream, a number within it; no paths from the eye
-  of_run      // that of a batch of a run (BatchPlan), with its paths from the eye
+  of_run      // the number of a batch of a run (BatchPlan), with its paths from the eye
 };
 
 class ParticleWorker final : public BatchWorker {
  public:
-  /// A portion is of `portion` particles at most, or one unit of paths from the eye.
+  /// A portion is at most `portion` particles, or one unit of paths from the eye.
   /// Requires: portion >= 1; what is referred to outlives this.
   ParticleWorker(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
                  BatchNumbers numbers, int64_t portion,
@@ -42,13 +42,13 @@ class ParticleWorker final : public BatchWorker {
   const int64_t portion_;
   const uint32_t look_units_;  // of a batch
   BatchScores scores_;
-  bool cleared_ = false;  // the scores
+  bool cleared_ = false;  // whether the scores are cleared
   Batch batch_;
-  int64_t traced_ = 0;   // particles of it
+  int64_t traced_ = 0;   // particles of the batch
   uint32_t looked_ = 0;  // units of its paths from the eye
 };
 
-/// Totals of a scene, empty.
+/// Empty totals of a scene.
 std::unique_ptr<Totals> empty_totals(const CompiledScene& scene);
 
 }  // namespace luxodus

@@ -3,7 +3,7 @@
 namespace luxodus {
 
 namespace {
-/// A lease that is late is lent again while some hundred others are out.
+/// A late lease is usually lent again while some hundred others are out.
 constexpr size_t recent_batches = 1024;
 }  // namespace
 
@@ -17,7 +17,7 @@ Batch PlannedBatches::at(int64_t number) {
     recent_[place(next.number)] = next;
   }
   if (recent_[place(number)].number == number) return recent_[place(number)];
-  BatchPlan again(scene_);  // of a lease that was late, long ago
+  BatchPlan again(scene_);  // from a lease that was late long ago
   again.skip(number);
   return again.next();
 }

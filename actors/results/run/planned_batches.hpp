@@ -1,5 +1,5 @@
-// What a batch of a run is, by its number. Numbers come nearly in order; a lease that was late is
-// lent again, and asks for one of before. Thread rule: one thread.
+// Looks up a run's batch by its number. Numbers come nearly in order; a late lease is lent again,
+// and asks for an earlier one. Thread rule: one thread.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ class PlannedBatches {
   /// Requires: the scene outlives it.
   explicit PlannedBatches(const CompiledScene& scene);
 
-  /// Does not allocate for batches that are near the last one. Requires: number >= 0.
+  /// Does not allocate for numbers near the last one. Requires: number >= 0.
   Batch at(int64_t number);
 
  private:
   const CompiledScene& scene_;
   BatchPlan plan_;
-  std::vector<Batch> recent_;  // what was planned last, by number modulo its size
+  std::vector<Batch> recent_;  // the last planned batches, by number modulo its size
 };
 
 }  // namespace luxodus

@@ -1,6 +1,6 @@
-// Who traces a run: threads of this process, nodes that are made for it
-// (actors/cast/process/in_process.hpp), or whoever traces states of a scene (run_in_pieces.hpp).
-// The flux is the same, bit for bit. Thread rule: one caller.
+// Traces a run: threads of this process, nodes made for it (actors/cast/process/in_process.hpp), or
+// nodes that trace states of a scene (run_in_pieces.hpp). The flux is the same, bit for bit. Thread
+// rule: one caller.
 #pragma once
 
 #include <atomic>
@@ -15,17 +15,17 @@ namespace luxodus {
 class RunExecutor {
  public:
   virtual ~RunExecutor() = default;
-  /// What those who trace elsewhere, and know the scene's file alone, make the scene of the next
-  /// runs from.
+  /// Sets the state from which nodes that know only the scene's file make the scene of the next
+  /// runs.
   virtual void enter(const StateObject& /*state*/) {}
   /// Traces until `stop` holds or `interrupt` is set, into the run's totals; as LocalRun::run.
-  /// Errors: of nodes: those of run_on_nodes.
+  /// Errors: on nodes, those of run_on_nodes.
   virtual Result<StopReason> run(LocalRun& run, const StopRule& stop,
                                  const std::atomic<bool>& interrupt,
                                  const std::function<void(const Progress&)>& report) = 0;
 };
 
-/// The threads that the run was made for.
+/// The run's own threads.
 class RunThreads final : public RunExecutor {
  public:
   Result<StopReason> run(LocalRun& run, const StopRule& stop, const std::atomic<bool>& interrupt,

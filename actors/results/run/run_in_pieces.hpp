@@ -1,5 +1,5 @@
-// A run whose batches are given out as work, piece by piece, to whoever traces states of a scene:
-// nodes of a cluster that go on from one run to the next. Thread rule: one caller.
+// A run whose batches are given out as work, piece by piece, to an executor that traces states of a
+// scene: nodes of a cluster that continue from one run to the next. Thread rule: one caller.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,12 @@
 
 namespace luxodus {
 
-/// The batches of a run up to where all wait for one another.
+/// The batches of a run up to the next wait for all.
 class PiecesOfRun final : public Work {
  public:
-  /// `stops` and `report` are called by whoever traces, `report` with the batches merged so far;
-  /// both without a lock of this, since they may ask the executor, which has locks of its own.
+  /// The executor's threads call `stops` and `report`, `report` with the batches merged so far;
+  /// both without holding this object's lock, since they may ask the executor, which has locks of
+  /// its own.
   /// Requires: the run is resident.
   PiecesOfRun(LocalRun& run, int64_t end, std::function<bool()> stops,
               std::function<void(int64_t)> report);
@@ -28,7 +29,7 @@ class PiecesOfRun final : public Work {
   void merged(int64_t batches) override;
   bool stopped() const override;
 
-  /// The run goes on from what was merged. Requires: nobody traces.
+  /// Continues the run from what was merged. Requires: nobody traces.
   void settle();
 
  private:
@@ -36,7 +37,7 @@ class PiecesOfRun final : public Work {
   const int64_t end_;
   const std::function<bool()> stops_;
   const std::function<void(int64_t)> report_;
-  mutable std::mutex mutex_;  // guards all below
+  mutable std::mutex mutex_;  // guards all members below
   int64_t given_;
   std::set<int64_t> missing_;
   int64_t merged_ = 0;
@@ -44,13 +45,13 @@ class PiecesOfRun final : public Work {
 
 class RunInPieces final : public RunExecutor {
  public:
-  /// `fault`: why those who trace never will; then a run ends with that error.
+  /// `fault`: why tracing can never be completed; the run then ends with that error.
   /// Requires: `executor` outlives it.
   RunInPieces(Executor& executor, std::function<std::optional<Problem>()> fault)
       : executor_(executor), fault_(std::move(fault)) {}
 
   void enter(const StateObject& state) override { executor_.enter(state); }
-  /// Requires: the state entered last is that of the run's scene and seed.
+  /// Requires: the state entered last has the run's scene and seed.
   /// Errors: `fault`.
   Result<StopReason> run(LocalRun& run, const StopRule& stop, const std::atomic<bool>& interrupt,
                          const std::function<void(const Progress&)>& report) override;

@@ -12,7 +12,7 @@ ObjectId StateObject::id() const {
   return object_id_of(std::as_bytes(std::span(all)));
 }
 
-/// The seed, a line of its own, and the text.
+/// The seed on a line of its own, then the text.
 std::string StateObject::bytes() const {
   return std::to_string(seed) + "\n" + text;
 }

@@ -1,5 +1,6 @@
-// States of a scene that changes, as those who trace elsewhere get them: a data object, named in
-// leases by its hash, of which whoever knows the scene makes what can be traced.
+// States of a scene that changes in time, for tracing elsewhere: a data object, named in leases by
+// its hash, from which any node that knows the scene makes a traceable state. Each class states its
+// thread rule; StateObject is a plain value.
 #pragma once
 
 #include <memory>
@@ -12,32 +13,32 @@
 
 namespace luxodus {
 
-/// What a state of the scene is made from by whoever traces it elsewhere: a data object.
+/// The data from which a node elsewhere makes a state of the scene.
 struct StateObject {
   uint64_t seed = 0;
-  std::string text;  // as whoever makes states of it has written it
+  std::string text;  // as written by the maker of states
 
-  /// The hash of its bytes: names the state in leases.
+  /// The hash of its bytes, which names the state in leases.
   ObjectId id() const;
   std::string bytes() const;
-  /// Errors: bytes that are none.
+  /// Errors: malformed bytes.
   static Result<StateObject> parse(std::span<const std::byte> bytes);
 
   friend bool operator==(const StateObject&, const StateObject&) = default;
 };
 
-/// A state whose batches can be done. Any thread; its workers each of one.
+/// A state whose batches can be traced. Any thread; each worker belongs to one.
 class TracedState {
  public:
   virtual ~TracedState() = default;
-  /// Empty totals, which its batches are merged into. Requires: the state outlives them.
+  /// Empty totals for its batches. Requires: the state outlives them.
   virtual std::unique_ptr<Totals> totals() const = 0;
-  /// `portion`, `make_tracer`: of particles. Requires: the state outlives it.
+  /// `portion`, `make_tracer`: for particles. Requires: the state outlives it.
   virtual std::unique_ptr<BatchWorker> worker(uint64_t seed, int64_t portion,
                                               const TracerMaker& make_tracer) const = 0;
 };
 
-/// A scene in whose state particles are traced, with all its geometry.
+/// A state of the scene in which particles are traced, with all its geometry.
 class ParticleState final : public TracedState {
  public:
   ParticleState(std::shared_ptr<const CompiledScene> scene, BatchNumbers numbers)
@@ -57,11 +58,11 @@ class ParticleState final : public TracedState {
   const BatchNumbers numbers_;
 };
 
-/// Makes states of their text. The nodes of a process share one. Any thread.
+/// Makes states from their text. The nodes of a process share one maker. Any thread.
 class StateMaker {
  public:
   virtual ~StateMaker() = default;
-  /// Errors: a text that is none, or asks for what the scene has not.
+  /// Errors: malformed text, or a request for something the scene lacks.
   virtual Result<std::shared_ptr<const TracedState>> make(const std::string& text) = 0;
 };
 

@@ -1,5 +1,6 @@
-// When a run stops, and how far it is from that. Threads of one process and the controller of many
-// nodes ask here, so that a run ends at the same batch on any number of them. Pure; any thread.
+// When a run stops, and how far it is from stopping. Both threads of one process and the controller
+// of many nodes use it, so that a run ends at the same batch on any number of them. Pure; any
+// thread.
 #pragma once
 
 #include <cstdint>
@@ -11,47 +12,47 @@ namespace luxodus {
 
 enum class StopReason { particles, error, time, interrupted, workers_lost, objects_lost };
 
-/// The word of a reason in results and logs.
+/// The name of a reason in results and logs.
 const char* name_of(StopReason reason);
 
-/// What a run has come to where all its threads or nodes have waited for one another.
+/// Progress of a run at a point where all its threads or nodes wait for one another.
 struct RunProgress {
-  int64_t batches = 0;  // whole ones, from the first on
+  int64_t batches = 0;  // complete ones, from the first on
   double relative_error = 0;
   bool interrupted = false;
   bool time_is_up = false;
 };
 
-/// When to stop; the first limit that holds does. Particles are rounded up to whole batches; the
+/// When to stop: at the first limit that is reached. Particles are rounded up to whole batches; the
 /// error is tested at the ends of rounds.
 struct StopRule {
   std::optional<int64_t> particles;
   std::optional<double> relative_error;
   std::optional<double> seconds;
 
-  /// Batches that `particles` asks for; unreachably many without it.
+  /// Number of batches for `particles`; unreachably many without it.
   int64_t target_batches(int64_t batch_particles) const;
-  /// Where threads or nodes wait for one another after `batches`: at the end of a round, which only
-  /// an error target needs, or at the target.
+  /// The next wait of threads or nodes for one another after `batches`: at the end of a round,
+  /// which only an error target needs, or at the target.
   int64_t next_wait(int64_t batches, int64_t batch_particles, const BatchPlan& plan) const;
   bool time_is_up(double passed_s) const { return seconds && passed_s >= *seconds; }
   bool error_is_reached(double error) const { return relative_error && error <= *relative_error; }
-  /// Why the run ends here; nothing where it goes on.
+  /// Why the run ends here; nothing if it goes on.
   std::optional<StopReason> reason_to_stop(const RunProgress& run, int64_t batch_particles) const;
 };
 
 inline constexpr double report_every_s = 0.25;
 
-/// What people hear of a run while it goes on.
+/// Progress reported while a run goes on.
 struct Progress {
   int64_t particles = 0;
   double seconds = 0;
   double particles_per_second = 0;
   double relative_error = 0;  // NaN until a round has ended
-  double seconds_left = 0;    // NaN where no rule gives one
+  double seconds_left = 0;    // NaN if no rule gives one
 };
 
-/// Progress after `batches` in all, of which `at_start` were there before these `seconds`.
+/// Progress after `batches` in all, of which `at_start` existed before these `seconds`.
 Progress progress_of(const StopRule& stop, int64_t batch_particles, int64_t at_start,
                      int64_t batches, double seconds, double error);
 

@@ -20,13 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// dxflib keeps a group at a time; what is read takes a few times the text.
+/// dxflib holds one group at a time; the result takes a few times the memory of the text.
 constexpr IsolatedLimits dxf_limits{uint64_t{2} << 30, 60};
 
-/// Chords of a quarter of a circle: off by 0.5 % of the radius.
+/// A quarter of a circle becomes this many chords: they deviate by 0.5 % of the radius.
 constexpr int chords_of_quarter = 8;
 
-/// $INSUNITS of the header in metres; 0 of those that are no lengths of buildings.
+/// Metres per unit of the header's $INSUNITS; 0 for codes that are no lengths used in buildings.
 double metres_of(int insunits) {
   switch (insunits) {
     case 1:
@@ -50,16 +50,16 @@ bool finite(const glm::dvec2& p) {
   return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
-/// Collects what dxflib tells.
+/// Collects what dxflib reports.
 class PlanCollector : public DL_CreationAdapter {
  public:
-  /// Of a text of so many bytes, read from `text`, which outlives this.
+  /// Collects from a text of `bytes` bytes, read from `text`, which outlives this.
   PlanCollector(std::istream& text, size_t bytes) : text_(text), bytes_(bytes) {}
 
   DxfPlan plan;
   bool too_many = false;
 
-  /// Of every group of the text: a code and a value.
+  /// dxflib calls it for every group of the text: a code and a value.
   void processCodeValuePair(unsigned int, const std::string&) override {
     constexpr size_t groups_of_a_word = 65'536;
     if (++groups_ % groups_of_a_word != 0) return;
@@ -110,7 +110,7 @@ class PlanCollector : public DL_CreationAdapter {
     plan.inserts.push_back({insert.name, attributes.getLayer(), at, std::fmod(insert.angle, 360)});
   }
 
-  /// The last polyline, whose end some files do not say.
+  /// Ends the last polyline, because some files do not mark its end.
   void end_polyline() {
     if (!in_polyline_) return;
     in_polyline_ = false;
@@ -133,7 +133,7 @@ class PlanCollector : public DL_CreationAdapter {
     plan.segments.push_back({on, from, to});
   }
 
-  /// A side whose bulge is the tangent of a quarter of its arc's angle.
+  /// Adds a side with a bulge, the tangent of a quarter of its arc's angle.
   void add_bulged(const glm::dvec2& from, const glm::dvec2& to, double bulge,
                   const std::string& on) {
     const double angle = 4 * std::atan(bulge);

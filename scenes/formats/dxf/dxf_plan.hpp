@@ -1,7 +1,7 @@
-// The lines and blocks of a DXF plan, read by dxflib in a process of its own with limits on memory
-// and time. Lines, polylines (their arcs as chords) and arcs are segments; blocks are told by name,
-// place and turn, their contents are not taken apart. Heights, texts, hatches and dimensions are
-// not read. Plain values in the drawing's unit; any thread.
+// The lines and block references of a DXF plan, read by dxflib in a process of its own with limits
+// on memory and time. Lines, polylines (arcs as chords) and arcs become segments. A block reference
+// gives its name, place and turn; the block's contents are not expanded. Heights, texts, hatches
+// and dimensions are not read. Plain values in the drawing's unit; any thread.
 #pragma once
 
 #include <filesystem>
@@ -16,9 +16,9 @@ namespace luxodus {
 class ReadingShare;
 
 namespace limits {
-/// Of a drawing [bytes].
+/// Size of a drawing [bytes].
 inline constexpr uint64_t dxf_plan_bytes = uint64_t{256} << 20;
-/// Of segments, and of blocks that are placed.
+/// Number of segments, and number of block references.
 inline constexpr size_t dxf_plan_things = 200'000;
 }  // namespace limits
 
@@ -34,18 +34,19 @@ struct DxfInsert {
 };
 
 struct DxfPlan {
-  double metres_per_unit = 0;  // as the drawing's header says; 0 where it says none
+  double metres_per_unit = 0;  // from the drawing's header; 0 where it states none
   std::vector<DxfSegment> segments;
   std::vector<DxfInsert> inserts;
 };
 
-/// Names are as the drawing has them, of any bytes. `reading`, where given, hears how far it is.
-/// Errors: it cannot be read, holds nothing of these, or more than the limits.
+/// Names keep the bytes of the drawing, whatever their encoding. `reading`, where given, receives
+/// the progress.
+/// Errors: the file cannot be read, holds no segment and no block, or exceeds the limits.
 Result<DxfPlan> read_dxf_plan(const std::filesystem::path& file, ReadingShare* reading = nullptr);
 
-/// The same of its text, in this process. `file` names it in messages.
-/// Requires: a text that is known to be sound, since dxflib writes beyond its memory for some that
-/// are damaged.
+/// Reads the text of a drawing in this process. `file` names it in messages.
+/// Requires: a text that is known to be sound, since dxflib writes beyond its memory for some
+/// damaged ones.
 Result<DxfPlan> dxf_plan_of(const std::string& text, const std::string& file);
 
 }  // namespace luxodus

@@ -10,7 +10,7 @@ namespace luxodus::fds_input {
 
 namespace {
 
-/// Of a radius: chords of a circle of 63 segments.
+/// Share of a radius by which chords may deviate: a circle of 63 segments.
 constexpr double round_tolerance = 1.25e-3;
 
 const char* const instead =
@@ -21,7 +21,7 @@ glm::dvec3 vector_of(GroupKeys& keys, std::string_view key, const glm::dvec3& ot
   return {v[0], v[1], v[2]};
 }
 
-/// Triangles by the surface that each names; `verts`: x, y, z of each vertex.
+/// Sorts triangles by the surface that each names; `verts`: x, y, z of each vertex.
 void faces_of(GroupKeys& keys, std::vector<Mesh>& meshes, size_t most) {
   const std::vector<double> verts = keys.numbers("VERTS");
   const std::vector<double> faces = keys.numbers("FACES");
@@ -47,7 +47,7 @@ void faces_of(GroupKeys& keys, std::vector<Mesh>& meshes, size_t most) {
                                               n, points.size()));
       corners[k] = static_cast<uint32_t>(n) - 1;
     }
-    // FDS takes 0 for its default surface, which is the first here if there is none.
+    // FDS reads 0 as its default surface; with none in the list, the first one is taken.
     const double surface = faces[f + 3];
     if (!(surface >= 0 && surface <= static_cast<double>(meshes.size()) &&
           surface == std::floor(surface)))
@@ -60,7 +60,7 @@ void faces_of(GroupKeys& keys, std::vector<Mesh>& meshes, size_t most) {
   }
 }
 
-/// A solid as a mesh, moved by `place`.
+/// Adds a solid as a mesh, moved by `place`.
 template <class Place>
 void solid(GroupKeys& keys, std::string_view key, const Result<Shape>& shape, Mesh& out,
            const Place& place) {
@@ -70,7 +70,7 @@ void solid(GroupKeys& keys, std::string_view key, const Result<Shape>& shape, Me
   out.texture_uv.clear();
 }
 
-/// About its middle, along its axis.
+/// A cylinder about its middle, along its axis.
 void cylinder_of(GroupKeys& keys, Mesh& out) {
   const glm::dvec3 middle = vector_of(keys, "CYLINDER_ORIGIN", glm::dvec3(0));
   const glm::dvec3 axis = vector_of(keys, "CYLINDER_AXIS", glm::dvec3(0, 0, 1));

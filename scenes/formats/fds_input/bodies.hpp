@@ -1,4 +1,5 @@
-// &GEOM: bodies of triangles, as they are given or as simple solids. Any thread.
+// Reads &GEOM: bodies of triangles, given as such or as simple solids. Any thread, but one at a
+// time for a GroupKeys.
 #pragma once
 
 #include <string>
@@ -10,11 +11,12 @@
 namespace luxodus::fds_input {
 
 struct Body {
-  std::vector<Mesh> meshes;  // by the surface that its faces name, in the order of its surfaces
+  std::vector<Mesh> meshes;  // one mesh for each surface that its faces name, in the order of its
+                             // surfaces
 };
 
-/// Solids of curved faces are as fine as FDS would make them, or finer. A fault is in `keys`.
-/// `most`: triangles.
+/// Curved solids are tessellated as finely as by FDS, or finer. A fault is reported through `keys`.
+/// `most`: limit on triangles.
 Body body_of(GroupKeys& keys, size_t surfaces, size_t most);
 
 }  // namespace luxodus::fds_input

@@ -3,7 +3,8 @@
 namespace luxodus::fds_input {
 
 bool cuts(const Box& hole, const Box& box) {
-  // A flat box is cut by a hole that has it strictly within, a body by one that overlaps it.
+  // A hole cuts a flat box if it holds the box's plane strictly within, and a thick one if both
+  // overlap.
   return glm::all(glm::lessThan(hole.low, box.high)) &&
          glm::all(glm::greaterThan(hole.high, box.low));
 }

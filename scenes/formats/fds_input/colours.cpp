@@ -13,7 +13,7 @@ struct NamedColour {
   uint8_t red, green, blue;
 };
 
-/// In the order of their names. Values: FDS User's Guide, table of colours; most are those of X11.
+/// Sorted by name. Values: FDS User's Guide, table of colours; most are those of X11.
 constexpr NamedColour named_colours[] = {
     {"ALICE BLUE", 240, 248, 255},
     {"ANTIQUE WHITE", 250, 235, 215},

@@ -18,7 +18,7 @@ using fds_input::too_many_objects;
 using fds_input::too_much_to_compare;
 
 constexpr double touching_m = 1e-5;
-/// A door begins at most so far above the floor of its mesh [m].
+/// A door begins at most this far above the floor of its mesh [m].
 constexpr double highest_threshold_m = 0.05;
 constexpr double lamp_below_ceiling_m = 0.1;
 constexpr const char* side_names[] = {"west", "east", "south", "north", "bottom", "top"};
@@ -28,7 +28,7 @@ bool touch(const Box& a, const Box& b, double gap_m) {
          glm::all(glm::greaterThanEqual(a.high, b.low - gap_m));
 }
 
-/// A face of a box, as a box without thickness. 0 to 5: low x, high x, low y...
+/// A face of a box, as a box without thickness. `face`, 0 to 5: low x, high x, low y...
 Box face_of(const Box& box, int face) {
   Box out = box;
   const int axis = face / 2;
@@ -107,14 +107,14 @@ class ExactBuilding {
     }
   }
 
-  /// The part of a face of a mesh behind which there is no other mesh, and which is not open.
+  /// Adds the part of a mesh's face that is closed: no other mesh behind it, and no opening in it.
   Result<void> closed_face(const FdsInputMesh& mesh, int number) {
     const int axis = number / 2;
     const Box face = face_of(mesh.box, number);
     const double outward = number % 2 == 0 ? -touching_m : touching_m;
     std::vector<Box> gaps;
     for (const FdsInputMesh& other : input_.meshes) {
-      // The face of a mesh lies before another one if that one holds what is just behind it.
+      // Another mesh lies behind this face if it holds the point just outside.
       const double behind = face.low[axis] + outward;
       if (&other == &mesh || other.box.low[axis] > behind || other.box.high[axis] < behind)
         continue;
@@ -142,7 +142,7 @@ class ExactBuilding {
                                                         : Result<void>();
   }
 
-  /// A gap about a face, so that it cuts the face; its sides reach over edges that they touch.
+  /// Makes an opening thick, so that it cuts the face; its sides extend over edges that they touch.
   static Box thickened(const Box& gap, const Box& face, int axis) {
     Box out = gap;
     out.low -= touching_m;
@@ -151,14 +151,14 @@ class ExactBuilding {
     out.high[axis] = face.low[axis] + 1;
     for (int other = 0; other < 3; ++other) {
       if (other == axis) continue;
-      // Sides within the face stay as they are written.
+      // Sides within the face stay as written.
       if (gap.low[other] > face.low[other] + touching_m) out.low[other] = gap.low[other];
       if (gap.high[other] < face.high[other] - touching_m) out.high[other] = gap.high[other];
     }
     return out;
   }
 
-  /// As FDS takes it: nearer to the face than half a cell.
+  /// Whether an opening is in a face, as FDS decides: nearer to it than half a cell.
   static bool in_face(const Box& opening, const FdsInputMesh& mesh, const Box& face, int axis) {
     const double cell = (mesh.box.high[axis] - mesh.box.low[axis]) / mesh.cells[axis];
     if (opening.low[axis] != opening.high[axis] ||
@@ -171,7 +171,7 @@ class ExactBuilding {
     return true;
   }
 
-  /// Whether something of an opening is not behind other meshes.
+  /// Whether part of an opening is not behind other meshes.
   bool is_exposed(const Box& gap, const Box& face, int axis, const std::vector<Box>& gaps) {
     Box within = face;
     for (int other = 0; other < 3; ++other) {

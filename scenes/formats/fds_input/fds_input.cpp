@@ -1,5 +1,5 @@
-// Reading an FDS input file in two steps: all groups of all files, then what they say, in the order
-// in which they refer to each other: &MULT, &SURF and &DEVC before what names them.
+// Reads an FDS input file in two steps: first all groups of all files, then their meaning, in the
+// order in which they refer to each other: &MULT, &SURF and &DEVC before what names them.
 #include "scenes/formats/fds_input/fds_input.hpp"
 
 #include <fmt/format.h>
@@ -72,7 +72,8 @@ class InputReader {
       }
   }
 
-  /// Each copy of a box that &MULT makes. `there`: how many there are of this kind already.
+  /// Calls `act` for each copy of a box that &MULT makes. `there`: how many of this kind exist
+  /// already.
   template <class Do>
   void copies(GroupKeys& keys, const Box& box, size_t there, const Do& act) {
     Multiplier times;
@@ -113,7 +114,7 @@ class InputReader {
     default_name_ = keys.text("SURF_DEFAULT", default_name_);
   }
 
-  /// COLOR, else RGB; nothing where neither is.
+  /// COLOR, else RGB; nothing where neither is given.
   std::optional<glm::dvec3> colour(GroupKeys& keys) {
     if (!keys.has("COLOR")) return keys.rgb("RGB");
     const std::string name = keys.text("COLOR");
@@ -151,7 +152,7 @@ class InputReader {
     return 0;
   }
 
-  /// Of most of the six sides.
+  /// The surface of most of the six sides.
   size_t surface_of_sides(GroupKeys& keys) {
     std::vector<size_t> sides(6, out_.default_surface);
     if (keys.has("SURF_ID")) sides.assign(6, surface_named(keys, "SURF_ID", keys.text("SURF_ID")));
@@ -167,7 +168,7 @@ class InputReader {
     });
   }
 
-  /// A clock turns a state when it passes its setpoint; what else drives is told.
+  /// A clock changes a state when it passes its setpoint; any other driver is named in a note.
   void driver(GroupKeys& keys) {
     const std::string id = keys.text("ID");
     FdsCourse course;
@@ -265,7 +266,7 @@ class InputReader {
     });
   }
 
-  /// Openings alone: other patches of surfaces are no geometry.
+  /// Reads openings only: other surface patches have no geometry.
   void vent(GroupKeys& keys) {
     if (keys.text("SURF_ID") != "OPEN" || keys.flag("GEOM", false)) return;
     FdsOpening one;

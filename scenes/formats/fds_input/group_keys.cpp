@@ -12,7 +12,7 @@ namespace luxodus::fds_input {
 
 namespace {
 
-/// A text as it is meant: a doubled quote is one, blanks at the end do not count.
+/// A text as FDS reads it: a doubled quote is one quote, trailing blanks do not count.
 std::string plain(const Value& value) {
   std::string out;
   for (size_t i = 0; i < value.text.size(); ++i) {
@@ -26,7 +26,7 @@ std::string plain(const Value& value) {
   return out;
 }
 
-/// "1.", ".5", "+2", "1.5D3".
+/// Reads "1.", ".5", "+2", "1.5D3".
 std::optional<double> fortran_number(std::string_view text) {
   std::string plain_text(text.substr(0, 64));
   if (text.size() > plain_text.size()) return std::nullopt;
@@ -184,7 +184,7 @@ std::optional<glm::dvec3> GroupKeys::rgb(std::string_view key) {
   if (!has(key)) return std::nullopt;
   const std::vector<double> values = array(key, {-1, -1, -1});
   const glm::dvec3 out(values[0], values[1], values[2]);
-  // As FDS takes it: none of them set is no colour.
+  // FDS takes a colour with unset components as no colour.
   if (glm::any(glm::lessThan(out, glm::dvec3(0)))) return std::nullopt;
   return glm::min(out, 255.0) / 255.0;
 }

@@ -1,5 +1,5 @@
-// What stands in a group of an FDS input file, with its type. The first mistake is kept; after it
-// all keys have their defaults. One thread.
+// Typed access to the keys of a group of an FDS input file. The first mistake is kept; after it all
+// keys have their defaults. One thread.
 #pragma once
 
 #include <array>
@@ -21,34 +21,34 @@ inline constexpr double farthest_m = 1e6;
 
 class GroupKeys {
  public:
-  /// `problem`: where the first mistake goes.
+  /// `problem` receives the first mistake.
   GroupKeys(const Group& group, const std::string& file, std::optional<Problem>& problem)
       : group_(group), file_(file), problem_(problem) {}
 
   const std::string& name() const { return group_.name; }
   int line() const { return group_.line; }
   bool has(std::string_view key) const;
-  /// Line of a key, of the group where it has none.
+  /// Line of a key, or of the group if the key is absent.
   int line_of(std::string_view key) const;
 
-  /// At the line of a key.
+  /// Reports a mistake at the line of a key.
   void fail(std::string_view key, const std::string& what);
-  /// "SHAPE of &OBST is not imported: WHAT TO DO", if the group has the key.
+  /// Reports "SHAPE of &OBST is not imported: WHAT TO DO" if the group has the key.
   void refuse(std::string_view key, const std::string& what_to_do);
 
-  /// Without blanks at its end, as Fortran compares texts.
+  /// A text without trailing blanks, as Fortran compares texts.
   std::string text(std::string_view key, const std::string& otherwise = "");
   std::vector<std::string> texts(std::string_view key);
   bool flag(std::string_view key, bool otherwise);
   double number(std::string_view key, double otherwise);
   int integer(std::string_view key, int otherwise);
-  /// All numbers of a key; each finite.
+  /// All numbers of a key; each is finite.
   std::vector<double> numbers(std::string_view key);
-  /// Of an array of `otherwise`'s size; elements that are not given keep it.
+  /// An array of `otherwise`'s size; elements that are not given keep its values.
   std::vector<double> array(std::string_view key, std::vector<double> otherwise);
-  /// Six coordinates, put in order. Errors: fewer.
+  /// Six coordinates, sorted by axis. Errors: fewer.
   std::optional<Box> box(std::string_view key);
-  /// 0 to 255 each, as 0 to 1; nothing where there is no such key.
+  /// Components of 0 to 255, as 0 to 1; nothing where the key is absent.
   std::optional<glm::dvec3> rgb(std::string_view key);
 
  private:

@@ -35,7 +35,7 @@ Result<InputFile> one_file(const fs::path& file) {
   return out;
 }
 
-/// A file in `folder` or below it, also when its links are followed.
+/// The path of a file in `folder` or below it, also after its links are followed.
 std::optional<fs::path> inside(const fs::path& folder, const std::string& name) {
   const fs::path path = fs::path(name).lexically_normal();
   if (path.empty() || path.is_absolute() || *path.begin() == ".." ||

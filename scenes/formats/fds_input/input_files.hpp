@@ -1,4 +1,4 @@
-// The groups of an FDS input file and of the files that &CATF names in it. Any thread.
+// Reads the groups of an FDS input file and of the files that &CATF names in it. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -12,17 +12,17 @@ namespace luxodus::fds_input {
 
 struct InputFile {
   std::string name;
-  std::unique_ptr<const std::string> text;  // which the groups view
+  std::unique_ptr<const std::string> text;  // the groups are views into it
   std::vector<Group> groups;
 };
 
 struct InputFiles {
   std::string main;
-  std::vector<InputFile> files;  // the main one first
+  std::vector<InputFile> files;  // the main file first
 };
 
-/// Files of &CATF lie in the folder of `file` or below it, links followed; what they say of &HEAD
-/// and behind &TAIL does not count, as for FDS.
+/// Files of &CATF lie in the folder of `file` or below it, links followed; as in FDS, their &HEAD
+/// and everything after &TAIL is ignored.
 /// Errors: as namelist.hpp; a file that cannot be read, lies elsewhere, or names others itself.
 Result<InputFiles> read_input_files(const std::filesystem::path& file);
 

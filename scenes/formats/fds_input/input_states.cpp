@@ -53,7 +53,7 @@ fds::FireLook input_look(const FdsInput& input, size_t surface,
 
 namespace {
 
-/// "obstruction "x" is driven by the device "y": it stands as at the start".
+/// Notes "obstruction "x" is driven by the device "y": it stands as at the start".
 void note_driven(const char* kind, const std::string& name, const FdsCourse& course,
                  std::set<std::string>& told, FireBuilding& out) {
   if (course.driven_by.empty()) return;

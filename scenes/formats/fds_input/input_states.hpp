@@ -1,5 +1,5 @@
-// What both kinds of building share: what is there at a time, what is told of it, and limits. Any
-// thread.
+// What exact and snapped buildings share: which objects exist at a time, notes about them, and
+// limits. Pure functions; any thread.
 #pragma once
 
 #include <string>
@@ -8,24 +8,25 @@
 
 namespace luxodus::fds_input {
 
-/// Whether something is there: by its clock, and not taken away by its name.
+/// Whether an object exists: by its clock, and not left out by its name.
 bool is_there(const std::string& name, const FdsCourse& course, const FdsInputOptions& options);
 
-/// Whether an obstruction is there at any time, and not taken away by its name.
+/// Whether an obstruction exists at any time, and is not left out by its name.
 bool is_ever_there(const FdsObstruction& o, const FdsInputOptions& options);
-/// When it comes or goes by a clock.
+/// When a clock makes it appear or vanish.
 fds::FireTimes times_of(const FdsCourse& course);
 
-/// Errors: a name in `without` that nothing has.
+/// Errors: a name in `without` that no object has.
 Result<void> names_known(const FdsInput& input, const FdsInputOptions& options);
 
 Problem too_many_objects(const FdsInput& input);
 Problem too_much_to_compare(const FdsInput& input);
 
-/// Bodies of triangles, and what a person must know: what is not there, what no clock drives.
+/// Adds bodies of triangles and notes for the user: which objects are absent, and which no clock
+/// drives.
 void add_bodies_and_notes(const FdsInput& input, const FdsInputOptions& options, FireBuilding& out);
 
-/// How a surface, or what has a colour of its own, looks.
+/// The appearance of a surface, or of an object with a colour of its own.
 fds::FireLook input_look(const FdsInput& input, size_t surface,
                          const std::optional<glm::dvec3>& rgb, double opacity);
 

@@ -8,9 +8,9 @@ namespace luxodus::fds_input {
 
 namespace {
 
-constexpr int no_first = -999, no_last = 999;  // of FDS, of what is not skipped
+constexpr int no_first = -999, no_last = 999;  // defaults of FDS for what is not skipped
 
-/// "N_LOWER" and "N_UPPER"; 0 where they are absurd, which fails.
+/// Reads "N_LOWER" and "N_UPPER"; both are 0 after a failure, for values out of range.
 void range_of(GroupKeys& keys, const std::string& letter, int64_t most, int& first, int& last) {
   first = keys.integer(letter + "_LOWER", 0);
   last = keys.integer(letter + "_UPPER", 0);
@@ -68,7 +68,7 @@ Multiplier multiplier_of(GroupKeys& keys, int64_t most) {
     out.first = glm::ivec3(first, 0, 0);
     out.last = glm::ivec3(last, 0, 0);
   }
-  // Each axis is within `most`, so that the product of two fits.
+  // Each axis is within `most`, so that the product of two does not overflow.
   const glm::i64vec3 n = glm::i64vec3(out.last) - glm::i64vec3(out.first) + int64_t{1};
   if (n.x * n.y > most || n.x * n.y * n.z > most) {
     keys.fail("ID", fmt::format("&MULT makes more than {} copies", most));

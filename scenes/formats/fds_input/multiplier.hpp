@@ -1,4 +1,4 @@
-// &MULT: a box, many times. Any thread.
+// &MULT: copies of a box. Plain values; any thread.
 #pragma once
 
 #include <functional>
@@ -9,17 +9,17 @@
 
 namespace luxodus::fds_input {
 
-/// Copies i, j, k of a box, shifted by steps along the axes, or, `sequential`, copies i shifted
-/// along all of them. A range of copies may be left out.
+/// Copies i, j, k of a box, shifted by steps along the axes, or, with `sequential`, copies i
+/// shifted along all of them. A range of copies may be left out.
 struct Multiplier {
   std::string id;
-  glm::dvec3 shift{0};                   // of all of them [m]
+  glm::dvec3 shift{0};                   // of all copies [m]
   glm::dvec3 step_low{0}, step_high{0};  // of the lower and upper corners [m]
   glm::ivec3 first{0}, last{0};
-  glm::ivec3 skip_first{1}, skip_last{0};  // none where an axis has none
+  glm::ivec3 skip_first{1}, skip_last{0};  // an empty range where none is skipped
   bool sequential = false;
 
-  /// How many there are.
+  /// Number of copies.
   int64_t count() const;
   Box copy(const Box& box, const glm::ivec3& number) const;
   bool skips(const glm::ivec3& number) const;

@@ -50,7 +50,8 @@ class NamelistReader {
     ++line_;
   }
 
-  /// At the start of a line: blanks and '&' with the name of a wanted group. Moves behind them.
+  /// Whether a wanted group begins at the start of a line: blanks and '&' with its name. Moves past
+  /// them.
   bool opens_group() {
     size_t i = at_;
     while (i < text_.size() && (text_[i] == ' ' || text_[i] == '\t')) ++i;
@@ -69,7 +70,7 @@ class NamelistReader {
     return true;
   }
 
-  /// Behind blanks, ends of lines and comments; counts commas. False at the end of the text.
+  /// Moves past blanks, line ends and comments; counts commas. False at the end of the text.
   bool skip(int& commas) {
     while (at_ < text_.size()) {
       const char c = text_[at_];
@@ -98,12 +99,12 @@ class NamelistReader {
       if (!skip(commas)) return fail(opened, fmt::format("&{} is not closed by '/'", name));
       const char c = text_[at_];
       if (c == '/') {
-        to_next_line();  // what else stands on it is a comment
+        to_next_line();  // the rest of the line is a comment
         return;
       }
       if (c == '&')
         return fail(opened, fmt::format("&{} is not closed by '/' before the next group", name));
-      // A value that is left out: nothing between two commas.
+      // Two commas with nothing between them stand for an omitted value.
       for (; commas > 1; --commas) add({}, 1);
       if (is_quote(c)) {
         quoted();
@@ -112,12 +113,12 @@ class NamelistReader {
         word();
         commas = 0;
       } else {
-        commas = 1;  // a comma behind '=' leaves a value out, too
+        commas = 1;  // a comma after '=' omits a value, too
       }
     }
   }
 
-  /// "NAME =" or "NAME(1:3) ="; nothing moves if it is none.
+  /// "NAME =" or "NAME(1:3) ="; the position stays if it is neither.
   bool parameter() {
     size_t i = at_;
     std::string name;
@@ -125,13 +126,13 @@ class NamelistReader {
       return (upper(c) >= 'A' && upper(c) <= 'Z') || (c >= '0' && c <= '9') || c == '_';
     };
     while (i < text_.size() && is_letter(text_[i])) name += upper(text_[i++]);
-    constexpr size_t longest_name = 63;  // of Fortran
+    constexpr size_t longest_name = 63;  // the limit of Fortran
     if (name.empty() || name.size() > longest_name || (name[0] >= '0' && name[0] <= '9'))
       return false;
     while (i < text_.size() && (text_[i] == ' ' || text_[i] == '\t')) ++i;
     int first = 1;
     if (i < text_.size() && text_[i] == '(') {
-      constexpr size_t longest_range = 64;  // looked at no further: a line may be the whole file
+      constexpr size_t longest_range = 64;  // the search stops here: a line may be the whole file
       const std::string_view ahead = text_.substr(i + 1, longest_range);
       const size_t length = ahead.find_first_of(")\n");
       if (length == std::string_view::npos || ahead[length] != ')') return false;
@@ -155,7 +156,7 @@ class NamelistReader {
     for (; i < text_.size() && text_[i] != '\n'; ++i) {
       if (text_[i] != quote) continue;
       if (i + 1 >= text_.size() || text_[i + 1] != quote) break;
-      ++i;  // doubled: one quote of the text
+      ++i;  // doubled: one quote in the text
     }
     if (i >= text_.size() || text_[i] == '\n')
       return fail(line_, "a text is not closed by its quote on this line");
@@ -163,7 +164,7 @@ class NamelistReader {
     add({text_.substr(from, i - from), true, line_}, 1);
   }
 
-  /// A number or a word, perhaps repeated: "0.5", "T", "3*0.5".
+  /// A number or a word, possibly repeated: "0.5", "T", "3*0.5".
   void word() {
     const size_t from = at_;
     while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != ',' && text_[at_] != '/' &&

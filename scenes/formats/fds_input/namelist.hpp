@@ -1,6 +1,6 @@
-// Groups of Fortran namelists, as FDS reads its input files: a line whose first character is '&'
-// opens a group, '/' closes it, all else is a comment. Values are taken apart but not judged: they
-// are words of the text, which outlives what is read. Any thread.
+// Parses groups of Fortran namelists as FDS does: a line whose first character is '&' opens a
+// group, '/' closes it, all else is a comment. Values are split but not interpreted: they are views
+// into the text, which must outlive them. Any thread.
 //
 // Format: ISO/IEC 1539-1 (Fortran), namelist input, and FDS User's Guide (NIST SP 1019), "The basic
 // structure of an input file".
@@ -17,14 +17,14 @@
 namespace luxodus::fds_input {
 
 namespace limits {
-/// Of all groups of a text: 10^6 vertices of a body have 3 million numbers.
+/// Values of all groups of a text: 10^6 vertices of a body have 3 million numbers.
 inline constexpr size_t values = 8'000'000;
 inline constexpr size_t groups = 1'000'000;
 }  // namespace limits
 
-/// A number, a word or a text; neither where a value is left out between two commas.
+/// A number, a word or a text; neither for a value omitted between two commas.
 struct Value {
-  std::string_view text;  // of a text: between its quotes, doubled quotes as they stand
+  std::string_view text;  // of a text: between its quotes, doubled quotes unresolved
   bool quoted = false;
   int line = 0;
 };
@@ -34,18 +34,18 @@ struct Parameter {
   std::string name;  // in capitals
   int first = 1;     // its first subscript
   int line = 0;
-  std::vector<Value> values;  // repeated ones ("3*0.5") as often as they say
+  std::vector<Value> values;  // repeated ones ("3*0.5") are written out
 };
 
 struct Group {
   std::string name;  // "OBST"
   int line = 0;
-  std::vector<Parameter> parameters;  // in their order: later ones win
+  std::vector<Parameter> parameters;  // in file order: later ones win
 };
 
-/// The groups of these names, in their order. Others need not be well formed, as for FDS.
-/// Errors, with their line: a group or a text that is not closed, a value without a name, more than
-/// the limits.
+/// The groups with these names, in file order. As in FDS, other groups need not be well formed.
+/// Errors, with their line: an unclosed group or text, a value without a name, more than the
+/// limits.
 Result<std::vector<Group>> read_namelists(std::string_view text, const std::string& file,
                                           const std::set<std::string_view>& wanted);
 

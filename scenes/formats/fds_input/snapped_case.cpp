@@ -1,5 +1,5 @@
-// Obstructions and holes on the nodes of meshes, by the rules of FDS 6.9 (User's Guide, "Obstruct
-// basics" and "Creating voids"): each mesh snaps by itself, to the nearest node.
+// Snaps obstructions and holes to the nodes of meshes by the rules of FDS 6.9 (User's Guide,
+// "Obstruct basics" and "Creating voids"): each mesh snaps on its own, to the nearest node.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,14 +18,14 @@ using fds_input::is_there;
 using fds_input::too_many_objects;
 using fds_input::too_much_to_compare;
 
-/// Of a cell: what lies so far beyond a mesh still touches its face.
+/// Share of a cell: an object this far beyond a mesh still touches its face.
 constexpr double half_cell = 0.5;
-/// Of a cell: thinner ones have no thickness where they straddle its middle.
+/// Share of a cell: a thinner object loses its thickness where it straddles the cell's middle.
 constexpr double thin = 0.25;
-/// Of a cell: holes reach so far beyond the mesh.
+/// Share of a cell by which holes extend beyond the mesh.
 constexpr double beyond = 0.001;
 
-/// A part of an obstruction in a mesh, on its nodes and as written.
+/// The part of an obstruction in a mesh, on its nodes and as written.
 struct Piece {
   fds::NodeBox nodes;
   Box box;
@@ -49,7 +49,7 @@ class MeshSnapper {
     return out;
   }
 
-  /// Nothing where the obstruction is not in this mesh, or flat along two axes.
+  /// Nothing where the obstruction is outside this mesh, or flat along two axes.
   std::optional<Piece> snap(const FdsObstruction& obstruction) const {
     Piece out;
     out.box = obstruction.box;
@@ -69,7 +69,7 @@ class MeshSnapper {
     return flat > 1 ? std::nullopt : std::optional(out);
   }
 
-  /// A hole, on the nodes of the mesh.
+  /// A hole on the nodes of the mesh.
   Piece snap(const Box& hole) const {
     Piece cut;
     for (int axis = 0; axis < 3; ++axis) {
@@ -82,7 +82,7 @@ class MeshSnapper {
     return cut;
   }
 
-  /// Whether a hole takes more than a face of a piece: on the nodes, and as written.
+  /// Whether a hole removes more than a face of a piece: on the nodes, and as written.
   static bool takes_of(const Piece& hole, const Piece& piece) {
     for (int axis = 0; axis < 3; ++axis) {
       const int low = std::max(hole.nodes.low[axis], piece.nodes.low[axis]);
@@ -94,7 +94,7 @@ class MeshSnapper {
            glm::all(glm::greaterThan(hole.box.high, piece.box.low));
   }
 
-  /// The rest of a piece, which a hole cuts if it takes whole cells of it. `cut`: the hole.
+  /// The remainder of a piece, which a hole cuts if it removes whole cells. `cut`: the hole.
   static std::vector<Piece> without(const Piece& piece, const Piece& cut) {
     if (!takes_of(cut, piece)) return {piece};
     std::vector<Piece> out;
@@ -114,7 +114,7 @@ class MeshSnapper {
     return out;
   }
 
-  /// An opening in a face of the mesh, on its nodes; nothing where it is in none.
+  /// An opening in a face of the mesh, on its nodes; nothing where it is in no face.
   std::optional<fds::Opening> opening(const FdsOpening& opening) const {
     Box box = opening.box;
     if (opening.mesh_face) {
@@ -158,8 +158,8 @@ class MeshSnapper {
     return nullptr;
   }
 
-  /// One that lies beyond a face, but by less than half a cell of what is there, is a plate on the
-  /// face. False where another mesh with a gap before it has it.
+  /// Turns an object beyond a face, by less than half a cell, into a plate on the face. False where
+  /// another mesh with a gap before it owns the object.
   bool onto_near_face(const Box& box, int axis, Box& out) const {
     const double low = mesh_.box.low[axis], high = mesh_.box.high[axis];
     const bool below = box.high[axis] < low && box.high[axis] >= low - half_cell * cell_[axis];
@@ -206,7 +206,7 @@ class MeshSnapper {
   glm::dvec3 cell_{0};
 };
 
-/// The holes that are open and reach into a mesh, on its nodes.
+/// The open holes that extend into a mesh, on its nodes.
 std::vector<Piece> holes_of(const FdsInput& input, const FdsInputOptions& options,
                             const FdsInputMesh& mesh, const MeshSnapper& snapper) {
   std::vector<Piece> out;
@@ -218,8 +218,8 @@ std::vector<Piece> holes_of(const FdsInput& input, const FdsInputOptions& option
   return out;
 }
 
-/// The obstructions of a mesh, with the holes that are open, and when they come and go. `pairs`:
-/// that were compared. `done`: hears of all meshes.
+/// Adds the obstructions of a mesh, cut by open holes, with the times at which they come and go.
+/// `pairs` counts comparisons; `done` counts obstructions over all meshes.
 Result<void> fill_mesh(const FdsInput& input, const FdsInputOptions& options,
                        const MeshSnapper& snapper, const std::vector<Piece>& holes, uint64_t& pairs,
                        size_t m, fds::Case& out, ReadingPart& done) {

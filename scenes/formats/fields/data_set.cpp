@@ -30,7 +30,7 @@ std::string grid_fault(uint64_t nx, uint64_t ny, uint64_t nz) {
                          limits::data_set_side);
     }
   }
-  // Sides up to 2^20: no product overflows.
+  // Each side is at most 2^20, so that the product does not overflow.
   if (nx * ny * nz > limits::data_set_cells) {
     return fmt::format("the grid has {} x {} x {} cells, the most are {}", nx, ny, nz,
                        limits::data_set_cells);
@@ -70,7 +70,7 @@ struct Range {
   const char* words;
 };
 
-/// What values a field may have; soot density is extinction by then.
+/// The allowed values of a field; soot density has become extinction by then.
 Range range_of(const Field& field) {
   if (field.name == "albedo") return {1.0f, "0 to 1"};
   if (field.name == "emission") return {3e38f, "a finite value of 0 or more"};
@@ -78,14 +78,14 @@ Range range_of(const Field& field) {
           field.name == "extinction" ? "0 to 1e9 1/m" : "what makes an extinction of 0 to 1e9 1/m"};
 }
 
-/// Every value a number that its field can have; the first that is not is named by its cell.
+/// Checks that every value is within the field's range; names the first cell that is not.
 std::optional<Problem> bad_value(const std::string& path, const Grid& grid, const Field& field) {
   const Range range = range_of(field);
   for (size_t i = 0; i < field.value.size(); ++i) {
     const float v = field.value[i];
     if (v >= 0 && v <= range.most) continue;  // NaN fails
     const uint64_t x = i % grid.nx, y = i / grid.nx % grid.ny, z = i / grid.nx / grid.ny;
-    // Samples out of a file that the header names are not told: it may be any file of the machine.
+    // Samples from a file that the header names are not shown: it may be any file on the machine.
     const std::string found = grid.files_read.size() > 1 ? "out of range" : fmt::format("{}", v);
     return problem_in(path, fmt::format("{} of cell ({}, {}, {}), index {}, is {}: give {}",
                                         field.name, x, y, z, i, found, range.words));
@@ -118,7 +118,7 @@ Result<LoadedDataSet> assembled(const std::string& path, Grid grid, const DataSe
   for (Field& field : grid.fields) {
     const bool soot = field.name == "soot_density";
     if (soot) {
-      // Before the check, so that an overflow is found by it too.
+      // Multiplied before the check, so that the check finds an overflow, too.
       const auto factor = static_cast<float>(options.mass_extinction_m2_per_kg);
       for (float& v : field.value) v *= factor;
     }

@@ -1,5 +1,5 @@
-// What the two readers of data sets share: fields as found in a file, and how they are said in
-// words. Private to data_set*.cpp.
+// What the two readers of data sets share: fields as found in a file, and messages about them.
+// Private to data_set*.cpp. Plain values and pure functions; any thread.
 #pragma once
 
 #include <charconv>
@@ -33,10 +33,10 @@ Result<Grid> read_vti(const std::string& path);
 
 bool is_known_field(std::string_view name);
 
-/// "" or why such a grid is not taken. Sides are cells.
+/// Why such a grid is rejected, or "". Sides are in cells.
 std::string grid_fault(uint64_t nx, uint64_t ny, uint64_t nz);
-/// Why arrays of so many cells do not fit the memory of this machine; "" where they do. To be asked
-/// before they are made: a sparse file claims gigabytes in a few blocks of a disk.
+/// Why arrays of this many cells do not fit this machine's memory; "" where they do. Call it before
+/// allocating: a sparse file declares gigabytes with a few disk blocks.
 std::string memory_fault(uint64_t cells, uint64_t fields);
 
 enum class SampleType { uint8, float32, float64 };
@@ -45,7 +45,8 @@ inline size_t bytes_of(SampleType type) {
   return type == SampleType::uint8 ? 1 : type == SampleType::float32 ? 4 : 8;
 }
 
-/// One little-endian sample. A double beyond float's range becomes infinite and is refused as such.
+/// One little-endian sample. A double beyond float's range becomes infinite, and is rejected as
+/// such.
 inline float sample_at(const char* bytes, SampleType type) {
   if (type == SampleType::uint8) return static_cast<float>(static_cast<unsigned char>(*bytes));
   if (type == SampleType::float32) {
@@ -80,7 +81,7 @@ inline std::vector<std::string_view> words_of(std::string_view text) {
   return words;
 }
 
-/// The whole text as a number; independent of the locale.
+/// Parses the whole text as a number, independent of the locale.
 template <class T>
 std::optional<T> number_in(std::string_view text) {
   T value{};
@@ -89,7 +90,7 @@ std::optional<T> number_in(std::string_view text) {
   return value;
 }
 
-/// Exactly `count` numbers separated by blanks, or none.
+/// Parses exactly `count` numbers separated by blanks, or none.
 template <class T>
 std::optional<std::vector<T>> numbers_in(std::string_view text, size_t count) {
   std::vector<T> values;

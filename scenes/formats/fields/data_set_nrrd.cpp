@@ -1,6 +1,6 @@
-// NRRD (teem.sourceforge.net/nrrd/format.html): lines of `field: value` and `key:=value`, an empty
-// line, then samples, here or in a file of their own. Fields the format does not know are errors,
-// as it demands; known ones that say nothing about values or places are passed over.
+// Reads NRRD (teem.sourceforge.net/nrrd/format.html): lines of `field: value` and `key:=value`, an
+// empty line, then samples, here or in a file of their own. As the format demands, unknown fields
+// are errors; known fields that concern neither values nor places are ignored.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t max_fields = 8;
-/// Samples converted at a time: a megabyte or so.
+/// Samples converted at a time: about a megabyte.
 constexpr uint64_t block_samples = 1 << 18;
 
 struct Entry {
@@ -31,9 +31,9 @@ struct Entry {
 };
 
 struct Header {
-  std::map<std::string, Entry> field;  // by the name with blanks: "data file"
+  std::map<std::string, Entry> field;  // key: the name with blanks, "data file"
   std::map<std::string, Entry> key;
-  uint64_t bytes = 0;  // up to and with the empty line
+  uint64_t bytes = 0;  // including the empty line
 };
 
 constexpr std::string_view fields_read[] = {
@@ -105,7 +105,7 @@ class NrrdReader {
     for (int line = 1;; ++line) {
       const size_t end = text.find('\n', at);
       if (end == std::string::npos) {
-        // A detached header may end with its last line; data here need the empty line.
+        // A detached header may end with its last line; a header with data needs the empty line.
         if (text.size() == limits::nrrd_header_bytes) {
           return bad(line, fmt::format("the header has no end within {} bytes", text.size()));
         }
@@ -212,7 +212,7 @@ class NrrdReader {
     return std::nullopt;
   }
 
-  /// "old min" and "old max": what the ends of a quantised type stand for.
+  /// Reads "old min" and "old max": the values of the ends of a quantised type.
   Fault understand_mapping() {
     if (!find("old min") && !find("old max")) return std::nullopt;
     if (type_ != SampleType::uint8 || grid_.fields.size() != 1) {
@@ -257,7 +257,7 @@ class NrrdReader {
       if (!origin) return bad("space origin", "a vector as in (0,0,1.5)");
       first_sample = *origin;
     }
-    // The origin of NRRD is the middle of the first sample; ours is the corner of its cell.
+    // NRRD's origin is the middle of the first sample; ours is the corner of its cell.
     grid_.origin = first_sample - 0.5 * grid_.spacing;
     return understand_units();
   }
@@ -285,7 +285,7 @@ class NrrdReader {
 
   Fault understand_spacings() {
     auto words = words_of(value("spacings"));
-    if (axes_ == 4 && words.size() == 4) words.erase(words.begin());  // of the axis of fields: nan
+    if (axes_ == 4 && words.size() == 4) words.erase(words.begin());  // the axis of fields has nan
     if (words.size() != 3) return bad("spacings", "the distance of samples along each axis");
     for (int axis = 0; axis < 3; ++axis) {
       const auto spacing = number_in<double>(words[static_cast<size_t>(axis)]);
@@ -352,7 +352,7 @@ class NrrdReader {
     return std::nullopt;
   }
 
-  /// Moves `first` behind the lines of another header within the data file.
+  /// Moves `first` past the header lines within the data file.
   Fault skip_lines(uint64_t& first) {
     const auto lines = number_in<int>(find("line skip") ? value("line skip") : "0");
     if (!lines || *lines < 0 || *lines > 10'000) return bad("line skip", "a count up to 10000");

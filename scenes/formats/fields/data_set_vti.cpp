@@ -1,7 +1,7 @@
-// VTK XML image data (VTK user's guide, "VTK file formats"). Appended raw bytes make such a file no
-// XML, so a general XML reader does not help: this scanner knows tags, attributes and comments,
-// keeps the stack of open elements, and stops at the appended bytes. Entities, CDATA and DOCTYPE
-// are refused.
+// Reads VTK XML image data (VTK user's guide, "VTK file formats"). With appended raw bytes such a
+// file is not XML, so a general XML parser cannot read it. This scanner knows tags, attributes and
+// comments, keeps the stack of open elements, and stops at the appended bytes. Entities, CDATA and
+// DOCTYPE are rejected.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,8 +26,8 @@ using Fault = std::optional<Problem>;
 struct Tag {
   std::string_view name;
   std::vector<std::pair<std::string_view, std::string_view>> attributes;
-  size_t first = 0;  // of '<'
-  size_t after = 0;  // behind '>'
+  size_t first = 0;  // position of '<'
+  size_t after = 0;  // position after '>'
   bool closes = false;
   bool is_empty = false;
 
@@ -46,12 +46,12 @@ struct Array {
   size_t first = 0;
 };
 
-/// Bytes of base64 text. VTK pads where a stream ends and may go on with another.
+/// Decodes base64 text. VTK pads where a stream ends, and may begin another one.
 class Base64 {
  public:
   explicit Base64(std::string_view text) : text_(text) {}
 
-  /// Appends up to `count` bytes; false where the text is no base64.
+  /// Appends up to `count` bytes; false where the text is not base64.
   bool read(size_t count, std::string& out) {
     while (count > 0) {
       if (ready_ == given_ && !next_group()) return false;
@@ -167,8 +167,7 @@ class VtiReader {
     return std::string_view(text_).substr(at, end - at);
   }
 
-  /// The next tag from `at`, comments and declarations passed over; a name of "" at the end of the
-  /// text.
+  /// The next tag from `at`, past comments and declarations; its name is "" at the end of the text.
   Fault next_tag(size_t at, Tag& tag) const {
     for (;;) {
       tag = Tag{};
@@ -224,7 +223,7 @@ class VtiReader {
     return std::nullopt;
   }
 
-  /// Walks all elements; at the appended bytes it ends.
+  /// Walks all elements; stops at the appended bytes.
   Fault scan() {
     std::vector<std::string_view> open;
     Tag tag;
@@ -305,7 +304,7 @@ class VtiReader {
     std::array<uint64_t, 3> cells{};
     for (size_t axis = 0; axis < 3; ++axis) {
       const int64_t low = (*extent)[2 * axis], high = (*extent)[2 * axis + 1];
-      constexpr int64_t most = 1ll << 40;  // differences cannot overflow; grid_fault judges sizes
+      constexpr int64_t most = 1ll << 40;  // differences cannot overflow; grid_fault checks sizes
       if (std::abs(low / 2) > most || std::abs(high / 2) > most || high < low) {
         return bad(tag.first, "WholeExtent must ascend along each axis");
       }
@@ -331,8 +330,7 @@ class VtiReader {
     return std::nullopt;
   }
 
-  /// Takes the text up to its closing tag; elements within (value ranges and units) are passed
-  /// over.
+  /// Takes the text up to the closing tag; inner elements (value ranges and units) are skipped.
   Fault enter_array(Tag& tag, bool of_points) {
     if (arrays_.size() >= max_arrays) return bad(tag.first, "too many arrays");
     Array array{tag.attribute("Name"),
@@ -372,7 +370,7 @@ class VtiReader {
     if (mark >= text_.size() || text_[mark] != '_') {
       return bad(tag.first, "appended data must begin with \"_\"");
     }
-    // Raw bytes may hold anything: their end is where the closing tag is found from behind.
+    // Raw bytes may hold anything, so the closing tag is searched from the end of the file.
     const size_t end = text_.rfind("</AppendedData");
     if (end == std::string::npos || end <= mark) {
       return bad(tag.first, "the appended data have no closing tag: the file is cut short");
@@ -383,7 +381,7 @@ class VtiReader {
 
   // ---- values ----------------------------------------------------------------------------------
 
-  /// Before any is decoded: each of 256 arrays may say that the same bytes of the file are its own.
+  /// Checked before decoding: each of 256 arrays may claim the same bytes of the file.
   Fault doubles() const {
     std::vector<std::string_view> names, offsets;
     for (const Array& array : arrays_) {
@@ -452,7 +450,7 @@ class VtiReader {
   }
 
   Fault read_ascii(const Array& array, uint64_t count, std::vector<float>& values) const {
-    // A value takes a digit and a blank at least.
+    // A value takes at least a digit and a blank.
     if (count > (array.text.size() + 1) / 2) return wrong_count(array, count);
     values.reserve(count);
     size_t at = 0;
@@ -530,7 +528,7 @@ class VtiReader {
     for (uint64_t i = 0; i < count; ++i) values[i] = sample_at(bytes + i * bytes_of(type), type);
   }
 
-  /// Before means are taken, which would hide a negative value.
+  /// Called before means are taken, which would hide a negative value.
   Fault check_points(const Array& array, const std::vector<float>& points) const {
     for (size_t i = 0; i < points.size(); ++i) {
       if (points[i] >= 0 && points[i] <= 3e38f) continue;  // NaN fails
@@ -540,7 +538,7 @@ class VtiReader {
     return std::nullopt;
   }
 
-  /// The mean of the eight corners.
+  /// Means over the eight corners.
   std::vector<float> cells_of_points(const std::vector<float>& points) const {
     const uint64_t px = grid_.nx + 1, py = grid_.ny + 1;
     std::vector<float> cells;

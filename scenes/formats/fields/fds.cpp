@@ -1,5 +1,5 @@
-// Choosing a source and a frame, then one mesh at a time: a frame is read, becomes cells, and goes
-// to its place in a grid.
+// Chooses a source and a frame, then reads one mesh at a time: a frame becomes cells, and these go
+// to their place in a grid.
 #include "scenes/formats/fields/fds.hpp"
 
 #include <fmt/format.h>
@@ -23,25 +23,25 @@ namespace {
 
 /// FDS writes optical densities with 2.3 for ln 10.
 constexpr double optical_density_factor = 2.3;
-/// Soot of flaming fires at 633 nm [m2/kg]; what FDS takes, unless it is told otherwise.
+/// Soot of flaming fires at 633 nm [m2/kg]; the default of FDS.
 constexpr double usual_mass_extinction = 8700;
-/// Cells with less are no flame: two steps of a byte of Smoke3D's HRRPUV [kW/m3].
+/// Cells with less have no flame: two steps of a byte of Smoke3D's HRRPUV [kW/m3].
 constexpr double weakest_flame_kw_m3 = 2 * 1200.0 / 254;
-/// A frame may be so late: FDS writes at the first of its steps after a tick.
+/// How late a frame may be: FDS writes at the first of its steps after a tick.
 constexpr double step_of_fds_s = 0.1;
 /// Rounding below zero in densities that FDS transports [1/m].
 constexpr float rounding_per_m = 1e-3F;
 
 enum class Form { cell_slice, node_slice, plot, smoke };
 
-/// One quantity in one form, of all meshes.
+/// One quantity in one form, over all meshes.
 struct Series {
   Form form = Form::cell_slice;
   Quantity quantity = Quantity::extinction;
   std::vector<FrameFiles> meshes;
 };
 
-/// A series with the frame that is taken of each mesh.
+/// A series with the chosen frame of each mesh.
 struct Picked {
   Series series;
   std::vector<Frame> frames;
@@ -79,7 +79,7 @@ Result<FrameFiles> plots_of(const Case& fire, size_t mesh, Quantity quantity) {
   return out;
 }
 
-/// The series, with meshes empty where a mesh has it not.
+/// Opens a series; meshes that lack it stay empty.
 Result<Series> open_series(const Case& fire, Form form, Quantity quantity) {
   Series out{form, quantity, {}};
   for (size_t mesh = 0; mesh < fire.meshes.size(); ++mesh) {
@@ -114,11 +114,11 @@ const Frame* frame_at(const FrameFiles& files, double time_s) {
   return nearest;
 }
 
-/// The frame nearest to a time of those that all meshes have; none where there is none.
+/// The frame nearest to a time among those that all meshes have; none where there is none.
 std::optional<Picked> picked(Series series, double at_s) {
   Picked out;
   if (series.meshes.empty()) return std::nullopt;
-  // Ticks of every other mesh, ascending.
+  // Ticks of each other mesh, ascending.
   std::vector<std::vector<double>> times;
   for (const FrameFiles& files : series.meshes) {
     std::vector<double>& of_mesh = times.emplace_back();
@@ -134,7 +134,7 @@ std::optional<Picked> picked(Series series, double at_s) {
     if (!everywhere) continue;
     if (out.common++ == 0) out.first_s = t;
     out.last_s = t;
-    const bool later = best && t > *best + same_tick_s;  // not the same tick once more
+    const bool later = best && t > *best + same_tick_s;  // not the same tick again
     if (later && !out.next_s) out.next_s = t;
     if (best && std::abs(t - at_s) >= std::abs(*best - at_s)) continue;
     if (later) out.previous_s = best;
@@ -202,8 +202,8 @@ class FireReader {
     return list.empty() || std::find(list.begin(), list.end(), source) != list.end();
   }
 
-  /// How far a series is from the time: by its nearest frame, or by the farther one of the two that
-  /// the time lies between [s].
+  /// Distance of a series from the time: of its nearest frame, or of the farther one of the two
+  /// around the time [s].
   double distance_of(const Picked& p) const {
     const double nearest = std::abs(p.time_s - options_.at_s);
     const auto other = other_frame(p);
@@ -216,8 +216,8 @@ class FireReader {
     return options_.at_s > p.time_s ? p.next_s : p.previous_s;
   }
 
-  /// Whether a series is so near to the time that no worse source is taken instead. Rare frames are
-  /// so at their own times alone.
+  /// Whether a series is so near to the time that no worse source is used instead. Frames that are
+  /// far apart are near only at their own times.
   bool is_near(const Picked& p) const {
     if (distance_of(p) <= fire_window_s) return true;
     const auto other = other_frame(p);
@@ -271,11 +271,11 @@ class FireReader {
     return {};
   }
 
-  /// HRRPUV near the time of the smoke; the power of flames.
+  /// Finds HRRPUV near the time of the smoke, and the power of flames.
   Result<void> find_flames() {
     for (const Form form : {Form::cell_slice, Form::node_slice, Form::plot, Form::smoke}) {
       auto series = open_series(fire_, form, Quantity::heat_release);
-      // Whoever wants no flames is not told what is wrong with them.
+      // Without `flames` a fault of HRRPUV is not reported.
       if (!series && !options_.flames) return {};
       if (!series) return series.problem();
       auto found = picked(std::move(series.value()), smoke_.time_s);
@@ -389,7 +389,7 @@ class FireReader {
     return cells;
   }
 
-  /// Every value a number of its range; what rounding carried below zero is zero.
+  /// Checks that every value is within its range; what rounding carried below zero becomes zero.
   Result<void> checked(std::vector<float>& cells, size_t mesh, const FrameFiles& files,
                        const Frame& frame, float most) const {
     const glm::ivec3 n = fire_.meshes[mesh].cells;
@@ -440,7 +440,7 @@ class FireReader {
     return {};
   }
 
-  /// Whether any frame holds anything; the last first, where it mostly does.
+  /// Whether any frame has soot; the last frame is tried first, because it mostly has.
   Result<bool> has_soot() {
     for (size_t mesh = 0; mesh < fire_.meshes.size(); ++mesh) {
       const FrameFiles& files = smoke_.series.meshes[mesh];
@@ -454,8 +454,8 @@ class FireReader {
     return false;
   }
 
-  /// Shares of the heat by grid; smoke is taken out of cells that burn, because the radiant
-  /// fraction is what leaves a flame, its own soot passed.
+  /// Gives each grid its share of the heat. Burning cells lose their smoke, because the radiant
+  /// fraction already counts what leaves a flame through its own soot.
   void light_flames() {
     double heat = 0, all = 0, taken = 0;
     std::vector<double> of_grid;

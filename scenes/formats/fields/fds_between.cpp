@@ -12,8 +12,8 @@ namespace luxodus {
 namespace fds {
 namespace {
 
-/// A time that is as near to a frame, of the way to the next, is that of the frame: FDS writes at
-/// the first of its steps after a tick.
+/// A time nearer to a frame than this share of the interval is that of the frame, since FDS writes
+/// at the first of its steps after a tick.
 constexpr double same_frame_share = 0.01;
 
 /// Heat of a cubic metre for each unit of emission [kW/m3]; 0 where nothing burns.
@@ -75,7 +75,7 @@ LoadedFire blended(LoadedFire early, const LoadedFire& late, double share) {
 
 namespace {
 
-/// Heat is known at more times than frames are.
+/// Heat is known at more times than there are frames.
 Result<void> take_heat_at(const fds::Case& fire, double at_s, LoadedFire& out) {
   const auto power = fds::heat_release_kw(fire, at_s);
   if (!power) return power.problem();

@@ -16,11 +16,12 @@ namespace fds {
 namespace {
 
 constexpr double seam_m = 1e-5;
-/// A door begins at most so far above the floor of its mesh [m].
+/// A door begins at most this far above the floor of its mesh [m].
 constexpr double threshold_m = 0.05;
 constexpr double below_ceiling_m = 0.1;
 
-/// Plates of one place and time are one; at other times another may stand there.
+/// Key of a plate: plates of one place and time are the same; at other times another may stand
+/// there.
 std::string plate_text(const glm::dvec3& low, const glm::dvec3& high, const FireTimes& times) {
   return fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} | {} | {}", low.x, low.y, low.z,
                      high.x, high.y, high.z, fmt::join(times.appears, " "),
@@ -32,7 +33,7 @@ struct Patch {
   int u0, u1, v0, v1;
 };
 
-/// Cells that are set, as few rectangles: rows of runs, which grow while the next row has the same.
+/// Covers set cells with few rectangles: runs of a row grow while the next row has the same run.
 std::vector<Patch> patches_of(const std::vector<uint8_t>& set, int nu, int nv) {
   std::vector<Patch> done, open;
   for (int v = 0; v <= nv; ++v) {
@@ -138,8 +139,8 @@ class BuildingWriter {
     return out;
   }
 
-  /// One without thickness; not on an outer face, where the face stands already, and once where
-  /// two meshes name it with the same times.
+  /// Adds an obstruction without thickness. Not on an outer face, which exists already, and only
+  /// once where two meshes name it with the same times.
   void plate(const Mesh& mesh, const ObstructionLabel& label, const glm::dvec3& low,
              const glm::dvec3& high, int across, const FireTimes& times) {
     const bool outer = std::abs(low[across] - out_.bounds.low[across]) < seam_m ||
@@ -147,7 +148,7 @@ class BuildingWriter {
     if (outer || !plates_.insert(plate_text(low, high, times)).second) return;
     const bool below = std::abs(low[across] - mesh.low()[across]) < seam_m;
     if (below || std::abs(low[across] - mesh.high()[across]) < seam_m) {
-      // On a seam, the wall itself is often an obstruction of the mesh behind.
+      // Where two meshes meet, the wall itself is often an obstruction of the mesh behind.
       glm::dvec3 behind = 0.5 * (low + high);
       behind[across] += below ? -seam_m : seam_m;
       if (is_solid(behind)) return;
@@ -171,7 +172,8 @@ class BuildingWriter {
     return gas_[m];
   }
 
-  /// The closed part of a face of a mesh, before gas: not open, and no other mesh behind.
+  /// Adds the part of a mesh's face that is closed, next to gas: no opening, and no other mesh
+  /// behind.
   void face(size_t m, int axis, bool high) {
     const Mesh& mesh = fire_.meshes[m];
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;

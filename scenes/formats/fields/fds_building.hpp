@@ -1,6 +1,6 @@
-// The building of a fire simulation as tables of a scene file, snapped to the grid as FDS computed
-// it: obstructions as boxes, those without thickness as quads, and the closed faces of meshes as
-// rectangles. Any thread.
+// Writes the building of a fire simulation as tables of a scene file, snapped to the grid as FDS
+// computed it: obstructions as boxes, those without thickness as quads, and the closed faces of
+// meshes as rectangles. Plain values and pure functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 namespace luxodus {
 
 namespace limits {
-/// Objects that are written: a scene of more is read by nobody.
+/// Objects that are written: the reader of scenes accepts no more.
 inline constexpr size_t fire_objects = 100'000;
 }  // namespace limits
 
@@ -25,7 +25,7 @@ struct Case;
 
 /// A body of triangles.
 struct FireBody {
-  std::string name, material;  // as the scene has them
+  std::string name, material;  // as in the scene
   Mesh mesh;
 };
 
@@ -35,21 +35,22 @@ struct FireBuilding {
   size_t solids = 0;                    // boxes
   size_t plates = 0;                    // quads
   size_t faces = 0;                     // rectangles of closed faces of meshes
-  std::vector<std::string> open_sides;  // words of the scene's key open_sides
+  std::vector<std::string> open_sides;  // values of the scene's key open_sides
   std::vector<glm::dvec3> exits;    // middles of openings that reach the floor of their mesh [m]
-  std::vector<std::string> absent;  // obstructions that are not there at this time, but at others
-  std::vector<std::string> notes;   // what a person must know of it
+  std::vector<std::string> absent;  // obstructions that are absent at this time, but exist at
+                                    // others
+  std::vector<std::string> notes;   // what the user should know about it
   Bounds bounds;                    // of the meshes [m]
   glm::dvec3 lamp{0};               // a place in gas under the ceiling of the first mesh [m]
 };
 
-/// As it stands over time: obstructions that come and go say when. `at_s`: for what is told of it.
-/// Faces of meshes are there where any obstruction before them ever goes. Colours are those of the
-/// surfaces in Smokeview, which are for display: FDS knows no reflectances. Errors: as fds_case.hpp
-/// says; more than limits::fire_objects.
+/// The building over time: obstructions that come and go have times. `at_s`: the time that notes
+/// describe. Faces of meshes exist where any obstruction before them ever vanishes. Colours are
+/// those of the surfaces in Smokeview, for display: FDS knows no reflectances. Errors: as
+/// fds_case.hpp; more than limits::fire_objects.
 Result<FireBuilding> read_fire_building(const std::filesystem::path& index, double at_s);
 
-/// The same of a case whose meshes and obstructions are known otherwise.
+/// The building of a case whose meshes and obstructions come from another source.
 Result<FireBuilding> fire_building_of(fds::Case fire, double at_s);
 
 }  // namespace luxodus

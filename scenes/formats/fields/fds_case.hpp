@@ -1,9 +1,9 @@
-// The index of a fire simulation: what the .smv file of FDS (NIST) names. Meshes with their nodes,
-// obstructions and openings, and the files of results that this program can use. No file of results
-// is opened here. Coordinates are absolute [m], times [s]. Any thread.
+// The index of a fire simulation, the .smv file of FDS (NIST). It names meshes with their nodes,
+// obstructions and openings, and the files of results. Only those that this program can use are
+// listed, and none is opened here. Coordinates are absolute [m], times [s]. Any thread.
 //
 // Format: FDS User's Guide (NIST SP 1019), chapter on output file formats, and files of FDS 6.7 and
-// 6.9. A keyword stands in column 1, its data on lines that begin with a blank; others are passed.
+// 6.9. A keyword stands in column 1, its data on lines that begin with a blank; others are skipped.
 #pragma once
 
 #include <array>
@@ -27,14 +27,14 @@ inline constexpr int side_cells = 8192;
 inline constexpr int64_t mesh_cells = int64_t{1} << 28;
 }  // namespace limits
 
-/// Cells low..high-1 of a mesh, by the numbers of their nodes.
+/// Cells low..high-1 of a mesh, by node number.
 struct NodeBox {
   glm::ivec3 low{0};
   glm::ivec3 high{0};
 };
 
-/// What an obstruction is called, the surface of most of its sides (place in Case::surfaces), and
-/// how it is displayed where that is not as its surface.
+/// Name of an obstruction, the surface of most of its sides (index in Case::surfaces), and how it
+/// is displayed if not like its surface.
 struct ObstructionLabel {
   std::string name;
   size_t surface = 0;
@@ -42,7 +42,7 @@ struct ObstructionLabel {
   std::optional<double> opacity;
 };
 
-/// Face of a mesh that is open to the ambient, as a box without thickness [m].
+/// A face of a mesh that is open to the ambient, as a box without thickness [m].
 struct Opening {
   glm::dvec3 low{0};
   glm::dvec3 high{0};
@@ -59,7 +59,7 @@ struct Mesh {
   glm::ivec3 cells{0};
   std::array<std::vector<double>, 3> nodes;  // by axis, ascending, one more than cells [m]
   std::vector<NodeBox> obstructions;         // snapped to the grid; in the order of the index
-  std::vector<ObstructionLabel> labels;      // one for each of them
+  std::vector<ObstructionLabel> labels;      // one for each obstruction
   std::vector<Opening> openings;
   int line = 0;
 
@@ -87,7 +87,7 @@ struct Change {
 
 enum class Quantity { extinction, soot_density, optical_density, heat_release, visibility, other };
 
-/// A slice, flat ones among visibility alone. Values of nodes, or of cells: value (i, j, k) is then
+/// A slice; flat ones only of visibility. Values are of nodes, or of cells: value (i, j, k) is then
 /// that of the cell below the node (i, j, k) on every axis.
 struct Slice {
   size_t mesh = 0;
@@ -98,7 +98,7 @@ struct Slice {
   int line = 0;
 };
 
-/// Bytes of nodes, compressed by run lengths.
+/// Bytes of nodes, run-length encoded.
 struct Smoke3d {
   size_t mesh = 0;
   Quantity quantity = Quantity::other;
@@ -106,7 +106,7 @@ struct Smoke3d {
   int line = 0;
 };
 
-/// Five quantities of all nodes at one time.
+/// Five quantities at all nodes at one time.
 struct Plot3d {
   size_t mesh = 0;
   double time_s = 0;
@@ -118,24 +118,25 @@ struct Plot3d {
 struct Case {
   std::string file;  // the index
   std::filesystem::path folder;
-  std::string version;  // of FDS, as the index has it
+  std::string version;  // as stated in the index
   std::vector<Mesh> meshes;
   std::vector<Surface> surfaces;
-  size_t default_surface = 0;     // of faces of meshes
+  size_t default_surface = 0;     // used by faces of meshes
   std::vector<Change> changes;    // by time
   std::vector<Slice> slices;      // solid ones
   std::vector<Slice> visibility;  // solid and flat ones
   std::vector<Smoke3d> smoke;
   std::vector<Plot3d> plots;
-  /// What the case has and is not read, in words; "" where nothing.
+  /// Describes what the case has that is not read; "" where nothing.
   std::string unread;
   std::optional<std::filesystem::path> heat_release_file;  // CASE_hrr.csv
-  /// Mass extinction coefficient that FDS computed extinctions with [m2/kg].
+  /// Mass extinction coefficient by which FDS computed extinctions [m2/kg].
   std::optional<double> mass_extinction_m2_per_kg;
 };
 
-/// Errors, with their line: no index of FDS; a mesh without its nodes, nodes that do not ascend;
-/// numbers that are none; a file of results outside the folder of the index; more than the limits.
+/// Errors, with their line: not an index of FDS; a mesh without its nodes, nodes that do not
+/// ascend; malformed numbers; a file of results outside the folder of the index; more than the
+/// limits.
 Result<Case> read_case(const std::filesystem::path& index);
 
 }  // namespace luxodus::fds

@@ -7,13 +7,13 @@ namespace luxodus::fds {
 
 namespace {
 
-/// What the highest byte stands for is "more than"; half a step below it is finite.
+/// The highest byte stands for "more than"; half a step below it the value is finite.
 constexpr double byte_scale = 254, highest_byte = 253.5;
 /// Faces of vents and meshes are written with five decimals [m].
 constexpr double face_tolerance_m = 1e-5;
-/// Of the iteration that undoes the blur of nodes. Against the cells of the reference cases the
-/// largest error of a line is 20 % with none, 11 % with 3, 9 % with 5, 7 % with 10; more rounds
-/// raise the noise of Smoke3D's bytes.
+/// Rounds of the iteration that removes the blur of node values. Against the cells of the reference
+/// cases the largest error of a line is 20 % with none, 11 % with 3, 9 % with 5, 7 % with 10; more
+/// rounds raise the noise of Smoke3D's bytes.
 constexpr int sharpening_rounds = 5;
 
 size_t place_of(const glm::ivec3& n, int x, int y, int z) {
@@ -34,9 +34,9 @@ int cell_of(const std::vector<double>& nodes, double at) {
   return std::min(static_cast<int>(next - nodes.begin()), static_cast<int>(nodes.size()) - 1) - 1;
 }
 
-/// 1 in cells that no obstruction covers. `there`: by obstruction, whether it counts. Corners of
-/// boxes are summed up along the three axes, so that the time is that of the cells, not of the
-/// obstructions times theirs.
+/// 1 in cells that no obstruction covers. `there`: for each obstruction, whether it exists. Corners
+/// of boxes are summed up along the three axes, so that the time is linear in cells, not in
+/// obstructions times cells.
 std::vector<uint8_t> cells_outside(const Mesh& m, const std::vector<uint8_t>& there) {
   const glm::ivec3 n = m.node_counts();
   std::vector<int32_t> covers(m.node_count(), 0);
@@ -68,7 +68,7 @@ std::vector<uint8_t> cells_outside(const Mesh& m, const std::vector<uint8_t>& th
   return gas;
 }
 
-/// Looks behind the faces of a mesh.
+/// Finds gas behind the faces of a mesh.
 class Behind {
  public:
   Behind(const Case& fire, const GasMasks& gas, size_t mesh)
@@ -82,7 +82,7 @@ class Behind {
     }
   }
 
-  /// Whether the place behind a face holds gas. `cell`: beyond the mesh along one axis.
+  /// Whether the place behind a face holds gas. `cell`: outside the mesh along one axis.
   bool is_gas(const glm::ivec3& cell) const {
     glm::dvec3 place, face;
     for (int axis = 0; axis < 3; ++axis) {
@@ -108,7 +108,7 @@ class Behind {
   const Case& fire_;
   const GasMasks& gas_;
   const Mesh& mesh_;
-  std::vector<size_t> near_;  // meshes that touch it, itself too, in their order
+  std::vector<size_t> near_;  // meshes that touch it, including itself, in their order
 };
 
 }  // namespace
@@ -118,7 +118,7 @@ std::vector<uint8_t> obstructions_at(const Case& fire, size_t mesh, double time_
   std::vector<uint8_t> there(m.obstructions.size(), 1), told(m.obstructions.size(), 0);
   for (const Change& change : fire.changes) {
     if (change.mesh != mesh) continue;
-    // What first appears was not there before.
+    // An obstruction whose first change is to appear was absent before.
     if (told[change.obstruction] == 0 && change.appears) there[change.obstruction] = 0;
     told[change.obstruction] = 1;
     // Times have the digits of a float in one file and of a text in the other.
@@ -225,7 +225,7 @@ void take_means(const Mesh& mesh, const std::vector<float>& cells, const std::ve
 
 std::vector<float> cells_of_nodes(const Mesh& mesh, const std::vector<float>& nodes,
                                   const std::vector<uint8_t>& gas) {
-  // Most of a large building is clear: nothing is to be sought there.
+  // Most of a large building is clear and needs no solving.
   if (std::all_of(nodes.begin(), nodes.end(), [](float v) { return v == 0; }))
     return std::vector<float>(mesh.cell_count(), 0.0F);
   std::vector<float> cells = cell_means(mesh, nodes, gas);

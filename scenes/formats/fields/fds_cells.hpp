@@ -1,5 +1,5 @@
-// From the values that FDS stores to one value per cell of a mesh: which cells hold gas at a time,
-// means over nodes, and what Smoke3D loses at walls. Any thread.
+// Turns the values that FDS stores into one value per cell of a mesh: which cells hold gas at a
+// time, means over nodes, and the loss of Smoke3D at walls. Pure functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -11,32 +11,33 @@
 
 namespace luxodus::fds {
 
-/// By obstruction of a mesh: 1 where it is there at this time.
+/// For each obstruction of a mesh: 1 if it exists at this time.
 std::vector<uint8_t> obstructions_at(const Case& fire, size_t mesh, double time_s);
 
-/// The cell of a place [m], x fastest; -1 outside of the mesh.
+/// The index of the cell at a place [m], x fastest; -1 outside the mesh.
 int64_t cell_at(const Mesh& mesh, const glm::dvec3& place);
 
-/// 1 where a cell holds gas, x fastest; 0 in an obstruction that is there at this time.
+/// 1 where a cell holds gas, x fastest; 0 in an obstruction that exists at this time.
 std::vector<uint8_t> gas_cells(const Case& fire, size_t mesh, double time_s);
 
-/// 1 where a cell may hold gas at some time: in no obstruction that stands always.
+/// 1 where a cell may hold gas at some time: in no obstruction that always exists.
 std::vector<uint8_t> gas_cells_ever(const Case& fire, size_t mesh);
 
 /// Gas cells of all meshes at one time.
 using GasMasks = std::vector<std::vector<uint8_t>>;
 
-/// By node of a mesh: how many of the eight cells around it hold gas. Cells behind a face of the
-/// mesh count if they are gas of another mesh, or if the face is open.
+/// For each node of a mesh: how many of the eight cells around it hold gas. Cells behind a face of
+/// the mesh count if they are gas of another mesh, or if the face is open.
 std::vector<uint8_t> gas_around_nodes(const Case& fire, const GasMasks& gas, size_t mesh);
 
-/// Cells whose means about nodes are these values: a node has the mean of the gas cells around it.
-/// Solved by the iteration of van Cittert (1931), which starts from the means of nodes over cells;
-/// 0 in solids. Integrals over a mesh are kept within 0.05 %, and negative values are not made.
+/// Recovers cells from node values, which are means over the gas cells around a node. Solved by the
+/// iteration of van Cittert (1931), which starts from the means of nodes over cells; 0 in solids.
+/// Integrals over a mesh are kept within 0.05 %, and no value becomes negative.
 std::vector<float> cells_of_nodes(const Mesh& mesh, const std::vector<float>& nodes,
                                   const std::vector<uint8_t>& gas);
 
-/// Values of a cell-centred slice without its ghosts, the first plane on every axis; 0 in solids.
+/// Values of a cell-centred slice without its ghost cells, the first plane on every axis; 0 in
+/// solids.
 std::vector<float> cells_of_slice(const Mesh& mesh, const std::vector<float>& values,
                                   const std::vector<uint8_t>& gas);
 
@@ -44,8 +45,8 @@ std::vector<float> cells_of_slice(const Mesh& mesh, const std::vector<float>& va
 /// cell's length along x of that mesh.
 std::vector<float> extinction_of_bytes(const Mesh& mesh, const std::vector<uint8_t>& bytes);
 
-/// A node's value in Smoke3D is the mean over its eight cells, of which those in walls hold no
-/// soot: times 8 / (gas cells), 0 where there are none.
+/// Corrects Smoke3D: a node's value there is the mean over its eight cells, of which those in walls
+/// hold no soot. Multiplies by 8 / (gas cells); 0 where there are none.
 void correct_at_walls(std::vector<float>& nodes, const std::vector<uint8_t>& gas_around);
 
 }  // namespace luxodus::fds

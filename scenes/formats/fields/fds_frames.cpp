@@ -1,5 +1,5 @@
-// Walking over records. Nothing is taken from a length before the file is known to hold it, and
-// both length marks of a record must agree.
+// Walks over records. No length is used before the file is known to hold that many bytes, and both
+// length marks of a record must agree.
 #include "scenes/formats/fields/fds_frames.hpp"
 
 #include <fmt/format.h>
@@ -18,13 +18,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uint64_t mark_bytes = 4;
-/// Label, short label and unit of a slice.
+/// Bytes of a slice's label, short label and unit.
 constexpr uint32_t label_bytes = 30;
 constexpr uint32_t slice_head_bytes = 24, smoke_head_bytes = 32;
 constexpr uint32_t time_bytes = 4, counts_bytes = 8;
-/// Largest byte of a Smoke3D value, and the byte that begins a run.
+/// The byte that begins a run; values are smaller.
 constexpr uint8_t run_byte = 255;
-/// A file of results that is walked over record by record.
+/// Walks a file of results, record by record.
 class RecordWalk {
  public:
   static Result<RecordWalk> open(const Case& fire, const fs::path& path) {
@@ -71,7 +71,7 @@ class RecordWalk {
     return out;
   }
 
-  /// Passes a record of this size by its marks. Requires: has(payload).
+  /// Skips a record of this size by its marks. Requires: has(payload).
   Result<void> pass(uint64_t payload) {
     uint32_t before = 0, after = 0;
     if (auto ok = read(at_, std::span(reinterpret_cast<char*>(&before), mark_bytes)); !ok)
@@ -100,7 +100,7 @@ class RecordWalk {
   uint64_t at_ = 0;
 };
 
-/// Exactly these bytes of a file.
+/// Reads exactly these bytes of a file.
 Result<void> read_at(const fs::path& path, const FileDescriptor& file, uint64_t offset,
                      std::span<char> out) {
   size_t done = 0;
@@ -134,7 +134,7 @@ Result<double> time_of(RecordWalk& walk) {
   return seconds;
 }
 
-/// Frames of a time and a payload of one size each, up to the last whole one.
+/// Frames that each have a time and a payload of one size, up to the last whole one.
 Result<std::vector<Frame>> even_frames(RecordWalk& walk, uint64_t payload) {
   std::vector<Frame> frames;
   const uint64_t frame_bytes = time_bytes + payload + 4 * mark_bytes;

@@ -12,13 +12,13 @@ namespace luxodus::fds {
 
 namespace {
 
-/// Nodes are written with five decimals; on a lattice they may lie off by this, or by this share of
-/// a cell, which moves no optical depth by more than that share of one cell's.
+/// Nodes are written with five decimals. Node coordinates may deviate from a lattice by this, or by
+/// this share of a cell, which changes an optical depth by at most that share of one cell's.
 constexpr double written_m = 2e-5, lattice_share = 1e-3;
-/// A common grid may have so many times the cells of its meshes: the rest is clear, and costs 4
-/// bytes a cell.
+/// A common grid may have this many times the cells of its meshes: the additional cells are clear,
+/// and cost 4 bytes each.
 constexpr uint64_t spare_factor = 4, spare_cells = 100'000;
-/// Bytes for a cell while it is read: extinction, emission, masks, node values.
+/// Values for a cell while it is read: extinction, emission, masks, node values.
 constexpr uint64_t floats_per_cell = 5;
 
 double slack(double cell_m) {
@@ -34,7 +34,8 @@ bool is_even(const std::vector<double>& nodes) {
   return true;
 }
 
-/// Even cells along an axis that all nodes fall on; else halves of the smallest cell. 0: too many.
+/// Number of even cells along an axis such that all nodes fall on their faces; else halves of the
+/// smallest cell. 0: too many.
 int even_count(const std::vector<double>& nodes) {
   if (is_even(nodes)) return static_cast<int>(nodes.size()) - 1;
   const double length = nodes.back() - nodes.front();
@@ -53,7 +54,7 @@ int even_count(const std::vector<double>& nodes) {
   return 0;
 }
 
-/// The mesh's first cell on the lattice of a grid, none where it is not on it.
+/// The mesh's first cell on the lattice of a grid; none where it is off the lattice.
 std::optional<glm::dvec3> place_on(const Grid& grid, const Mesh& mesh) {
   glm::dvec3 first;
   for (int axis = 0; axis < 3; ++axis) {
@@ -68,7 +69,7 @@ std::optional<glm::dvec3> place_on(const Grid& grid, const Mesh& mesh) {
   return first;
 }
 
-/// Takes a mesh into a grid, if it lies on its lattice and few clear cells are added.
+/// Adds a mesh to a grid, if it lies on its lattice and few clear cells are added.
 bool joins(Grid& grid, const Mesh& mesh, uint64_t cells_of_meshes) {
   const auto first = place_on(grid, mesh);
   if (!first) return false;
@@ -85,11 +86,11 @@ bool joins(Grid& grid, const Mesh& mesh, uint64_t cells_of_meshes) {
   return true;
 }
 
-/// What each even cell takes of which cells of a mesh, along one axis.
+/// Which cells of a mesh each even cell overlaps, and by how much, along one axis.
 struct Overlap {
   int cell = 0;
   int from = 0;
-  double share = 0;  // of the even cell's length
+  double share = 0;  // share of the even cell's length
 };
 
 std::vector<Overlap> overlaps_along(const Grid& grid, const Mesh& mesh, int axis) {
@@ -216,7 +217,8 @@ void put(const Grid& grid, const Mesh& mesh, const std::vector<float>& cells,
                              static_cast<size_t>(grid.cells.x) +
                          static_cast<size_t>(first.x);
       for (int x = 0; x < mesh.cells.x; ++x, ++from)
-        // Cells of a mesh that another one covers are 0 here, and may hold that one's values there.
+        // Cells of a mesh that another one covers are 0 here; the grid may hold the other's values
+        // there.
         if (cells[from] != 0) to[row + static_cast<size_t>(x)] = cells[from];
     }
 }

@@ -1,7 +1,7 @@
-// Meshes of a fire simulation as grids of even cells, which are what rays walk through. Meshes that
-// lie on one lattice share a grid; cells between them are clear. A stretched mesh is resampled to
-// finer even cells: the integral of every quantity is kept, and a face between two cells lies up to
-// half of such a fine cell from its place. Any thread.
+// Lays meshes of a fire simulation out as grids of even cells, which rays walk through. Meshes on
+// one lattice share a grid; cells between them are clear. A stretched mesh is resampled to finer
+// even cells: the integral of every quantity is kept, and a face between two cells is displaced by
+// at most half such a fine cell. Plain values and pure functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -28,16 +28,16 @@ struct Grid {
 };
 
 /// Grids for all meshes of a case, in the order of their first meshes.
-/// Errors: cells that take more memory than this machine has; a mesh that is stretched by more than
-/// 8192 of its smallest cells' halves.
+/// Errors: cells that exceed this machine's memory; a stretched mesh that would need more than 8192
+/// halves of its smallest cell along an axis.
 Result<std::vector<Grid>> plan_grids(const Case& fire);
 
-/// Clears cells that lie in a mesh before this one: FDS takes the first of meshes that overlap.
-/// Returns how many were cleared that hold anything.
+/// Clears cells that an earlier mesh covers: where meshes overlap, FDS uses the first. Returns how
+/// many cells with a value were cleared.
 size_t clear_overlapped(const Case& fire, size_t mesh, std::vector<float>& cells);
 
-/// Writes the cells of a mesh to their places. `to`: of the grid's cells. Requires: `mesh` is one
-/// of the grid.
+/// Copies the cells of a mesh to their places in a grid. `to`: the grid's cells. Requires: `mesh`
+/// belongs to the grid.
 void put(const Grid& grid, const Mesh& mesh, const std::vector<float>& cells,
          std::vector<float>& to);
 

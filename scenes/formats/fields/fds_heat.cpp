@@ -14,7 +14,7 @@ namespace luxodus::fds {
 
 namespace {
 
-/// A time behind the last line by less is taken as that line [s].
+/// A time after the last line by less than this counts as that line [s].
 constexpr double heat_window_s = 1;
 
 std::vector<std::string_view> comma_fields(std::string_view line) {
@@ -45,7 +45,7 @@ Result<HeatTable> heat_table(const std::string& file, std::string_view text) {
   size_t time_column = 0, heat_column = 0;
   for (int number = 1; !text.empty(); ++number) {
     const size_t end = text.find('\n');
-    if (end == std::string_view::npos && number > 2) break;  // cut off: of a run in progress
+    if (end == std::string_view::npos && number > 2) break;  // cut off: the run is in progress
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     if (number == 1 || data_set::trimmed(line).empty()) continue;

@@ -1,5 +1,5 @@
-// Reading an .smv file line by line. One table maps keywords to the functions that read them; all
-// else is passed over, because releases of FDS add keywords freely.
+// Reads an .smv file line by line. One table maps keywords to the functions that read them; all
+// others are skipped, because releases of FDS add keywords freely.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,9 +20,9 @@ using data_set::number_in;
 using data_set::trimmed;
 using data_set::words_of;
 
-/// Metres; FDS writes five decimals.
+/// Largest coordinate [m]; FDS writes five decimals.
 constexpr double farthest_m = 1e6;
-/// SURFACE type of a vent; its name is what matters.
+/// The SURFACE type of a vent that is open.
 constexpr std::string_view open_surface = "OPEN";
 
 std::vector<std::string_view> lines_of(std::string_view text) {
@@ -124,7 +124,7 @@ class IndexReader {
     return value;
   }
 
-  /// A count of lines that follow: no more than the file has.
+  /// The number of lines that follow: no more than the file has.
   size_t count(const std::vector<std::string_view>& words, size_t place) {
     const auto value = number<int64_t>(words, place, "the number of entries");
     if (value < 0 || value > static_cast<int64_t>(lines_.size())) {
@@ -134,8 +134,8 @@ class IndexReader {
     return static_cast<size_t>(value);
   }
 
-  /// The mesh a file or an event belongs to, from 1 in the index. Meshes may stand behind it, so
-  /// that its number is checked at the end.
+  /// The mesh of a file or an event, counted from 1 in the index. Meshes may be listed after it, so
+  /// its number is checked at the end.
   size_t mesh_number(std::string_view line) {
     const auto value = number<int64_t>(words_of(line), 1, "the number of the mesh");
     if (failed()) return 0;
@@ -168,7 +168,7 @@ class IndexReader {
     return failed() ? nullptr : &out_.meshes.back();
   }
 
-  /// A number of 0 to 1, where there is one.
+  /// A number from 0 to 1, if there is one.
   static std::optional<double> share(const std::vector<std::string_view>& words, size_t place) {
     const auto value = place < words.size() ? number_in<double>(words[place]) : std::nullopt;
     return value && *value >= 0 && *value <= 1 ? value : std::nullopt;
@@ -194,8 +194,8 @@ class IndexReader {
     if (!failed()) out_.surfaces.push_back(std::move(surface));
   }
 
-  /// "x0 x1 y0 y1 z0 z1 id and six surfaces ! name": what is not there has no name, and the first
-  /// surface.
+  /// "x0 x1 y0 y1 z0 z1 id and six surfaces ! name": without them the name is empty, and the
+  /// surface is the first.
   static ObstructionLabel label_of(std::string_view line) {
     ObstructionLabel label;
     const size_t mark = line.find('!');
@@ -233,7 +233,7 @@ class IndexReader {
     out_.meshes.push_back(std::move(mesh));
   }
 
-  /// After a number of lines to be passed come lines "index coordinate".
+  /// After a number of lines to skip come lines "index coordinate".
   void nodes(size_t axis) {
     Mesh* mesh = last_mesh("TRN");
     if (mesh == nullptr) return;
@@ -248,7 +248,7 @@ class IndexReader {
     }
   }
 
-  /// So many lines of boxes in metres and names, then as many of node numbers.
+  /// Reads a number of lines with boxes in metres and names, then as many with node numbers.
   void obstructions() {
     Mesh* mesh = last_mesh("OBST");
     if (mesh == nullptr) return;
@@ -269,7 +269,7 @@ class IndexReader {
     }
   }
 
-  /// "... colour type [r g b a]": -3 says that a colour of its own follows.
+  /// "... colour type [r g b a]": -3 announces a colour of its own.
   static void own_colour(const std::vector<std::string_view>& words, ObstructionLabel& label) {
     if (words.size() < 11 || words[6] != "-3") return;
     const auto red = share(words, 8), green = share(words, 9), blue = share(words, 10);
@@ -278,7 +278,7 @@ class IndexReader {
     label.opacity = share(words, 11).value_or(1);
   }
 
-  /// The last of them are the plain faces of the mesh. Surfaces count from 0.
+  /// The last vents are the plain faces of the mesh. Surfaces count from 0.
   void vents() {
     Mesh* mesh = last_mesh("VENT");
     if (mesh == nullptr) return;
@@ -310,7 +310,7 @@ class IndexReader {
     slice.of_cells = of_cells;
     slice.mesh = mesh_number(line);
     const size_t from = line.find('&');
-    if (from == std::string_view::npos) return;  // of terrain or unstructured geometry
+    if (from == std::string_view::npos) return;  // on terrain or unstructured geometry
     const std::string_view range = line.substr(from + 1);
     const auto words = words_of(range.substr(0, range.find('!')));
     int flat = 0;
@@ -321,7 +321,7 @@ class IndexReader {
       flat += slice.nodes.low[axis] < slice.nodes.high[axis] ? 0 : 1;
     }
     if (failed() || flat > 1) return;
-    // The files of others are none of ours: flat slices of what is not read may lie anywhere.
+    // Files of slices that are not read may lie anywhere, so only the others are checked.
     const size_t file_line = at_;
     next_line();
     slice.quantity = quantity_of(trimmed(next_line()));
@@ -353,7 +353,7 @@ class IndexReader {
     out_.smoke.push_back(std::move(smoke));
   }
 
-  /// The time of "PL3D 45.2" is 45.02 s: its file's name, CASE_1_45p02.q, says it right.
+  /// "PL3D 45.2" means 45.02 s; the file name, CASE_1_45p02.q, states it correctly.
   void plot(std::string_view line) {
     Plot3d plot;
     plot.line = static_cast<int>(at_) + 1;
@@ -401,7 +401,7 @@ class IndexReader {
     out_.changes.push_back(change);
   }
 
-  /// Their formats are in no document that we have.
+  /// Records what is not read, because its format is not documented.
   void unread(const std::string& what) {
     if (out_.unread.find(what) == std::string::npos)
       out_.unread += (out_.unread.empty() ? "" : " and ") + what;
@@ -452,7 +452,7 @@ class IndexReader {
   const fs::path path_;
   const fs::path folder_;
   std::vector<std::string_view> lines_;
-  size_t at_ = 0;  // the line that is read
+  size_t at_ = 0;  // the line being read
   std::string default_surface_;
   Case out_;
   std::optional<Problem> problem_;

@@ -38,7 +38,7 @@ const fds::Frame* frame_near(const fds::FrameFiles& files, double time_s) {
                                                                                     : nullptr;
 }
 
-/// The interval of ascending nodes that holds a coordinate, and how far in it the coordinate is.
+/// The interval of ascending nodes that holds a coordinate, and the share of the interval below it.
 std::pair<size_t, double> interval(const std::vector<double>& nodes, double at) {
   if (nodes.size() < 2) return {0, 0};
   const auto next = std::upper_bound(nodes.begin(), nodes.end(), at);
@@ -65,7 +65,7 @@ double FireVisibility::Sheet::value(const glm::dvec3& place) const {
   std::array<double, 3> share{};
   for (size_t axis = 0; axis < 3; ++axis) {
     std::tie(first[axis], share[axis]) = interval(nodes[axis], place[static_cast<int>(axis)]);
-    // Values of cells are those of the node above; the first plane is a ghost.
+    // The value of a cell is stored at the node above; the first plane is a ghost.
     if (of_cells) share[axis] = counts[axis] > 1 ? 1 : 0;
   }
   double sum = 0;

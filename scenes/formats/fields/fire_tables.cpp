@@ -50,7 +50,7 @@ FireTimes times_of_turns(std::vector<FireTurn> turns) {
   if (turns.empty()) return out;
   std::stable_sort(turns.begin(), turns.end(),
                    [](const FireTurn& a, const FireTurn& b) { return a.at_s < b.at_s; });
-  // What first appears was not there before.
+  // An object whose first change is to appear was absent before.
   const bool at_start = !turns.front().appears;
   for (FireTurn& turn : turns) turn.at_s = std::max(turn.at_s, -last_turn_s);
   bool there = at_start;
@@ -60,7 +60,7 @@ FireTimes times_of_turns(std::vector<FireTurn> turns) {
     there = turns[i].appears;
     (there ? out.appears : out.vanishes).push_back(turns[i].at_s);
   }
-  // What never comes is said to come at the end of all times.
+  // An object that never appears is written to appear at the end of the time range.
   if (!at_start && out.appears.empty()) out.appears.push_back(last_turn_s);
   return out;
 }

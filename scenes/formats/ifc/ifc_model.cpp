@@ -1,7 +1,7 @@
-// One pass over all instances gathers products, relations and what they relate; a second one gives
-// each product what relations say of it. Attributes are counted as in the schemas: those of IfcRoot
-// (GlobalId 0, Name 2), IfcObject (ObjectType 4), IfcProduct (ObjectPlacement 5, Representation 6)
-// and IfcElement (Tag 7) are the same in IFC2x3, IFC4 and IFC4x3.
+// One pass over all instances gathers products, relations and related instances; a second one adds
+// to each product what relations say about it. Attributes are counted as in the schemas: those of
+// IfcRoot (GlobalId 0, Name 2), IfcObject (ObjectType 4), IfcProduct (ObjectPlacement 5,
+// Representation 6) and IfcElement (Tag 7) are the same in IFC2x3, IFC4 and IFC4x3.
 #include "scenes/formats/ifc/ifc_model.hpp"
 
 #include <fmt/format.h>
@@ -21,8 +21,8 @@ using Ids = std::vector<uint64_t>;
 
 constexpr size_t guid_length = 22;
 
-/// Whether an instance begins with a GlobalId, as everything that is rooted does. Told without
-/// taking it apart: most instances are points and faces.
+/// Whether an instance begins with a GlobalId, as every IfcRoot does. Decided without parsing it:
+/// most instances are points and faces.
 bool is_rooted(const StepFile::Instance& instance) {
   const std::string_view b = instance.body;
   return b.size() > guid_length + 1 && b[0] == '\'' && b[guid_length + 1] == '\'';
@@ -60,7 +60,7 @@ double prefix_factor(std::string_view prefix) {
   return 1;
 }
 
-/// A unit in SI units; `power`: 1 of a length, 3 of a volume. Nothing where it is none.
+/// A unit in SI units; `power`: 1 for a length, 3 for a volume. Nothing where it is none.
 std::optional<double> si_factor(StepGraph& graph, const StepNode& unit, int power, int depth = 0) {
   if (depth > 4) return std::nullopt;
   if (unit.is("IFCSIUNIT")) return std::pow(prefix_factor(unit.word(2)), power);
@@ -95,7 +95,7 @@ glm::dvec3 vector_of(const StepNode& node, const glm::dvec3& otherwise) {
   return n.size() < 2 ? otherwise : glm::dvec3(n[0], n[1], n.size() > 2 ? n[2] : 0);
 }
 
-/// Without overflow, which numbers near 1e308 would cause; nothing where it has no direction.
+/// Avoids overflow for numbers near 1e308; nothing where the vector has no direction.
 std::optional<glm::dvec3> unit_vector(glm::dvec3 v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
@@ -114,7 +114,8 @@ Transform axis_placement(StepGraph& graph, const StepNode& node) {
   glm::dvec3 x = vector_of(graph.follow(node, flat ? 1 : 2), {1, 0, 0});
   x = unit_vector(x).value_or(glm::dvec3(1, 0, 0));
   x -= glm::dot(x, z) * z;
-  // Parallel to the axis: any direction across, as the schema's default is not one either.
+  // Parallel to the axis: any perpendicular direction, since the schema's default would not do
+  // either.
   if (glm::length(x) < 1e-9)
     x = glm::cross(std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z);
   x = glm::normalize(x);
@@ -138,8 +139,8 @@ std::optional<Transform> placement_of(StepGraph& graph, StepNode node, double me
 
 // ---- materials, properties, quantities ---------------------------------------------------------
 
-/// Names of the materials of what IfcRelAssociatesMaterial relates to.
-/// `seen`: sets that were gone through. A file may have them hold each other, and each many times.
+/// Names of the materials that IfcRelAssociatesMaterial relates to.
+/// `seen`: visited sets. In a malformed file sets may contain each other, and each many times.
 std::vector<std::string> material_names(StepGraph& graph, uint64_t of, std::set<uint64_t>& seen) {
   const StepNode node = graph.node(of);
   if (!node) return {};
@@ -186,11 +187,11 @@ void add_properties(StepGraph& graph, const StepNode& set, double volume_factor,
 
 // ---- the model ---------------------------------------------------------------------------------
 
-/// Relations, from what they are of to what they relate it to.
+/// Relations, from the relating to the related instance.
 struct Relations {
   std::map<uint64_t, uint64_t> inside_of, part_of, type_of, fills, voids;
   std::map<uint64_t, Ids> sets, materials;
-  std::map<uint64_t, std::string> layers;  // of representations
+  std::map<uint64_t, std::string> layers;  // by representation
 };
 
 class ModelReader {
@@ -239,7 +240,8 @@ class ModelReader {
       ++model_.more_faults;
   }
 
-  /// Whatever has a place (or says that it has none) and a shape at the places of IfcProduct.
+  /// Whether an instance has a placement (or says that it has none) and a shape at the attributes
+  /// of IfcProduct.
   bool is_product(const StepNode& node) {
     const StepNode place = graph_.follow(node, 5);
     return place.is("IFCLOCALPLACEMENT") || graph_.follow(node, 6).is("IFCPRODUCTDEFINITIONSHAPE");
@@ -324,7 +326,7 @@ class ModelReader {
     model_.products.push_back(std::move(p));
   }
 
-  /// What the type says where the product does not.
+  /// Takes from the type what the product does not state.
   void read_type(const StepNode& type, IfcProduct& p) {
     if (!type) return;
     p.type_name = type.text(2);

@@ -1,7 +1,8 @@
-// What an IFC model (2x3, 4, 4x3) says of a building, without its shapes: products with their
+// What an IFC model (2x3, 4, 4x3) says about a building, without its shapes: products with their
 // GlobalIds, types, storeys, materials, properties and authored volumes, in metres and scene axes
 // (z up). Entities and attributes are those of the schemas of buildingSMART. What is missing or
-// refers to nothing is left out and told by its number; nothing is guessed. Immutable; any thread.
+// refers to nothing is left out and reported with its instance number; nothing is guessed.
+// Immutable; any thread.
 #pragma once
 
 #include <cstdint>
@@ -17,39 +18,39 @@
 namespace luxodus {
 
 namespace limits {
-/// Placements relative to each other, spatial parts within each other.
+/// Depth of chains of relative placements, and of spatial structure.
 inline constexpr int ifc_chain = 64;
-/// Faults of instances that are kept; those of the text are bounded by step_faults.
+/// Faults of instances that are kept; step_faults limits those of the text.
 inline constexpr size_t ifc_faults = 10'000;
 }  // namespace limits
 
-/// What a photometric light source of a product says (IfcLightSourceGoniometric).
+/// A photometric light source of a product (IfcLightSourceGoniometric).
 struct IfcLightSource {
   glm::dvec3 position{0};  // in scene coordinates [m]
   glm::dvec3 axis{0, 0, -1};
-  std::string document;  // name of the photometric file that it refers to; "" where none
+  std::string document;  // name of the photometric file that it names; "" where none
 };
 
 struct IfcProduct {
   uint64_t id = 0;   // of the instance: "#38"
   std::string guid;  // GlobalId, 22 characters
-  std::string kind;  // "WALL" of IFCWALLSTANDARDCASE: without IFC and without what narrows it
+  std::string kind;  // "WALL" of IFCWALLSTANDARDCASE: without IFC and without subtype suffixes
   std::string name, long_name, object_type, tag;
   std::string type_name;               // of its type object
   std::string type_class;              // "IFCLIGHTFIXTURETYPE"
-  std::string predefined;              // SECURITYLIGHTING; of the product or its type
+  std::string predefined;              // SECURITYLIGHTING; the product's, else its type's
   std::string operation;               // SINGLE_SWING_LEFT, of doors
   std::string storey;                  // name of the storey that contains it; "" where none does
   std::vector<std::string> materials;  // layers from the outside in, or all that are named
   std::string layer;                   // of the presentation (CAD)
   Transform placement;
-  bool has_shape = false;           // or what should become one
-  std::optional<double> volume_m3;  // as authored; net where both are said
+  bool has_shape = false;           // or should have one
+  std::optional<double> volume_m3;  // as authored; net where both are given
   uint64_t fills = 0, voids = 0;    // id of the opening it fills, of the element it voids
   std::map<std::string, std::string> properties;  // "Pset_DoorCommon.FireExit" -> "T"
   std::optional<IfcLightSource> light;
 
-  /// Of a property set's property, "SET.NAME"; "" where it is not said.
+  /// A property of a property set, "SET.NAME"; "" where it is absent.
   std::string property(const std::string& path) const;
 };
 
@@ -63,12 +64,12 @@ struct IfcModel {
   double metres_per_unit = 1;
   std::vector<IfcStorey> storeys;    // upwards
   std::vector<IfcProduct> products;  // in the order of the file
-  std::vector<Problem> faults;       // what could not be read, with lines or numbers
-  size_t more_faults = 0;            // that are not among them: there are too many
+  std::vector<Problem> faults;       // what could not be read, with lines or instance numbers
+  size_t more_faults = 0;            // number of faults beyond those kept
 };
 
-/// Reads a model from its bytes; `reading`, where given, hears how far it is.
-/// Errors: no such file, no unit of length, more than the limits.
+/// Reads a model from its bytes; `reading`, where given, receives the progress.
+/// Errors: not a STEP file, no unit of length, more than the limits.
 Result<IfcModel> ifc_model_of(std::string bytes, const std::string& file,
                               ReadingShare* reading = nullptr);
 

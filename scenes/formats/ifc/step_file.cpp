@@ -20,7 +20,7 @@ bool is_name(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// Behind blanks and comments.
+/// The position after blanks and comments.
 size_t skip(std::string_view text, size_t at) {
   for (;;) {
     while (at < text.size() && is_space(text[at])) ++at;
@@ -31,7 +31,7 @@ size_t skip(std::string_view text, size_t at) {
   }
 }
 
-/// Where the statement that begins at `at` ends: its semicolon, outside of texts and comments.
+/// The position of the semicolon that ends the statement at `at`, outside texts and comments.
 size_t end_of_statement(std::string_view text, size_t at) {
   for (; at < text.size(); ++at) {
     if (text[at] == ';') return at;
@@ -74,7 +74,7 @@ std::optional<uint32_t> hexadecimal(std::string_view digits) {
   return value;
 }
 
-/// Code units of `digits` hexadecimal digits each until \X0\; how much of the text they take.
+/// Appends code units of `digits` hexadecimal digits each, until \X0\; returns the length read.
 size_t append_wide(std::string& out, std::string_view text, size_t digits) {
   size_t at = 0;
   uint32_t high = 0;
@@ -93,7 +93,7 @@ size_t append_wide(std::string& out, std::string_view text, size_t digits) {
   return text.substr(at, 4) == "\\X0\\" ? at + 4 : at;
 }
 
-/// Resolves a sequence that begins with a backslash; how much of the text it takes.
+/// Resolves a sequence that begins with a backslash; returns the length read.
 size_t append_escape(std::string& out, std::string_view text) {
   if (text.starts_with("\\X2\\")) return 4 + append_wide(out, text.substr(4), 4);
   if (text.starts_with("\\X4\\")) return 4 + append_wide(out, text.substr(4), 8);
@@ -115,7 +115,7 @@ size_t append_escape(std::string& out, std::string_view text) {
   return 1;
 }
 
-/// Takes parameters apart. Recursion ends at limits::step_nesting.
+/// Parses parameters. Recursion ends at limits::step_nesting.
 class Parameters {
  public:
   explicit Parameters(std::string_view text) : text_(text) {}
@@ -127,7 +127,8 @@ class Parameters {
   }
 
  private:
-  /// Until the closing bracket, which is left, or the end. False where the text is damaged.
+  /// Reads up to the closing bracket, which is not consumed, or the end. False where the text is
+  /// damaged.
   bool read_items(std::vector<StepValue>& out, int depth) {
     for (bool first = true;; first = false) {
       at_ = skip(text_, at_);

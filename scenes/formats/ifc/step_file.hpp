@@ -1,8 +1,7 @@
-// Exchange files of ISO 10303-21 ("STEP physical files"), as IFC models are written: which instance
-// is of which type, and what stands in its brackets. The whole text is kept, an instance is taken
-// apart when it is asked for: a model of 44 MB has 629 291 of them, most of which are points.
-// What is damaged is a fault with its line, and reading goes on behind it. Immutable once read; any
-// thread.
+// Parses exchange files of ISO 10303-21 ("STEP physical files"), the format of IFC models: the type
+// of each instance, and its parameters. The whole text is kept, and an instance is parsed on
+// request: a model of 44 MB has 629 291 of them, most of which are points. Damage is a fault with
+// its line, and reading goes on after it. Immutable once read; any thread.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +20,10 @@ namespace luxodus {
 class ReadingShare;
 
 namespace limits {
-/// Of a model [bytes]; the largest public ones have some 400 MB.
+/// Size of a model [bytes]; the largest public ones have about 400 MB.
 inline constexpr uint64_t step_bytes = uint64_t{1} << 30;
 inline constexpr size_t step_instances = 30'000'000;
-/// Brackets within brackets of one instance: the schemas of IFC nest four deep.
+/// Nested brackets of one instance: the schemas of IFC nest four deep.
 inline constexpr int step_nesting = 16;
 /// Faults that are kept.
 inline constexpr size_t step_faults = 100;
@@ -42,24 +41,24 @@ struct StepValue {
 
 class StepFile {
  public:
-  /// Takes the bytes of a file; `reading`, where given, hears how far it is.
-  /// Errors: it is no such file, or larger than the limits.
+  /// Parses the bytes of a file; `reading`, where given, receives the progress.
+  /// Errors: not a STEP file, or larger than the limits.
   static Result<StepFile> of(std::string bytes, const std::string& file,
                              ReadingShare* reading = nullptr);
 
   struct Instance {
     uint64_t id = 0;
     std::string_view type;  // "IFCWALL"; "" of instances of several types
-    std::string_view body;  // what stands in the brackets
+    std::string_view body;  // the text in the brackets
   };
-  /// In the order of the file; the first of those that say the same number.
+  /// In file order; where two have the same number, the first.
   const std::vector<Instance>& instances() const { return instances_; }
   /// Null where there is none.
   const Instance* find(uint64_t id) const;
-  /// The parameters of an instance; fewer, where they are damaged.
+  /// The parameters of an instance; fewer if they are damaged.
   std::vector<StepValue> parameters(const Instance& instance) const;
 
-  /// "IFC2X3", "IFC4", ... in capitals; "" where the file does not say it.
+  /// "IFC2X3", "IFC4", ... in capitals; "" where the file states none.
   const std::string& schema() const { return schema_; }
   const std::vector<Problem>& faults() const { return faults_; }
   size_t fault_count() const { return fault_count_; }
@@ -77,7 +76,7 @@ class StepFile {
 };
 
 /// A text of the file as UTF-8: doubled quotes, \X\, \X2\, \X4\ and \S\ of ISO 10303-21 are
-/// resolved, bytes that are no UTF-8 are taken for Latin-1.
+/// resolved; bytes that are not UTF-8 are read as Latin-1.
 std::string step_text(std::string_view written);
 
 }  // namespace luxodus

@@ -1,6 +1,6 @@
-// Instances of a STEP file as a graph: parameters by their place, references followed. Every
-// question has an answer; what is missing or of another kind is nothing. Internal to the reading of
-// IFC. Holds a reference to the file; one thread, since it remembers what it took apart.
+// Instances of a STEP file as a graph: parameters by place, references followed. A missing
+// parameter, or one of another kind, reads as an empty value. Internal to the reading of IFC. Holds
+// a reference to the file; one thread, since it caches parsed instances.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ class StepNode {
   uint64_t id() const { return instance_ == nullptr ? 0 : instance_->id; }
   std::string_view type() const { return instance_ == nullptr ? "" : instance_->type; }
   bool is(std::string_view type) const { return this->type() == type; }
-  /// A parameter by its place, from 0; an omitted one where there are fewer.
+  /// A parameter by its place, from 0; an omitted one beyond the last.
   const StepValue& at(size_t place) const;
   std::string text(size_t place) const;
   std::string word(size_t place) const;
@@ -54,7 +54,7 @@ class StepGraph {
   std::unordered_map<uint64_t, std::vector<StepValue>> taken_apart_;
 };
 
-/// What a value says, for people: a text, a word, a number; of a typed value its content.
+/// The content of a value for display: a text, a word, a number; of a typed value its content.
 std::string words_of(const StepValue& value);
 std::optional<double> number_of(const StepValue& value);
 

@@ -1,4 +1,4 @@
-// libpng reports errors by longjmp: everything that owns memory lives in a state outside of the
+// libpng reports errors by longjmp: everything that owns memory lives in a state outside the
 // functions that jump, which have only plain locals.
 #include "scenes/formats/images/image_file.hpp"
 
@@ -17,8 +17,8 @@
 namespace luxodus {
 namespace {
 
-/// Deflate expands at most 1032-fold (a match of 258 bytes from two bits); past this a file claims
-/// pixels it cannot hold.
+/// Deflate expands at most 1032-fold (a match of 258 bytes from two bits); beyond this a file
+/// declares pixels that it cannot contain.
 constexpr uint64_t largest_expansion = 1040;
 
 struct Decoding {
@@ -48,7 +48,7 @@ void on_read(png_structp png, png_bytep to, size_t count) noexcept {
   state->at += count;
 }
 
-/// Reads what the picture is and asks for plain samples. Returns false with a message.
+/// Reads the header and requests plain samples. Returns false with a message.
 bool begin(png_structp png, png_infop info, Decoding& state) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, &state, on_read);
@@ -64,13 +64,13 @@ bool begin(png_structp png, png_infop info, Decoding& state) {
   double gamma = 0;
   const bool says_gamma = png_get_gAMA(png, info, &gamma) != 0;
   const bool says_srgb = png_get_valid(png, info, PNG_INFO_sRGB) != 0;
-  // 1/2.2 is how writers say sRGB where they lack the chunk.
+  // Writers that lack the sRGB chunk state 1/2.2 for it.
   if (says_gamma && !says_srgb && std::abs(gamma * 2.2 - 1) > 0.05) state.gamma = gamma;
   png_set_expand(png);  // palettes to RGB, small samples to 8 bits, transparent colours to alpha
   const int colour = png_get_color_type(png, info);
   const bool alpha =
       (colour & PNG_COLOR_MASK_ALPHA) != 0 || png_get_valid(png, info, PNG_INFO_tRNS) != 0;
-  if (alpha) png_set_gray_to_rgb(png);  // pictures have 1, 3 or 4 channels
+  if (alpha) png_set_gray_to_rgb(png);  // an Image has 1, 3 or 4 channels
   png_set_interlace_handling(png);
   png_read_update_info(png, info);
   state.channels = png_get_channels(png, info);

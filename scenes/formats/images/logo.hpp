@@ -1,4 +1,4 @@
-// The logo of a project, as a report embeds it: see page_picture.hpp. Any thread.
+// Reads a project's logo for reports: see page_picture.hpp. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,14 @@
 namespace luxodus {
 
 namespace limits {
-/// Of a logo [bytes]: it stands in every report as text.
+/// Size of a logo [bytes]: every report embeds it as text.
 inline constexpr uint64_t logo_bytes = uint64_t{4} << 20;
-/// Of a logo [pixels]: 12 cm wide at 400 dots per inch.
+/// Sides of a logo [pixels]: 12 cm at 400 dots per inch.
 inline constexpr int logo_side = 2000;
 }  // namespace limits
 
 /// The bytes of a new PNG (sRGB, on white where the file is transparent).
-/// Errors: a file that is missing, larger than the limits, damaged, or no PNG.
+/// Errors: the file is missing, larger than the limits, damaged, or not a PNG.
 Result<std::string> read_logo(const std::filesystem::path& path);
 
 }  // namespace luxodus

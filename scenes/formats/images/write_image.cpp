@@ -1,5 +1,5 @@
-// Both libraries are kept away from the file system: they fill memory, and write_file_atomically
-// does the rest. OpenEXR reports by exceptions, libpng by longjmp; neither leaves this file.
+// Neither library touches the file system: they fill memory, and write_file_atomically writes it.
+// OpenEXR reports errors by exceptions, libpng by longjmp; neither leaves this file.
 #include "scenes/formats/images/write_image.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -28,9 +28,9 @@ namespace luxodus {
 namespace {
 
 constexpr float half_largest = 65504.0f;
-// OpenEXR stores names with a terminating zero; longer ones than 255 are refused by the library.
+// OpenEXR stores names with a terminating zero, and rejects names longer than 255.
 constexpr size_t max_exr_name_bytes = 255;
-// Names of attributes that the library itself needs; a text may not take their place.
+// Attributes that the library itself needs; a text may not replace them.
 constexpr std::array<const char*, 16> exr_reserved = {
     "channels",   "compression", "dataWindow",        "displayWindow", "lineOrder",
     "name",       "type",        "pixelAspectRatio",  "version",       "screenWindowCenter",
@@ -55,7 +55,7 @@ class MemoryOut : public Imf::OStream {
   size_t at_ = 0;
 };
 
-/// The number of pixels, or a sentence when the edges make no picture.
+/// The number of pixels, or a message if the edges are out of range.
 Result<uint64_t> pixel_count(int64_t width, int64_t height, const SourcePlace& place) {
   if (width < 1 || height < 1 || width > limits::max_image_edge ||
       height > limits::max_image_edge ||
@@ -258,7 +258,7 @@ Result<std::vector<std::byte>> encode_png(const PngImage& image, const SourcePla
   for (const auto& [key, text] : image.text) values.push_back(clean_utf8(text));
   std::vector<png_text> texts(image.text.size());
   for (size_t i = 0; i < texts.size(); ++i) {
-    // ASCII goes into tEXt, which every program shows; the rest needs iTXt, which is UTF-8.
+    // ASCII goes into tEXt, which every program shows; other text needs iTXt, which is UTF-8.
     const bool ascii = std::all_of(values[i].begin(), values[i].end(),
                                    [](char c) { return static_cast<signed char>(c) >= 0; });
     texts[i].compression = ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;

@@ -1,6 +1,6 @@
-// Pictures on disk: OpenEXR for luminance data (floats with their unit), PNG for pixels. Both are
-// made in memory and put in place at once; equal content gives equal bytes (no dates are written).
-// Pictures are rows from the top. Any thread.
+// Writes pictures: OpenEXR for luminance (floats with a unit), PNG for pixels. Files are written
+// atomically; equal content gives equal bytes (no dates are written). Pictures are rows from the
+// top. Any thread.
 #pragma once
 
 #include <array>
@@ -17,13 +17,14 @@
 namespace luxodus {
 
 namespace limits {
-inline constexpr int max_image_edge = 32768;                     // pixels; also libpng's own care
+inline constexpr int max_image_edge = 32768;                     // pixels; also libpng's default
+                                                                 // limit
 inline constexpr uint64_t max_image_pixels = uint64_t{1} << 28;  // 1 GiB per float channel
 inline constexpr size_t max_exr_channels = 128;
 inline constexpr uint64_t max_exr_bytes = uint64_t{8} << 30;
 }  // namespace limits
 
-/// A key and a text for people: who made the picture, from what.
+/// A key and a text: who made the picture, from what.
 using ImageText = std::pair<std::string, std::string>;
 
 struct ExrChannel {
@@ -62,12 +63,11 @@ struct PngImage {
       text;  // keys of 1..79 printable ASCII characters, e.g. "Title", "Description"
 };
 
-/// Errors: sizes that do not fit together, a name used twice, a value beyond the range of half
-/// floats (65504; write full floats then); else as write_file_atomically. NaN is allowed: "no
-/// value".
+/// Errors: sizes that do not match, a name used twice, a value beyond the range of half floats
+/// (65504; write full floats then); those of write_file_atomically. NaN is allowed: "no value".
 Result<void> write_exr(const std::filesystem::path& path, const ExrImage& image);
 
-/// Errors: sizes that do not fit together, a text key that PNG does not take.
+/// Errors: sizes that do not match, a text key that PNG does not allow.
 Result<std::vector<std::byte>> encode_png(const PngImage& image, const SourcePlace& place);
 /// Errors: as encode_png and write_file_atomically.
 Result<void> write_png(const std::filesystem::path& path, const PngImage& image);

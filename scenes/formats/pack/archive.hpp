@@ -1,8 +1,7 @@
-// Plain values to bytes and back, by cereal: archives that write into memory, and that read bytes
-// nobody vouches for. A count is held against the bytes that are left before anything is taken for
-// it, an enumeration against its last value, a number must be finite; what does not fit throws
-// DamagedArchive. Native byte
-// order (little endian). Any thread, one archive per thread.
+// Plain values to bytes and back, by cereal: archives that write into memory, and that read
+// untrusted bytes. A count is checked against the remaining bytes before memory is allocated, an
+// enumeration against its last value; a number must be finite. Anything else throws DamagedArchive.
+// Native byte order (little endian). Any thread, one archive per thread.
 #pragma once
 
 #include <cereal/cereal.hpp>
@@ -20,7 +19,7 @@
 
 namespace luxodus {
 
-/// The bytes are not what was written.
+/// The bytes are not what an archive has written.
 struct DamagedArchive : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -86,7 +85,7 @@ void CEREAL_SERIALIZE_FUNCTION_NAME(BytesIn& in, cereal::SizeTag<T>& tag) {
 template <class Archive, class T>
 requires std::is_same_v<Archive, BytesOut> || std::is_same_v<Archive, BytesIn>
 void CEREAL_SERIALIZE_FUNCTION_NAME(Archive& archive, cereal::NameValuePair<T>& pair) {
-  archive(pair.value);  // names are not kept
+  archive(pair.value);  // names are not stored
 }
 template <class T>
 void CEREAL_SAVE_FUNCTION_NAME(BytesOut& out, const cereal::BinaryData<T>& data) {

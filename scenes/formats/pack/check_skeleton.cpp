@@ -1,4 +1,4 @@
-// In the order of the description. That numbers are finite is checked where they are decoded.
+// Checks in the order of the description. Decoding has checked that numbers are finite.
 #include "scenes/formats/pack/check_skeleton.hpp"
 
 #include <algorithm>
@@ -11,16 +11,16 @@ namespace luxodus {
 
 namespace {
 
-/// Coordinates that a float tells from infinity, squares of differences included.
+/// Coordinates at which float squares of differences are still finite.
 constexpr double farthest_m = 1e9;
-/// Of lumens, watts and candelas per square metre: the sun has 4e26 W, a building less.
+/// Lumens, watts or candelas per square metre: the sun has 4e26 W, a building less.
 constexpr double brightest = 1e15;
 constexpr double extinction_most_per_m = 1e9;
-/// As a scene file may say: its schema.
+/// The largest factor that the schema of scene files allows.
 constexpr double any_factor = 1e6;
 constexpr int64_t max_cells = 1 << 28;  // of all planes
 constexpr int64_t max_pixels = int64_t{1} << 28;
-constexpr uint32_t max_patches = 200'000'000;  // as compiling allows
+constexpr uint32_t max_patches = 200'000'000;  // the limit of compiling
 
 void need(bool sound, const char* what) {
   if (!sound) throw DamagedArchive(what);
@@ -50,7 +50,7 @@ void need_spectrum(const Spectrum& s, double most, const char* what) {
        what);
 }
 
-/// What light is divided by, where there is any.
+/// Checks a spectrum's integral, by which light is divided, where there is any.
 void need_shape(const Spectrum& s, bool shines) {
   need_spectrum(s, 1e6, "a spectrum has values that cannot be");
   const double efficacy = shines ? efficacy_lm_per_w(s) : 1;
@@ -147,7 +147,7 @@ void check_face(const Sign& s) {
   need(face.colour.size() == texels &&
            (face.relative_luminance.empty() || face.relative_luminance.size() == texels),
        "a sign's face has not the size that it says");
-  // What a colour's texels are chosen by.
+  // The sums by which texels of a colour are chosen.
   double sum[3] = {0, 0, 0};
   bool there[3] = {false, false, false};
   for (size_t i = 0; i < texels; ++i) {
@@ -359,7 +359,7 @@ void check_geometry(const PackedScene& g) {
   need(triangles == g.triangles && triangles > 0, "its cells have not all its triangles");
 }
 
-/// Tables of data sets, of as many bricks as these have; objects, one for each part of the scene.
+/// Checks the brick tables of data sets, and the objects, one for each part of the scene.
 void check_parts(const std::vector<Medium>& media, const Skeleton& skeleton) {
   const PackedScene& packed = skeleton.packed;
   need(packed.tables.size() == media.size() && packed.flame_points.size() == media.size(),

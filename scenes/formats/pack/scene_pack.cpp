@@ -30,7 +30,7 @@ struct Head {
   uint64_t skeleton_bytes;
   uint64_t skeleton_hash;
   std::array<uint64_t, 9> unused;
-  uint64_t head_hash;  // of all before it
+  uint64_t head_hash;  // hash of all fields before it
 };
 static_assert(sizeof(Head) == 128);
 
@@ -58,7 +58,7 @@ class Writer {
     static constexpr std::array<std::byte, alignment> zeros{};
     write(std::span(zeros).first(aligned(at_) - at_));
   }
-  /// The skeleton behind the objects, the head before them.
+  /// Writes the skeleton after the objects, and the head before them.
   Result<uint64_t> end(std::span<const std::byte> skeleton, bool holds_objects) {
     Head head{magic, limits::pack_version, holds_objects ? 1u : 0u, 0,
               at_,   skeleton.size(),      hash_of(skeleton),       {},
@@ -86,7 +86,7 @@ Result<Writer> begin(const std::filesystem::path& path) {
   return writer;
 }
 
-/// A file in memory, read by the pages that are looked at.
+/// A mapped file: only pages that are accessed take memory.
 class MappedPack final : public ObjectFile {
  public:
   static Result<std::shared_ptr<MappedPack>> open(const std::filesystem::path& path) {
@@ -135,7 +135,7 @@ class MappedPack final : public ObjectFile {
   std::vector<std::pair<uint64_t, uint64_t>> places_;  // offset and length; none without objects
 };
 
-/// The head of a mapped file, held against its size.
+/// The head of a mapped file, checked against the file's size.
 Result<Head> head_of(const MappedPack& pack) {
   Head head{};
   std::memcpy(&head, pack.bytes().data(), sizeof head);
@@ -160,7 +160,7 @@ Result<Head> head_of(const MappedPack& pack) {
   return head;
 }
 
-/// Errors: bytes that are not those of the head's hash.
+/// Errors: bytes whose hash is not the head's.
 Result<std::span<const std::byte>> skeleton_of(const MappedPack& pack, const Head& head) {
   const auto bytes = pack.bytes().subspan(head.skeleton_offset, head.skeleton_bytes);
   if (hash_of(bytes) != head.skeleton_hash)

@@ -1,14 +1,14 @@
 // A scene as one file that many machines can share: its triangles, smoke data and pictures, cut
-// into scene parts named by their content, and the skeleton that every machine reads. The file is
-// mapped, not read: an object takes memory only while it is looked at, and a scene may be larger
+// into content-addressed scene parts, and the skeleton that every machine reads. The file is
+// mapped, not read: an object takes memory only while it is accessed, and a scene may be larger
 // than a machine. A pack may hold the skeleton alone, for machines that get all objects from
 // others.
 //
 //   head (128 B) | object 0 | object 1 | ... | skeleton        objects begin at multiples of 64
 //
-// Reading checks the head and the skeleton by their hashes, and the skeleton's values by what a
-// scene may say: whoever forges a pack computes its hashes anew. An object is checked by whoever
-// takes it. Thread rule: an open pack is immutable. Nobody may shorten the file while it is open.
+// Reading checks the hashes of head and skeleton, and the skeleton's values against what a scene
+// may say, because an attacker can recompute hashes. Whoever takes an object checks it. Thread
+// rule: an open pack is immutable. Nobody may shorten the file while it is open.
 #pragma once
 
 #include <filesystem>
@@ -23,26 +23,26 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr uint32_t pack_version = 8;
-/// Of the skeleton: 100 times that of a tower of six million triangles.
+/// Size of a skeleton: 100 times that of a tower of six million triangles.
 inline constexpr uint64_t max_skeleton_bytes = uint64_t{1} << 30;
 }  // namespace limits
 
-/// What was written, for people.
+/// What was written, for display.
 struct PackReport {
   uint64_t file_bytes = 0;
   uint64_t skeleton_bytes = 0;
   uint64_t object_bytes = 0;
   size_t objects = 0;
   uint64_t largest_object_bytes = 0;
-  size_t bricks = 0;  // of the objects, those of smoke data
-  size_t tiles = 0;   // and those of pictures
+  size_t bricks = 0;  // objects that hold smoke data
+  size_t tiles = 0;   // objects that hold pictures
 
   void add(ScenePart::Kind kind, uint64_t bytes);
 };
 
-/// Writes a scene, compiled with `partition` cells from a description with triangles; whole or not
-/// at all. `progress`: share of the objects written; false: no more of them are wanted. Errors: as
-/// AtomicFile; a scene without triangles; what `progress` has ended.
+/// Writes a scene, compiled with `partition` cells from a description with triangles, atomically.
+/// `progress` gets the share of the objects written, and returns false to cancel. Errors: as
+/// AtomicFile; a scene without triangles; cancelled by `progress`.
 Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledScene& scene,
                               int partition, const std::function<bool(double)>& progress = {});
 
@@ -50,11 +50,11 @@ Result<PackReport> write_pack(const std::filesystem::path& path, const CompiledS
 Result<PackReport> write_skeleton_pack(const std::filesystem::path& path,
                                        const std::filesystem::path& from);
 
-/// Whether a file begins as packs do; false where it cannot be read.
+/// Whether a file begins with the mark of packs; false where it cannot be read.
 bool is_pack(const std::filesystem::path& path);
 
 /// The scene of a pack, ready to be compiled; it keeps the file mapped.
-/// Errors: no pack, another version's, cut short, damaged.
+/// Errors: not a pack, one of another version, cut short, damaged.
 Result<std::shared_ptr<const SceneDescription>> read_pack(const std::filesystem::path& path);
 
 }  // namespace luxodus

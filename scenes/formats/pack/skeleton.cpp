@@ -1,6 +1,6 @@
 // Every struct's fields are listed once, for both directions; their order is the format, and a
-// change of it is a new pack_version. What is shared (photometric webs, pictures) is written once
-// and named by its place in a list.
+// change of it needs a new pack_version. Shared things (photometric webs, pictures) are written
+// once and referenced by their index in a list.
 #include "scenes/formats/pack/skeleton.hpp"
 
 #include <algorithm>
@@ -254,7 +254,7 @@ namespace {
 
 // ---- what is shared ----------------------------------------------------------------------------
 
-/// The tables of a photometric web, of which it is made again.
+/// The tables of a photometric web, from which it is constructed again.
 struct WebTables {
   std::vector<double> azimuth_deg, polar_deg, candela;
   glm::dmat3 to_luminaire{1.0};
@@ -265,7 +265,7 @@ struct WebTables {
   }
 };
 
-/// Things that several hold, by their place in a list.
+/// Things that several values share, by their index in a list.
 struct Shared {
   std::vector<WebTables> webs;
   std::vector<uint32_t> web_of_emitter;  // none_index: none
@@ -278,7 +278,7 @@ struct Shared {
   }
 };
 
-/// The place of a pointer among those seen, none_index for null. True in `is_new` the first time.
+/// The index of a pointer among those seen, none_index for null. Sets `is_new` the first time.
 template <class T>
 uint32_t place_among(std::vector<const T*>& seen, const T* thing, bool& is_new) {
   is_new = false;
@@ -310,7 +310,7 @@ Shared shared_of(const SceneDescription& description) {
 }
 
 bool sound(const Image& image) {
-  constexpr int max_side = 1 << 16;  // of a PNG that is read
+  constexpr int max_side = 1 << 16;  // the limit of the PNG reader
   return image.width > 0 && image.width <= max_side && image.height > 0 &&
          image.height <= max_side && image.channels > 0 && image.channels <= 4;
 }

@@ -1,5 +1,5 @@
-// The other process unpacks and parses; this one believes nothing of its answer but plain values,
-// and reads the photometric files itself, as it reads those beside a scene.
+// The other process unpacks and parses. This one checks the plain values of its answer, and reads
+// the photometric files itself, like those beside a scene.
 #include "scenes/formats/photometry/gldf.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What unpacking and parsing may take: the container, all that it holds within the limits, and
-/// pugixml's tree, which is some 20 times its text.
+/// Limits on unpacking and parsing: the container, all its contents within the limits, and
+/// pugixml's tree, which takes about 20 times its text.
 constexpr IsolatedLimits gldf_limits{uint64_t{768} << 20, 30};
 
 // ---- the container -----------------------------------------------------------------------------
@@ -45,8 +45,8 @@ std::optional<size_t> only(const std::vector<std::string>& names, const auto& wa
   return at;
 }
 
-/// The entry of a file in a folder ("ldc/"): by its name, by its name but for capitals, or as the
-/// one file of that ending, since old packers spelled names in code pages that nobody tells.
+/// The entry of a file in a folder ("ldc/"): by its name, by its name ignoring case, or as the only
+/// file with that ending, since old packers stored names in code pages that they do not state.
 std::optional<size_t> entry_of(const std::vector<std::string>& names, const std::string& folder,
                                const std::string& file) {
   const std::string path = folder + file;
@@ -64,10 +64,10 @@ std::optional<size_t> entry_of(const std::vector<std::string>& names, const std:
   });
 }
 
-/// How much of a container is unpacked, told to whoever waits for it.
+/// Reports how much of a container is unpacked.
 class Unpacking {
  public:
-  /// All files of photometry, and where they are read of models, are to be taken.
+  /// Counts all photometric files, and the models if they are read.
   Unpacking(const GldfArchive& archive, GldfModels models, const std::function<void(double)>& told)
       : archive_(archive), told_(told) {
     const auto& names = archive.names();
@@ -87,7 +87,7 @@ class Unpacking {
   double all_ = 0, done_ = 0;  // bytes
 };
 
-/// Unpacks the photometric file of each light; a fault where it is not there.
+/// Unpacks the photometric file of each light; a light without one gets a fault.
 Result<void> take_photometry(const GldfArchive& archive, GldfProduct& product,
                              Unpacking& unpacking) {
   uint64_t all = 0;
@@ -115,7 +115,7 @@ Result<void> take_photometry(const GldfArchive& archive, GldfProduct& product,
   return {};
 }
 
-/// Reads each model; a fault where that is not possible.
+/// Reads each model; one that cannot be read gets a fault.
 void take_models(const GldfArchive& archive, GldfProduct& product, Unpacking& unpacking) {
   uint64_t left = limits::l3d_all_bytes;
   for (GldfModel& model : product.models) {
@@ -159,7 +159,7 @@ void put_list(PlainWriter& out, const std::vector<T>& list, const Put& put_one) 
   for (const T& one : list) put_one(one);
 }
 
-/// False where the list is longer than `most`, or an element is none.
+/// False where the list is longer than `most`, or an element is malformed.
 template <class T, class Get>
 bool get_list(PlainReader& in, std::vector<T>& list, uint64_t most, const Get& get_one) {
   uint64_t count = 0;
@@ -275,7 +275,7 @@ void put(PlainWriter& out, const GldfProduct& product) {
 bool get(PlainReader& in, GldfProduct& product) {
   for (auto* text : {&product.manufacturer, &product.name, &product.number})
     if (!in.get(*text)) return false;
-  // Every emitter may bring several at once, so that the last may pass the limit by some.
+  // Each emitter may add several at once, so the last one may exceed the limit.
   return get_list(in, product.lights, 2 * limits::gldf_lights,
                   [&](GldfLight& light) { return get(in, light); }) &&
          get_list(in, product.variants, limits::gldf_variants,
@@ -365,7 +365,7 @@ Result<double> emergency_flux(const GldfProduct& product, const GldfVariant& var
                                       "'emergency_flux' or 'emergency_factor'");
 }
 
-/// The same web with another flux.
+/// Scales a web to another flux.
 Result<std::shared_ptr<const PhotometricWeb>> with_flux(const PhotometricWeb& web, double flux_lm,
                                                         const std::string& file) {
   std::vector<double> candela = web.candela();
@@ -434,7 +434,7 @@ Result<GldfLuminaire> luminaire_of(const GldfProduct& product, const std::string
                                  [&](const GldfFile& f) { return f.name == l.photometry; });
   if (file == product.photometry.end())
     return problem_in(product.file, who + "its photometric file is not in the container");
-  // A file as folder: whatever TILT= names is not there.
+  // The folder is a file, so that no file named by TILT= is found.
   auto photometry = photometric_file_of(
       file->bytes, product.file + ":ldc/" + excerpt(file->name, 200), product.file);
   if (!photometry) return photometry.problem();

@@ -1,9 +1,8 @@
-// GLDF containers (.gldf, Global Lighting Data Format 1.0): a ZIP with `product.xml` and the
-// photometric files of a product's variants; the one open format that says what a luminaire gives
-// on emergency supply. libzip and pugixml read it in a process of its own with limits on memory and
-// time. Nothing is fetched from elsewhere: a file that the container names by an address is said to
-// be missing. Pictures are not read, models (L3D) where they are asked for. Plain values; any
-// thread.
+// Reads GLDF containers (.gldf, Global Lighting Data Format 1.0): a ZIP with `product.xml` and the
+// photometric files of a product's variants; the one open format that states a luminaire's flux on
+// emergency supply. libzip and pugixml read it in a process of its own with limits on memory and
+// time. Nothing is downloaded: a file that the container names by an address is reported as
+// missing. Pictures are not read, and models (L3D) only on request. Plain values; any thread.
 #pragma once
 
 #include <filesystem>
@@ -23,28 +22,28 @@ namespace luxodus {
 class ReadingShare;
 
 namespace limits {
-/// Of a container [bytes]: pictures and documents of a product take a few MiB.
+/// Size of a container [bytes]: pictures and documents of a product take a few MiB.
 inline constexpr uint64_t gldf_bytes = uint64_t{64} << 20;
-/// Of its `product.xml`, unpacked [bytes]; the largest public one has 0.4 MB.
+/// Size of its `product.xml`, unpacked [bytes]; the largest public one has 0.4 MB.
 inline constexpr uint64_t gldf_xml_bytes = uint64_t{8} << 20;
-/// Of one photometric file in it, as of one beside a scene, and of all of them, unpacked [bytes].
+/// Sizes of one photometric file in it, as of one beside a scene, and of all, unpacked [bytes].
 inline constexpr uint64_t gldf_file_bytes = uint64_t{16} << 20;
 inline constexpr uint64_t gldf_all_bytes = uint64_t{64} << 20;
-/// Of files in a container, of variants, of light emitters, of models.
+/// Numbers of files in a container, of variants, of light emitters, of models.
 inline constexpr int64_t gldf_entries = 4096;
 inline constexpr size_t gldf_variants = 4096;
 inline constexpr size_t gldf_lights = 4096;
 inline constexpr size_t gldf_models = 1024;
 }  // namespace limits
 
-/// What a light emitter of a variant gives. Absent where the container does not say it.
+/// What a light emitter of a variant gives. Values that the container does not state are absent.
 struct GldfLight {
-  std::string emitter;     // its id; "ID#2" for the second of several under one id
-  std::string behaviour;   // "None", "Combined", "EmergencyOnly", as written; "" where not said
-  std::string photometry;  // name of its file in the container, or the address it is said to be at
-  std::string fault;       // why its photometric file cannot be had; "" where it can
+  std::string emitter;     // its id; "ID#2" for the second one with the same id
+  std::string behaviour;   // "None", "Combined", "EmergencyOnly", as written; "" where not stated
+  std::string photometry;  // name of its file in the container, or its address
+  std::string fault;       // why its photometric file is not available; "" where it is
   std::optional<double> rated_lm;      // of the luminaire, on mains
-  std::optional<double> lamp_lm;       // of its changeable lamps together, before the optics
+  std::optional<double> lamp_lm;       // of all its changeable lamps, before the optics
   std::optional<double> emergency_lm;  // on emergency supply
   std::optional<double> ballast_factor;
   glm::dvec3 rotation_deg{0};  // within the luminaire, about x, y, z
@@ -62,21 +61,21 @@ struct GldfHousing {
   glm::dvec3 size_m{0};
 };
 
-/// A housing that is a model.
+/// A housing described by a model.
 struct GldfModel {
-  std::string file;   // its name in the container, or the address it is said to be at
-  std::string fault;  // why it cannot be had; "" where it can, or was not asked for
+  std::string file;   // its name in the container, or its address
+  std::string fault;  // why it is not available; "" where it is, or was not requested
   L3dModel shape;
 };
 
 struct GldfVariant {
   std::string id;
   std::string name;
-  std::vector<size_t> lights;         // which of the product's
-  std::vector<std::string> openings;  // of each light: that of the model; "" where none is said
+  std::vector<size_t> lights;         // indices of the product's
+  std::vector<std::string> openings;  // for each light: that of the model; "" where none is stated
   std::vector<GldfDuration> durations;
   std::optional<GldfHousing> housing;
-  std::optional<size_t> model;  // which of the product's
+  std::optional<size_t> model;  // index of the product's
 };
 
 struct GldfFile {
@@ -89,41 +88,41 @@ struct GldfProduct {
   std::string manufacturer, name, number;
   std::vector<GldfLight> lights;
   std::vector<GldfVariant> variants;
-  std::vector<GldfFile> photometry;  // of the lights, each once
+  std::vector<GldfFile> photometry;  // for the lights, each once
   std::vector<GldfModel> models;
 };
 
 /// Whether models are read: scenes need none.
 enum class GldfModels { left, read };
 
-/// Reads a container, in a process of its own. `reading`, where given, hears how far it is.
-/// Errors: it cannot be read, is no ZIP, holds no `product.xml`, another version than 1.0, a
+/// Reads a container, in a process of its own. `reading`, where given, receives the progress.
+/// Errors: it cannot be read, is not a ZIP, has no `product.xml`, another version than 1.0, a
 /// document type (entities), names that lead out of it, or more than the limits. A model that
-/// cannot be read is a fault of that model alone.
+/// cannot be read is a fault of that model only.
 Result<GldfProduct> read_gldf(const std::filesystem::path& path,
                               GldfModels models = GldfModels::left,
                               ReadingShare* reading = nullptr);
 
-/// The same of its bytes, in this process. `file` names it in messages; `told`, where given, hears
-/// after each file that is taken out which share of the container's bytes has been.
+/// Reads a container from its bytes, in this process. `file` names it in messages; `told`, where
+/// given, is called after each unpacked file with the share of the container's bytes done.
 Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file,
                             GldfModels models = GldfModels::left,
                             const std::function<void(double)>& told = {});
 
-/// One light of one variant, as a scene takes it.
+/// One light of one variant, as a scene uses it.
 struct GldfLuminaire {
   PhotometricFile photometry;  // its web gives the rated flux
   double rated_lm = 0;
   bool emergency_only = false;
-  Result<double> emergency_lm = 0.0;  // or why it is not known
+  Result<double> emergency_lm = 0.0;  // or why it is unknown
 };
 
-/// `variant`, `emitter`: "" where there is only one. `duration_h`: takes the flux of that row of
-/// the variant's table, where it has one. The emergency flux otherwise is what the emitter rates
-/// for emergency; else its rated flux times the ballast's factor; else, of an emitter for emergency
-/// only, its rated flux; else not known, and never guessed.
-/// Errors: no such variant, emitter or duration, with those there are; a photometric file that is
-/// missing or cannot be read.
+/// `variant`, `emitter`: "" where there is only one. `duration_h`: selects the flux of that row of
+/// the variant's table, where it has one. Otherwise the emergency flux is the emitter's rated
+/// emergency flux; else its rated flux times the ballast factor; else, for an emitter for emergency
+/// only, its rated flux; else unknown, and never guessed.
+/// Errors: no such variant, emitter or duration, with a list of those that exist; a photometric
+/// file that is missing or cannot be read.
 Result<GldfLuminaire> luminaire_of(const GldfProduct& product, const std::string& variant,
                                    const std::string& emitter, std::optional<double> duration_h);
 

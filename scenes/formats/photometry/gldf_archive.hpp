@@ -1,5 +1,5 @@
-// The files in a ZIP that others made, from memory, within limits. Internal to the reading of GLDF
-// and L3D; the only source that includes libzip is gldf_archive.cpp. One thread.
+// Reads untrusted ZIP archives from memory, within limits. Internal to the reading of GLDF and L3D;
+// only gldf_archive.cpp includes libzip. One thread.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,18 @@ namespace luxodus {
 class GldfArchive {
  public:
   /// `bytes` outlive the archive; `file` and `kind` ("GLDF container") name it in messages.
-  /// Errors: no ZIP, too many entries, a name that leads out of the archive.
+  /// Errors: not a ZIP, too many entries, a name that leads out of the archive.
   static Result<GldfArchive> open(std::string_view bytes, const std::string& file,
                                   const char* kind);
 
-  /// In the archive's order, as UTF-8.
+  /// Names of the entries, in the archive's order, as UTF-8.
   const std::vector<std::string>& names() const { return names_; }
 
-  /// What an entry takes in the archive, as the archive says; 0 where it does not.
+  /// Packed size of an entry, as the archive states it; 0 where it does not.
   uint64_t packed_bytes(size_t entry) const;
 
-  /// Unpacks an entry. A declared size is not believed: it stops at `max_bytes`.
-  /// Errors: more bytes, encrypted, packed by a method that is not known, damaged.
+  /// Unpacks an entry. A declared size is not trusted: unpacking stops at `max_bytes`.
+  /// Errors: more bytes, encrypted, an unknown compression method, damaged.
   Result<std::string> read(size_t entry, uint64_t max_bytes) const;
 
  private:

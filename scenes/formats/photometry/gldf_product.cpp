@@ -1,5 +1,5 @@
-// GLDF 1.0, release candidates 1 to 3: elements are looked up by their path, and each other by id.
-// Nothing recurses: the tree's depth is pugixml's, which keeps it without a stack.
+// GLDF 1.0, release candidates 1 to 3: elements are looked up by path, and refer to each other by
+// id. Nothing recurses: only pugixml's tree is nested, and it needs no stack.
 #include "scenes/formats/photometry/gldf_product.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 
 using pugi::xml_node;
 
-/// Elements of one kind by their id; the first where an id repeats.
+/// Elements of one kind by id; the first one where an id repeats.
 using ById = std::map<std::string, xml_node>;
 
 ById by_id(xml_node parent) {
@@ -40,7 +40,7 @@ std::optional<double> amount(xml_node node) {
   return node && value && *value >= 0 ? value : std::nullopt;
 }
 
-/// A text in English, else in the first language there is.
+/// A text in English, else in the first language given.
 std::string localised(xml_node node) {
   xml_node chosen = node.first_child();
   for (const xml_node locale : node.children("Locale"))
@@ -144,8 +144,8 @@ class ProductReader {
     return housing;
   }
 
-  /// Number of the model of a geometry; nothing where none is named. Of several files of one shape
-  /// that differ in detail the first is taken.
+  /// Index of the model of a geometry; nothing where none is named. Of several files of one shape
+  /// with different detail the first is used.
   std::optional<size_t> model_of(const std::string& geometry) {
     const xml_node file = found(files_, found(geometries_, geometry.c_str())
                                             .child("GeometryFileReference")
@@ -167,8 +167,8 @@ class ProductReader {
     return models.size() - 1;
   }
 
-  /// Adds the lights of an emitter to those of the variant; each is kept once. `opening`: where it
-  /// shines from in the variant's model.
+  /// Adds the lights of an emitter to those of the variant; each is kept once. `opening`: the
+  /// luminous opening in the variant's model.
   void add_lights(const char* id, GldfVariant& variant, const std::string& opening = {}) {
     const xml_node emitter = found(emitters_, id);
     if (!emitter) return;

@@ -1,7 +1,7 @@
 // An IES file is a label (lines up to TILT=), then numbers separated by blanks, commas and line
 // ends: a tilt table, ten numbers that fix the rest, three more, the vertical angles, the
 // horizontal angles, and the candela of each horizontal angle in turn. The reader walks tokens that
-// remember their line; the first fault is kept and everything after it is idle.
+// know their line; it keeps the first fault and ignores the rest.
 #include "scenes/formats/photometry/ies.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace ies_limits {
 constexpr double vertical_angles = 1801;    // 0.1 degree steps; real files stop at 181 to 721
 constexpr double horizontal_angles = 1441;  // 0.25 degree steps; real files stop at 73 to 361
 constexpr double tilt_angles = 1000;
-constexpr double dimension_m = 100;  // larger is a slip of the unit
+constexpr double dimension_m = 100;  // a larger one has the wrong unit
 constexpr double lumens = 1e8;       // the largest floodlights give 3e5
 constexpr double candela = 1e9;      // a searchlight reaches 1e8
 constexpr double watts = 1e6;
@@ -34,13 +34,13 @@ namespace {
 constexpr double metres_per_foot = 0.3048;
 constexpr double same_angle_deg = 0.01;
 
-// The planes at 0 and 360 degrees are one plane measured twice; a difference beyond this share of
-// its peak is no noise.
+// The planes at 0 and 360 degrees are the same plane measured twice; a difference above this share
+// of its peak is not noise.
 constexpr double odd_ies_share = 0.01;
 
-/// An absolute file whose candela add up to this was normalised and not scaled again.
+/// An absolute file whose candela integrate to this was normalised and not scaled back.
 constexpr double normalised_lm = 1000, normalised_share = 0.005;
-/// Luminaires let out more than this share of their lamps' light.
+/// Most luminaires emit more than this share of their lamps' light.
 constexpr double poor_ratio = 0.45;
 
 enum class Edition { y1986, y1991, y1995, y2002, y2019 };
@@ -72,7 +72,8 @@ bool near(double a, double b) {
 }
 
 /// Shapes of the luminous opening by the signs of width, length and height (LM-63-1995 Annex F,
-/// LM-63-2002 table 1). Both editions use the same three numbers for different lying bodies.
+/// LM-63-2002 table 1). The two editions use the same three numbers for different horizontal
+/// bodies.
 LuminousOpening opening_of(double width, double length, double height, Edition edition) {
   using Shape = LuminousOpening::Shape;
   const bool modern = edition == Edition::y2002 || edition == Edition::y2019;
@@ -96,14 +97,14 @@ LuminousOpening opening_of(double width, double length, double height, Edition e
     return make(h > 0 ? Shape::cylinder : Shape::disc, x, y, h);
   }
   if (!round_w && !round_l) {
-    // 1995: a lying cylinder of diameter h along the one length that is given.
+    // 1995: a horizontal cylinder of diameter h along the one length that is given.
     if (w == 0 && l > 0) return make(Shape::tube_along_x, l, h, h);
     if (l == 0 && w > 0) return make(Shape::tube_along_y, h, w, h);
     return make(Shape::sphere, l > 0 ? l : h, w > 0 ? w : h, h);
   }
   if (modern && round_w && !round_l && l > 0) return make(Shape::tube_along_x, l, w, h);
   if (modern && round_l && !round_w && w > 0) return make(Shape::tube_along_y, l, w, h);
-  // 2002: an upright disc that faces the photometric horizontal (+X), or across it.
+  // 2002: a vertical disc that faces the photometric horizontal (+X), or across it.
   if (modern && round_w && l == 0) return make(Shape::disc, 0, w, h);
   if (modern && round_l && w == 0) return make(Shape::disc, l, 0, h);
   return make(Shape::sphere, l > 0 ? l : w, w > 0 ? w : l, h);
@@ -134,7 +135,7 @@ std::vector<Token> tokens_of(const std::vector<std::string>& lines, size_t first
   return tokens;
 }
 
-/// Numbers in the order of a text, with messages that name the line.
+/// Numbers of a text in order, with messages that name the line.
 class TokenReader {
  public:
   TokenReader(std::vector<Token> tokens, std::string file, int last_line)
@@ -174,7 +175,7 @@ class TokenReader {
   void fail(Problem problem) { numbers_.fail(std::move(problem)); }
   const std::optional<Problem>& fault() const { return numbers_.fault(); }
   int line() const { return line_; }
-  /// The first token that nobody took, if any.
+  /// The first token that was not consumed, if any.
   const Token* rest() const { return next_ < tokens_.size() ? &tokens_[next_] : nullptr; }
 
  private:
@@ -196,7 +197,7 @@ LampTilt read_tilt_table(TokenReader& in) {
   return tilt;
 }
 
-/// Lamp output of the level luminaire; the table's nearest end where it leaves 0 degrees out.
+/// Lamp output of the level luminaire; the table's nearest end where it omits 0 degrees.
 double level_factor(const LampTilt& tilt) {
   const auto& angles = tilt.angle_deg;
   if (angles.front() >= 0) return tilt.factor.front();
@@ -254,7 +255,7 @@ class IesReader {
          "unknown edition \"" + excerpt(mark) + "\"; it is read as LM-63-2002");
   }
 
-  /// Keywords in brackets; [MORE] carries on with the one before. 1986 files hold plain lines.
+  /// Keywords in brackets; [MORE] continues the previous one. Files of 1986 hold plain lines.
   void read_label() {
     std::map<std::string, std::string> words;
     std::string* open = nullptr;
@@ -285,7 +286,7 @@ class IesReader {
     for (const char* key : {"CRI", "_CRI", "COLORRENDERING"}) {
       if (lamp_.rendering.empty()) lamp_.rendering = words[key];
     }
-    // Free text holds many numbers: only one marked as kelvin is taken for a colour.
+    // Free text holds many numbers: only one marked as kelvin is a colour temperature.
     for (const char* key : {"LAMP", "LAMPCAT", "LUMINAIRE"}) {
       if (lamp_.colour.empty()) lamp_.colour = kelvin_in(words[key]);
     }
@@ -293,7 +294,7 @@ class IesReader {
     out_.cri = colour_rendering(lamp_.rendering);
   }
 
-  /// "3000K" or "3000 K" out of a text; empty where there is none.
+  /// "3000K" or "3000 K" in a text; empty where there is none.
   static std::string kelvin_in(std::string_view text) {
     for (size_t at = 0; at < text.size(); ++at) {
       if (text[at] != 'K' && text[at] != 'k') continue;
@@ -328,7 +329,7 @@ class IesReader {
   }
 
   LampTilt read_tilt_file(const std::string& name, int line) {
-    // The file stands beside the IES file; a path would let a data file reach anywhere.
+    // The file stands beside the IES file; a path would give a data file access to any file.
     if (name.empty() || name.find_first_of("/\\:") != std::string::npos || name == "..") {
       in_.fail(line, "TILT= must be NONE, INCLUDE or the name of a file beside this one, not \"" +
                          excerpt(name) + "\"");
@@ -425,7 +426,7 @@ class IesReader {
     }
   }
 
-  /// The symmetry that the range of horizontal angles of a type C file stands for.
+  /// The symmetry that the range of horizontal angles of a type C file implies.
   WebSymmetry type_c_symmetry() {
     const double first = horizontals_.front();
     const double last = horizontals_.back();
@@ -542,7 +543,7 @@ class IesReader {
       warn(in_.line(), "the candela add up to " + shown(100 * out_.light_output_ratio) + " % of " +
                            shown(lamp_.lamps) + " times " + shown(out_.lamp_flux_lm / lamp_.lamps) +
                            " lm; LM-63 states the lumens of one lamp: are they those of all?");
-    // A luminaire cannot give more than its lamps; 2 % leaves room for the measurement.
+    // A luminaire cannot emit more than its lamps; 2 % allows for the measurement.
     if (out_.lamp_flux_lm > 0 && out_.light_output_ratio > 1.02) {
       warn(in_.line(), "the candela add up to " + shown(out_.flux_lm) +
                            " lm, more than the lamps' " + shown(out_.lamp_flux_lm) + " lm");

@@ -1,5 +1,5 @@
-// Parts hang on each other by joints: a list of what is still to be placed takes the place of
-// recursion, so that no nesting fills the stack.
+// Parts are connected by joints. A list of parts still to be placed replaces recursion, so that no
+// nesting overflows the stack.
 #include "scenes/formats/photometry/l3d.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@
 namespace luxodus {
 namespace {
 
-/// Metres in a unit of L3D; nothing for any other word.
+/// Metres per unit of L3D; nothing for any other word.
 std::optional<double> metres_of(std::string_view unit) {
   constexpr std::array<std::pair<std::string_view, double>, 7> units{{{"m", 1},
                                                                       {"dm", 0.1},
@@ -33,7 +33,7 @@ std::optional<double> metres_of(std::string_view unit) {
   return it == units.end() ? std::nullopt : std::optional(it->second);
 }
 
-/// The attributes x, y, z of an element; nothing where one is no number or beyond `largest`.
+/// The attributes x, y, z of an element; nothing where one is not a number or exceeds `largest`.
 std::optional<glm::dvec3> triple(pugi::xml_node node, double largest) {
   glm::dvec3 out(0);
   constexpr std::array<const char*, 3> names{"x", "y", "z"};
@@ -45,7 +45,7 @@ std::optional<glm::dvec3> triple(pugi::xml_node node, double largest) {
   return out;
 }
 
-/// Turns about the part's own axes in the order z, x, y.
+/// Rotates about the part's own axes in the order z, x, y.
 Transform turned(const glm::dvec3& degrees) {
   const auto about = [](const glm::dvec3& axis, double angle) {
     return rotation(axis, angle).value();  // an axis of length 1, a finite angle
@@ -57,7 +57,7 @@ Transform turned(const glm::dvec3& degrees) {
 template <class Each>
 void for_lines(std::string_view text, Each&& each) {
   constexpr std::string_view blanks = " \t";
-  constexpr std::string_view ends("\n\r\f\0", 4);  // of lines, for one reader or another
+  constexpr std::string_view ends("\n\r\f\0", 4);  // line ends for any reader
   while (!text.empty()) {
     const size_t end = std::min(text.find_first_of(ends), text.size());
     std::string_view line = text.substr(0, end);
@@ -71,7 +71,7 @@ void for_lines(std::string_view text, Each&& each) {
   }
 }
 
-/// The name of the material library that an OBJ names first, within its text; "" for none.
+/// The material library that an OBJ names first, as a view into its text; "" for none.
 std::string_view library_of(std::string_view obj) {
   std::string_view out;
   for_lines(obj, [&](std::string_view word, std::string_view rest) {
@@ -94,8 +94,8 @@ bool is_colour(std::string_view text) {
   return count == 3;
 }
 
-/// Names and diffuse colours of a material library; nothing else of it, such as its textures. A
-/// material without a colour is grey. "" where none has one.
+/// Names and diffuse colours of a material library, without textures and all else. A material
+/// without a colour is grey. "" where none has one.
 std::string colours_in(std::string_view library) {
   constexpr std::string_view grey = "0.7 0.7 0.7";
   struct Paint {
@@ -124,7 +124,7 @@ class L3dReader {
     for (const auto node : root.child("GeometryDefinitions").children("GeometryFileDefinition"))
       definitions_.emplace(node.attribute("id").value(), node);
     add_geometries(root.child("Structure"), {}, 1);
-    // A copy of each: the list grows meanwhile.
+    // Copies each element, because the list grows meanwhile.
     for (size_t i = 0; i < open_.size() && !problem_; ++i) place(Open(open_[i]));
     if (problem_) return *problem_;
     if (model_.parts.empty()) return problem_in(file_, "'structure.xml' in it places no part");
@@ -134,7 +134,7 @@ class L3dReader {
  private:
   struct Open {
     pugi::xml_node geometry;
-    Transform above;  // of what it hangs on
+    Transform above;  // of the part above
     int depth = 1;
   };
 
@@ -199,7 +199,7 @@ class L3dReader {
         {node.attribute("partName").value(), place.offset, place.vector({0, 0, -1})});
   }
 
-  /// Number of a shape, unpacked where it is met first.
+  /// Index of a shape, which is unpacked at its first use.
   size_t shape(const std::string& id) {
     const auto [it, fresh] = shape_of_.try_emplace(id, model_.shapes.size());
     if (!fresh || problem_) return it->second;
@@ -240,8 +240,7 @@ class L3dReader {
     return static_cast<size_t>(entry - names.begin());
   }
 
-  /// Colours are worth having, but a body without them is one, too: what is wrong with a library
-  /// leaves its colours out.
+  /// A body is useful without colours: an error in a library only drops them.
   void add_colours(const std::string& id, L3dShape& shape) {
     const std::string_view name = library_of(shape.obj);
     const auto entry = name.empty() ? std::nullopt : entry_of(id + "/" + std::string(name));

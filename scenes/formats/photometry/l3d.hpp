@@ -1,7 +1,7 @@
-// Shapes of luminaires (L3D, versions 0.9 to 0.11): a ZIP with `structure.xml`, which places parts
-// and luminous openings, and a Wavefront OBJ file for each shape, which is handed on with the
+// Reads shapes of luminaires (L3D, versions 0.9 to 0.11): a ZIP with `structure.xml`, which places
+// parts and luminous openings, and a Wavefront OBJ file for each shape, which is passed on with the
 // names and diffuse colours of its material library (MTL). Textures, sensors, connectors and
-// assignments of luminous faces are not read. Joints stand as `DefaultRotation` says. Called in the
+// assignments of luminous faces are not read. Joints take their `DefaultRotation`. Called in the
 // process that reads a container (gldf.hpp), which has limits on memory and time. Plain values; any
 // thread.
 #pragma once
@@ -19,27 +19,27 @@
 namespace luxodus {
 
 namespace limits {
-/// Of `structure.xml`, and of all shapes of a container's models, unpacked [bytes].
+/// Sizes of `structure.xml`, and of all shapes of a container's models, unpacked [bytes].
 inline constexpr uint64_t l3d_xml_bytes = uint64_t{1} << 20;
 inline constexpr uint64_t l3d_all_bytes = uint64_t{128} << 20;
-/// Of the material library of a shape [bytes].
+/// Size of the material library of a shape [bytes].
 inline constexpr uint64_t l3d_library_bytes = uint64_t{1} << 20;
-/// Of parts, of luminous openings, and of parts that hang on each other by joints.
+/// Numbers of parts, of luminous openings, and of parts in a chain of joints.
 inline constexpr size_t l3d_parts = 1000;
 inline constexpr size_t l3d_openings = 1000;
 inline constexpr int l3d_depth = 32;
-/// Where a part may be, of the point that the part above it is placed by [m].
+/// Largest distance of a part from the point that the part above is placed by [m].
 inline constexpr double l3d_farthest_m = 100;
 }  // namespace limits
 
-/// What a shape calls its material library, once read.
+/// The name by which a shape refers to its material library, after reading.
 inline constexpr const char* l3d_library = "colours.mtl";
 
 struct L3dShape {
   std::string name;  // of its file in the model: "geom_1/housing.obj"
   std::string obj;
-  /// Its material library, which `obj` then calls colours.mtl, with "newmtl NAME" and "Kd R G B"
-  /// alone; "" where there is none.
+  /// Its material library, which `obj` refers to as colours.mtl, with only "newmtl NAME" and "Kd R
+  /// G B"; "" where there is none.
   std::string colours;
   double metres_per_unit = 1;
 };
@@ -47,7 +47,7 @@ struct L3dShape {
 struct L3dPart {
   std::string name;
   size_t shape = 0;
-  Transform place;  // of the shape's metres; the model's z is up
+  Transform place;  // from the shape's metres; the model's z is up
 };
 
 /// A luminous opening, which shines along `down`.
@@ -64,7 +64,7 @@ struct L3dModel {
 };
 
 /// `file` names the model in messages. Its shapes have at most `max_bytes` together.
-/// Errors: no ZIP, names that lead out of it, no `structure.xml`, a document type (entities), a
+/// Errors: not a ZIP, names that lead out of it, no `structure.xml`, a document type (entities), a
 /// part without its shape, place or unit, more than the limits.
 Result<L3dModel> l3d_of(std::string_view bytes, const std::string& file, uint64_t max_bytes);
 

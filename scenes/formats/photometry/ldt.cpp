@@ -1,7 +1,7 @@
-// An EULUMDAT file is a list of lines, each with one value, whose meaning is its number: 26 of the
-// luminaire, 6 per lamp set, 10 direct ratios, then the C angles, the gamma angles, and one
-// intensity per line, plane after plane, for the planes that the symmetry leaves over. The reader
-// walks them once; the first fault is kept and everything after it is idle.
+// An EULUMDAT file is a list of lines with one value each; the line's number gives its meaning: 26
+// of the luminaire, 6 per lamp set, 10 direct ratios, then the C angles, the gamma angles, and one
+// intensity per line, plane after plane, for the planes that the symmetry does not omit. The reader
+// walks them once; it keeps the first fault and ignores the rest.
 #include "scenes/formats/photometry/ldt.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace ldt_limits {
 constexpr double c_planes = 1440;       // 0.25 degree steps; real files stop at 72 to 361
 constexpr double gammas = 1801;         // 0.1 degree steps; real files stop at 181 to 721
 constexpr double lamp_sets = 20;        // the format's own limit
-constexpr double dimension_mm = 100e3;  // a luminaire of 100 m is a slip of the unit
+constexpr double dimension_mm = 100e3;  // a luminaire of 100 m has the wrong unit
 constexpr double flux_lm = 1e8;         // the largest floodlights give 3e5
 constexpr double candela = 1e9;         // a searchlight reaches 1e8
 constexpr double watts = 1e6;
@@ -28,10 +28,10 @@ constexpr double lamps = 1e4;
 
 namespace {
 
-// Header and integral of a clean file agree to 0.1 %; beyond 2 % one of them is about something
+// Header and integral of a sound file agree to 0.1 %; beyond 2 % one of them describes something
 // else.
 constexpr double odd_ldt_share = 0.02;
-/// No lamp of a luminaire with several of them gives less for its power.
+/// No lamp of a luminaire with several lamps has a lower efficacy.
 constexpr double few_lm_per_w = 30;
 
 class LdtReader {
@@ -98,7 +98,7 @@ class LdtReader {
     text("the date");
   }
 
-  /// The file's unit is the millimetre, and a luminaire is no smaller than what shines of it.
+  /// The file's unit is the millimetre, and a luminaire is no smaller than its luminous opening.
   void check_opening(int line) {
     const glm::dvec3 lit = out_.opening.size_m, housing = out_.housing_m;
     const double longest = std::max(housing.x, housing.y);
@@ -108,7 +108,8 @@ class LdtReader {
                      " mm; are they in different units?");
   }
 
-  /// Of several lamps the file states the flux of all, and light of one lamp only is half or less.
+  /// With several lamps the file states their total flux; the flux of one lamp only would be half
+  /// or less.
   void check_lamps(const LampSet& set) {
     if (set.lamps >= 2 && !out_.absolute && set.watts > 0 && set.flux_lm > 0 &&
         set.flux_lm / set.watts < few_lm_per_w)
@@ -122,8 +123,8 @@ class LdtReader {
                       "\", is no colour temperature in kelvin; it is not used");
   }
 
-  /// Ityp says point, line or other, which the light of the file does not depend on; but what is
-  /// not 0 to 3 hints at lines that were lost.
+  /// Ityp says point, line or other, on which the light does not depend; a value outside 0 to 3
+  /// suggests that lines were lost.
   void read_type() {
     const std::string_view type = text("the type indicator");
     const std::optional<double> value = decimal(type, true);
@@ -227,7 +228,7 @@ class LdtReader {
 
   void read_angles() {
     if (symmetry_ == 1) {
-      // One plane serves all; what the file lists as C angles is not used.
+      // One plane represents all; the C angles in the file are not used.
       for (int i = 0; i < c_count_ && !numbers_.fault(); ++i)
         number("the C angle", -360, 720, Blank::is_zero);
     } else {
@@ -352,7 +353,7 @@ class LdtReader {
   std::vector<std::string> lines_;
   std::string file_;
   PhotometricNumbers numbers_;
-  int line_ = 0;  // lines taken so far, so the number of the last one
+  int line_ = 0;  // lines read so far, which is the number of the last one
   PhotometricFile out_;
 
   int symmetry_ = 0;

@@ -1,7 +1,7 @@
-// EULUMDAT (.ldt) reader: Stockmar 1990 and 1998, with what real files do: all five symmetries,
-// unequal angles, several lamp sets (taken as burning together), negative lamp counts for absolute
-// photometry, decimal commas, quoted fields, Latin-1 or UTF-8. Pure function of the text; any
-// thread.
+// EULUMDAT (.ldt) reader: Stockmar 1990 and 1998, with the variations of real files: all five
+// symmetries, unequal angles, several lamp sets (taken as burning together), negative lamp counts
+// for absolute photometry, decimal commas, quoted fields, Latin-1 or UTF-8. Pure function of the
+// text; any thread.
 #pragma once
 
 #include <string>

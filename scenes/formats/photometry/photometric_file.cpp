@@ -11,7 +11,7 @@
 namespace luxodus {
 namespace {
 
-/// Every IES file has a line that starts with TILT=; no field of an EULUMDAT file looks like it.
+/// Every IES file has a line that starts with TILT=; no field of an EULUMDAT file does.
 bool has_tilt_line(std::string_view bytes) {
   constexpr std::string_view key = "TILT=";
   const auto same = [](char a, char b) { return std::toupper(static_cast<unsigned char>(a)) == b; };
@@ -46,7 +46,7 @@ Result<PhotometricFile> photometric_file_of(std::string_view bytes, const std::s
 }
 
 std::optional<std::string> odd_efficacy(const PhotometricFile& file) {
-  // White light has at most some 330 lm/W; the best luminaires reach 220.
+  // White light has at most about 330 lm/W; the best luminaires reach 220.
   constexpr double max_lm_per_w = 300;
   if (!(file.input_watts > 0) || file.flux_lm / file.input_watts <= max_lm_per_w)
     return std::nullopt;

@@ -1,18 +1,15 @@
-// What a photometric file (EULUMDAT .ldt, IES LM-63 .ies) says of a luminaire, in SI units and in
-// one frame, whatever the file's own habits. Reading never guesses in silence: what looks odd but
-// can be read is a warning with its line, what cannot be read is one Problem. Plain values; any
-// thread.
+// A luminaire as a photometric file (EULUMDAT .ldt, IES LM-63 .ies) describes it, in SI units and
+// in one frame for both formats. Suspicious but readable values are warnings with their line; an
+// unreadable file is one Problem. Plain values; any thread.
 //
 // Luminaire frame: -Z is gamma 0 (down as it hangs), C0 along +X, C90 along +Y; the origin is the
 // photometric centre, which in both formats is the centre of the luminous opening.
-//   EULUMDAT: the length runs along C90-C270, so length lies along Y and width along X (EN 13032-1:
-//   the
-//             C0-C180 plane stands across the lamps).
-//   IES:      the length runs along the 0-180 degree plane, so length lies along X and width along
-//   Y
-//             (LM-63: the 0 degree plane is parallel to the length).
-// The same linear luminaire therefore comes turned by 90 degrees from the two formats, as it does
-// in the standards.
+//   EULUMDAT: the length runs along C90-C270, so length lies along Y and width along X
+//             (EN 13032-1: the C0-C180 plane stands across the lamps).
+//   IES:      the length runs along the 0-180 degree plane, so length lies along X and width
+//             along Y (LM-63: the 0 degree plane is parallel to the length).
+// Therefore the same linear luminaire differs by 90 degrees between the two formats, as in the
+// standards.
 #pragma once
 
 #include <filesystem>
@@ -37,7 +34,7 @@ struct LuminousOpening {
     disc,          // flat, elliptic where the extents differ; one extent is 0
     box,           // rectangle with luminous sides
     cylinder,      // upright, elliptic where x and y differ
-    tube_along_x,  // lying cylinder
+    tube_along_x,  // horizontal cylinder
     tube_along_y,
     sphere,  // ellipsoid where the extents differ
   };
@@ -78,27 +75,28 @@ struct PhotometricFile {
   double down_share = 0;                    // flux below the horizontal / flux, from the web
   double input_watts = 0;
   std::vector<LampSet> lamp_sets;
-  std::optional<double> cct_k;  // understood from the lamp's colour text
-  std::optional<double> cri;    // lower end, understood from the rendering text
+  std::optional<double> cct_k;  // parsed from the lamp's colour text
+  std::optional<double> cri;    // lower end, parsed from the rendering text
   double measured_tilt_deg = 0;
   std::optional<LampTilt> lamp_tilt;
 
   LuminousOpening opening;
-  glm::dvec3 housing_m{0};  // extents along X, Y, Z; 0 where the file is silent
+  glm::dvec3 housing_m{0};  // extents along X, Y, Z; 0 where the file states none
 
-  std::vector<std::filesystem::path> files_read;  // this one and a TILT file
+  std::vector<std::filesystem::path> files_read;  // this file and a TILT file
   std::vector<Problem> warnings;
 };
 
-/// What is odd about the flux for the power that a file states; none where the power is not said.
+/// Describes an implausible efficacy; none where it is plausible, or no power is stated.
 std::optional<std::string> odd_efficacy(const PhotometricFile& file);
 
-/// Reads a photometric file; its contents (a TILT= line) tell IES from EULUMDAT, then its name.
+/// Reads a photometric file. A TILT= line in its contents tells IES from EULUMDAT, else its name
+/// does.
 /// Errors: the file cannot be read, is neither, or breaks its format; one Problem with the line.
 Result<PhotometricFile> read_photometric_file(const std::filesystem::path& path);
 
-/// The same of bytes, told by their contents alone. `file` names them in messages; `folder` is
-/// where an IES file's TILT=<file> is looked for.
+/// Reads a photometric file from its bytes; only the contents decide the format. `file` names it in
+/// messages; `folder` is where an IES file's TILT=<file> is looked for.
 Result<PhotometricFile> photometric_file_of(std::string_view bytes, const std::string& file,
                                             const std::filesystem::path& folder);
 

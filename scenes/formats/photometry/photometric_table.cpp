@@ -8,11 +8,11 @@
 namespace luxodus {
 namespace {
 
-// Width of the step from the last listed value to darkness. Its light is below 1e-5 of a full
-// cell's, and a double still resolves it to eight digits.
+// Width of the step from the last listed value to darkness. It holds less than 1e-5 of a full
+// cell's light, and a double still resolves it to eight digits.
 constexpr double edge_deg = 1e-5;
 
-// Two planes closer than this are one plane, written twice or met by its own mirror image.
+// Two planes closer than this are one plane, listed twice or equal to its own mirror image.
 constexpr double same_plane_deg = 1e-6;
 
 double on_circle(double azimuth) {
@@ -78,8 +78,8 @@ PhotometricTable around(const PhotometricTable& table, WebSymmetry symmetry, dou
     put(planes, it->first + edge_deg, &dark);
     put(planes, following - edge_deg, &dark);
   }
-  // The circle must be cut at 0: where no plane stands there, both neighbours' interpolation gives
-  // it.
+  // The circle must be cut at 0: where no plane is listed there, interpolation between its
+  // neighbours gives one.
   std::vector<double> seam;
   if (planes.begin()->first > 0) {
     const auto [after, near] = *planes.begin();

@@ -1,6 +1,6 @@
-// From the part of the sphere that a photometric file lists to a web over all of it: planes
-// mirrored as the file's symmetry says, angles that it leaves out dark. Shared by the EULUMDAT and
-// the IES reader. Pure functions; any thread.
+// Extends the part of the sphere that a photometric file lists to a web over all of it: planes are
+// mirrored as the file's symmetry says, omitted angles are dark. Shared by the EULUMDAT and the IES
+// reader. Pure functions; any thread.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -32,7 +32,7 @@ glm::dmat3 type_b_axes();
 /// between two neighbouring planes, the gap is dark; 360 and above: planes are always joined.
 PhotometricTable around(const PhotometricTable& table, WebSymmetry symmetry, double gap_deg = 360);
 
-/// Whole range of polar angles from 0 to 180 degrees: dark where the table says nothing.
+/// Extends polar angles to 0 to 180 degrees: dark where the table has no value.
 PhotometricTable pole_to_pole(PhotometricTable table);
 
 /// The web of a whole table. `where`: for messages about it.

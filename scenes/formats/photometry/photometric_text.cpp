@@ -10,8 +10,8 @@
 namespace luxodus {
 namespace {
 
-// The largest sensible web (0.5 degree steps all around) is 3 MB of text; 10x more is another kind
-// of file.
+// The largest sensible web (0.5 degree steps all around) is 3 MB of text; a file 10 times as large
+// is of another kind.
 constexpr std::uintmax_t max_file_bytes = 16u << 20;
 
 bool is_digit(char c) {
@@ -44,9 +44,7 @@ std::string from_latin1(std::string_view text) {
   return out;
 }
 
-/// Member by member: GCC 12 reports the nested braces falsely as uninitialised here
-/// (-Wmaybe-uninitialized).
-/// The runs of digits in a text, each with where it starts; fractions are not split off.
+/// The runs of digits in a text, each with its start; fractions are not split off.
 struct DigitRun {
   size_t start;
   size_t length;
@@ -69,7 +67,7 @@ std::vector<DigitRun> digit_runs(std::string_view text) {
   return runs;
 }
 
-/// "840": rendering 80, colour 4000 K (the usual lamp code); the range leaves article numbers out.
+/// "840": rendering 80, colour 4000 K (the usual lamp code); the range excludes article numbers.
 bool is_colour_code(const DigitRun& run) {
   const int colour = run.value % 100;
   return run.length == 3 && run.value >= 600 && colour >= 18 && colour <= 80;
@@ -173,7 +171,7 @@ int PhotometricNumbers::whole(int line, double value, const std::string& what) {
 std::optional<double> colour_temperature_k(std::string_view text) {
   const std::vector<DigitRun> runs = digit_runs(text);
   for (const DigitRun& run : runs) {
-    // 1000 K glows, 20000 K is the bluest sky.
+    // 1000 K is barely glowing, 20000 K is the bluest sky.
     if (run.value >= 1000 && run.value <= 20000) return run.value;
   }
   for (const DigitRun& run : runs) {

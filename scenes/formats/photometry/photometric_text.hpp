@@ -1,6 +1,6 @@
-// Text as photometric files carry it: bytes of unknown age and encoding, numbers with commas or
-// points, colour notes for people. Shared by the EULUMDAT and the IES reader. Pure functions; any
-// thread.
+// Text in photometric files: bytes of unknown encoding, numbers with commas or points, colour notes
+// for people. Shared by the EULUMDAT and the IES reader. PhotometricNumbers is for one thread; all
+// else are pure functions; any thread.
 #pragma once
 
 #include <filesystem>
@@ -14,16 +14,16 @@
 
 namespace luxodus {
 
-/// All bytes of a file. Errors: it cannot be opened, is no file, or is larger than any luminaire
-/// (16 MiB).
+/// Reads all bytes of a file. Errors: it cannot be opened, is not a file, or is larger than any
+/// luminaire's (16 MiB).
 Result<std::string> read_photometric_bytes(const std::filesystem::path& path);
 
-/// The lines of a text as UTF-8, without line ends: CRLF, LF and CR end a line, a UTF-8 mark and a
-/// DOS end-of-file sign are dropped, bytes that are no UTF-8 are taken for Latin-1. Errors: UTF-16,
-/// or a NUL byte: not a text.
+/// The lines of a text as UTF-8, without line ends: CRLF, LF and CR end a line; a byte order mark
+/// and a DOS end-of-file character are dropped; bytes that are not UTF-8 are read as Latin-1.
+/// Errors: UTF-16, or a NUL byte: not a text.
 Result<std::vector<std::string>> photometric_lines(std::string_view bytes, const std::string& file);
 
-/// Without blanks at both ends, and without one pair of double quotes around it.
+/// Strips blanks at both ends, and one pair of double quotes.
 std::string_view bare(std::string_view text);
 
 /// A finite decimal number that fills the whole text. `comma`: "2,5" is read as 2.5.
@@ -32,7 +32,8 @@ std::optional<double> decimal(std::string_view text, bool comma);
 /// A number for messages: up to six digits, no padding.
 std::string shown(double value);
 
-/// Judges the numbers of a photometric file. The first fault is kept; after it numbers are 0.
+/// Parses and checks the numbers of a photometric file. The first fault is kept; after it numbers
+/// are 0.
 class PhotometricNumbers {
  public:
   explicit PhotometricNumbers(std::string file) : file_(std::move(file)) {}

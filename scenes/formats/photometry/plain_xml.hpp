@@ -1,5 +1,5 @@
-// XML of others, without what may hide in it. Internal to the sources of this room that include
-// pugixml: gldf_product.cpp and l3d.cpp. Any thread.
+// Parses untrusted XML without document types, and so without entities. Internal to the sources of
+// this room that include pugixml: gldf_product.cpp and l3d.cpp. Any thread.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,8 +10,8 @@
 
 namespace luxodus {
 
-/// Parses `xml`, which the document does not refer to afterwards. Gives what is wrong: no XML, or a
-/// document type, with which entities come. `name`: of the file within its archive.
+/// Parses `xml`, which the document does not refer to afterwards. Returns the fault: no XML, or a
+/// document type, which could define entities. `name`: of the file within its archive.
 inline std::optional<std::string> load_plain_xml(pugi::xml_document& document,
                                                  const std::string& xml, const char* name) {
   const auto parsed =

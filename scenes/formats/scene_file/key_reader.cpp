@@ -143,7 +143,7 @@ std::optional<double> duration_s(KeyReader& keys) {
 std::string read_name(KeyReader& keys, std::string_view kind) {
   const auto name = keys.maybe_text("name");
   if (!name) {
-    // Its name is unknown, so nothing that refers to this kind can be called wrong.
+    // The name is unknown, so no reference to this kind can be called wrong.
     keys.reading().incomplete = true;
     return "";
   }

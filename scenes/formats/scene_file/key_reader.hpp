@@ -1,6 +1,6 @@
-// A reader of a scene's tables: what runtime/toml reads, and what only scenes have: points and
-// directions as vectors, and the scene that is being read. Single-threaded; holds references to the
-// parsed document and to the SceneReading.
+// Reads a scene's tables: adds to runtime/toml what only scenes have, points and directions as
+// vectors, and the scene being read. Single-threaded; holds references to the parsed document and
+// to the SceneReading.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -35,8 +35,8 @@ class KeyReader : public toml::TableReader {
   std::vector<glm::dvec2> corners(std::string_view key);
   /// Rows [x, y, z] of points; the range holds for all three.
   std::vector<glm::dvec3> points(std::string_view key);
-  /// A number, or rows [seconds, value], linear between, read at the time of the state. A problem
-  /// where that time is not said, or where the rows do not hold it.
+  /// A number, or rows [seconds, value], interpolated linearly at the time of the state. A problem
+  /// where that time is not given, or lies outside the rows.
   double course(std::string_view key);
   std::optional<double> maybe_course(std::string_view key);
   /// Whether the key is written as rows.
@@ -48,16 +48,16 @@ class KeyReader : public toml::TableReader {
   SceneReading& reading_;
 };
 
-/// A reader with the keys of `base` and of `base.KIND`, where KIND is the choice `key`, reported
-/// where wrong or missing; of all kinds where it is, so that their keys are not called unknown.
-/// Fills in `kind`.
+/// A reader with the keys of `base` and of `base.KIND`, where KIND is the choice `key`. A missing
+/// or wrong choice is reported, and the keys of all kinds are then known, so that none is called
+/// unknown. Fills in `kind`.
 KeyReader kind_reader(const toml::Table& table, const std::string& base, std::string_view key,
                       SceneReading& reading, std::string& kind);
 
 /// The key `duration_h`, in seconds.
 std::optional<double> duration_s(KeyReader& keys);
 
-/// A name: declares it for its kind. An absent name is a problem; "" is then returned.
+/// Reads a name and declares it for its kind. An absent name is a problem; "" is then returned.
 std::string read_name(KeyReader& keys, std::string_view kind);
 
 }  // namespace luxodus

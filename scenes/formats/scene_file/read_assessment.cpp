@@ -1,4 +1,4 @@
-// Routes, areas, points of emphasis, and how people are taken to be.
+// Reads routes, areas, points of emphasis, and assumptions about people.
 #include <algorithm>
 #include <span>
 
@@ -10,7 +10,7 @@ namespace luxodus {
 
 namespace {
 
-/// Two points of a path nearer than this are one, which has no direction [m].
+/// Two points of a path nearer than this are the same point, which gives no direction [m].
 constexpr double shortest_leg_m = 0.01;
 
 AssessedArea read_area(KeyReader& keys, const char* kind) {
@@ -29,8 +29,8 @@ AssessedArea read_area(KeyReader& keys, const char* kind) {
   return area;
 }
 
-/// Names that are none are told here, with their line; what goes with what, where all files are
-/// read.
+/// Reports names that are not valid, with their line; whether they match is checked when all files
+/// are read.
 void check_names(KeyReader& keys, const char* key, const std::vector<std::string>& names,
                  std::span<const NamedRules> known) {
   std::string all;
@@ -46,7 +46,7 @@ void check_names(KeyReader& keys, const char* key, const std::vector<std::string
 void read_assessment(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"assessment"}, reading);
   AssessmentSettings& s = reading.scene.assessment;
-  // Of several files of a scene each may say a part: what one leaves out stands.
+  // Each of several files of a scene may state some keys: the others keep their values.
   const auto says = [&](const char* key) { return keys.has(key); };
   s.place = keys.place();
   if (says("age_years")) s.age_years = keys.number("age_years");

@@ -1,4 +1,4 @@
-// Drawings that lie under plans: PNG pictures and lines of DXF.
+// Reads drawings under plans: PNG pictures and lines of DXF.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace luxodus {
 
 namespace {
 
-/// Of all drawings of a scene. Plans show the longest.
+/// Drawings in a scene. Plans show the longest lines.
 constexpr size_t max_backdrops = 50;
 
 /// From the drawing's own coordinates to the scene's.
@@ -40,7 +40,7 @@ bool ends_in(const std::filesystem::path& file, const std::string& wanted) {
   return ending == wanted;
 }
 
-/// Pages get all drawings of a scene at once.
+/// Pages embed all drawings of a scene at once.
 void take_room(KeyReader& keys, uint64_t bytes) {
   uint64_t& all = keys.reading().backdrop_bytes;
   const bool had_room = all <= limits::backdrops_bytes;
@@ -90,7 +90,7 @@ void read_drawing(KeyReader& keys, const std::filesystem::path& path, Backdrop& 
   take_room(keys, limits::backdrop_line_bytes * std::min(out.lines.size(), limits::backdrop_lines));
 }
 
-/// Units and origins that are wrong put a drawing elsewhere.
+/// Wrong units or origins place a drawing far away.
 void warn_if_elsewhere(KeyReader& keys, const Backdrop& backdrop) {
   SceneReading& reading = keys.reading();
   Bounds drawn, building;

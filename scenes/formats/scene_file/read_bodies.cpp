@@ -1,4 +1,4 @@
-// The bodies and data sets of media.
+// Reads the bodies and data sets of media.
 #include <algorithm>
 
 #include "scenes/formats/fields/data_set.hpp"
@@ -44,7 +44,7 @@ void read_body(KeyReader& keys, const std::string& body, Medium& m) {
     const size_t before = keys.reading().findings.problem_count();
     read_quadric(keys, m);
     if (keys.reading().findings.problem_count() > before || !keys.clean()) return;
-    // Only a body written by hand can turn out to be empty.
+    // Only an explicit quadric can turn out to be empty.
     const auto made = QuadricBody::make(m, m.frame.origin);
     if (!made) keys.problem(made.problem().what);
     return;
@@ -63,8 +63,7 @@ void read_body(KeyReader& keys, const std::string& body, Medium& m) {
 }
 
 void read_data_set(KeyReader& keys, Medium& m) {
-  // Stands for "not stated": soot times this stays below any real extinction, and is recognised by
-  // it.
+  // Means "not stated": soot times this stays below any real extinction, by which it is recognised.
   constexpr double no_mass_extinction = 1e-30, min_real_extinction = 1e-20;
   const std::string quantity = keys.choice("quantity");
   const std::string smoke = keys.maybe_choice("smoke").value_or("");

@@ -1,4 +1,5 @@
-// Variants: what a file changes in those that it includes. Read last, so that all is there.
+// Reads variants: a file's changes to the files that it includes. Read last, when everything
+// exists.
 #include <algorithm>
 
 #include "scenes/formats/scene_file/read_placement.hpp"
@@ -11,7 +12,7 @@ namespace luxodus {
 
 namespace {
 
-/// The one of this name; a problem where there is none.
+/// The element with this name; a problem where there is none.
 template <class List>
 auto* named(List& list, KeyReader& keys, const std::string& kind) {
   const std::string name = keys.text("of");
@@ -52,12 +53,12 @@ void brighten(Emitter& emitter, double factor) {
 bool stays(const Sign&) {
   return false;
 }
-/// A mesh has its corners where its file and its placement say.
+/// Meshes keep their corners: their file and placement define them.
 bool stays(const Emitter& emitter) {
   return emitter.shape == EmitterShape::mesh;
 }
 
-/// What is to be changed: the one in `of`, or a copy of it where the change has a name for one.
+/// The element to change: the one in `of`, or a copy of it if the change gives it a new name.
 /// Null after a problem.
 template <class List>
 typename List::value_type* chosen(List& list, KeyReader& keys, const std::string& kind,
@@ -78,7 +79,7 @@ typename List::value_type* chosen(List& list, KeyReader& keys, const std::string
   return &list.back();
 }
 
-/// A luminaire of a type of the design, which stands nowhere yet. Null after a problem.
+/// A luminaire of a type of the design, not placed yet. Null after a problem.
 Emitter* placed_type(KeyReader& keys) {
   SceneDescription& scene = keys.reading().scene;
   const std::string of = keys.text("of");
@@ -100,7 +101,7 @@ Emitter* placed_type(KeyReader& keys) {
   return &scene.emitters.back();
 }
 
-/// A sign of the design, which hangs nowhere yet, with its routes. Null after a problem.
+/// A sign of the design, not placed yet, with its routes. Null after a problem.
 Sign* placed_sign(KeyReader& keys) {
   SceneDescription& scene = keys.reading().scene;
   const std::string of = keys.text("of");
@@ -133,8 +134,7 @@ void turn(KeyReader& keys, Frame& frame) {
   frame.axes = frame.axes * turn_about_axes({0, 0, keys.number("rotation_deg")});
 }
 
-/// Whether the change takes its luminaire or sign away, and has done so: it then has nothing else
-/// to say.
+/// Whether the change removes its luminaire or sign, and has done so: no other key may follow.
 template <class List>
 bool removed(List& list, KeyReader& keys, const std::string& kind) {
   if (!keys.flag("remove")) return false;
@@ -146,7 +146,7 @@ bool removed(List& list, KeyReader& keys, const std::string& kind) {
   return true;
 }
 
-/// Whether the change is of a medium that is not there at this time.
+/// Whether the changed medium is absent at this time.
 bool is_absent(KeyReader& keys) {
   const auto& media = keys.reading().scene.media;
   const std::string of = keys.text("of");
@@ -154,7 +154,7 @@ bool is_absent(KeyReader& keys) {
          std::none_of(media.begin(), media.end(), [&](const Medium& m) { return m.name == of; });
 }
 
-/// In every scenario, whether it names the medium or not.
+/// Applies to every scenario, whether it names the medium or not.
 void thicken(SceneDescription& scene, const std::string& medium, double factor) {
   if (scene.scenarios.empty()) {
     scene.scenarios.emplace_back();

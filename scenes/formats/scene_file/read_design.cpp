@@ -1,5 +1,5 @@
-// What `luxodus design` may place. Read when luminaires, routes and areas are there, and before
-// what a variant changes, so that a variant has the same types as the scene that it includes.
+// Reads what `luxodus design` may place. Called after luminaires, routes and areas, and before the
+// changes of a variant, so that a variant has the same types as the scene that it includes.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -15,7 +15,7 @@ namespace luxodus {
 
 namespace {
 
-/// A luminaire looks down if its aim is within this of it, as a cosine: half a degree.
+/// Cosine of half a degree: an aim this close to the vertical looks down.
 constexpr double down_cosine = 0.99996;
 
 /// The generic type: a white disc, as bright as common emergency downlights, with the factors that
@@ -23,11 +23,11 @@ constexpr double down_cosine = 0.99996;
 constexpr double generic_lm = 200, generic_diameter_m = 0.1;
 constexpr double generic_maintenance = 0.8, generic_end = 0.7;
 
-/// At the origin, looking down, unturned.
+/// Moves to the origin, looking down, without rotation.
 void put_to_origin(Emitter& e) {
-  // Down is a direction that a frame exists for.
+  // A frame exists for the downward direction.
   e.frame = frame_aiming(glm::dvec3(0), {0, 0, -1}).value();
-  e.ifc_guid.clear();  // of the one that it is like
+  e.ifc_guid.clear();  // it belongs to the luminaire that was copied
 }
 
 DesignType generic_type(const SourcePlace& place) {
@@ -49,8 +49,7 @@ DesignType generic_type(const SourcePlace& place) {
   return type;
 }
 
-/// The emergency luminaires of the scene that look down, each kind once, by the names of their
-/// files.
+/// The emergency luminaires of the scene that look down, one of each kind, named by their files.
 std::vector<DesignType> types_of_scene(const SceneDescription& scene) {
   std::vector<DesignType> out;
   std::set<std::string> taken;
@@ -74,7 +73,7 @@ std::vector<DesignType> types_of_scene(const SceneDescription& scene) {
   return out;
 }
 
-/// The light of a luminaire that is in the scene. Keys of light beside it would say another.
+/// Takes the light of a luminaire in the scene. Other keys of light beside it would contradict it.
 void take_light_of(KeyReader& keys, const std::string& like, Emitter& e) {
   for (const char* key :
        {"file", "variant", "emitter", "duration_h", "point_source", "circuit", "group",
@@ -128,7 +127,7 @@ void read_design_type(const toml::Table& table, SceneReading& reading, DesignSet
   design.types.push_back(std::move(type));
 }
 
-/// At the origin, facing +x, leading nowhere.
+/// Moves to the origin, facing +x, without routes.
 void put_to_origin(Sign& sign) {
   sign.leads_to.clear();
   sign.frame = frame_facing(glm::dvec3(0), {1, 0, 0}, {0, 0, 1}).value();
@@ -156,7 +155,7 @@ bool alike(const Sign& a, const Sign& b) {
          a.duration_s == b.duration_s && a.angular_exponent == b.angular_exponent;
 }
 
-/// The arrow of all its routes; none where it has none or several.
+/// The arrow shared by all its routes; none where it has none or several.
 std::optional<SignArrow> only_arrow(const Sign& sign) {
   if (sign.leads_to.empty()) return std::nullopt;
   const SignArrow first = sign.leads_to.front().arrow;
@@ -165,7 +164,7 @@ std::optional<SignArrow> only_arrow(const Sign& sign) {
   return first;
 }
 
-/// The upright signs of the scene, each kind once, by the names of their drawings.
+/// The upright signs of the scene, one of each kind, named by their drawings.
 std::vector<DesignSignType> signs_of_scene(const SceneDescription& scene) {
   constexpr double upright = 0.99;  // cosine
   std::vector<DesignSignType> out;
@@ -191,7 +190,7 @@ std::vector<DesignSignType> signs_of_scene(const SceneDescription& scene) {
   return out;
 }
 
-/// A sign of the scene. Keys of the sign beside it would say another.
+/// Takes a sign of the scene. Other keys of the sign beside it would contradict it.
 void take_sign_like(KeyReader& keys, const std::string& like, Sign& sign) {
   for (const KeySpec& key : sign_body_keys())
     if (keys.has(key.name))
@@ -284,7 +283,7 @@ void check_over(KeyReader& keys, const DesignSettings& design) {
 
 void read_design(const toml::Table& table, SceneReading& reading, DesignSettings& design) {
   KeyReader keys(table, {"design"}, reading);
-  // Of several files of a scene each may say a part: what one leaves out stands.
+  // Each of several files of a scene may state some keys: the others keep their values.
   const auto says = [&](const char* key) { return keys.has(key); };
   design.place = keys.place();
   for (const toml::Table* type : keys.tables("type")) read_design_type(*type, reading, design);

@@ -9,7 +9,7 @@ namespace luxodus {
 
 namespace {
 
-/// Of a mesh that is kept after it was read: furniture that stands in every room is smaller, and a
+/// Meshes up to this size are cached: furniture that stands in every room is smaller, and a
 /// building is placed once.
 constexpr size_t kept_vertices = 100'000;
 
@@ -45,7 +45,7 @@ bool take_hash(const std::filesystem::path& path, const SourcePlace& place, Scen
 std::shared_ptr<const Image> read_image(const std::filesystem::path& path, const SourcePlace& place,
                                         SceneReading& reading) {
   const auto [it, fresh] = reading.cache.try_emplace("image " + path.string());
-  auto& kept = it->second;  // null where it failed before: said once is enough
+  auto& kept = it->second;  // null after an earlier failure, which is reported once
   if (fresh) {
     if (!take_hash(path, place, reading)) return nullptr;
     auto image = read_png(path.string());
@@ -62,7 +62,7 @@ std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::pa
                                                        const SourcePlace& place,
                                                        SceneReading& reading) {
   const auto [it, fresh] = reading.cache.try_emplace("photometry " + path.string());
-  auto& kept = it->second;  // null where it failed before: said once is enough
+  auto& kept = it->second;  // null after an earlier failure, which is reported once
   if (fresh) {
     if (!take_hash(path, place, reading)) return nullptr;
     auto file = read_photometric_file(path);
@@ -80,7 +80,7 @@ std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::pa
 std::shared_ptr<const GldfProduct> read_container(const std::filesystem::path& path,
                                                   const SourcePlace& place, SceneReading& reading) {
   const auto [it, fresh] = reading.cache.try_emplace("container " + path.string());
-  auto& kept = it->second;  // null where it failed before: said once is enough
+  auto& kept = it->second;  // null after an earlier failure, which is reported once
   if (fresh) {
     if (!take_hash(path, place, reading)) return nullptr;
     auto product = read_gldf(path);

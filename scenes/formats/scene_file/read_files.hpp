@@ -1,5 +1,5 @@
-// The files that a scene file names: read once each, hashed, their problems taken over. Nothing is
-// returned where a file could not be read; the problem is then in the SceneReading.
+// Reads the files that a scene names: once each, hashed, with their problems. Returns nothing where
+// a file could not be read; the problem is then in the SceneReading. Single-threaded like it.
 #pragma once
 
 #include <filesystem>
@@ -14,24 +14,25 @@
 
 namespace luxodus {
 
-/// A PNG picture, linear. `place`: where the scene names it.
+/// Reads a PNG picture as linear values. `place`: where the scene names it.
 std::shared_ptr<const Image> read_image(const std::filesystem::path& path, const SourcePlace& place,
                                         SceneReading& reading);
-/// An LDT or IES file. Its warnings become the scene's.
+/// Reads an LDT or IES file. Its warnings become the scene's.
 std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::path& path,
                                                        const SourcePlace& place,
                                                        SceneReading& reading);
-/// A GLDF container.
+/// Reads a GLDF container.
 std::shared_ptr<const GldfProduct> read_container(const std::filesystem::path& path,
                                                   const SourcePlace& place, SceneReading& reading);
-/// Parts of an OBJ or glTF file. A small one is read once, however often the scene places it.
+/// Reads the parts of an OBJ or glTF file. A small one is read once, however often the scene places
+/// it.
 std::optional<std::vector<ImportedPart>> read_mesh(const std::filesystem::path& path,
                                                    double metres_per_unit, UpAxis up,
                                                    const SourcePlace& place, SceneReading& reading);
-/// Hashes a file that is read next; false and a problem where it cannot be read.
+/// Hashes a file before it is read; false and a problem where it cannot be read.
 bool take_hash(const std::filesystem::path& path, const SourcePlace& place, SceneReading& reading,
                FileLife life = FileLife::settled);
-/// A problem of another reader, with the place that named its file.
+/// Adds a problem of another reader, with the place that names its file.
 void take_problem(const Problem& problem, const SourcePlace& place, SceneReading& reading);
 
 }  // namespace luxodus

@@ -1,5 +1,5 @@
-// Smoke and flames of fire simulations: one medium in the scene file, a data set for each of its
-// grids in the scene. All have the name of the medium, so that scenarios scale them together.
+// Reads smoke and flames of fire simulations: one medium in the scene file, a data set for each of
+// its grids in the scene. All have the medium's name, so that scenarios scale them together.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace luxodus {
 
 namespace {
 
-/// What flames of buildings have: radiant fractions of fuels, temperatures of their soot.
+/// Usual values of flames in buildings: radiant fractions of fuels, temperatures of their soot.
 constexpr double low_fraction = 0.1, high_fraction = 0.6;
 constexpr double low_soot_k = 1100, high_soot_k = 1900;
-/// A frame this far from the time that is asked for is another state of the fire; between two that
-/// are twice as far apart there was more than a mean of both [s].
+/// A frame this far from the requested time shows another state of the fire; two frames twice as
+/// far apart are too far for interpolation [s].
 constexpr double far_from_asked_s = 5;
 
 struct Flames {
@@ -94,14 +94,14 @@ std::string extent_words(const LoadedFire& fire) {
   return out;
 }
 
-/// How the state came about.
+/// Describes how the state was obtained.
 std::string frame_words(const LoadedFire& fire, double asked_s) {
   if (!fire.between_frames) return fmt::format("{:g} s asked for, the nearest frame", asked_s);
   return fmt::format("linear between the frames at {:.6g} and {:.6g} s", *fire.previous_s,
                      *fire.next_s);
 }
 
-/// What was taken, for who reads the results.
+/// Notes what was read, for readers of the results.
 void tell_fire(KeyReader& keys, const std::string& name, const LoadedFire& fire,
                const std::optional<Flames>& flames, double asked_s) {
   SceneReading& reading = keys.reading();
@@ -152,7 +152,7 @@ void tell_fire(KeyReader& keys, const std::string& name, const LoadedFire& fire,
                   100 * fire.flame_extinction_share));
 }
 
-/// One clock rules a scene: that of [time], or the medium's own.
+/// A scene has one clock: that of [time], or the medium's own.
 double time_of_state(KeyReader& keys) {
   const SceneReading& reading = keys.reading();
   const auto own = keys.maybe_number("at_s");
@@ -164,7 +164,7 @@ double time_of_state(KeyReader& keys) {
 }
 
 void hash_fire(SceneReading& reading, const LoadedFire& fire) {
-  // Not the files: of gigabytes of frames a scene holds one.
+  // Hashes values instead of files: a scene holds one of gigabytes of frames.
   const auto take = [&](const void* data, size_t bytes) {
     reading.hash_bytes({static_cast<const char*>(data), bytes});
   };

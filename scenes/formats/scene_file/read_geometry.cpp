@@ -1,4 +1,4 @@
-// Objects written in the scene file.
+// Reads objects written in the scene file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -134,7 +134,7 @@ Result<Shape> climbing_shape(KeyReader& keys, bool ramp) {
   return shapes::stairs(steps, rise, going, width, below);
 }
 
-/// The mesh in local coordinates. A Problem without words: already reported.
+/// The mesh in local coordinates. An empty Problem means: already reported.
 Result<Shape> shape_of(KeyReader& keys, const std::string& kind) {
   if (kind == "quad") {
     const glm::dvec3 corner = keys.point("corner");
@@ -149,7 +149,7 @@ Result<Shape> shape_of(KeyReader& keys, const std::string& kind) {
   return round_shape(keys, kind);
 }
 
-/// A room: six objects that share everything but mesh and material.
+/// A room: six objects that differ only in mesh and material.
 void read_room(KeyReader& keys, const Object& common, const SurfaceWords& words,
                const Transform& transform, std::span<const glm::dvec3> copies) {
   const glm::dvec3 low = keys.point("low"), high = keys.point("high");
@@ -193,7 +193,7 @@ void read_room(KeyReader& keys, const Object& common, const SurfaceWords& words,
   }
 }
 
-/// Whether an object that comes and goes is there: by the last of its times that has passed.
+/// Whether an object that comes and goes exists: by the last of its times that has passed.
 bool is_there_now(KeyReader& keys, const std::string& shape) {
   struct Turn {
     double at_s;
@@ -225,7 +225,7 @@ bool is_there_now(KeyReader& keys, const std::string& shape) {
   return there;
 }
 
-/// Where the flights of stairs are that an object is made of.
+/// Keeps where the flights of stairs of an object are.
 void keep_flights(KeyReader& keys, const std::string& name, const Transform& transform,
                   std::span<const glm::dvec3> copies) {
   StairFlight flight;
@@ -278,8 +278,8 @@ void read_object(const toml::Table& table, SceneReading& reading) {
       adopt_problem(keys, shape.problem());
     }
   }
-  // A material that was not given has been reported as missing. Of that, and of what is not there
-  // at this time, only the name must be known from here on.
+  // A missing material has been reported already. For such an object, and for one that is absent at
+  // this time, only the name must be known from here on.
   if (words.material.empty() || !keys.clean() || !there) {
     reading.note("object or tag", object.name, object.place);
     for (const auto& tag : object.tags) reading.note("object or tag", tag, object.place);

@@ -1,4 +1,4 @@
-// OBJ and glTF files: their parts become objects, their materials the scene's.
+// Reads OBJ and glTF files: their parts become objects, their materials those of the scene.
 #include <map>
 #include <set>
 
@@ -12,7 +12,7 @@ namespace luxodus {
 
 namespace {
 
-/// Whether `pattern`, in which * stands for any characters, covers all of `text`.
+/// Whether `pattern`, in which * matches any characters, matches all of `text`.
 bool matches(std::string_view pattern, std::string_view text) {
   size_t p = 0, t = 0, star = std::string_view::npos, resume = 0;
   while (t < text.size()) {
@@ -32,7 +32,7 @@ bool matches(std::string_view pattern, std::string_view text) {
   return p == pattern.size();
 }
 
-/// What an [[import.part]] says, applied over the import's own words.
+/// An [[import.part]] table, whose keys override the import's.
 struct PartRule {
   std::string match;
   SourcePlace place;
@@ -62,7 +62,7 @@ PartRule read_rule(const toml::Table& table, KeyReader& of) {
   return rule;
 }
 
-/// Decides what parts are made of: the part's rule, the table, the default, the file's colour.
+/// Chooses the material of parts: the part's rule, the table, the default, the file's colour.
 class Materials {
  public:
   explicit Materials(KeyReader& keys, std::string import)
@@ -105,7 +105,7 @@ class Materials {
                   ", which neither 'materials' nor 'material' maps to one of the scene");
   }
 
-  /// Rows of the table that no part of the file uses.
+  /// Reports rows of the table that no part of the file uses.
   void report_unused() {
     const std::vector<std::string_view> known(seen_.begin(), seen_.end());
     for (const auto& [name, word] : table_) {
@@ -142,7 +142,7 @@ class Materials {
   std::set<std::string> seen_, reported_;
 };
 
-/// The object of one part; nothing where a rule leaves it out.
+/// Adds the object of one part, unless a rule omits it.
 void add_part(ImportedPart& part, Object object, SurfaceWords words, std::vector<PartRule>& rules,
               Materials& materials, SceneReading& reading) {
   words = materials.of(part, words);
@@ -191,7 +191,7 @@ void read_import(const toml::Table& table, SceneReading& reading) {
   std::vector<PartRule> rules;
   for (const toml::Table* t : keys.tables("part")) rules.push_back(read_rule(*t, keys));
   const auto path = keys.file("file");
-  // Without its file, the names of its parts are unknown: nobody can be blamed for naming one.
+  // Without the file its part names are unknown, so no rule can be called wrong.
   if (!path || !keys.clean()) {
     reading.incomplete = true;
     return;

@@ -1,4 +1,4 @@
-// Luminaires of photometric files and emitters of simple shape.
+// Reads luminaires of photometric files, and emitters of simple shape.
 #include "scenes/formats/scene_file/read_luminaires.hpp"
 
 #include <algorithm>
@@ -33,9 +33,9 @@ void read_onset(KeyReader& keys, Emitter& e) {
                  "falling and 1 at the end");
 }
 
-/// Fluxes of both states from the rated flux: E = rated x factors, each stated in the file, none
-/// guessed. `container`: of a luminaire that is in one, which may state the emergency flux;
-/// `flux_needed`: there is none.
+/// Fluxes of both operating states from the rated flux: E = rated x factors, each stated in the
+/// file, none guessed. `container`: the luminaire in a container, which may state the emergency
+/// flux; `flux_needed`: it does not.
 void read_operation(KeyReader& keys, Emitter& e, double rated, bool flux_needed = true,
                     const GldfLuminaire* container = nullptr) {
   if (const auto circuit = keys.maybe_text("circuit")) {
@@ -98,8 +98,8 @@ void read_body(KeyReader& keys, Emitter& e) {
   }
 }
 
-/// The emitting shape of a file's luminous opening: what it shows below. Lying tubes and boxes
-/// become their rectangle, upright cylinders their disc; a line is 1 mm wide.
+/// The emitting shape of a file's luminous opening: its lower face. Horizontal tubes and boxes
+/// become their rectangle, vertical cylinders their disc; a line is 1 mm wide.
 void take_opening(const LuminousOpening& opening, Emitter& e) {
   using OpeningShape = LuminousOpening::Shape;
   constexpr double line_m = 1e-3;
@@ -116,7 +116,7 @@ void take_opening(const LuminousOpening& opening, Emitter& e) {
   const bool round = opening.shape == OpeningShape::disc || opening.shape == OpeningShape::cylinder;
   if (round && x < 2 * y && y < 2 * x) {
     e.shape = EmitterShape::disc;
-    e.size.x = std::sqrt(x * y);  // same area where it is an ellipse
+    e.size.x = std::sqrt(x * y);  // same area if it is an ellipse
     return;
   }
   e.shape = EmitterShape::rectangle;
@@ -190,7 +190,7 @@ void read_shape(KeyReader& keys, Emitter& e, const std::string& kind) {
   }
 }
 
-/// Luminous area [m2]; of a tube its side alone.
+/// Luminous area [m2]; for a tube its lateral surface only.
 double area_of(const Emitter& e) {
   switch (e.shape) {
     case EmitterShape::point:
@@ -247,13 +247,13 @@ bool ending_is_gldf(const std::filesystem::path& path) {
          });
 }
 
-/// Which luminaire of a container.
+/// Selects a luminaire of a container.
 struct ContainerKeys {
   std::string variant, emitter;
   std::optional<double> duration_h;
 };
 
-/// `other_file`: the luminaire's file is none, so that the keys have no meaning.
+/// `other_file`: the luminaire's file is not a container, so that the keys have no meaning.
 ContainerKeys read_container_keys(KeyReader& keys, bool other_file) {
   for (const char* key : {"variant", "emitter"})
     if (other_file && keys.has(key))

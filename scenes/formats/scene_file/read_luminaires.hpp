@@ -1,12 +1,12 @@
-// What luminaires of a scene and types of a design have in common. Single-threaded.
+// Reads what luminaires of a scene and types of a design share. Single-threaded.
 #pragma once
 
 #include "scenes/formats/scene_file/key_reader.hpp"
 
 namespace luxodus {
 
-/// Reads `file`, `point_source`, the keys of operation and `body_material` into an emitter, which
-/// has a place and a name already. Every mistake is reported.
+/// Reads `file`, `point_source`, the keys of operation and `body_material` into an emitter that
+/// already has a place and a name. Every mistake is reported.
 void read_photometric_light(KeyReader& keys, Emitter& e);
 
 }  // namespace luxodus

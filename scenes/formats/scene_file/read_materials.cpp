@@ -1,4 +1,4 @@
-// Materials.
+// Reads materials.
 #include "scenes/formats/scene_file/read_files.hpp"
 #include "scenes/formats/scene_file/read_spectrum.hpp"
 #include "scenes/formats/scene_file/scene_readers.hpp"

@@ -1,4 +1,4 @@
-// Planes, probes, groups, observers and cameras.
+// Reads planes, probes, groups, observers and cameras.
 #include <algorithm>
 #include <cmath>
 
@@ -8,13 +8,13 @@ namespace luxodus {
 
 namespace {
 
-/// Cells of one plane: 4096 x 4096 tallies are 400 MB; more is a slip in the cell's size.
+/// Cells of one plane: 4096 x 4096 tallies are 400 MB; more is probably a wrong cell size.
 constexpr int64_t max_plane_cells = int64_t{1} << 24;
 
-/// More are told of: a hall of 250 x 250 m in cells of half a metre has as many.
+/// More cells cause a warning: a hall of 250 x 250 m in cells of half a metre has this many.
 constexpr int64_t many_plane_cells = 250000;
 
-/// A problem unless two edges span an area.
+/// Reports a problem unless two edges span an area.
 void check_span(KeyReader& keys, const glm::dvec3& u, const glm::dvec3& v) {
   if (!keys.clean()) return;
   const double area = glm::length(glm::cross(u, v));
@@ -24,7 +24,7 @@ void check_span(KeyReader& keys, const glm::dvec3& u, const glm::dvec3& v) {
 }
 
 int cells_along(double length, double cell_m) {
-  // A part in 1e9 is forgiven, so that 0.9 m in cells of 0.3 m is 3 and not 4.
+  // Tolerates a relative 1e-9, so that 0.9 m in cells of 0.3 m is 3 and not 4.
   return static_cast<int>(std::min(1e6, std::max(1.0, std::ceil(length / cell_m * (1 - 1e-9)))));
 }
 

@@ -1,4 +1,4 @@
-// Smoke and flames, but for bodies and data sets (read_bodies.cpp).
+// Reads smoke and flames, except bodies and data sets (read_bodies.cpp).
 #include "scenes/formats/scene_file/read_media.hpp"
 
 #include <algorithm>
@@ -21,17 +21,17 @@ constexpr double metres_per_foot = 0.3048;
 /// Specific extinction of flaming fires' soot at 633 nm [m2/kg], mean of 29 fuels (Mulholland and
 /// Croarkin).
 constexpr double flaming_mass_extinction = 8700;
-/// Smouldering smoke has some 4000; what is far from both is in another unit [m2/kg].
+/// Smouldering smoke has about 4000; values far from both are in another unit [m2/kg].
 constexpr double min_mass_extinction = 500, max_mass_extinction = 5e4;
-/// Beside a fire there are some grams in a cubic metre.
+/// Near a fire there are some grams in a cubic metre.
 constexpr double max_soot_kg_m3 = 0.01;
-/// Of flames in buildings, radiated.
+/// Radiation temperatures of flames in buildings.
 constexpr double coldest_flame_k = 1000, hottest_flame_k = 2500;
 constexpr double weakest_flame_w = 300, max_flame_w = 3e8;
-/// Smouldering smoke is of droplets, which hardly absorb.
+/// Smouldering smoke consists of droplets, which hardly absorb.
 constexpr double min_smouldering_albedo = 0.4;
 
-/// What a key is probably meant to say when its number is no smoke's in its unit.
+/// Warns if a number is not plausible for smoke in its unit, and says which key was probably meant.
 void warn_of_units(KeyReader& keys, const std::string& given) {
   const auto warn = [&](const char* key, const std::string& what) {
     keys.reading().warning(keys.place(key), "'" + std::string(key) + "' is " + what);
@@ -183,7 +183,7 @@ void read_homogeneous(KeyReader& keys, Medium& m) {
   }
 }
 
-/// Of a value that is another at other times.
+/// Words for a value that changes in time.
 std::string at_words(KeyReader& keys, bool moves) {
   return moves ? " at " + shortest_number(keys.reading().time_s().value_or(0)) + " s" : "";
 }
@@ -203,7 +203,7 @@ void read_layers(KeyReader& keys, Medium& m) {
     l.z_low = layer.course("z_low");
     l.z_high = layer.course("z_high");
     const bool moves = layer.changes_in_time("z_low") || layer.changes_in_time("z_high");
-    // A layer that grows has no thickness before it begins.
+    // A growing layer has no thickness before it begins.
     const bool absent = moves && l.z_low == l.z_high;
     if (layer.clean() && !absent && !(l.z_low < l.z_high)) {
       layer.problem("z_high", "'z_high' must lie above 'z_low'" + at_words(layer, moves));
@@ -257,7 +257,7 @@ void read_placed(KeyReader& keys, Medium& m) {
     keys.reading().note("circuit", e.circuit, emission.place("circuit"));
   }
   e.group = emission.text("group");
-  // A fire that has not begun.
+  // The fire has not begun.
   if (e.power_w == 0 && emission.changes_in_time("power_w")) return;
   m.emission = std::move(e);
 }
@@ -281,7 +281,7 @@ void read_medium(const toml::Table& table, SceneReading& reading) {
     read_placed(keys, m);
     keys.maybe_choice("body");
     if (!body.empty()) read_body(keys, body, m);
-    if (keys.has("emission") && !m.emission) return;  // a flame that does not burn yet
+    if (keys.has("emission") && !m.emission) return;  // the flame does not burn yet
   }
   if (kind == "fds") return read_fire_medium(keys, std::move(m));
   if (kind == "data_set") {

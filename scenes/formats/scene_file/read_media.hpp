@@ -1,4 +1,5 @@
-// Pieces of the medium reader that stand in files of their own.
+// The parts of the medium reader that stand in files of their own. Single-threaded like the
+// KeyReader.
 #pragma once
 
 #include <string>
@@ -8,16 +9,15 @@
 
 namespace luxodus {
 
-/// Specs of a [[medium]] of this kind and body; of all of them where the word is "".
+/// Specs of a [[medium]] of this kind and body; of all of them for "".
 std::vector<std::string> medium_specs(const std::string& kind, const std::string& body);
-/// `position`, `rotate_deg`, `emission` of a bounded medium or a data set.
+/// Reads `position`, `rotate_deg`, `emission` of a bounded medium or a data set.
 void read_placed(KeyReader& keys, Medium& medium);
-/// Quadric and bounds of the body of this kind.
+/// Reads the quadric and bounds of the body of this kind.
 void read_body(KeyReader& keys, const std::string& body, Medium& medium);
-/// Arrays, box and optics of a data set.
+/// Reads the arrays, box and optics of a data set.
 void read_data_set(KeyReader& keys, Medium& medium);
-/// Of a medium with this name and place: the data sets that a fire simulation becomes, added to the
-/// scene.
+/// Adds to the scene the data sets of a fire simulation; `medium` gives their name and place.
 void read_fire_medium(KeyReader& keys, Medium medium);
 
 }  // namespace luxodus

@@ -9,7 +9,7 @@ glm::dmat3 turn_about_axes(const glm::dvec3& degrees) {
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 about(0);
     about[axis] = 1;
-    // Unit axes and finite angles: a rotation always comes out.
+    // The axes are unit vectors and the angles finite, so that a rotation always exists.
     turn = rotation(about, degrees[axis]).value().linear * turn;
   }
   return turn;

@@ -1,5 +1,5 @@
-// Where things stand: transforms of objects, frames of luminaires, and handing an object to the
-// scene.
+// Reads transforms of objects and frames of luminaires, and adds objects to the scene.
+// Single-threaded like the KeyReader.
 #pragma once
 
 #include <span>
@@ -10,23 +10,23 @@
 
 namespace luxodus {
 
-/// Of `scale`, `rotate_deg`, `translate`, in this order.
+/// Applies `scale`, `rotate_deg`, `translate`, in this order.
 Transform read_transform(KeyReader& keys);
-/// The turn about x, then y, then z.
+/// The rotation about x, then y, then z.
 glm::dmat3 turn_about_axes(const glm::dvec3& degrees);
-/// Of `position`, `direction` or `target`, `rotation_deg`.
+/// Reads `position`, `direction` or `target`, `rotation_deg`.
 Frame read_aim(KeyReader& keys);
 
-/// Of `repeat`: the offset of every copy, the first of which is none; just that where it is not
-/// given or wrong.
+/// Reads `repeat`: the offset of every copy, the first of which is zero; only that one if the key
+/// is absent or wrong.
 std::vector<glm::dvec3> read_repeat(KeyReader& keys);
-/// Makes the mesh all of its copies. A problem where that is more than a scene may have.
+/// Adds all copies to the mesh. A problem where that exceeds the limits of a scene.
 void repeat_mesh(KeyReader& keys, std::span<const glm::dvec3> offsets, Mesh& mesh);
 
-/// Takes a problem that knows no place (a shape's measures) as one of this table.
+/// Reports a problem without a place (of a shape's dimensions) at this table.
 void adopt_problem(KeyReader& keys, const Problem& problem);
 
-/// What an object is made of, by name.
+/// The materials of an object, by name.
 struct SurfaceWords {
   std::string material;
   SourcePlace material_place;
@@ -35,9 +35,9 @@ struct SurfaceWords {
 };
 /// Finishes an object: materials, limits, names and tags, then adds it to the scene.
 void add_object(Object object, const SurfaceWords& words, SceneReading& reading);
-/// `back_material`, `patch_edge_m`, `tags`, `group` where given.
+/// Reads `back_material`, `patch_edge_m`, `tags`, `group` where given.
 void read_surface(KeyReader& keys, Object& object, SurfaceWords& words);
-/// `door` where given.
+/// Reads `door` where given.
 void read_door(KeyReader& keys, Object& object);
 
 }  // namespace luxodus

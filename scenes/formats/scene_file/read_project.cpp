@@ -1,4 +1,5 @@
-// What a report says of its project. Files that include others say more: each key by itself wins.
+// Reads what a report says about its project. Across included files each key is overridden
+// separately.
 #include "scenes/formats/images/logo.hpp"
 #include "scenes/formats/scene_file/read_files.hpp"
 #include "scenes/formats/scene_file/scene_readers.hpp"

@@ -1,4 +1,4 @@
-// The settings of a run.
+// Reads the settings of a run.
 #include <algorithm>
 
 #include "scenes/formats/scene_file/scene_readers.hpp"
@@ -8,7 +8,7 @@ namespace luxodus {
 void read_run(const toml::Table& table, SceneReading& reading) {
   KeyReader keys(table, {"run"}, reading);
   RunSettings& run = reading.scene.run;
-  // A file without a key leaves what the files it includes have said.
+  // An absent key keeps the value of included files.
   if (keys.has("seed")) run.seed = static_cast<uint64_t>(keys.integer("seed"));
   if (keys.has("max_bands")) run.max_bands = static_cast<int>(keys.integer("max_bands"));
   if (keys.has("band_tolerance")) run.band_tolerance = keys.number("band_tolerance");

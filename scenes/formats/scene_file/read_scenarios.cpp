@@ -1,4 +1,4 @@
-// Scenarios, and the clock that moves them: mains that fail, doors that open and close.
+// Reads scenarios, and the clock that changes them: mains failure, doors that open and close.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::vector<std::string> doors(KeyReader& keys, std::string_view key) {
   return names;
 }
 
-/// Before the mains fail everything is as in mains operation, whatever comes afterwards.
+/// Before the mains fail everything is in mains operation, whatever happens later.
 void follow_mains(KeyReader& keys, Scenario& s) {
   const SceneReading& reading = keys.reading();
   const auto& time = reading.scene.time;
@@ -42,7 +42,7 @@ void follow_mains(KeyReader& keys, Scenario& s) {
   s.says_seconds = true;
 }
 
-/// Doors that have opened and closed up to now: the later of two times holds.
+/// For doors that have opened and closed before now the later of the two times counts.
 void follow_doors(KeyReader& keys, Scenario& s) {
   struct Turn {
     double at_s;

@@ -1,4 +1,4 @@
-// Safety signs.
+// Reads safety signs.
 #include "scenes/formats/scene_file/read_signs.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace luxodus {
 namespace {
 
 /// Green of signs in public drawings, sRGB #237F52 (ISO 3864-4 region of safety green), as a film
-/// before the lamp that gives white: beside that white it has this colour, whatever the lamp is.
+/// before the lamp that gives white: relative to that white it has this colour, whatever the lamp.
 Spectrum safety_green_shape(const Spectrum& white) {
   const Spectrum light = white * reflectance_from_linear_srgb(linear_from_srgb(0x23 / 255.0),
                                                               linear_from_srgb(0x7F / 255.0),
@@ -39,11 +39,11 @@ Result<SignFace> drawn_face(const std::filesystem::path& path, const Sign& sign,
   return problem("a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'");
 }
 
-/// Lengths of a sign in millimetres are no smaller.
+/// Smallest number that is probably a length of a sign in millimetres.
 constexpr double min_slip = 1;
 
-/// A length of a sign that is written and longer than `most` is a slip of the unit more often than
-/// not, and would make small details large.
+/// A length of a sign longer than `most` probably has the wrong unit, and would make small details
+/// large.
 void bound_length(KeyReader& keys, const char* key, double value, double most, const char* of,
                   const Sign& sign) {
   if (!keys.has(key) || !keys.clean() || value <= most) return;
@@ -56,7 +56,7 @@ void bound_length(KeyReader& keys, const char* key, double value, double most, c
                                            : ""));
 }
 
-/// Every length of a sign is bounded by its face.
+/// Checks every length of a sign against its face.
 void bound_lengths(KeyReader& keys, const Sign& sign) {
   const double shorter = std::min(sign.width_m, sign.height_m);
   const double longer = std::max(sign.width_m, sign.height_m);
@@ -209,8 +209,8 @@ void read_sign_itself(KeyReader& keys, Sign& sign) {
 }
 
 void make_generic_sign(Sign& sign) {
-  // The letters of NFPA 101, a height that EN 1838 lets be read from 40 m, and luminances that both
-  // ask for where smoke may occur.
+  // The letters of NFPA 101, a height legible from 40 m by EN 1838, and luminances that both
+  // require where smoke may occur.
   constexpr double width_m = 0.5, height_m = 0.2, letter_m = 0.1524, stroke_m = 0.01905;
   constexpr double spacing_m = 0.009525;
   constexpr int texels = 256;
@@ -223,7 +223,7 @@ void make_generic_sign(Sign& sign) {
   sign.emergency = {200, 20};
   sign.white_shape = emission_shape_from_linear_srgb(1, 1, 1);
   sign.green_shape = safety_green_shape(sign.white_shape);
-  // The text fits: letters, stroke and face are those above.
+  // The text fits by construction: letters, stroke and face are those above.
   sign.face = face_from_text(sign.text, width_m, height_m, letter_m, stroke_m, spacing_m,
                              SignColour::white, texels)
                   .value();

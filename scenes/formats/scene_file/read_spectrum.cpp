@@ -12,10 +12,10 @@ namespace luxodus {
 
 namespace {
 
-constexpr double absolute_cold_k = 500;  // below, the visible share underflows all use
+constexpr double absolute_cold_k = 500;  // below, the visible share underflows
 constexpr double absolute_hot_k = 100'000;
-constexpr double led_cold_k = 2700, led_hot_k = 6500;  // what white_led_shape is made for
-/// Of lamps, flames aside; beyond them a digit is wrong.
+constexpr double led_cold_k = 2700, led_hot_k = 6500;  // the range of white_led_shape
+/// Colour temperatures of lamps other than flames; a value beyond them has a wrong digit.
 constexpr double reddest_lamp_k = 1200, bluest_lamp_k = 20000;
 
 std::string in_quotes(std::string_view key) {

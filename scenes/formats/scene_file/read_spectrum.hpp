@@ -1,6 +1,5 @@
-// Spectra as a scene file writes them: properties (reflectances, albedos, transmittances) and
-// shapes of emission. The forms are listed in README.md. Plain functions; single-threaded like the
-// KeyReader.
+// Reads spectra: properties (reflectances, albedos, transmittances) and shapes of emission.
+// README.md lists the forms. Plain functions; single-threaded like the KeyReader.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,18 +12,18 @@
 
 namespace luxodus {
 
-/// A property within the key's range. Nothing where the key is absent without a default, or wrong.
+/// A property within the key's range. Nothing where the key is wrong, or absent without a default.
 std::optional<Spectrum> maybe_property(KeyReader& keys, std::string_view key);
-/// As above, with a value within the range where there is none.
+/// As above; a value within the range where it gives nothing.
 Spectrum property(KeyReader& keys, std::string_view key);
 
 /// A shape of emission, integral 1 over 380..780 nm.
 Spectrum emission_shape(KeyReader& keys, std::string_view key);
 
-/// The property that is linear between the rows (nm, value) and constant beyond them.
+/// The property that is linear between the rows (nm, value) and constant outside them.
 Spectrum spectrum_through(const std::vector<glm::dvec2>& rows);
-/// The emission that is linear between the rows and zero beyond them, averaged over the 5 nm around
-/// each sample, so that lines narrower than the grid keep their power.
+/// The emission that is linear between the rows and zero outside them, averaged over the 5 nm
+/// around each sample, so that lines narrower than the grid keep their power.
 Spectrum emission_through(const std::vector<glm::dvec2>& rows);
 
 }  // namespace luxodus

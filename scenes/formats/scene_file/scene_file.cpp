@@ -1,6 +1,6 @@
 // The order of reading: every file is parsed, includes first, then the tables of all files kind by
-// kind, so that a name is known before it is used, in whichever file it stands. One error of syntax
-// ends a file.
+// kind, so that names are known before they are used, in whichever file they stand. A syntax error
+// ends its file.
 #include "scenes/formats/scene_file/scene_file.hpp"
 
 #include <xxhash.h>
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One parsed file. The reader of its top refers to the document, so a SceneText stays where it is.
+/// One parsed file. Its top-level reader refers to the document, so a SceneText does not move.
 struct SceneText {
   SceneText(toml::Document parsed, SceneReading& reading)
       : document(std::move(parsed)), keys(document.top, {"scene"}, reading) {}
@@ -70,7 +70,7 @@ class Loader {
     documents.push_back(std::move(document));
   }
 
-  /// Parses changes of all that was loaded.
+  /// Parses changes to all that was loaded.
   void change(std::string_view text) {
     if (auto document = parse_as(text, named_changes, toml::Quoting::allowed))
       documents.push_back(std::move(document));
@@ -78,7 +78,7 @@ class Loader {
       reading_.incomplete = true;
   }
 
-  std::vector<std::unique_ptr<SceneText>> documents;  // a file stands after those it includes
+  std::vector<std::unique_ptr<SceneText>> documents;  // a file comes after those it includes
 
  private:
   std::optional<std::string> bytes_of(const fs::path& path) {
@@ -105,7 +105,7 @@ class Loader {
   }
 
   std::unique_ptr<SceneText> parse(const std::string& text, const fs::path& path) {
-    // The words of an included file are not told: it may be any file of the machine.
+    // The text of an included file is not quoted: it may be any file on the machine.
     const bool own = open_.empty() && done_.empty() && documents.empty();
     return parse_as(text, path.string(), own ? toml::Quoting::allowed : toml::Quoting::withheld);
   }
@@ -129,8 +129,7 @@ class Loader {
 using Documents = std::vector<std::unique_ptr<SceneText>>;
 using Reader = void (*)(const toml::Table&, SceneReading&);
 
-/// A side is named once, and by one of its words. A file's own list replaces that of those it
-/// includes.
+/// A side is named once, and by one of its names. A file's own list replaces that of its includes.
 void read_open_sides(KeyReader& keys, SceneReading& reading) {
   if (!keys.has("open_sides")) return;
   reading.scene.open_sides.clear();
@@ -181,8 +180,8 @@ void read_all(const Documents& documents, std::string_view key, Reader reader,
   }
 }
 
-/// A large file that a table names, as its reader will expect it. What is wrong with it is said
-/// when it is read.
+/// Announces a large file that a table names to the progress, as its reader will. Faults are
+/// reported when it is read.
 void foresee(const toml::Table& table, ReadingShare& share) {
   const toml::Value* kind = table.find("kind");
   if (kind != nullptr && kind->as_text() != nullptr && *kind->as_text() == "fds")
@@ -217,7 +216,7 @@ void read_designs(const Documents& documents, SceneReading& reading) {
   complete_design(reading, std::move(design));
 }
 
-/// What only the whole scene can show.
+/// Checks that need the whole scene.
 void check_whole(SceneReading& reading) {
   const SceneDescription& s = reading.scene;
   const bool flames = std::any_of(s.media.begin(), s.media.end(),
@@ -276,7 +275,7 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
   };
   for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);
   for (const auto& route : reading.routes_named) reading.require("route", route.name, route.place);
-  // Types of a design may hang on circuits of their own, which scenarios name.
+  // Types of a design may use circuits of their own, which scenarios name.
   read_designs(documents, reading);
   read_all(documents, "scenario", read_scenario, reading);
   read_all(documents, "change", read_change, reading);

@@ -1,7 +1,6 @@
-// Reads a scene file (TOML) with everything it names, and says all that is wrong with it at once,
-// each mistake in one sentence with its file and line. The format is described in README.md of this
-// folder, key by key; the same table drives the reader. Reads files only; any thread, one call per
-// scene.
+// Reads a scene file (TOML) with everything it names, and reports all mistakes at once, each in one
+// sentence with its file and line. README.md of this folder describes the format, key by key; the
+// same table drives the reader. Reads files only; any thread, one call per scene.
 #pragma once
 
 #include <filesystem>
@@ -17,21 +16,20 @@ namespace luxodus {
 class ReadingShare;
 
 struct ReadScene {
-  std::optional<SceneDescription> scene;  // only where there is no problem
+  std::optional<SceneDescription> scene;  // set only if there is no problem
   Problems problems;
 };
 
-/// What problems call changes that are in no file.
+/// The file name in problems of changes that are in no file.
 inline constexpr const char* named_changes = "changes";
 
 /// Reads the file, the files it includes, and the meshes, pictures and photometric data that they
-/// name. Warnings that do not hinder are in the scene. The content hash covers every byte of every
-/// file, and of the changes.
-/// `at_s`: time of its fire simulations instead of the one that they state; a problem where there
-/// is none.
-/// `changes`: read as if they stood in a file that includes this one; "" for none.
-/// `frames`: what simulations have between two of their frames.
-/// `share`, where given, hears how far the reading of meshes and simulations is.
+/// name. Warnings are in the scene. The content hash covers every byte of every file, and of the
+/// changes.
+/// `at_s`: time for its fire simulations, replacing the stated one; a problem where there is none.
+/// `changes`: read as if a file that includes this one contained them; "" for none.
+/// `frames`: the state of simulations between two of their frames.
+/// `share`, where given, receives the progress of reading meshes and simulations.
 ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at_s = std::nullopt,
                      std::string_view changes = {}, FireFrames frames = FireFrames::between,
                      ReadingShare* share = nullptr);

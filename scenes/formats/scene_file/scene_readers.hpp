@@ -1,6 +1,6 @@
 // The readers of the tables of a scene file, one per kind of table, called by scene_file.cpp in the
 // order in which names are needed: materials, objects and imports, emitters, media, signs,
-// measurements, what is assessed, scenarios. Each adds to reading.scene and reports every mistake.
+// measurements, assessments, scenarios. Each adds to reading.scene and reports every mistake.
 // Single-threaded.
 #pragma once
 
@@ -32,9 +32,9 @@ void read_route(const toml::Table& table, SceneReading& reading);
 void read_open_area(const toml::Table& table, SceneReading& reading);
 void read_task_area(const toml::Table& table, SceneReading& reading);
 void read_emphasis(const toml::Table& table, SceneReading& reading);
-/// Adds to what `design` says already.
+/// Adds the keys of this table to `design`.
 void read_design(const toml::Table& table, SceneReading& reading, DesignSettings& design);
-/// Gives the scene its design, with types where none are stated.
+/// Gives the scene its design, with default types where none are stated.
 void complete_design(SceneReading& reading, DesignSettings design);
 void read_time(const toml::Table& table, SceneReading& reading);
 void read_scenario(const toml::Table& table, SceneReading& reading);

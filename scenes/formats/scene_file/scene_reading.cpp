@@ -98,7 +98,7 @@ void SceneReading::resolve_backs() {
 }
 
 void SceneReading::hash_bytes(std::string_view bytes) {
-  // Chained by the seed: the hash of a file depends on all files before it and on their borders.
+  // Chained by the seed: the hash of a file depends on all earlier files and their boundaries.
   scene.content_hash = XXH3_64bits_withSeed(bytes.data(), bytes.size(), scene.content_hash);
 }
 
@@ -109,7 +109,7 @@ std::optional<Problem> SceneReading::hash_file(const std::filesystem::path& path
   const FileStamp before = stamp_of(file->descriptor.number());
   using State = std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)>;
   const State state(XXH3_createState(), &XXH3_freeState);
-  const State own(XXH3_createState(), &XXH3_freeState);  // of this file alone
+  const State own(XXH3_createState(), &XXH3_freeState);  // the hash of this file alone
   XXH3_64bits_reset_withSeed(state.get(), scene.content_hash);
   XXH3_64bits_reset(own.get());
   std::array<char, 65536> part;

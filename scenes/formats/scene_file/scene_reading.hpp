@@ -1,5 +1,5 @@
-// What is shared while one scene is read: the scene as it grows, every problem found, the names
-// said so far, and the hash of every byte read. Single-threaded; lives for one read_scene call.
+// The shared state while one scene is read: the growing scene, every problem found, the declared
+// names, and the hash of every byte read. Single-threaded; lives for one read_scene call.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace luxodus {
 class ReadingShare;
 
 namespace scene_limits {
-/// A scene file is written by people or small scripts; 16 MiB of TOML is already 200 000 tables.
+/// Size of a scene file. People or small scripts write it: 16 MiB of TOML are 200 000 tables.
 inline constexpr uint64_t file_bytes = uint64_t{16} << 20;
 /// Files that a scene may include, all levels together.
 inline constexpr size_t included_files = 256;
@@ -42,33 +42,32 @@ inline constexpr size_t triangles = 50'000'000;
 class SceneReading {
  public:
   SceneDescription scene;
-  /// Set when a whole file or part of one could not be read: names it may have said are then not
-  /// missed.
+  /// Set when all or part of a file could not be read: its names are then not reported as missing.
   bool incomplete = false;
 
-  /// Hears how far the reading of large files is; null where nobody asks.
+  /// Receives the progress of reading large files; null for none.
   ReadingShare* share = nullptr;
-  /// Time that was asked for, instead of the one that the scene states [s].
+  /// The requested time, replacing the one that the scene states [s].
   std::optional<double> at_s;
-  /// What simulations have between two frames.
+  /// State of simulations between two frames.
   FireFrames frames = FireFrames::between;
-  /// Something in the scene is another thing at another time; it is so by the clock, not by frames
-  /// of a simulation, which are hashed themselves.
+  /// Whether anything in the scene changes in time, and whether it does so by the clock rather than
+  /// by frames of a simulation, which are hashed themselves.
   bool changes_in_time = false, goes_by_clock = false;
-  /// Of the state: what was asked for, else where [time] begins [s].
+  /// Time of the state: the requested one, else the start of [time] [s].
   std::optional<double> time_s() const {
     if (at_s || !scene.time) return at_s;
     return scene.time->from_s;
   }
 
-  /// By signs, before routes are read.
+  /// Routes that signs name, before routes are read.
   struct NamedRoute {
     std::string name;
     SourcePlace place;
   };
   std::vector<NamedRoute> routes_named;
 
-  /// Of objects, before a design is read.
+  /// Flights of stairs of objects, before a design is read.
   std::vector<StairFlight> flights;
 
   toml::Findings findings;
@@ -80,44 +79,43 @@ class SceneReading {
   void warning(SourcePlace where, std::string what);
   void note_for_reader(SourcePlace where, std::string what);
 
-  /// Remembers a name of a kind ("material", "object"...); a problem where it is taken already.
+  /// Records a unique name of a kind ("material", "object"...); a problem where it is taken.
   void declare(std::string_view kind, const std::string& name, const SourcePlace& place);
-  /// Remembers a name that may be said many times: a circuit, a tag.
+  /// Records a name that may occur many times: a circuit, a tag.
   void note(std::string_view kind, const std::string& name, const SourcePlace& place);
   bool declared(std::string_view kind, const std::string& name) const;
-  /// A problem where nothing of this kind has this name, once per name; `what` names the kind to
-  /// people.
+  /// A problem where nothing of this kind has this name, once per name; `what` names the kind in
+  /// the message.
   bool require(std::string_view kind, const std::string& name, const SourcePlace& place);
 
-  /// Index of a material, making the named greys and "open" on first use; 0 and a problem where
+  /// Index of a material. The named greys and "open" are made on first use; 0 and a problem if
   /// unknown.
   int material_index(const std::string& name, const SourcePlace& place);
-  /// What is seen from behind a surface of this material: its own `back`, or itself.
+  /// The material seen from behind a surface of this material: its own `back`, or itself.
   int back_of(int material) const;
   void set_back(int material, std::string name, SourcePlace place);
-  /// Turns the names given to set_back into indices. Call when all materials are read.
+  /// Turns the names given to set_back into indices. Call it when all materials are read.
   void resolve_backs();
   /// Triangles of all objects so far.
   size_t triangles = 0;
-  /// Of all drawings under plans so far, as pages get them.
+  /// Bytes of all drawings under plans so far, as pages embed them.
   uint64_t backdrop_bytes = 0;
   /// Default of an object's patch edge [m].
   double patch_edge_m = 0.5;
 
-  /// Takes the file's bytes into the content hash, and a settled file among those that were read
-  /// (once per file). Called before the file is read: what is written to it in between is then a
-  /// change.
+  /// Adds the file's bytes to the content hash, and lists a settled file among those read (once per
+  /// file). Called before the file is read, so that a write in between is detected as a change.
   /// Errors: a file that cannot be read.
   std::optional<Problem> hash_file(const std::filesystem::path& path,
                                    FileLife life = FileLife::settled);
   void hash_bytes(std::string_view bytes);
   FilesAsRead files;
 
-  /// What several luminaires or signs have in common, by kind and name; of the documents, which
-  /// outlive the reading.
+  /// Tables that several luminaires or signs share, by kind and name; views into the documents,
+  /// which outlive the reading.
   std::map<std::string, const toml::Table*> types;
 
-  /// Keeps what was read from a file, so that a file named twice is read once.
+  /// Caches what was read from a file, so that a file named twice is read once.
   std::map<std::string, std::shared_ptr<const void>> cache;
 
  private:
@@ -129,7 +127,7 @@ class SceneReading {
   std::map<std::string, std::map<std::string, SourcePlace>, std::less<>> names_;
   std::set<std::string> missed_;  // kind and name already reported as missing
   std::map<int, Back> backs_;
-  std::map<std::string, int> material_at_;  // of the first materials_indexed_ materials
+  std::map<std::string, int> material_at_;  // the first materials_indexed_ materials
   size_t materials_indexed_ = 0;
   std::set<std::string> hashed_;
 };

@@ -8,7 +8,7 @@ namespace luxodus {
 
 namespace {
 
-/// Control characters and separators of paths have no place in what becomes a file's name.
+/// Names become file names: control characters and path separators are not allowed.
 bool is_good_name(std::string_view name) {
   if (name.empty() || name.size() > scene_limits::name_chars) return false;
   for (const char c : name) {

@@ -1,5 +1,5 @@
-// Every table and key of a scene file, stated once for runtime/toml, which reads by it. README.md
-// repeats the same rows, and a test compares the two. Constant data; any thread.
+// The schema of scene files: every table and key, defined once for runtime/toml, which reads by it.
+// README.md repeats the same rows, and a test compares the two. Constant data; any thread.
 #pragma once
 
 #include <vector>
@@ -14,25 +14,25 @@ using toml::TableSpec;
 /// All tables, in the order of the README.
 const toml::Schema& scene_schema();
 
-/// Those of `a`, then those of `b`.
+/// The keys of `a`, then those of `b`.
 inline std::vector<KeySpec> joined(std::vector<KeySpec> a, const std::vector<KeySpec>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
 
-/// The key `repeat`, wherever things are placed.
+/// The key `repeat`, for everything that is placed.
 KeySpec repeat_key();
-/// Keys of a photometric file; `whether`: "required", or "" where another key may stand instead.
+/// Keys of a photometric file; `whether`: "required", or "" where another key may replace them.
 std::vector<KeySpec> photometric_file_keys(const char* whether);
-/// The key `ifc_guid`, wherever a thing may come from a model.
+/// The key `ifc_guid`, for everything that may come from a model.
 KeySpec ifc_guid_key();
-/// What luminaires give in each operating state.
+/// Keys of a luminaire's operating states.
 std::vector<KeySpec> operation_keys();
 
-/// Those of a sign, without its name, its place and its routes; none is required.
+/// Keys of a sign except its name, place and routes; none is required.
 std::vector<KeySpec> sign_body_keys();
 
-// Pieces of the schema, one per source file.
+// Parts of the schema, one per source file.
 std::vector<TableSpec> geometry_schema();
 TableSpec run_keys();                      // part of geometry_schema
 std::vector<TableSpec> object_schema();    // part of geometry_schema

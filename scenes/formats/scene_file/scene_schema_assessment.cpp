@@ -1,4 +1,4 @@
-// Keys of what `luxodus assess` judges: routes, areas, points of emphasis, people.
+// Keys of what `luxodus assess` assesses: routes, areas, points of emphasis, people.
 #include "scenes/formats/scene_file/scene_schema.hpp"
 
 namespace luxodus {

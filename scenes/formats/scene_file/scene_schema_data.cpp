@@ -1,4 +1,4 @@
-// Keys of media that come as arrays.
+// Keys of media that are given as arrays.
 #include "scenes/formats/scene_file/scene_schema.hpp"
 
 namespace luxodus {

@@ -1,4 +1,4 @@
-// Keys of the scene's head, materials, objects and imported files.
+// Top-level keys, and keys of materials, objects and imported files.
 #include "scenes/formats/scene_file/scene_schema.hpp"
 
 namespace luxodus {

@@ -1,4 +1,4 @@
-// Keys of what a report says of its project.
+// Keys of a report's project.
 #include "scenes/formats/scene_file/scene_schema.hpp"
 
 namespace luxodus {

@@ -1,4 +1,4 @@
-// Keys of scenarios, and of what a variant changes.
+// Keys of scenarios, and of the changes of a variant.
 #include "scenes/formats/scene_file/scene_schema.hpp"
 
 namespace luxodus {

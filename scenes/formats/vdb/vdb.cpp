@@ -1,4 +1,4 @@
-// This side believes nothing of the answer: sizes, places and values are checked again.
+// This side does not trust the answer: sizes, places and values are checked again.
 #include "scenes/formats/vdb/vdb.hpp"
 
 #include <fmt/format.h>
@@ -18,8 +18,8 @@ constexpr char remedy[] =
     "build both (cmake --build build/release --target luxodus luxodus_vdb), or install both (cmake "
     "--install build/release, and again with --component vdb)";
 
-/// The largest box of cells twice, where y is up, and on its way here; the tree of a grid, which
-/// Blosc may have packed to a quarter; the library itself.
+/// The largest box of cells twice, for y up, and for the answer; the tree of a grid, which Blosc
+/// may have packed to a quarter; the library itself.
 IsolatedLimits vdb_limits(uint64_t bytes, const VdbProgram& program) {
   return {program.memory_bytes.value_or((uint64_t{3} << 30) + 4 * bytes),
           program.processor_s.value_or(30 + static_cast<uint32_t>(bytes >> 22))};
@@ -29,7 +29,7 @@ Problem unsound(const fs::path& file) {
   return problem_in(file, "cannot be read: luxodus_vdb gave no sound answer");
 }
 
-/// The bytes of the file. Errors: none, or too many.
+/// The size of the file [bytes]. Errors: no such file, or too large.
 Result<uint64_t> checked_size(const fs::path& file) {
   std::error_code failed;
   const uint64_t bytes = fs::file_size(file, failed);
@@ -42,7 +42,7 @@ Result<uint64_t> checked_size(const fs::path& file) {
   return bytes;
 }
 
-/// The answer behind its mark of success.
+/// The answer after its success flag.
 Result<PlainReader> asked(const vdb::Question& question, const VdbProgram& program) {
   std::error_code failed;
   if (!fs::is_regular_file(program.path, failed))

@@ -1,7 +1,7 @@
-// Smoke from OpenVDB files (.vdb): the grids that a file has, and one of them as even cells. A
-// program of its own reads the file, because its library is large and may be absent; it has limits
-// on memory and time. Floats that are a fog volume are read: sparse cells of which those that the
-// file does not say are 0. An index of the file is the middle of a cell. Plain values; any thread.
+// Reads smoke from OpenVDB files (.vdb): lists the grids of a file, and reads one as even cells. A
+// separate program reads the file, because its library is large and may be absent; it has limits on
+// memory and time. Grids of floats that are a fog volume are read; cells that the file omits are 0.
+// An index of the file is the centre of a cell. Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@
 namespace luxodus {
 
 namespace limits {
-/// Of a file [bytes].
+/// Size of a file [bytes].
 inline constexpr uint64_t vdb_bytes = uint64_t{4} << 30;
 inline constexpr size_t vdb_grids = 1000;
-/// Of the box around the smoke of a grid: 512 MiB of floats.
+/// Cells of the box around the smoke of a grid: 512 MiB of floats.
 inline constexpr uint64_t vdb_cells = uint64_t{1} << 27;
 }  // namespace limits
 
@@ -29,7 +29,7 @@ struct VdbGrid {
   std::string name;
   std::string type;    // of its values: "float"
   std::string kind;    // "fog volume", "level set", "unknown", ...
-  uint64_t cells = 0;  // that have a value of their own
+  uint64_t cells = 0;  // active cells
   std::string fault;   // why it cannot be read; "" where it can
 };
 
@@ -41,11 +41,11 @@ struct VdbSmoke {
   std::vector<float> values;
 };
 
-/// Who reads.
+/// The program that reads.
 struct VdbProgram {
   std::filesystem::path path;                   // luxodus_vdb, of the same build
-  std::function<void(double share)> told = {};  // how far it is, where somebody wants to hear
-  /// What it may take for a question; otherwise what the size of the file allows.
+  std::function<void(double share)> told = {};  // receives the progress, where given
+  /// Processor time for a question; if absent, chosen by the file's size.
   std::optional<uint32_t> processor_s = {};
   std::optional<uint64_t> memory_bytes = {};
 };
@@ -55,9 +55,9 @@ struct VdbProgram {
 Result<std::vector<VdbGrid>> list_vdb(const std::filesystem::path& file, const VdbProgram& program);
 
 /// The grid of this name. `up`: the file's upward axis.
-/// Errors: as list_vdb; no such grid, and those there are; values that are no floats; a level set;
-/// axes that are turned, mirrored or bent; a background that is not 0; no values; more cells than
-/// the limit; a value that is negative or no number, with its index.
+/// Errors: as list_vdb; no such grid, with a list of those that exist; values that are not floats;
+/// a level set; axes that are rotated, mirrored or nonlinear; a background that is not 0; no
+/// values; more cells than the limit; a negative or undefined value, with its index.
 Result<VdbSmoke> read_vdb(const std::filesystem::path& file, const std::string& grid, UpAxis up,
                           const VdbProgram& program);
 

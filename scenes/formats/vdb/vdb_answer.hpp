@@ -1,4 +1,4 @@
-// What `luxodus` and `luxodus_vdb` tell each other. Internal to this room. Any thread.
+// Messages between `luxodus` and `luxodus_vdb`. Internal to this room. Plain values; any thread.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace luxodus::vdb {
 
-/// Builds of the same sources of this exchange (program.cmake) have the same name for it.
+/// Builds from the same sources of this exchange (program.cmake) share this name.
 inline constexpr const char* job = "vdb " LUX_VDB_BUILD;
 
-/// `grid`: "" asks for the list.
+/// `grid`: "" requests the list.
 struct Question {
   std::string file;
   std::string grid;

@@ -1,6 +1,5 @@
-// Assimp is kept at arm's length: it opens files only through a gate that knows our limits, it is
-// asked for as little as possible (parse, validate, triangulate), and all arithmetic on positions
-// is ours, in double.
+// Assimp opens files only through a gate that knows our limits, and is asked for as little as
+// possible (parse, validate, triangulate). All arithmetic on positions is ours, in double.
 #include "scenes/light/geometry/assimp_import.hpp"
 
 #include <assimp/DefaultIOSystem.h>
@@ -65,14 +64,14 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
   std::vector<std::string> opened_;
 };
 
-/// Tells the share of the job: Assimp's own work, of which an OBJ's bytes are the first half, is
-/// about two thirds of it.
+/// Reports progress to the parent process: Assimp's work counts for about two thirds of the job;
+/// reading an OBJ's bytes is the first half of that.
 class ToldProgress : public Assimp::ProgressHandler {
  public:
   bool Update(float share) override {
     constexpr double of_all = 2.0 / 3;
     if (share >= 0) tell_share(of_all * static_cast<double>(share));
-    return true;  // go on
+    return true;  // continue reading
   }
 };
 
@@ -97,7 +96,7 @@ double float_step(double coordinate) {
 /// Walks the tree of nodes and copies what it places.
 class Collector {
  public:
-  /// `obj`: what the texts of an OBJ say of its materials; null for other kinds.
+  /// `obj`: what an OBJ and its libraries say about its materials; null for other formats.
   Collector(const aiScene& scene, const std::string& path, double metres_per_unit, UpAxis up,
             const ObjMaterials* obj)
       : scene_(scene),
@@ -167,7 +166,7 @@ class Collector {
     if (auto bad = copy_triangles(from, part)) return bad;
     if (part.mesh.triangles.empty()) return std::nullopt;
     apply(place, part.mesh);
-    // Finite numbers may have overflowed on the way.
+    // Finite numbers in the file may overflow when they are transformed.
     if (auto bad = bad_position(part)) return bad;
     join_identical_vertices(part.mesh);
     part.degenerate_triangles = clean_mesh(part.mesh);
@@ -237,7 +236,8 @@ class Collector {
     return std::nullopt;
   }
 
-  /// Why the file gives no colour of a material: its base colour alone would be another one.
+  /// The reason why a material has no usable colour, e.g. a texture that its base colour only
+  /// tints.
   std::optional<Problem> no_colour_of(const aiMaterial& material, const std::string& name) const {
     if (obj_ != nullptr) return obj_->no_colour(name);
     if (material.GetTextureCount(aiTextureType_BASE_COLOR) == 0 &&
@@ -253,7 +253,7 @@ class Collector {
     const aiMaterial& material = *scene_.mMaterials[index];
     aiString name;
     if (material.Get(AI_MATKEY_NAME, name) == AI_SUCCESS) part.material_name = text_of(name);
-    // What Assimp makes up where the file has no material.
+    // The name that Assimp invents if the file has no material.
     if (part.material_name == AI_DEFAULT_MATERIAL_NAME) {
       part.material_name.clear();
       return std::nullopt;
@@ -297,8 +297,8 @@ Result<std::vector<ImportedPart>> import_by_assimp(const std::string& path, doub
   Assimp::Importer importer;
   auto* files = new GuardedFiles(is_obj ? path : "");  // the importer owns it from here
   importer.SetIOHandler(files);
-  importer.SetProgressHandler(new ToldProgress);  // as above
-  // Normals would keep vertices of one position apart; the rest is not read.
+  importer.SetProgressHandler(new ToldProgress);  // also owned by the importer
+  // Normals would keep vertices of equal position apart; the other components are not read.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
                               aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
                                   aiComponent_COLORS | aiComponent_BONEWEIGHTS |
@@ -310,7 +310,7 @@ Result<std::vector<ImportedPart>> import_by_assimp(const std::string& path, doub
   if (files->fault()) return *files->fault();
   if (scene == nullptr) {
     const std::string why = importer.GetErrorString();
-    if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // Assimp has caught it
+    if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // Assimp kept the text
     return problem_in(path, "cannot be read: " + excerpt(why, 200));
   }
   for (const std::string& file : files_read)

@@ -38,8 +38,8 @@ Result<Shape> extrude_profile(std::span<const glm::dvec2> profile, double width)
   if (!outline) return outline.problem();
   Result<Mesh> body = prism(outline.value(), width);
   if (!body) return body.problem();
-  // (x, y) of the profile become (x, z), and its height becomes y: a mirror, which `apply` turns
-  // out.
+  // (x, y) of the profile become (x, z), and the extrusion's height becomes y. This is a mirror
+  // transform; `apply` restores the winding.
   Transform stand;
   stand.linear = glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0));
   apply(stand, body.value());
@@ -48,8 +48,8 @@ Result<Shape> extrude_profile(std::span<const glm::dvec2> profile, double width)
 
 // ---- the wall ----------------------------------------------------------------------------------
 
-/// The wall's face cut along every edge of every opening. Cells are whole wall or whole hole, and
-/// all faces are made of the same cells: no edge ends in the middle of another.
+/// The wall's face cut along every edge of every opening. Each cell is entirely wall or entirely
+/// hole, and all faces are made of the same cells: no edge ends in the middle of another.
 class WallGrid {
  public:
   WallGrid(double length, double height, double thickness, std::span<const WallOpening> openings)
@@ -122,7 +122,7 @@ std::optional<Problem> bad_opening(const WallOpening& o, size_t number, double l
     bad->what = fmt::format("opening {}: {}", number, bad->what);
     return bad;
   }
-  // 0.1 + 0.2 > 0.3: what is over the end by rounding alone is at the end.
+  // 0.1 + 0.2 > 0.3: an opening that exceeds the end by rounding alone ends there.
   const double slack = 1e-12;
   const bool inside = o.x >= 0 && o.z >= 0 && o.x + o.width <= length * (1 + slack) &&
                       o.z + o.height <= height * (1 + slack);

@@ -1,6 +1,6 @@
 // Parts of buildings as meshes: floors and rooms from outlines, walls with doors and windows,
-// stairs, ramps. All exact (no curved parts); closed bodies are closed without T-junctions, so that
-// no light leaks along a shared edge. Fronts look outward unless stated. Pure functions; any
+// stairs, ramps. All are exact (no curved parts). Closed bodies are closed without T-junctions, so
+// that no light leaks along a shared edge. Fronts face outward unless stated. Pure functions; any
 // thread. Errors as in primitives.hpp.
 #pragma once
 
@@ -26,7 +26,7 @@ Result<Shape> polygon(std::span<const glm::dvec2> outline);
 /// A closed prism over the outline, from z = 0 to `height`.
 Result<Shape> extrude(std::span<const glm::dvec2> outline, double height);
 
-/// A hole through a wall, by its lower corner nearest the wall's start.
+/// A hole through a wall; its position is its lower corner nearest to the wall's start.
 struct WallOpening {
   double x = 0;  // from the start of the wall [m]
   double z = 0;  // from its foot [m]; 0: a door
@@ -41,7 +41,7 @@ Result<Shape> wall(double length, double height, double thickness,
                    std::span<const WallOpening> openings = {});
 
 enum class StairUnderside {
-  none,    // treads and risers only: a folded sheet, fronts up and towards who climbs
+  none,    // treads and risers only: a folded sheet, fronts up and towards a person climbing
   solid,   // a block down to the floor
   soffit,  // a closed flight; its slanted underside lies one rise below the inner corners
 };

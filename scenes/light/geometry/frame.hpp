@@ -1,4 +1,4 @@
-// Where a thing stands and how it is turned.
+// Position and orientation of a thing in the scene. Plain values; any thread.
 #pragma once
 
 #include <glm/glm.hpp>

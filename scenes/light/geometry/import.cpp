@@ -1,5 +1,6 @@
-// This side checks what it can without reading, asks the other process, and believes nothing of the
-// answer: a part is held against its own counts and limits before anybody sees it.
+// This process checks what it can without reading the file, asks the other process to read it, and
+// does not trust the answer: each part is checked against its own counts and the limits before it
+// is returned.
 #include "scenes/light/geometry/import.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What reading any file may take, instances of small files included.
+/// Limits for reading any file, instances of small files included.
 constexpr IsolatedLimits for_all{uint64_t{2} << 30, 30};
 
 // ---- in the other process ----------------------------------------------------------------------
@@ -50,7 +51,7 @@ Result<std::vector<ImportedPart>> imported(const std::string& path, double metre
   try {
     return import_by_assimp(path, metres_per_unit, up, files_read);
   } catch (const std::bad_alloc&) {
-    throw;  // said with the limit
+    throw;  // reported together with the limit
   } catch (const std::exception& e) {
     return problem_in(path, "cannot be read: " + excerpt(e.what(), 200));
   } catch (...) {
@@ -76,7 +77,7 @@ void answer(PlainReader& question, PlainWriter& out) {
 
 const IsolatedJob import_job("import", answer);
 
-// ---- in this one -------------------------------------------------------------------------------
+// ---- in this process ---------------------------------------------------------------------------
 
 bool sound(const Mesh& mesh) {
   const auto in_mesh = [&](const glm::uvec3& t) {
@@ -102,7 +103,7 @@ std::optional<Problem> get_problem(PlainReader& in) {
   return told ? std::optional(std::move(problem)) : std::nullopt;
 }
 
-/// A part of the answer; false where it is none.
+/// Reads one part of the answer; false if it is malformed.
 bool get(PlainReader& in, ImportedPart& part) {
   uint8_t lacks_colour = 0, has_colour = 0;
   glm::dvec3 colour(0);

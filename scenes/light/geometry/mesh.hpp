@@ -1,5 +1,6 @@
-// A triangle mesh as read or generated, in double precision and scene coordinates [m].
-// The tracer does not use it: compiling a scene moves it to a local origin and to float.
+// A triangle mesh as read or generated, in double precision and scene coordinates [m]. The tracer
+// does not use it: compiling a scene moves it to a local origin and converts it to float. Plain
+// values; any thread.
 #pragma once
 
 #include <cstdint>

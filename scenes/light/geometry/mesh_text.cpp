@@ -21,7 +21,7 @@ namespace {
 
 // ---- lines of words: OBJ and MTL ---------------------------------------------------------------
 
-/// Takes the first word off a line; "" where there is none.
+/// Removes and returns the first word of a line; "" if there is none.
 std::string_view take_word(std::string_view& line) {
   constexpr std::string_view blanks = " \t\r";
   line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
@@ -30,7 +30,7 @@ std::string_view take_word(std::string_view& line) {
   return word;
 }
 
-/// The rest of a line, which is one name: blanks may stand in it.
+/// The rest of a line as one name, which may contain blanks.
 std::string_view without_blanks(std::string_view rest) {
   constexpr std::string_view blanks = " \t\r";
   rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
@@ -43,7 +43,7 @@ bool starts_like_number(std::string_view word) {
   return word.find_first_of("0123456789.nNiI") == 0;
 }
 
-/// Whether a word that starts like one is a number that a float can hold.
+/// Whether a word that starts like a number is a number that a float can hold.
 bool is_finite(std::string_view word) {
   if (word.front() == '+') word.remove_prefix(1);
   double value = 0;
@@ -52,11 +52,11 @@ bool is_finite(std::string_view word) {
   return error == std::errc() && std::isfinite(static_cast<float>(value));
 }
 
-/// What is wrong with the words of a vertex or texture vertex; "" where nothing is.
+/// The fault in the words of a vertex or texture vertex, as a message; "" if there is none.
 std::string fault_of_vertex(std::string_view rest, int numbers, bool must_be_finite) {
   for (int i = 0; i < numbers; ++i) {
     const std::string_view word = take_word(rest);
-    if (word.empty() || word == "\\") break;  // goes on in the next line, or Assimp's to judge
+    if (word.empty() || word == "\\") break;  // continues in the next line, or left to Assimp
     if (!starts_like_number(word))
       return fmt::format("a coordinate of this vertex is no number: give {} numbers", numbers);
     if (must_be_finite && !is_finite(word))
@@ -89,7 +89,7 @@ Result<std::string> json_of(const std::string& path) {
   return text;
 }
 
-/// Whether brackets outside of strings nest deeper than the limit.
+/// Whether brackets outside strings nest deeper than the limit.
 bool nests_too_deep(std::string_view json) {
   int depth = 0;
   bool in_string = false;
@@ -109,7 +109,7 @@ bool nests_too_deep(std::string_view json) {
   return false;
 }
 
-/// The node above each; -1 for those under none. Errors: nodes that are under two.
+/// The parent of each node; -1 for roots. Errors: a node with two parents.
 Result<std::vector<int64_t>> parents_of(const nlohmann::json& nodes, const std::string& path) {
   std::vector<int64_t> parents(nodes.size(), -1);
   for (size_t i = 0; i < nodes.size(); ++i) {
@@ -138,7 +138,7 @@ std::optional<Problem> fault_of_nodes(const nlohmann::json& gltf, const std::str
                                         nodes->size(), limits::mesh_parts));
   const auto parents = parents_of(*nodes, path);
   if (!parents) return parents.problem();
-  // Depth by depth from each node upwards; what is known already is not walked again.
+  // Walks up from each node and stops at a node whose depth is already known.
   std::vector<int> depth(nodes->size(), 0);
   std::vector<size_t> way;
   for (size_t start = 0; start < depth.size(); ++start) {
@@ -161,7 +161,7 @@ std::optional<Problem> fault_of_nodes(const nlohmann::json& gltf, const std::str
   return std::nullopt;
 }
 
-/// A line that ends as on any system: in LF, CR LF or CR.
+/// Reads a line that ends in LF, CR LF or CR.
 bool get_any_line(std::istream& in, std::string& line) {
   line.clear();
   for (int c = in.get(); c != std::istream::traits_type::eof(); c = in.get()) {
@@ -201,7 +201,7 @@ void ObjMaterials::add_library(const std::string& path) {
       const std::string name(without_blanks(rest));
       material = &declared_.try_emplace(name, Declared{{path, number}}).first->second;
     } else if (material != nullptr && (word == "Kd" || word == "kd")) {
-      const std::string_view value = take_word(rest);  // "spectral" and "xyz" are no colours
+      const std::string_view value = take_word(rest);  // "spectral" and "xyz" are not colours
       material->has_colour |= !value.empty() && starts_like_number(value);
     } else if (material != nullptr && (word == "map_Kd" || word == "map_kd")) {
       material->has_picture |= !without_blanks(rest).empty();

@@ -1,7 +1,7 @@
-// What the texts of meshes must not say, found before Assimp sees them: it would pass over it
-// silently, or crash. Internal to the reading of meshes. Texts are not quoted in messages: they may
-// be of files that the reader of a message must not see. Names are, of what was read as a mesh. Any
-// thread.
+// Finds faults in the text of mesh files that Assimp would silently skip or crash on, before Assimp
+// reads them. Internal to the import of meshes. Messages do not quote the text, because the file
+// may be one that the reader of the message must not see; they do quote names read from a mesh. No
+// shared state; any thread.
 #pragma once
 
 #include <map>
@@ -15,11 +15,11 @@
 
 namespace luxodus {
 
-/// The ending of a file's name in small letters: ".obj".
+/// The extension of a file name in lower case: ".obj".
 std::string mesh_ending(const std::string& path);
 
-/// What an OBJ and its material libraries (MTL) say of materials. For a material without a colour
-/// Assimp would give a grey of its own.
+/// Facts about materials from an OBJ and its material libraries (MTL). For a material without a
+/// colour Assimp would make up a grey.
 class ObjMaterials {
  public:
   explicit ObjMaterials(std::string obj) : obj_(std::move(obj)) {}
@@ -27,16 +27,16 @@ class ObjMaterials {
   /// A line of the OBJ, after its first word: "mtllib", "usemtl".
   void names_library(std::string_view rest);
   void uses(std::string_view rest, int line);
-  /// Reads an MTL that is there.
+  /// Reads an existing MTL file.
   void add_library(const std::string& path);
-  /// Why they give no colour of this material, and where; nothing where they do.
+  /// The reason why the libraries give no colour for this material, and where; nothing if they do.
   std::optional<Problem> no_colour(const std::string& material) const;
 
  private:
   struct Declared {
     SourcePlace place;
     bool has_colour = false;
-    bool has_picture = false;  // of its colour
+    bool has_picture = false;  // a texture for its colour
   };
 
   std::string obj_;
@@ -46,17 +46,18 @@ class ObjMaterials {
   std::map<std::string, Declared> declared_;
 };
 
-/// An OBJ: a coordinate that is a word, or not finite, in a vertex or texture vertex (Assimp passes
-/// over such a line, and every face after it would mean other vertices than the file does, or takes
-/// 0 for it); more objects and groups than limits::obj_groups. `materials` gets what it says of
-/// them.
+/// Checks an OBJ. Faults: a coordinate of a vertex or texture vertex that is a word or not finite
+/// (Assimp skips such a line, which shifts the indices of all later faces, or reads 0); more
+/// objects and groups than limits::obj_groups. `materials` gets what the file says about materials.
 std::optional<Problem> fault_of_obj(const std::string& path, ObjMaterials& materials);
 
-/// An MTL: anything before the first `newmtl`, where Assimp writes to a material that there is not.
+/// Checks an MTL. Fault: anything before the first `newmtl`, which makes Assimp write to a material
+/// that does not exist.
 std::optional<Problem> fault_of_mtl(const std::string& path);
 
-/// A glTF, text or binary: no JSON, JSON nested too deep, nodes that form no tree or one too deep.
-/// Assimp follows both by recursion, and copies a node each time that it is named.
+/// Checks a glTF, text or binary. Faults: no JSON, JSON nested too deep, nodes that form no tree or
+/// too deep a tree. Assimp processes both recursively, and copies a node each time it is
+/// referenced.
 std::optional<Problem> fault_of_gltf(const std::string& path);
 
 }  // namespace luxodus

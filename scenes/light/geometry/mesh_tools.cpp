@@ -10,7 +10,7 @@ namespace luxodus {
 namespace {
 
 /// |cross(e1, e2)| of a collinear triple is not exactly zero: each product is rounded at 2^-53 of
-/// the squared edge. Forty times that is still far below any triangle that was meant.
+/// the squared edge. Forty times that is still far below any intended triangle.
 constexpr double flat_ratio = 1e-14;
 
 struct Corners {
@@ -57,7 +57,7 @@ double area_of(const Mesh& mesh) {
 
 double signed_volume_of(const Mesh& mesh) {
   if (mesh.positions.empty()) return 0;
-  // Measured from a vertex, so that a body far from the origin loses no digits.
+  // Measured from a vertex, so that a body far from the origin keeps its precision.
   const glm::dvec3 from = mesh.positions.front();
   double sum = 0;
   for (const glm::uvec3& triangle : mesh.triangles) {
@@ -111,7 +111,7 @@ void join_identical_vertices(Mesh& mesh) {
     const auto a = key(i), b = key(j);
     return a < b || (!(b < a) && i < j);
   });
-  // `first_of[i]` is the lowest index with the value of vertex i: the one that stays.
+  // `first_of[i]` is the lowest index with the value of vertex i: the vertex that stays.
   std::vector<uint32_t> first_of(order.size());
   for (size_t k = 0; k < order.size(); ++k) {
     const bool same = k > 0 && key(order[k]) == key(order[k - 1]);

@@ -1,6 +1,5 @@
-// What is done with whole meshes: measuring, joining, turning inside out, dropping what is no
-// triangle. Plain functions of their arguments; any thread. Every function requires indices within
-// `positions`.
+// Operations on whole meshes: measuring, joining, flipping, dropping degenerate triangles. Pure
+// functions; any thread. Every function requires indices within `positions`.
 #pragma once
 
 #include <cstdint>
@@ -20,21 +19,21 @@ double area_of(const Mesh& mesh);
 /// outward.
 double signed_volume_of(const Mesh& mesh);
 
-/// Exchanges front and back.
+/// Exchanges front and back of every triangle.
 void flip(Mesh& mesh);
 
-/// Adds the triangles of `from`. Where only one of the two has texture coordinates, the other gets
-/// (0, 0).
+/// Adds the triangles of `from`. If only one of the two has texture coordinates, the other gets (0,
+/// 0).
 void append(Mesh& to, const Mesh& from);
 
 /// The mesh once at each offset.
 Mesh copies_of(const Mesh& mesh, std::span<const glm::dvec3> offsets);
 
-/// Makes vertices with equal position and texture coordinate one; order of first appearance.
+/// Merges vertices of equal position and texture coordinate, in order of first appearance.
 void join_identical_vertices(Mesh& mesh);
 
 /// Drops triangles that repeat a vertex or have no area, keeps the order of the others, and returns
-/// how many went. Thin but real triangles stay: a height above 1e-14 of the longest edge is kept.
+/// how many were dropped. Thin triangles stay if their height is above 1e-14 of the longest edge.
 int64_t clean_mesh(Mesh& mesh);
 
 }  // namespace luxodus

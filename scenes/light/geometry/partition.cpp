@@ -9,11 +9,11 @@ namespace luxodus {
 namespace {
 
 struct CellRange {
-  size_t first, last;  // of the order
+  size_t first, last;  // range in the order
   size_t cells;
 };
 
-/// x before y before z where sides are equal.
+/// Ties go to x before y before z.
 int longest_axis(const Bounds& bounds) {
   const glm::dvec3 side = bounds.high - bounds.low;
   int axis = 0;

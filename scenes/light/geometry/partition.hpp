@@ -1,7 +1,7 @@
-// Cuts triangles into cells of neighbours, each of which becomes a scene of its own for ray
-// casting. The partition is part of what decides bits (a ray that meets an edge may choose another
-// triangle), so it depends on nothing but its arguments: no threads, no hashing, no rounding of
-// sums.
+// Cuts triangles into spatially compact cells, each of which becomes a scene of its own for ray
+// casting. The partition can change bits of results (a ray that hits an edge may choose another
+// triangle), so it depends on its arguments alone: no threads, no hashing, no rounding of sums.
+// Pure function; any thread.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,11 @@
 
 namespace luxodus {
 
-/// Exactly min(cells, triangles) cells (cells below 1 count as 1), none empty, of nearly equal
-/// numbers; every triangle whole in one cell, ascending within it. Median cuts across the longest
-/// side of the box of the centroids; equal coordinates go by index, lower first. No triangles: no
-/// cells. Requires: finite centroids, at most 2^32 - 1 of them.
+/// Returns exactly min(cells, triangles) cells (cells below 1 count as 1), none empty, of nearly
+/// equal sizes; each triangle belongs to one cell, and indices ascend within a cell. Uses median
+/// cuts across the longest side of the box of the centroids; equal coordinates are ordered by
+/// index. Without triangles there are no cells. Requires: finite centroids, at most 2^32 - 1 of
+/// them.
 std::vector<std::vector<uint32_t>> partition_triangles(std::span<const glm::dvec3> centroids,
                                                        int cells);
 

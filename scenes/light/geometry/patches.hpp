@@ -1,6 +1,6 @@
 // Flux patches: every triangle is cut into n x n congruent barycentric sub-triangles, so that flux
-// can be finer than the geometry a ray meets. Inline, no memory, no branches that depend on more
-// than the point: this runs at every hit. Any thread.
+// can be resolved finer than the traced geometry. Inline, without allocation and with branches that
+// depend on the point alone, since it runs at every hit. Pure; any thread.
 //
 // A point of the triangle (p0, p1, p2) is (1 - u - v) p0 + u p1 + v p2, as Embree reports it. Row i
 // holds i/n <= u < (i+1)/n, with 2 (n - i) - 1 triangles; the rows before it hold i (2n - i). In
@@ -25,7 +25,7 @@
 namespace luxodus {
 
 namespace limits {
-/// 2^30 patches of one triangle, far past any tally; keeps i (2n - i) within 32 bits.
+/// 2^30 patches of one triangle, far more than any tally holds; keeps i (2n - i) within 32 bits.
 inline constexpr uint32_t patch_subdivision = 32768;
 }  // namespace limits
 
@@ -61,9 +61,9 @@ inline std::array<glm::dvec2, 3> sub_triangle_corners(uint32_t index, uint32_t n
   return {glm::dvec2(u1, v1), glm::dvec2(u0, v1), glm::dvec2(u1, v0)};
 }
 
-/// The least n for which no patch edge exceeds `patch_edge_m`; 1 where that is 0 or less. A part in
-/// 1e9 is forgiven, so that 0.9 m by 0.3 m is 3 and not 4. Never above limits::patch_subdivision,
-/// even where the wish is finer; whoever sums patches sees that in the edge that comes out.
+/// The least n for which no patch edge exceeds `patch_edge_m`; 1 if that is 0 or less. A relative
+/// 1e-9 is tolerated, so that 0.9 m by 0.3 m gives 3, not 4. Never above limits::patch_subdivision,
+/// even if a finer one is asked for; the caller sees this in the resulting edge.
 inline uint32_t subdivision_for(double longest_edge_m, double patch_edge_m) {
   if (!(patch_edge_m > 0) || !(longest_edge_m > 0)) return 1;
   const double n = std::ceil(longest_edge_m / patch_edge_m * (1 - 1e-9));

@@ -10,7 +10,7 @@
 namespace luxodus {
 namespace {
 
-/// Outlines beyond this [m] would lose the millimetres in float.
+/// Beyond this coordinate [m] float would no longer resolve millimetres.
 constexpr double farthest_m = 1e7;
 
 /// Twice the signed area of a, b, c: positive where c is to the left of a -> b.
@@ -48,15 +48,16 @@ std::optional<Problem> bad_points(std::span<const glm::dvec2> outline) {
   return std::nullopt;
 }
 
-/// Of the squared size of a triangle: twice the area below which its corners count as on one line.
-/// Rounding of exact corners stays below 1e-15 of it; at 1e-9 real corners would be lost.
+/// Share of a triangle's squared size: corners whose doubled area is below it count as collinear.
+/// Rounding of exact corners stays below 1e-15; a limit of 1e-9 would drop real corners.
 constexpr double flat_share = 1e-12;
 
 double flat_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   return flat_share * (glm::dot(b - a, b - a) + glm::dot(c - b, c - b));
 }
 
-/// With its edges and what lies as good as on them: a diagonal along points in a line is no cut.
+/// Whether p lies in the triangle, its edges included, or on them but for rounding: a diagonal
+/// along collinear points is no valid cut.
 bool in_closed_triangle(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
                         const glm::dvec2& p) {
   const double flat = -flat_area(a, b, c);
@@ -75,8 +76,8 @@ bool boxes_meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
 
 bool segments_meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
                    const glm::dvec2& d) {
-  // Two pieces of one slanting wall: by their sides alone, which are rounding, they may seem to
-  // cross.
+  // Two disjoint pieces of one slanting wall may seem to cross, because the signs of their sides
+  // are only rounding.
   if (!boxes_meet(a, b, c, d)) return false;
   const int s1 = sign(side(a, b, c)), s2 = sign(side(a, b, d));
   const int s3 = sign(side(c, d, a)), s4 = sign(side(c, d, b));
@@ -89,7 +90,7 @@ double signed_area(std::span<const glm::dvec2> outline) {
   if (outline.empty()) return 0;
   double twice = 0;
   for (size_t i = 0; i < outline.size(); ++i) {
-    // From the first point, so that an outline far from the origin loses no digits.
+    // Measured from the first point, so that an outline far from the origin keeps its precision.
     const glm::dvec2 a = outline[i] - outline[0];
     const glm::dvec2 b = outline[(i + 1) % outline.size()] - outline[0];
     twice += a.x * b.y - a.y * b.x;
@@ -106,7 +107,7 @@ Result<std::vector<glm::dvec2>> checked_outline(std::span<const glm::dvec2> outl
       return problem(fmt::format("the outline turns back on itself at point {}", (i + 1) % n + 1));
     }
     for (size_t k = i + 2; k < n; ++k) {
-      if (i == 0 && k == n - 1) continue;  // neighbours across the start
+      if (i == 0 && k == n - 1) continue;  // adjacent edges, across the start of the list
       if (!segments_meet(a, b, outline[k], outline[(k + 1) % n])) continue;
       return problem(fmt::format(
           "edges {} and {} of the outline touch or cross: outlines must be simple", i + 1, k + 1));
@@ -123,7 +124,7 @@ Result<std::vector<glm::uvec3>> triangulate(std::span<const glm::dvec2> outline)
   std::vector<uint32_t> ring(outline.size());
   std::iota(ring.begin(), ring.end(), 0u);
   std::vector<glm::uvec3> triangles;
-  size_t at = 0;     // the search goes on where it stopped: rarely a whole round per ear
+  size_t at = 0;     // continue from the last ear: a full round per ear is rare
   size_t tried = 0;  // candidates since the last ear
   while (ring.size() > 3) {
     const size_t n = ring.size();

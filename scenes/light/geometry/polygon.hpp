@@ -1,5 +1,5 @@
-// Simple polygons in the plane: checked and cut into triangles. Floor outlines and the profiles of
-// extruded bodies. Pure functions; any thread.
+// Simple polygons in the plane, checked and triangulated: floor outlines and profiles of extruded
+// bodies. Pure functions; any thread.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,13 +11,12 @@
 namespace luxodus {
 
 namespace limits {
-/// Checking takes the square of this, cutting up to the cube in the worst case: 2048 stays within
-/// seconds.
+/// Checking takes time quadratic in this, triangulating up to cubic: 2048 stays within seconds.
 inline constexpr size_t polygon_points = 2048;
 }  // namespace limits
 
-/// Whether the closed segments a b and c d have a point in common; pieces of one line that are
-/// apart have none, whichever way the line slants.
+/// Whether the closed segments a b and c d have a point in common. Disjoint pieces of one line have
+/// none, at any slope of the line.
 bool segments_meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
                    const glm::dvec2& d);
 
@@ -30,7 +29,7 @@ double signed_area(std::span<const glm::dvec2> outline);
 Result<std::vector<glm::dvec2>> checked_outline(std::span<const glm::dvec2> outline);
 
 /// n - 2 counter-clockwise triangles that use every point, also those on straight edges, so that
-/// what is built on the same outline meets it without a crack. Ear clipping (Meisters 1975).
+/// bodies built on one outline meet without a crack. Ear clipping (Meisters 1975).
 /// Requires: an outline from checked_outline. Errors: angles too flat for double precision.
 Result<std::vector<glm::uvec3>> triangulate(std::span<const glm::dvec2> outline);
 

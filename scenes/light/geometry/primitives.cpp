@@ -32,8 +32,8 @@ uint32_t add_points(Mesh& mesh, const std::vector<glm::dvec3>& points) {
   return first;
 }
 
-/// The band between two rings of n points; front to the right of the way from `low` to `high`, that
-/// is outward for rings that run counter-clockwise about the way.
+/// The band between two rings of n points. The front is to the right of the direction from `low` to
+/// `high`: outward for rings that run counter-clockwise about it.
 void add_band(Mesh& mesh, uint32_t low, uint32_t high, uint32_t n) {
   for (uint32_t k = 0; k < n; ++k) {
     const uint32_t next = (k + 1) % n;
@@ -58,7 +58,7 @@ struct Icosahedron {
 };
 
 /// Corners are the cyclic permutations of (0, +-1, +-golden ratio), on the unit sphere. Faces are
-/// all triples of neighbours, turned outward: derived rather than listed, so that no row can be
+/// all triples of neighbours, turned outward: computed instead of listed, so that no row can be
 /// mistyped.
 Icosahedron icosahedron() {
   Icosahedron out;
@@ -92,9 +92,9 @@ Icosahedron icosahedron() {
   return out;
 }
 
-/// Vertices of the split faces, shared across face edges: a point is known by the corners it lies
-/// between and its integer weights, so both faces of an edge find the same vertex with the same
-/// bits.
+/// Vertices of the split faces, shared across face edges: a point is identified by the corners it
+/// lies between and its integer weights, so both faces of an edge find the same vertex with the
+/// same bits.
 class SphereVertices {
  public:
   SphereVertices(const Icosahedron& body, double radius) : body_(body), radius_(radius) {}
@@ -102,7 +102,7 @@ class SphereVertices {
   uint32_t at(const glm::uvec3& face, int wa, int wb, int wc, Mesh& mesh) {
     Key key = {{{face.x, wa}, {face.y, wb}, {face.z, wc}}};
     for (auto& [corner, weight] : key) {
-      if (weight == 0) corner = 12;  // takes no part: the same whatever the face
+      if (weight == 0) corner = 12;  // unused corner: one value whatever the face
     }
     std::sort(key.begin(), key.end());
     const auto [place, is_new] =
@@ -145,9 +145,9 @@ Mesh split_sphere(double radius, int frequency) {
   return mesh;
 }
 
-/// How far the unit sphere stands off the split body. Its flattest place is where triangles are
-/// largest: the one that holds a face's centre (or lies next to it). The plane's distance bounds
-/// that of the triangle.
+/// Largest distance of the unit sphere from the split body. It is largest above the largest
+/// triangle, which holds a face's centre or lies next to it. The distance to the triangle's plane
+/// bounds the distance to the triangle.
 double unit_sphere_bound(int frequency) {
   const Icosahedron body = icosahedron();
   const glm::uvec3 face = body.faces[0];
@@ -231,7 +231,7 @@ Result<Shape> box(const glm::dvec3& size, BoxAt at) {
   add_picture_quad(shape.mesh, low + x + y, -x, z);  // y high
   add_picture_quad(shape.mesh, low + x, -x, y);      // z low
   add_picture_quad(shape.mesh, low + z, x, y);       // z high
-  // Corners come from sums in different orders; only equal bits make a closed body.
+  // Corners are sums in different orders; only equal bits make a closed body.
   for (glm::dvec3& p : shape.mesh.positions) {
     for (int i = 0; i < 3; ++i) p[i] = p[i] > low[i] + 0.5 * size[i] ? low[i] + size[i] : low[i];
   }
@@ -246,7 +246,8 @@ Result<Room> room(const glm::dvec3& size) {
   const Mesh& from = outside->mesh;
   for (size_t f = 0; f < 6; ++f) {
     Mesh& face = *faces[f];
-    // Corners b a d c of the outside: turned about, and a picture reads the right way from inside.
+    // Outside corners in the order b a d c: reversed, so that a picture reads correctly from
+    // inside.
     for (const size_t k : {1u, 0u, 3u, 2u}) face.positions.push_back(from.positions[4 * f + k]);
     face.texture_uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     add_quad(face, 0, 1, 2, 3);
@@ -337,7 +338,7 @@ Result<Shape> sphere(double radius, double mesh_tolerance_m) {
           {{"the sphere's radius", radius}, {"the allowed distance", mesh_tolerance_m}})) {
     return *bad;
   }
-  // The bound falls with every step of the frequency (about as its square), so bisection finds the
+  // The bound falls monotonically with the frequency (about as its square), so bisection finds the
   // least.
   int low = 1, high = limits::sphere_frequency;
   const double wanted = mesh_tolerance_m / radius;

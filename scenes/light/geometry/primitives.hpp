@@ -1,9 +1,9 @@
-// Meshes of simple bodies from their measures, in double precision. Flat bodies are exact; of round
-// ones each result says how far it stands off the true surface. Fronts look outward unless stated.
-// Texture coordinates (quad, box, disc, sheets) run from 0 to 1, v upwards: v = 1 is the top row of
-// a picture. Walls, stairs and extrusions: building_parts.hpp. Pure functions; any thread. Errors,
-// everywhere: a measure that is not finite, not positive or beyond limits, named in the sentence;
-// the place is left to the caller, who knows the file and line.
+// Meshes of simple bodies from their dimensions, in double precision. Flat bodies are exact; each
+// result for a round body states its largest distance from the true surface. Fronts face outward
+// unless stated. Texture coordinates (quad, box, disc, sheets) run from 0 to 1, v upwards: v = 1 is
+// the top row of a picture. Walls, stairs and extrusions: building_parts.hpp. Pure functions; any
+// thread. Errors of all: a dimension that is not finite, not positive or beyond limits, named in
+// the message; the caller, who knows the file and line, adds the place.
 #pragma once
 
 #include "runtime/core/result.hpp"
@@ -18,12 +18,12 @@ struct Shape {
 };
 
 namespace limits {
-/// A side or radius [m]: past any site; squares and volumes stay far from overflow.
+/// A side or radius [m]: larger than any site; squares and volumes stay far from overflow.
 inline constexpr double shape_length_m = 1e7;
-/// Around a circle. At 1 m radius 4096 segments are 3e-7 m off: finer is below what a float can
-/// say.
+/// Segments around a circle. At 1 m radius 4096 segments are 3e-7 m off, about the precision of
+/// float.
 inline constexpr int shape_segments = 4096;
-/// Per side of a split quad; 2 * 1024^2 triangles.
+/// Splits per side of a quad: 2 * 1024^2 triangles.
 inline constexpr int quad_splits = 1024;
 /// Parts of an icosahedron's edge; 20 * 256^2 = 1.3 million triangles, 4e-6 radii off.
 inline constexpr int sphere_frequency = 256;
@@ -39,12 +39,11 @@ enum class BoxAt { centre, corner };  // the origin is the box's centre, or its 
 Result<Shape> quad(const glm::dvec3& corner, const glm::dvec3& edge_u, const glm::dvec3& edge_v,
                    int nu = 1, int nv = 1);
 
-/// Twelve triangles; each face with its own vertices, so that a picture covers it. Seen from
+/// Twelve triangles; each face has its own vertices, so that a picture covers it. Seen from
 /// outside, side faces have v along +z; top and bottom have v along +y.
 Result<Shape> box(const glm::dvec3& size, BoxAt at = BoxAt::centre);
 
-/// An empty box seen from inside, from the origin to `size`; each face may become an object of its
-/// own.
+/// The inside of a box from the origin to `size`; each face may become an object of its own.
 struct Room {
   Mesh floor, ceiling;  // z = 0, z = size.z
   Mesh x0, x1, y0, y1;  // walls at x = 0, x = size.x, y = 0, y = size.y
@@ -53,18 +52,20 @@ struct Room {
 };
 Result<Room> room(const glm::dvec3& size);
 
-/// About +z from z = 0 to `height`. Ring vertices lie on the true cylinder.
+/// A cylinder about +z from z = 0 to `height`. Ring vertices lie on the true cylinder.
 Result<Shape> cylinder(double radius, double height, int segments, Caps caps = Caps::both);
 
-/// In the plane z = 0 about the origin, front towards +z. The picture's square circumscribes it.
+/// A disc in the plane z = 0 about the origin, front towards +z. The picture's square circumscribes
+/// it.
 Result<Shape> disc(double radius, int segments);
 
 /// A pipe about +z from z = 0 to `length`: outside, bore (facing the axis) and both ring-shaped
 /// ends. Requires: 0 < inner_radius < outer_radius.
 Result<Shape> tube(double outer_radius, double inner_radius, double length, int segments);
 
-/// About the origin; an icosahedron whose faces are split as little as keeps within
-/// `mesh_tolerance_m` of the true sphere. Vertices lie on it, so the body is slightly small.
+/// A sphere about the origin: an icosahedron, its faces split just enough to stay within
+/// `mesh_tolerance_m` of the true sphere. Vertices lie on the sphere, so the body is slightly
+/// small.
 Result<Shape> sphere(double radius, double mesh_tolerance_m);
 
 /// Least number of segments, 3 or more, that keeps a circle's chords within `mesh_tolerance_m` of

@@ -1,5 +1,5 @@
-// The checks that every shape makes of its measures, and the quad strip they all use. Private to
-// the shape sources of this room.
+// Checks of dimensions that all shapes share, and the quad strip they all use. Private to the shape
+// sources of this room. Pure functions; any thread.
 #pragma once
 
 #include <fmt/format.h>
@@ -42,7 +42,7 @@ inline void add_quad(Mesh& mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
   mesh.triangles.push_back({a, c, d});
 }
 
-/// A rectangle with its own four vertices and a whole picture on it.
+/// A rectangle with its own four vertices and texture coordinates for one whole picture.
 inline void add_picture_quad(Mesh& mesh, const glm::dvec3& corner, const glm::dvec3& edge_u,
                              const glm::dvec3& edge_v) {
   const auto first = static_cast<uint32_t>(mesh.positions.size());

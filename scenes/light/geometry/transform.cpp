@@ -24,10 +24,11 @@ std::pair<double, double> sine_cosine(double degrees) {
   return {std::sin(radians), std::cos(radians)};
 }
 
-/// Below this sine of the angle to `up`, what `up` leaves across the direction is mostly rounding.
+/// Below this sine of the angle to `up`, the component of `up` across the direction is mostly
+/// rounding.
 constexpr double parallel_sine = 1e-6;
 
-/// The length is taken after scaling by the largest component: neither 1e-200 nor 1e200 may fail.
+/// The length is taken after scaling by the largest component, so that 1e-200 and 1e200 work too.
 glm::dvec3 unit(const glm::dvec3& v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   return glm::normalize(v / largest);
@@ -114,7 +115,7 @@ Result<Frame> frame_facing(const glm::dvec3& origin, const glm::dvec3& direction
   const glm::dvec3 z = unit(direction);
   glm::dvec3 x = glm::cross(unit(up), z);
   if (glm::length(x) < parallel_sine) x = glm::cross(glm::dvec3(0, 1, 0), z);
-  // Only where `up` is the y axis itself and parallel, y is no help either.
+  // If `up` is the y axis and parallel to the direction, y does not help either.
   if (glm::length(x) < parallel_sine) x = glm::cross(glm::dvec3(0, 0, 1), z);
   x = glm::normalize(x);
   return Frame{origin, glm::dmat3(x, glm::normalize(glm::cross(z, x)), z)};

@@ -1,5 +1,5 @@
-// Where things are put: affine maps, frames, units of length, and which axis points up.
-// The scene is right-handed, in metres, with z up. Plain values; any thread.
+// Placing things in a scene: affine maps, frames, units of length, and the upward axis. The scene
+// is right-handed, in metres, with z up. Plain values and pure functions; any thread.
 #pragma once
 
 #include <cmath>
@@ -23,22 +23,22 @@ struct Transform {
   glm::dvec3 point(const glm::dvec3& p) const { return linear * p + offset; }
   glm::dvec3 vector(const glm::dvec3& v) const { return linear * v; }
   bool mirrors() const { return glm::determinant(linear) < 0; }
-  /// Whether it keeps volumes apart from zero and is finite; what does not is refused by readers.
+  /// Whether it is finite and keeps volumes non-zero; readers refuse others.
   bool usable() const;
 };
 
-/// `second * first`: the right one is done first.
+/// `second * first` applies `first`, then `second`.
 Transform operator*(const Transform& second, const Transform& first);
 
 Transform scaling(const glm::dvec3& factors);
 Transform translation(const glm::dvec3& offset);
 
-/// Right-handed turn about an axis through the origin. Multiples of 90 degrees about a coordinate
-/// axis are exact, so that walls that met before a turn meet after it. Errors: an axis of no
-/// length, or a number that is not finite.
+/// Right-handed rotation about an axis through the origin. Multiples of 90 degrees about a
+/// coordinate axis are exact, so that walls that met before a rotation meet after it. Errors: an
+/// axis of no length, or a number that is not finite.
 Result<Transform> rotation(const glm::dvec3& axis, double degrees);
 
-/// Moves a mesh. A mirror exchanges the winding, so that fronts stay fronts.
+/// Transforms a mesh. A mirroring map also reverses the winding, so that fronts stay fronts.
 /// Requires: transform.usable().
 void apply(const Transform& transform, Mesh& mesh);
 
@@ -50,7 +50,7 @@ Result<double> metres_per_unit(std::string_view unit);
 
 enum class UpAxis { y, z };
 
-/// The turn that makes `up` the scene's z: for y, (x, y, z) -> (x, -z, y).
+/// The rotation that makes `up` the scene's z: for y, (x, y, z) -> (x, -z, y).
 Transform to_z_up(UpAxis up);
 
 /// Errors: any word but "y" and "z".
@@ -58,19 +58,19 @@ Result<UpAxis> up_axis_named(std::string_view word);
 
 // ---- frames ------------------------------------------------------------------------------------
 
-/// Local z along `direction` (a sign's viewing direction), local y as near `up` as can be, local x
-/// to the right of an eye that looks at it along -z. Where `direction` is parallel to `up`, local y
-/// is taken nearest to the scene's +y. Errors: a direction or up of no length, or a number that is
-/// not finite.
+/// Local z along `direction` (a sign's viewing direction), local y as near to `up` as possible,
+/// local x to the right of an observer who looks along -z. If `direction` is parallel to `up`,
+/// local y is as near as possible to the scene's +y. Errors: a direction or up of no length, or a
+/// number that is not finite.
 Result<Frame> frame_facing(const glm::dvec3& origin, const glm::dvec3& direction,
                            const glm::dvec3& up = {0, 0, 1});
 
-/// Local -z along `direction` (the way a luminaire emits, a camera looks); otherwise as
+/// Local -z along `direction` (in which a luminaire emits or a camera looks); otherwise as
 /// frame_facing.
 Result<Frame> frame_aiming(const glm::dvec3& origin, const glm::dvec3& direction,
                            const glm::dvec3& up = {0, 0, 1});
 
-/// Local -z from `eye` to `target`. Errors: also where the two coincide.
+/// Local -z from `eye` to `target`. Errors: also if the two coincide.
 Result<Frame> look_at(const glm::dvec3& eye, const glm::dvec3& target,
                       const glm::dvec3& up = {0, 0, 1});
 

@@ -1,4 +1,5 @@
-// A ray as Embree takes it; of this room only, since it includes Embree.
+// Converts a ray to Embree's form; private to this room, since it includes Embree. Pure; any
+// thread.
 #pragma once
 
 #include <embree3/rtcore.h>

@@ -1,10 +1,10 @@
 // Design: one triangle geometry per cell, ROBUST so that shared edges do not leak, vertices written
-// straight from the records (welding would save memory but the records hold the corners a hit needs
-// anyway). Corners are another matter: of rays aimed at a corner itself to the last bit, Embree
-// loses 4 in 1000 (measured); a ray that is not aimed comes that close with a chance of some 1e-14
-// a corner, and is then counted as escaped. The proxies' callback only notes candidates and never
-// changes the ray: cells are entered outside Embree, where a caller may wait. Callbacks are
-// noexcept, because Embree swallows exceptions.
+// straight from the records (welding would save memory, but the records hold the corners that a hit
+// needs anyway). Corners can leak: Embree misses 4 in 1000 rays that are aimed exactly at a corner
+// (measured). A random ray comes that close with a probability of some 1e-14 per corner, and is
+// then counted as escaped. The proxies' callback only records candidates and never changes the ray:
+// cells are entered outside Embree, where a caller may wait. Callbacks are noexcept, because Embree
+// swallows exceptions.
 #include "scenes/light/intersect/embree_scene.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace luxodus {
 
 namespace {
 
-/// The first error of this thread's start-up; queries raise none.
+/// Keeps the first error of this thread's start-up; queries raise none.
 void report_error(void*, RTCError code, const char* text) noexcept {
   if (code != RTC_ERROR_NONE) {
     std::fprintf(stderr, "luxodus: Embree error %d: %s\n", static_cast<int>(code), text);
@@ -32,13 +32,14 @@ bool count_bytes(void* counter, ssize_t bytes, bool) noexcept {
 }
 
 struct CollectContext {
-  RTCIntersectContext base;  // first: Embree hands back a pointer to it
+  RTCIntersectContext base;  // first member: Embree returns a pointer to it
   const Ray* ray;
   const std::vector<ProxyScene::Box>* boxes;
   std::vector<Candidate>* out;
 };
 
-/// Where the ray enters the box, widened by a few roundings so that no hit on a face is missed.
+/// Distance at which the ray enters the box, widened by a few roundings so that no hit on a face is
+/// missed.
 bool enters(const ProxyScene::Box& box, const Ray& ray, float& entry) {
   Real first = 0;
   Real last = ray.length;
@@ -111,8 +112,8 @@ EmbreeDevice::~EmbreeDevice() {
 
 namespace {
 
-/// A build that computes in double asks small cells' triangles itself, and of Embree's answers
-/// takes the triangle alone.
+/// Whether the triangles of a cell are intersected without Embree: in small cells of a build that
+/// computes in double. In larger cells such a build takes only the triangle from Embree.
 bool asks_itself(const GeometryCell& cell) {
   return computes_in_double && cell.triangles.size() <= limits::plain_triangles;
 }
@@ -136,7 +137,7 @@ CellScene::CellScene(const EmbreeDevice& device, const GeometryCell& cell) : cel
       indices[3 * i + k] = static_cast<uint32_t>(3 * i + k);
     }
   }
-  if (count == 0) {  // Embree wants a buffer: one degenerate triangle that nothing can hit
+  if (count == 0) {  // Embree needs a buffer: one degenerate triangle that nothing can hit
     for (size_t k = 0; k < 3; ++k) {
       vertices[k] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
       indices[k] = static_cast<uint32_t>(k);
@@ -167,7 +168,7 @@ Hit nearest_of_all(const GeometryCell& cell, std::span<const PlainBox> boxes, co
   return {found.distance, found.u, found.v, found.index, &cell.triangles[found.index], &cell};
 }
 
-/// Distance and barycentrics anew, from the ray and the corners.
+/// Recomputes distance and barycentrics from the ray and the corners.
 void recompute(Hit& hit, const Ray& ray) {
   const PlainRay<Real> line = plain(ray);
   const PlaneMeeting<Real> m = meet_plane(line, *hit.triangle, edge_volumes(line, *hit.triangle));

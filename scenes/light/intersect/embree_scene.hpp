@@ -1,8 +1,8 @@
-// The only room that includes Embree. An EmbreeDevice is one library instance; a CellScene is the
-// search structure over the triangles of one geometry cell (a merged scene is a single cell); a
-// ProxyScene is the structure over the boxes of many cells, which finds candidates and never enters
-// one. Thread rule: queries are const and may run on any thread; building is not on the photon
-// path.
+// Ray casting with Embree. An EmbreeDevice is one library instance; a CellScene is the search
+// structure over the triangles of one geometry cell (a merged scene is a single cell); a ProxyScene
+// is the structure over the boxes of many cells: it finds candidate cells and never enters one.
+// This is the only room that includes Embree. Thread rule: queries are const and may run on any
+// thread; scenes are built before tracing starts.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct RTCSceneTy;
 
 namespace luxodus {
 
-/// Which threads build search structures: all of the machine, or the calling one alone.
+/// Threads that build search structures: all of the machine, or the calling thread alone.
 enum class BuildThreads { all, calling };
 
 class EmbreeDevice {
@@ -39,7 +39,7 @@ class EmbreeDevice {
   static std::string instruction_sets();
 
   RTCDeviceTy* get() const { return device_; }
-  /// Bytes that Embree holds now, by its own memory monitor.
+  /// Bytes that Embree holds now, as its memory monitor reports.
   int64_t bytes() const { return bytes_.load(); }
 
  private:
@@ -59,7 +59,7 @@ struct GeometryCell {
   glm::vec3 low{0};
   glm::vec3 high{0};
 
-  /// Texture coordinates of a triangle; null where it has none.
+  /// Texture coordinates of a triangle; null if it has none.
   const TriangleUv* uv_of(uint32_t triangle) const {
     const auto at = std::lower_bound(
         texture_uv.begin(), texture_uv.end(), triangle,
@@ -70,13 +70,13 @@ struct GeometryCell {
 
 class CellScene {
  public:
-  /// Builds at once, on the calling thread and Embree's. `cell` must outlive this.
+  /// Builds at once, on the calling thread and Embree's threads. `cell` must outlive this.
   CellScene(const EmbreeDevice& device, const GeometryCell& cell);
   ~CellScene();
   CellScene(const CellScene&) = delete;
   CellScene& operator=(const CellScene&) = delete;
 
-  /// Nearest triangle within (0, ray.length]; both sides count.
+  /// Nearest triangle within (0, ray.length]; both sides of a triangle count.
   Hit nearest(const Ray& ray) const;
   /// Whether any triangle lies within (0, ray.length).
   bool occluded(const Ray& ray) const;
@@ -86,10 +86,10 @@ class CellScene {
  private:
   const GeometryCell* cell_;
   RTCSceneTy* scene_ = nullptr;
-  std::vector<PlainBox> boxes_;  // where a build that computes in double asks triangles itself
+  std::vector<PlainBox> boxes_;  // of groups; used by builds in double
 };
 
-/// A cell that a ray may enter, and where.
+/// A cell that a ray may enter, and the distance at which it enters the cell's box.
 struct Candidate {
   float entry;
   uint32_t cell;
@@ -113,17 +113,18 @@ class ProxyScene {
   RTCSceneTy* scene_ = nullptr;
 };
 
-/// Equal distances go to the smaller global triangle, so that the order of visits does not matter.
+/// Ties in distance go to the smaller global triangle, so that the order of visits does not matter.
 inline bool is_nearer(const Hit& hit, const Hit& best) {
   if (!hit.found()) return false;
   if (hit.distance != best.distance) return hit.distance < best.distance;
   return best.found() && hit.triangle->global_triangle < best.triangle->global_triangle;
 }
 
-/// Nearest hit over cells, front to back. `enter(candidate)` gives a pointer to the CellScene and
-/// may wait for it; null where it cannot be had, and then nothing is hit. The candidate is one of
-/// `scratch`, and those behind it are the next. `keep(hit)` is what stands for a hit whose cell may
-/// be gone when the next one is entered. A cell is entered only while it can hold something nearer.
+/// Nearest hit over cells, front to back. `enter(candidate)` returns a pointer to the CellScene and
+/// may wait for it; if it returns null (the cell is not available), the result is no hit. The
+/// candidate is an element of `scratch`, and the elements after it are the next candidates.
+/// `keep(hit)` converts a hit to a form that stays valid after its cell is evicted. A cell is
+/// entered only while it can hold a nearer hit.
 template <class Enter, class Keep = std::identity>
 Hit nearest_in_cells(const ProxyScene& proxies, const Ray& ray, std::vector<Candidate>& scratch,
                      Enter&& enter, Keep keep = {}) {
@@ -139,7 +140,7 @@ Hit nearest_in_cells(const ProxyScene& proxies, const Ray& ray, std::vector<Cand
   return best;
 }
 
-/// Whether anything in the cells lies on the ray; so it is said too where a cell cannot be had.
+/// Whether anything in the cells lies on the ray; also true if a cell is not available.
 template <class Enter>
 bool occluded_in_cells(const ProxyScene& proxies, const Ray& ray, std::vector<Candidate>& scratch,
                        Enter&& enter) {

@@ -1,9 +1,8 @@
-// Rays and triangles by arithmetic of any number type, without Embree: what a build that computes
-// in double answers rays with, every triangle in turn but those whose group's box it misses. Edges
-// are told by volumes that two neighbours compute from the same numbers with opposite signs to the
-// last bit (Plücker products, as in Embree's ROBUST mode), so that no ray passes between triangles
-// that share an edge; one aimed at a corner to the last bit may. Both sides count. Any thread, no
-// state.
+// Ray-triangle intersection in any number type, without Embree: a double-precision build uses it
+// for small cells. It tests each triangle of every group whose box the ray hits. Two triangles that
+// share an edge compute its edge volume from the same numbers with exactly opposite signs (Plücker
+// products, as in Embree's ROBUST mode), so no ray passes between them; a ray aimed exactly at a
+// corner may. Both sides count. No state; any thread.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +17,8 @@
 namespace luxodus {
 
 namespace limits {
-/// Triangles up to which every one is asked: some 10 ns each, so that a ray costs 10 us at most.
+/// Largest number of triangles that are tested one by one: some 10 ns each, so 10 us per ray at
+/// most.
 inline constexpr size_t plain_triangles = 1000;
 }  // namespace limits
 
@@ -29,14 +29,14 @@ struct PlainRay {
   T length = std::numeric_limits<T>::infinity();
 };
 
-/// Volumes spanned by the ray's direction and each edge, seen from its origin: signs tell on which
-/// side of an edge the line passes, sizes are the barycentrics of the opposite corners.
+/// Volumes spanned by the ray's direction and each edge, seen from its origin: the signs say on
+/// which side of an edge the line passes, the sizes are the barycentrics of the opposite corners.
 template <class T>
 struct EdgeVolumes {
   T of_corner[3];
 
   T sum() const { return of_corner[0] + of_corner[1] + of_corner[2]; }
-  /// The line meets the triangle, edges included; one that runs within its plane does not.
+  /// Whether the line hits the triangle, edges included; a line within its plane does not.
   bool inside() const {
     if (sum() == 0) return false;
     return (of_corner[0] >= 0 && of_corner[1] >= 0 && of_corner[2] >= 0) ||
@@ -54,7 +54,7 @@ EdgeVolumes<T> edge_volumes(const PlainRay<T>& ray, const TriangleRecord& triang
            glm::dot(ray.direction, glm::cross(b, a))}};
 }
 
-/// Where a line meets a triangle's plane; the distance is NaN or infinite where it is parallel.
+/// Where a line hits a triangle's plane; the distance is NaN or infinite if it is parallel.
 template <class T>
 struct PlaneMeeting {
   T distance;
@@ -71,14 +71,14 @@ PlaneMeeting<T> meet_plane(const PlainRay<T>& ray, const TriangleRecord& triangl
           volumes.of_corner[1] / volumes.sum(), volumes.of_corner[2] / volumes.sum()};
 }
 
-/// So many triangles that follow one another have one box: most rays miss most boxes.
+/// So many consecutive triangles share one box; most rays miss most boxes.
 inline constexpr size_t plain_group = 8;
 
 struct PlainBox {
   glm::vec3 low, high;
 };
 
-/// The boxes of all groups, wider than their triangles by far more than the rounding of any test.
+/// The boxes of all groups, enlarged by far more than the rounding of any test.
 inline std::vector<PlainBox> plain_boxes(std::span<const TriangleRecord> triangles) {
   std::vector<PlainBox> boxes;
   for (size_t i = 0; i < triangles.size(); ++i) {
@@ -97,12 +97,12 @@ inline std::vector<PlainBox> plain_boxes(std::span<const TriangleRecord> triangl
   return boxes;
 }
 
-/// Which boxes a ray meets within its length.
+/// Tests which boxes a ray hits within its length.
 template <class T>
 class BoxTest {
  public:
   explicit BoxTest(const PlainRay<T>& ray) : origin_(ray.origin), length_(ray.length) {
-    constexpr T least = T(1e-30);  // no direction is 0, so that no slab makes a NaN
+    constexpr T least = T(1e-30);  // no component is 0, so that no slab test makes a NaN
     for (int k = 0; k < 3; ++k)
       per_metre_[k] = 1 / (ray.direction[k] == 0 ? least : ray.direction[k]);
   }
@@ -122,8 +122,8 @@ class BoxTest {
   T length_;
 };
 
-/// Calls `ask(i)` for the triangles of groups whose box the ray meets, for all where there are no
-/// boxes, until it returns true.
+/// Calls `ask(i)` for the triangles of groups whose box the ray hits (of all groups if there are no
+/// boxes) until it returns true.
 template <class T, class Ask>
 void ask_triangles(size_t count, std::span<const PlainBox> boxes, const PlainRay<T>& ray,
                    Ask&& ask) {
@@ -137,7 +137,7 @@ void ask_triangles(size_t count, std::span<const PlainBox> boxes, const PlainRay
   }
 }
 
-/// A hit among triangles; `index` is no_triangle where there is none.
+/// The nearest hit; `index` is no_triangle if there is none.
 template <class T>
 struct PlainHit {
   T distance = std::numeric_limits<T>::infinity();
@@ -145,7 +145,7 @@ struct PlainHit {
   uint32_t index = no_triangle;
 };
 
-/// Nearest triangle within (0, ray.length]; equal distances go to the smaller global triangle.
+/// Nearest triangle within (0, ray.length]; ties in distance go to the smaller global triangle.
 template <class T>
 PlainHit<T> plain_nearest(std::span<const TriangleRecord> triangles, const PlainRay<T>& ray,
                           std::span<const PlainBox> boxes = {}) {

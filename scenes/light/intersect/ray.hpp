@@ -1,4 +1,5 @@
-// A ray, a hit, and the record of a triangle: what the tracer and the intersectors exchange.
+// A ray, a hit, and the record of a triangle: shared by the tracer and the intersectors. Plain
+// values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ struct Ray {
 
 inline constexpr uint32_t no_triangle = 0xFFFFFFFF;
 
-/// All that a hit needs of its triangle, one cache line.
+/// All that a hit needs of its triangle, in one cache line.
 struct TriangleRecord {
   glm::vec3 corner[3];
   glm::vec3 normal;          // unit, front side
@@ -25,12 +26,13 @@ struct TriangleRecord {
   uint16_t subdivision;      // patches per edge
   uint16_t edge_margin;      // in 2^-16 of a barycentric, see `at`; at most `max_edge_margin`
   uint32_t surface;          // index of the object it belongs to
-  uint32_t global_triangle;  // its number in the whole scene: ties go to the smaller
+  uint32_t global_triangle;  // index in the whole scene: ties in distance go to the smaller
 
   static constexpr uint16_t max_edge_margin = 1024;  // 1/64
 
-  /// The point at barycentrics (u, v), kept off the edges: a ray that leaves a point nearer to a
-  /// neighbour in a corner of the room than its own offset would start beyond it, outside.
+  /// The point at barycentrics (u, v), kept off the edges: in a corner of the room, a ray that
+  /// starts nearer to a neighbouring wall than its own offset would start beyond that wall,
+  /// outside.
   Vec3 at(Real u, Real v) const {
     const Real margin = static_cast<Real>(edge_margin) * 0x1p-16_r;
     u = u < margin ? margin : u;
@@ -45,7 +47,7 @@ struct TriangleRecord {
     return Vec3(corner[0]) * w + Vec3(corner[1]) * u + Vec3(corner[2]) * v;
   }
 
-  /// The normal as exact as the computation is: as stored, or of the corners anew.
+  /// The normal at the precision of the build: as stored, or recomputed from the corners in double.
   Vec3 unit_normal() const {
     if constexpr (computes_in_double) {
       const Vec3 a(corner[0]);

@@ -14,17 +14,18 @@
 namespace luxodus {
 namespace {
 
-// Added to V in the weight of an average: the light at the ends of the spectrum, which no one sees,
-// still has a reflectance. 1 % of the peak of V is too little to move what is seen.
+// Added to V in the weight of an average, so that a reflectance is defined at the invisible ends of
+// the spectrum, too. 1 % of the peak of V is too little to change luminance.
 constexpr double unseen_weight = 0.01;
-// A band with less than this share of the emission is dark: its average would be a ratio of
-// roundings.
+// A band with less than this share of the emission counts as dark: its average would be a ratio of
+// rounding errors.
 constexpr double dark_share = 1e-12;
-// A tristimulus value that is off by less than this share of the luminous flux is left.
+// Smallest error of a tristimulus value that is corrected, as a share of the luminous flux.
 constexpr double told_colour = 1e-6;
-// Of the watts of a band, for the sake of chromaticity.
+// Largest share of its watts that a band may lose to correct the chromaticity.
 constexpr double max_colour_loss = 0.8;
-// Determinant of the bands' colours over the product of its diagonal: less is rounding.
+// Least determinant of the bands' colours relative to the product of its diagonal; less is
+// rounding.
 constexpr double min_independence = 1e-9;
 constexpr double bin_nm = 20.0;
 constexpr int bins = 20;
@@ -56,14 +57,14 @@ double average_over(const Spectrum& property, const Spectrum& emission, double l
   return integral_over(property * w, low_nm, high_nm) / integral_over(w, low_nm, high_nm);
 }
 
-/// What told_apart compares: one spectrum over the 20 nm bins, relative to its largest value.
+/// A spectrum as told_apart compares it: over the 20 nm bins, relative to its largest value.
 using BinValues = std::array<double, bins>;
 
 /// A run of adjacent bins that may become a band.
 struct Run {
   double low_nm;
   double high_nm;
-  double weight;  // of its bins in the mean; 0 in the dark, where nothing can be told apart
+  double weight;  // weight of its bins in the mean; 0 if dark, where nothing is distinguished
   std::vector<double> mean;
 };
 
@@ -112,7 +113,7 @@ std::vector<BinValues> property_values(const std::vector<Spectrum>& properties,
   return out;
 }
 
-/// Each emission's share of all the light, bin by bin: constant where there is one shape only.
+/// Each emission's share of all light, by bin: constant if there is only one shape.
 std::vector<BinValues> share_values(const std::vector<Spectrum>& emissions, const Spectrum& total) {
   std::vector<BinValues> out;
   for (const Spectrum& e : emissions) {
@@ -195,12 +196,13 @@ std::vector<double> Bands::powers(const Spectrum& shape, double lumens) const {
     normal += watts[b] * glm::outerProduct(c, c);
     if (watts[b] > 0) ++lit;
   }
-  missing.y = 0;  // but for roundings
+  missing.y = 0;  // zero but for rounding
   if (lit < 3 || glm::length(missing) < told_colour * lumens) return watts;
-  // Bands of deep red alone have no Z, or one chromaticity.
+  // Deep red bands alone have no Z, or a single chromaticity.
   const double independent = glm::determinant(normal);
   if (!(independent > min_independence * normal[0][0] * normal[1][1] * normal[2][2])) return watts;
-  // The least sum of squared changes by watts, under three linear constraints.
+  // Minimises the sum of squared relative changes, weighted by watts, under three linear
+  // constraints.
   const glm::dvec3 multiplier = glm::inverse(normal) * missing;
   double step = 1;
   for (const Band& band : bands_)
@@ -246,8 +248,7 @@ std::vector<double> told_apart(const std::vector<Spectrum>& properties,
       }
     }
     if (least > tolerance && runs.size() <= max_runs) break;
-    // Which neighbour a dark run joins does not matter; a lit run's mean counts, not the dark
-    // one's.
+    // Either neighbour may take a dark run; the mean is that of a lit run.
     Run joined = merged(runs[min_at], runs[min_at + 1]);
     if (runs[min_at].weight <= 0) joined.mean = runs[min_at + 1].mean;
     runs[min_at] = joined;

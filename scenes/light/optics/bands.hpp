@@ -1,6 +1,7 @@
-// Wavelength bands: the few bins of wavelength that a scene's spectra can tell apart.
-// A band holds radiant watts; its coefficients turn watts into photopic, scotopic and XYZ
-// quantities, weighted within the band by the light that the scene emits.
+// Wavelength bands: the few wavelength bins that are needed to distinguish a scene's spectra. A
+// band holds radiant watts; its coefficients convert watts to photopic, scotopic and XYZ
+// quantities, weighted within the band by the light that the scene emits. Immutable once made; any
+// thread.
 #pragma once
 
 #include <vector>
@@ -30,13 +31,14 @@ class Bands {
 
   /// Integral of an emission spectrum (W/nm) over band b [W].
   double power(const Spectrum& emission_w_per_nm, int b) const;
-  /// Watts in each band of light of this shape and luminous flux: as near to those of the spectrum
-  /// as its chromaticity allows, which the bands' coefficients, those of all the scene's light,
-  /// would miss. No band loses more than four fifths for that; where fewer than three bands of
-  /// independent colours are lit, only the flux is exact. Requires: shape has luminous flux.
+  /// Watts in each band of light of this shape and luminous flux, adjusted so that their flux and
+  /// chromaticity are those of the spectrum. The band coefficients, which are averages over all the
+  /// scene's light, would miss them otherwise. No band loses more than four fifths of its watts; if
+  /// fewer than three bands of independent colours are lit, only the flux is exact. Requires: shape
+  /// has luminous flux.
   std::vector<double> powers(const Spectrum& shape, double lumens) const;
-  /// Average of a property (reflectance, extinction) over band b, weighted by emission times
-  /// (V + 0.01): right for luminance, defined where V vanishes.
+  /// Average of a property (reflectance, extinction) over band b, weighted by emission times (V +
+  /// 0.01): accurate for luminance, and defined where V vanishes.
   double average(const Spectrum& property, int b) const;
 
  private:
@@ -44,11 +46,11 @@ class Bands {
   Spectrum weight_;
 };
 
-/// Edges [nm] of the bands that these spectra can tell apart: `properties` are reflectances,
+/// Edges [nm] of the bands that distinguish these spectra: `properties` are reflectances,
 /// extinctions, albedos; `emissions` the emission shapes in use. Grey properties and one emission
-/// shape give one band. Adjacent 20 nm bins are merged, least different first, until all are told
-/// apart by more than `tolerance` (relative to the largest value of each spectrum) and no more than
-/// `most` are left.
+/// shape give one band. Adjacent 20 nm bins are merged, most similar first, until all differ by
+/// more than `tolerance` (relative to the largest value of each spectrum) and at most `most` are
+/// left.
 std::vector<double> told_apart(const std::vector<Spectrum>& properties,
                                const std::vector<Spectrum>& emissions, double tolerance, int most);
 

@@ -61,7 +61,7 @@ std::array<double, 3> linear_srgb_from_xyz(const std::array<double, 3>& xyz) {
   return product(srgb_from_xyz, xyz);
 }
 
-// IEC 61966-2-1: a straight foot, then a power law.
+// IEC 61966-2-1: a linear part near 0, then a power law.
 uint8_t srgb_byte(double linear) {
   if (!(linear > 0)) return 0;
   if (linear >= 1) return 255;
@@ -80,8 +80,9 @@ Xyz adapt_white(const Xyz& colour, const Xyz& from, const Xyz& to) {
 
 ColourTemperature correlated_colour_temperature(const Xyz& colour) {
   const Uv p = uv_1960(colour);
-  // In mired (1e6 / K) steps along the locus are nearly even. A coarse scan finds the valley, since
-  // the distance has several for colours far from the locus; golden sections then follow it down.
+  // In mired (1e6 / K), steps along the locus are nearly even. A coarse scan finds the right
+  // minimum, since the distance has several for colours far from the locus; golden section search
+  // then refines it.
   constexpr double coolest = 40, warmest = 1000, coarse = 10;
   double best = coolest;
   double least = std::numeric_limits<double>::infinity();

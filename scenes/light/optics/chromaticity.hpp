@@ -1,5 +1,6 @@
-// Colour from spectra and between whites: XYZ of a spectrum, linear sRGB both ways, change of the
-// white (Bradford), correlated colour temperature. Pure functions on CIE 1931 XYZ; any thread.
+// Colour from spectra, and between white points: XYZ of a spectrum, linear sRGB in both directions,
+// chromatic adaptation (Bradford), correlated colour temperature. Pure functions on CIE 1931 XYZ;
+// any thread.
 #pragma once
 
 #include <array>
@@ -29,7 +30,7 @@ uint8_t srgb_byte(double linear);
 /// linear form (Lam 1985; ICC.1:2010 annex E).
 Xyz adapt_white(const Xyz& colour, const Xyz& from, const Xyz& to);
 
-/// Where a chromaticity lies beside the Planckian locus.
+/// A chromaticity relative to the Planckian locus.
 struct ColourTemperature {
   double kelvin = 0;  // of the nearest black body in CIE 1960 (u, v)
   double duv = 0;     // distance to it, >= 0

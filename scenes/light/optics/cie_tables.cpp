@@ -1,8 +1,8 @@
-// The CIE's tables on the 5 nm grid: values of the standards, kept apart from the arithmetic.
-// Sources: colour-matching functions ISO/CIE 11664-1 and CIE 015:2018 table T.4 (y is V(lambda));
-// scotopic V'(lambda) CIE 1951, ISO/CIE 23539 (its maximum, 1 at 507 nm, lies between two rows);
-// illuminant D65 ISO/CIE 11664-2 and CIE 015:2018 table T.1. The tests hold them to sums and
-// chromaticities that the standards state, so that a slip of the pen shows.
+// The CIE's tables on the 5 nm grid, kept apart from the arithmetic. Sources: colour-matching
+// functions ISO/CIE 11664-1 and CIE 015:2018 table T.4 (y is V(lambda)); scotopic V'(lambda) CIE
+// 1951, ISO/CIE 23539 (its maximum, 1 at 507 nm, lies between two rows); illuminant D65 ISO/CIE
+// 11664-2 and CIE 015:2018 table T.1. Tests compare them with sums and chromaticities that the
+// standards state, to reveal typing errors.
 #include "scenes/light/optics/cie_tables.hpp"
 
 namespace luxodus {

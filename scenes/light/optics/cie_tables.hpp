@@ -1,5 +1,6 @@
-// The table of illuminant D65 as the CIE publishes it, for spectrum.cpp; everyone else uses
-// illuminant_d65_shape(). The colour-matching functions are declared in spectrum.hpp.
+// The table of illuminant D65 as the CIE publishes it, for spectrum.cpp; other code uses
+// illuminant_d65_shape(). The colour-matching functions are declared in spectrum.hpp. Constant
+// data; any thread.
 #pragma once
 
 #include "scenes/light/optics/spectrum.hpp"

@@ -1,7 +1,8 @@
-// Places on a line, drawn as a point's light falls on it: in proportion to one over their squared
-// distance from the point (C. Kulla, M. Fajardo, "Importance sampling techniques for path tracing
-// in participating media", EGSR 2012). What divides by that square is then bounded however near to
-// the point the line passes. In double: angles are as fine as the line is long. Pure.
+// Equiangular sampling: draws points on a line with density proportional to 1 / (squared distance
+// from a given point) (C. Kulla, M. Fajardo, "Importance sampling techniques for path tracing in
+// participating media", EGSR 2012). Estimates of light from that point then stay bounded, however
+// near to it the line passes. Computed in double, so that angles keep their precision on long
+// lines. Immutable; any thread.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +14,11 @@ namespace luxodus {
 class EquiangularLine {
  public:
   /// The first `length` [m] of the ray (`direction` is unit), as seen from `point`. Requires: a
-  /// length above 0, finite.
+  /// finite length above 0.
   EquiangularLine(const glm::dvec3& origin, const glm::dvec3& direction, double length,
                   const glm::dvec3& point)
       : length_(length), foot_(glm::dot(point - origin, direction)) {
-    // A point on the line itself would see all of it at one angle.
+    // The distance is kept above 0, since from a point on the line all of it lies at one angle.
     height_ = std::max(glm::distance(point, origin + foot_ * direction), 1e-7 * length);
     low_ = std::atan2(-foot_, height_);
     angle_ = std::atan2(length - foot_, height_) - low_;
@@ -38,10 +39,10 @@ class EquiangularLine {
 
  private:
   double length_;
-  double foot_;    // of the perpendicular, along the ray
-  double height_;  // of the point above the line
-  double low_;     // the angle at which the line begins, from the perpendicular
-  double angle_;   // of all of it
+  double foot_;    // foot of the perpendicular, along the ray
+  double height_;  // distance of the point from the line
+  double low_;     // angle of the line's start from the perpendicular
+  double angle_;   // angle that the whole line subtends
 };
 
 }  // namespace luxodus

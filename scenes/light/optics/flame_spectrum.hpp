@@ -1,7 +1,7 @@
-// Light of a flame from its temperature: Planck's law times the emissivity of a thin soot cloud,
-// which goes as 1/wavelength (Rayleigh limit of small absorbing particles with a constant
-// refractive index; Modest, Radiative Heat Transfer, ch. 12), or a constant one. Pure function; any
-// thread.
+// Spectrum of a flame from its temperature: Planck's law times the emissivity of a thin soot cloud,
+// proportional to 1/wavelength (Rayleigh limit of small absorbing particles with a constant
+// refractive index; Modest, Radiative Heat Transfer, ch. 12), or times a constant emissivity. Pure
+// function; any thread.
 #pragma once
 
 #include "scenes/light/optics/spectrum.hpp"

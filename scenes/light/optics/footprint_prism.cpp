@@ -35,7 +35,7 @@ std::string polygon_fault(const std::vector<glm::dvec2>& polygon) {
   }
   for (size_t i = 0; i < n; ++i) {
     for (size_t j = i + 2; j < n; ++j) {
-      if (i == 0 && j == n - 1) continue;  // neighbours around the end
+      if (i == 0 && j == n - 1) continue;  // adjacent edges, across the start of the list
       if (segments_meet(polygon[i], polygon[i + 1], polygon[j], polygon[(j + 1) % n])) {
         return "crosses itself: edges " + std::to_string(i + 1) + " and " + std::to_string(j + 1);
       }
@@ -59,7 +59,7 @@ FootprintPrism::FootprintPrism(std::vector<glm::dvec2> polygon, std::vector<Laye
   }
 }
 
-// A half-open rule on y gives every point of a tiling by polygons to exactly one of them, up to
+// The half-open rule on y assigns each point of a tiling by polygons to exactly one of them, up to
 // rounding.
 bool FootprintPrism::covers(const glm::dvec2& p) const {
   bool inside = false;
@@ -73,9 +73,8 @@ bool FootprintPrism::covers(const glm::dvec2& p) const {
   return inside;
 }
 
-// Each vertex has one offset from the line, positive or zero on one side, negative on the other; an
-// edge is crossed where the sign changes. Around a closed polygon that happens an even number of
-// times.
+// Each vertex has one offset from the line, counted as non-negative or negative; an edge is crossed
+// if the sign changes. Around a closed polygon that happens an even number of times.
 int FootprintPrism::crossings(const glm::dvec2& o, const glm::dvec2& d, Crossings& t) const {
   const double scale = 1 / glm::dot(d, d);
   int n = 0;

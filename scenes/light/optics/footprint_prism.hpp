@@ -1,7 +1,7 @@
-// A medium cut out by a horizontal polygon: an upright prism of one or many slabs. Any simple
-// polygon, either orientation; a ray may cross it many times. Crossings are decided by signs that
-// every vertex has once, so a ray through a vertex or along a wall enters and leaves equally often:
-// nothing leaks. Immutable once made; any thread.
+// A medium bounded by a horizontal polygon: an upright prism of one or more slabs. Any simple
+// polygon, in either orientation; a ray may cross it many times. Each vertex gets one sign per ray,
+// and crossings follow from the signs, so a ray through a vertex or along a wall enters and leaves
+// equally often and nothing leaks. Immutable once made; any thread.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@ namespace luxodus {
 
 namespace limits {
 /// Vertices of a footprint. A floor plan has tens; crossings are kept on the stack of the tracing
-/// loop (8 bytes each), and every flight looks at every edge.
+/// loop (8 bytes each), and every flight tests every edge.
 inline constexpr int max_footprint_vertices = 256;
 }  // namespace limits
 
-/// What is wrong with a polygon, or "" where it is simple and has an area.
+/// The fault of a polygon as a message; "" if it is simple and has an area.
 std::string polygon_fault(const std::vector<glm::dvec2>& polygon);
 
 class FootprintPrism {
@@ -31,14 +31,15 @@ class FootprintPrism {
   const std::vector<LayerStack::Part>& parts() const { return parts_; }
   const glm::dvec3& low() const { return low_; }
   const glm::dvec3& high() const { return high_; }
-  /// The most stretches a ray can have in it.
+  /// Largest number of segments of one ray inside the prism.
   int max_stretches() const {
     return static_cast<int>(polygon_.size()) / 2 + static_cast<int>(parts_.size());
   }
 
   bool covers(const glm::dvec2& p) const;
 
-  /// Calls add(t0, t1, component) for each stretch of the ray inside, within `within`.
+  /// Calls add(t0, t1, component) for each segment of the ray inside the prism, clipped to
+  /// `within`.
   template <class Add>
   void for_each_stretch(const glm::dvec3& o, const glm::dvec3& d, RayInterval within,
                         Add&& add) const;

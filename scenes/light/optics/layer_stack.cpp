@@ -1,4 +1,4 @@
-// Building a stack: all boundaries sorted and united, then every part entered in the slabs it
+// Builds a stack: sorts and unites all boundaries, then enters each part in the slabs that it
 // spans.
 #include "scenes/light/optics/layer_stack.hpp"
 
@@ -45,9 +45,10 @@ void LayerStack::build(const std::vector<Part>& parts, const std::vector<double>
   }
 }
 
-// The slab, from `slab` onwards in the direction of flight, that tau or t_max ends in or just
-// before: boundaries before it are certainly passed. Going up, the boundary into slab k is z_low(k)
-// with optical depth running[k]; going down it is z_high(k) = z_low(k + 1) with running[k + 1].
+// Returns the slab, from `slab` onwards in the direction of flight, in which tau or t_max ends, or
+// the one before it: all earlier boundaries are certainly passed. Going up, the boundary into slab
+// k is z_low(k) with optical depth running[k]; going down it is z_high(k) = z_low(k + 1) with
+// running[k + 1].
 int LayerStack::skip(const double* running, int slab, double z0, double dz, double t_max,
                      double tau) const {
   const double inverse = 1 / dz;
@@ -57,8 +58,8 @@ int LayerStack::skip(const double* running, int slab, double z0, double dz, doub
     return (running[boundary] - running[from]) * inverse <= tau &&
            (bounds_[static_cast<size_t>(boundary)] - z0) * inverse <= t_max;
   };
-  // `passed` holds at `from` and, once false, stays false further on: bisect between it and the
-  // last boundary.
+  // `passed` holds at `from` and, once false, stays false: bisect between `from` and the last
+  // boundary.
   int good = from;
   int bad = up ? slabs() : 0;
   while (std::abs(bad - good) > 1) {

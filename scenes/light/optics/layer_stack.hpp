@@ -1,11 +1,12 @@
-// Horizontal slabs that fill all space: every all-pervading and layered medium of a scene merged
-// into one stack. Boundaries are united; each slab knows the sum of the extinctions in it and the
-// components that make it up. The first slab reaches down without end, the last up without end.
+// Horizontal slabs that fill all space: the union of all homogeneous and layered media of a scene
+// without footprint. Each slab knows the sum of the extinctions in it and its components. The
+// lowest slab is unbounded below, the highest above.
 //
-// Optical depth along a ray is inverted exactly. The slab of the origin is left by distance, not by
-// optical depth, so a ray that hardly rises loses nothing; the slabs beyond are walked, and in tall
-// stacks skipped by their running optical depth. Slabs are half-open, low <= z < high: a ray that
-// runs along a boundary is in the slab above it. Immutable once made; any thread.
+// Free-flight sampling inverts the optical depth along a ray exactly. The distance to each slab's
+// exit is computed from the geometry, not from the optical depth, so that nearly horizontal rays
+// lose no precision. Slabs are visited one by one; in tall stacks they are skipped by means of the
+// cumulative optical depth. Slabs are half-open, low <= z < high: a ray along a boundary is in the
+// slab above it. Immutable once made; any thread.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +19,10 @@
 namespace luxodus {
 
 namespace limits {
-/// Layers of all media without polygon. A stack of FDS results has some 100; compiling looks at
-/// every layer for every slab (some 10 ms at the limit, a second at 10x).
+/// Layers of all media without polygon. A stack from FDS results has some 100. Compiling visits
+/// every layer for every slab (some 10 ms at this limit, a second at 10x).
 inline constexpr int max_layers = 2048;
-/// Stacks up to this size are walked slab by slab; above, skipping by bisection is faster
+/// Stacks up to this size are visited slab by slab; above it, skipping by bisection is faster
 /// (measured: break-even between 10 and 20).
 inline constexpr int slabs_walked = 16;
 }  // namespace limits
@@ -42,7 +43,7 @@ class LayerStack {
              int bands);
 
   int slabs() const { return slabs_; }
-  /// Whether anything in it absorbs or scatters.
+  /// Whether no slab absorbs or scatters.
   bool empty() const { return members_.empty(); }
 
   int slab_at(double z) const;
@@ -59,8 +60,8 @@ class LayerStack {
     double t = 0;
     int slab = -1;  // -1: t_max was reached first
   };
-  /// Where optical depth `tau` is used up on the way from height z0 with rise dz per length.
-  /// Requires: tau >= 0, t_max >= 0 (infinity allowed).
+  /// The point at which optical depth `tau` is reached on a ray from height z0 that rises dz per
+  /// length. Requires: tau >= 0, t_max >= 0 (infinity allowed).
   Stop fly(int band, double z0, double dz, double t_max, double tau) const;
   /// Optical depth up to t_max.
   double depth(int band, double z0, double dz, double t_max) const;
@@ -95,7 +96,7 @@ inline LayerStack::Stop LayerStack::fly(int band, double z0, double dz, double t
                                         double tau) const {
   int slab = slab_at(z0);
   const double* sigma = row(sum_, band);
-  if (dz == 0) {  // never leaves its slab
+  if (dz == 0) {  // stays in its slab
     const double t = tau / sigma[slab];
     return t < t_max ? Stop{t, slab} : Stop{t_max, -1};
   }
@@ -115,7 +116,7 @@ inline LayerStack::Stop LayerStack::fly(int band, double z0, double dz, double t
         slab = ahead;
       }
     }
-    // Each exit is computed from the origin, so that nothing accumulates.
+    // Each exit is computed from the origin, so that errors do not accumulate.
     const double t_exit = std::min((exit[slab] - z0) * inverse, t_max);
     const double here = sigma[slab] * (t_exit - t);
     if (tau < here) return {t + tau / sigma[slab], slab};
@@ -137,7 +138,7 @@ inline double LayerStack::depth(int band, double z0, double dz, double t_max) co
   double tau = 0;
   for (;;) {
     const double t_exit = std::min((exit[slab] - z0) * inverse, t_max);
-    if (sigma[slab] > 0) tau += sigma[slab] * (t_exit - t);  // 0 x infinity is not a depth
+    if (sigma[slab] > 0) tau += sigma[slab] * (t_exit - t);  // 0 times infinity is NaN
     if (t_exit >= t_max) return tau;
     t = t_exit;
     slab += step;

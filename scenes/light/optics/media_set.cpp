@@ -1,6 +1,5 @@
-// Compiling media: every medium is checked, each of its homogeneous parts becomes a component with
-// extinction and albedo by band, and the component is put where its shape belongs: the stack, a
-// prism, a body, a grid.
+// Compiles media: checks each medium, turns each homogeneous part of it into a component with
+// extinction and albedo by band, and adds the component to the stack, a prism, a body or a grid.
 #include "scenes/light/optics/media_set.hpp"
 
 #include <cmath>
@@ -14,7 +13,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Heights beyond this are "no limit" (medium.hpp writes 1e30).
 constexpr double unlimited_m = 1e29;
-/// Room for the rounding of band averages around 0 and 1.
+/// Tolerance for the rounding of band averages at 0 and 1.
 constexpr double rounding = 1e-9;
 
 bool same(const Phase& a, const Phase& b) {
@@ -106,8 +105,7 @@ class MediaCompiler {
     }
   }
 
-  // ---- components
-  // --------------------------------------------------------------------------------
+  // ---- components ----------------------------------------------------------------------------
 
   int phase_index(const Phase& phase) {
     for (size_t i = 0; i < tables_.phases.size(); ++i) {
@@ -117,8 +115,8 @@ class MediaCompiler {
     return static_cast<int>(tables_.phases.size()) - 1;
   }
 
-  /// Extinction times the scenario's factor, or for `relative` the wavelength law alone, 1 where it
-  /// is given.
+  /// Extinction times the scenario's factor; if `relative`, the wavelength law alone, 1 at its
+  /// reference wavelength.
   std::vector<double> extinction_by_band(const Extinction& e, bool relative) {
     std::vector<double> out;
     if (!(e.wavelength_nm > 0) || !std::isfinite(e.wavelength_nm) || !std::isfinite(e.angstrom)) {
@@ -154,8 +152,7 @@ class MediaCompiler {
     return out;
   }
 
-  /// The index of a new component, or -1 where it has no extinction in any band and `keep` is
-  /// false.
+  /// The index of a new component, or -1 if it has no extinction in any band and `keep` is false.
   int add_component(const SmokeOptics& optics, bool relative, bool keep) {
     std::vector<double> sigma = extinction_by_band(optics.extinction, relative);
     std::vector<double> albedo = albedo_by_band(optics.albedo);
@@ -184,8 +181,7 @@ class MediaCompiler {
     tables_.emitters.push_back(std::move(emitter));
   }
 
-  // ---- shapes
-  // ------------------------------------------------------------------------------------
+  // ---- shapes --------------------------------------------------------------------------------
 
   Heights local_heights(double low, double high) const {
     return {low <= -unlimited_m ? -infinity : low - origin_.z,
@@ -281,7 +277,7 @@ class MediaCompiler {
     return table;
   }
 
-  /// Makers of bodies and grids name the medium themselves.
+  /// Adds the place only: problems of bodies and grids already name the medium.
   void body_problem(const Problem& problem) {
     const std::string prefix = "medium \"" + medium_->name + "\" ";
     fail(problem.what.rfind(prefix, 0) == 0 ? problem.what.substr(prefix.size()) : problem.what);
@@ -294,8 +290,7 @@ class MediaCompiler {
     tables_.bodies.push_back(body);
   }
 
-  // ---- the end
-  // -----------------------------------------------------------------------------------
+  // ---- result --------------------------------------------------------------------------------
 
   std::string lay_out() {
     if (stretches_ > limits::max_ray_stretches) {

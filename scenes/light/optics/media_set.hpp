@@ -1,12 +1,12 @@
-// The participating media of a scene, compiled for tracing: exact optical depth and exact free
-// flight, with no step size and no bias. Media overlap; their extinctions add. All-pervading and
-// layered media become one stack of slabs; footprints with a polygon become prisms; quadric bodies
-// and data sets stay what they are. Kernels are templates on what a scene needs, so a clear or
-// homogeneous scene pays for nothing else.
+// The participating media of a scene, compiled for tracing: exact optical depth and exact
+// free-flight sampling, without step size or bias. Media overlap; their extinctions add.
+// Homogeneous and layered media without footprint become one stack of slabs; footprints with a
+// polygon become prisms; quadric bodies and data sets stay as they are. Kernels are templates on
+// MediaNeed, so that a clear or homogeneous scene has no cost for the rest.
 //
 // Coordinates are Real, relative to the scene's local origin; optical depths are double. A factor
-// of 0 takes a medium's extinction away but not its glow: whether it glows is the caller's question
-// of power. Immutable once compiled; any thread. Calls may wait where the resolver waits. Design:
+// of 0 removes a medium's extinction but not its emission; the caller decides by the power whether
+// it glows. Immutable once compiled; any thread. Calls may wait where the resolver waits. Design:
 // docs/decisions/0030-exact-free-flight.md.
 #pragma once
 
@@ -24,7 +24,7 @@
 
 namespace luxodus {
 
-/// What the kernels of a scene must be able to do.
+/// Media that the kernels of a scene must support.
 enum class MediaNeed {
   none,         // nothing absorbs or scatters
   homogeneous,  // one extinction everywhere
@@ -34,8 +34,8 @@ enum class MediaNeed {
 
 struct MediumInput {
   const Medium* medium;
-  double factor;  // of the scenario, on extinction; 0: absent
-  /// Of a data set whose arrays are elsewhere: what is in them. Its bricks are then elsewhere, too.
+  double factor;  // the scenario's factor on extinction; 0: absent
+  /// Contents of a data set whose arrays, and hence bricks, are not in memory here; else null.
   const BrickTable* table = nullptr;
 };
 
@@ -47,11 +47,11 @@ using BandAverage = std::function<double(const Spectrum&, int band)>;
 
 class MediaSet {
  public:
-  /// No media at all.
+  /// An empty set.
   MediaSet();
 
-  /// Errors: anything in a medium that is not finite, negative, out of range or beyond the limits,
-  /// by name and place. Media are indexed as given; inputs need not outlive the call.
+  /// Errors: a value of a medium that is not finite, negative, out of range or beyond the limits,
+  /// with name and place. Media are indexed in the given order; inputs need not outlive the call.
   static Result<MediaSet> compile(std::span<const MediumInput> media, int bands,
                                   const BandAverage& average, const glm::dvec3& local_origin);
 
@@ -63,7 +63,7 @@ class MediaSet {
   const std::vector<Phase>& phases() const { return tables_->phases; }
   const Phase& phase(int i) const { return tables_->phases[static_cast<size_t>(i)]; }
 
-  /// Bricks of a data set that are here; 0 for other media.
+  /// Number of resident bricks of a data set; 0 for other media.
   int brick_count(int medium) const {
     return static_cast<int>((*bricks_)[static_cast<size_t>(medium)].size());
   }
@@ -72,14 +72,15 @@ class MediaSet {
   }
   const std::shared_ptr<const MediaBricks>& bricks() const { return bricks_; }
 
-  /// The glow of a medium, or null.
+  /// The emission of a medium; null if it has none.
   const VolumeEmitter* emitter(int medium) const;
-  /// A point in proportion to emission. Requires: emitter(medium) is not null.
+  /// Samples a point with density proportional to emission. Requires: emitter(medium) is not null.
   template <class Uniform, class Resolver>
   Vec3 sample_emission_point(int medium, Uniform&& next_uniform, Resolver& resolver) const {
     return emitter(medium)->sample(next_uniform, resolver);
   }
-  /// Emission per volume [1/m3] of a unit total. Requires: emitter(medium) is not null.
+  /// Emission per volume [1/m3], normalised to 1 over the medium. Requires: emitter(medium) is not
+  /// null.
   template <class Resolver>
   double emission_density(int medium, const Vec3& p, Resolver& resolver) const {
     BrickReader<Resolver> reader(resolver);
@@ -98,7 +99,7 @@ class MediaSet {
   std::shared_ptr<const MediaBricks> bricks_;
 };
 
-/// Answers from the set's own bricks.
+/// A resolver that returns the set's own bricks.
 class ResidentBricks {
  public:
   explicit ResidentBricks(const MediaSet& set) : set_(&set) {}
@@ -108,13 +109,13 @@ class ResidentBricks {
   const MediaSet* set_;
 };
 
-/// How a flight through media ends.
+/// The end of a free flight through media.
 struct FreeFlight {
-  Real t = 0;       // distance flown [m]; t_max where nothing collided
-  int medium = -1;  // that collided
+  Real t = 0;       // distance flown [m]; t_max without a collision
+  int medium = -1;  // the medium that collided
   int phase = -1;   // its phase function
   int component = -1;
-  double albedo = 0;  // there; double, since 1 - albedo may be 1e-6
+  double albedo = 0;  // at that point; double, since 1 - albedo may be 1e-6
   bool collided = false;
 };
 
@@ -129,7 +130,7 @@ inline FreeFlight collision_in_stack(const MediaTables& tables, int band, LayerS
     for (const int c : members) {
       const double sigma = tables.sigma_of(band, c);
       if (!(sigma > 0)) continue;
-      chosen = c;  // the last with any extinction, should rounding leave a rest
+      chosen = c;  // if rounding leaves a rest, the last with extinction is chosen
       if (rest < sigma) break;
       rest -= sigma;
     }
@@ -172,10 +173,9 @@ FreeFlight flight_in_all(const MediaTables& tables, int band, const Vec3& origin
 
 }  // namespace media_detail
 
-/// Where a ray that may pass optical depth `tau` collides, and with what: the medium is chosen by
-/// share of extinction with `choice` in [0, 1). Inversion is exact: the optical depth up to the
-/// collision is tau. Requires: N covers set.need(); direction of unit length; t_max >= 0 (infinity
-/// allowed); tau >= 0.
+/// Samples a free flight: the collision at optical depth `tau`, and its medium, chosen by share of
+/// extinction with `choice` in [0, 1). The inversion is exact. Requires: N covers set.need();
+/// direction of unit length; t_max >= 0 (infinity allowed); tau >= 0.
 template <MediaNeed N, class Resolver>
 FreeFlight free_flight(const MediaSet& set, int band, const Vec3& origin, const Vec3& direction,
                        Real t_max, double tau, double choice, [[maybe_unused]] Resolver& resolver) {
@@ -199,7 +199,7 @@ FreeFlight free_flight(const MediaSet& set, int band, const Vec3& origin, const 
   }
 }
 
-/// Optical depth from the origin to t_max. Requires: as free_flight.
+/// Optical depth from the origin to t_max. Requirements as for free_flight.
 template <MediaNeed N, class Resolver>
 double optical_depth(const MediaSet& set, int band, const Vec3& origin, const Vec3& direction,
                      Real t_max, [[maybe_unused]] Resolver& resolver) {
@@ -224,8 +224,8 @@ double optical_depth(const MediaSet& set, int band, const Vec3& origin, const Ve
   }
 }
 
-/// The same of several bands at once: of_band(i) is the i-th of them, into out[i]. Works whatever
-/// set.need() is.
+/// Optical depths of several bands in one pass: out[i] is that of band of_band(i). Valid for any
+/// set.need().
 template <class Resolver, class OfBand>
 void optical_depths(const MediaSet& set, size_t bands, OfBand&& of_band, const Vec3& origin,
                     const Vec3& direction, Real t_max, Resolver& resolver, double* out) {
@@ -245,13 +245,14 @@ void optical_depths(const MediaSet& set, size_t bands, OfBand&& of_band, const V
   });
 }
 
-/// What glows in a segment: a medium and the mean of its emission per volume [1/m3], unit total.
+/// Emission within a segment: a medium, and the mean over the segment of its emission per volume
+/// [1/m3], normalised to 1 over the medium.
 struct EmissionPart {
   int medium = -1;
   double density = 0;
 };
 
-/// A stretch of a ray where extinction, albedo and (but for interpolated flames) emission are
+/// A segment of a ray on which extinction, albedo and (except in interpolated flames) emission are
 /// constant.
 struct MediaSegment {
   Real t0 = 0;
@@ -262,8 +263,8 @@ struct MediaSegment {
   std::span<const EmissionPart> emission;  // valid during the visit
 };
 
-/// Visits the segments of a ray that absorb, scatter or glow, front to back, until `visit(segment)`
-/// is false. Works whatever set.need() is.
+/// Visits the segments of a ray that absorb, scatter or emit, front to back, until `visit(segment)`
+/// returns false. Valid for any set.need().
 template <class Resolver, class Visit>
 void for_each_segment(const MediaSet& set, int band, const Vec3& origin, const Vec3& direction,
                       Real t_max, Resolver& resolver, Visit&& visit) {

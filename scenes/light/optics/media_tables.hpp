@@ -1,4 +1,4 @@
-// What the flight kernels read: every medium of a scene compiled to one stack of slabs, prisms,
+// Tables for the free-flight kernels: all media of a scene compiled to one stack of slabs, prisms,
 // quadric bodies and grids, with extinction and albedo of each component by band. Made by
 // MediaSet::compile. Coordinates are relative to the scene's local origin [m]. Immutable once made;
 // any thread.
@@ -17,14 +17,14 @@
 namespace luxodus {
 
 namespace limits {
-/// Stretches of one ray in prisms and bodies together; they lie on the stack of the tracing loop
-/// (24 bytes each).
+/// Segments of one ray in prisms and bodies together; they are kept on the stack of the tracing
+/// loop (24 bytes each).
 inline constexpr int max_ray_stretches = 512;
-/// Data sets of one scene; their cursors lie on the stack too (about 250 bytes each).
+/// Data sets of one scene; their cursors are on that stack, too (about 250 bytes each).
 inline constexpr int max_grids = 16;
 /// Glowing media of one scene.
 inline constexpr int max_volume_emitters = 256;
-/// Bands of one scene: a band per sample of a spectrum.
+/// Bands of one scene: one per sample of a spectrum.
 inline constexpr int max_media_bands = 81;
 }  // namespace limits
 
@@ -35,13 +35,13 @@ struct MediaComponent {
   int emitter = -1;
 };
 
-/// A prism or a quadric body with a box that holds it (for passing it by, never for cutting).
+/// A prism or a quadric body with its bounding box, used to skip it, never to clip it.
 struct PlacedBody {
   glm::dvec3 low{0};
   glm::dvec3 high{0};
   int prism = -1;
   int quadric = -1;
-  int component = -1;  // of the quadric
+  int component = -1;  // component of the quadric
 };
 
 struct PlacedGrid {
@@ -51,8 +51,8 @@ struct PlacedGrid {
 
 struct MediaTables {
   std::vector<MediaComponent> components;
-  /// [band][component]: extinction [1/m] with the scenario's factor; of a data set with its own
-  /// extinction, the factor on it.
+  /// [band][component]: extinction [1/m] times the scenario's factor; for a data set with an
+  /// extinction array, the factor on that array.
   std::vector<double> sigma_t;
   std::vector<double> albedo;  // [band][component]
   LayerStack stack;
@@ -83,7 +83,7 @@ double cell_sigma(const PlacedGrid& placed, double factor, const glm::ivec3& cel
          static_cast<double>(brick.extinction[static_cast<size_t>(Brick::cell_index(cell))]);
 }
 
-/// A data set's albedo in a cell; `constant` where it gives none.
+/// A data set's albedo in a cell; `constant` if it has no albedo array.
 template <class Resolver>
 double cell_albedo(const PlacedGrid& placed, double constant, const glm::ivec3& cell,
                    BrickReader<Resolver>& bricks) {

@@ -1,7 +1,7 @@
-// A ray's way through media of every kind, cut into pieces of constant extinction, front to back.
-// Each piece ends at the nearest of: a slab's boundary, a body's face, a cell's face, the end of
-// the way. Every piece is longer than nothing and every boundary is passed once, so a walk ends.
-// Lives on the stack of one flight; it waits where its resolver waits.
+// Cuts a ray through media of all kinds into segments of constant extinction, front to back. A
+// segment ends at the nearest of: a slab's boundary, a body's face, a cell's face, the end of the
+// ray. Every segment has a length above 0 and every boundary is passed once, so a walk terminates.
+// Lives on the stack of one flight, hence on one thread; it may wait where its resolver waits.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace luxodus {
 template <class Resolver>
 class MediaWalk {
  public:
-  /// Instead of a band, where only `for_each_column` is asked.
+  /// Band of a walk that is used for `for_each_column` only.
   static constexpr int no_band = -1;
 
   MediaWalk(const MediaTables& tables, int band, const Vec3& origin, const Vec3& direction,
@@ -25,10 +25,10 @@ class MediaWalk {
     find_grids();
   }
 
-  /// No prism, body or grid on the way: the stack alone decides.
+  /// Whether no prism, body or grid is on the ray: the stack alone decides.
   bool only_stack() const { return stretches_count_ == 0 && grids_count_ == 0; }
 
-  /// To the next piece. False at the end of the way.
+  /// Advances to the next segment; false at the end of the ray.
   bool next();
 
   double t0() const { return t0_; }
@@ -39,22 +39,23 @@ class MediaWalk {
     int component = -1;
     double albedo = 0;
   };
-  /// The component that collides in the present piece, by share of extinction; u in [0, 1).
-  /// Requires: sigma_t() > 0.
+  /// Samples the component that collides in the present segment, by share of extinction; u in [0,
+  /// 1). Requires: sigma_t() > 0.
   Choice choose(double u);
-  /// Scattering in the present piece [1/m].
+  /// Scattering coefficient in the present segment [1/m].
   double sigma_s();
-  /// Calls part(medium, density) for what glows in the present piece; density is its mean [1/m3].
+  /// Calls part(medium, density) for each emitting medium in the present segment; density is its
+  /// mean over the segment [1/m3].
   template <class Part>
   void for_each_glow(Part&& part);
 
-  /// Optical depth of the whole way; before the first next(). Depths of media add, so nothing is
-  /// merged.
+  /// Optical depth of the whole ray; call it before the first next(). Optical depths of media add,
+  /// so segments are not merged.
   double depth();
 
-  /// Calls column(component, amount) for what lies on the whole way but for the stack, perhaps more
-  /// than once; before the first next(). Optical depth in any band is the component's extinction
-  /// times the amount. Requires: made of no_band.
+  /// Calls column(component, amount) for what the whole ray passes outside the stack, possibly
+  /// several times per component; call it before the first next(). The component's extinction in a
+  /// band times the amount is its optical depth. Requires: made with no_band.
   template <class Column>
   void for_each_column(Column&& column);
 
@@ -68,25 +69,25 @@ class MediaWalk {
     GridCursor cursor;
     const PlacedGrid* placed;
     double factor;
-    double sigma_t;  // of the present cell
+    double sigma_t;  // in the present cell
   };
 
   void find_bodies();
   void find_grids();
   void add_stretch(double t0, double t1, int component) {
-    // MediaSet::compile bounds the sum of all stretches; the check keeps memory safe should that be
+    // MediaSet::compile bounds the sum of all segments; the check keeps memory safe if that is
     // wrong.
     if (stretches_count_ < stretches_.size()) {
       stretches_[stretches_count_++] = {t0, t1, component};
     }
   }
   void advance_grid(GridOnWay& g);
-  /// Calls with(depth) for the cells of a grid on the whole way.
+  /// Calls with(depth) for each cell of a grid along the whole ray.
   template <class With>
   void for_each_cell_depth(GridOnWay& g, With&& with);
   void enter_stack();
   void advance_stack();
-  /// Calls each(component, sigma_t, grid or null) for all that is in the present piece, in a fixed
+  /// Calls each(component, sigma_t, grid or null) for everything in the present segment, in a fixed
   /// order.
   template <class Each>
   void for_each_present(Each&& each);
@@ -178,7 +179,7 @@ bool MediaWalk<Resolver>::next() {
   double sigma = tables_->stack.sigma_t(band_, slab_);
   for (size_t i = 0; i < grids_count_; ++i) {
     GridOnWay& g = grids_[i];
-    // Cells that rounding leaves without length are passed without a look.
+    // Skips cells that rounding leaves without length.
     while (g.cursor.t_end() <= t_) advance_grid(g);
     end = std::min(end, g.cursor.t_end());
     sigma += g.sigma_t;
@@ -229,7 +230,7 @@ typename MediaWalk<Resolver>::Choice MediaWalk<Resolver>::choose(double u) {
   bool found = false;
   for_each_present([&](int component, double sigma, GridOnWay* grid) {
     if (found || !(sigma > 0)) return;
-    chosen = component;  // the last with any extinction, should rounding leave a rest
+    chosen = component;  // if rounding leaves a rest, the last with extinction is chosen
     chosen_grid = grid;
     found = rest < sigma;
     rest -= sigma;

@@ -1,12 +1,11 @@
-// The wavelength law of an extinction, on the grid of spectra.
+// The wavelength law of an extinction, on the spectral grid.
 #include "scenes/light/optics/medium.hpp"
 
 #include <cmath>
 
 namespace luxodus {
 
-// Angstrom's law: sigma_t(w) = sigma_t(w0) (w0 / w)^alpha. A table is measured and wins over the
-// law.
+// Angstrom's law: sigma_t(w) = sigma_t(w0) (w0 / w)^alpha. A table, being measured, replaces it.
 Spectrum Extinction::spectrum() const {
   if (table) return *table;
   Spectrum out;

@@ -1,6 +1,6 @@
-// What a participating medium is, as a designer says it: kinds, optics, and where it stands. Plain
-// values in SI units; media overlap and their extinctions add. Compiled for tracing by
-// media_set.hpp.
+// Participating media as a scene describes them: kind, optical properties and place. Plain values
+// in SI units; any thread. Media overlap and their extinctions add. media_set.hpp compiles them for
+// tracing.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -24,7 +24,8 @@ struct Phase {
   std::vector<double> table_value;  // relative density per solid angle, >= 0
 };
 
-/// sigma_t at `wavelength_nm`, scaled to others by (wavelength / w)^angstrom, or by a table.
+/// sigma_t at `wavelength_nm`; at other wavelengths w, times (wavelength_nm / w)^angstrom, or by a
+/// table.
 struct Extinction {
   double sigma_t = 0;  // [1/m]
   double wavelength_nm = 633;
@@ -40,7 +41,7 @@ struct SmokeOptics {
   Phase phase;
 };
 
-/// Where a medium is: a z range and a horizontal polygon (both optional) cut out of everything.
+/// Region of a medium: a z range and a horizontal polygon, both optional.
 struct Footprint {
   std::vector<glm::dvec2> polygon;  // empty: everywhere; simple, either orientation
   double z_low = -1e30;
@@ -55,7 +56,7 @@ struct Layer {
   SmokeOptics optics;
 };
 
-/// x^T A x + b.x + c <= 0 in local coordinates, cut by half spaces n.x <= d.
+/// x^T A x + b.x + c <= 0 in local coordinates, clipped by half spaces n.x <= d.
 struct Quadric {
   glm::dmat3 a{0};
   glm::dvec3 b{0};
@@ -67,7 +68,8 @@ struct Quadric {
   std::vector<Clip> clips;
 };
 
-/// 3-D arrays in a box, x fastest. All arrays are empty (the constant holds) or nx*ny*nz long.
+/// 3-D arrays in a box, x fastest. Each array is empty (the medium's constant holds) or has
+/// nx*ny*nz values.
 struct DataSet {
   int nx = 0, ny = 0, nz = 0;
   glm::dvec3 extent{0};           // box [0, extent] in local coordinates [m]
@@ -77,7 +79,7 @@ struct DataSet {
   bool interpolate_emission = false;
 };
 
-/// Emission of a medium: power over all wavelengths, its shape and visible share from the spectrum.
+/// Emission of a medium: total radiant power, with the spectrum and the visible share of it.
 struct MediumEmission {
   double power_w = 0;           // radiant, over all wavelengths
   double visible_fraction = 1;  // share within 380..780 nm
@@ -86,16 +88,16 @@ struct MediumEmission {
   std::string circuit;
 };
 
-/// What is known of smoke that a fire simulation has computed, at one time.
+/// Facts about smoke from a fire simulation, at one time.
 struct FireSimulation {
   std::string file;            // its index, as the scene writes it
-  double time_s = 0;           // of the frame that was taken
-  std::string source;          // what extinction was taken from, for people
-  bool glows = false;          // the light of its flames is in the scene
-  Frame frame;                 // of the simulation's coordinates
-  std::vector<Bounds> meshes;  // in those coordinates [m]; nothing is known outside of them
+  double time_s = 0;           // time of the frame used
+  std::string source;          // quantity that the extinction was computed from, for people
+  bool glows = false;          // the emission of its flames is in the scene
+  Frame frame;                 // frame of the simulation's coordinates
+  std::vector<Bounds> meshes;  // in those coordinates [m]; outside of them nothing is known
   double depth_error = 0;      // largest relative error of optical depths from this source
-  std::string index = {};      // the file as it was found; "" in a pack
+  std::string index = {};      // path of the index file; "" in a pack
 };
 
 struct Medium {
@@ -107,10 +109,10 @@ struct Medium {
   Footprint footprint;        // homogeneous, layered
   Frame frame;                // bounded, data_set
   Quadric quadric;            // bounded
-  Bounds local_bounds;        // bounded: a box that holds the body, local coordinates
+  Bounds local_bounds;        // bounded: a box that holds the body, in local coordinates
   DataSet data;               // data_set
   std::optional<MediumEmission> emission;  // bounded, data_set
-  /// Of the first of the data sets that a simulation became; the others have its name.
+  /// Set for the first of the data sets made from a simulation; the others have its name.
   std::optional<FireSimulation> simulation = std::nullopt;
 };
 

@@ -1,5 +1,6 @@
-// Checks what a designer wrote, and turns a table into a piecewise linear density of the cosine
-// with its exact distribution function. All sums are made in double and rounded once.
+// Checks a phase function as a scene describes it, and turns a table into a piecewise linear
+// density of the cosine with its exact distribution function. All sums are in double and rounded
+// once.
 #include "scenes/light/optics/phase_function.hpp"
 
 #include <string>
@@ -30,7 +31,7 @@ std::string table_fault(const Phase& phase) {
              " is negative or not a number; write a density per solid angle, 0 or more";
     }
     if (i == 0) continue;
-    // Also false for NaN. Compared as the sampler stores it.
+    // Also false for NaN. Compared in the sampler's precision.
     if (!(static_cast<Real>(1.0 - cosines[i - 1]) > static_cast<Real>(1.0 - cosines[i]))) {
       return "phase table cosines must ascend by more than rounding; entry " +
              std::to_string(i + 1) + " does not";
@@ -83,7 +84,7 @@ void PhaseFunction::compile_table(const Phase& phase) {
     const double f0 = values[i - 1];
     const double f1 = values[i];
     total += 0.5 * (f0 + f1) * (c1 - c0);
-    // Simpson's rule is exact for products of linear functions, two or three.
+    // Simpson's rule is exact for products of two or three linear functions.
     moment += (c1 - c0) / 6.0 * (f0 * c0 + (f0 + f1) * (c0 + c1) + f1 * c1);
     square +=
         (c1 - c0) / 6.0 * (f0 * c0 * c0 + 0.5 * (f0 + f1) * (c0 + c1) * (c0 + c1) + f1 * c1 * c1);
@@ -99,15 +100,15 @@ void PhaseFunction::compile_table(const Phase& phase) {
 }
 
 PhaseFunction::Deflection PhaseFunction::tabulated(Real u) const {
-  // The first node with a distribution above u ends the segment; u < 1 = the last node's, so there
-  // is one, and a segment without any probability is never found.
+  // The first node with a distribution value above u ends the segment. u < 1, the last node's
+  // value, so there is one; a segment without probability is never found.
   const auto end = std::upper_bound(table_.begin() + 1, table_.end() - 1, u,
                                     [](Real x, const Node& node) { return x < node.below; });
   const Node& right = *end;
   const Node& left = *(end - 1);
   const Real width = left.one_minus_cos - right.one_minus_cos;
   const Real slope = (right.density - left.density) / width;
-  // Root of density x + slope x^2 / 2 = rest in the form that never subtracts.
+  // The root of density x + slope x^2 / 2 = rest, in the form without subtraction.
   const Real rest = u - left.below;
   const Real root = safe_sqrt(left.density * left.density + 2.0_r * slope * rest);
   const Real sum = left.density + root;

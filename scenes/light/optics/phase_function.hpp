@@ -1,8 +1,7 @@
-// Phase functions compiled for tracing: where light goes when smoke scatters it. Sampling is exact
-// inversion in float, stable for every |g| <= 1; evaluate is the density of the same function
-// [1/sr], normalised over the sphere. Angles are between the directions of travel before and after:
-// cos_theta = 1 goes straight on. Not here: how much is scattered (albedo, sigma_t; media).
-// Immutable once made; any thread.
+// Phase functions compiled for tracing. Sampling is exact inversion in float, stable for every |g|
+// <= 1; evaluate is the density of the same function [1/sr], normalised over the sphere. Angles are
+// between the directions of travel before and after: cos_theta = 1 is forward. Not here: how much
+// is scattered (albedo, sigma_t; see media_set.hpp). Immutable once made; any thread.
 #pragma once
 
 #include <algorithm>
@@ -19,11 +18,11 @@
 namespace luxodus {
 
 namespace phase_limits {
-/// Entries of a tabulated phase function: Mie tables have some thousand; ten times as many would
-/// only spill the first-level cache that sampling lives from.
+/// Entries of a tabulated phase function: Mie tables have some thousand; ten times as many would no
+/// longer fit the first-level cache.
 inline constexpr std::size_t max_table_entries = 4096;
-/// Closer to 1 than this, |g| is taken as 1 (scattering without deviation): the peak of the
-/// density, 1 / (2 pi (1 - g)^2), would leave the range that float holds with its cube.
+/// If |g| is closer to 1 than this, it is taken as 1 (scattering without deflection): the cube in
+/// the density of the peak, 1 / (2 pi (1 - g)^2), would leave the range of float.
 inline constexpr double min_one_minus_g = 1e-9;
 }  // namespace phase_limits
 
@@ -38,18 +37,18 @@ class PhaseFunction {
   static Result<PhaseFunction> make(const Phase& phase, const SourcePlace& where);
 
   /// A scattering angle. cos is in [-1, 1]; sin has its own relative accuracy, so that a narrow
-  /// peak keeps its shape where cos is 1 in float.
+  /// peak keeps its shape where cos rounds to 1 in float.
   struct Deflection {
     Real cos;
     Real sin;
   };
-  /// The angle that belongs to u in [0, 1): the distribution function inverted.
+  /// The angle for u in [0, 1), by inverting the distribution function.
   Deflection deflection(Real u) const;
 
   PhaseKind kind() const { return kind_; }
-  /// Mean cosine of the scattering angle, of the very function that is sampled.
+  /// Mean cosine of the scattering angle, for the function as it is sampled.
   Real mean_cosine() const { return mean_cosine_; }
-  /// Mean of its second Legendre polynomial, (3 cos^2 - 1) / 2.
+  /// Mean of the second Legendre polynomial of that cosine, (3 cos^2 - 1) / 2.
   Real mean_second() const { return mean_second_; }
   std::size_t bytes() const { return sizeof(*this) + table_.capacity() * sizeof(Node); }
 
@@ -59,11 +58,11 @@ class PhaseFunction {
   friend Real evaluate_spread(const PhaseFunction& phase, Real cos_theta, Real mean_cosine,
                               Real mean_second);
 
-  /// One corner of the piecewise linear density. Kept as 1 - cos, descending, so that a forward
+  /// One node of the piecewise linear density. Stored as 1 - cos, descending, so that a forward
   /// peak keeps its width; `below` is the probability of a smaller cosine.
   struct Node {
     Real one_minus_cos;
-    Real density;  // of the cosine: 2 pi x density per solid angle
+    Real density;  // per unit of cosine: 2 pi x density per solid angle
     Real below;
   };
 
@@ -92,7 +91,7 @@ inline PhaseFunction::Deflection PhaseFunction::henyey_greenstein(Real u) const 
   const Real p = 2.0_r * u;
   const Real q = 2.0_r * (1.0_r - u);
   const Real d = one_minus_g_ + g_ * p;
-  if (d == 0.0_r) return {sign_, 0.0_r};  // |g| = 1 and u = 0: as any other u at |g| = 1
+  if (d == 0.0_r) return {sign_, 0.0_r};  // |g| = 1 and u = 0: as for any u at |g| = 1
   const Real inverse = 1.0_r / d;
   const Real ratio = one_minus_g_ * inverse;
   const Real ratio_plus = (1.0_r + g_) * inverse;
@@ -139,7 +138,7 @@ inline Vec3 sample(const PhaseFunction& phase, const Vec3& direction_of_travel, 
 }
 
 /// (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^(3/2)), with 1 + g^2 - 2 g cos = (1 - g)^2 + 2 g (1 -
-/// cos). 0 for |g| = 1, which scatters into one direction that no evaluation meets.
+/// cos). 0 for |g| = 1, a delta distribution that no evaluation hits.
 inline Real PhaseFunction::henyey_greenstein_density(Real cos_theta, Real g, Real one_minus_g) {
   const Real one_minus_cos = std::max(0.0_r, 1.0_r - cos_theta);
   const Real square = one_minus_g * one_minus_g + 2.0_r * g * one_minus_cos;
@@ -147,7 +146,7 @@ inline Real PhaseFunction::henyey_greenstein_density(Real cos_theta, Real g, Rea
   return 0.25_r * inverse_pi_f * one_minus_g * (1.0_r + g) / (square * std::sqrt(square));
 }
 
-/// Density [1/sr] of scattering by an angle of this cosine.
+/// Density [1/sr] of scattering by an angle with this cosine.
 inline Real evaluate(const PhaseFunction& phase, Real cos_theta) {
   switch (phase.kind_) {
     case PhaseKind::isotropic:
@@ -163,17 +162,18 @@ inline Real evaluate(const PhaseFunction& phase, Real cos_theta) {
                                                   phase.one_minus_g_);
 }
 
-/// Density [1/sr] with which light that comes from many directions is scattered into one. Of the
-/// light its `mean_cosine` in [0, 1] to its mean direction is known, which `cos_theta` is to. It
-/// counts as spread by Henyey and Greenstein's law, which scattering by the same law keeps (mean
-/// cosines multiply). Exact for a beam (1) and for light from everywhere (0).
+/// Density [1/sr] with which light that arrives from many directions is scattered into one
+/// direction. `mean_cosine` in [0, 1] is the mean cosine of the arriving directions to their mean
+/// direction; `cos_theta` is the cosine of the outgoing direction to it. The light is modelled as
+/// spread by a Henyey-Greenstein law, which scattering by such a law preserves (mean cosines
+/// multiply). Exact for a beam (1) and for isotropic light (0).
 inline Real evaluate_spread(const PhaseFunction& phase, Real cos_theta, Real mean_cosine) {
   constexpr Real even = 0.25_r * inverse_pi_f;
   switch (phase.kind_) {
     case PhaseKind::isotropic:
       return even;
     case PhaseKind::rayleigh:
-    case PhaseKind::tabulated:  // a beam, and the rest from everywhere
+    case PhaseKind::tabulated:  // as a mixture of a beam and isotropic light
       return mean_cosine * evaluate(phase, cos_theta) + (1 - mean_cosine) * even;
     case PhaseKind::henyey_greenstein:
       break;
@@ -183,8 +183,8 @@ inline Real evaluate_spread(const PhaseFunction& phase, Real cos_theta, Real mea
                                                   one_minus_g);
 }
 
-/// The same where the light's second moment is known, too: `mean_second`, the mean of (3 cos^2 - 1)
-/// / 2 of the angles to the direction that it is scattered into. Never negative.
+/// Variant for light whose second moment is known, too: `mean_second` is the mean of (3 cos^2 - 1)
+/// / 2 of the angles to the outgoing direction. Never negative.
 inline Real evaluate_spread(const PhaseFunction& phase, Real cos_theta, Real mean_cosine,
                             Real mean_second) {
   const bool by_law = phase.kind_ == PhaseKind::henyey_greenstein;

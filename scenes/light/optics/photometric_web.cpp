@@ -22,7 +22,8 @@ namespace luxodus {
 namespace {
 
 namespace web_limits {
-// 0.1 degree steps around need 3601. Ten times more is no measured luminaire, and 32 MB of table.
+// Steps of 0.1 degree around need 3601. Ten times this is beyond measured luminaires: 32 MB of
+// table.
 constexpr size_t web_angles = 4096;
 constexpr size_t web_values = size_t{1} << 22;
 }  // namespace web_limits
@@ -30,8 +31,8 @@ constexpr size_t web_values = size_t{1} << 22;
 constexpr double radian = std::numbers::pi / 180;
 constexpr double below_one = 1 - 0x1p-53;
 
-/// What a step x from a polar angle a sweeps, given sin a and cos a: the integrals over [a, a + x]
-/// of sin(theta) and of (theta - a) sin(theta); and where it ends.
+/// Integrals of sin(theta) and of (theta - a) sin(theta) over [a, a + x], given sin a and cos a;
+/// and sine and cosine of the end.
 struct Sweep {
   double even;
   double sloped;
@@ -40,9 +41,8 @@ struct Sweep {
 };
 
 Sweep sweep(double sin_a, double cos_a, double x) {
-  // Half angles keep 1 - cos x exact where x is small; there, as in nearly every cell of a real
-  // table, a series is several times faster than the library (truncation below 2e-16 up to h =
-  // 0.15).
+  // Half angles keep 1 - cos x exact if x is small. There, as in nearly every cell of a real table,
+  // a series is several times faster than the library (truncation below 2e-16 up to h = 0.15).
   const double h = 0.5 * x;
   double s = 0;
   double c = 0;
@@ -64,7 +64,8 @@ Sweep sweep(double sin_a, double cos_a, double x) {
           cos_a * cos_x - sin_a * sin_x};
 }
 
-/// Where in [0, 1] a density that runs linearly from w0 to w1 has gathered `share` of its mass.
+/// The point in [0, 1] at which a density that runs linearly from w0 to w1 reaches `share` of its
+/// integral.
 double linear_inverse(double w0, double w1, double share) {
   const double root = std::sqrt(w0 * w0 + share * (w1 * w1 - w0 * w0));
   return w0 + root > 0 ? std::min(1.0, share * (w0 + w1) / (w0 + root)) : share;
@@ -77,7 +78,8 @@ struct Inside {
   double cosine;
 };
 
-/// Where in the row the density (c0 + slope x) sin(start + x) has gathered `share` of its mass.
+/// The point in the row at which the density (c0 + slope x) sin(start + x) reaches `share` of its
+/// integral.
 template <class Row>
 Inside polar_inverse(const Row& row, double c0, double slope, double share) {
   const double width = row.width;
@@ -85,7 +87,7 @@ Inside polar_inverse(const Row& row, double c0, double slope, double share) {
   double low = 0;
   double high = width;
   double x = width * linear_inverse(c0 * row.sine, (c0 + slope * width) * row.end_sine, share);
-  constexpr int max_steps = 60;  // halving alone reaches the last bit in 53; Newton needs 2 to 4
+  constexpr int max_steps = 60;  // bisection alone reaches the last bit in 53; Newton needs 2 to 4
   for (int step = 0; step < max_steps; ++step) {
     const Sweep part = sweep(row.sine, row.cosine, x);
     const double excess = c0 * part.even + slope * part.sloped - target;
@@ -95,8 +97,8 @@ Inside polar_inverse(const Row& row, double c0, double slope, double share) {
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     const double moved = next - x;
     x = next;
-    // Newton squares its error: a step below 1e-6 of the distance to either end leaves 1e-12, and
-    // two terms carry sine and cosine over it to the last bit.
+    // Newton's method squares the error: a step below 1e-6 of the distance to either end leaves
+    // 1e-12, and two terms of the series update sine and cosine to the last bit.
     if (std::abs(moved) <= 1e-6 * std::min(x, width - x)) {
       return {x, part.end_sine + moved * (part.end_cosine - 0.5 * moved * part.end_sine),
               part.end_cosine - moved * (part.end_sine + 0.5 * moved * part.end_cosine)};
@@ -119,7 +121,7 @@ struct Choice {
 };
 
 Choice choose(const double* shares, size_t count, double u) {
-  // u is random, so a branch on it is mispredicted every other time: halve without branching.
+  // u is random, so a branch on it would often be mispredicted: bisect without branches.
   const double* at = shares;
   for (size_t left = count; left > 1;) {
     const size_t half = left / 2;
@@ -129,7 +131,7 @@ Choice choose(const double* shares, size_t count, double u) {
   const auto index = static_cast<size_t>(at - shares);
   const double low = index == 0 ? 0 : shares[index - 1];
   const double rest = (u - low) / (shares[index] - low);
-  // Off the very edge: a cell's edge may carry no light, and a density of zero helps nobody.
+  // Kept off the cell's edge, which may carry no light: a density of zero is useless.
   return {index, std::clamp(rest, 0x1p-54, below_one)};
 }
 
@@ -139,7 +141,7 @@ double bilinear(const double* near_column, const double* far_column, double s, d
   return near + s * (far - near);
 }
 
-/// What is wrong with a list of angles that must run from 0 to `last`; empty when nothing is.
+/// The fault of a list of angles that must run from 0 to `last`, as a message; empty if valid.
 std::string fault_of_angles(const std::vector<double>& angles, double last, const char* name) {
   if (angles.size() < 2 || angles.size() > web_limits::web_angles) {
     return std::string("a web needs 2 to ") + std::to_string(web_limits::web_angles) + " " + name +
@@ -222,7 +224,7 @@ Result<PhotometricWeb> PhotometricWeb::make(std::vector<double> azimuth_deg,
       const Row& row = web.rows_[p];
       const double m0 = 0.5 * (near[p] + far[p]);
       const double m1 = 0.5 * (near[p + 1] + far[p + 1]);
-      // max: a dark cell must not gain or lose light by rounding.
+      // max: rounding must not give a dark cell light.
       column += std::max(0.0, dphi * (m0 * row.even + (m1 - m0) / row.width * row.sloped));
       shares[p] = column;
     }
@@ -258,8 +260,8 @@ PhotometricWeb::Sample PhotometricWeb::sample(double u, double v) const {
   const double* far = near + rows;
   const Row& polar = rows_[row.index];
 
-  // Azimuth: its marginal in the cell weighs the two corner values of an edge by their solid
-  // angles.
+  // Azimuth: its marginal density in the cell weights the two corner values of an edge by solid
+  // angle.
   const double far_weight = std::max(0.0, polar.sloped / polar.width);
   const double near_weight = std::max(0.0, polar.even - far_weight);
   const double s = linear_inverse(near[0] * near_weight + near[1] * far_weight,

@@ -1,5 +1,5 @@
-// The photometric web of a luminaire: luminous intensity [cd] over all directions, as a table, and
-// its exact integral and sampling. Made by the LDT and IES readers; immutable afterwards; any
+// The photometric web of a luminaire: luminous intensity [cd] over all directions, as a table, with
+// its exact integral and sampling. Made by the LDT and IES readers. Immutable once made; any
 // thread.
 //
 // Luminaire frame: the luminaire hangs horizontally, -Z points down (gamma 0), C0 lies along +X,
@@ -20,14 +20,14 @@ class PhotometricWeb {
   /// `azimuth_deg`: ascending, first 0, last 360 (the last column repeats the first);
   /// `polar_deg`: ascending, first 0, last 180; `candela[a * polar_deg.size() + p]`, >= 0, finite.
   /// `to_luminaire`: orthonormal map from the table's frame (pole +Z, azimuth 0 along +X) to the
-  /// luminaire's; it may mirror: C angles turn about +Z of the luminaire while their pole is -Z.
-  /// Errors: a sentence when a table breaks these rules or holds no light at all.
+  /// luminaire's; it may mirror: C angles turn about +Z of the luminaire, while their pole is -Z.
+  /// Errors: a table that breaks these rules or has no light at all.
   static Result<PhotometricWeb> make(std::vector<double> azimuth_deg, std::vector<double> polar_deg,
                                      std::vector<double> candela, const glm::dmat3& to_luminaire);
 
   /// Intensity [cd] in a unit direction of the luminaire frame.
   double intensity(const glm::dvec3& direction) const;
-  /// Integral of the intensity over the sphere [lm], of the very function `intensity` evaluates.
+  /// Integral over the sphere [lm] of exactly the function that `intensity` evaluates.
   double flux_lm() const { return flux_lm_; }
   /// Largest table value [cd].
   double peak_cd() const { return peak_cd_; }
@@ -56,9 +56,9 @@ class PhotometricWeb {
   glm::dmat3 to_luminaire_{1.0};
   double flux_lm_ = 0;
   double peak_cd_ = 0;
-  // Between neighbouring polar angles [rad]: start with its sine and cosine, width w, the integrals
-  // of sin(start + x) and of x sin(start + x) over x in [0, w], and the sine of the end. Sampling
-  // would compute them per particle.
+  // One row between neighbouring polar angles [rad]: its start with sine and cosine, its width w,
+  // the integrals of sin(start + x) and of x sin(start + x) over x in [0, w], and the sine of its
+  // end. Stored, because sampling needs them for every particle.
   struct Row {
     double start, sine, cosine, width, even, sloped, end_sine;
   };

@@ -1,6 +1,6 @@
-// Intervals of a ray in a quadric body. The ray is first cut by box and clip planes and its
-// parameter moved to the middle of what is left, close to the body: coefficients then have the
-// body's own size, however far away the ray began, and the roots lose nothing to cancellation.
+// Intervals of a ray in a quadric body. The ray is first clipped by box and clip planes, and its
+// parameter moved to the middle of the rest, close to the body. Coefficients then have the body's
+// own scale however far away the ray began, and the roots lose nothing to cancellation.
 #include "scenes/light/optics/quadric_body.hpp"
 
 #include <cmath>
@@ -13,9 +13,9 @@ namespace {
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
 constexpr double pi = std::numbers::pi;
-/// Axes read from a file with 7 digits pass, a scaled or skewed frame does not.
+/// Accepts axes read from a file with 7 digits, but not a scaled or skewed frame.
 constexpr double orthonormal_tolerance = 1e-6;
-/// Rays per side of the coarse volume quadrature; the fine one has twice as many. 512^2 rays are
+/// Rays per side of the coarse volume quadrature; the fine one has twice as many: 512^2 rays take
 /// some 30 ms.
 constexpr int quadrature_rays = 256;
 
@@ -23,7 +23,7 @@ bool finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// b^2 - 4 a c with the rounding of both products made good (Kahan, 2004).
+/// b^2 - 4 a c with the rounding errors of both products compensated (Kahan, 2004).
 double discriminant(double a, double b, double c) {
   const double ac4 = 4 * a * c;
   const double bb = b * b;
@@ -43,11 +43,11 @@ int below_zero(double a, double b, double c, RayInterval out[2]) {
     return 1;
   }
   const double disc = discriminant(a, b, c);
-  if (disc <= 0) {  // touching is missing
+  if (disc <= 0) {  // touching counts as a miss
     out[0] = {-no_end, no_end};
     return a < 0 ? 1 : 0;
   }
-  // The sum of two numbers of one sign; the other root follows from the product of the roots.
+  // A sum of two numbers of equal sign; the other root follows from the product of the roots.
   const double q = -0.5 * (b + std::copysign(std::sqrt(disc), b));
   const double r = q / a;
   const double s = c / q;
@@ -102,7 +102,7 @@ Result<QuadricBody> QuadricBody::make(const Medium& medium, const glm::dvec3& lo
   out.low_ = box.low;
   out.high_ = box.high;
   out.clips_ = q.clips;
-  // Scaled so that values in the box are of order one: no square overflows or vanishes.
+  // Scaled so that values in the box are of order one: no square overflows or underflows.
   const double length = std::max(glm::length(box.low), glm::length(box.high));
   double size = std::abs(q.c);
   for (int k = 0; k < 3; ++k) {
@@ -187,7 +187,7 @@ bool QuadricBody::closed_form_volume(int axis) {
     const double n = clip.normal[axis];
     if (n > 0) z1 = std::min(z1, clip.offset / n);
     if (n < 0) z0 = std::max(z0, clip.offset / n);
-    if (n == 0 && clip.offset < 0) return true;  // nothing is inside
+    if (n == 0 && clip.offset < 0) return true;  // the body is empty
   }
   const double det = a_[x][x] * a_[y][y] - a_[x][y] * a_[x][y];
   if (!(a_[x][x] > 0) || !(det > 0)) return false;
@@ -212,7 +212,7 @@ bool QuadricBody::closed_form_volume(int axis) {
     if (z.empty()) continue;
     // Simpson's rule is exact for a parabola.
     sum += (z.t1 - z.t0) / 6 * (s(z.t0) + 4 * s(0.5 * (z.t0 + z.t1)) + s(z.t1));
-    // The box must not cut the ellipses: looked at on many heights, with room for rounding.
+    // Checks at many heights that the box does not cut the ellipses, with a margin for rounding.
     for (int k = 0; k <= 64; ++k) {
       const double height = z.t0 + (z.t1 - z.t0) * k / 64.0;
       const double radius = std::max(0.0, s(height));

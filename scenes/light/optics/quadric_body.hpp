@@ -1,6 +1,6 @@
-// A body bounded by a quadric surface, cut by half spaces and by the box that is said to hold it:
-// where rays pass it, what is inside, how large it is, and points uniform in it. No convexity is
-// assumed: a ray may have two stretches in a hyperboloid. Immutable once made; any thread.
+// A body bounded by a quadric surface and clipped by half spaces and its bounding box: ray
+// intervals, containment, volume, and uniform points in it. It need not be convex: a ray may have
+// two segments in a hyperboloid. Immutable once made; any thread.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int max_clip_planes = 64;
-/// A body must fill this share of its box, or uniform points in it would cost too many draws.
+/// Least share of its box that a body must fill, to limit the rejections per uniform point.
 inline constexpr double min_body_fill = 1e-4;
 /// Draws for one uniform point in a body; the chance to need more is below exp(-26) at the least
 /// fill.
@@ -27,7 +27,7 @@ class QuadricBody {
   /// Errors: bounds missing, numbers not finite, frame not orthonormal, nothing inside the bounds.
   static Result<QuadricBody> make(const Medium& medium, const glm::dvec3& local_origin);
 
-  /// The stretches of a ray inside the body, within `within`: at most two, ascending.
+  /// The segments of a ray inside the body, within `within`: at most two, ascending.
   int intervals(const glm::dvec3& o, const glm::dvec3& d, RayInterval within,
                 RayInterval out[2]) const {
     return local_intervals(to_local(o), d * axes_, within, out);
@@ -38,7 +38,7 @@ class QuadricBody {
     double m3 = 0;
     double error_m3 = 0;  // 0: closed form
   };
-  /// Closed form where cross-sections perpendicular to some local axis are whole ellipses between
+  /// Closed form if the cross-sections perpendicular to some local axis are whole ellipses between
   /// planes perpendicular to it (ellipsoid, cylinder, cone, paraboloid, hyperboloid so cut); else a
   /// quadrature by rays whose error is estimated from two resolutions.
   const Volume& volume() const { return volume_; }
@@ -67,7 +67,7 @@ class QuadricBody {
   std::vector<Quadric::Clip> clips_;
   glm::dvec3 low_{0};
   glm::dvec3 high_{0};
-  glm::dvec3 inner_point_{0};  // local; stands in for a draw that never succeeds
+  glm::dvec3 inner_point_{0};  // local; returned if no draw succeeds
   Volume volume_;
 };
 
@@ -87,7 +87,7 @@ glm::dvec3 QuadricBody::sample(Uniform&& next_uniform) const {
 /// Parameters s with a s^2 + b s + c <= 0, as at most two ascending intervals of the real line.
 int below_zero(double a, double b, double c, RayInterval out[2]);
 
-/// What is wrong with a frame, or "": axes must be orthonormal, everything finite.
+/// The fault of a frame as a message, or "": axes must be orthonormal, everything finite.
 std::string frame_fault(const Frame& frame);
 
 }  // namespace luxodus

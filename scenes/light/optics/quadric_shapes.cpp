@@ -1,5 +1,5 @@
-// Every shape is scaled so that the quadric's value is -1 or so inside: lengths enter as ratios,
-// hence millimetres and kilometres lose nothing.
+// Every shape is scaled so that the quadric's value is about -1 inside: lengths enter as ratios, so
+// millimetres and kilometres keep the same precision.
 #include "scenes/light/optics/quadric_shapes.hpp"
 
 namespace luxodus {

@@ -1,6 +1,6 @@
-// The quadric bodies that a scene can name, each as a Quadric with the box that holds it, in local
-// coordinates [m]. Axes of revolution are local z. Placing and turning is the medium's Frame.
-// Plain values; any thread. Arbitrary quadrics are written down by hand (medium.hpp).
+// The quadric bodies that a scene can name, each as a Quadric with its bounding box, in local
+// coordinates [m]. Axes of revolution are local z; the medium's Frame places and turns them. Other
+// quadrics are given by their coefficients (medium.hpp). Pure functions, plain values; any thread.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -17,7 +17,7 @@ struct QuadricShape {
 
 /// Centre at the origin. Requires (here and below): every length > 0 and finite.
 QuadricShape ellipsoid(const glm::dvec3& radii);
-/// From z = 0 to z = height.
+/// A cylinder from z = 0 to z = height.
 QuadricShape cylinder(double radius, double height);
 /// Base of the given radius at z = 0, apex at z = height.
 QuadricShape cone(double base_radius, double height);

@@ -1,6 +1,6 @@
-// Stretches of a ray, and where a ray passes an axis-aligned box. Distances along the ray [m] in
-// double. Half-open throughout: a body owns its lower faces, so that bodies which share a face
-// neither overlap nor leave a gap for rays that run within it. Plain values; any thread.
+// Intervals of a ray, and its intersection with an axis-aligned box. Distances along the ray [m] in
+// double. Half-open throughout: a body owns its lower faces, so that bodies that share a face
+// neither overlap nor leave a gap for rays within that face. Plain values; any thread.
 #pragma once
 
 #include <algorithm>
@@ -19,9 +19,9 @@ inline RayInterval common(const RayInterval& a, const RayInterval& b) {
   return {std::max(a.t0, b.t0), std::min(a.t1, b.t1)};
 }
 
-/// The part of `within` between two planes low <= x < high across one axis. A ray that does not
-/// move along the axis (d == 0) is inside all the way or not at all; any other d, 1e-45 included,
-/// has a finite inverse in double.
+/// The part of `within` between two planes low <= x < high across one axis. A ray without motion
+/// along the axis (d == 0) is inside everywhere or nowhere; any other d, even 1e-45, has a finite
+/// inverse in double.
 inline RayInterval between_planes(double low, double high, double o, double d, RayInterval within) {
   if (d == 0) return o >= low && o < high ? within : RayInterval{0, 0};
   const double inverse = 1 / d;

@@ -1,5 +1,5 @@
-// A smooth boundary between two transparent media: Fresnel's equations say which share of the light
-// it reflects, Snell's law where the rest goes. Any thread.
+// A smooth boundary between two transparent media: Fresnel's equations give the reflected share of
+// the light, Snell's law the direction of the rest. Pure functions; any thread.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,17 @@
 namespace luxodus {
 
 namespace surface_limits {
-/// Cosines below this (6e-5 degrees above the plane) are taken as this: Fresnel's terms stay
-/// defined.
+/// Least cosine of incidence (6e-5 degrees above the plane); smaller ones are raised to it, so that
+/// Fresnel's terms stay defined.
 inline constexpr Real min_cos = 1e-6_r;
-/// Refractive indices relative to the outside: a bubble in diamond to beyond any transparent solid.
+/// Range of refractive indices relative to the outside: from a bubble in diamond to beyond any
+/// transparent solid.
 inline constexpr double min_ior = 0.2;
 inline constexpr double max_ior = 5.0;
 }  // namespace surface_limits
 
-/// Reflectance r and 1 - r of one boundary for one polarisation; the second has its own accuracy.
+/// Reflectance r and 1 - r of one boundary for one polarisation; t is computed with an accuracy of
+/// its own.
 struct FresnelShares {
   Real r;
   Real t;
@@ -47,7 +49,7 @@ inline FresnelTerms fresnel(Real cos_theta, Real ior) {
   return {shares(c, b), shares(ior * c, cos_behind), cos_behind};
 }
 
-/// Snell's law: the part along the surface shrinks by 1 / ior, the rest is `cos_behind` of
+/// Snell's law: the tangential part shrinks by 1 / ior, the normal part is `cos_behind` of
 /// fresnel(). `incoming` travels towards the surface, against `normal`; both unit.
 /// Requires: cos_behind > 0.
 inline Vec3 refracted(const Vec3& incoming, const Vec3& normal, Real cos_theta, Real ior,

@@ -1,9 +1,9 @@
-// Directions and points from uniform numbers: the small functions of the tracer's innermost loop.
-// Promise: the same bits on any thread and any node of one instruction set, because only +,
-// -, *, /, sqrt and bit patterns are used (all rounded by IEEE 754) and never the C library's own
-// elementary functions. u and v are in [0, 1), multiples of 2^-24; a direction is unit to
-// 3e-7. Local frames: z is the axis. Not here: random numbers, and densities of anything that
-// depends on a scene. Any thread, no state.
+// Directions and points from uniform numbers: small functions of the tracer's innermost loop.
+// Promise: equal bits on any thread and any node of one instruction set, because only +, -, *, /,
+// sqrt and bit patterns are used (all rounded by IEEE 754) and never the C library's elementary
+// functions. u and v are in [0, 1), multiples of 2^-24; a direction is unit to 3e-7. Local frames
+// have z as their axis. Not here: random numbers, and densities that depend on a scene. Pure
+// functions; any thread.
 #pragma once
 
 #include <algorithm>
@@ -32,9 +32,9 @@ inline double choose(bool condition, double a, double b) {
 }
 
 // ---- elementary functions ----------------------------------------------------------------------
-// Polynomials interpolate at the Chebyshev nodes of their range (computed for this file in double).
+// Polynomials interpolate at the Chebyshev nodes of their range (coefficients computed in double).
 
-// The double forms are the C library's: their accuracy is what counts, not their bits or speed.
+// The double forms are the C library's: there accuracy matters, not reproducible bits or speed.
 
 template <class T>
 struct SinCosOf {
@@ -65,7 +65,7 @@ inline SinCosOf<double> sin_cos_two_pi(double u) {
 }
 
 /// log2(x) for normal x > 0, relative error at most 4e-7 (also next to x = 1); -1000 for x below
-/// 2^-126, far enough for every use here to end in an exact zero.
+/// 2^-126, small enough to give an exact zero in all uses here.
 inline float log2_of(float x) {
   if (!(x >= 0x1p-126F)) return -1000.0F;
   constexpr uint32_t sqrt_half_bits = 0x3f3504f3U;  // mantissas in [sqrt(1/2), sqrt(2))
@@ -82,14 +82,14 @@ inline double log2_of(double x) {
   return x >= 0x1p-126 ? std::log2(x) : -1000.0;
 }
 
-/// 2^x = scale (1 + rest) for x in [-126, 0]: a whole power of two, and 2^f - 1 for f in [-1/2,
-/// 1/2].
+/// 2^x = scale (1 + rest) for x in [-126, 0]: scale is a power of two, and rest is 2^f - 1 for f in
+/// [-1/2, 1/2].
 struct PowerOfTwo {
   float scale;
   float rest;
 };
 inline PowerOfTwo split_exp2(float x) {
-  const int whole = static_cast<int>(x - 0.5F);  // truncation is upwards for x <= 0: the nearest
+  const int whole = static_cast<int>(x - 0.5F);  // truncation rounds up for x <= 0: nearest integer
   const float f = x - static_cast<float>(whole);
   const float high = 0.00961808302F + f * (0.00133908633F + f * 0.000154531634F);
   const float rest = f * (0.693147182F + f * (0.240226507F + f * (0.0555035695F + f * high)));
@@ -116,7 +116,7 @@ inline double exp2_minus_one(double x) {
   return x >= -126.0 ? std::expm1(x * std::numbers::ln2) : -1.0;
 }
 
-/// sqrt(x), and 0 where rounding has pushed x below 0.
+/// sqrt(x), or 0 if rounding has made x negative.
 inline Real safe_sqrt(Real x) {
   return std::sqrt(std::max(0.0_r, x));
 }
@@ -135,7 +135,7 @@ struct Basis {
   }
 };
 
-/// Basis about a unit vector, without a branch and without a bad direction (Duff et al., "Building
+/// Basis about a unit vector, without a branch and valid for all directions (Duff et al., "Building
 /// an Orthonormal Basis, Revisited", JCGT 6(1), 2017).
 inline Basis basis_around(const Vec3& z) {
   const Real sign = std::copysign(1.0_r, z.z);
@@ -145,8 +145,8 @@ inline Basis basis_around(const Vec3& z) {
       {1.0_r + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
 }
 
-/// Takes off the drift of an almost unit vector (one Newton step, error squared): a direction that
-/// is turned thousands of times in thick smoke stays unit.
+/// Renormalises an almost unit vector (one Newton step, error squared): a direction that is rotated
+/// thousands of times in thick smoke stays unit.
 inline Vec3 renormalised(const Vec3& almost_unit) {
   return almost_unit * (1.5_r - 0.5_r * glm::dot(almost_unit, almost_unit));
 }
@@ -156,7 +156,7 @@ inline Vec3 to_world(const Vec3& axis, const Vec3& local) {
   return renormalised(basis_around(axis).to_world(local));
 }
 
-/// Direction at polar angle theta about z, azimuth 2 pi v. 1 - cos theta says narrow angles
+/// Direction at polar angle theta about z, azimuth 2 pi v. 1 - cos theta represents narrow angles
 /// exactly.
 inline Vec3 direction_from_one_minus_cos(Real one_minus_cos, Real v) {
   const Real sin_theta = safe_sqrt(one_minus_cos * (2.0_r - one_minus_cos));
@@ -171,15 +171,15 @@ inline Vec3 uniform_sphere(Real u, Real v) {
   return direction_from_one_minus_cos(2.0_r * u, v);
 }
 
-/// Density cos theta / pi [1/sr] about z; cos theta is at least 2^-12, so the surface is always
-/// left.
+/// Density cos theta / pi [1/sr] about z; cos theta is at least 2^-12, so the direction always
+/// leaves the surface.
 inline Vec3 cosine_hemisphere(Real u, Real v) {
   const Real radius = std::sqrt(u);
   const SinCos phi = sin_cos_two_pi(v);
   return {radius * phi.cos, radius * phi.sin, std::sqrt(1.0_r - u)};
 }
 
-/// Density [1/sr] of such a direction, by its cosine.
+/// Density [1/sr] of cosine_hemisphere for a direction with this cosine.
 inline Real cosine_pdf(Real cos_theta) {
   return std::max(0.0_r, cos_theta) * inverse_pi_f;
 }
@@ -191,9 +191,9 @@ inline Vec2 uniform_disc(Real u, Real v) {
   return {radius * phi.cos, radius * phi.sin};
 }
 
-/// Barycentrics (b0, b1, b2 >= 0, sum 1) of a uniform point of a triangle: the square folded on its
-/// diagonal, area-preserving and without a root (Heitz, "A Low-Distortion Map Between Triangle and
-/// Square", 2019).
+/// Barycentrics (b0, b1, b2 >= 0, sum 1) of a uniform point of a triangle: folds the unit square
+/// along its diagonal, area-preserving and without a square root (Heitz, "A Low-Distortion Map
+/// Between Triangle and Square", 2019).
 inline Vec3 uniform_triangle(Real u, Real v) {
   const bool above = v > u;
   const Real b0 = choose(above, 0.5_r * u, u - 0.5_r * v);
@@ -202,12 +202,13 @@ inline Vec3 uniform_triangle(Real u, Real v) {
 }
 
 /// Density (n + 1) / (2 pi) cos^n theta [1/sr] over the hemisphere about z, for n >= 0; exact for
-/// any n, narrow beams (n = 1e6) too. cos theta = (1 - u)^(1 / (n + 1)).
+/// any n, also for narrow beams (n = 1e6). cos theta = (1 - u)^(1 / (n + 1)).
 inline Vec3 cosine_power(Real n, Real u, Real v) {
   return direction_from_one_minus_cos(-exp2_minus_one(log2_of(1.0_r - u) / (n + 1.0_r)), v);
 }
 
-/// 1 - cos of the angle between two unit vectors: of a narrow beam the cosine itself keeps nothing.
+/// 1 - cos of the angle between two unit vectors; the cosine itself would lose the width of a
+/// narrow beam.
 inline Real one_minus_cosine(const Vec3& a, const Vec3& b) {
   const Vec3 between = a - b;
   return 0.5_r * glm::dot(between, between);
@@ -217,14 +218,15 @@ inline Real one_minus_cosine(const Vec3& a, const Vec3& b) {
 inline Real cosine_power_pdf(Real n, Real x) {
   if (!(x < 1.0_r)) return n == 0.0_r && x == 1.0_r ? 0.5_r * inverse_pi_f : 0.0_r;
   constexpr Real log2_e = std::numbers::log2e_v<Real>;
-  // Near the axis the series of log(1 - x): 1 - x is rounded, and a large power of it more so.
+  // Near the axis by the series of log(1 - x): 1 - x is rounded, and a high power magnifies the
+  // error.
   const Real log2_cos = x < 1e-3_r ? -log2_e * x * (1 + x * (0.5_r + x / 3)) : log2_of(1 - x);
   return (n + 1.0_r) * 0.5_r * inverse_pi_f * exp2_of(n * log2_cos);
 }
 
-/// A spot about z: full intensity within the inner half angle, none beyond the outer, between them
-/// the smooth step t^2 (3 - 2t) of t = (cos theta - cos outer) / (cos inner - cos outer). In the
-/// cosine its integral is a polynomial, so flux and sampling are exact.
+/// A spot about z: full intensity within the inner half angle, none beyond the outer one, and
+/// between them the smooth step t^2 (3 - 2t) of t = (cos theta - cos outer) / (cos inner - cos
+/// outer). Its integral is a polynomial in the cosine, so flux and sampling are exact.
 struct SpotLobe {
   Real inner_one_minus_cos = 0;
   Real outer_one_minus_cos = 0;
@@ -237,7 +239,7 @@ struct SpotLobe {
     return {static_cast<Real>(inner), static_cast<Real>(outer),
             static_cast<Real>(2.0 * inner / (inner + outer))};
   }
-  /// Flux [lm] of 1 cd on the axis: the integral of the relative intensity [sr].
+  /// Flux [lm] for 1 cd on the axis: the integral of the relative intensity [sr].
   Real solid_angle() const { return pi_f * (inner_one_minus_cos + outer_one_minus_cos); }
   /// Intensity relative to the axis, [0, 1]; x = 1 - cos(theta).
   Real relative_intensity(Real x) const {
@@ -257,10 +259,10 @@ struct SpotLobe {
   }
 
  private:
-  /// t in [0, 1] with t^3 (2 - t) = y: the distribution function of the smooth step, inverted.
+  /// The t in [0, 1] with t^3 (2 - t) = y: inverts the distribution function of the smooth step.
   static Real fall_off_quantile(Real y) {
-    // The root is between cbrt(y / 2) and cbrt(y); this mean of them is within 8 % of it, and three
-    // Newton steps on a convex function end at rounding.
+    // The root is between cbrt(y / 2) and cbrt(y). This start, between them, is within 8 % of it,
+    // and three Newton steps on a convex function then reach rounding.
     Real t = exp2_of((1.0_r / 3.0_r) * log2_of(y * (1.0_r / (2.0_r - 0.8_r * y))));
     for (int step = 0; step < 3; ++step) {
       const Real square = t * t;

@@ -1,4 +1,4 @@
-// Checking a data set and cutting it into bricks.
+// Checks a data set and cuts it into bricks.
 #include "scenes/light/optics/smoke_grid.hpp"
 
 #include <xxhash.h>

@@ -1,9 +1,9 @@
-// A 3-D array of smoke in a placed and turned box: where rays pass its cells, exactly and by
-// integer steps, and what the cells hold. The arrays are cut into bricks of 16^3 cells, the data
-// objects that are shared between machines; the grid itself keeps only what every machine needs at
-// once: the box and which bricks are clear. Bricks are read through a resolver only:
+// A 3-D array of smoke in a placed and turned box: rays cross its cells exactly, by integer steps.
+// The arrays are cut into bricks of 16^3 cells, which are the scene parts that machines exchange;
+// the grid itself keeps only what every machine needs: the box, and which bricks are clear. Bricks
+// are read only through a resolver:
 //   const Brick& resolver.brick(int medium, int brick)     valid until the next call.
-// Immutable once made; any thread.
+// A grid is immutable once made; any thread. A BrickReader and a GridCursor belong to one ray.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,7 @@ namespace luxodus {
 
 namespace limits {
 /// Cells along one side of a brick, a power of two: 4096 cells, 16 kB per quantity. Half of it
-/// would double the messages on a ray's way; twice as much (128 kB) would not fit a fetch beside
-/// others.
+/// would double the messages for a ray; twice as much (128 kB) would make fetches too large.
 inline constexpr int brick_side = 16;
 inline constexpr int brick_cells = brick_side * brick_side * brick_side;
 /// Cells along one side of a data set: indices and their products stay far inside 32 and 64 bits.
@@ -31,14 +30,14 @@ inline constexpr int max_grid_side = 8192;
 inline constexpr int64_t max_grid_cells = int64_t{1} << 30;
 }  // namespace limits
 
-/// 16^3 cells, x fastest; cells beyond the data set's end hold zeros. A quantity that the data set
-/// does not give has an empty array.
+/// 16^3 cells, x fastest; cells beyond the data set's end are zero. A quantity that the data set
+/// lacks has an empty array.
 struct Brick {
   std::vector<float> extinction;  // [1/m] at the medium's wavelength, before any factor
   std::vector<float> albedo;
   std::vector<float> emission;              // relative strength per volume
   std::vector<double> emission_cumulative;  // running sum of emission, this cell included
-  uint64_t content = 0;                     // XXH3 of the arrays: equal content, equal name
+  uint64_t content = 0;  // XXH3 of the arrays: bricks of equal content have equal names
 
   static int cell_index(const glm::ivec3& cell) {
     constexpr int low = limits::brick_side - 1;
@@ -51,25 +50,27 @@ struct Brick {
   }
 };
 
-/// A brick without anything: 4096 zeros of each quantity.
+/// A brick with 4096 zeros for each quantity.
 const Brick& clear_brick();
 
-/// What must be known of a brick before it is read.
+/// Facts about a brick that a tracer has before it reads it.
 struct BrickSummary {
-  bool smokes = false;  // a cell of it has extinction
+  bool smokes = false;  // some cell has extinction
   double emission = 0;  // sum over its cells
 
   friend bool operator==(const BrickSummary&, const BrickSummary&) = default;
 };
 
-/// What every machine keeps of a data set's arrays: which there are, and how much is in each brick.
+/// Facts about a data set's arrays that every machine keeps: which exist, and a summary of each
+/// brick.
 struct BrickTable {
   bool has_extinction = false;
   bool has_albedo = false;
   bool has_emission = false;
   std::vector<BrickSummary> bricks;  // in the order of SmokeGrid::brick_of
 
-  /// Nothing is lost if a ray never looks into the brick. `emits`: the medium gives light.
+  /// Whether rays may skip the brick: it has neither extinction nor emission. `emits`: the medium
+  /// has emission.
   bool clear(size_t brick, bool emits, bool interpolates) const {
     const bool glows = emits && (!has_emission || interpolates || bricks[brick].emission > 0);
     return has_extinction && !bricks[brick].smokes && !glows;
@@ -78,20 +79,20 @@ struct BrickTable {
   friend bool operator==(const BrickTable&, const BrickTable&) = default;
 };
 
-/// Bricks of a data set along its sides, and in all.
+/// Number of bricks along each side of a data set, and in total.
 glm::ivec3 bricks_along(const DataSet& data);
 size_t brick_count(const DataSet& data);
 
-/// One brick of a data set that has its arrays.
+/// Cuts one brick from a data set that holds its arrays.
 Brick cut_brick(const DataSet& data, size_t brick);
-/// Sets what follows from a brick's arrays: the running sum of emission, and the name.
+/// Computes what follows from a brick's arrays: the running sum of emission, and the name.
 void complete(Brick& brick);
 BrickSummary summary_of(const Brick& brick);
-/// Of a data set that has its arrays; cuts one brick at a time.
+/// The table of a data set that holds its arrays; cuts one brick at a time.
 BrickTable brick_table(const DataSet& data);
 
-/// Reads through a resolver, and asks again only when the brick changes: a returned brick is good
-/// until the next one is asked for. One per ray.
+/// Reads through a resolver, and calls it only if the brick changes: a returned brick is valid
+/// until the next one is read. One per ray.
 template <class Resolver>
 class BrickReader {
  public:
@@ -117,10 +118,10 @@ class SmokeGrid {
  public:
   SmokeGrid() = default;
 
-  /// Errors: sizes, array lengths and values that break medium.hpp's rules.
+  /// Errors: sizes, array lengths or values that break medium.hpp's rules.
   static Result<SmokeGrid> make(const Medium& medium, int medium_index,
                                 const glm::dvec3& local_origin);
-  /// Says what is in the arrays, wherever they are. `emits`: the medium gives light.
+  /// Takes over which bricks are clear, wherever the arrays are. `emits`: the medium has emission.
   /// Requires: a table of brick_count() bricks.
   void settle(const BrickTable& table, bool emits);
 
@@ -134,7 +135,7 @@ class SmokeGrid {
   bool has_albedo() const { return has_albedo_; }
   bool has_emission() const { return has_emission_; }
   bool interpolates_emission() const { return interpolate_emission_; }
-  /// No cell of it has extinction or emission.
+  /// Whether no cell of the brick has extinction or emission.
   bool clear(int brick) const { return clear_[static_cast<size_t>(brick)] != 0; }
 
   int brick_of(const glm::ivec3& cell) const {
@@ -175,15 +176,15 @@ class SmokeGrid {
   bool has_albedo_ = false;
   bool has_emission_ = false;
   bool interpolate_emission_ = false;
-  std::vector<uint8_t> clear_;  // by brick: rays may pass without looking inside
+  std::vector<uint8_t> clear_;  // by brick: rays may skip it
 };
 
-/// Walks a ray through a grid: one stretch per cell, one per clear brick. Faces are crossed by
-/// integer index and each face's distance is computed from the ray's origin, so stretches tile the
-/// ray's part in the box without gap, and there are at most nx + ny + nz of them.
+/// Walks a ray through a grid: one segment per cell, one per clear brick. Faces are crossed by
+/// integer index, and each face's distance is computed from the ray's origin, so the segments tile
+/// the part of the ray in the box without gaps; there are at most nx + ny + nz of them.
 class GridCursor {
  public:
-  /// False where the ray misses the grid within `within`.
+  /// False if the ray misses the grid within `within`.
   bool begin(const SmokeGrid& grid, const glm::dvec3& o, const glm::dvec3& d, RayInterval within) {
     grid_ = &grid;
     o_ = grid.to_local(o);
@@ -200,14 +201,14 @@ class GridCursor {
 
   const SmokeGrid& grid() const { return *grid_; }
   bool inside() const { return state_ == State::inside; }
-  /// Where the present stretch ends; infinity behind the grid.
+  /// The end of the present segment; infinity behind the grid.
   double t_end() const { return t_end_; }
   const glm::ivec3& cell() const { return cell_; }
-  /// The present stretch is a whole brick without smoke or flame.
+  /// Whether the present segment is a whole brick without extinction or emission.
   bool clear() const { return clear_; }
   glm::dvec3 local_at(double t) const { return o_ + d_ * t; }
 
-  /// To the next stretch. Requires: t_end() is finite.
+  /// Advances to the next segment. Requires: t_end() is finite.
   void advance() {
     if (state_ == State::before) {
       cell_ = grid_->cell_at(local_at(t_in_));
@@ -227,7 +228,7 @@ class GridCursor {
       const glm::ivec3 reached = grid_->cell_at(p);
       for (int j = 0; j < 3; ++j) {
         if (j == k) continue;
-        // Inside the brick being left, and never backwards.
+        // Clamped to the brick being left, and never backwards.
         const int low = cell_[j] & ~(limits::brick_side - 1);
         const int high = std::min(low + limits::brick_side, grid_->cells()[j]) - 1;
         const int c = std::clamp(reached[j], low, high);
@@ -266,7 +267,7 @@ class GridCursor {
     }
   }
 
-  // Not initialised: arrays of cursors are made for every flight and begin() sets what is read.
+  // Not initialised: every flight makes arrays of cursors, and begin() sets what is read.
   const SmokeGrid* grid_;
   glm::dvec3 o_;
   glm::dvec3 d_;

@@ -1,9 +1,9 @@
-// Spectra on the 5 nm grid. Every integral here is the trapezoidal sum over the nodes, so that sums
-// over bands (bands.cpp) and integrals over all wavelengths agree to rounding. Colours become
-// spectra by Jakob and Hanika's sigmoid of a parabola ("A low-dimensional function space for
-// efficient spectral upsampling", Eurographics 2019): smooth, inside (0, 1) by construction, three
-// numbers for three tristimulus values, solved for each colour by damped Gauss-Newton steps instead
-// of a table.
+// Spectra on the 5 nm grid. Every integral is the trapezoidal sum over the nodes, so that sums over
+// bands (bands.cpp) and integrals over all wavelengths agree to rounding. Colours become spectra by
+// Jakob and Hanika's sigmoid of a parabola ("A low-dimensional function space for efficient
+// spectral upsampling", Eurographics 2019): smooth, within (0, 1) by construction, three
+// coefficients for three tristimulus values, solved for each colour by damped Gauss-Newton steps
+// instead of a table.
 #include "scenes/light/optics/spectrum.hpp"
 
 #include <algorithm>
@@ -23,8 +23,7 @@ Spectrum normalised(Spectrum s) {
   return s * (1 / s.integral());
 }
 
-// Planck's law, logarithm and without its constant: what remains finite at 10 K, where the radiance
-// does not.
+// Logarithm of Planck's law without its constant: finite at 10 K, where the radiance underflows.
 double log_planck(double wavelength_nm, double kelvin) {
   const double x = second_radiation_nm_k / (wavelength_nm * kelvin);
   return -5 * std::log(wavelength_nm) - x - std::log1p(-std::exp(-x));
@@ -89,8 +88,8 @@ class ColourMatch {
 
   Vector3 white() const { return colour(Spectrum::constant(1)); }
 
-  // Levenberg-Marquardt from the grey of the wanted luminance. Very saturated colours ask for ever
-  // steeper sigmoids; the best one met within the step limit is then the answer.
+  // Levenberg-Marquardt from the grey of the wanted luminance. Very saturated colours would need
+  // ever steeper sigmoids; then the best one within the step limit is returned.
   SmoothReflectance find(const Vector3& wanted) const {
     constexpr int max_steps = 200;
     constexpr double good_enough = 1e-24;  // squared XYZ distance: rounding
@@ -147,8 +146,8 @@ class ColourMatch {
         for (size_t l = 0; l < 3; ++l) normal[j][l] += jacobian[j][k] * jacobian[l][k];
       }
     }
-    // The floor keeps the system solvable where the sigmoid is flat; Marquardt's scaling does the
-    // rest.
+    // The floor keeps the system solvable where the sigmoid is flat, in addition to Marquardt's
+    // scaling.
     for (size_t j = 0; j < 3; ++j) normal[j][j] += damping * (normal[j][j] + 1e-12);
     const Vector3 d = solve(normal, gradient);
     SmoothReflectance next = at;
@@ -223,8 +222,9 @@ Spectrum blackbody_shape(double kelvin) {
 }
 
 Spectrum illuminant_a_shape() {
-  // ISO/CIE 11664-2: 100 (560/w)^5 (e^(1.435e7/(2848*560)) - 1) / (e^(1.435e7/(2848 w)) - 1); the
-  // constants are the definition, whatever c2 has become since (they make 2856 K of today's scale).
+  // ISO/CIE 11664-2: 100 (560/w)^5 (e^(1.435e7/(2848*560)) - 1) / (e^(1.435e7/(2848 w)) - 1). These
+  // constants are the definition, even though c2 has changed since (they give 2856 K on today's
+  // scale).
   Spectrum s;
   for (int i = 0; i < spectrum_samples; ++i) {
     const double w = Spectrum::wavelength_nm(i);
@@ -241,10 +241,10 @@ Spectrum illuminant_d65_shape() {
 
 Spectrum white_led_shape(double cct_kelvin) {
   // A blue pump (InGaN, 452 nm, 23 nm wide) and two broad phosphor lobes (garnet green-yellow,
-  // nitride red), of the widths such phosphors have. Three lobes meet three tristimulus values: the
-  // weights solve a linear system so that the colour is that of the black body itself, distance 0
-  // from the Planckian locus. They are positive for 1800..40000 K, outside which the temperature is
-  // clamped.
+  // nitride red), with typical widths of such phosphors. The weights of the three lobes solve a
+  // linear system for three tristimulus values, so that the colour is that of the black body, at
+  // distance 0 from the Planckian locus. They are positive for 1800..40000 K; the temperature is
+  // clamped to that range.
   const double kelvin = std::clamp(cct_kelvin, 1800.0, 40000.0);
   const std::array<Spectrum, 3> lobes{lobe(452, 20, 26), lobe(536, 66, 106), lobe(617, 84, 104)};
   const Columns3 colours{xyz_of(lobes[0]), xyz_of(lobes[1]), xyz_of(lobes[2])};
@@ -267,8 +267,8 @@ Spectrum reflectance_from_linear_srgb(double r, double g, double b) {
   g = std::clamp(g, 0.0, 1.0);
   b = std::clamp(b, 0.0, 1.0);
   if (r == g && g == b) return Spectrum::constant(r);
-  // sRGB is a colour under D65; the same surface under equal energy has the adapted XYZ. The white
-  // adapted to is that of the tables, which is (1, 1, 1) but for 1e-5, so that near grey is near
+  // sRGB is a colour under D65; under equal energy the surface has the adapted XYZ. The white used
+  // for adaptation is that of the tables, which is (1, 1, 1) to 1e-5, so that a near grey is nearly
   // constant.
   const ColourMatch match(equal_energy_shape());
   const Vector3 wanted = adapt_white(xyz_from_linear_srgb({r, g, b}), d65_white, match.white());
@@ -281,8 +281,8 @@ Spectrum emission_shape_from_linear_srgb(double r, double g, double b) {
   b = std::max(b, 0.0);
   const double highest = std::max({r, g, b});
   if (highest <= 0 || (r == g && g == b)) return illuminant_d65_shape();
-  // D65 through a filter. Only the chromaticity counts, so the filter may be dark: a fifth of full
-  // brightness leaves the sigmoid room for saturated colours without steep flanks.
+  // D65 through a filter. Only the chromaticity matters, so the filter may be dark: a fifth of full
+  // brightness gives the sigmoid room for saturated colours without steep flanks.
   const double k = 0.2 / highest;
   const Vector3 wanted = xyz_from_linear_srgb({k * r, k * g, k * b});
   const Spectrum light = illuminant_d65_shape();

@@ -1,5 +1,5 @@
-// Spectra on one grid of 5 nm from 380 to 780 nm, the CIE functions, and the illuminants a scene
-// can name. Plain values; any thread. Units: emission shapes are per nm and relative unless said.
+// Spectra on one grid of 5 nm from 380 to 780 nm, the CIE functions, and the illuminants that a
+// scene can name. Emission shapes are per nm and relative unless stated. Plain values; any thread.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct Spectrum {
 
   /// Linear interpolation; constant beyond the ends.
   double at(double wavelength_nm) const;
-  /// Trapezoidal integral of this over [380, 780] nm.
+  /// Trapezoidal integral over [380, 780] nm.
   double integral() const;
   /// Integral of the product with another spectrum.
   double integral_with(const Spectrum& other) const;

@@ -4,7 +4,7 @@ namespace luxodus {
 
 namespace {
 
-/// The upper end is named, so that NaN, which compares with nothing, ends at the lower.
+/// Clamps; the comparison is written so that NaN gives the lower end.
 double within(double value, double low, double high) {
   if (!(value > low)) return low;
   return value < high ? value : high;
@@ -25,7 +25,7 @@ SurfaceModel make_surface(SurfaceKind kind, double reflectance, double specular,
   out.kind = kind;
   out.reflectance = static_cast<Real>(diffuse);
   out.specular = static_cast<Real>(mirror);
-  // Two roundings may add up to more than 1: the diffuse part gives way.
+  // Two roundings may add up to more than 1: the diffuse part is reduced.
   if (kind == SurfaceKind::glossy)
     out.reflectance = std::min(out.reflectance, 1.0_r - out.specular);
   out.alpha = static_cast<Real>(within(roughness, surface_limits::min_alpha, 1.0));

@@ -1,10 +1,10 @@
-// What a surface does with light that hits it, compiled for one band: sampling for flux particles
-// and for radiance traced from the eye alike, since every model is reciprocal. Promise: on average
-// a surface never gives back more than arrives (weights are in [0, 1]), at any angle and roughness.
-// Directions: `incoming` travels towards the surface; `normal` is the unit geometric normal on the
-// side it comes from; wo and wi point away from the surface. The weight is for flux and for basic
-// radiance L / n^2, which a refracting boundary keeps. Not here: textures and which side of a
-// triangle is hit. Any thread.
+// Surface scattering compiled for one band. It is used both by flux particles and by paths traced
+// from the eye, since every model is reciprocal. Promise: on average a surface never returns more
+// light than arrives (weights are in [0, 1]), at any angle and roughness. Directions: `incoming`
+// travels towards the surface; `normal` is the unit geometric normal on the side it comes from; wo
+// and wi point away from the surface. The weight is for flux and for basic radiance L / n^2, which
+// a refracting boundary preserves. Not here: textures, and which side of a triangle was hit. Pure
+// functions; any thread.
 #pragma once
 
 #include <algorithm>
@@ -21,19 +21,18 @@ enum class SurfaceKind {
   lambertian,  // reflectance
   glossy,      // reflectance (Lambert) + specular (GGX of roughness alpha)
   mirror,      // specular
-  glass_pane,  // thin plane pane with both its faces and the reflections between them
+  glass_pane,  // thin plane pane with both faces and the reflections between them
   dielectric,  // smooth boundary of a solid; ior is behind the front
   open,        // not there
 };
 
 namespace surface_limits {
-/// GGX narrower than this is a mirror for every luminaire here, and its peak 1 / (pi alpha^2) would
-/// let rounding of the half vector decide.
+/// Least GGX roughness: a narrower lobe acts as a mirror for every luminaire here, and its peak 1 /
+/// (pi alpha^2) would depend on the rounding of the half vector.
 inline constexpr double min_alpha = 1e-3;
 }  // namespace surface_limits
 
-/// One surface in one band. Made by make_surface; the reflectance may be scaled by a texture
-/// afterwards.
+/// One surface in one band. Made by make_surface; a texture may then scale the reflectance.
 struct SurfaceModel {
   SurfaceKind kind = SurfaceKind::open;
   Real reflectance = 0;         // Lambertian part, [0, 1]
@@ -44,14 +43,14 @@ struct SurfaceModel {
 };
 
 struct SurfaceSample {
-  Vec3 direction;    // of travel afterwards, unit
-  Real weight;       // f cos / pdf of the sampled lobe, [0, 1]: the share of the power that goes on
+  Vec3 direction;  // of travel afterwards, unit
+  Real weight;     // f cos / pdf of the sampled lobe, [0, 1]: the share of the power that continues
   bool transmitted;  // the light leaves on the other side
-  bool specular;     // into a single direction: next-event estimation cannot see it
+  bool specular;     // delta distribution: next-event estimation cannot connect to it
 };
 
-/// Compiles a surface. Values outside their range are brought to its end; reflectance + specular
-/// above 1 (a rounding of two averages) is scaled to 1. `roughness` is GGX alpha.
+/// Compiles a surface. Values are clamped to their ranges; reflectance + specular above 1 (from
+/// rounding of two averages) is scaled to 1. `roughness` is GGX alpha.
 SurfaceModel make_surface(SurfaceKind kind, double reflectance, double specular, double roughness,
                           double ior, double internal_transmittance);
 
@@ -73,7 +72,7 @@ inline PaneShares pane_shares(const SurfaceModel& model, Real cos_theta) {
   PaneShares sum{0.0_r, 0.0_r};
   for (const FresnelShares& f : {terms.s, terms.p}) {
     // 1 - r^2 t^2 = (1 - r t) (1 + r t) with 1 - r t = (1 - r) + r (1 - t): no cancellation at
-    // grazing.
+    // grazing angles.
     const Real through = f.t * f.t * t / ((f.t + f.r * loss) * (1.0_r + f.r * t));
     sum.transmitted += 0.5_r * through;
     sum.reflected += 0.5_r * f.r * (1.0_r + t * through);
@@ -81,15 +80,15 @@ inline PaneShares pane_shares(const SurfaceModel& model, Real cos_theta) {
   return sum;
 }
 
-/// Share of the power that passes a pane without deviation, either way: for shadow rays.
-/// `cos_theta` is the cosine between the ray and the pane's normal, any sign.
+/// Share of the power that passes a pane undeviated, in either direction: for shadow rays.
+/// `cos_theta` is the cosine between the ray and the pane's normal, with any sign.
 inline Real pane_transmittance(const SurfaceModel& model, Real cos_theta) {
   return pane_shares(model, cos_theta).transmitted;
 }
 
 // ---- glossy ------------------------------------------------------------------------------------
 
-/// sqrt(cos^2 + alpha^2 sin^2): Smith's Lambda for GGX is (this / cos - 1) / 2, without a tangent.
+/// sqrt(cos^2 + alpha^2 sin^2): Smith's Lambda for GGX is (this / cos - 1) / 2; avoids the tangent.
 inline Real ggx_stretch(Real cos_theta, Real alpha) {
   const Real cos_square = cos_theta * cos_theta;
   return std::sqrt(cos_square + alpha * alpha * std::max(0.0_r, 1.0_r - cos_square));
@@ -97,7 +96,7 @@ inline Real ggx_stretch(Real cos_theta, Real alpha) {
 
 /// Microfacet normal seen from the local direction wo (z > 0), distributed as the visible normals
 /// of GGX (Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018): stretch to
-/// the half sphere, sample its projection as seen from wo, go back.
+/// the hemisphere, sample its projection as seen from wo, transform back.
 inline Vec3 sample_ggx_visible_normal(const Vec3& wo, Real alpha, Real u, Real v) {
   const Vec3 view = glm::normalize(Vec3(alpha * wo.x, alpha * wo.y, wo.z));
   // The visible half disc is cut along the axis that lies in the surface.
@@ -116,17 +115,16 @@ inline Vec3 sample_ggx_visible_normal(const Vec3& wo, Real alpha, Real u, Real v
 /// Density of microfacet normals of GGX [1/sr] (Trowbridge and Reitz 1975).
 inline Real ggx_density(Real alpha, const Vec3& h, const Vec3& normal) {
   const Real cos_h = glm::dot(h, normal);
-  const Vec3 flat = glm::cross(h, normal);  // sin^2 from here: 1 - cos^2 would lose a narrow lobe
+  const Vec3 flat = glm::cross(h, normal);  // for sin^2: 1 - cos^2 would lose a narrow lobe
   const Real alpha_square = alpha * alpha;
   const Real spread = cos_h * cos_h * alpha_square + glm::dot(flat, flat);
   return inverse_pi_f * alpha_square / (spread * spread);
 }
 
-// ---- the calls of the tracers ---------------------------------------------------------------
+// ---- used by the tracers -----------------------------------------------------------------------
 
-/// BRDF [1/sr] of everything that is spread over directions (Lambert + GGX with Smith's
-/// height-correlated masking, Heitz, JCGT 3(2), 2014); 0 for mirror, pane, dielectric and open, and
-/// below the horizon.
+/// BRDF [1/sr] of the non-delta part (Lambert + GGX with Smith's height-correlated masking, Heitz,
+/// JCGT 3(2), 2014); 0 for mirror, pane, dielectric and open, and below the horizon.
 inline Real evaluate_surface(const SurfaceModel& model, const Vec3& wo, const Vec3& wi,
                              const Vec3& normal) {
   const Real cos_o = glm::dot(wo, normal);
@@ -140,8 +138,8 @@ inline Real evaluate_surface(const SurfaceModel& model, const Vec3& wo, const Ve
   return model.reflectance * inverse_pi_f + model.specular * d * 0.5_r / masking;
 }
 
-/// Density [1/sr] with which `sample_surface` draws wi, of everything that is spread over
-/// directions; 0 for mirror, pane, dielectric and open, and below the horizon.
+/// Density [1/sr] with which `sample_surface` draws wi from the non-delta part; 0 for mirror, pane,
+/// dielectric and open, and below the horizon.
 inline Real surface_pdf(const SurfaceModel& model, const Vec3& wo, const Vec3& wi,
                         const Vec3& normal) {
   const Real cos_o = std::max(glm::dot(wo, normal), surface_limits::min_cos);
@@ -150,7 +148,7 @@ inline Real surface_pdf(const SurfaceModel& model, const Vec3& wo, const Vec3& w
   if (model.kind == SurfaceKind::lambertian) return cosine_pdf(cos_i);
   const Real sum = model.reflectance + model.specular;
   if (model.kind != SurfaceKind::glossy || !(sum > 0.0_r)) return 0.0_r;
-  // Of visible normals, per direction that they reflect to: D G1 / (4 cos).
+  // Density of visible normals, per solid angle of the reflected direction: D G1 / (4 cos).
   const Real d = ggx_density(model.alpha, glm::normalize(wo + wi), normal);
   const Real lobe = d * 0.5_r / (cos_o + ggx_stretch(cos_o, model.alpha));
   return (model.reflectance * cosine_pdf(cos_i) + model.specular * lobe) / sum;
@@ -165,8 +163,7 @@ inline SurfaceSample sample_ggx(const SurfaceModel& model, const Vec3& incoming,
   wo.z = std::max(wo.z, surface_limits::min_cos);
   const Vec3 m = sample_ggx_visible_normal(wo, model.alpha, u, v);
   const Vec3 wi = m * (2.0_r * glm::dot(wo, m)) - wo;
-  // Reflected into the surface: a second facet would be next; the single-scattering model ends
-  // here.
+  // Reflected into the surface, onto a second facet: the single-scattering model ends here.
   if (!(wi.z > 0.0_r)) return {normal, 0.0_r, false, false};
   const Real stretch_o = ggx_stretch(wo.z, model.alpha);
   const Real stretch_i = ggx_stretch(wi.z, model.alpha);
@@ -192,7 +189,7 @@ inline SurfaceSample sample_dielectric(const SurfaceModel& model, const Vec3& in
 
 }  // namespace surface_detail
 
-/// One event: chooses a lobe with u_lobe and a direction in it with u, v. `front` tells a
+/// Samples one event: chooses a lobe with u_lobe and a direction in it with u, v. `front` tells a
 /// dielectric that the light comes from outside. Requires: incoming, normal unit; incoming . normal
 /// <= 0 up to rounding.
 inline SurfaceSample sample_surface(const SurfaceModel& model, const Vec3& incoming,
@@ -201,7 +198,8 @@ inline SurfaceSample sample_surface(const SurfaceModel& model, const Vec3& incom
     case SurfaceKind::lambertian:
       break;
     case SurfaceKind::glossy: {
-      // Lobes in proportion to their reflectivity: each then carries the sum of both.
+      // Lobes are chosen in proportion to their reflectance, so the weight of each is the sum of
+      // both.
       const Real sum = model.reflectance + model.specular;
       if (u_lobe * sum < model.specular) {
         return surface_detail::sample_ggx(model, incoming, normal, u, v);

@@ -1,8 +1,8 @@
-// Where a glowing body (a flame) gives its light: points drawn in proportion to its emission per
-// volume, and that emission as a density that integrates to 1 over the body. How many watts, and in
-// which bands, is the caller's. Bodies glow evenly; data sets by their cells' strength, constant in
-// a cell or interpolated between cell centres (held constant beyond the outermost centres).
-// Immutable once made; any thread.
+// Emission of a glowing body (a flame): samples points in proportion to emission per volume, and
+// evaluates that emission as a density that integrates to 1 over the body. Power and bands are the
+// caller's. Bodies glow uniformly; data sets by their cells' strength, constant in a cell or
+// interpolated between cell centres (constant beyond the outermost centres). Immutable once made;
+// any thread.
 #pragma once
 
 #include <algorithm>
@@ -19,17 +19,16 @@ namespace luxodus {
 class VolumeEmitter {
  public:
   VolumeEmitter(int medium, QuadricBody body) : medium_(medium), body_(std::move(body)) {}
-  /// Requires: `grid` is settled with this table.
+  /// Requires: settle() of `grid` was called with this table.
   VolumeEmitter(SmokeGrid grid, const BrickTable& table);
 
   int medium() const { return medium_; }
   double volume_m3() const { return body_ ? body_->volume().m3 : grid_.volume_m3(); }
-  /// Of volume_m3; 0 where it is a closed form.
-  /// False where nothing glows: every cell's strength is 0.
+  /// False if nothing glows: every cell's strength is 0.
   bool glows() const { return body_ || !grid_.has_emission() || total_ > 0; }
 
-  /// A point in the tracer's coordinates. `next_uniform()` gives independent numbers in [0, 1); a
-  /// data set takes four, a body three for every try.
+  /// Samples a point in the tracer's coordinates. `next_uniform()` returns independent numbers in
+  /// [0, 1); a data set takes four, a body three per try.
   template <class Uniform, class Resolver>
   Vec3 sample(Uniform&& next_uniform, Resolver& resolver) const;
 
@@ -37,7 +36,7 @@ class VolumeEmitter {
   template <class Resolver>
   double density(const glm::dvec3& p, BrickReader<Resolver>& bricks) const;
 
-  /// Mean of the density over the cursor's stretch from t0 to t1, exact (Simpson's rule on pieces
+  /// Mean of the density over the cursor's segment from t0 to t1, exact (Simpson's rule on pieces
   /// where the interpolation is a cubic along the ray). Requires: made from a grid; t1 > t0 within
   /// one cell.
   template <class Resolver>
@@ -55,12 +54,12 @@ class VolumeEmitter {
   int medium_;
   std::optional<QuadricBody> body_;
   SmokeGrid grid_;
-  std::vector<double> brick_cumulative_;  // of the sum of strengths
-  double total_ = 0;                      // of all strengths
+  std::vector<double> brick_cumulative_;  // running sum of strengths
+  double total_ = 0;                      // sum of all strengths
 };
 
-/// The distance from the centre of a cell, in cells, of a point drawn from a tent over two cells:
-/// linear interpolation between centres is the sum of such tents.
+/// Offset from the centre of a cell, in cells, drawn from a tent function over two cells: linear
+/// interpolation between centres is a sum of such tents.
 inline double tent_offset(double u) {
   return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u));
 }
@@ -75,7 +74,7 @@ template <class Resolver>
 glm::ivec3 VolumeEmitter::choose_cell(double u, BrickReader<Resolver>& bricks) const {
   const auto reached = [](const std::vector<double>& running, double value) {
     const auto it = std::upper_bound(running.begin(), running.end(), value);
-    // Rounding may carry the value to the end: then the last entry that adds something.
+    // Rounding may carry the value to the end: then the last entry that adds something is used.
     return static_cast<size_t>(
         (it != running.end() ? it
                              : std::lower_bound(running.begin(), running.end(), running.back())) -
@@ -107,7 +106,8 @@ Vec3 VolumeEmitter::sample(Uniform&& next_uniform, Resolver& resolver) const {
   if (grid_.interpolates_emission()) {
     for (int k = 0; k < 3; ++k) {
       place[k] = cell[k] + 0.5 + tent_offset(draw[k]);
-      // A tent folded at the wall is constant from the outermost centre to the wall.
+      // The tent is folded at the wall, so that the density is constant from the outermost centre
+      // to it.
       if (place[k] < 0) place[k] = -place[k];
       if (place[k] > grid_.cells()[k]) place[k] = 2 * grid_.cells()[k] - place[k];
     }
@@ -156,7 +156,7 @@ double VolumeEmitter::mean_density(const GridCursor& cursor, double t0, double t
   if (!grid_.interpolates_emission()) {
     return strength(cursor.cell(), bricks) / (total_ * grid_.cell_volume_m3());
   }
-  // The interpolation changes its cubic where the ray passes the cell's middle in x, y or z.
+  // The interpolating cubic changes where the ray passes the cell's middle in x, y or z.
   double cut[5] = {t0, 0, 0, 0, 0};
   int n = 1;
   const glm::dvec3 start = cursor.local_at(t0);

@@ -17,7 +17,7 @@
 namespace luxodus {
 namespace {
 
-/// Of the largest face, with its layers of groups; and of a slow processor.
+/// Limits for the largest face with its layers of groups, on a slow processor.
 constexpr IsolatedLimits for_a_sign{uint64_t{1} << 30, 5};
 
 using Drawing = std::unique_ptr<RsvgHandle, Release<g_object_unref>>;
@@ -44,7 +44,7 @@ std::optional<std::pair<double, double>> stated_size(RsvgHandle* drawing) {
 
 Result<DrawnSvg> drawn(const std::string& bytes, int across, int down) {
   GError* error = nullptr;
-  // Read from memory the drawing has no folder of its own, so it can load no other file.
+  // Read from memory, the drawing has no folder, so it can load no other file.
   Drawing drawing(rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(bytes.data()),
                                             bytes.size(), &error));
   if (!drawing) {
@@ -82,12 +82,12 @@ void answer(PlainReader& question, PlainWriter& out) {
 
 const IsolatedJob draw_job("draw", answer);
 
-// ---- in this one -------------------------------------------------------------------------------
+// ---- in this process ---------------------------------------------------------------------------
 
-/// What makes a drawing none of a sign, seen without parsing it. A drawing in another encoding than
-/// UTF-8 passes unseen: the limits of the job hold for it.
+/// Finds, without parsing, what makes a drawing unfit for a sign. Drawings in other encodings than
+/// UTF-8 are not checked here; the limits of the job hold for them.
 std::optional<Problem> unfit(std::string_view bytes) {
-  // librsvg would inflate it without a bound.
+  // librsvg would decompress it without a limit.
   if (bytes.starts_with("\x1f\x8b"))
     return problem("the drawing is compressed; unpack it to plain SVG");
   if (std::count(bytes.begin(), bytes.end(), '<') > 2 * limits::max_drawing_elements)

@@ -1,6 +1,6 @@
-// Drawings as pixels, by librsvg, which appears in draw_svg.cpp only and runs in a process of its
-// own: a drawing that makes it crash, or takes too much memory or time, is a problem like any
-// other. A drawing can load no other file. Internal to sign_face. Any thread.
+// Rasterises drawings with librsvg, which appears in draw_svg.cpp only and runs in a process of its
+// own: a drawing that makes it crash, or takes too much memory or time, is reported like any other
+// problem. A drawing can load no other file. Internal to sign_face. Any thread.
 #pragma once
 
 #include <array>
@@ -27,11 +27,11 @@ struct Pixels {
 };
 
 struct DrawnSvg {
-  double width = 0, height = 0;  // that the drawing itself states, in its own units
-  Pixels pixels;                 // stretched to fill the size asked for
+  double width = 0, height = 0;  // size that the drawing states, in its own units
+  Pixels pixels;                 // stretched to the requested size
 };
 
-/// Draws the bytes of an SVG file onto `across` by `down` pixels.
+/// Rasterises the bytes of an SVG file to `across` by `down` pixels.
 /// Errors (without a file): not SVG, compressed, with filters, more elements than the limit, no
 /// size of its own, more memory or time than drawing a sign takes.
 Result<DrawnSvg> draw_svg(const std::string& bytes, int across, int down);

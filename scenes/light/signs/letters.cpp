@@ -1,6 +1,6 @@
-// Every glyph is written on a unit square (x right, y up) that stands for the centre lines: it is
-// stretched to the letter's box less half a stroke on every side, so that whatever the stroke the
-// drawn letter fills its box exactly. Bows are elliptic arcs of the unit square, sampled finely.
+// Every glyph's centre lines are given on a unit square (x right, y up). It is stretched to the
+// letter's box less half a stroke on every side, so that the drawn letter fills its box exactly for
+// any stroke. Bows are elliptic arcs of the unit square, finely sampled.
 #include "scenes/light/signs/letters.hpp"
 
 #include <cmath>
@@ -28,7 +28,7 @@ Node bow(double x, double y, double rx, double ry, double from_deg, double to_de
   return {{x, y}, {rx, ry}, from_deg, to_deg};
 }
 
-/// Which ends of a slanting line run on beyond the box, to be cut flat at its edge.
+/// Ends of a slanting line that are extended beyond the box, to be clipped flat at its edge.
 enum class RunOut { none, start, end, both };
 
 struct Line {
@@ -142,7 +142,7 @@ Glyph glyph_digit(char c) {
   }
 }
 
-/// Marks; `known` becomes false for any other character.
+/// Marks; sets `known` to false for any other character.
 Glyph glyph_mark(char c, bool& known) {
   // A dot is a line just long enough to have a direction: its square ends make the square.
   constexpr double dot = 1e-3;
@@ -181,8 +181,8 @@ Glyph glyph_of(char c, bool& known) {
   return glyph_mark(c, known);
 }
 
-/// The unit square's points of a line, arcs sampled every 5 degrees: for a bow as large as a letter
-/// the chord leaves the arc by 0.1 % of its radius, far below a texel.
+/// The points of a line on the unit square, arcs sampled every 5 degrees: for a bow as large as a
+/// letter the chord deviates from the arc by 0.1 % of its radius, far below a texel.
 std::vector<glm::dvec2> flatten(const Line& line) {
   std::vector<glm::dvec2> points;
   for (const Node& node : line.nodes) {
@@ -195,7 +195,7 @@ std::vector<glm::dvec2> flatten(const Line& line) {
       const double deg = node.from_deg + (node.to_deg - node.from_deg) * i / steps;
       const double rad = deg * std::numbers::pi / 180.0;
       const glm::dvec2 point = node.at + node.radius * glm::dvec2(std::cos(rad), std::sin(rad));
-      // An arc may start where the line already stands; a doubled point has no direction to join.
+      // An arc may start where the line ends; a duplicate point has no direction to join.
       if (points.empty() || glm::distance(points.back(), point) > 1e-9) points.push_back(point);
     }
   }
@@ -230,7 +230,7 @@ std::string quoted(char c) {
   return "byte " + std::to_string(byte);
 }
 
-/// "" when text and sizes are sound, else what is wrong with them.
+/// The fault of a text and its sizes, as a message; "" if they are valid.
 std::string letters_fault(std::string_view text, const LetterSize& size) {
   if (text.empty()) return "the legend is empty; give the text that the sign shows";
   if (text.size() > limits::max_legend_characters)
@@ -240,7 +240,7 @@ std::string letters_fault(std::string_view text, const LetterSize& size) {
                      std::isfinite(size.spacing_m) && size.height_m > 0 && size.stroke_m > 0 &&
                      size.spacing_m >= 0;
   if (!sized) return "letter height and stroke must be positive, and spacing not negative";
-  // The slack lets a stroke of exactly a fifth pass whatever the unit it was converted from.
+  // The tolerance accepts a stroke of exactly a fifth whatever unit it was converted from.
   if (size.stroke_m > limits::max_stroke_share * size.height_m * (1 + 1e-9))
     return "the stroke is " + std::to_string(size.stroke_m / size.height_m) +
            " of the letter height; above 0.2 the gaps within E are thinner than the stroke";
@@ -252,7 +252,7 @@ std::string letters_fault(std::string_view text, const LetterSize& size) {
 Result<Lettering> lay_out_text(std::string_view text, const LetterSize& size) {
   if (std::string wrong = letters_fault(text, size); !wrong.empty())
     return problem(std::move(wrong));
-  // A word space of half a letter's height parts words clearly at any spacing of letters.
+  // A word space of 0.4 letter heights separates words clearly at any letter spacing.
   constexpr double word_space_share = 0.4;
   Lettering out;
   out.height_m = size.height_m;

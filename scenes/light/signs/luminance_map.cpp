@@ -1,4 +1,4 @@
-// The brightness pattern of a face: the exact average of a map over each texel, colour by colour.
+// The brightness pattern of a face: the exact average of a map over each texel, by colour.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -17,7 +17,7 @@ double luminance_of(const Image& map, size_t pixel) {
   return 0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2];
 }
 
-/// "" when the image keeps its own rules, else what is wrong.
+/// The fault of an image, as a message; "" if it is valid.
 std::string map_fault(const Image& map) {
   const bool layout = map.width > 0 && map.height > 0 &&
                       (map.channels == 1 || map.channels == 3 || map.channels == 4) &&
@@ -31,7 +31,7 @@ std::string map_fault(const Image& map) {
   return {};
 }
 
-/// Cells of a row of `count` that [low, high) covers, each with its overlap.
+/// Visits the cells of a row of `count` that [low, high) overlaps, each with its overlap.
 template <class Visit>
 void for_overlaps(double low, double high, int count, Visit&& visit) {
   const int first = std::clamp(static_cast<int>(low), 0, count - 1);

@@ -1,6 +1,6 @@
-// Drawings, pictures and text all become pixels first; a texel then takes the colour that most of a
-// grid of pixels within it have. Voting on classes instead of averaging colours keeps an edge
-// between white and green from turning into a third colour.
+// Drawings, pictures and text are all rasterised first; a texel then takes the colour of the
+// majority of a grid of pixels within it. Voting on classes instead of averaging colours prevents a
+// third colour along an edge between white and green.
 // Invariant: a face has at least one texel each way, and colour.size() == width * height.
 #include "scenes/light/signs/sign_face.hpp"
 
@@ -41,7 +41,7 @@ double lab_distance(const std::array<double, 3>& a, const std::array<double, 3>&
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-/// Classifies runs of equal pixels once: a sign's drawing is nothing but runs.
+/// Classifies each run of equal pixels once: a sign's drawing consists of runs.
 class Classifier {
  public:
   SignColour operator()(const Rgba& rgba) {
@@ -86,13 +86,13 @@ Result<SignFace> blank_face(double width_m, double height_m, int texels_across) 
   return face;
 }
 
-/// Pixels per texel edge when we draw ourselves: 4, or 2 where 4 would take over 64 MiB.
+/// Pixels per texel edge of faces that we draw: 4, or 2 if 4 would take over 64 MiB.
 int samples_per_texel(const SignFace& face) {
   return static_cast<int64_t>(face.colour.size()) * 16 <= limits::max_picture_pixels ? 4 : 2;
 }
 
 /// `other` needs the majority, so that neither a blurred edge nor a hairline makes a seam. A tie
-/// goes to the middle sample: always giving it to one colour would make that colour grow.
+/// goes to the middle sample: if it always went to one colour, that colour would grow.
 SignColour winner(const std::array<int, 3>& votes, SignColour middle) {
   const int white = votes[0], green = votes[1], other = votes[2];
   if (other > white + green) return SignColour::other;
@@ -102,7 +102,7 @@ SignColour winner(const std::array<int, 3>& votes, SignColour middle) {
 
 /// Fills the face from pixels that cover it exactly. Requires: pixels of at least 1 by 1.
 void vote(SignFace& face, const Pixels& pixels) {
-  // At least the 4 by 4 of our own drawings; a finer picture is read whole up to 16 by 16.
+  // At least the 4 by 4 of our own drawings; finer pictures are sampled up to 16 by 16.
   const int across = std::clamp(pixels.width / face.width, 4, 16);
   const int down = std::clamp(pixels.height / face.height, 4, 16);
   const auto pixel_at = [](int texel, int sample, int samples, int texels, int count) {
@@ -131,7 +131,7 @@ void vote(SignFace& face, const Pixels& pixels) {
   }
 }
 
-/// A pictogram is read by the contrast of its two colours, so it must have both.
+/// A pictogram is read by the contrast between its two colours, so it must have both.
 std::optional<std::string> missing_colour(const SignFace& face) {
   for (auto [colour, name] : {std::pair{SignColour::white, "white (like #ECECE7)"},
                               std::pair{SignColour::green, "green (like #237F52)"}})
@@ -166,7 +166,7 @@ Result<std::string> read_drawing(const std::filesystem::path& file) {
   return bytes;
 }
 
-/// Sets libpng's state free on every way out.
+/// Releases libpng's state on every path out of the function.
 struct PngReader {
   png_image state{};
 

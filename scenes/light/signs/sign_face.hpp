@@ -1,9 +1,9 @@
-// Sign faces: which texel is white, which green, which neither. A face comes from a drawing (SVG),
-// a picture (PNG), a line of text, or is of one colour. Colours are told apart by CIE Lab distance
-// to the ISO 3864 surface colours as public drawings print them (#237F52, #ECECE7); how bright a
-// colour shines is the sign's affair (sign_geometry.hpp), never the drawing's.
-// Reads files, keeps no state; any thread, one call at a time per file. Untrusted input: every size
-// has a limit, and a drawing may not load anything else.
+// Sign faces: each texel is white, green or neither. A face is made from a drawing (SVG), a picture
+// (PNG), a line of text, or is of one colour. Colours are classified by CIE Lab distance to the ISO
+// 3864 surface colours as public drawings print them (#237F52, #ECECE7). The luminance of a colour
+// comes from the sign (sign_light.hpp), never from the drawing. Reads files, keeps no state; any
+// thread, one call at a time per file. Untrusted input: every size has a limit, and a drawing
+// cannot load other files.
 #pragma once
 
 #include <array>
@@ -19,7 +19,8 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int min_face_texels_across = 8;
-/// 2048 texels on a 1 m face are 0.5 mm, finer than any eye at 2 m; more only costs memory.
+/// 2048 texels on a 1 m face are 0.5 mm, finer than any eye resolves at 2 m; more only costs
+/// memory.
 inline constexpr int max_face_texels_across = 2048;
 inline constexpr int64_t max_face_texels = int64_t{1} << 22;
 inline constexpr double min_face_edge_m = 0.01;
@@ -27,10 +28,10 @@ inline constexpr double max_face_edge_m = 20.0;
 inline constexpr int64_t max_drawing_bytes = int64_t{4} << 20;
 inline constexpr int64_t max_picture_bytes = int64_t{64} << 20;
 inline constexpr int64_t max_picture_pixels = int64_t{1} << 24;
-/// A drawing whose aspect differs by more would be visibly stretched: the sizes are wrong.
+/// A drawing whose aspect differs by more would be visibly stretched: a size is wrong.
 inline constexpr double face_aspect_tolerance = 0.03;
 /// Largest CIE 1976 colour difference to a named colour. White and green are 61 apart: 35 leaves no
-/// seam of neither along their edges, and keeps mid grey, black and red out.
+/// unclassified seam along their edges, and excludes mid grey, black and red.
 inline constexpr double max_sign_colour_distance = 35.0;
 }  // namespace limits
 

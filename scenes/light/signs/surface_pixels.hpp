@@ -1,5 +1,5 @@
-// What cairo has drawn, as pixels of ours, and owners of what it makes. Internal to draw_svg and
-// sign_face. Any thread.
+// Conversion of cairo's pixels to ours, and owning pointers to its objects. Internal to draw_svg
+// and sign_face. Pure; any thread.
 #pragma once
 
 #include <cairo.h>
@@ -10,7 +10,7 @@
 
 namespace luxodus {
 
-/// Gives back what Cairo or librsvg made, by a function of theirs.
+/// Releases an object of cairo or librsvg with the library's own function.
 template <auto release>
 struct Release {
   template <class T>

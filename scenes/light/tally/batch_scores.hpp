@@ -1,5 +1,5 @@
-// What one batch has scored: an integer for each place of the layout, and where its weight went. A
-// sparse array, so that what a batch does not reach takes neither memory nor time.
+// Scores of one batch: an integer for each bin of the layout, and the energy balance. The scores
+// are a sparse array, so that bins that a batch does not reach take neither memory nor time.
 // Thread rule: belongs to one thread.
 #pragma once
 
@@ -13,7 +13,7 @@ struct BatchScores {
   SparseArray<int64_t> scores;
   EnergyBalance balance;
 
-  /// Makes room for a layout's scores, or sets those of the same layout to zero.
+  /// Allocates the scores of a layout, or sets existing scores for that layout to zero.
   void reset(const TallyLayout& layout, Cleared cleared = Cleared::kept) {
     if (scores.size() == static_cast<size_t>(layout.scores())) {
       scores.find_touched();

@@ -1,4 +1,4 @@
-// The balance: where every unit of weight came from and went, exact in integers.
+// The energy balance: sources and sinks of all weight, exact in integers. Plain values; any thread.
 //   emitted + roulette gain = absorbed on surfaces + absorbed in media + escaped + roulette loss +
 //   lost
 #pragma once
@@ -16,7 +16,7 @@ struct EnergyBalance {
   Int128 absorbed_media = 0;
   Int128 escaped = 0;
   Int128 roulette_loss = 0;
-  Int128 lost_too_long = 0;  // a history passed the cap on its events, or a batch on its rays
+  Int128 lost_too_long = 0;  // a history exceeded its limit of events, or a batch its limit of rays
   uint64_t particles = 0;
   uint64_t rays = 0;
   uint64_t hits = 0;

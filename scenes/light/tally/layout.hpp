@@ -1,9 +1,9 @@
-// What is counted, and where each count lies. A block is an array of bins (patches, voxels, cells
-// of a plane, paths from an eye); a bin holds `quantities` scores for each band. A batch scores
-// into one flat array of int64; totals keep, for every score and source group, a 128-bit sum and a
-// 128-bit sum of squares of batches. Beside the bands stands one more channel, photopic: the bands'
-// scores weighted to lumens and summed per batch, because errors of bins are never combined. With
-// one band it is that band. Immutable once sealed; any thread.
+// The tally's layout: which quantities are scored, and at which index. A block is an array of bins
+// (patches, voxels, cells of a plane, eye paths); a bin holds `quantities` scores for each band. A
+// batch scores into one flat array of int64; totals keep, for every score and source group, a
+// 128-bit sum and a 128-bit sum of squares over batches. In addition to the bands there is a
+// photopic channel: the bands' scores weighted to lumens and summed per batch, because errors of
+// bins cannot be combined later. With one band it is that band. Immutable once sealed; any thread.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace luxodus {
 
-/// How a score turns into its unit: see scenes/light/transport/readout.hpp.
+/// The unit of a score; converted by scenes/light/transport/readout.hpp.
 enum class ScoreUnit {
   weight,         // carried flux: watts per unit weight
   weight_length,  // flux times path length: watts metre per unit
-  value,          // already a physical value, in units of `value_quantum`
+  value,          // a physical value, in units of `value_quantum`
 };
 
 struct TallyBlock {
@@ -29,9 +29,9 @@ struct TallyBlock {
   int64_t first_total = 0;  // in totals: [bin][channel][quantity]
 };
 
-/// A bin of one block that is the sum of a run of bins of another, per batch: a wall is its
-/// patches. Where the target has one quantity more, that is the first minus the second: in minus
-/// out is absorbed.
+/// A bin of one block that is the sum of consecutive bins of another, per batch: e.g. a wall is the
+/// sum of its patches. If the target has one quantity more, it is the first minus the second:
+/// absorbed is in minus out.
 struct Aggregate {
   uint32_t from_block = 0;
   uint32_t first_bin = 0;
@@ -58,7 +58,7 @@ class TallyLayout {
   void add_aggregate(const Aggregate& a) { aggregates_.push_back(a); }
 
   int bands() const { return bands_; }
-  /// Bands, and photopic where there is more than one.
+  /// Bands, plus photopic if there is more than one.
   int channels() const { return bands_ == 1 ? 1 : bands_ + 1; }
   int photopic_channel() const { return bands_ == 1 ? 0 : bands_; }
   int64_t scores() const { return scores_; }

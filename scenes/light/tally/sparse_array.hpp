@@ -1,10 +1,9 @@
-// An array of numbers, most of which may never be anything but zero: address space for all, memory
-// for the pages that are written, and a mark for each of these, so that merging, emptying and
-// copying walk only them. Marks are set in one of two ways. Who writes seldom says where, with
-// touch(). Who writes in the hottest loops (kernels score through data()) says nothing, and
-// find_touched() asks the system for the pages in use: a store beside each store took voxels 40 %
-// longer. Reading anything is plain reading.
-// Thread rule: as a plain array; threads may touch different elements of one page.
+// An array of numbers most of which stay zero: address space for all, memory for the pages that are
+// written, and a mark for each such page, so that merging, clearing and copying visit only these.
+// Marks are set in one of two ways. Occasional writers call touch(). The hottest loops (kernels
+// score through data()) set no marks, and find_touched() then asks the operating system which pages
+// are in use: marking at each store made voxel scoring 40 % slower. Reading needs no marks.
+// Thread rule: that of a plain array; threads may touch different elements of one page.
 #pragma once
 
 #include <algorithm>
@@ -18,10 +17,10 @@
 
 namespace luxodus {
 
-/// What becomes of the memory of pages that are cleared.
+/// Treatment of the memory of cleared pages.
 enum class Cleared : uint8_t {
-  kept,       // for the next time: the fastest where there is memory for all
-  given_back  // so that bytes() is what is in use now
+  kept,       // kept for reuse: fastest if there is memory for all
+  given_back  // released, so that bytes() is what is in use now
 };
 
 template <class T>
@@ -38,7 +37,7 @@ class SparseArray {
         marks_(memory_.bytes() / ZeroedMemory::page_bytes),
         size_(size),
         cleared_(cleared) {}
-  /// Of what is marked.
+  /// Copies the touched pages only.
   SparseArray(const SparseArray& other) : SparseArray(other.size_, other.cleared_) {
     other.for_each_touched(0, size_, [&](int64_t first, int64_t end) {
       std::copy_n(other.data() + first, end - first, data() + first);
@@ -56,16 +55,16 @@ class SparseArray {
   const T* data() const { return reinterpret_cast<const T*>(memory_.data()); }
   const T& operator[](size_t i) const { return data()[i]; }
 
-  /// For writers that mark nothing. Requires: find_touched() before the next walk, copy or clear.
+  /// Write access without marks. Requires: find_touched() before the next walk, copy or clear.
   T* data() { return reinterpret_cast<T*>(memory_.data()); }
-  /// Marks the pages in use, and no others; all where the system does not tell.
+  /// Marks exactly the pages in use; all pages if the system cannot tell.
   void find_touched() {
-    // Where pages are used and marks tell, `used` is just the mark of a touched page.
+    // find_used() writes 0 or 1, which are the marks of an unused and of a touched page.
     static_assert(page_unused == 0 && page_touched == 1);
     if (!memory_.find_used(marks_)) std::fill(marks_.begin(), marks_.end(), page_touched);
   }
 
-  /// Elements [i, i + count), to be written: marks their pages. Requires: count >= 1.
+  /// Elements [i, i + count) for writing; marks their pages. Requires: count >= 1.
   T* touch(int64_t i, int64_t count = 1) {
     for (int64_t page = i / page_elements; page <= (i + count - 1) / page_elements; ++page)
       std::atomic_ref(marks_[static_cast<size_t>(page)])
@@ -73,7 +72,7 @@ class SparseArray {
     return data() + i;
   }
 
-  /// Calls visit(first, end) for the touched parts of [first, end), which ascend; all other
+  /// Calls visit(first, end) for the touched parts of [first, end), in ascending order; all other
   /// elements are zero.
   template <class Visit>
   void for_each_touched(int64_t first, int64_t end, Visit&& visit) const {
@@ -87,7 +86,7 @@ class SparseArray {
       visit(begin, first);
     }
   }
-  /// The first element of [first, end) that may not be zero; `end` where all are.
+  /// The first element of [first, end) that may be non-zero; `end` if all are zero.
   int64_t next_touched(int64_t first, int64_t end) const {
     if (first >= end) return end;
     const auto from = marks_.begin() + first / page_elements;
@@ -99,8 +98,8 @@ class SparseArray {
 
   /// Sets all to zero.
   void clear() { clear(0, size_); }
-  /// Sets to zero the pages that lie in [first, end) whole; where `end` is the array's, the last
-  /// page as well.
+  /// Clears the pages that lie entirely in [first, end); if `end` is the array's end, also the last
+  /// page.
   void clear(int64_t first, int64_t end) {
     const int64_t pages = static_cast<int64_t>(marks_.size());
     const int64_t end_page = end == size_ ? pages : end / page_elements;
@@ -116,7 +115,7 @@ class SparseArray {
       page = behind;
     }
   }
-  /// Sets all to zero, a megabyte (some 0.1 ms) at a time, with `rest()` between two of them.
+  /// Clears all, a megabyte (some 0.1 ms) at a time, and calls `rest()` between steps.
   template <class Rest>
   void clear_in_steps(const Rest& rest) {
     constexpr int64_t step = (int64_t{1} << 20) / static_cast<int64_t>(sizeof(T));
@@ -127,12 +126,12 @@ class SparseArray {
     }
   }
 
-  /// Memory in use: of the pages that are touched, or were and have been kept.
+  /// Memory in use: that of touched pages, and of cleared pages that were kept.
   size_t bytes() const {
     const auto unused = std::count(marks_.begin(), marks_.end(), page_unused);
     return (marks_.size() - static_cast<size_t>(unused)) * ZeroedMemory::page_bytes;
   }
-  /// Bytes that would come to bytes() if elements [first, end) were touched.
+  /// Increase of bytes() if elements [first, end) were touched.
   size_t bytes_to_touch(int64_t first, int64_t end) const {
     if (first >= end) return 0;
     const auto from = marks_.begin() + first / page_elements;
@@ -169,7 +168,7 @@ class SparseArray {
   }
 
   ZeroedMemory memory_;
-  std::vector<uint8_t> marks_;  // one a page
+  std::vector<uint8_t> marks_;  // one per page
   int64_t size_ = 0;
   Cleared cleared_ = Cleared::kept;
 };

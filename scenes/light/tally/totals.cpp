@@ -1,6 +1,6 @@
-// Merging walks the bins that the batch's pages hold, in stripes, each behind a lock of its own, so
-// that threads that finish together do not wait for one another. A bin that scored nothing in a
-// batch adds nothing to sum or squares: skipped.
+// Merging visits the bins on the batch's touched pages in stripes, each behind a lock of its own,
+// so that threads that finish together do not wait for each other. A bin without a score in a batch
+// adds nothing to sum or squares, so it is skipped.
 #include "scenes/light/tally/totals.hpp"
 
 #include <algorithm>
@@ -28,8 +28,8 @@ Totals::Totals(const TallyLayout& layout, int groups,
   for (GroupState& g : groups_) g.totals = SparseArray<Total>(layout.totals(), cleared);
 }
 
-/// Calls visit(first, end) for runs of bins among [first_bin, end_bin) of a block of which a page
-/// was touched, each bin once: one that lies on two pages belongs to the first run that meets it.
+/// Calls visit(first, end) for runs of bins within [first_bin, end_bin) of a block on touched
+/// pages, each bin once: a bin on two pages belongs to the first run that reaches it.
 template <class Visit>
 void Totals::for_each_scored(const BatchScores& batch, const TallyBlock& block, uint32_t first_bin,
                              uint32_t end_bin, Visit&& visit) const {
@@ -61,7 +61,7 @@ void Totals::fill_aggregates(BatchScores& batch, const std::function<void()>& re
           const int64_t* s = source + b * from.quantities;
           int64_t* t = to + b * into.quantities;
           for (size_t q = 0; q < from.quantities; ++q) t[q] += s[q];
-          // A third quantity beside (in, out) is what stayed.
+          // A third quantity after (in, out) is the absorbed part.
           if (into.quantities > from.quantities) t[from.quantities] += s[0] - s[1];
         }
       }

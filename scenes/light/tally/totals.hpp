@@ -1,6 +1,6 @@
-// The totals that batches are merged into, of one source group each. All integers, so they are the
-// same bits for any order of merging and any number of threads. A batch belongs to one source
-// group. They are sparse arrays: what no batch of a group has scored takes no memory and no time.
+// Totals of each source group, into which batches are merged. All are integers, so the bits do not
+// depend on the order of merging or the number of threads. A batch belongs to one source group.
+// Totals are sparse arrays: bins that no batch of a group has scored take no memory and no time.
 // Thread rule: a BatchScores belongs to one thread; Totals::merge, add_bins and count_batch may be
 // called from any thread.
 #pragma once
@@ -23,14 +23,14 @@ struct Total {
   UInt128 squares = 0;  // of (batch score >> square_shift, rounded)
 };
 
-/// Bins of totals, of all source groups alike: [first, end).
+/// A range [first, end) of bins of totals, for all source groups.
 struct BinRange {
   int64_t first = 0;
   int64_t end = 0;
 };
 
-/// What batches have added to totals: bins that are not zero, in ascending order, and the balance.
-/// It travels where totals of one place are merged into those of another.
+/// Increments that batches have made to totals: non-zero bins in ascending order, and the energy
+/// balance. Sent from one process to another to be merged into its totals.
 struct TotalsGain {
   struct Bin {
     int64_t index = 0;  // into the totals
@@ -52,8 +52,8 @@ struct BatchMean {
 
 class Totals {
  public:
-  /// Squares are taken of batch scores divided by 2^12: (2^63 / 2^12)^2 = 2^102 leaves room for
-  /// 2^26 batches.
+  /// Batch scores are divided by 2^12 before they are squared: (2^63 / 2^12)^2 = 2^102 leaves room
+  /// for 2^26 batches.
   static constexpr int square_shift = 12;
 
   /// The photopic channel is (sum over bands of score * weight) / 2^24.
@@ -68,13 +68,13 @@ class Totals {
   void merge(BatchScores& batch, int group) {
     merge(batch, group, [] {});
   }
-  /// The same in steps of some 16 000 bins, a fraction of a millisecond each; between them `rest`
-  /// is called. Only in the end are the totals those of whole batches.
+  /// Merges in steps of some 16 000 bins, a fraction of a millisecond each, and calls `rest`
+  /// between them. Totals are those of whole batches only at the end.
   void merge(BatchScores& batch, int group, const std::function<void()>& rest);
 
-  /// Takes bins [first, end) of a group out, leaving zero: calls visit(index, total) for those that
-  /// are not zero. With take_batches and take_ledger this empties totals piece by piece. Not beside
-  /// other calls.
+  /// Takes bins [first, end) of a group out and leaves zero: calls visit(index, total) for those
+  /// that are not zero. Together with take_batches and take_ledger it empties totals piece by
+  /// piece. Not concurrent with other calls.
   template <class Visit>
   void take_bins(int group, int64_t first, int64_t end, Visit&& visit) {
     SparseArray<Total>& totals = groups_[static_cast<size_t>(group)].totals;
@@ -88,8 +88,8 @@ class Totals {
     });
     totals.clear(first, end);
   }
-  /// The first bin of a group, at or behind `first`, that may not be zero; the layout's end where
-  /// all are.
+  /// The first bin of a group, at or after `first`, that may be non-zero; the layout's end if there
+  /// is none.
   int64_t next_bin(int group, int64_t first) const {
     return state(group).totals.next_touched(first, layout_.totals());
   }
@@ -97,12 +97,12 @@ class Totals {
     return std::exchange(groups_[static_cast<size_t>(group)].batches, 0);
   }
   EnergyBalance take_ledger() { return std::exchange(ledger_, {}); }
-  /// Adds what was taken from totals of the same layout. Requires: as many groups, indices within
-  /// the layout. Not beside other calls.
+  /// Adds increments taken from totals of an equal layout. Requires: as many groups, indices within
+  /// the layout. Not concurrent with other calls.
   void add(const TotalsGain& gain);
 
-  /// Adds bins that follow each other from `first` on, of a batch whose scores are no BatchScores;
-  /// then count_batch() says that this was one. Requires: all lie within the layout.
+  /// Adds consecutive bins from `first` on, for a batch whose scores are not a BatchScores;
+  /// count_batch() then counts the batch. Requires: all lie within the layout.
   void add_bins(int group, int64_t first, std::span<const Total> bins);
   void count_batch(int group);
 
@@ -111,15 +111,15 @@ class Totals {
   const EnergyBalance& balance() const { return ledger_; }
   const TallyLayout& layout() const { return layout_; }
 
-  /// Memory in use for bins; how much more merging a batch would take at most. Requires:
-  /// batch.scores.find_touched() was called since the last score.
+  /// Memory in use for bins, and the most that merging a batch would add. Requires:
+  /// batch.scores.find_touched() was called after the last score.
   size_t bytes() const;
   size_t bytes_to_merge(const BatchScores& batch, int group) const;
 
-  /// Of one score over the batches of a group; the standard error is NaN for fewer than two
-  /// batches.
+  /// Mean and standard error of one score over the batches of a group; the standard error is NaN
+  /// for fewer than two batches.
   BatchMean mean(int group, int64_t total_index) const;
-  /// Of a value score, over the batches of all groups alike.
+  /// Mean and standard error of a value score over the batches of all groups.
   BatchMean pooled_mean(int64_t total_index) const;
 
   /// Raw state, for the flux file.

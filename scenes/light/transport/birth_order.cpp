@@ -9,13 +9,13 @@ namespace luxodus {
 
 namespace {
 
-/// As ParticleTracer draws.
+/// Searches a cumulative table exactly as ParticleTracer does.
 size_t find(const std::vector<uint64_t>& cdf, uint64_t r) {
   const auto it = std::upper_bound(cdf.begin(), cdf.end(), r);
   return std::min(static_cast<size_t>(it - cdf.begin()), cdf.size() - 1);
 }
 
-/// 20 bits of each coordinate, by turns.
+/// Interleaves 20 bits of each coordinate.
 uint64_t morton(const Vec3& p, const CompiledScene& scene) {
   const Vec3 size = glm::max(scene.local_high - scene.local_low, Vec3(1e-6_r));
   const Vec3 share = glm::clamp((p - scene.local_low) / size, 0.0_r, 0.999999_r);
@@ -29,7 +29,8 @@ uint64_t morton(const Vec3& p, const CompiledScene& scene) {
   return code;
 }
 
-/// Of a particle, by numbers that many particles may share: those of one batch share a set.
+/// The emitter of a particle. `random` may be shared by many particles: those of one batch share a
+/// set.
 uint32_t emitter_of(const CompiledScene& scene, int group, uint64_t particle,
                     HistoryRandom& random) {
   const Group& g = scene.groups[static_cast<size_t>(group)];
@@ -39,7 +40,7 @@ uint32_t emitter_of(const CompiledScene& scene, int group, uint64_t particle,
   return choices.size() == 1 ? choices[0] : choices[find(g.emitter_cdf[band], random.bits64())];
 }
 
-/// Sorts in pairs of (place, number), packed: places and numbers have 32 bits.
+/// (Place, number) packed into one integer for sorting; both have 32 bits.
 constexpr uint64_t packed(uint32_t place, uint32_t number) {
   return uint64_t{place} << 32 | number;
 }

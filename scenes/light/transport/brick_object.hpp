@@ -1,7 +1,7 @@
-// A brick of smoke data as an immutable scene part: the bytes that travel, lie on disk and are
-// named by their hash. Arrays are written as they stand in memory, little endian; what follows from
-// them is computed anew. Bytes come from other machines and are held against the data set's table
-// before they are used. Pure; any thread.
+// A brick of smoke data as an immutable scene part: the bytes that are sent, stored on disk and
+// named by their hash. Arrays are written as in memory, little endian; derived values are
+// recomputed. Bytes come from other machines and are checked against the data set's table before
+// use. Pure; any thread.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@ namespace luxodus {
 
 std::vector<std::byte> encode_brick(const Brick& brick);
 
-/// Requires: `brick` is one of the table's.
-/// Errors: not such bytes; cut short; other quantities, or more or less in them, than the table
-/// says; values that are negative or not finite, an albedo above 1.
+/// Requires: `brick` is an index of the table.
+/// Errors: other bytes; truncated; quantities or sums that differ from the table; values that are
+/// negative or not finite, an albedo above 1.
 Result<Brick> decode_brick(std::span<const std::byte> bytes, const BrickTable& table, size_t brick);
 
 }  // namespace luxodus

@@ -20,7 +20,7 @@ struct CellHeader {
 static_assert(sizeof(CellHeader) == 40);
 static_assert(sizeof(GeometryCell::TriangleUv) == 28);
 
-/// Farther than any scene reaches; squares of it are far from a float's end.
+/// Farther than any scene extends; its square is far from a float's limit.
 constexpr float farthest_m = 1e9f;
 
 bool near(const glm::vec3& v) {

@@ -1,6 +1,6 @@
-// Order matters: light first (it decides the bands), then materials, surfaces, emitters (which know
-// the surfaces they sit on), media, detectors, and last the layout of the tally and the size of a
-// batch.
+// The order matters: light first (it decides the bands), then materials, surfaces, emitters (which
+// refer to the surfaces they sit on), media, detectors, and last the layout of the tally and the
+// batch size.
 #include "scenes/light/transport/compile.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace luxodus {
 namespace limits {
 inline constexpr int64_t smallest_batch = 1 << 13;
 inline constexpr int64_t largest_batch =
-    1 << 18;  // 2^18 particles of 2^32 leave 2^13 passes of head-room
+    1 << 18;  // 2^18 particles of 2^32 leave room for 2^13 passes each
 }  // namespace limits
 
 namespace {
@@ -34,7 +34,7 @@ void add_unique(std::vector<Spectrum>& list, const Spectrum& s) {
   list.push_back(s);
 }
 
-/// Everything that may vary over wavelength and is met by light in this scenario.
+/// All spectra that may vary over wavelength and that light meets in this scenario.
 std::vector<Spectrum> scene_properties(const SceneDescription& scene, const Scenario& scenario) {
   std::vector<Spectrum> out;
   for (const Material& m : scene.materials) {
@@ -61,7 +61,7 @@ std::vector<Spectrum> scene_properties(const SceneDescription& scene, const Scen
     } else {
       SmokeOptics optics = m.optics;
       if (m.kind == MediumKind::data_set)
-        optics.extinction.sigma_t = 1;  // the arrays carry the size
+        optics.extinction.sigma_t = 1;  // only the shape matters: the arrays hold the magnitude
       add_optics(optics);
     }
   }
@@ -84,7 +84,7 @@ Bands choose_bands(const SceneDescription& scene, const Scenario& scenario,
   return Bands(edges, total);
 }
 
-/// Grids of one fire simulation have one name: the second is told as "smoke (2)".
+/// Grids of one fire simulation share a name: the second is displayed as "smoke (2)".
 std::string display_name(const std::vector<Medium>& media, size_t index) {
   const auto before = std::count_if(media.begin(), media.begin() + static_cast<ptrdiff_t>(index),
                                     [&](const Medium& m) { return m.name == media[index].name; });
@@ -117,7 +117,7 @@ Result<void> compile_media(CompiledScene& scene) {
   return {};
 }
 
-/// A flame is where its points are: their middle, and the box around them.
+/// Places a flame by its points: at their mean, with their bounding box.
 void place_flame(CompiledEmitter& e, const std::vector<glm::vec3>& points) {
   glm::dvec3 sum(0), low(points.front()), high = low;
   for (const glm::vec3& p : points) {
@@ -141,8 +141,8 @@ void scatter_volume_points(CompiledScene& scene) {
   }
 }
 
-/// Paths from eyes relative to the usual, by which they take about half of the time. Where somebody
-/// has said what is judged, what is not gets an eighth of the paths.
+/// Eye paths relative to the default, with which they take about half of the time. If error targets
+/// are given, whatever is not among them gets an eighth of its paths.
 double share_of_eyes(const ErrorTarget& judged) {
   if (judged.words.empty() || judged.asks_eyes() == judged.asks_bins()) return 1;
   return judged.asks_eyes() ? 8 : 1.0 / 8;
@@ -163,11 +163,11 @@ Result<void> choose_error_target(CompiledScene& scene, const std::vector<std::st
 
 void choose_batch(CompiledScene& scene) {
   const RunSettings& run = scene.description->run;
-  // A batch ends with a walk over all its scores, some 3 ns each, against 250 ns a particle in
-  // clear air and several times that in smoke; yet a run should have many batches, since they carry
-  // its errors.
-  // In media most scores are of voxels. Batches are as large as they were before voxels counted
-  // scattered light: with 64 scores a particle short runs had one batch, and no error.
+  // Merging a batch visits all its scores, some 3 ns each, against 250 ns per particle in clear air
+  // and several times that in smoke. Yet a run should have many batches, since errors come from
+  // their spread.
+  // In media most scores are voxels. 160 keeps batches as large as they were before voxels counted
+  // scattered light: with 64 scores per particle, short runs had one batch and so no error.
   const int64_t scores_per_particle = scene.features.media == MediaNeed::none ? 16 : 160;
   const auto wanted =
       std::bit_ceil(static_cast<uint64_t>(scene.layout.scores() / scores_per_particle));
@@ -178,7 +178,8 @@ void choose_batch(CompiledScene& scene) {
   const auto parts =
       static_cast<double>(3 * scene.eye_targets.size() + 2 * scene.description->probes.size());
   if (parts > 0) {
-    // A path from the eye costs some ten histories' rays (each event asks the lights as well).
+    // An eye path costs about as much as the rays of ten histories (each event also samples
+    // emitters).
     const double paths = 0.1 * run.eye_path_factor * share_of_eyes(scene.error_target) *
                          static_cast<double>(scene.batch_particles) / parts;
     scene.eye_paths_per_batch = std::clamp(static_cast<int>(paths), 1, 1024);
@@ -223,9 +224,9 @@ void choose_features(CompiledScene& scene) {
                 !scene.volume_groups.empty() || scene.voxels.edge > 0;
 }
 
-/// Of a sum of squared errors over all mixtures, paths make the least that choose an emitter by its
-/// light times the root mean square of its factors. One without a factor is never chosen: what is
-/// scored beside mixtures lacks it, so whoever mixes gives each group a factor somewhere.
+/// The sum of squared errors over all mixtures is smallest if paths choose an emitter by its light
+/// times the root mean square of its factors. A group without any factor is never chosen, and so is
+/// missing from what is scored beside mixtures: give each group a factor in some mixture.
 void mix_groups(CompiledScene& scene, const std::vector<GroupMixture>& mixtures) {
   if (mixtures.empty()) return;
   std::vector<double> squares(scene.groups.size(), 0.0);
@@ -272,7 +273,7 @@ std::string group_name(const ActiveSource& s, GroupRule rule) {
   return "all";
 }
 
-/// Errors: nothing that has a place.
+/// Errors: nothing with an extent.
 Result<void> set_bounds(CompiledScene& scene) {
   scene.bounds = solid_bounds(*scene.description, scene.scenario);
   if (scene.bounds.empty()) {
@@ -283,7 +284,7 @@ Result<void> set_bounds(CompiledScene& scene) {
   }
   const glm::dvec3 centre = 0.5 * (scene.bounds.low + scene.bounds.high);
   scene.local_origin = centre;
-  // Rounded outwards, so that nothing solid lies outside in single precision.
+  // Rounded outwards, so that no solid lies outside in single precision.
   scene.local_low = Vec3(scene.bounds.low - centre);
   scene.local_high = Vec3(scene.bounds.high - centre);
   scene.diagonal_m = glm::length(scene.local_high - scene.local_low);
@@ -291,7 +292,7 @@ Result<void> set_bounds(CompiledScene& scene) {
   return {};
 }
 
-/// How far light may go within it; across, where it has no end.
+/// Longest distance that light may fly in it; across it, if it is unbounded.
 double extent_of(const VolumeGroupMeasure& group) {
   using GroupShape = VolumeGroupMeasure::Shape;
   if (group.shape == GroupShape::box) return glm::length(group.high - group.low);
@@ -299,7 +300,7 @@ double extent_of(const VolumeGroupMeasure& group) {
   return 2 * group.radius;
 }
 
-/// A voxel or a volume may be larger than all that stands in a scene, which may be a point.
+/// A voxel or a volume may be larger than everything solid in a scene, which may be a point.
 void choose_length_unit(CompiledScene& scene) {
   double most =
       std::max(static_cast<double>(scene.diagonal_m), static_cast<double>(scene.voxels.edge));
@@ -309,7 +310,7 @@ void choose_length_unit(CompiledScene& scene) {
   scene.scores_per_metre = 1 / scene.length_unit_m;
 }
 
-/// Errors: a mesh without a triangle that can be told from a point.
+/// Errors: a mesh whose triangles are all degenerate in single precision.
 Result<void> compile_emitters(CompiledScene& scene, const std::vector<ActiveSource>& sources) {
   const SceneDescription& d = *scene.description;
   std::vector<std::string> groups;
@@ -325,7 +326,7 @@ Result<void> compile_emitters(CompiledScene& scene, const std::vector<ActiveSour
     const CompiledEmitter& e = scene.emitters.back();
     CompiledSign& sign = scene.signs[e.sign];
     auto& radiance = s.colour == SignColour::white ? sign.white_radiance : sign.green_radiance;
-    // Fifteen digits of pi, as ever: one more would change the last bits of what eyes see.
+    // Fifteen digits of pi, kept: one more would change the last bits of eye results.
     for (const double p : e.power_w) {
       radiance.push_back(p * (static_cast<double>(e.exponent) + 1) /
                          (2 * 3.14159265358979 * e.area_m2));

@@ -1,5 +1,5 @@
-// Compiling: from what a scene says to what the tracer needs, for one scenario and one partition.
-// Pure; throws nothing; everything wrong is in Problems.
+// Compiles a scene description for the tracer, for one scenario and one partition. Pure; throws
+// nothing; everything wrong is in Problems. Any thread.
 #pragma once
 
 #include <map>
@@ -12,10 +12,10 @@
 
 namespace luxodus {
 
-/// Light of the source groups, each times a factor, by name; 1 of those that are not named.
+/// A weighted sum of source groups: factors by name; 1 for groups that are not named.
 struct GroupMixture {
   std::map<std::string, double> factors;
-  double of_others = 1;  // of groups without a factor
+  double of_others = 1;  // for groups without a factor
 
   double factor_of(const std::string& group) const {
     const auto at = factors.find(group);
@@ -24,23 +24,24 @@ struct GroupMixture {
 };
 
 struct CompileOptions {
-  int cells = 1;  // geometry cells; 1 is one merged scene; a packed scene has been cut already
-  std::vector<std::string> error_of = {};  // instead of the scene's [run] error_of, if not empty
-  /// Of all batches, those of each source group, in their order [1]. Empty: by BatchPlan's own
-  /// rule. Requires: all above 0, 1 in all.
+  int cells = 1;  // geometry cells; 1 is one merged scene; a packed scene is already partitioned
+  std::vector<std::string> error_of = {};  // if not empty, overrides the scene's [run] error_of
+  /// Share of all batches for each source group, in their order [1]. Empty: by BatchPlan's own
+  /// rule. Requires: all above 0, with sum 1.
   std::vector<double> batch_shares = {};
-  /// Sums of source groups that views are scored by, beside the whole; in place of single groups.
+  /// Mixtures of source groups that views are scored by, instead of single groups, beside the
+  /// total.
   std::vector<GroupMixture> mixtures = {};
-  /// Bands as for this one's light, if it is not null, so that totals of both can be compared to
-  /// the bit. Requires: every spectrum of the scene is in it.
+  /// If not null, bands are chosen for this description's light, so that totals of both can be
+  /// compared bit by bit. Requires: it has every spectrum of the scene.
   const SceneDescription* bands_of = nullptr;
 };
 
-/// The scenario of that name; with an empty name the first, or plain mains where a scene has none.
+/// The scenario of that name; for an empty name the first, or plain mains if a scene has none.
 Result<Scenario> find_scenario(const SceneDescription& description, const std::string& name);
 
-/// Errors: no light at all, nothing but media, a medium or emitter that cannot be, batch_shares of
-/// other groups; each with its place.
+/// Errors: no light at all, only media, an invalid medium or emitter, batch_shares for other
+/// groups; each with its place.
 Result<std::shared_ptr<const CompiledScene>> compile_scene(
     std::shared_ptr<const SceneDescription> description, const Scenario& scenario,
     const CompileOptions& options);

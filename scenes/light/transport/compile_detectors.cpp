@@ -12,9 +12,8 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int64_t voxels = 50'000'000;
-inline constexpr int64_t all_plane_cells = 1 << 28;  // 17 GB of totals; bins are told by 32 bits
-inline constexpr int64_t default_voxels =
-    20'000;  // of the grid a scene gets unless it says an edge
+inline constexpr int64_t all_plane_cells = 1 << 28;  // 17 GB of totals; bin indices have 32 bits
+inline constexpr int64_t default_voxels = 20'000;    // if a scene gives no edge
 }  // namespace limits
 
 namespace {
@@ -26,7 +25,7 @@ CompiledPlane make_plane(const glm::dvec3& corner, const glm::dvec3& u, const gl
   const glm::dvec3 n = glm::normalize(cross);
   out.corner = Vec3(corner - origin);
   out.normal = Vec3(n);
-  // Dual edges: coordinates along u and v also where the two are not perpendicular.
+  // Dual edges give coordinates along u and v even if the two are not perpendicular.
   out.dual_u = Vec3(glm::cross(v, n) / glm::dot(u, glm::cross(v, n)));
   out.dual_v = Vec3(glm::cross(n, u) / glm::dot(v, glm::cross(n, u)));
   out.cells_u = nu;
@@ -35,12 +34,12 @@ CompiledPlane make_plane(const glm::dvec3& corner, const glm::dvec3& u, const gl
   return out;
 }
 
-/// Reach beyond a flight's end, as a share of the step by which rays leave surfaces: a plane that
-/// lies in a wall or on a floor is crossed by the flights that end there, whichever way their ends
-/// are rounded (two ulps of the largest coordinate), and what comes back crosses from behind.
+/// Reach beyond a flight's end, as a share of the offset of rays from surfaces: a plane in a wall
+/// or on a floor is crossed by the flights that end there, however their ends are rounded (two ulps
+/// of the largest coordinate), and reflected light crosses it from behind.
 constexpr Real plane_reach_share = 0.5_r;
 
-/// Those that this scenario leaves some of.
+/// Media that this scenario does not remove.
 std::vector<const Medium*> active_media(const CompiledScene& scene) {
   std::vector<const Medium*> out;
   for (const Medium& m : scene.description->media) {
@@ -49,8 +48,8 @@ std::vector<const Medium*> active_media(const CompiledScene& scene) {
   return out;
 }
 
-/// Where a key stands in a scene's main file; line 0 where it does not, or where that is a pack.
-/// Values carry no place of their own that far.
+/// Line of a key in a scene's main file; 0 if it is absent or the file is a pack. Values do not
+/// carry their place this far.
 SourcePlace place_of_key(const std::string& file, const std::string& key) {
   std::ifstream in(file);
   std::string line;
@@ -66,7 +65,7 @@ SourcePlace place_of_key(const std::string& file, const std::string& key) {
 Problem too_many_voxels(const CompiledScene& scene) {
   const Bounds box = media_bounds(active_media(scene), scene.bounds);
   const glm::dvec3 size = box.high - box.low;
-  // A little more than the cube root says: a side has whole voxels.
+  // Slightly above the cube root, since a side has a whole number of voxels.
   const double least =
       1.1 * std::cbrt(size.x * size.y * size.z / static_cast<double>(limits::voxels));
   std::ostringstream what;
@@ -126,15 +125,15 @@ Result<void> choose_voxels(CompiledScene& scene) {
   if (box.empty()) return {};
   double edge = run.voxel_edge_m;
   if (edge <= 0) {
-    // By the whole scene: a small cloud needs no finer light than a large one.
+    // The whole scene's size counts: a small cloud needs no finer voxels than a large one.
     const glm::dvec3 size = scene.bounds.high - scene.bounds.low;
     const double volume = std::max(size.x, 1e-6) * std::max(size.y, 1e-6) * std::max(size.z, 1e-6);
     edge = std::cbrt(volume / static_cast<double>(limits::default_voxels));
   }
-  // The cells of one lattice over the whole scene, so that other smoke has the same voxels.
+  // Cells of one lattice over the whole scene, so that other smoke gets the same voxels.
   const glm::dvec3 first = glm::floor((box.low - scene.bounds.low) / edge);
   const glm::dvec3 end = glm::ceil((box.high - scene.bounds.low) / edge);
-  // Beyond the limit a side's cells need not be told apart: the grid is refused anyway.
+  // Beyond the limit the number does not matter: the grid is refused anyway.
   const auto cells = [&](int axis) {
     const double most = static_cast<double>(limits::voxels) + 1;
     return static_cast<int>(std::clamp(end[axis] - first[axis], 1.0, most));
@@ -158,7 +157,7 @@ void choose_eye_targets(CompiledScene& scene) {
     for (uint32_t s = 0; s < scene.signs.size(); ++s) {
       if (wanted && std::count(wanted->begin(), wanted->end(), scene.signs[s].sign) == 0) continue;
       const glm::dvec3 to_eye = d.observers[o].eye - scene.signs[s].frame.origin;
-      if (glm::dot(to_eye, scene.signs[s].frame.axes[2]) <= 0) continue;  // sees its back
+      if (glm::dot(to_eye, scene.signs[s].frame.axes[2]) <= 0) continue;  // its back
       scene.eye_targets.push_back({o, s, bin});
       bin += 3;  // white, green, surround
     }

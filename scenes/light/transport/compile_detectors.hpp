@@ -1,22 +1,22 @@
-// Part of compile: what counts light that arrives or passes, and the layout of the tally.
+// Part of compile: the detectors that count light, and the layout of the tally. One thread.
 #pragma once
 
 #include "scenes/light/transport/compile_light.hpp"
 
 namespace luxodus {
 
-/// Planes, counting planes and groups of volume. Requires: what leaves surfaces is compiled.
-/// Errors: more cells of planes than are counted.
+/// Planes, counting planes and volume groups. Requires: compiled surfaces. Errors: more plane cells
+/// than the limit.
 Result<void> compile_detectors(CompiledScene& scene);
 
-/// The voxel grid, only where a medium is: elsewhere nobody asks for the light in the air.
-/// Errors: more voxels than are counted.
+/// The voxel grid, only where a medium is: elsewhere the light in the air is not asked for. Errors:
+/// more voxels than the limit.
 Result<void> choose_voxels(CompiledScene& scene);
 
-/// The signs that each observer is asked about.
+/// Chooses the signs that are estimated for each observer.
 void choose_eye_targets(CompiledScene& scene);
 
-/// Requires: all of the above, and the source groups.
+/// Requires: all of the above was called, and the source groups are compiled.
 void lay_out_tally(CompiledScene& scene);
 
 }  // namespace luxodus

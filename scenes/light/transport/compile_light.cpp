@@ -1,6 +1,6 @@
-// Band shares follow the eye: a band's particles are in proportion to its power times its weight in
-// XYZ, so that few are spent where nobody sees; every share is positive where there is power, and
-// values are scaled back by it, so nothing is biased.
+// Band shares follow vision: particles are allotted to a band in proportion to its power times its
+// weight in XYZ, so that few are spent on invisible light. Every band with power has a positive
+// share, and results are divided by it, so the estimate is unbiased.
 #include "scenes/light/transport/compile_light.hpp"
 
 #include <algorithm>
@@ -116,13 +116,13 @@ double extinction_factor(const Scenario& scenario, const std::string& medium) {
 double factor_of_medium(const Scenario& scenario, const Medium& medium) {
   const double named = factor_of(scenario.media, medium.name, -1);
   if (named >= 0) return named;
-  // A flame is no smoke: the general factor leaves it alone. A data set of a fire holds both.
+  // A flame is not smoke: the general factor does not apply. A data set of a fire has both.
   const bool flame = medium.emission && medium.kind != MediumKind::data_set;
   return flame ? 1.0 : scenario.smoke_factor;
 }
 
 double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& scenario) {
-  // A photoluminescent face glows from its own store, whatever the circuits do.
+  // A photoluminescent face emits stored light, whatever the circuits do.
   const double circuit = sign.lighting == SignLighting::photoluminescent
                              ? 1
                              : factor_of(scenario.circuits, sign.circuit, 1);
@@ -160,8 +160,8 @@ void normalise_cdf(std::vector<double>& cdf) {
   for (double& c : cdf) c /= total;
 }
 
-/// A triangle whose normal has a smaller square before it is normalised [m4], edges of 30 nm or
-/// corners that single precision cannot tell apart, has none: it emits nothing.
+/// Least squared length of a triangle's normal before normalisation [m4]: below it (edges of 30 nm,
+/// or corners that coincide in single precision) a triangle has no normal and emits nothing.
 constexpr Real min_normal_squared = 1e-30_r;
 
 void compile_mesh(CompiledEmitter& out, const Emitter& e, const CompiledScene& scene) {
@@ -257,8 +257,8 @@ CompiledEmitter compile_emitter(const ActiveSource& s, const CompiledScene& scen
   } else {
     compile_sign_face(out, s, scene);
   }
-  // The bands' coefficients hold for the scene's light as a whole; of an emitter of another
-  // spectrum the lumens and the colour are exact.
+  // Band coefficients hold for the scene's light as a whole; for an emitter with another spectrum,
+  // lumens and colour are made exact.
   if (s.lumens > 0) {
     out.power_w = scene.bands.powers(s.shape, s.lumens);
   } else {
@@ -281,7 +281,7 @@ std::vector<uint64_t> integer_cdf(const std::vector<double>& share) {
     const double scaled = std::ldexp(sum / total, 64);
     cdf.push_back(scaled >= 0x1.fffffffffffffp63 ? ~uint64_t{0} : static_cast<uint64_t>(scaled));
   }
-  // upper_bound finds the first entry above r: the last positive one must be above every r.
+  // upper_bound finds the first entry above r, so the last positive entry must be above every r.
   for (size_t i = share.size(); i-- > 0;) {
     cdf[i] = ~uint64_t{0};
     if (share[i] > 0) break;

@@ -1,5 +1,5 @@
-// Part of compile: which emitters and signs shine in a scenario, in what spectrum, in which source
-// group.
+// Part of compile: which emitters and signs emit in a scenario, with which spectrum, and in which
+// source group. Pure but for compile_groups; one thread.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace luxodus {
 
-/// One source of light as the scenario has it: what it is, its power, its spectrum.
+/// One active light source of the scenario: its origin, power and spectrum.
 struct ActiveSource {
   const Emitter* emitter = nullptr;
   const Medium* medium = nullptr;
@@ -27,14 +27,14 @@ struct ActiveSource {
 double factor_of(const std::vector<Scenario::Factor>& factors, const std::string& name,
                  double other);
 
-/// What multiplies the extinction of the medium of this name; 0: it is not there.
+/// Factor of the scenario on the extinction of the medium of this name; 0: the medium is absent.
 double extinction_factor(const Scenario& scenario, const std::string& medium);
 
-/// How much of a medium a scenario leaves: as above, but the factor of all smoke leaves flames
-/// alone, and no data sets that glow, which are smoke, too.
+/// Factor of the scenario on a whole medium: as above, except that the factor for all smoke does
+/// not apply to flames; it does apply to data sets that glow, since they are smoke, too.
 double factor_of_medium(const Scenario& scenario, const Medium& medium);
 
-/// Luminance [cd/m2] along the normal of a colour of a sign in this scenario.
+/// Luminance [cd/m2] of a sign's colour along the normal in this scenario.
 double scenario_luminance(const Sign& sign, SignColour colour, const Scenario& scenario);
 
 /// Area [m2] of one colour on one face.

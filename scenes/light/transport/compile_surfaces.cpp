@@ -14,7 +14,7 @@
 namespace luxodus {
 
 namespace limits {
-/// 16 GB of totals; ten times as many do not fit 32 bits.
+/// 16 GB of totals; ten times as many exceed 32-bit indices.
 inline constexpr uint64_t patches = 200'000'000;
 }  // namespace limits
 
@@ -72,7 +72,7 @@ Mesh face_mesh(const Frame& frame, double width, double height) {
           {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 }
 
-/// The solid surface of an emitter that has a body, its front where the light comes out.
+/// The solid surface of an emitter that has a body; its front is where light leaves.
 Mesh body_mesh(const Emitter& e) {
   const double bound = 0.002;  // [m] chords of round bodies stay this close
   Mesh mesh;
@@ -117,12 +117,13 @@ Frame back_frame(const Sign& sign) {
   return back;
 }
 
-/// How far hits keep off the edges of a triangle, in offsets of the rays that leave it: in a corner
-/// of two walls none starts beyond the other down to an angle of 1 / 16, 3.6 degrees.
+/// Distance of hit points from the edges of a triangle, in ray offsets: in a corner of two walls,
+/// no ray starts beyond the other wall down to an angle of 1 / 16, 3.6 degrees.
 constexpr double offsets_to_edge = 16;
-/// Nor farther along a sliver than so many times that: it has one margin for all of its edges.
+/// Limit of that distance along slivers, as a multiple: a triangle has one margin for all its
+/// edges.
 constexpr double along_slivers = 16;
-/// In 2^-16 of the triangle's heights; never 0, since an edge itself belongs to two.
+/// In 2^-16 of the triangle's heights; never 0, since an edge belongs to two triangles.
 uint16_t edge_margin(const TriangleRecord& t, double twice_area_m2, double longest_m,
                      double min_offset_m) {
   float farthest = 0;
@@ -135,7 +136,7 @@ uint16_t edge_margin(const TriangleRecord& t, double twice_area_m2, double longe
   return static_cast<uint16_t>(std::clamp(share, 1.0, double{TriangleRecord::max_edge_margin}));
 }
 
-/// Larger than any building: millimetres are likelier [m].
+/// Longer than any building: then the unit is probably millimetres [m].
 constexpr double max_length_m = 1000;
 
 double length_of(const Mesh& mesh) {
@@ -150,8 +151,7 @@ class TriangleBuilder {
  public:
   explicit TriangleBuilder(CompiledScene& scene) : scene_(scene) {}
 
-  /// Errors: with this surface the scene has more than limits::patches; `place` is where it is
-  /// described.
+  /// Errors: this surface makes the scene exceed limits::patches; `place` is its description.
   Result<void> add(CompiledSurface surface, const SourcePlace& place, const Mesh& mesh,
                    double patch_edge_m) {
     surface.first_patch = patches();
@@ -215,7 +215,8 @@ class TriangleBuilder {
   CompiledScene& scene_;
   std::vector<TriangleRecord> records_;
   std::vector<GeometryCell::TriangleUv> uv_;
-  // One triangle has up to 2^31: wide enough for the one that breaks the limit.
+  // 64 bits: one triangle has up to 2^31 patches, so the sum can exceed 32 bits before it is
+  // refused.
   uint64_t patches_ = 0;
   int64_t degenerate_ = 0;
 };
@@ -242,9 +243,9 @@ GeometryCell make_cell(const std::vector<TriangleRecord>& records,
   return cell;
 }
 
-/// Numbers of the triangles, those apart that are longer than the side of a cell: where a floor's
-/// two triangles share a cell with a chair, the cell's box spans the floor, and every ray above it
-/// has to look inside. One list where all are of a kind.
+/// Numbers of the triangles, those longer than a cell's side in a separate list. If the two
+/// triangles of a floor share a cell with a chair, the cell's box spans the floor, and every ray
+/// above it has to enter it. One list if there is only one kind.
 std::vector<std::vector<uint32_t>> split_by_size(const CompiledScene& scene,
                                                  const std::vector<TriangleRecord>& records,
                                                  int cells) {
@@ -261,7 +262,7 @@ std::vector<std::vector<uint32_t>> split_by_size(const CompiledScene& scene,
   return out;
 }
 
-/// Cells of neighbours among these triangles.
+/// Partitions these triangles into compact cells.
 void add_cells(CompiledScene& scene, TriangleBuilder& builder,
                const std::vector<uint32_t>& triangles, int cells) {
   std::vector<glm::dvec3> centroids;
@@ -277,7 +278,7 @@ void add_cells(CompiledScene& scene, TriangleBuilder& builder,
 }
 
 void cut_into_cells(CompiledScene& scene, TriangleBuilder& builder, int cells) {
-  // Without triangles there is nothing to cut, and resolvers expect a cell.
+  // Without triangles there is nothing to partition, but resolvers expect a cell.
   if (cells <= 1 || builder.records().empty()) {
     GeometryCell cell;
     cell.triangles = std::move(builder.records());
@@ -301,7 +302,7 @@ void cut_into_cells(CompiledScene& scene, TriangleBuilder& builder, int cells) {
   }
 }
 
-/// Adds what the scenario has: objects, then signs, then bodies of emitters.
+/// Adds the scenario's surfaces: objects, then signs, then emitter bodies.
 Result<void> add_surfaces(CompiledScene& scene, TriangleBuilder& builder) {
   const auto dark = static_cast<uint32_t>(scene.materials.size() - 1);
   for (const Object& object : scene.description->objects) {
@@ -367,7 +368,8 @@ void compile_materials(CompiledScene& scene) {
   back.name = "sign back";
   back.reflectance = Spectrum::constant(sign_back_reflectance);
   add(back);
-  // Texels are linear RGB: each channel's share of a white texel's reflectance in a band.
+  // Texels are linear RGB: the contribution of each channel to a white texel's reflectance in a
+  // band.
   const Spectrum r = reflectance_from_linear_srgb(1, 0, 0);
   const Spectrum g = reflectance_from_linear_srgb(0, 1, 0);
   const Spectrum b = reflectance_from_linear_srgb(0, 0, 1);

@@ -1,6 +1,7 @@
-// Straight connections between two places: what share of the light passes unscattered. Thin panes
-// and open surfaces let it through; everything else solid stops it, refracting solids too, because
-// light that they bend does not arrive along this line. Suspends: where the resolver does.
+// Shadow rays: the visibility and transmittance between two points. Thin panes and open surfaces
+// transmit; all other solids block, refracting ones too, because the light that they bend does not
+// arrive along this line. Functions without state; one thread or fiber
+// per resolver; suspends where the resolver does.
 #pragma once
 
 #include <cmath>
@@ -14,12 +15,12 @@
 namespace luxodus {
 
 namespace limits {
-/// Panes one straight line may cross; more count as opaque.
+/// Panes that one line may cross; more count as opaque.
 inline constexpr int panes_per_line = 64;
 }  // namespace limits
 
-/// False: something within `length` of the ray stops light. Calls pane(material, cosine) for every
-/// pane before that.
+/// False if a solid within `length` of the ray blocks light. Calls pane(material, cosine) for every
+/// pane before it.
 template <class Resolver, class Pane>
 bool passes_solids(const CompiledScene& scene, Ray ray, Real length, Resolver& resolver,
                    Pane&& pane_met) {
@@ -46,7 +47,7 @@ bool passes_solids(const CompiledScene& scene, Ray ray, Real length, Resolver& r
   return false;
 }
 
-/// Product of the transmittances of all panes within `length` of the ray, per band; 0 when blocked.
+/// Product of the transmittances of all panes within `length` of the ray in a band; 0 if blocked.
 template <class Resolver>
 double solid_transmittance(const CompiledScene& scene, const Ray& ray, Real length, int band,
                            Resolver& resolver) {
@@ -68,13 +69,13 @@ double medium_transmittance(const CompiledScene& scene, const Ray& ray, Real len
                                                      length, resolver));
 }
 
-/// A straight line from a place to a point of an emitter.
+/// A straight connection from a place to a point of an emitter.
 struct ShadowRay {
-  Ray ray;            // ends where solid things may begin that are not in the way
-  Real distance = 0;  // of the two places: what smoke and the inverse square know
+  Ray ray;            // ends before solids that do not block it, such as the emitter's own body
+  Real distance = 0;  // between the two points: for smoke and the inverse square
 };
 
-/// `axis` is the emitting side's normal; a target on a solid face is met just in front of it.
+/// `axis` is the emitting side's normal; a target on a solid face is reached just in front of it.
 inline ShadowRay connect(const CompiledScene& scene, const Vec3& from, const Vec3& to,
                          const Vec3& axis, bool on_surface) {
   Vec3 target = to;
@@ -84,7 +85,7 @@ inline ShadowRay connect(const CompiledScene& scene, const Vec3& from, const Vec
   }
   const Vec3 difference = target - from;
   const Real length = glm::length(difference);
-  // The last millionth belongs to the emitter's own surface.
+  // The last millionth is left out, since it may hit the emitter's own surface.
   return {{from, difference / length, length * (1 - 1e-6_r)}, glm::length(to - from)};
 }
 

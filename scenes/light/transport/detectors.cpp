@@ -8,7 +8,7 @@ namespace luxodus {
 namespace {
 
 Real length_in_sphere(const Vec3& centre, Real radius, const FlightPiece& piece) {
-  // Distance of closest approach first, so that nothing cancels for small spheres far away.
+  // From the distance of closest approach, so that nothing cancels for small spheres far away.
   const Vec3 to_centre = centre - piece.origin;
   const Real along = glm::dot(to_centre, piece.direction);
   const Vec3 offset = to_centre - piece.direction * along;
@@ -72,7 +72,7 @@ void score_crossing(const CompiledScene& scene, size_t index, const FlightPiece&
   const size_t planes = scene.planes.size();
   const bool counting = index >= planes;
   const bool along = approach.cosine > 0;
-  if (!counting && along) return;  // illuminance counts what falls on the front
+  if (!counting && along) return;  // illuminance counts light on the front only
   const CompiledPlane& plane =
       counting ? scene.counting_planes[index - planes] : scene.planes[index];
   const uint32_t cell = crossed_cell(plane, piece, approach.height / approach.cosine);
@@ -87,8 +87,8 @@ void score_crossing(const CompiledScene& scene, size_t index, const FlightPiece&
 }
 
 void score_volumes(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch) {
-  // Along a layer without end light may fly for as long as single precision tells heights apart,
-  // 1e9 m and more, and the scores of a batch would leave 63 bits. What lies beyond does not count.
+  // Along an unbounded layer light may fly as long as single precision resolves heights, 1e9 m and
+  // more, and the scores of a batch would exceed 63 bits. What lies beyond does not count.
   const auto longest = static_cast<Real>(1024 * scene.length_unit_m);
   for (uint32_t i = 0; i < scene.volume_groups.size(); ++i) {
     const Real length = std::min(length_inside(scene.volume_groups[i], piece), longest);
@@ -100,21 +100,21 @@ void score_volumes(const CompiledScene& scene, const FlightPiece& piece, BatchSc
 
 namespace {
 
-/// A double below 2^51 in size as an integer, to nearest, in two instructions instead of a call:
+/// A double below 2^51 in magnitude rounded to an integer, in two instructions instead of a call:
 /// adding 1.5 * 2^52 leaves the integer in the lowest bits.
 int64_t nearest_integer(double x) {
   constexpr double magic = 0x1.8p52;
   return std::bit_cast<int64_t>(x + magic) - std::bit_cast<int64_t>(magic);
 }
 
-/// Four scores of a voxel as one register.
+/// Four scores of a voxel in one register.
 using FourScores [[gnu::vector_size(32)]] = int64_t;
 
 }  // namespace
 
 void score_voxels(const CompiledScene& scene, const FlightPiece& piece, BatchScores& batch) {
   const VoxelPoints points = points_in_grid(scene.voxels, piece);
-  // Fluence and its three components along the axes, of one point.
+  // Fluence and its three components along the axes, for one point.
   const double length =
       to_double(piece.weight) * (static_cast<double>(points.length) * scene.scores_per_metre);
   const glm::dvec3 along = length * glm::dvec3(piece.direction);

@@ -1,6 +1,6 @@
-// What a flight passes on its way: planes and probes never stop light, so they are scored here,
-// together with voxels and volume groups. All work is on one straight piece of a path, from
-// `origin` for `length`. Pure functions on a batch's scores; one thread.
+// Detectors that flights pass: planes and probes never stop light, so they are scored here,
+// together with voxels and volume groups. All functions work on one straight piece of a path, from
+// `origin` for `length`. Pure functions on a batch's scores; one thread per batch.
 #pragma once
 
 #include <algorithm>
@@ -21,10 +21,10 @@ struct FlightPiece {
   Real length;
   Weight weight;
   int band;
-  bool direct;     // not scattered or reflected yet (glass panes passed straight do not count)
-  bool collided;   // has collided with a medium
-  bool scattered;  // a collision was its last event
-  Real chance;     // uniform in [0, 1), independent of all the above: where voxel points begin
+  bool direct;  // neither scattered nor reflected yet (passing glass panes straight does not count)
+  bool collided;   // has collided with a medium before
+  bool scattered;  // its last event was a collision
+  Real chance;     // uniform in [0, 1), independent of the above: the offset of the voxel points
 };
 
 /// Fixed-point score of weight times length; rounded to nearest, one part in 2^32 of the scene's
@@ -33,7 +33,8 @@ inline int64_t length_score(const CompiledScene& scene, Weight weight, double le
   return static_cast<int64_t>(to_double(weight) * (length_m * scene.scores_per_metre) + 0.5);
 }
 
-/// A piece's height over a plane at its start, against the normal, and its rise along it.
+/// Height of a plane above a piece's start, along the normal, and the piece's cosine with the
+/// normal.
 struct Approach {
   Real height, cosine;
 };
@@ -41,16 +42,16 @@ inline Approach approach(const PlaneTest& plane, const FlightPiece& piece) {
   return {plane.height - glm::dot(plane.normal, piece.origin),
           glm::dot(plane.normal, piece.direction)};
 }
-/// Whether the piece, `length` long, meets the plane; told without a division.
+/// Whether the piece, `length` long, crosses the plane; without a division.
 inline bool meets(const Approach& a, Real length) {
   return a.height * a.cosine > 0 && std::abs(a.height) <= length * std::abs(a.cosine);
 }
 
-/// The bin of the plane's parallelogram that is crossed at distance t; none_index beside it.
+/// The bin of the plane's parallelogram that is crossed at distance t; none_index outside it.
 uint32_t crossed_cell(const CompiledPlane& plane, const FlightPiece& piece, Real t);
 
-/// 1 / rise, finite: no product with a finite length is NaN. A rise of zero counts as the smallest
-/// one, so that a piece in a face belongs to the side above it.
+/// 1 / rise, finite, so that no product with a finite length is NaN. A rise of zero counts as the
+/// smallest one, so that a piece in a face belongs to the side above it.
 inline Real finite_inverse(Real rise) {
   constexpr Real least = 1e-30_r;
   return 1.0_r / (std::abs(rise) < least ? least : rise);
@@ -59,7 +60,7 @@ inline Vec3 finite_inverse(const Vec3& d) {
   return {finite_inverse(d.x), finite_inverse(d.y), finite_inverse(d.z)};
 }
 
-/// The part of the piece inside an axis-aligned box, low <= p < high; empty where last <= first.
+/// The part of the piece inside an axis-aligned box, low <= p < high; empty if last <= first.
 struct BoxStretch {
   Real first, last;
 };
@@ -88,20 +89,20 @@ inline uint32_t voxel_of(const VoxelGrid& grid, const Vec3& p) {
   return static_cast<uint32_t>((z * grid.ny + y) * grid.nx + x);
 }
 
-/// Longest distance of the points at which voxels look at a flight, in voxel edges. Against the
-/// exact length the variance is 6 % more at 0.5 and 24 % at 1, the whole run 1.27 and 1.35 times as
-/// fast.
+/// Largest spacing of the points at which a flight scores in voxels, in voxel edges. Compared with
+/// the exact length the variance is 6 % higher at 0.5 and 24 % at 1, and the whole run 1.27 and
+/// 1.35 times as fast.
 inline constexpr Real voxel_point_spacing = 0.5_r;
 
-/// Points that stand for the part of a piece inside a grid, evenly spaced, as few as the spacing
-/// allows and at least one; the first at the share `piece.chance` of the spacing. Each stands for
-/// one spacing of path, so that all together count that part exactly, and for every voxel the
-/// expectation is the length in it. (A walk from face to face is exact, but each of its steps waits
-/// for the one before; points are independent, and eight are found at once.)
+/// Evenly spaced sample points on the part of a piece inside a grid, as few as the spacing allows
+/// and at least one; the first is at `piece.chance` times the spacing. Each represents one spacing
+/// of path length, so that together they count that part exactly, and for every voxel the
+/// expectation is the length in it. (A walk from face to face is exact, but each step depends on
+/// the one before; points are independent, and eight are computed at once.)
 struct VoxelPoints {
   Vec3 begin{0}, step{0};  // in cells
   int64_t count = 0;
-  Real length = 0;  // that one point stands for [m]
+  Real length = 0;  // that one point represents [m]
 };
 
 inline VoxelPoints points_in_grid(const VoxelGrid& grid, const FlightPiece& piece) {
@@ -147,7 +148,7 @@ void for_each_voxel_point(const VoxelGrid& grid, const VoxelPoints& points, Visi
   }
 }
 
-/// Scores plane `index` (counting planes come after the others) where the piece crosses it.
+/// Scores plane `index` (counting planes follow the others) if the piece crosses it.
 void score_crossing(const CompiledScene& scene, size_t index, const FlightPiece& piece,
                     const Approach& approach, BatchScores& batch);
 /// Scores lengths inside volume groups.
@@ -166,7 +167,7 @@ inline void score_flight(const CompiledScene& scene, const FlightPiece& piece, B
   if (scene.voxels.edge > 0) score_voxels(scene, piece, batch);
 }
 
-/// Scores a collision's absorbed and scattered weight where it happens.
+/// Scores the absorbed and scattered weight of a collision at its place.
 void score_collision(const CompiledScene& scene, const Vec3& place, int band, uint32_t medium,
                      Weight absorbed, Weight scattered, BatchScores& batch);
 

@@ -1,12 +1,12 @@
-// Direct light at a point, without chance: every emitter is cut into cells, shadow rays tell which
-// of their points are seen, and the photometric web, the cosine law and the media say what arrives.
-// Regulations judge this part alone. Collimated beams have no density of directions and are left to
-// the traced part, as is light that a refracting solid or a mirror has turned. Accuracy: 1e-3 of
-// all that arrives, as long as what stands in the way is not smaller than the spacing of points. A
-// cell of a Lambertian polygon that nothing hides is known in closed form in clear air; other cells
-// are summed by the Gauss-Legendre rule. Where one straight edge divides a rectangle's cell, the
-// edge is found and the part that is seen is taken alike; other cells that something hides in part
-// are quartered, those first that may err most, as far as limits::shadow_splits allow.
+// Deterministic direct light at a point: every emitter is cut into cells, shadow rays test the
+// visibility of their points, and photometric web, cosine law and media give the light that
+// arrives. Regulations judge this part alone. Excluded are collimated beams, which have no density
+// of directions, and light turned by refracting solids or mirrors; the traced part counts them.
+// Accuracy: 1e-3 of all that arrives, as long as occluders are not smaller than the spacing of
+// points. Unoccluded cells of Lambertian polygons in clear air are computed in closed form, others
+// by the Gauss-Legendre rule. If one straight edge divides a rectangle's cell, the edge is located
+// and the visible part computed likewise; other partly hidden cells are quartered, those with the
+// largest possible error first, up to limits::shadow_splits.
 #pragma once
 
 #include <algorithm>
@@ -25,19 +25,19 @@
 namespace luxodus {
 
 namespace limits {
-/// Quarterings of cells that something hides in part, of all emitters at one point: half of a lamp
-/// behind a straight edge needs 63 for a thousandth.
+/// Quarterings of partly hidden cells, of all emitters at one point: half of a lamp behind a
+/// straight edge needs 63 for an accuracy of 1e-3.
 inline constexpr int shadow_splits = 96;
-/// Halvings by which the edge of a shadow is found on a side of a cell, and how near to it points
-/// confirm it, as a share of the cell.
+/// Bisection steps that locate a shadow's edge on a side of a cell, and the distance from it at
+/// which points confirm it, as a share of the cell.
 inline constexpr int edge_steps = 12;
 inline constexpr double edge_width = 0.01;
-/// Rounds in which cells are quartered because a web changes within them.
+/// Rounds of quartering cells because a web varies within them.
 inline constexpr int web_rounds = 3;
 }  // namespace limits
 
-/// Mean extinction on the straight way from a place to an emitter [1/m], in the band that matters
-/// most to the eye; 0 in clear air.
+/// Mean extinction on the line from a place to an emitter [1/m], in the middle band; 0 in clear
+/// air.
 template <class Resolver>
 double mean_extinction(const CompiledScene& scene, const CompiledEmitter& emitter,
                        const Vec3& place, Resolver& resolver) {
@@ -56,7 +56,7 @@ double mean_extinction(const CompiledScene& scene, const CompiledEmitter& emitte
 template <class Resolver>
 class DirectSum {
  public:
-  /// Requires: all that is referred to outlives this.
+  /// Requires: all references outlive this.
   DirectSum(const CompiledScene& scene, const Vec3& point, const Vec3& normal,
             const DirectOptions& options, Resolver& resolver)
       : scene_(scene),
@@ -72,7 +72,7 @@ class DirectSum {
     resolve_shadows();
   }
 
-  /// By emitter that is asked for, in their order.
+  /// Light by requested emitter, in their order.
   std::vector<DirectFromEmitter> by_emitter() const {
     const auto& only = options_.only;
     std::vector<DirectFromEmitter> out(only.empty() ? scene_.emitters.size() : only.size());
@@ -83,8 +83,8 @@ class DirectSum {
     return out;
   }
 
-  /// What adds illuminance, by where it comes from. Lights of cells in closed form come from their
-  /// points.
+  /// Illuminance by direction of arrival. Light computed in closed form for a cell is listed for
+  /// its points.
   std::vector<ArrivingLight> arriving() const {
     std::vector<ArrivingLight> out;
     for (const Leaf& leaf : leaves_)
@@ -100,22 +100,23 @@ class DirectSum {
     DirectFromEmitter light;
     std::array<ArrivingLight, 4> arriving{};
     size_t count = 0;
-    double error_lx = 0;  // of a cell that something hides in part
+    double error_lx = 0;  // possible error of a partly hidden cell
   };
 
-  /// How a point of an emitter is seen.
+  /// Visibility of an emitter's point.
   enum class Seen { not_at_all, hidden, clear, dimmed };
   struct PointLight {
     DirectFromEmitter light;
     ArrivingLight arriving;
-    Seen seen = Seen::not_at_all;  // nothing is to be seen: no light goes there, or from below
+    Seen seen = Seen::not_at_all;  // no light goes there, or it comes from below the horizon
   };
 
   Viewpoint viewpoint(const CompiledEmitter& e) const {
     Viewpoint view{place_, normal_, 0, options_.part_share, false};
     if (in_media_) {
       view.sigma_t = mean_extinction(scene_, e, from_, resolver_);
-      // Edges of layers and of clouds lie anywhere: points as close as a rule of one would have.
+      // Edges of layers and clouds may lie anywhere, so points are as dense as for a one-point
+      // rule.
       if (scene_.features.media != MediaNeed::homogeneous) view.part_share *= 0.5;
     }
     view.clipped = is_closed_form(e) && !in_media_;
@@ -140,7 +141,7 @@ class DirectSum {
     for (const EmitterCell& cell : cut) add_leaf(index, cells, cell);
   }
 
-  /// Illuminance per lumen of a cell's points, as if there were nothing else.
+  /// Unoccluded illuminance per lumen from a cell's points, without media.
   double geometric(const CompiledEmitter& e, const CellPoints& points) {
     double sum = 0;
     for (const EmitterPart& part : points.all()) {
@@ -157,8 +158,8 @@ class DirectSum {
     return sum;
   }
 
-  /// Quarters cells within which the light changes faster than their points tell: tables of
-  /// photometric webs bend at every angle, spots end.
+  /// Quarters cells within which the light varies faster than their points resolve: webs have a
+  /// kink at every angle of the table, and spots have an edge.
   void follow_distribution(const CompiledEmitter& e, const EmitterCells& cells,
                            std::vector<EmitterCell>& cut) {
     if (cut.size() == 1 && cut.front().whole) return;
@@ -197,8 +198,8 @@ class DirectSum {
                    e.kind != EmitterKind::volume);
   }
 
-  /// Lines start a step before the place, so that they do not meet its own surface; angles and
-  /// distances are those of the place.
+  /// Rays start slightly off the place, to avoid its own surface; angles and distances are those of
+  /// the place itself.
   PointLight look_at(uint32_t index, const EmitterPart& part, double sigma_t,
                      bool known_clear = false) {
     const CompiledEmitter& e = scene_.emitters[index];
@@ -211,8 +212,8 @@ class DirectSum {
     const Real density = directional_density(e, part.point, -direction, resolver_);
     if (density <= 0) return out;
     const auto cosine = std::max(0.0, static_cast<double>(glm::dot(normal_, direction)));
-    // Below the horizon of the point only the fluence counts, and a line into the surface is no
-    // line.
+    // Below the horizon of the point only the fluence counts, and a ray into the surface is
+    // blocked.
     double in_media = 0, clear = 0, open = 0;
     double solid = -1, min_solid = 1;
     const auto distance = static_cast<double>(away);
@@ -224,10 +225,10 @@ class DirectSum {
       else if (solid < 0 || (scene_.features.surfaces && solid > 0))
         solid = solid_transmittance(scene_, c.ray, c.ray.length, b, resolver_);
       min_solid = std::min(min_solid, solid);
-      const double passes =
-          !in_media_  ? 1
-          : solid > 0 ? medium_transmittance(scene_, c.ray, c.distance, b, resolver_)
-                      : std::exp(-sigma_t * distance);  // nearly: only tells what a shadow may hide
+      const double passes = !in_media_ ? 1
+                            : solid > 0
+                                ? medium_transmittance(scene_, c.ray, c.distance, b, resolver_)
+                                : std::exp(-sigma_t * distance);  // nearly: only bounds shadows
       clear += power * solid;
       in_media += power * solid * passes;
       open += power * passes;
@@ -245,7 +246,7 @@ class DirectSum {
     return out;
   }
 
-  /// Whether something hides a corner of the cell, and whether some corner is seen.
+  /// Whether some corner of the cell is hidden, and whether some corner is visible.
   void look_at_corners(const CompiledEmitter& e, const EmitterCells& cells, const EmitterCell& cell,
                        bool& hidden, bool& seen) {
     const CellPoints corners = cells.corner_points(cell);
@@ -289,14 +290,14 @@ class DirectSum {
     leaves_.push_back(leaf);
   }
 
-  /// Whether the place sees a point of an emitter.
+  /// Whether a point of an emitter is visible from the place.
   bool sees(const CompiledEmitter& e, const EmitterPart& part) {
     const ShadowRay c = line_to(e, part);
     return c.distance > 0 && solid_transmittance(scene_, c.ray, c.ray.length,
                                                  scene_.bands.count() / 2, resolver_) == 1;
   }
 
-  /// Where between a point that is seen and one that is not the edge of the shadow lies.
+  /// The shadow's edge between a visible and a hidden point, by bisection.
   glm::dvec2 edge_between(const CompiledEmitter& e, const EmitterCells& cells,
                           const EmitterCell& cell, glm::dvec2 seen, glm::dvec2 hidden) {
     for (int step = 0; step < limits::edge_steps; ++step) {
@@ -306,8 +307,8 @@ class DirectSum {
     return 0.5 * (seen + hidden);
   }
 
-  /// A rectangle's cell that one straight edge divides, as that of a wall or a shelf does: found on
-  /// two sides of the cell, and confirmed by points between. Other cells stay as they are.
+  /// A rectangle's cell divided by one straight shadow edge, e.g. of a wall or a shelf: locates the
+  /// edge on two sides of the cell and confirms it by points between. Other cells stay unchanged.
   void follow_edge(const EmitterCells& cells, Leaf& leaf) {
     const CompiledEmitter& e = scene_.emitters[leaf.emitter];
     constexpr double in = 1e-3;
@@ -321,7 +322,7 @@ class DirectSum {
     }
     for (int i = 0; i < 4; ++i) changes += seen[i] != seen[(i + 1) % 4] ? 1 : 0;
     if (changes != 2) return;
-    std::vector<glm::dvec2> outline;  // of what is seen, in turn
+    std::vector<glm::dvec2> outline;  // of the visible part, in order
     glm::dvec2 cut[2];
     int cuts = 0;
     for (int i = 0; i < 4; ++i) {
@@ -336,8 +337,8 @@ class DirectSum {
     if (is_straight(e, cells, leaf.cell, cut, outline)) put_part(cells, outline, leaf);
   }
 
-  /// Whether points on either side of an edge, near its middle and its quarters, are seen as it
-  /// says.
+  /// Whether points on either side of an edge, near its middle and its quarters, are visible as the
+  /// edge implies.
   bool is_straight(const CompiledEmitter& e, const EmitterCells& cells, const EmitterCell& cell,
                    const glm::dvec2 (&cut)[2], const std::vector<glm::dvec2>& outline) {
     glm::dvec2 middle(0);
@@ -358,7 +359,7 @@ class DirectSum {
     return true;
   }
 
-  /// The light of a part of a rectangle's cell that is seen whole.
+  /// The light of a fully visible part of a rectangle's cell.
   void put_part(const EmitterCells& cells, const std::vector<glm::dvec2>& outline, Leaf& leaf) {
     const CompiledEmitter& e = scene_.emitters[leaf.emitter];
     const EmitterCell& cell = leaf.cell;
@@ -371,7 +372,7 @@ class DirectSum {
       const glm::dvec2 &a = outline[0], &b = outline[i], &c = outline[i + 1];
       const double area = 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y));
       ArrivingLight arriving{leaf.emitter, {}, 0};
-      // The middles of a triangle's sides are exact to the second power.
+      // The midpoints of a triangle's sides integrate exactly up to the second power.
       for (const glm::dvec2& uv : {0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)}) {
         const PointLight p = look_at(leaf.emitter, cells.point_in(cell, uv, area * of_cell / 3),
                                      cells.viewpoint().sigma_t, true);
@@ -392,7 +393,7 @@ class DirectSum {
     leaf.error_lx = 0;
   }
 
-  /// In place of the sum over a cell's points. Media keep theirs.
+  /// Replaces the sum over a cell's points. With media only the light in clear air is replaced.
   void put_closed_form(const CompiledEmitter& e, const std::vector<glm::dvec3>& polygon,
                        bool all_above, DirectFromEmitter& light) const {
     const double radiance = lumens_of(e) / (static_cast<double>(pi_f) * e.area_m2);
@@ -403,8 +404,8 @@ class DirectSum {
     if (all_above) light.fluence_lm_m2 = radiance * solid_angle(polygon);
   }
 
-  /// Quarters the cells that may err most, until all together err little: edges of shadows cross
-  /// them anywhere, so their errors add as those of independent numbers do.
+  /// Quarters the cells with the largest possible error until the total is small. Shadow edges
+  /// cross cells at arbitrary positions, so their errors add like independent ones.
   void resolve_shadows() {
     double total = 0, squares = 0;
     for (const Leaf& leaf : leaves_) {
@@ -433,8 +434,8 @@ class DirectSum {
     }
   }
 
-  static constexpr double fine = 2e-3;     // tolerances up to here look at corners, too
-  static constexpr double quarter = 0.25;  // of a cell's light that a shadow's edge may cost
+  static constexpr double fine = 2e-3;     // up to this tolerance corners are tested, too
+  static constexpr double quarter = 0.25;  // error of a cell with a shadow edge, of its light
 
   const CompiledScene& scene_;
   const Vec3 place_, from_, normal_;

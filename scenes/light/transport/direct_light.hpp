@@ -1,5 +1,5 @@
-// What direct light at a point is asked for by, and what is answered: plain values, for whoever
-// calls the computation (direct.hpp, which is a template of the resolver and costs compile time).
+// Options and results of the direct light at a point, for callers of direct.hpp that do not include
+// that template of the resolver, which is slow to compile. Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace luxodus {
 
 struct DirectLight {
   std::vector<double> illuminance_lx;  // per source group
-  std::vector<double> fluence_lm_m2;   // per source group, all directions alike
+  std::vector<double> fluence_lm_m2;   // per source group, from all directions equally
   double total_lx() const {
     double sum = 0;
     for (const double e : illuminance_lx) sum += e;
@@ -25,20 +25,20 @@ struct DirectLight {
   }
 };
 
-/// What is known of an emitter before it is looked at, from places around.
+/// Visibility of an emitter known beforehand, from surrounding places.
 enum class KnownSight : uint8_t { nothing, hidden, clear };
 
 struct DirectOptions {
-  bool media = true;             // false: as in clear air (what regulations calculate)
-  double part_share = 1.0 / 16;  // spacing of an emitter's points over their distance
-  /// Of all light that arrives, what shadows' edges across emitters may err by. Coarser where many
-  /// points are averaged: their errors are of either sign.
+  bool media = true;             // false: as in clear air (as regulations calculate)
+  double part_share = 1.0 / 16;  // spacing of an emitter's points relative to their distance
+  /// Allowed error due to shadow edges across emitters, as a share of all light that arrives. May
+  /// be larger if many points are averaged, since errors have either sign.
   double tolerance = 1e-3;
-  /// By emitter; empty: nothing. Those that are hidden are left out, those that are clear take no
+  /// Entries by emitter; empty: nothing is known. Hidden emitters are left out, clear ones take no
   /// shadow rays.
   std::span<const KnownSight> known{};
-  /// Numbers of emitters, ascending: no other is looked at, and answers are of these alone, in
-  /// their order. Empty: all.
+  /// Indices of emitters, ascending: only these are computed, and results are in their order.
+  /// Empty: all.
   std::span<const uint32_t> only{};
 };
 
@@ -46,8 +46,8 @@ struct DirectOptions {
 struct DirectFromEmitter {
   double illuminance_lx = 0;
   double fluence_lm_m2 = 0;
-  double clear_air_lx = 0;  // illuminance as if there were no media
-  double open_lx = 0;       // illuminance as if nothing solid stood in the way
+  double clear_air_lx = 0;  // illuminance without media
+  double open_lx = 0;       // illuminance without solids in the way
 
   DirectFromEmitter& operator+=(const DirectFromEmitter& o) {
     illuminance_lx += o.illuminance_lx;
@@ -58,7 +58,7 @@ struct DirectFromEmitter {
   }
 };
 
-/// Light that arrives from one point of an emitter, or one cell of it.
+/// Light that arrives from one point or cell of an emitter.
 struct ArrivingLight {
   uint32_t emitter = 0;
   Vec3 direction{0};  // towards the emitter

@@ -23,8 +23,8 @@ EmissionPoint point_on_sign(const CompiledEmitter& e, Real u, Real v, double w) 
   return {p, e.axes[2]};
 }
 
-/// Of an emitter's extent, so much of it emits: a millionth off its edges, since on one that
-/// touches a wall a start would lie in that wall.
+/// Share of an emitter's extent that emits: its edges are excluded by a millionth, since light from
+/// an edge that touches a wall would start in that wall.
 constexpr Real off_the_edges = 1 - 0x1p-20_r;
 
 EmissionPoint point_on_mesh(const CompiledEmitter& e, Real u, Real v, double w) {
@@ -81,7 +81,7 @@ Real tube_distance(const CompiledEmitter& e, const Ray& ray) {
   return std::abs(x) <= 0.5_r * e.size.x ? t : none;
 }
 
-/// Flat shapes emit to local -Z; isotropic ones to both sides.
+/// Flat shapes emit to local -Z, isotropic ones to both sides.
 Real flat_distance(const CompiledEmitter& e, const Ray& ray) {
   const Real none = std::numeric_limits<Real>::infinity();
   const Real cosine = glm::dot(ray.direction, e.axes[2]);
@@ -98,7 +98,7 @@ Real flat_distance(const CompiledEmitter& e, const Ray& ray) {
   return in ? t : none;
 }
 
-/// Normal of the face at one of its points. The axis of a photometric web is another.
+/// Normal of the face at one of its points; the axis of a photometric web is a different vector.
 Vec3 outward(const CompiledEmitter& e, const EmissionPoint& point) {
   const Vec3 p = point.position - e.origin;
   if (e.kind == EmitterKind::sphere) return glm::normalize(p);
@@ -107,11 +107,12 @@ Vec3 outward(const CompiledEmitter& e, const EmissionPoint& point) {
 }
 
 struct FaceHit {
-  Real distance = std::numeric_limits<Real>::infinity();  // none is met
+  Real distance = std::numeric_limits<Real>::infinity();  // no hit
   Vec3 normal{0};
 };
 
-/// Where a ray meets an emitter's own face. The normal counts where that is nearer than `best`.
+/// Intersects a ray with an emitter's own face. The normal is valid if the hit is nearer than
+/// `best`.
 FaceHit meet_face(const CompiledEmitter& e, const Ray& ray, Real best) {
   FaceHit hit;
   hit.normal = -e.axes[2];
@@ -231,7 +232,7 @@ double apparent_face(const CompiledEmitter& e, const EmissionPoint& point, const
 }
 
 EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, Real length) {
-  constexpr Real rounding = 1e-5_r;  // of a scene's coordinates: a face's rim is on its sphere
+  constexpr Real rounding = 1e-5_r;  // of a scene's coordinates: a face's rim lies on its sphere
   EmitterHit best;
   best.distance = length;
   const EmittersWithFaces& faces = scene.emitters_with_faces;

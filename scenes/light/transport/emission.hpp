@@ -1,7 +1,7 @@
-// Where and whither an emitter sends its light. Every emitter is described by two functions: a
-// point drawn in proportion to emitted power over its surface or volume, and the density of
-// directions [1/sr] there. The tracer samples both; direct light and eyes evaluate the second
-// toward a place. Pure; webs come from the caller's resolver. Any thread.
+// Emission: every emitter is described by two functions, a point drawn in proportion to emitted
+// power over its surface or volume, and the density of directions [1/sr] there. The particle tracer
+// samples both; direct light and eye paths evaluate the second one toward a place. Pure; webs come
+// from the caller's resolver. Any thread.
 #pragma once
 
 #include <cmath>
@@ -16,13 +16,13 @@ namespace luxodus {
 
 struct EmissionPoint {
   Vec3 position;  // local coordinates
-  Vec3 axis;      // about which the distribution is given: the surface normal, or local -Z
+  Vec3 axis;      // axis of the distribution: the surface normal, or local -Z
 };
 
 /// A point drawn in proportion to emitted power; u, v, w uniform in [0, 1). Not for volumes.
 EmissionPoint emission_point(const CompiledEmitter& emitter, Real u, Real v, double w);
 
-/// A point of any emitter, volumes included, with as many draws as it takes.
+/// A point of any emitter, volumes included, with a variable number of draws.
 template <class Resolver>
 EmissionPoint emission_point(const CompiledScene& scene, const CompiledEmitter& emitter,
                              Random& random, Resolver& resolver) {
@@ -37,17 +37,18 @@ EmissionPoint emission_point(const CompiledScene& scene, const CompiledEmitter& 
   return emission_point(emitter, u, v, w);
 }
 
-/// Area [m2] that a point of an emitting face stands for: one over the density with which
-/// `emission_point` draws it. 0 where it draws none.
+/// Area [m2] that a point of an emitting face represents: one over the density with which
+/// `emission_point` samples it; 0 if it does not.
 double sampled_area_m2(const CompiledEmitter& emitter, const Vec3& point);
 
-/// The solid angle [sr] at a place that the face would fill if it all looked as at the point, whose
-/// direction to the place and distance are given. 0 where a ray from there cannot hit it.
+/// Solid angle [sr] that the face would subtend at a place if all of it were seen as the given
+/// point, whose direction to the place and distance are given. 0 if a ray from there cannot hit the
+/// point.
 double apparent_face(const CompiledEmitter& emitter, const EmissionPoint& point,
                      const Vec3& to_place, Real distance);
 
-/// Density [1/sr] of directions at a point of the emitter; 0 for collimated light, which is no
-/// density.
+/// Density [1/sr] of directions at a point of the emitter; 0 for collimated light, a delta
+/// distribution.
 template <class Resolver>
 Real directional_density(const CompiledEmitter& emitter, const EmissionPoint& point,
                          const Vec3& direction, Resolver& resolver) {
@@ -95,24 +96,24 @@ Vec3 emission_direction(const CompiledEmitter& emitter, const EmissionPoint& poi
   return to_world(point.axis, cosine_hemisphere(u, v));
 }
 
-/// What an eye sees where its ray meets an emitter's surface.
+/// The nearest point of an emitter's surface on an eye ray.
 struct EmitterHit {
   Real distance = 0;
   uint32_t emitter = none_index;
   EmissionPoint point;
 };
 
-/// Whether rays can meet the emitter itself: points and volumes have no face, and faces of signs
-/// are surfaces of the scene.
+/// Whether rays can hit the emitter itself: points and volumes have no face, and faces of signs are
+/// surfaces of the scene.
 bool has_own_face(const CompiledEmitter& emitter);
 /// A sphere that holds all of its faces.
 EmitterBound emitter_bound(const CompiledScene& scene, uint32_t emitter);
 
-/// Nearest emitting surface along the ray whose emitting side is turned to it, within `length`.
-/// Sign faces are surfaces of the scene and not looked for here.
+/// Nearest emitting surface along the ray within `length` whose emitting side faces it. Sign faces
+/// are surfaces of the scene and not considered here.
 EmitterHit nearest_emitter(const CompiledScene& scene, const Ray& ray, Real length);
 
-/// Radiance [W/(m2 sr)] that leaves the point toward `direction`, in a band. Not for points and
+/// Radiance [W/(m2 sr)] that leaves the point toward `direction` in a band. Not for points and
 /// volumes.
 template <class Resolver>
 double emitted_radiance(const CompiledEmitter& emitter, const EmissionPoint& point,

@@ -1,5 +1,5 @@
-// The light that emitters send out, for whoever asks of emitters rather than of particles. It is
-// drawn as the tracer draws it, by code that is compiled once. One thread or fiber at a time.
+// Samples and densities of emitters for callers outside the tracing loops, compiled once. They are
+// sampled as the tracer does. One thread or fiber at a time.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,13 @@
 
 namespace luxodus {
 
-/// Where and whither a particle is sent [local coordinates].
+/// Start and direction of an emitted particle [local coordinates].
 struct EmittedRay {
   EmissionPoint point;
   Vec3 direction;
 };
 
-/// The first particles of a seed that an emitter sends out, by draws of the stream `layout`.
+/// The first particles that an emitter sends for a seed, drawn from the stream `layout`.
 std::vector<EmittedRay> emitted_rays(const CompiledScene& scene, const GeometryAccess& access,
                                      uint32_t emitter, uint64_t seed, int count);
 
@@ -23,7 +23,7 @@ std::vector<EmittedRay> emitted_rays(const CompiledScene& scene, const GeometryA
 Real emitted_density(const CompiledScene& scene, const GeometryAccess& access, uint32_t emitter,
                      const EmissionPoint& point, const Vec3& direction);
 
-/// Share of light in the middle band that the media let pass along a line of that length.
+/// Transmittance of the media in the middle band along a line of this length.
 double media_share(const CompiledScene& scene, const GeometryAccess& access, const Vec3& from,
                    const Vec3& direction, Real length_m);
 

@@ -1,7 +1,7 @@
-// Cells are halved across their longer side until two points a side, the Gauss-Legendre rule, stand
-// for them. Such a rule errs with the fourth power of width over distance: an eighth leaves 1e-4.
-// One point errs with the square: a 26th leaves 1e-3. Polar coordinates start as four quarters,
-// since two points around a whole circle would lie on one side of it.
+// Cells are halved across their longer side until the two-point Gauss-Legendre rule per side
+// suffices. Its error grows with the fourth power of width over distance: a width of an eighth
+// gives 1e-4. The error of one point grows with the square: a 26th gives 1e-3. Polar coordinates
+// start as four quarters, since two points around a whole circle would lie on one side of it.
 #include "scenes/light/transport/emitter_cells.hpp"
 
 #include <algorithm>
@@ -14,13 +14,14 @@ namespace luxodus {
 namespace {
 
 constexpr double plastic = 1.2207440846057596;  // root of x^4 = x + 1
-/// Points of the Gauss-Legendre rule of two, from 0 to 1.
+/// Points of the two-point Gauss-Legendre rule, from 0 to 1.
 constexpr Real gauss[2] = {0.2113248654051871_r, 0.7886751345948129_r};
-/// Of the spacing of points, how wide what is taken as one point may be.
+/// Largest width that one point may represent, relative to the spacing of points.
 constexpr double whole_share = 0.6;
-/// Cells that the receiver's horizon cuts are this much narrower.
+/// Factor by which cells that the receiver's horizon cuts are narrower.
 constexpr double at_horizon = 8;
-/// Of a cell's width, how far inside its corners are looked at: on them it may touch a wall.
+/// Distance from a cell's corners at which they are tested, as a share of its width: on a corner it
+/// may touch a wall.
 constexpr Real inset = 1e-3_r;
 
 double fractional(double x) {
@@ -31,7 +32,7 @@ double length_of(const Vec3& v) {
   return static_cast<double>(glm::length(v));
 }
 
-/// Largest extent of a mesh [m], and the distance to it, roughly.
+/// Largest extent of a mesh [m], and the approximate distance to it.
 struct MeshSight {
   double size = 0, distance = 0;
 };
@@ -53,7 +54,7 @@ int points_of_mesh(const CompiledEmitter& e, const Viewpoint& from) {
       std::clamp(per_side * per_side * 2, 64.0, static_cast<double>(limits::direct_points)));
 }
 
-/// Two directions across a third.
+/// Two directions perpendicular to a third.
 void across(const Vec3& w, Vec3& a, Vec3& b) {
   const Vec3 least = std::abs(w.x) < 0.5_r ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   a = glm::normalize(glm::cross(w, least));
@@ -173,8 +174,8 @@ EmitterCells::SeenCell EmitterCells::sight_of(const EmitterCell& cell) const {
   return sight;
 }
 
-/// How many times its allowed width a cell has: light falls with the fourth power of the distance,
-/// or as fast as exp(-sigma_t d), or to nothing at the horizon.
+/// Ratio of a cell's width to its allowed width: light falls with the fourth power of the distance,
+/// or as fast as exp(-sigma_t d), or to zero at the horizon.
 double EmitterCells::excess_width(const EmitterCell& cell, const SeenCell& sight) const {
   const double width = sight.width() * (1 + from_.sigma_t * sight.distance / 4);
   const bool one_point = cell.whole || emitter_->kind == EmitterKind::sign_face;
@@ -183,7 +184,7 @@ double EmitterCells::excess_width(const EmitterCell& cell, const SeenCell& sight
   return sight.cut_by_horizon && !from_.clipped ? at_horizon * excess : excess;
 }
 
-/// Of a rectangle, a disc or a sphere, whether one point stands for all of it; of a disc, four.
+/// Whether one point represents the whole of a rectangle, disc or sphere; four for a disc.
 bool EmitterCells::small_whole(EmitterCell& cell) const {
   const CompiledEmitter& e = *emitter_;
   const bool round = e.kind == EmitterKind::disc || e.kind == EmitterKind::sphere;
@@ -197,7 +198,7 @@ bool EmitterCells::small_whole(EmitterCell& cell) const {
   cell.whole = true;
   if (excess_width(cell, sight) <= 1) return true;
   cell.whole = false;
-  // Four points of a disc are exact to the third power, as those of a cell are.
+  // Four points of a disc are exact to the third power, like those of a cell.
   const bool four =
       e.kind == EmitterKind::disc && !sight.cut_by_horizon && excess_width(cell, sight) <= 1;
   cell.whole = four;
@@ -289,7 +290,8 @@ CellPoints EmitterCells::whole_points() const {
   const Vec3 to_place = from_.place - e.origin;
   const Real away = glm::length(to_place);
   if (e.kind == EmitterKind::sphere) {
-    // As bright from everywhere as a point at its centre; the line ends at its near side.
+    // A sphere is as bright in all directions as a point at its centre; the line ends at its near
+    // side.
     const Vec3 n = to_place / away;
     const auto near = static_cast<double>((away - 0.5_r * e.size.x) / away);
     const bool turned = emits_outwards();
@@ -312,7 +314,7 @@ CellPoints EmitterCells::whole_points() const {
   return out;
 }
 
-/// All light of a cell of a sign's texels, from where their light has its middle.
+/// All light of a cell of a sign's texels, from the centroid of that light.
 EmitterPart EmitterCells::sign_part(const EmitterCell& cell) const {
   const CompiledEmitter& e = *emitter_;
   const auto columns = static_cast<size_t>(e.texel_columns);
@@ -323,7 +325,7 @@ EmitterPart EmitterCells::sign_part(const EmitterCell& cell) const {
   };
   const size_t x0 = edge(cell.u0, columns), x1 = edge(cell.u1, columns);
   const auto until = [&](size_t texel) { return texel > 0 ? e.texel_cdf[texel - 1] : 0.0; };
-  constexpr size_t blocks = 4;  // of a row, each taken to shine from its middle
+  constexpr size_t blocks = 4;  // per row, each represented by its middle
   double share = 0, x_sum = 0, y_sum = 0;
   for (size_t y = edge(cell.v0, rows); y < edge(cell.v1, rows); ++y) {
     for (size_t k = 0; k < blocks; ++k) {
@@ -359,7 +361,7 @@ CellPoints EmitterCells::points(const EmitterCell& cell) const {
     return out;
   }
   if (cell.whole && emitter_->kind != EmitterKind::mesh) return whole_points();
-  if (cell.whole) {  // at the triangle's centre; the map's share there is 4/3 of the whole
+  if (cell.whole) {  // at the triangle's centre, where the map's share is 4/3 of the whole
     EmitterPart part = at(cell.patch, 2 / 3.0_r, 0.5_r);
     part.share *= 0.75;
     out.point[out.count++] = part;
@@ -407,7 +409,7 @@ std::vector<glm::dvec3> EmitterCells::polygon(const EmitterCell& cell) const {
   out.push_back(corner(cell.u0, cell.v0));
   out.push_back(corner(cell.u1, cell.v0));
   out.push_back(corner(cell.u1, cell.v1));
-  // A triangle's first edge is a point.
+  // A triangle's first edge degenerates to a point.
   if (emitter_->kind != EmitterKind::mesh || cell.u0 > 0) out.push_back(corner(cell.u0, cell.v1));
   return out;
 }

@@ -1,8 +1,8 @@
-// Emitters cut into cells that are small as seen from a place, and the points of a quadrature rule
-// on each: what light without chance is summed over. Every shape is made of patches, maps of the
-// unit square: a rectangle, a disc in polar coordinates, the side of a sphere or a tube that is
-// turned to the place, the triangles of a mesh, the texels of a sign, the points of a flame. Pure;
-// any thread.
+// Cuts emitters into cells that are small as seen from a place, with the points of a quadrature
+// rule on each: the basis of deterministic direct light. Every shape consists of patches, maps of
+// the unit square: a rectangle, a disc in polar coordinates, the side of a sphere or a tube that
+// faces the place, the triangles of a mesh, the texels of a sign, the points of a flame. Pure; any
+// thread.
 #pragma once
 
 #include <array>
@@ -15,33 +15,33 @@
 namespace luxodus {
 
 namespace limits {
-/// Cells of one emitter seen from one place: beyond, cells stay as wide as they are.
+/// Cells of one emitter seen from one place; at the limit, cells are not cut further.
 inline constexpr size_t direct_cells = 2048;
-/// Triangles up to which each of a mesh is a patch; points stand for a mesh of more.
+/// Meshes up to this size have one patch per triangle; larger ones are represented by points.
 inline constexpr size_t direct_triangles = 1024;
-inline constexpr int direct_points = 2048;  // of such a mesh
+inline constexpr int direct_points = 2048;  // of such a large mesh
 }  // namespace limits
 
-/// A piece of an emitter that is small as seen from a place, and its share of the power.
+/// A piece of an emitter that is small as seen from a place, with its share of the power.
 struct EmitterPart {
   EmissionPoint point;
   double share = 1;
 };
 
-/// Where an emitter is seen from: what decides how finely it is cut.
+/// The receiver of an emitter's light: decides how finely the emitter is cut.
 struct Viewpoint {
   Vec3 place;
   Vec3 normal;            // of the receiver; light from below its horizon does not count
-  double sigma_t = 0;     // mean extinction on the way to the emitter [1/m]
-  double part_share = 0;  // spacing of points over distance
-  bool clipped = false;   // what the horizon cuts off is known in closed form
+  double sigma_t = 0;     // mean extinction on the line to the emitter [1/m]
+  double part_share = 0;  // spacing of points relative to distance
+  bool clipped = false;   // the part below the horizon is removed in closed form
 };
 
 /// A piece of a patch, in the patch's coordinates from 0 to 1.
 struct EmitterCell {
   uint32_t patch = 0;
   Real u0 = 0, v0 = 0, u1 = 1, v1 = 1;
-  bool whole = false;  // all of the emitter, which is small: one point, or four of a disc
+  bool whole = false;  // the whole emitter, which is small: one point, or four for a disc
 };
 
 /// Up to four points.
@@ -54,35 +54,34 @@ struct CellPoints {
 /// Whether cells are flat polygons.
 bool has_flat_cells(const CompiledEmitter& emitter);
 
-/// The cells of an emitter, and how to look at each.
+/// The cells of an emitter, and the quadrature points of each.
 class EmitterCells {
  public:
   /// Requires: scene and emitter outlive this.
   EmitterCells(const CompiledScene& scene, const CompiledEmitter& emitter, const Viewpoint& from)
       : scene_(&scene), emitter_(&emitter), from_(from) {}
 
-  /// Small enough for the rule to err by less than 1e-3 where the light falls with distance and
-  /// the media, as far as limits::direct_cells allow. Empty where the emitter shows the place no
-  /// side that emits.
+  /// Cells small enough for the rule to err by less than 1e-3 where the light falls with distance
+  /// and media, up to limits::direct_cells. Empty if no emitting side faces the place.
   std::vector<EmitterCell> cut() const;
   std::vector<EmitterCell> quarters(const EmitterCell& cell) const;
   CellPoints points(const EmitterCell& cell) const;
-  /// Near its corners: where something in the way shows first.
+  /// Points near its corners, where occlusion shows first.
   CellPoints corner_points(const EmitterCell& cell) const;
-  /// A point of a rectangle's cell, which stands for this share of the emitter; u, v from 0 to 1
-  /// across the cell. Requires: a rectangle.
+  /// A point of a rectangle's cell with this share of the emitter's power; u, v from 0 to 1 across
+  /// the cell. Requires: a rectangle.
   EmitterPart point_in(const EmitterCell& cell, const glm::dvec2& uv, double share) const;
-  /// In turn, from the place. Requires: has_flat_cells.
+  /// The corners in order, relative to the place. Requires: has_flat_cells.
   std::vector<glm::dvec3> polygon(const EmitterCell& cell) const;
   const Viewpoint& viewpoint() const { return from_; }
-  /// Points and signs do not become better known by cutting.
+  /// Cutting does not improve points and signs.
   bool can_be_cut() const {
     return emitter_->kind != EmitterKind::point && emitter_->kind != EmitterKind::volume &&
            emitter_->kind != EmitterKind::sign_face && !is_mesh_of_points();
   }
 
  private:
-  /// A cell as it is seen.
+  /// A cell's apparent dimensions.
   struct SeenCell {
     double width_u = 0, width_v = 0, distance = 0;
     bool cut_by_horizon = false;

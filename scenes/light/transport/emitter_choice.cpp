@@ -26,8 +26,8 @@ EmitterChoice::EmitterChoice(const CompiledScene& scene) : scene_(scene) {
   }
 }
 
-/// In proportion to power times weight(emitter), of each that sends light in more than one
-/// direction. Returns the sum.
+/// Weights each emitter that is not collimated in proportion to power times weight(emitter).
+/// Returns the sum.
 template <class WeightOf>
 double EmitterChoice::weigh(Cumulative& cumulative, int band, WeightOf&& weight) const {
   cumulative.resize(scene_.emitters.size());
@@ -40,8 +40,8 @@ double EmitterChoice::weigh(Cumulative& cumulative, int band, WeightOf&& weight)
   return total;
 }
 
-/// Of what arrives in the cell, what arrives at the place: by its own distances, and before the
-/// surface.
+/// Weights the cell's bright emitters at the place: by their distances to it, and only those in
+/// front of the surface.
 bool EmitterChoice::weigh_bright(const Vec3& place, const Vec3& normal, int band) {
   at_.resize(seen_->bright.size());
   const bool surface = normal != Vec3(0);
@@ -53,7 +53,7 @@ bool EmitterChoice::weigh_bright(const Vec3& place, const Vec3& normal, int band
     const Real square = glm::dot(way, way) + radius * radius;
     double weight = seen_->bright[i].arriving / static_cast<double>(square);
     if (surface) {
-      // Its highest point may be above the horizon where its middle is not.
+      // Its top may be above the horizon even if its centre is not.
       const Real height = std::max(0.0_r, glm::dot(way, normal) + radius);
       weight *= static_cast<double>(height / std::sqrt(square));
     }

@@ -1,7 +1,8 @@
-// Next-event estimation: which emitter is sampled directly from a place of a path, and with which
-// probability. One emitter is chosen, by its power and by how near it is. In smoke a second one is
-// chosen for a whole stretch of the path: a collision is seldom just where a small emitter is near
-// (equiangular.hpp). One thread or fiber at a time.
+// The light sampler of next-event estimation: chooses the emitter to be sampled at a place of a
+// path, and gives the probability. At an event one emitter is chosen, by its power and its
+// distance. In smoke a second one is chosen for a whole ray segment, with equiangular sampling,
+// because collisions rarely happen close to a small emitter (equiangular.hpp). One thread or fiber
+// at a time.
 #pragma once
 
 #include <cmath>
@@ -15,50 +16,52 @@
 namespace luxodus {
 
 namespace limits {
-inline constexpr size_t nearby_emitters = 256;  // up to here distance decides which is chosen
-/// An emitter is near where it is closer to the stretch than this share of its length and half its
-/// own size: collisions, which are spread over all of it, would seldom come as close.
+inline constexpr size_t nearby_emitters = 256;  // up to this number the distance affects the choice
+/// An emitter is near a segment if its distance is below this share of the segment's length plus
+/// half its own size: collisions, which are spread over the whole segment, would rarely come as
+/// close.
 inline constexpr Real near_line = 0.125_r;
-/// Share of the choice that goes to emitters by what is known of them at a place; the rest goes by
-/// what is known of the cell around it, which has all emitters.
+/// Probability of choosing by what is known about emitters at a place; the rest uses what is known
+/// for the cell around it, which includes all emitters.
 inline constexpr double bright_choice = 0.9;
 }  // namespace limits
 
-/// Of the light of all bands together, as a path that carries them all asks.
+/// For the light of all bands together, as for a path that carries them all.
 inline constexpr int all_bands = -1;
 
 struct EmitterSample {
   size_t emitter = 0;
-  double probability = 0;  // 0: there is none to choose
+  double probability = 0;  // 0: no emitter to choose
 };
 
 class EmitterChoice {
  public:
   explicit EmitterChoice(const CompiledScene& scene);
 
-  /// Weighs emitters as seen from a place: those that `seen` knows to be bright by what arrives
-  /// from there, or without it all by squared distance where they are few. `normal` is that of a
-  /// surface, and zero in a medium. False where none shines in this band, or with `all_bands` in
-  /// any.
+  /// Weights emitters as seen from a place: those that `seen` lists as bright, by the light that
+  /// arrives; without `seen`, all emitters, by inverse squared distance if they are few. `normal`
+  /// is that of a surface, or zero in a medium. False if none emits in this band, or with
+  /// `all_bands` in any.
   bool weigh_at(const Vec3& place, const Vec3& normal, int band, const CellSight* seen);
-  /// Of the last weigh_at, by a uniform number u in [0, 1).
+  /// Chooses by the last weigh_at, with a uniform number u in [0, 1).
   EmitterSample choose_at(double u) const;
   double probability_at(size_t emitter) const;
 
-  /// Weighs emitters by what each sends to the first `end` of a ray, nearly: the angle at
-  /// which it sees it, over its distance. False where none is near, so that none need be chosen so.
+  /// Weights emitters by their approximate contribution to the first `end` of a ray: the angle that
+  /// the segment subtends at the emitter, over the distance. False if none is near: then none need
+  /// be chosen along the segment.
   bool weigh_along(const Ray& ray, Real end, int band);
-  /// The same of the near emitters alone: each by what `seen_at(place)` knows to arrive at the
-  /// place of the line that is nearest to it. One that is not bright there is left out: a collision
-  /// may still ask it.
+  /// Variant of weigh_along for near emitters only, each weighted by the light that
+  /// `seen_at(place)` reports at the closest point of the line. An emitter that is not bright there
+  /// is left out; it can still be sampled at collisions.
   template <class SeenAt>
   bool weigh_near(const Ray& ray, Real end, int band, SeenAt&& seen_at);
-  /// Of the last weigh_along or weigh_near.
+  /// Chooses by the last weigh_along or weigh_near.
   EmitterSample choose_along(double u) const;
   double probability_along(size_t emitter) const;
 
  private:
-  /// Sums of the weights of the emitters up to each.
+  /// Running sums of the emitters' weights.
   using Cumulative = std::vector<double>;
   double power_of(size_t emitter, int band) const {
     const CompiledEmitter& e = scene_.emitters[emitter];
@@ -69,8 +72,8 @@ class EmitterChoice {
   bool weigh_bright(const Vec3& place, const Vec3& normal, int band);
   template <class WeightOf>
   double weigh(Cumulative& cumulative, int band, WeightOf&& weight) const;
-  /// The angle at which an emitter sees a line that passes it so far away, over that distance,
-  /// nearly.
+  /// Approximate angle that a line passing at this distance subtends at an emitter, over that
+  /// distance.
   static double seen_along(Real distance, Real half, Real end) {
     const Real least = distance + half + 1e-4_r * end;
     return static_cast<double>(end / (least * (least + end / 3)));
@@ -79,13 +82,13 @@ class EmitterChoice {
   static double share_of(size_t emitter, const Cumulative& cumulative);
 
   const CompiledScene& scene_;
-  std::vector<double> seen_power_;  // of each emitter, in all bands, by how they look
+  std::vector<double> seen_power_;  // in all bands, by luminance and colour
   Cumulative by_power_;             // of all emitters
   SphereSet bounds_;
   const CellSight* seen_ = nullptr;  // of the last weigh_at
-  double bright_ = 0;                // the share of the choice that its bright emitters have
-  Cumulative at_, along_;            // at_: of the bright ones, or of all
-  bool near_alone_ = false;          // along_ is of these:
+  double bright_ = 0;                // probability of choosing among its bright emitters
+  Cumulative at_, along_;            // at_: of the bright emitters, or of all
+  bool near_alone_ = false;          // along_ refers to these:
   std::vector<uint32_t> near_;
 };
 

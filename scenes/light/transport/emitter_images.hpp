@@ -1,8 +1,8 @@
-// Emitters as flat mirrors show them: panes and mirrors that a cell of space sees, and of the
-// emitters that they mirror those whose light is worth turning to. A path that turns to a pane by
-// chance and is mirrored to a lamp brings thousands of times its pixel's light, and next-event
-// estimation does not know that way; so turns are aimed there (glow_guide.hpp). Suspends: where the
-// resolver does.
+// Mirror images of emitters: finds the flat mirrors and panes seen from a cell of space, and those
+// emitters whose mirrored light is worth guiding paths to. A path that happens to scatter towards a
+// pane and is mirrored to a lamp carries thousands of times its pixel's light, and next-event
+// estimation cannot sample that connection; so glow_guide.hpp guides paths there. One thread or
+// fiber at a time; suspends where the resolver does.
 #pragma once
 
 #include <algorithm>
@@ -21,44 +21,45 @@
 namespace luxodus {
 
 namespace limits {
-/// Lines from a cell on which mirrors are looked for.
+/// Rays from a cell that search for mirrors.
 inline constexpr size_t mirror_lines = 128;
-/// Planes of mirrors of a cell: those most often met.
+/// Mirror planes of a cell: those hit most often.
 inline constexpr size_t mirror_planes = 8;
-/// Mirrors as near to one plane are one [m].
+/// Mirrors within this distance of one plane are one [m].
 inline constexpr Real same_plane_m = 1e-3_r;
-/// Emitters in mirrors that a cell knows: those of the most worth, and of more than a share of the
-/// light that arrives straight.
+/// Images that a cell keeps: those of the largest worth, each above this share of the light that
+/// arrives without mirrors.
 inline constexpr size_t emitter_images = 8;
 inline constexpr double image_share = 1e-3;
 }  // namespace limits
 
-/// An emitter where a mirror shows it.
+/// The mirror image of an emitter.
 struct EmitterImage {
   Vec3 centre{0};
   Real radius = 0;
-  /// Of the emitter's power, root mean square over a cell of what arrives there by the mirror,
-  /// without the inverse square [1/sr], over the root of what the mirror sends on: as only so many
-  /// of the paths that turn there are mirrored, that is how often they should.
+  /// Root mean square over a cell of the light that arrives by the mirror, per watt, without the
+  /// inverse square [1/sr], times the emitter's power and divided by the root of the mirror's
+  /// reflectance. Only that share of the paths guided there is reflected, so this weight is the
+  /// best guiding probability.
   double worth = 0;
 };
 
-/// An emitter that may be mirrored.
+/// An emitter that mirrors may show.
 struct MirroredEmitter {
   uint32_t emitter = 0;
-  double power = 0;  // in all bands, by how they look
+  double power = 0;  // in all bands, weighted by luminance and colour
 };
 
 template <class Resolver>
 class EmitterImages {
  public:
-  /// In the light of a band. Requires: all that is referred to outlives this.
+  /// For the light of one band. Requires: all references outlive this.
   EmitterImages(const CompiledScene& scene, int band, std::span<const SightPlace> places,
                 Random& random, Resolver& resolver)
       : scene_(scene), band_(band), places_(places), random_(random), resolver_(resolver) {}
 
-  /// What mirrors show of the emitters to the places. `straight`: light that arrives there without
-  /// mirrors, as power over squared distance [1/sr]. Draws `random`.
+  /// The images that the mirrors show to the places. `straight`: light that arrives there without
+  /// mirrors, as power over squared distance [1/sr]. Draws from `random`.
   std::vector<EmitterImage> find(std::span<const MirroredEmitter> emitters, double straight) {
     std::vector<EmitterImage> out;
     for (const Mirror& mirror : mirrors()) {
@@ -84,7 +85,7 @@ class EmitterImages {
   }
 
  private:
-  /// The plane of a mirror; its normal is on the side that is seen.
+  /// The plane of a mirror; its normal is on the visible side.
   struct Mirror {
     Vec3 normal{0};
     Real offset = 0;
@@ -99,15 +100,15 @@ class EmitterImages {
     }
   };
 
-  /// From a place to a point of an emitter by way of a mirror.
+  /// A connection from a place to a point of an emitter by way of a mirror.
   struct Line {
     Ray ray;              // towards the image
     EmissionPoint point;  // of the emitter
-    double worth = 0;     // where nothing is in the way [1/sr]
+    double worth = 0;     // unoccluded [1/sr]
     double weight = 1;    // of the place
   };
 
-  /// What a material sends on as a mirror does, of the light that arrives there.
+  /// Specular reflectance of a material, for the light that arrives there.
   double mirrored_share(const CompiledMaterial& material, Real cosine) const {
     const SurfaceModel& model = material.by_band[static_cast<size_t>(band_)];
     if (material.kind == MaterialKind::mirror) return static_cast<double>(model.specular);
@@ -115,7 +116,7 @@ class EmitterImages {
     return static_cast<double>(pane_shares(model, cosine).reflected);
   }
 
-  /// Those that are met first on lines from the places.
+  /// The mirrors that rays from the places hit first.
   std::vector<Mirror> mirrors() {
     std::vector<Mirror> out;
     for (size_t i = 0; i < limits::mirror_lines; ++i) {
@@ -145,7 +146,7 @@ class EmitterImages {
     return out;
   }
 
-  /// Those that the emitter sends light along.
+  /// The connections along which the emitter sends light.
   std::vector<Line> lines_to(uint32_t emitter, const Mirror& mirror) {
     std::vector<Line> out;
     const CompiledEmitter& e = scene_.emitters[emitter];
@@ -162,7 +163,7 @@ class EmitterImages {
     return out;
   }
 
-  /// Root mean square over the places; each line counts by what `passed(line)` says.
+  /// Root mean square over the places; `passed(line)` weights each line.
   template <class Passed>
   double worth_of(const std::vector<Line>& lines, Passed&& passed) const {
     double squares = 0;
@@ -173,7 +174,7 @@ class EmitterImages {
     return root_mean(squares, places_);
   }
 
-  /// What smoke and solids let pass; 0 where the line does not meet the mirror first.
+  /// Transmittance of smoke and solids along a connection; 0 if the mirror is not hit first.
   double passed(const Line& line, const Mirror& mirror) {
     const Hit hit = resolver_.nearest(line.ray);
     if (!hit.found()) return 0;

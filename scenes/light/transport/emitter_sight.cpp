@@ -4,8 +4,8 @@ namespace luxodus {
 
 namespace {
 
-/// Memory of a cell whose sides are all learned, their pointers included [bytes]. An allocation
-/// takes some more than it is asked for.
+/// Memory of a cell with all sides learned, pointers included [bytes]. An allocation takes somewhat
+/// more than requested.
 uint64_t bytes_of_cell(const CompiledScene& scene) {
   constexpr uint64_t allocations = 5, of_allocation = 16;
   const uint64_t emitters = scene.emitters.size();
@@ -69,7 +69,7 @@ CellSight EmitterSight::conclude(std::vector<Asked> asked) const {
   CellSight out;
   double sum = 0;
   for (const Asked& a : asked) sum += a.light(a.arriving);
-  if (!(sum > 0)) {  // nothing arrives: whatever is asked is asked by its power
+  if (!(sum > 0)) {  // no light arrives: emitters are chosen by their power
     out.by_cell = 0;
     return out;
   }

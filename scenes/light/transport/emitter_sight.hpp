@@ -1,10 +1,10 @@
-// Which emitters light a place, as far as the cell of space around it and the side of its surface
-// tell: learned by a few shadow rays from places there (sight_places.hpp) to points of each
-// emitter, which know walls, the directions in which luminaires send their light, and smoke on the
-// way. Pictures choose emitters (emitter_choice.hpp) and aim turns (glow_guide.hpp) by it; what it
-// errs by costs paths, never truth. A side of a cell is learned when somebody first asks, from
-// random numbers of its own, so it is the same whoever asks and when. Any thread; suspends where
-// the resolver does.
+// The emitters that light a place, approximately: learned for the cell of space around it and the
+// side that its surface faces, by a few shadow rays from places there (sight_places.hpp) to points
+// of each emitter. The rays account for walls, for luminaires' directions and for smoke on the way.
+// Pictures use it for the light sampler (emitter_choice.hpp) and for path guiding (glow_guide.hpp);
+// its errors cost variance but cause no bias. A side of a cell is learned at its first use, from
+// random numbers of its own, so the result does not depend on who uses it first. Any thread;
+// suspends where the resolver does.
 #pragma once
 
 #include <algorithm>
@@ -23,46 +23,47 @@
 namespace luxodus {
 
 namespace limits {
-/// Emitters that are asked from a cell: those of the most power over squared distance.
+/// Emitters that are tested from a cell: those with the most power over squared distance.
 inline constexpr size_t asked_emitters = 256;
-/// An emitter that no ray has met may still be seen from somewhere in the cell: it counts as so
-/// much of the light that would arrive without walls, through smoke as it is.
+/// An emitter that no shadow ray has reached may still be visible from a part of the cell: it
+/// counts with this share of its unoccluded light, attenuated by smoke.
 inline constexpr double unseen_share = 0.1;
-/// The same of one that has sent nothing towards them, as of light that goes everywhere [1/sr].
+/// Least light of an emitter that sends none towards the places, as for isotropic emission [1/sr].
 inline constexpr double least_arriving = 0.03 / (4 * 3.14159265358979324);
-/// What is seen of the glow of an emitter that sends nothing towards the cell, as of light that
-/// goes everywhere [1/sr].
+/// Visible glow of an emitter that sends nothing towards the cell, as for isotropic emission
+/// [1/sr].
 inline constexpr double glow_arriving = 1 / (4 * 3.14159265358979324);
-/// Light of an emitter, of that of all, below which nobody asks whether it is hidden.
+/// Emitters with less than this share of all light are not tested for visibility.
 inline constexpr double looked_at_share = 1e-3;
-/// Emitters of a cell that are weighed at each place of it: those of more than a share, and at most
+/// Emitters that are weighted individually at each place of a cell: those above this share, at most
 /// so many.
 inline constexpr size_t bright_emitters = 32;
 inline constexpr double bright_share = 3e-3;
-/// Share of the choices in a cell, as a whole, that go by what arrives there; the rest go by power.
+/// Probability of choosing by the light that arrives in the cell as a whole; the rest is by power.
 inline constexpr double cell_choice = 0.9;
-/// Memory of all cells when each has been learned [bytes]: where it would be more, cells are
-/// larger. All count from the start, since which are learned first depends on the order of threads.
+/// Limit for the memory of all cells once learned [bytes]; if it were more, cells are made larger.
+/// All cells count from the start, since the order of threads decides which are learned first.
 inline constexpr uint64_t sight_bytes = uint64_t{256} << 20;
 }  // namespace limits
 
-/// What is known of all emitters from the places of a cell on one of its sides.
+/// Knowledge of all emitters at the places of one side of a cell.
 struct CellSight {
   struct Bright {
     uint32_t emitter = 0;
-    /// Root mean square over the cell of what arrives of a watt, without the inverse square [1/sr].
+    /// Root mean square over the cell of the light that arrives per watt, without the inverse
+    /// square [1/sr].
     double arriving = 0;
-    /// The same by which turns are aimed at its glow, which sends light wherever it is seen.
+    /// Likewise for guiding paths to its glow, which sends light wherever it is visible.
     double glowing = 0;
   };
-  std::vector<Bright> bright;  // by number
+  std::vector<Bright> bright;  // ascending by number
   std::vector<EmitterImage> images;
-  /// Of all emitters asked, by number, what arrives in the cell: sums up to each, the last is 1.
+  /// All tested emitters by number, and the running sum of their arriving light; the last is 1.
   std::vector<uint32_t> asked;
   std::vector<float> cumulative;
-  double by_cell = 1;  // share of the choices by `cumulative`; the rest are by power alone
+  double by_cell = 1;  // probability of choosing by `cumulative`; the rest is by power alone
 
-  /// What arrives of a watt of an emitter, as of `Bright`; 0 of one that is not bright here.
+  /// Light that arrives per watt of an emitter, as in `Bright`; 0 for one that is not bright here.
   double arriving_of(uint32_t emitter) const {
     for (const Bright& b : bright)
       if (b.emitter == emitter) return b.arriving;
@@ -75,10 +76,10 @@ class EmitterSight {
   /// Requires: the scene outlives this.
   explicit EmitterSight(const CompiledScene& scene);
 
-  /// Memory that it takes at most, when every cell has been learned [bytes].
+  /// Memory once every cell has been learned [bytes].
   static uint64_t most_bytes(const CompiledScene& scene);
 
-  /// `normal`: of the surface that the place is on; zero in the air.
+  /// `normal`: of the place's surface; zero in the air.
   template <class Resolver>
   const CellSight& at(const Vec3& place, const Vec3& normal, Resolver& resolver) const {
     const size_t side = cell_side(normal);
@@ -86,32 +87,32 @@ class EmitterSight {
   }
 
  private:
-  /// Of the random numbers of pictures: their paths have part 0.
+  /// Separate random numbers: paths of pictures have part 0.
   static constexpr uint32_t sight_part = 1;
 
-  /// Of one emitter, over the places of a cell.
+  /// Measured for one emitter over the places of a cell.
   struct Asked {
     uint32_t emitter = 0;
-    double over_square = 0;  // power over squared distance, as from the cell's middle
-    double open = 0;         // root mean square of what would arrive of a watt
-    double arriving = 0;     // of what arrives
+    double over_square = 0;  // power over squared distance from the cell's middle
+    double open = 0;         // root mean square of the unoccluded light per watt
+    double arriving = 0;     // root mean square of the light that arrives
     double glowing = 0;      // see CellSight::Bright
     double light(double of) const { return over_square * of; }
   };
 
-  /// Where a cell is learned from: a side of it, and random numbers.
+  /// The places of a side of a cell, and random numbers for learning it.
   struct Learning {
     std::vector<SightPlace> places;
     Random random;
-    uint64_t numbers;  // the first of them
+    uint64_t numbers;  // index of the first
 
-    /// Those of an emitter, from their first on.
+    /// Starts the random numbers of an emitter.
     void start(uint32_t emitter) { random.start(numbers + 1 + emitter); }
   };
 
   std::vector<Asked> candidates(const Vec3& middle) const;
   CellSight conclude(std::vector<Asked> asked) const;
-  /// Before the emitter, where its light comes from that smoke sends on.
+  /// A point in front of the emitter, where smoke scatters its light.
   Vec3 glow_place(uint32_t emitter) const;
 
   template <class Resolver>
@@ -141,7 +142,7 @@ class EmitterSight {
     return out;
   }
 
-  /// Calls ray(connection, density, weight) for rays from the places to an emitter.
+  /// Calls ray(connection, density, weight) for shadow rays from the places to an emitter.
   template <class Resolver, class OfRay>
   void for_each_ray(Learning& from, uint32_t emitter, Resolver& resolver, OfRay&& of_ray) const {
     const CompiledEmitter& e = scene_.emitters[emitter];
@@ -179,7 +180,7 @@ class EmitterSight {
                           root_mean(std::max(squares, least), from.places));
   }
 
-  /// What is seen of the emitter's glow, wherever it sends its light; 0: not worth looking.
+  /// The visible glow of the emitter, in any direction of emission; 0: not worth testing.
   template <class Resolver>
   double glowing(const Learning& from, const Asked& a, double all, Resolver& resolver) const {
     const bool worth = a.light(limits::glow_arriving) > limits::min_glow_seen * all;
@@ -216,8 +217,8 @@ class EmitterSight {
   }
 
   const CompiledScene& scene_;
-  int band_ = 0;               // of the most lumens a watt
-  std::vector<double> power_;  // of each emitter, in all bands, by how they look
+  int band_ = 0;               // band with the most lumens per watt
+  std::vector<double> power_;  // of each emitter, in all bands, weighted by luminance and colour
   std::vector<EmitterBound> bounds_;
   LearnedCells<CellSight> cells_;
 };

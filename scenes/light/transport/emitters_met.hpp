@@ -1,6 +1,6 @@
-// Emitters that a path from the eye meets on its way: emitting faces, faces of signs, flames, each
-// by its weight against next-event estimation (next_event.hpp). One thread or fiber at a time;
-// suspends where the resolver does.
+// Emitter hits: emitting faces, faces of signs and flames that an eye path hits, each weighted
+// against next-event estimation by the balance heuristic (next_event.hpp). One thread or fiber at a
+// time; suspends where the resolver does.
 #pragma once
 
 #include <algorithm>
@@ -18,35 +18,36 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int emitters_per_line = 16;  // emitting faces that one straight line may cross
-/// Of the size of a scene: where a stretch ends on which places are drawn by an emitter's light.
+/// Largest length of a segment on which points are sampled near emitters, relative to the scene's
+/// size.
 inline constexpr Real longest_line = 4;
 }  // namespace limits
 
-/// Where a stretch of that length ends for emitters that are near it.
+/// Length of a segment that is used for sampling near emitters.
 inline Real line_end(const CompiledScene& scene, Real length) {
   return std::min(length, limits::longest_line * scene.diagonal_m);
 }
 
-/// Which emitters count when a path meets them on its way.
+/// Which emitter hits a path counts.
 enum class EmitterHits {
-  none,      // somebody else holds all direct light of this place
-  weighted,  // emitters were sampled too: by the balance heuristic
-  all,       // none was sampled
+  none,      // direct light of this place is computed elsewhere
+  weighted,  // emitters were sampled, too: balance heuristic
+  all,       // no emitter was sampled
 };
 
-/// A path on its way from the eye.
+/// An eye path: its next ray and what it carries.
 struct EyePath {
   Ray ray;
   PathBands bands;
   EmitterHits counted;
   double weight;
   GroupLight& into;
-  PathTurn turn{};               // where `counted` is weighted
+  PathTurn turn{};               // the last scattering event; valid if `counted` is weighted
   Real travelled = 0;            // from the last event to the ray's origin, through panes
-  bool diffused = false;         // a surface or a medium has spread it
-  bool scattered_known = false;  // light from collisions on the ray has been counted already
+  bool diffused = false;         // a surface or a medium has scattered it diffusely
+  bool scattered_known = false;  // in-scattered light is from the cache
 
-  /// Light of the band in place `i`.
+  /// Adds light of the band in place `i`.
   void add(size_t i, const SourceLight& light) {
     into.add(light.group, bands.band(i), weight * bands.light(i) * light.radiance);
   }
@@ -55,7 +56,7 @@ struct EyePath {
 template <class Resolver>
 class EmittersMet {
  public:
-  /// Requires: what is referred to outlives this.
+  /// Requires: all references outlive this.
   EmittersMet(const CompiledScene& scene, Resolver& resolver, Random& random,
               NextEvent<Resolver>& next_event)
       : scene_(scene),
@@ -64,10 +65,11 @@ class EmittersMet {
         next_event_(next_event),
         flames_(flame_boxes(scene)) {}
 
-  /// Expected radiance of what emits along the ray up to the surface it hits: emitting faces, the
-  /// sign that was hit, flames; each weighted by what passes the media before it.
+  /// Adds the expected radiance of all emitters along the ray up to the surface it hits: emitting
+  /// faces, the sign that was hit, flames; each multiplied by the transmittance of the media before
+  /// it.
   void add_along(EyePath& p, const Hit& hit) {
-    const Real slack = 1 + 1e-5_r;  // a body's own face lies as far as the emitter on it
+    const Real slack = 1 + 1e-5_r;  // an emitter's body is as far away as its face
     Real reach = hit.distance * slack;
     Ray rest = p.ray;
     Real before = 0;
@@ -83,7 +85,7 @@ class EmittersMet {
             emitted_radiance(emitter, e.point, -p.ray.direction, p.bands.band(i), resolver_);
         p.add(i, {emitter.group, weight * sent * through_[i]});
       }
-      // Past it by more than rounding, or the same face would be hit again.
+      // Continue past it by more than rounding, or the same face would be hit again.
       const Real step = e.distance * slack + scene_.min_offset_m;
       rest.origin += rest.direction * step;
       before += step;
@@ -94,7 +96,7 @@ class EmittersMet {
     add_flames_met(p, hit.distance);
   }
 
-  /// Own light of a point of a sign's face towards an eye, without path or room light.
+  /// Light that a point of a sign's face emits towards an eye, without media and reflected light.
   SourceLight texel_light(const CompiledSign& sign, const Vec2& uv, const Vec3& to_eye,
                           int band) const {
     const Sign& d = scene_.description->signs[sign.sign];
@@ -108,8 +110,8 @@ class EmittersMet {
             radiance[static_cast<size_t>(band)] * angular * face_relative(d.face, uv)};
   }
 
-  /// Adds `weight` times the emission of flames along `length` of the ray, of one medium or of all
-  /// (-1). False where the ray meets none of them.
+  /// Adds `weight` times the emission of flames along `length` of the ray, for one medium or all
+  /// (-1). False if the ray passes through none of them.
   bool add_flames(const Ray& ray, Real length, int band, int medium, double weight,
                   GroupLight& into) {
     double depth = 0;
@@ -123,7 +125,7 @@ class EmittersMet {
             if (medium >= 0 && part.medium != medium) continue;
             met = true;
             const CompiledEmitter* flame = flame_of(part.medium);
-            if (flame == nullptr) continue;  // the scenario has put it out
+            if (flame == nullptr) continue;  // the scenario removes it
             const double power = flame->power_w[static_cast<size_t>(band)] * part.density;
             into.add(flame->group, band,
                      weight * power * std::exp(-depth) * through / (4 * static_cast<double>(pi_f)));
@@ -135,7 +137,7 @@ class EmittersMet {
   }
 
  private:
-  /// Weight of a point of an emitting face that the path hits, `distance` along its ray.
+  /// Balance-heuristic weight of hitting an emitting face, `distance` along the path's ray.
   double weight_of_face(const EyePath& p, uint32_t emitter, const EmissionPoint& point,
                         Real distance) {
     if (p.counted == EmitterHits::all) return 1;
@@ -164,7 +166,7 @@ class EmittersMet {
     }
   }
 
-  /// Of a sign's face, each colour is an emitter.
+  /// Weight of hitting a sign's face, where each colour is an emitter of its own.
   double weight_of_sign(const EyePath& p, uint32_t sign, int group, const EmissionPoint& point,
                         Real distance) {
     for (uint32_t i = 0; i < scene_.emitters.size(); ++i) {
@@ -173,10 +175,10 @@ class EmittersMet {
           sampled_area_m2(e, point.position) > 0)
         return weight_of_face(p, i, point, distance);
     }
-    return 1;  // nothing that is sampled: hits count alone
+    return 1;  // not sampled by next-event estimation: hits count fully
   }
 
-  /// Flames on the line, up to the surface: all of their light, or what the weight leaves of it.
+  /// Flames on the ray up to the surface, at full or balance-heuristic weight.
   void add_flames_met(const EyePath& p, Real length) {
     if (scene_.volume_points.empty()) return;
     if (p.counted == EmitterHits::all) {
@@ -206,7 +208,7 @@ class EmittersMet {
     if (place.missed) return;
     for (size_t i = 0; i < p.bands.count(); ++i) {
       if (!(power(i) > 0)) continue;
-      // Bands see the flame through different depths of smoke.
+      // Bands have different optical depths of smoke up to the flame.
       const bool same = i == hero || next_event_.media().grey();
       add_flame_place(p, i, emitter, power(i), same ? place : place_of(p.bands.band(i)));
     }
@@ -228,7 +230,7 @@ class EmittersMet {
                    (density / place.density) / (4 * static_cast<double>(pi_f)));
   }
 
-  /// The emitter that stands for a medium's glow; null where the scenario has put it out.
+  /// The emitter for a medium's glow; null if the scenario removes it.
   const CompiledEmitter* flame_of(int medium) const {
     for (const CompiledEmitter& e : scene_.emitters) {
       if (e.kind == EmitterKind::volume && e.medium == static_cast<uint32_t>(medium)) return &e;

@@ -7,7 +7,7 @@ namespace luxodus {
 namespace {
 
 struct Word {
-  std::string kind, name;  // the name is empty where all of a kind are meant
+  std::string kind, name;  // the name is empty if all of a kind are meant
 };
 
 Word split(const std::string& text) {
@@ -16,12 +16,11 @@ Word split(const std::string& text) {
   return {text.substr(0, space), text.substr(space + 1)};
 }
 
-/// Things of one kind that can be judged, by name; a name may stand for several (a sign that many
-/// observers see).
+/// Targets of one kind, by name; a name may stand for several (a sign seen by many observers).
 struct Kind {
   const char* one;   // the word before a name
   const char* all;   // the word for all of them
-  const char* what;  // that the names are of
+  const char* what;  // plural of the things named
   std::vector<std::string> names;
   std::vector<uint32_t>* chosen;
 };

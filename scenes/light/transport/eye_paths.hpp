@@ -1,8 +1,8 @@
-// What signs and probes are asked for, from paths that start at the eye or at the probe: of a sign,
-// its surround and the veil between, the luminance at the eye; of a point, the light that reaches
-// it after at least one event. Everything is the mean of a batch, and beside the whole each source
-// group's part, or each mixture of groups. Paths have a particle range, batches and standard errors
-// of their own. Thread rule: one EyeScores per thread or fiber.
+// Estimates for signs and probes by paths that start at the eye or the probe: the luminance of a
+// sign, its surround and the veil before it, at the eye; at a probe, the light that arrives after
+// at least one event. Each value is the mean of a batch, in total and for each source group, or for
+// each mixture of groups. Eye paths have a particle range, batches and standard errors of their
+// own. Thread rule: one EyeScores per thread or fiber.
 #pragma once
 
 #include <vector>
@@ -13,14 +13,15 @@
 namespace luxodus {
 
 namespace limits {
-/// Of a value score [its unit]: 2^-40, so int64 holds up to 8 million cd/m2 per batch mean.
+/// Quantum of a value score [its unit]: with 2^-40, int64 holds up to 8 million cd/m2 per batch
+/// mean.
 inline constexpr double value_quantum = 0x1p-40;
 }  // namespace limits
 
 /// A batch's mean as a score; clamped at 2^62 quanta.
 int64_t value_score(double mean);
 
-/// Texels of each colour of a face, to aim at.
+/// The texels of each colour of a face, to aim at.
 struct FaceTexels {
   std::vector<uint32_t> white, green;
 };
@@ -46,13 +47,13 @@ class EyeScores {
       texels_.push_back(list_texels(scene.description->signs[s.sign].face));
   }
 
-  /// Parts of signs, white, green and surround of each target, then probes: each with its own paths
-  /// and bins, so that they may be traced in any order.
+  /// Units: the parts of signs (white, green and surround of each target), then probes. Each has
+  /// its own paths and bins, so that they may be traced in any order.
   uint32_t units() const {
     return static_cast<uint32_t>(3 * scene_.eye_targets.size() + scene_.description->probes.size());
   }
 
-  /// Eye paths of one batch for one unit, into its value bins. Requires: unit < units().
+  /// Traces one batch's eye paths for one unit into its value bins. Requires: unit < units().
   void score(int64_t batch, uint32_t unit, BatchScores& scores) {
     const auto paths = static_cast<uint64_t>(scene_.eye_paths_per_batch);
     const uint64_t first = (static_cast<uint64_t>(batch) << 28) + unit * paths;
@@ -77,7 +78,7 @@ class EyeScores {
   }
 
  private:
-  /// A band, and the lumens per watt that a path in it stands for.
+  /// A band, and the lumens per watt that a path in it represents.
   struct PathBand {
     int band;
     double lm_per_w;
@@ -93,7 +94,8 @@ class EyeScores {
     for (GroupLight* l : {&reflected_, &path_, &at_eye_, &illuminance_, &fluence_}) l->clear();
   }
 
-  /// Writes sums over the paths as the means of values `first` and on in a bin of `block`.
+  /// Writes the means over the paths as consecutive values of a bin of `block`, from its first
+  /// value on.
   void store(uint32_t block, uint32_t bin, std::initializer_list<double> sums,
              BatchScores& scores) const {
     int64_t* score = scores.scores.data() + scene_.layout.score_index(block, bin, 0, 0);
@@ -126,11 +128,11 @@ class EyeScores {
     }
   }
 
-  /// A point of the wanted part in face coordinates, u to the reader's right, v up, the face is
-  /// [0, 1]^2.
+  /// A point of the wanted part in face coordinates: u to the reader's right, v up, the face is [0,
+  /// 1]^2.
   bool aim(const EyeTarget& target, uint32_t part, Vec2& uv) {
     const SignFace& face = scene_.description->signs[scene_.signs[target.sign].sign].face;
-    if (part == 2) {  // the ring as wide as half the face on each side
+    if (part == 2) {  // a ring around the face, half the face's size wide on each side
       for (int attempt = 0; attempt < 64; ++attempt) {
         uv.x = 2 * random_.uniform() - 0.5_r;
         uv.y = 2 * random_.uniform() - 0.5_r;
@@ -169,7 +171,7 @@ class EyeScores {
     reflected_.add_scaled(light_, 1);
     if (solid <= 0) return look_along(c, chosen);
     visible_ += 1;
-    // Of the sign's own light: every band is known here, so none is left to chance.
+    // For the sign's own light every band is computed, so it has no noise from the choice of band.
     transmission_ += solid * (own.at_face > 0 ? own.at_eye / own.at_face : own.through_scene);
     at_eye_.add(own.group, solid * own.at_eye);
     at_eye_.add_scaled(light_, solid * own.through);
@@ -178,14 +180,15 @@ class EyeScores {
     at_eye_.add_scaled(light_, 1);
   }
 
-  /// What the eye receives along a line on which nothing of the sign is to be seen.
+  /// Light that the eye receives along a line on which the sign is not visible.
   void look_along(const ShadowRay& c, const PathBand& chosen) {
     eye_.radiance({c.ray.origin, c.ray.direction}, chosen.band, EmitterHits::all, chosen.lm_per_w,
                   at_eye_);
   }
 
-  /// The face's own luminance [cd/m2] before and after the medium, over all bands, and what the
-  /// medium passes: of the chosen band, and of the scene's light for faces without their own.
+  /// The face's emitted luminance [cd/m2] before and after the medium, over all bands; and the
+  /// transmittance in the chosen band, and averaged over the scene's light for faces that do not
+  /// emit.
   struct OwnLight {
     int group = 0;
     double at_face = 0, at_eye = 0, through = 0, through_scene = 0;
@@ -206,7 +209,7 @@ class EyeScores {
     return own;
   }
 
-  /// Room light that the face sends back to the eye, into light_.
+  /// Adds room light that the face reflects to the eye, into light_.
   void reflect_room_light(const CompiledSign& sign, uint32_t part, const Vec3& place,
                           const Vec3& direction, const PathBand& chosen) {
     light_.clear();
@@ -225,8 +228,8 @@ class EyeScores {
                                    light_);
   }
 
-  /// Light scattered, or emitted by flames, into the line of sight, into light_: one collision is
-  /// forced on it.
+  /// Gathers light scattered into the line of sight, or emitted there by flames, into light_, with
+  /// one forced collision.
   void gather_path_light(const ShadowRay& c, const PathBand& chosen) {
     light_.clear();
     if (scene_.features.media == MediaNeed::none) return;
@@ -285,7 +288,7 @@ class EyeScores {
   const CompiledScene& scene_;
   Resolver& resolver_;
   PathTracer<Resolver> eye_;
-  Random& random_;  // the tracer's
+  Random& random_;  // the tracer's own
   SobolSet set_;
   const bool by_group_;
   std::vector<FaceTexels> texels_;

@@ -1,7 +1,7 @@
-// What a ray of a picture meets on its way from the eye to the first surface that ends it, all of
-// it without chance: the light that emitters send straight, features for filters, and what media
-// pass. A path's first stretch uses the same answers. One thread or fiber at a time; suspends where
-// the resolver does.
+// The noise-free part of a picture's pixel: what its ray hits first, light that emitters send
+// straight to the eye, features for the filter, and the transmittance of the media. The first
+// segment of a path uses the same results. One thread or fiber at a time; suspends where the
+// resolver does.
 #pragma once
 
 #include <span>
@@ -17,16 +17,16 @@
 
 namespace luxodus {
 
-/// A ray from the eye as it was met.
+/// A ray from the eye with its hit.
 struct EyeRay {
   Hit hit;
-  BandValues passed;  // what the media pass up to there, by the bands of the path
+  BandValues passed;  // transmittance of the media up to the hit, by the path's bands
 };
 
 template <class Resolver>
 class EyeView {
  public:
-  /// Requires: what is referred to outlives this.
+  /// Requires: all references outlive this.
   EyeView(const CompiledScene& scene, Resolver& resolver, const MediaBands& media,
           EmittersMet<Resolver>& emitters)
       : scene_(scene),
@@ -38,7 +38,7 @@ class EyeView {
       if (scene.bands[b].lm_per_w > scene.bands[brightest_band_].lm_per_w) brightest_band_ = b;
   }
 
-  /// The hit is good until the resolver's next one.
+  /// The hit is valid until the resolver's next one.
   EyeRay meet(const Ray& ray, const PathBands& bands) {
     EyeRay met;
     met.hit = resolver_.nearest(ray);
@@ -46,11 +46,11 @@ class EyeView {
     return met;
   }
 
-  /// What is known of a ray that was met just before. `bands`: all, before the ray. `first` keeps
-  /// its memory.
+  /// Describes a ray that was passed to meet() just before. `bands`: all, at the start of the ray.
+  /// `first` keeps its memory.
   void describe(const Ray& ray, const PathBands& bands, EyeRay& met, FirstHit& first) {
     straight_.clear();
-    PathBands through = bands;  // what panes and media let pass
+    PathBands through = bands;  // light transmitted by panes and media
     Ray rest = ray;
     Hit hit = met.hit;
     Real before = 0;
@@ -73,7 +73,7 @@ class EyeView {
   }
 
  private:
-  /// Through a pane or an open surface, on the same line; false: something else ends the line.
+  /// Continues through a pane or an open surface on the same line; false if anything else ends it.
   bool pass_straight(Ray& ray, const Hit& hit, PathBands& through) {
     const TriangleRecord& t = *hit.triangle;
     const Real cosine = glm::dot(t.unit_normal(), ray.direction);
@@ -110,7 +110,7 @@ class EyeView {
   Resolver& resolver_;
   const MediaBands& media_;
   EmittersMet<Resolver>& emitters_;
-  int brightest_band_ = 0;  // of the most lumens a watt
+  int brightest_band_ = 0;  // band with the most lumens per watt
   GroupLight straight_;
   BandValues passed_;
 };

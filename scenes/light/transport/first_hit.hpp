@@ -1,5 +1,5 @@
-// What is known without chance of a ray of a picture: features for filters, and the light that
-// emitters send straight to the eye. Plain values.
+// Noise-free data of a picture's ray: features for the filter, and the light that emitters send
+// straight to the eye. Plain values; any thread.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 namespace luxodus {
 
 struct FirstHit {
-  Vec3 normal{0};                   // of the surface met, towards the eye; 0: none was met
-  double nearness = 0;              // one over the distance [1/m]
-  double transmittance = 0;         // of the media before it, at the most luminous wavelengths
+  Vec3 normal{0};            // of the surface hit, towards the eye; 0: no hit
+  double nearness = 0;       // one over the distance [1/m]
+  double transmittance = 0;  // of the media before it, in the band with the most lumens per watt
   std::vector<double> reflectance;  // Lambertian, by band
   std::vector<double> emitted;      // [W/(m2 sr)] by band: at the eye, through panes and media
 };

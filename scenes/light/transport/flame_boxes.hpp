@@ -1,5 +1,5 @@
-// Boxes around the flames of a scene: a line that misses them needs no walk through media. Plain
-// values.
+// Bounding boxes of a scene's flames: a line that misses them needs no walk through media. Plain
+// values; any thread.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,12 @@
 
 namespace luxodus {
 
-/// An emitter that is a medium, and where it is [m].
+/// An emitting medium and its bounding box [m].
 struct FlameBox {
   uint32_t emitter = 0;
   Vec3 low{0}, high{0};
 
-  /// Whether the first `length` [m] of the ray may meet it.
+  /// Whether the first `length` [m] of the ray may pass through it.
   bool may_meet(const Ray& ray, Real length) const {
     Real from = 0, to = length;
     for (int k = 0; k < 3; ++k) {
@@ -34,7 +34,7 @@ struct FlameBox {
   }
 };
 
-/// Of all emitters that are media, by number.
+/// The boxes of all emitting media, ascending by emitter.
 inline std::vector<FlameBox> flame_boxes(const CompiledScene& scene) {
   constexpr double everywhere_m = 1e9;
   std::vector<FlameBox> out;

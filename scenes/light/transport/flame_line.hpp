@@ -1,4 +1,5 @@
-// A place of a line in a flame, in proportion to the light that it sends back along the line.
+// Samples a point of a line in a flame, in proportion to the light that it sends back along the
+// line. Functions without state; any thread.
 #pragma once
 
 #include <cmath>
@@ -8,14 +9,14 @@
 namespace luxodus {
 
 struct FlamePlace {
-  double light = 0;  // of the whole line: emission density, times what passes, times length [1/m2]
+  double light = 0;  // of the whole line: emission density times transmittance times length [1/m2]
   double density = 0;  // mean of the segment [1/m3]
   Real t = 0;
-  bool missed = false;  // the line does not meet the flame
+  bool missed = false;  // the line does not pass through the flame
 };
 
-/// On the first `length` [m] of the ray. `medium`: the flame. `u`: uniform. Suspends: where the
-/// resolver does.
+/// Samples the first `length` [m] of the ray. `medium`: the flame. `u`: uniform. Suspends: where
+/// the resolver does.
 template <class Resolver>
 FlamePlace place_in_flame(const CompiledScene& scene, const Ray& ray, Real length, int band,
                           uint32_t medium, double u, Resolver& resolver) {
@@ -31,7 +32,7 @@ FlamePlace place_in_flame(const CompiledScene& scene, const Ray& ray, Real lengt
           if (!(light > 0)) continue;
           chosen.light += light;
           const double share = light / chosen.light;
-          if (u >= share) {  // used again for each segment: what is left is uniform
+          if (u >= share) {  // reused for each segment: the remainder is uniform
             u = (u - share) / (1 - share);
             continue;
           }

@@ -1,6 +1,6 @@
-// Points that stand for a flame where light is computed without chance. Which they are follows from
-// the medium alone, so that they are the same at every start. They fill the flame evenly (Roberts'
-// R sequence), so that their mean errs by some 1/n, not by chance's 1/sqrt(n). Pure; any thread.
+// Points that represent a flame in deterministic direct light. They follow from the medium alone,
+// so they are equal in every process. They form a low-discrepancy sequence (Roberts' R sequence),
+// so that their mean errs by about 1/n, not by 1/sqrt(n) as random points do. Pure; any thread.
 #pragma once
 
 #include <cmath>
@@ -15,8 +15,8 @@ namespace limits {
 inline constexpr int flame_points = 512;
 }  // namespace limits
 
-/// Numbers of the R sequence (Roberts 2018) of three or four dimensions, one dimension after
-/// another: its n-th point is the fractional part of n / root^k.
+/// The R sequence (Roberts 2018) in three or four dimensions, one coordinate after another:
+/// coordinate k of its n-th point is the fractional part of n / root^k.
 class EvenNumbers {
  public:
   explicit EvenNumbers(int dimensions) : dimensions_(dimensions) {
@@ -42,7 +42,7 @@ class EvenNumbers {
 /// Points of equal power. Requires: the medium glows.
 template <class Resolver>
 std::vector<glm::vec3> flame_points(const MediaSet& media, uint32_t medium, Resolver& resolver) {
-  // A point of a data set takes four numbers, every try of a body three: a first draw tells.
+  // A point of a data set takes four numbers, each try of a body three: a first draw shows which.
   Random random(medium, RandomStream::layout);
   random.start(0);
   int draws = 0;

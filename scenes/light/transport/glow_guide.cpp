@@ -10,10 +10,11 @@ namespace luxodus {
 
 namespace {
 
-/// Sine of the angle off an axis, below which directions count as off by that much: densities have
-/// no bound on the axis.
+/// Least sine of the angle off an axis: smaller ones are raised to it, since the density is
+/// unbounded on the axis.
 constexpr Real least_sine = 1e-6_r;
-/// Of a sphere's radius: nearer to its middle there is no direction towards that.
+/// Least distance from a sphere's centre, relative to its radius: nearer, the direction to the
+/// centre is undefined.
 constexpr Real least_distance = 1e-3_r;
 
 }  // namespace
@@ -52,7 +53,7 @@ double GlowGuide::weigh(const Glow& glow, const Vec3& place, double arriving, Kn
   const Real square = glm::dot(way, way);
   const Real reach = glow.radius * glow.radius;
   const double light = arriving * glow.power / static_cast<double>(std::max(square, reach));
-  // Lines that begin beside an emitter of some size meet its light from everywhere.
+  // Lines that start beside an extended emitter meet its light from all directions.
   const Real least = std::max(glow.body, least_distance * glow.radius);
   const double share = known == Known::nothing ? glow.share : glow.reflected;
   if (square > least * least && share > 0) {
@@ -71,8 +72,8 @@ double GlowGuide::weigh(const EmitterImage& image, const Vec3& place) {
   return light;
 }
 
-/// A line that passes an emitter in smoke at a distance sees light by one over that: lines are
-/// drawn evenly by distance.
+/// A line that passes an emitter in smoke at a distance sees light in proportion to one over that
+/// distance, so lines are sampled uniformly in the distance.
 Vec3 GlowGuide::direction(double choice, Real u, Real v) const {
   double rest = choice;
   size_t i = 0;

@@ -1,10 +1,10 @@
-// Directions towards the glow around emitters in smoke. Near an emitter smoke is bright, and a path
-// that is turned by a phase function or a surface alone seldom goes there, but brings much when it
-// does. So a part of the turns are aimed at spheres around emitters. Whoever turns a path weights
-// both ways by the balance heuristic: `density` is that of aimed turns. What is known of emitters
-// at a place (emitter_sight.hpp) says which are worth it there. In smoke turns are aimed at
-// emitters in mirrors, too (emitter_images.hpp). Not here: light that emitters send straight
-// (next_event.hpp). One thread or fiber at a time.
+// Path guiding towards the glow around emitters in smoke. Near an emitter smoke is bright; a path
+// that samples only the phase function or the surface rarely goes there, but contributes much when
+// it does. So a part of the directions is sampled towards spheres around emitters. The caller
+// weights both sampling techniques by the balance heuristic: `density` is that of the mixture. What
+// is known of emitters at a place (emitter_sight.hpp) decides which are worth guiding to. In smoke,
+// paths are also guided to mirror images of emitters (emitter_images.hpp). Not here: light straight
+// from emitters (next_event.hpp). One thread or fiber at a time.
 #pragma once
 
 #include <cmath>
@@ -18,33 +18,33 @@
 namespace luxodus {
 
 namespace limits {
-/// Emitters that are aimed at, those of the most glow: each costs time at every turn of a path.
+/// Emitters that paths are guided to, those with the most glow: each costs time at every event.
 inline constexpr size_t glows = 16;
-/// Of the turns at a place, those that are aimed at most.
+/// Largest guided share of the directions at a place.
 inline constexpr double max_aimed = 0.9;
-/// Tangent of the half angle of what is aimed at, from within a sphere as well.
+/// Tangent of the largest half angle of a guiding cone, also from within a sphere.
 inline constexpr Real widest_slope = 3;
-/// Events of a path that may be aimed.
+/// Number of a path's first events that may be guided.
 inline constexpr int aimed_events = 8;
-/// Share of an emitter's light that its glow sends on: less is left to chance. The brightest single
-/// paths are those that pass an emitter in thin smoke which nobody aims at.
+/// Least share of an emitter's light that its glow scatters, to be guided to. The brightest
+/// outliers are unguided paths that pass an emitter in thin smoke.
 inline constexpr double min_glow = 0.02;
-/// From an emitter, for what surfaces beside it reflect.
+/// Rays from an emitter that estimate what surfaces beside it reflect.
 inline constexpr int glow_rays = 64;
-/// Of the light at a place, what a glow's emitter has at least where that is aimed at.
+/// Least share of the light at a place that an emitter must have, to be guided to.
 inline constexpr double min_glow_seen = 0.01;
 }  // namespace limits
 
 struct CellSight;
 struct EmitterImage;
 
-/// A sphere around an emitter, and how much it glows.
+/// A sphere around an emitter, and the strength of its glow.
 struct Glow {
   Vec3 centre{0};
   Real radius = 0;
-  double power = 0;  // of the emitter, in all bands, by how they look
-  /// Of its light that smoke and surfaces in the sphere send on, and surfaces alone; 0: not worth
-  /// aiming at.
+  double power = 0;  // of the emitter, in all bands, weighted by luminance and colour
+  /// Shares of its light that smoke and surfaces in the sphere scatter, and that surfaces alone
+  /// reflect; 0: not worth guiding to.
   double share = 0, reflected = 0;
   Real body = 0;  // radius of the emitter itself
 };
@@ -52,36 +52,37 @@ struct Glow {
 class GlowGuide {
  public:
   GlowGuide() = default;
-  /// Of all emitters, by number; none where there is no smoke. `mirrors`: whether emitters may be
-  /// seen in mirrors, which are aimed at as well.
+  /// `glows`: of all emitters, by number; none if there is no smoke. `mirrors`: whether paths are
+  /// guided to mirror images, too.
   explicit GlowGuide(std::vector<Glow> glows, bool mirrors = false);
 
-  /// Nothing glows or is mirrored: every turn is as it was.
+  /// Whether no direction is guided.
   bool empty() const { return brightest_.empty() && !mirrors_; }
 
-  /// Turns after so many events are left as they are: weights of many aimed ones would multiply.
+  /// Events after limits::aimed_events are not guided: the weights of many guided ones would
+  /// multiply.
   void start_event(int event) { aims_ = event < limits::aimed_events; }
-  /// For turns at a place: until the next call. `seen`: what is known of emitters there; null: they
-  /// are weighed by power and distance, wherever walls are. `known`: where scattered light is
-  /// known, smoke does not count.
+  /// Sets the place of an event until the next call. `seen`: what is known of emitters there; if
+  /// null, they are weighted by power and distance, without regard to walls. `known`: if scattered
+  /// light is in the radiance cache, only reflected glow is guided to.
   void stand_at(const Vec3& place, const CellSight* seen, Known known);
-  /// Share of the turns there that are aimed.
+  /// Guided share of the directions there.
   double aimed() const { return aimed_; }
-  /// A direction of an aimed turn, by uniform numbers; `choice` in [0, aimed()).
+  /// Samples a guided direction from uniform numbers; `choice` in [0, aimed()).
   Vec3 direction(double choice, Real u, Real v) const;
-  /// Density [1/sr] of directions drawn by both ways, where a turn has `own` alone.
+  /// Density [1/sr] of the mixture of both techniques, where the event alone has the density `own`.
   double density(const Vec3& direction, double own) const;
 
  private:
   struct Cone {
     Vec3 axis{0};
     Real slope = 0;    // tangent of its half angle
-    double share = 0;  // of the turns
+    double share = 0;  // of the directions
   };
-  /// Returns the light of an emitter at the place, of which `arriving` arrives of a watt without
-  /// the inverse square; and aims at its glow by that.
+  /// Adds a cone for an emitter's glow, by the light `arriving` at the place per watt without the
+  /// inverse square. Returns the emitter's light there.
   double weigh(const Glow& glow, const Vec3& place, double arriving, Known known);
-  /// The same of an emitter in a mirror.
+  /// Likewise for a mirror image of an emitter.
   double weigh(const EmitterImage& image, const Vec3& place);
 
   std::vector<Glow> by_emitter_;
@@ -91,20 +92,22 @@ class GlowGuide {
   bool aims_ = true, mirrors_ = false;
 };
 
-/// Whether turns are aimed at emitters in mirrors: in smoke, where there is any special surface.
+/// Whether paths are guided to mirror images: in smoke, if there is any specular surface.
 inline bool aims_at_mirrors(const CompiledScene& scene) {
   return scene.features.media != MediaNeed::none && scene.features.surfaces;
 }
 
-/// How far from an emitter smoke counts as its glow: as far as voxels do not know it.
+/// Radius around an emitter within which smoke counts as its glow: the range that voxels do not
+/// resolve.
 Real glow_reach_m(const CompiledScene& scene);
-/// Within a glow, where it is brightest: the emitter's face may itself be a boundary of the smoke.
+/// The point in front of an emitter where its glow is brightest; its face may itself bound the
+/// smoke.
 Vec3 before_face(const CompiledScene& scene, uint32_t emitter, Real glow_radius);
-/// Power of all bands, by how they look.
+/// Power in all bands, weighted by luminance and colour.
 double power_seen(const CompiledScene& scene, const CompiledEmitter& emitter);
 
-/// Of a flame's light, the share that surfaces within the glow reflect. Luminaires light what is
-/// beside them little, or so evenly that aiming at it gains nothing.
+/// Share of a flame's light that surfaces within its glow reflect. 0 for luminaires: they light
+/// surfaces beside them little, or so evenly that guiding gains nothing.
 template <class Resolver>
 double reflected_beside(const CompiledScene& scene, uint32_t emitter, const Glow& glow,
                         Resolver& resolver) {
@@ -133,7 +136,7 @@ double reflected_beside(const CompiledScene& scene, uint32_t emitter, const Glow
   return sum / limits::glow_rays;
 }
 
-/// The glows of a scene's emitters, by number; none where there is no smoke. Suspends: where the
+/// The glows of a scene's emitters, by number; none if there is no smoke. Suspends: where the
 /// resolver does.
 template <class Resolver>
 std::vector<Glow> glows_of(const CompiledScene& scene, Resolver& resolver) {

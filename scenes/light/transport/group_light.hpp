@@ -1,5 +1,4 @@
-// Light on its way to an eye or a probe, kept apart by source group, or by band. Pure; one thread
-// or fiber.
+// Light that arrives at an eye or a probe, kept by source group and by band. One thread or fiber.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +14,10 @@ struct SourceLight {
   double radiance = 0;
 };
 
-/// Light that arrives at a place, by source group and by band: what an eye path adds up.
+/// Light that arrives at a place, by source group and by band: the sum of an eye path.
 class GroupLight {
  public:
-  /// `bands`: 0 where nobody asks which.
+  /// `bands`: 0 if no values by band are needed.
   explicit GroupLight(size_t groups, size_t bands = 0)
       : by_group_(groups, 0.0), by_band_(bands, 0.0) {}
 
@@ -35,7 +34,7 @@ class GroupLight {
     add(group, amount);
     add_to_band(band, amount);
   }
-  /// Light of which nobody knows the source, as of a patch that all groups have lit.
+  /// Adds light whose source group is unknown, e.g. from a patch that all groups light.
   void add_of_all(int band, double amount) {
     total_ += amount;
     add_to_band(band, amount);
@@ -47,7 +46,7 @@ class GroupLight {
   }
 
   double total() const { return total_; }
-  /// Each group's light times its factor. Requires: as many factors as groups.
+  /// The sum of each group's light times its factor. Requires: as many factors as groups.
   double sum(const std::vector<double>& factors) const {
     double out = 0;
     for (size_t g = 0; g < factors.size(); ++g) out += factors[g] * by_group_[g];

@@ -1,6 +1,7 @@
-// Which random numbers a history gets: a pure function of (scene, seed, particle id), so whoever
-// traces a particle, or only wants to know where it is born, draws the same. Where the scene's
-// particles are stratified, the first draws of a batch's particles are the points of one set.
+// The random numbers of a history: a pure function of (scene, seed, particle id), so that tracing a
+// particle, or only finding where it starts, draws the same numbers anywhere. If the scene's
+// particles are stratified, the first draws of a batch's particles are the points of one
+// low-discrepancy set. Thread rule: one HistoryRandom per thread or fiber.
 #pragma once
 
 #include "runtime/core/random.hpp"
@@ -9,11 +10,11 @@
 namespace luxodus {
 
 namespace limits {
-/// Ids of different source groups never meet: 2^44 particles each.
+/// Id ranges of source groups are disjoint: 2^44 particles each.
 inline constexpr int group_id_shift = 44;
 }  // namespace limits
 
-/// Random numbers of one history after another.
+/// Random numbers, restarted for each history.
 class HistoryRandom : public Random {
  public:
   HistoryRandom(const CompiledScene& scene, uint64_t seed)

@@ -16,7 +16,7 @@ struct TileHeader {
 };
 static_assert(sizeof(TileHeader) == 24);
 
-/// The tile's size, without its texels.
+/// A tile with its size but without texels.
 ImageTile outline(const Image& image, uint32_t tile) {
   const auto column = static_cast<int>(tile % tile_columns(image));
   const auto row = static_cast<int>(tile / tile_columns(image));
@@ -26,7 +26,7 @@ ImageTile outline(const Image& image, uint32_t tile) {
           {}};
 }
 
-/// Where a row of the tile begins among the picture's texels.
+/// Index of a tile's row among the picture's texels.
 size_t row_begin(const Image& image, uint32_t tile, int row) {
   const size_t x = tile % tile_columns(image) * limits::tile_side;
   const size_t y = tile / tile_columns(image) * limits::tile_side + static_cast<size_t>(row);

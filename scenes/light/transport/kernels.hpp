@@ -1,6 +1,6 @@
-// Choosing a kernel at run time, below the choice of its media (particle_batches.hpp). Each medium
-// need is compiled in a source of its own (kernel_*.cpp), so that the loops of each build side by
-// side.
+// Chooses the kernel at run time, within a given need of media (particle_batches.hpp). Each need is
+// compiled in a source of its own (kernel_*.cpp), so that they compile in parallel. One
+// KernelBatches per thread or fiber.
 #pragma once
 
 #include "scenes/light/transport/particle.hpp"

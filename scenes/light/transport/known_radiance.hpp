@@ -1,4 +1,5 @@
-// What a path in a picture may end in: light that is known from a run's flux (final gather).
+// The radiance cache in which paths of a picture may end: light known from a run's flux (final
+// gather). Thread rules: KnownRadiance any thread; the others are plain values.
 #pragma once
 
 #include <cstdint>
@@ -8,26 +9,26 @@
 
 namespace luxodus {
 
-/// What known light errs by: whoever ends in the same bin errs alike.
+/// Error of a cached value; paths that end in the same bin share that error.
 struct KnownError {
   uint64_t bin = 0;
-  double relative = 0;  // standard error of the luminance, by the luminance
+  double relative = 0;  // relative standard error of the luminance
 };
 
-/// Where a path, or a part of one, has ended in known light.
+/// Cached light at which a path, or a part of one, has ended.
 struct KnownEnd {
   KnownError error;
-  double luminance = 0;  // that it brings from there [cd/m2]
+  double luminance = 0;  // its contribution [cd/m2]
 };
 
-/// What is known of the light that passes a place in a medium.
+/// Which of the light at a place in a medium is in the cache.
 enum class Known : uint8_t {
   nothing,
-  scattered,  // what comes from other collisions
+  scattered,  // light from other collisions
   all,
 };
 
-/// Implemented where flux is collected. Any thread.
+/// Implemented where flux is tallied. Any thread.
 class KnownRadiance {
  public:
   virtual ~KnownRadiance() = default;
@@ -35,29 +36,30 @@ class KnownRadiance {
   /// Outgoing radiance of a surface [W/(m2 sr)].
   virtual double of_surface(const Hit& hit, bool front, int band) const = 0;
 
-  /// `diffused`: for a path that an event has spread over directions.
+  /// `diffused`: whether an event has scattered the path diffusely.
   virtual Known known_at(const Vec3& place, bool diffused) const = 0;
-  /// A voxel that stands for a place where as much is known, by three uniform numbers: the mean
-  /// over them changes continuously with the place.
+  /// Chooses a voxel to represent a place, by three uniform numbers, among voxels with as much in
+  /// the cache: the mean over them changes continuously with the place.
   virtual uint32_t choose_voxel(const Vec3& place, const Vec3& chance, Known which) const = 0;
-  /// Radiance [W/(m2 sr)] that one scattering of the light in a voxel, as `which` says, sends
-  /// against `direction`. Requires: choose_voxel has chosen it for as much.
+  /// Radiance [W/(m2 sr)] against `direction` after one scattering of the light in a voxel, of the
+  /// light that `which` names. Requires: choose_voxel chose it for the same `which`.
   virtual double of_medium(uint32_t voxel, const Vec3& direction, const PhaseFunction& phase,
                            int band, Known which) const = 0;
 
-  /// Of `of_surface` and `of_medium`, all bands together.
+  /// Errors of `of_surface` and `of_medium`, for all bands together.
   virtual KnownError error_of_surface(const Hit& hit, bool front) const = 0;
   virtual KnownError error_of_medium(uint32_t voxel, const Vec3& direction,
                                      const PhaseFunction& phase, Known which) const = 0;
 };
 
-/// Where a path of a picture may end.
+/// Rules for ending a path of a picture in the cache.
 struct PathEnds {
   const KnownRadiance* known = nullptr;  // null: nowhere
-  bool diffused = false;                 // an event has spread the path over directions
+  bool diffused = false;                 // an event has scattered the path diffusely
 
-  /// Of what the eye sees at first, or by mirrors alone, light straight from emitters and surfaces
-  /// is sampled: beams, shadows and reflections in smoke keep their edges.
+  /// Which cached light may be used at a collision. Seen directly or through mirrors alone, light
+  /// straight from emitters and surfaces is sampled instead: beams, shadows and reflections in
+  /// smoke stay sharp.
   Known in_medium(const Vec3& place) const {
     return known != nullptr ? known->known_at(place, diffused) : Known::nothing;
   }

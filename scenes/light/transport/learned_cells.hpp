@@ -1,6 +1,6 @@
-// Cells of a scene's space, of each of which something is learned when somebody first asks. What is
-// learned must follow from the cell alone: then it is the same whoever asks first, and two who
-// learn the same cell at once agree. Any thread.
+// Cells of a scene's space, for each of which data is computed at its first use. The data must
+// follow from the cell alone: then it does not depend on who uses it first, and two threads that
+// compute the same cell at once get equal results. Any thread.
 #pragma once
 
 #include <algorithm>
@@ -14,24 +14,24 @@
 namespace luxodus {
 
 namespace limits {
-/// Edge of a cell [m], and as a share of the diagonal of small scenes: rooms and the distances of
+/// Edge of a cell [m], and as a share of the diagonal for small scenes; rooms and spacings of
 /// luminaires are larger.
 inline constexpr Real max_learned_edge_m = 1;
 inline constexpr Real learned_edge_share = 1.0_r / 32;
-/// Large scenes have larger cells.
+/// Largest number of cells; larger scenes get larger cells.
 inline constexpr int64_t learned_cells = 1 << 20;
 }  // namespace limits
 
 /// Cubes of one size that fill a scene.
 class CellGrid {
  public:
-  /// Of at most so many cells; at least one.
+  /// At most `most` cells, at least one.
   CellGrid(const CompiledScene& scene, int64_t most) : low_(scene.local_low) {
     const glm::dvec3 size = glm::max(glm::dvec3(scene.local_high) - glm::dvec3(low_), 0.0);
-    edge_ = limits::max_learned_edge_m;  // where all that stands in a scene is a point
+    edge_ = limits::max_learned_edge_m;  // also if everything in the scene is at one point
     if (scene.diagonal_m > 0)
       edge_ = std::min(edge_, limits::learned_edge_share * scene.diagonal_m);
-    // As floating point: the cells of 1 m of a country are more than whole numbers can say.
+    // In floating point: a country has more cells of 1 m than integers can count.
     glm::dvec3 counts;
     const auto limit = static_cast<double>(std::max<int64_t>(most, 1));
     for (;; edge_ *= 1.25_r) {
@@ -45,13 +45,13 @@ class CellGrid {
 
   size_t count() const { return static_cast<size_t>(nx_ * ny_ * nz_); }
   Real edge() const { return edge_; }
-  /// The corner of a cell of the least coordinates.
+  /// The lower corner of a cell.
   Vec3 low_of(size_t cell) const {
     const auto i = static_cast<int64_t>(cell);
     return low_ + edge_ * Vec3(static_cast<Real>(i % nx_), static_cast<Real>(i / nx_ % ny_),
                                static_cast<Real>(i / nx_ / ny_));
   }
-  /// That of a place, or the nearest one.
+  /// The cell of a place, or the nearest one.
   size_t cell_of(const Vec3& place) const {
     const auto along = [&](Real at, int64_t count) {
       const Real last = static_cast<Real>(count - 1);
@@ -70,7 +70,7 @@ class CellGrid {
 template <class Learned>
 class LearnedCells {
  public:
-  /// `sides`: into which each cell falls.
+  /// `sides`: number of separate entries per cell.
   LearnedCells(const CellGrid& grid, size_t sides)
       : grid_(grid),
         sides_(sides),
@@ -83,7 +83,7 @@ class LearnedCells {
 
   const CellGrid& grid() const { return grid_; }
 
-  /// Of a side of the cell of a place, or of the nearest one. `learn(cell)` makes it.
+  /// The data for a side of a place's cell, or of the nearest one. `learn(cell)` computes it.
   template <class Learn>
   const Learned& at(const Vec3& place, size_t side, Learn&& learn) const {
     const size_t cell = grid_.cell_of(place);

@@ -6,15 +6,15 @@ namespace luxodus {
 
 namespace {
 
-/// Of extinctions that count as proportional.
+/// Relative tolerance for extinctions that count as proportional.
 constexpr double same_ratio = 1e-12;
 
-/// By band: the ratio of all components' extinctions to those of the first band. Empty where they
-/// have not one ratio, or where a band has none.
+/// Ratio by band of extinctions to those of the first band, if it is common to all components.
+/// Empty if there is no common ratio, or a band has none.
 std::vector<double> common_ratios(const MediaTables& tables, int bands) {
   std::vector<double> out;
   const int count = static_cast<int>(tables.components.size());
-  int seen = 0;  // a component with extinction
+  int seen = 0;  // first component with extinction
   while (seen < count && !(tables.sigma_of(0, seen) > 0)) ++seen;
   if (seen == count) return out;
   for (int b = 0; b < bands; ++b) {
@@ -45,7 +45,7 @@ MediaBands::MediaBands(const CompiledScene& scene)
 
 void MediaBands::albedos(const FreeFlight& flight, const PathBands& bands, BandValues& out) const {
   const MediaTables& tables = scene_.media.tables();
-  const bool measured =  // by a data set, for all bands
+  const bool measured =  // by a data set's array, equal in all bands
       std::any_of(tables.grids.begin(), tables.grids.end(), [&](const PlacedGrid& placed) {
         return placed.component == flight.component && placed.grid.has_albedo();
       });

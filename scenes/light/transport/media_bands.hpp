@@ -1,6 +1,6 @@
-// What media do to the bands that a path carries, all at once. Where the extinctions of all media
-// keep one ratio from band to band (grey smoke, or one kind of soot), depths of all bands follow
-// from one. Made for a scene; then any thread. Suspends: where the resolver does.
+// Effect of media on all bands of a path at once. If the extinctions of all media have one ratio
+// from band to band (grey smoke, or one kind of soot), the optical depths of all bands follow from
+// one. Immutable once made for a scene; any thread. Suspends: where the resolver does.
 #pragma once
 
 #include <cmath>
@@ -16,10 +16,10 @@ class MediaBands {
  public:
   explicit MediaBands(const CompiledScene& scene);
 
-  /// Whether all bands fly and collide alike.
+  /// Whether free flights and collisions are equal in all bands.
   bool grey() const { return grey_; }
-  /// Of what collisions take, what any medium scatters at most, in any band, by the albedo that it
-  /// states: a data set may have others.
+  /// Largest albedo of any medium in any band, as stated by the media; arrays of a data set may
+  /// differ.
   double most_scattered() const { return most_scattered_; }
 
   /// Optical depth of each band along the ray.
@@ -62,8 +62,8 @@ class MediaBands {
                   [&](int band) { return extinction_at(scene_.media, band, place, resolver); });
   }
 
-  /// How densely each band would have flown like this, over how densely the hero did. Requires:
-  /// `flight` is one of the hero along the ray.
+  /// Density of this flight in each band, relative to that in the hero band. Requires: `flight` was
+  /// sampled for the hero along the ray.
   template <class Resolver>
   void flight_densities(const Ray& ray, const FreeFlight& flight, const PathBands& bands,
                         BandValues& out, Resolver& resolver) const {
@@ -77,11 +77,11 @@ class MediaBands {
     }
   }
 
-  /// Of what a collision takes, the share that each band scatters.
+  /// The albedo of a collision in each band.
   void albedos(const FreeFlight& flight, const PathBands& bands, BandValues& out) const;
 
  private:
-  /// Of one path of many bands, what is in proportion to extinction.
+  /// Evaluates a quantity proportional to extinction for all bands, from one band if possible.
   template <class OfBand>
   void for_each_band(const PathBands& bands, BandValues& out, OfBand&& of_band) const {
     if (!bands.many()) {
@@ -96,7 +96,7 @@ class MediaBands {
   }
 
   const CompiledScene& scene_;
-  std::vector<double> ratio_;  // by band, of the extinctions of all media; empty: there is no one
+  std::vector<double> ratio_;  // by band, common to all media; empty: there is none
   bool grey_ = false;          // all ratios are 1
   double most_scattered_ = 0;
 };

@@ -6,7 +6,7 @@ namespace luxodus {
 
 namespace {
 
-/// Of a box in the coordinates of a frame.
+/// Bounds of a box given in the coordinates of a frame.
 Bounds placed(const Bounds& local, const Frame& frame) {
   Bounds out;
   for (int corner = 0; corner < 8; ++corner) {
@@ -32,7 +32,7 @@ Bounds within(const Footprint& footprint, Bounds scene) {
   return scene;
 }
 
-/// The heights of the layers that have any extinction.
+/// The box restricted to the heights of layers with any extinction.
 Bounds of_layers(const Medium& medium, Bounds box) {
   double low = 1e300, high = -1e300;
   for (const Layer& layer : medium.layers) {

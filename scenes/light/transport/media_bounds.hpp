@@ -1,4 +1,4 @@
-// Where in a scene its media are. Pure.
+// Bounds of a scene's media. Pure; any thread.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace luxodus {
 
-/// A box [scene coordinates] that holds the media, as far as they lie within `scene`; the whole of
-/// `scene` where one of them is everywhere, empty where none is in it.
+/// A box [scene coordinates] that holds the media within `scene`: all of `scene` if one of them is
+/// unbounded, empty if none is in it.
 Bounds media_bounds(std::span<const Medium* const> media, const Bounds& scene);
 
 }  // namespace luxodus

@@ -11,7 +11,7 @@ namespace luxodus {
 
 namespace {
 
-/// Of the largest intensity: less than this sent to a place is none.
+/// Less than this share of the largest intensity counts as no light.
 constexpr double faint = 1e-3;
 
 struct Luminaire {
@@ -50,7 +50,8 @@ glm::dvec3 nearest_on_segment(const glm::dvec3& a, const glm::dvec3& b, const gl
   return a + way * t;
 }
 
-/// Of a convex or any other flat outline: below the point where that is inside, else on its edge.
+/// The nearest point of a flat outline: the foot of the perpendicular if it is inside, else on an
+/// edge.
 glm::dvec3 nearest_in_outline(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal,
                               const glm::dvec3& p) {
   const glm::dvec3 foot = p - normal * glm::dot(normal, p - corners.front());
@@ -81,7 +82,7 @@ glm::dvec3 nearest_in_area(const AssessedArea& area, const glm::dvec3& p) {
   return nearest_in_outline(corners, {0, 0, 1}, p);
 }
 
-/// On the strip that is as wide as the route.
+/// The nearest point on a strip of the route's width.
 glm::dvec3 nearest_on_route(const EscapeRoute& route, const glm::dvec3& p) {
   glm::dvec3 best = route.path.front();
   for (size_t i = 0; i + 1 < route.path.size(); ++i) {

@@ -1,5 +1,5 @@
-// Where photometric files are asked for what they do not know: their intensities are those of a
-// luminaire far away, and hold within some percent from five times the largest extent of its
+// Finds places too near to a luminaire for its photometric file: the file's intensities are those
+// at a large distance, and hold within some percent from five times the largest extent of the
 // luminous opening (CIE S 025, EN 13032-1: the limiting photometric distance). Pure; any thread.
 #pragma once
 
@@ -10,23 +10,23 @@
 
 namespace luxodus {
 
-/// Distance over luminous opening from which intensities of a photometric file hold.
+/// Distance relative to the luminous opening from which a photometric file is valid.
 inline constexpr double far_field_openings = 5;
 
-/// Whether light passes straight between two places [scene coordinates]; empty: always.
+/// Visibility between two places [scene coordinates]; empty: always visible.
 using SeesPlace = std::function<bool(const glm::dvec3&, const glm::dvec3&)>;
 
-/// A place that a luminaire comes too near to.
+/// A place that is too near to a luminaire.
 struct NearPlace {
   Problem problem;
-  /// Codes judge the light that falls there: in emergency operation, that of a route, an area, an
-  /// externally lit sign. Of planes and probes it is only measured; a sign that shines has its own.
+  /// Whether codes judge the light there: in emergency operation on a route, an area, an externally
+  /// lit sign. Planes and probes are only measured, and a luminous sign has its own light.
   bool judged = false;
 };
 
-/// Each plane, probe, route, area and sign that somebody looks at which a lit luminaire of a
-/// photometric file comes nearer to than that, into which it sends light: names the place, the
-/// luminaire that is nearest by its opening, both distances, and how many others there are.
+/// Planes, probes, routes, areas and observed signs that are nearer than that to a lit luminaire
+/// with a photometric file that sends light there. Each problem names the place, the luminaire that
+/// is nearest relative to its opening, both distances, and the number of others.
 std::vector<NearPlace> near_field_places(const SceneDescription& scene, const Scenario& scenario,
                                          const SeesPlace& sees = {});
 

@@ -1,11 +1,10 @@
-// Next-event estimation for paths from the eye: light of emitters that a surface or a medium turns
-// into a path, by sampling a point of one emitter. A path may also hit an emitter by its own
-// direction, and in smoke a place near an emitter may be drawn first (equiangular.hpp). The balance
-// heuristic (E. Veach, L. Guibas, "Optimally combining sampling techniques", SIGGRAPH 1995) weights
-// these ways against each other, so that every pair of places counts once and none is left to a
-// way that seldom finds it: sampling alone has no bounded variance near an emitter (1/r2), hits
-// alone are rare far from it. Not here: the path itself (path_tracer.hpp) and which emitter is
-// chosen (emitter_choice.hpp). Thread rule: one NextEvent per thread or fiber.
+// Next-event estimation for eye paths: adds the light of an emitter that a surface or a medium
+// scatters into a path, by sampling a point of one emitter. A path may also hit an emitter by its
+// own direction, and in smoke a point near an emitter may be sampled first (equiangular.hpp). The
+// balance heuristic (E. Veach, L. Guibas, "Optimally combining sampling techniques", SIGGRAPH 1995)
+// combines these techniques: sampling emitters alone has unbounded variance near one (1/r2), and
+// hits alone are rare far from it. Not here: the path itself (path_tracer.hpp) and the choice of
+// the emitter (emitter_choice.hpp). Thread rule: one NextEvent per thread or fiber.
 #pragma once
 
 #include <algorithm>
@@ -27,21 +26,21 @@
 
 namespace luxodus {
 
-/// A straight part of a path, on which it may collide with the medium.
+/// A ray segment of a path on which it may collide with the medium.
 struct Stretch {
   Ray ray;
-  Real end = 0;      // places near emitters are drawn up to here
-  double share = 1;  // collisions have the density sigma_t exp(-depth) / share: 1 if the flight was
-                     // free, less if a collision was forced
-  PathBands bands;   // before it
+  Real end = 0;      // points near emitters are sampled up to here
+  double share = 1;  // collisions have the density sigma_t exp(-depth) / share: 1 for a free
+                     // flight, less if a collision was forced
+  PathBands bands;   // at its start
 };
 
-/// The last event that spread a path over directions, and how densely it drew the one taken.
+/// The last diffuse scattering event of a path, and the density of the direction sampled there.
 struct PathTurn {
   Vec3 place{0};
   double pdf = 0;          // [1/sr]
-  Vec3 normal{0};          // of a surface
-  bool in_medium = false;  // then the place is `t` along the stretch
+  Vec3 normal{0};          // of a surface; zero in a medium
+  bool in_medium = false;  // the place is `t` along the segment
   Stretch stretch{{}, 0, 1, PathBands::one(0)};
   Real t = 0;
 };
@@ -49,8 +48,8 @@ struct PathTurn {
 template <class Resolver>
 class NextEvent {
  public:
-  /// `aimed`: whether paths are also turned towards the glow around emitters.
-  /// `sight`: what emitters are chosen by; null: by power and distance alone.
+  /// `aimed`: whether paths are guided towards the glow around emitters, too. `sight`: data for the
+  /// light sampler; null: emitters are chosen by power and distance alone.
   NextEvent(const CompiledScene& scene, Resolver& resolver, Random& random, bool aimed,
             const EmitterSight* sight)
       : scene_(scene),
@@ -63,14 +62,15 @@ class NextEvent {
 
   const MediaBands& media() const { return media_; }
   const GlowGuide& guide() const { return guide_; }
-  /// The guide for turns at a place, where of the light so much is known: a path need not find
-  /// that. Suspends: where the resolver does, unless emitters have been weighed there before.
+  /// The guide for directions at a place; the path need not find light that is in the cache
+  /// (`known`). Suspends: where the resolver does, unless emitters were weighted there before.
   const GlowGuide& guide_at(const Vec3& place, const Vec3& normal, Known known) {
     if (!guide_.empty()) guide_.stand_at(place, seen_at(place, normal), known);
     return guide_;
   }
 
-  /// Before an event of a path. Glows are found at the first: only then may the resolver wait.
+  /// Call before each event of a path. Glows are computed at the first: only then may the resolver
+  /// wait.
   void start_event(int event) {
     if (aimed_ && !knows_glows_) {
       guide_ = GlowGuide(glows_of(scene_, resolver_), aims_at_mirrors(scene_));
@@ -79,8 +79,8 @@ class NextEvent {
     guide_.start_event(event);
   }
 
-  /// Adds `weight` times the light of an emitter that a surface sends against `direction`. One
-  /// emitter is sampled. `models`: of the path's bands.
+  /// Adds `weight` times the emitted light that a surface reflects against `direction`, by sampling
+  /// one emitter. `models`: for the path's bands.
   void add_reflected(const Vec3& place, const Vec3& direction, const Vec3& normal,
                      std::span<const SurfaceModel> models, const PathBands& bands, double weight,
                      GroupLight& into) {
@@ -109,9 +109,9 @@ class NextEvent {
     }
   }
 
-  /// Adds `weight` times the radiance [W/(m2 sr)] that emitters send to the stretch and the medium
-  /// there turns against its ray, once; but for places where all light is known (`ends`). `flight`
-  /// is one along it, and `passed` is what its collision lets go on of the light of each band.
+  /// Adds `weight` times the radiance [W/(m2 sr)] of emitters that the medium on the segment
+  /// scatters once against its ray, except where all light is in the cache (`ends`). `flight` was
+  /// sampled along the segment, and `passed` is the light of each band after its collision.
   /// Suspends: where the resolver does.
   void add_scattered(const Stretch& s, const FreeFlight& flight, const BandValues& passed,
                      double weight, GroupLight& into, const PathEnds& ends = {}) {
@@ -120,31 +120,31 @@ class NextEvent {
     if (emitters_near) add_near_emitter(s, ends, weight, into);
   }
 
-  // The same in two, for a stretch of several flights. Each of them counts by the stretch's share.
+  // add_scattered in two steps, for a segment with several flights, each weighted by its share.
 
-  /// Of places that are drawn near an emitter. Returns whether any emitter is near.
+  /// Points sampled near an emitter. Returns whether any emitter is near.
   bool add_near(const Stretch& s, double weight, GroupLight& into, const PathEnds& ends) {
     const bool emitters_near = weigh_along(s, s.bands);
     if (emitters_near) add_near_emitter(s, ends, weight, into);
     return emitters_near;
   }
-  /// Of the place where a flight has collided. Requires: the last add_near was of this stretch.
+  /// The collision of a flight. Requires: the last add_near was for this segment.
   void add_collided(const Stretch& s, const FreeFlight& flight, bool emitters_near,
                     const BandValues& passed, double weight, GroupLight& into,
                     const PathEnds& ends) {
     const Known known = ends.in_medium(s.ray.origin + s.ray.direction * flight.t);
     if (known == Known::all) return;
-    // A band may be scattered where the hero's is not.
+    // A band may scatter even if the hero's band does not.
     if (std::any_of(passed.begin(), passed.begin() + s.bands.count(),
                     [](double light) { return light > 0; }))
       add_at_collision(s, flight, emitters_near, passed, weight, into, known);
   }
 
-  /// Weight of light that a path of such bands meets at a point of an emitter by its own direction.
-  /// `apparent_sr`: as of `apparent_solid_angle`, from the place of the turn. Callers hold a hit,
-  /// so no cell of space may be learned here: that asks the resolver, which may drop what the hit
-  /// is of. None is new: emitters were sampled at the place of the turn, and add_scattered or
-  /// add_near of its stretch has asked the cells along that before.
+  /// Balance-heuristic weight of an emitter hit at `point` by the path's own direction.
+  /// `apparent_sr`: from `apparent_solid_angle`, at the place of the last scattering. Callers hold
+  /// a hit, so no cell of space may be learned here: learning uses the resolver, which may drop the
+  /// hit's cell. None is new: emitters were sampled at that place, and add_scattered or add_near
+  /// has already used the cells along its segment.
   double weight_of_hit(const PathTurn& turn, size_t emitter, const Vec3& point, double apparent_sr,
                        const PathBands& bands) {
     const double hit = turn.pdf * apparent_sr;
@@ -155,12 +155,13 @@ class NextEvent {
     return hit / (hit + sampled);
   }
 
-  /// The solid angle [sr] at a place that an emitter would fill if it all looked as at the point:
-  /// the ratio in which hits and samples of the point are spread. 0 where rays cannot hit it.
+  /// Solid angle [sr] that an emitter would subtend at a place if all of it were seen as the given
+  /// point: the ratio of the densities of hits and of samples of the point. 0 if rays cannot hit
+  /// it.
   double apparent_solid_angle(const CompiledEmitter& e, const EmissionPoint& point,
                               const Vec3& to_place, Real distance) {
     if (e.kind != EmitterKind::volume) return apparent_face(e, point, to_place, distance);
-    // Of a flame, hits find lines. Any density along them serves as weight: one over its size.
+    // Hits of a flame select lines. Any density along them can serve as weight: one over its size.
     const double density =
         scene_.media.emission_density(static_cast<int>(e.medium), point.position, resolver_);
     const auto size = static_cast<double>(std::max({e.size.x, e.size.y, e.size.z}));
@@ -169,11 +170,11 @@ class NextEvent {
   }
 
  private:
-  /// Weighs emitters as seen from a place. `normal`: of a surface; zero in a medium.
+  /// Weights emitters as seen from a place. `normal`: of a surface; zero in a medium.
   bool weigh_at(const Vec3& place, const Vec3& normal, const PathBands& bands) {
     return choice_.weigh_at(place, normal, chosen_by(bands), seen_at(place, normal));
   }
-  /// Weighs emitters that are near a stretch. False where none is.
+  /// Weights emitters near a segment. False if there is none.
   bool weigh_along(const Stretch& s, const PathBands& bands) {
     if (sight_ == nullptr) return choice_.weigh_along(s.ray, s.end, chosen_by(bands));
     return choice_.weigh_near(
@@ -184,24 +185,26 @@ class NextEvent {
     return sight_ != nullptr ? &sight_->at(place, normal, resolver_) : nullptr;
   }
 
-  /// Irradiance [W/m2] of a point of an emitter, normal to the line between, by the path's bands.
+  /// Irradiance [W/m2] from a sampled point of an emitter, normal to the connection, by the path's
+  /// bands.
   struct Arriving {
     Vec3 direction{0};  // towards the emitter
     double apparent_sr = 0;
     BandValues irradiance;
   };
 
-  /// Density [1/sr] of turns at a place, where the phase function or the surface alone has `own`.
+  /// Density [1/sr] of directions at a place, guided ones included; the phase function or surface
+  /// alone has `own`.
   double turned_at(const Vec3& place, const Vec3& normal, Known known, const Vec3& direction,
                    double own) {
     if (guide_.empty()) return own;
     return guide_at(place, normal, known).density(direction, own);
   }
 
-  /// Emitters are chosen for all bands of a path at once.
+  /// Emitters are chosen for all bands of a path together.
   static int chosen_by(const PathBands& bands) { return bands.many() ? all_bands : bands.hero(); }
 
-  /// Into `arriving_`. False: none of any band.
+  /// Evaluates the connection into `arriving_`. False if no band receives light.
   bool arrive(const CompiledEmitter& e, const EmissionPoint& point, const Vec3& place,
               const PathBands& bands) {
     const ShadowRay c =
@@ -232,32 +235,31 @@ class NextEvent {
     return true;
   }
 
-  // ---- light scattered into a stretch of a path
-  // -------------------------------------------------------------------------
+  // ---- light scattered into a segment of a path -----------------------------------------------
 
-  /// Extinction of each band at a place, into `sigma_`. False: none.
+  /// Writes the extinction of each band at a place to `sigma_`. False if all are zero.
   bool may_collide_at(const Stretch& s, const Vec3& place) {
     media_.extinctions(place, s.bands, sigma_, resolver_);
     return std::any_of(sigma_.begin(), sigma_.begin() + s.bands.count(),
                        [](double sigma) { return sigma > 0; });
   }
 
-  /// Density [1/m] of collisions of each band at a place of the stretch, into `here_`. Returns that
-  /// of its heroes together. Requires: may_collide_at was of this place.
+  /// Writes the density [1/m] of collisions of each band at a point of the segment to `here_`.
+  /// Returns that of the hero mixture. Requires: may_collide_at was called for this point.
   double density_of_collisions(const Stretch& s, Real t) {
     media_.transmittances(s.ray, t, s.bands, through_, resolver_);
     for (size_t i = 0; i < s.bands.count(); ++i) here_[i] = sigma_[i] * through_[i] / s.share;
     return s.bands.mixed([&](size_t i) { return here_[i]; });
   }
 
-  /// Places on a stretch as a point of an emitter sees them.
+  /// Equiangular sampling of a segment with respect to a point of an emitter.
   static EquiangularLine seen_from(const Vec3& point, const Stretch& s) {
     return {glm::dvec3(s.ray.origin), glm::dvec3(s.ray.direction), static_cast<double>(s.end),
             glm::dvec3(point)};
   }
 
-  /// How densely `add_near_emitter` draws a place with a point of the emitter, per density of
-  /// collisions at that place. Requires: the last weigh_along was of this stretch.
+  /// Density with which `add_near_emitter` samples a place with a point of the emitter, relative to
+  /// the density of collisions there. Requires: the last weigh_along was for this segment.
   double drawn_near(const Stretch& s, const Vec3& place, Real t, size_t emitter,
                     const Vec3& point) {
     const double share = choice_.probability_along(emitter);
@@ -267,7 +269,7 @@ class NextEvent {
     return share * seen_from(point, s).density(static_cast<double>(t)) / here;
   }
 
-  /// The place is where a flight has collided; an emitter is sampled there.
+  /// Samples an emitter at the collision of a flight.
   void add_at_collision(const Stretch& s, const FreeFlight& flight, bool emitters_near,
                         const BandValues& passed, double weight, GroupLight& into, Known known) {
     const Vec3 place = s.ray.origin + s.ray.direction * flight.t;
@@ -291,7 +293,7 @@ class NextEvent {
     }
   }
 
-  /// The emitter is chosen first, and the place as its light falls on the stretch.
+  /// Chooses the emitter first, then a point of the segment by equiangular sampling.
   void add_near_emitter(const Stretch& s, const PathEnds& ends, double weight, GroupLight& into) {
     const auto [chosen, share] = choice_.choose_along(random_.uniform_double());
     if (!(share > 0)) return;
@@ -312,7 +314,7 @@ class NextEvent {
     guide_at(place, Vec3(0), known);
     for (size_t i = 0; i < s.bands.count(); ++i) {
       if (!(sigma_[i] > 0)) continue;
-      double scattered = 0;  // of each medium here, since each turns a path in its own way
+      double scattered = 0;  // per medium, since each has its own phase function
       for_each_medium_at(scene_.media, s.bands.band(i), place, resolver_,
                          [&](int, int phase, double sigma, double albedo) {
                            const auto turned = static_cast<double>(
@@ -321,7 +323,7 @@ class NextEvent {
                            scattered += sigma * albedo * turned /
                                         (drawn + here * (sampled + hit * arriving_.apparent_sr));
                          });
-      // What passes up to here is in the density of collisions already.
+      // The transmittance up to here is already part of the density of collisions.
       const double arrived = weight * s.bands.light(i) * s.share * (here_[i] / sigma_[i]);
       into.add(e.group, s.bands.band(i), arrived * scattered * arriving_.irradiance[i]);
     }
@@ -336,7 +338,7 @@ class NextEvent {
   bool aimed_, knows_glows_ = false;
   GlowGuide guide_;
 
-  // Of the last call that has filled them, by the path's bands.
+  // Results of the last call, by the path's bands.
   Arriving arriving_;
   BandValues solid_, through_, sigma_, here_;
 };

@@ -1,6 +1,6 @@
-// Where a tracer gets parts of the scene that need not be there: a node's cache, behind which lie
-// other nodes and a disk. Asking may suspend the fiber that asks; whoever implements this decides.
-// Thread rule: as the tracer that asks.
+// Source of scene parts that may not be in memory: a node's cache, backed by other nodes and a
+// disk. A request may suspend the calling fiber; the implementation decides. Thread rule: that of
+// the calling tracer.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ class ObjectSource {
  public:
   virtual ~ObjectSource() = default;
 
-  /// The search structure of a geometry cell, good until the caller next asks for anything; null
-  /// where it cannot be had, and then what the caller traces is worth nothing: see spoilt().
-  /// `next` are cells that the ray enters after it, unless it ends before: they may be asked for
-  /// ahead of time. Suspends: until it is resident.
+  /// The search structure of a geometry cell, valid until the caller's next request; null if it is
+  /// not available, and then the caller's results are invalid: see spoilt(). `next` are the cells
+  /// that the ray enters afterwards, unless it ends before: they may be prefetched. Suspends: until
+  /// it is resident.
   virtual const CellScene* cell(uint32_t cell, std::span<const Candidate> next) = 0;
 
   /// A brick of a data set, likewise.
@@ -28,7 +28,7 @@ class ObjectSource {
   /// A tile of a reflectance picture, likewise.
   virtual const ImageTile* tile(uint32_t image, uint32_t tile) = 0;
 
-  /// Whether the fiber that calls was refused anything since it last asked this.
+  /// Whether a request of the calling fiber has failed since its last call of this.
   virtual bool spoilt() = 0;
 };
 

@@ -1,6 +1,6 @@
-// A scene whose triangles, smoke data and pictures are not in its description: what remains of them
-// in memory, and a way to the rest. It belongs to one scenario's doors, cut into parts once and for
-// all. Immutable; any thread.
+// A scene whose triangles, smoke data and textures are not in its description: the data kept in
+// memory, and access to the rest. It holds for one state of the doors and one partition. Immutable;
+// any thread.
 #pragma once
 
 #include <cstddef>
@@ -17,18 +17,18 @@
 
 namespace luxodus {
 
-/// Scene parts by their place, wherever they lie.
+/// Scene parts by index, wherever they are stored.
 class ObjectFile {
  public:
   virtual ~ObjectFile() = default;
-  /// The bytes of an object, good as long as this is; empty where they are not here.
+  /// The bytes of a part, valid as long as this object; empty if they are not here.
   virtual std::span<const std::byte> object(uint32_t index) const = 0;
-  /// What its messages call it.
+  /// Its name in messages.
   virtual const std::string& name() const = 0;
 };
 
-/// What compiling leaves of geometry beside the triangles, and of data sets beside their arrays.
-/// (Of pictures their sizes stay in the description.)
+/// Results of compiling that are kept without the triangles and the data sets' arrays. (Texture
+/// sizes are in the description.)
 struct PackedScene {
   struct Cell {
     glm::vec3 low{0}, high{0};
@@ -39,7 +39,7 @@ struct PackedScene {
     uint64_t wire_bytes = 0;
   };
 
-  int partition = 1;                    // cells that were asked for
+  int partition = 1;                    // requested number of cells
   std::vector<std::string> open_doors;  // of those that can be open or closed
   Bounds bounds;
   std::vector<CompiledSurface> surfaces;
@@ -47,7 +47,7 @@ struct PackedScene {
   uint32_t patch_count = 0;
   double total_area_m2 = 0;
   std::vector<Cell> cells;
-  std::vector<BrickTable> tables;                    // by medium; empty where it is no data set
+  std::vector<BrickTable> tables;                    // by medium; empty if it is not a data set
   std::vector<std::vector<glm::vec3>> flame_points;  // by medium, of data sets that glow
   std::vector<Object> objects;                       // in the order of SceneParts
   std::vector<std::string> warnings;
@@ -58,28 +58,28 @@ struct PackedScene {
 /// The doors that a scenario has open, by name.
 std::vector<std::string> open_doors(const SceneDescription& description, const Scenario& scenario);
 
-/// What there is of a scene compiled from a description with triangles; its objects are for whoever
-/// writes them to say. `partition`: as it was compiled with.
+/// The summary of a scene compiled from a description with triangles; `objects` is left to the
+/// caller who writes them. `partition`: the value it was compiled with.
 PackedScene summary_of(const CompiledScene& scene, const SceneParts& parts, int partition);
 
-/// The bytes of a packed scene's object, which are what its name says.
-/// Errors: bytes that are not here, or damaged.
+/// The bytes of a packed scene's part, checked against its hash.
+/// Errors: bytes that are missing or damaged.
 Result<std::span<const std::byte>> object_bytes(const PackedScene& packed, uint32_t object);
 
-/// A cell of the scene with its triangles, out of memory or of its file.
-/// Errors: as object_bytes; bytes that are no cell of the scene.
+/// A cell of the scene with its triangles, from memory or its file.
+/// Errors: those of object_bytes; bytes that are not a cell of the scene.
 Result<GeometryCell> load_cell(const CompiledScene& scene, uint32_t cell);
 /// All bricks of the scenario's data sets, by medium. Errors: likewise.
 Result<std::shared_ptr<const MediaBricks>> load_bricks(const CompiledScene& scene);
 /// All pictures with their texels, as CompiledScene::images. Errors: likewise.
 Result<std::vector<std::shared_ptr<const Image>>> load_images(const CompiledScene& scene);
 
-/// Reads every object of a packed scene, one at a time in memory. Nodes find damage only when a
-/// batch needs the object, and then ask each other for it in vain. Errors: as those above.
+/// Reads every part of a packed scene, one at a time. Otherwise nodes find damage only when a batch
+/// needs the part, and then request it from each other in vain. Errors: as above.
 Result<void> check_objects(const CompiledScene& scene);
 
-/// Calls `visit(const GeometryCell&)` for every cell in turn, one of a packed scene at a time in
-/// memory. Errors: as load_cell; the first ends it.
+/// Calls `visit(const GeometryCell&)` for every cell in turn; a packed scene has one at a time in
+/// memory. Errors: those of load_cell; stops at the first.
 template <class Visit>
 Result<void> for_each_cell(const CompiledScene& scene, Visit&& visit) {
   for (uint32_t i = 0; i < scene.cell_boxes.size(); ++i) {

@@ -1,9 +1,9 @@
-// The life of a particle: one loop, compiled for what a scene needs and for how its data is
-// reached. (S. N. Pattanaik, S. P. Mudur, "Computation of global illumination in a participating
-// medium by Monte Carlo simulation", 1993.) The same code is the reference that every other way of
-// running is compared with, bit for bit: a history is a pure function of (scene, seed, particle
-// id). Thread rule: one ParticleTracer per thread or fiber; it suspends only where its resolver
-// does.
+// The particle tracer: one loop over the events of a history, compiled for the features of a scene
+// and for the access to its data. (S. N. Pattanaik, S. P. Mudur, "Computation of global
+// illumination in a participating medium by Monte Carlo simulation", 1993.) This code is also the
+// reference that every other way of running is compared with, bit for bit: a history is a pure
+// function of (scene, seed, particle id). Thread rule: one ParticleTracer per thread or fiber; it
+// suspends only where its resolver does.
 #pragma once
 
 #include <algorithm>
@@ -22,28 +22,28 @@
 namespace luxodus {
 
 namespace limits {
-/// Events of one history; beyond it the particle is counted as lost. A closed room of reflectance
-/// 0.999 in the analogue game needs about 1000 on average, 20 000 at one particle in 1e9; albedo 1
-/// in thick fog more.
+/// Events of one history; a longer one counts as lost. With analogue absorption, a closed room of
+/// reflectance 0.999 needs about 1000 on average, and 20 000 for one particle in 1e9; albedo 1 in
+/// thick fog needs more.
 inline constexpr int events_per_history = 1'000'000;
-/// A ray adds at most one weight of birth, 2^32, to a score, so that none passes 2^63 while a batch
-/// has fewer than 2^31 rays; what is born later is lost. Only volumes without end count longer
-/// flights, up to 1024 sizes of the scene: there the million particles that a batch may have would
-/// have to fly 2000 sizes each.
+/// Rays of one batch; later particles count as lost. A ray adds at most one birth weight, 2^32, to
+/// a score, so no score exceeds 2^63 while a batch has fewer than 2^31 rays. Only unbounded volumes
+/// count longer flights, up to 1024 sizes of the scene: to overflow, the million particles that a
+/// batch may have would have to fly 2000 sizes each.
 inline constexpr uint64_t rays_per_batch = (uint64_t{1} << 31) - events_per_history;
 static_assert(unit_weight == uint64_t{1} << 32);
 }  // namespace limits
 
 namespace defaults {
 /// Russian roulette: below `roulette_below` (share of the birth weight) a particle is either ended
-/// or goes on with `roulette_to`.
+/// or continues with weight `roulette_to`.
 inline constexpr Weight roulette_below = unit_weight / 8;
 inline constexpr Weight roulette_to = unit_weight / 4;
 }  // namespace defaults
 
-/// What the loop contains; everything absent is not compiled in. `Flaws` are none but in a test,
-/// which compiles the same loop with mistakes in it and proves that validation finds each:
-/// functions that spoil, in place, what the loop has just found out.
+/// Features of the loop; absent ones are not compiled in. `Flaws` is void except in a test, which
+/// compiles the same loop with deliberate mistakes and shows that validation detects each: its
+/// functions alter, in place, what the loop has just computed.
 template <MediaNeed Media, bool ManyBands, bool AllSurfaces, bool Detectors, class Flaws = void>
 struct Kernel {
   using flaws = Flaws;
@@ -83,8 +83,8 @@ class ParticleTracer {
     bool scattered = false;  // its last event was a collision
   };
 
-  /// Chance for a new direction, and what becomes of it on a Lambertian surface: a direction about
-  /// its normal.
+  /// Random numbers for a new direction, and the cosine-weighted direction for a Lambertian
+  /// surface, about its normal.
   struct Turn {
     Real u, v;
     Vec3 lambertian;
@@ -107,8 +107,8 @@ class ParticleTracer {
     const int events = balance.rays < limits::rays_per_batch ? limits::events_per_history : 0;
     for (int event = 0; event < events; ++event) {
       ++balance.rays;
-      // The turn at the end of this flight is drawn before it: its arithmetic needs nothing of the
-      // hit, and so runs beside the search for it.
+      // The direction after this flight is sampled before it: that needs nothing of the hit, so it
+      // can overlap with the search for the hit.
       const Turn turn = draw_turn();
       FreeFlight flight;
       if constexpr (flight_first) {
@@ -133,13 +133,14 @@ class ParticleTracer {
     p.ray.direction = emission_direction(emitter, point, random_, resolver_);
     p.ray.origin = point.position;
     if constexpr (flawed) Flaws::birth(p.ray, point, emitter);
-    // Of one in the plane of a wall, or on its own body, all light would meet that from behind. A
-    // beam starts where it is said to: how far it goes is what it is for.
+    // Light of an emitter in the plane of a wall, or on its own body, would hit that from behind,
+    // so it starts off the surface. A beam starts exactly where stated, since its length may be
+    // what is measured.
     if (emitter.kind != EmitterKind::volume && emitter.distribution != Distribution::collimated) {
       const Vec3 side = glm::dot(point.axis, p.ray.direction) >= 0 ? point.axis : -point.axis;
       p.ray.origin = offset_ray(p.ray.origin, side, scene_.min_offset_m);
     }
-    // Collimated light has no density of directions, so the deterministic part cannot hold it.
+    // Collimated light has no density of directions, so the deterministic direct part excludes it.
     p.direct = emitter.distribution != Distribution::collimated;
     return p;
   }
@@ -165,11 +166,10 @@ class ParticleTracer {
     return std::min(static_cast<size_t>(it - cdf.begin()), cdf.size() - 1);
   }
 
-  // ---- a flight and how it ends
-  // ------------------------------------------------------------------
+  // ---- a flight and its end --------------------------------------------------------------------
 
-  /// Where media are a formula, the flight to the next collision is drawn first, and a surface is
-  /// sought only up to there. Bodies and voxels are looked at no farther than the surface.
+  /// With analytic media, the free flight is sampled first, and a surface is searched only up to
+  /// its end. Bodies and voxels are sampled no farther than the surface.
   static constexpr bool flight_first =
       K::media == MediaNeed::homogeneous || K::media == MediaNeed::layered;
 
@@ -185,7 +185,7 @@ class ParticleTracer {
     return flight;
   }
 
-  /// The event at the end of a flight; a surface that was found comes before the collision.
+  /// The event at the end of a flight; a surface found before the collision takes precedence.
   bool interact(State& p, const Hit& hit, const FreeFlight& flight, const Turn& turn) {
     if constexpr (K::media != MediaNeed::none) {
       if (flight.collided && (!flight_first || hit.distance > flight.t)) {
@@ -198,7 +198,8 @@ class ParticleTracer {
     return meet_surface(p, hit, turn);
   }
 
-  /// The turn that follows a flight is independent of it, and so may say where its points lie.
+  /// The direction sampled for the end of a flight is independent of it, so its number can also
+  /// place the voxel points.
   void pass_detectors(const State& p, Real length, const Turn& turn) {
     if constexpr (K::detectors) {
       if constexpr (flawed) Flaws::passed(length);
@@ -209,15 +210,14 @@ class ParticleTracer {
     }
   }
 
-  // ---- the medium
-  // --------------------------------------------------------------------------------
+  // ---- the medium ------------------------------------------------------------------------------
 
-  /// Collisions so close before a surface are looked at twice. Rounding reaches as far along a ray
-  /// that comes in at 1/1000 from grazing.
+  /// Collisions this close to a surface are checked by collision_place. Rounding reaches this far
+  /// along a ray that arrives at 1/1000 from grazing.
   Real near_surface_m() const { return 1000 * scene_.min_offset_m; }
 
-  /// Single precision may round a place right before a surface to behind it, and the particle would
-  /// go on in the next room, or outside: it begins its next flight from the surface's near side.
+  /// Single precision may round a collision just before a surface to behind it, and the particle
+  /// would continue in the next room or outside: it is moved to the surface's near side.
   Vec3 collision_place(const Ray& ray, const FreeFlight& flight, const Hit& ahead) const {
     const Vec3 place = ray.origin + ray.direction * flight.t;
     if (ahead.distance > flight.t + near_surface_m()) return place;
@@ -228,7 +228,7 @@ class ParticleTracer {
     return behind > 0 ? foot : place;
   }
 
-  /// `ahead`: the surface behind the collision, if one was found.
+  /// `ahead`: the surface beyond the collision, if one was found.
   bool collide(State& p, const FreeFlight& flight, const Hit& ahead, const Turn& turn) {
     ++batch_->balance.collisions;
     const Vec3 place = collision_place(p.ray, flight, ahead);
@@ -290,8 +290,8 @@ class ParticleTracer {
     return true;
   }
 
-  /// Glossy, mirror, glass, open, textured, sign faces: the lobe is sampled first, then the weight
-  /// it carries.
+  /// Glossy, mirror, glass, open, textured, sign faces: samples the lobe first, then applies its
+  /// weight.
   bool meet_any_surface(State& p, const Hit& hit, bool front, const CompiledMaterial& material,
                         const Turn& turn) {
     const TriangleRecord& triangle = *hit.triangle;
@@ -331,8 +331,8 @@ class ParticleTracer {
   // ---- weights
   // -----------------------------------------------------------------------------------
 
-  /// What survives of a weight at an event: the share itself, or all or nothing in the analogue
-  /// game.
+  /// Weight that survives an event: the given fraction of it, or all or nothing with analogue
+  /// absorption.
   Weight surviving(Weight weight, Fraction fraction) {
     if (fraction == unit_weight) return weight;
     if (fraction == 0) return 0;
@@ -341,7 +341,7 @@ class ParticleTracer {
     return split(weight, fraction, r);
   }
 
-  /// Russian roulette. Survival with probability weight / roulette_to keeps the expectation.
+  /// Russian roulette: survival with probability weight / roulette_to preserves the expectation.
   bool survives_roulette(State& p) {
     if (p.weight >= defaults::roulette_below) return true;
     if (p.weight == 0) return false;
@@ -375,8 +375,8 @@ class ParticleTracer {
     uint32_t side;
   };
 
-  /// Where a ray that hits nothing leaves the bounding box; a ray outside leaves at the face it
-  /// flees.
+  /// Where a ray without a hit leaves the bounding box; a ray that starts outside leaves at the
+  /// face it moves away from.
   EscapePoint leave_box(const Ray& ray) const {
     const Vec3 low = scene_.local_low;
     const Vec3 high = scene_.local_high;

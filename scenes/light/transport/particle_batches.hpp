@@ -1,6 +1,5 @@
-// What a kernel is called by. Knows nothing of the particle loop (particle.hpp), so that a change
-// of the loop compiles the sources of the kernels (kernel_*.cpp) again, and no other of the
-// program.
+// The interface of a kernel, independent of the particle loop (particle.hpp), so that a change of
+// the loop recompiles only the kernels' sources (kernel_*.cpp). One object per thread or fiber.
 #pragma once
 
 #include <memory>
@@ -10,14 +9,15 @@
 
 namespace luxodus {
 
-/// Particles only; what traces eyes is compiled once, not once per kernel.
+/// Particles only; eye paths are compiled once, not once per kernel.
 class ParticleBatches {
  public:
   virtual ~ParticleBatches() = default;
   virtual void trace(int group, uint64_t first, int64_t count, BatchScores& scores) = 0;
 };
 
-/// The kernel for such media that the scene's other features ask for; in a source for each need.
+/// The kernel for this need of media and the scene's other features; defined in one source per
+/// need.
 template <MediaNeed Media>
 std::unique_ptr<ParticleBatches> choose_kernel(const CompiledScene& scene,
                                                const GeometryAccess& access, uint64_t seed);

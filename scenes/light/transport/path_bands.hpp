@@ -1,9 +1,9 @@
-// The bands that a path from the eye carries, and what it brings of each. A path of a picture
-// carries all of them: one, the hero, decides how it goes on, and every band is weighted by the
-// balance heuristic over what each would have decided as hero (A. Wilkie et al., "Hero wavelength
-// spectral sampling", EGSR 2014). So light of every band is the same function of the path whichever
-// was its hero, and colours come without chance where surfaces and media treat bands alike. A path
-// of one band is the same with one. Plain values.
+// The bands that an eye path carries, with the light of each. A path of a picture carries all of
+// them: one, the hero, decides how it is sampled, and every band is weighted by the balance
+// heuristic over what each would have sampled as hero (A. Wilkie et al., "Hero wavelength spectral
+// sampling", EGSR 2014). So the light of every band does not depend on which was the hero, and
+// colours have no noise where surfaces and media treat all bands alike. A path of one band is the
+// special case of one. Plain values; any thread.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace luxodus {
 
-/// A value of each band that a path carries, by place among them.
+/// A value for each band that a path carries, by position.
 using BandValues = std::array<double, limits::max_media_bands>;
 
 class PathBands {
@@ -25,7 +25,7 @@ class PathBands {
     out.light_[0] = out.share_[0] = 1;
     return out;
   }
-  /// All bands of a scene. `probability`: of each to be the hero.
+  /// All bands of a scene. `probability`: of each band to be the hero.
   static PathBands all(std::span<const double> probability, int hero) {
     PathBands out(static_cast<int>(probability.size()), 0);
     out.hero_ = hero;
@@ -52,12 +52,12 @@ class PathBands {
   size_t hero_place() const { return static_cast<size_t>(hero_ - first_); }
   int band(size_t i) const { return first_ + static_cast<int>(i); }
 
-  /// What the path brings of a band: of the light, over how densely such paths are drawn.
+  /// Contribution of a band: its light divided by the density of such paths.
   double light(size_t i) const { return light_[i]; }
   double brightest() const { return *std::max_element(light_.begin(), light_.begin() + count_); }
-  /// Of the paths that go this way, those of which the band is the hero.
+  /// Share of the density of this path that is due to the band as hero.
   double share(size_t i) const { return share_[i]; }
-  /// How densely heroes draw something, by how densely each does.
+  /// Density of the hero mixture, from the density of each band.
   template <class DensityOf>
   double mixed(DensityOf&& density) const {
     double sum = 0;
@@ -65,17 +65,17 @@ class PathBands {
     return sum;
   }
 
-  /// After an event that each band would have drawn with such a density, and all together with
-  /// `mixed_density`. `passed`: light that goes on, over that. Requires: mixed_density > 0.
+  /// Updates after an event with density `density` in each band and `mixed_density` in the mixture.
+  /// `passed`: light that continues, divided by mixed_density. Requires: mixed_density > 0.
   void go_on(const BandValues& passed, const BandValues& density, double mixed_density) {
     for (size_t i = 0; i < count_; ++i) {
       light_[i] *= passed[i];
       share_[i] *= density[i] / mixed_density;
     }
   }
-  /// After an event that all bands would have drawn alike.
+  /// Updates after an event with equal density in all bands.
   void scale(size_t i, double factor) { light_[i] *= factor; }
-  /// One over the probability with which a path like this is kept.
+  /// Divides by the probability with which such a path is kept.
   void survive(double probability) {
     for (size_t i = 0; i < count_; ++i) light_[i] /= probability;
   }
@@ -85,7 +85,7 @@ class PathBands {
 
   size_t count_ = 0;
   int first_ = 0, hero_ = 0;
-  BandValues light_, share_;  // of the first count_
+  BandValues light_, share_;  // valid: the first count_
 };
 
 }  // namespace luxodus

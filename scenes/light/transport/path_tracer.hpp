@@ -1,10 +1,10 @@
-// A path tracer: radiance along a ray, traced from where it is seen, the eye or a probe. Paths run
-// backwards (all laws are reciprocal), in one band or in all at once. At every event one emitter is
-// sampled directly (next-event estimation, next_event.hpp), and a path also counts the emitters
-// that it hits, each by its weight. Unbiased, except where pictures end a path in what a run has
-// counted (final gather). eye_paths.hpp estimates signs and probes with it. Not seen: point
-// emitters and caustics through mirrors and refracting solids; the forward tracer counts those.
-// Thread rule: one PathTracer per thread or fiber.
+// A path tracer: radiance along a ray, traced backwards from an eye or a probe (all laws are
+// reciprocal), in one band or in all at once. At every event one emitter is sampled (next-event
+// estimation, next_event.hpp), and emitters that a path hits count, too, combined by multiple
+// importance sampling. Unbiased, except that paths of pictures may end in a radiance cache, the
+// flux tallied by a run (final gather). eye_paths.hpp estimates signs and probes with it. Not
+// included: hits of point emitters, and caustics through mirrors and refracting solids; the
+// particle tracer counts those. Thread rule: one PathTracer per thread or fiber.
 #pragma once
 
 #include <cmath>
@@ -28,20 +28,21 @@ namespace luxodus {
 
 namespace limits {
 inline constexpr int eye_events = 10'000;
-/// Parts that a path of a picture is split into in scenes with media, where it ends in known light.
-/// More cost what they gain, as any do in clear air.
+/// Splitting factor of a picture's path in scenes with media, if it may end in the cache. More
+/// parts cost as much as they gain; so does any splitting in clear air.
 inline constexpr int path_parts = 2;
-/// What a collision in smoke that takes nothing is worth, by what a surface is, where paths are
-/// split: so much more often than by their light first flights collide.
+/// Worth of a collision in smoke without absorption, relative to a surface hit, for split paths:
+/// first flights are made to collide more often by it.
 inline constexpr double collision_worth = 4;
-/// Of first flights, those that collide at most where more do than free ones: of two parts, one.
+/// Largest share of first flights made to collide, if more collide than in free flight: one of two
+/// parts.
 inline constexpr double most_forced = 0.5;
 }  // namespace limits
 
 template <class Resolver>
 class PathTracer {
  public:
-  /// `sight`: what emitters are chosen by; null: by power and distance alone.
+  /// `sight`: data for the light sampler; null: emitters are chosen by power and distance alone.
   PathTracer(const CompiledScene& scene, Resolver& resolver, uint64_t seed, RandomStream stream,
              const EmitterSight* sight = nullptr)
       : scene_(scene),
@@ -51,7 +52,7 @@ class PathTracer {
         met_(scene, resolver, random_, next_event_),
         view_(scene, resolver, next_event_.media(), met_),
         models_(static_cast<size_t>(scene.bands.count())) {
-    // A picture shows colours, an estimate of luminance needs few.
+    // A picture shows colours; an estimate of luminance needs few.
     const double colour = stream == RandomStream::picture ? 1.0 : 0.05;
     double total = 0;
     for (int b = 0; b < scene.bands.count(); ++b) {
@@ -66,10 +67,10 @@ class PathTracer {
   }
 
   Random& random() { return random_; }
-  /// Emitters on lines.
+  /// The emitter hits along rays.
   EmittersMet<Resolver>& emitters() { return met_; }
 
-  /// A band for a path, or the hero of all, from a uniform number; and the probability of it.
+  /// Chooses a path's band, or the hero of all bands, from a uniform number; and its probability.
   int choose_band(double u) const {
     const auto it = std::upper_bound(band_cdf_.begin(), band_cdf_.end(), u);
     return static_cast<int>(std::min<std::ptrdiff_t>(
@@ -80,21 +81,22 @@ class PathTracer {
   }
 
   /// Adds `weight` times the radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`,
-  /// from one path. `counted`: which emitters count before the first event. `known`: in which light
-  /// paths may end after their first diffuse event; null traces them to their end.
+  /// from one path. `counted`: emitter hits that count before the first event. `known`: the cache
+  /// in which paths may end after their first diffuse event; null traces them to their end.
   void radiance(const Ray& ray, int band, EmitterHits counted, double weight, GroupLight& into,
                 const KnownRadiance* known = nullptr) {
     ends_.clear();
     trace({ray, PathBands::one(band), counted, weight, into}, known, 0);
   }
 
-  /// The same of all bands, by `into.by_band()`, where the path goes as a hero's. Requires: heroes
-  /// are drawn by choose_band. `first`: what is known of the ray without chance; null: not asked.
+  /// The radiance of all bands, in `into.by_band()`, by one path sampled for the hero. Requires:
+  /// heroes are chosen by choose_band. `first`: receives the noise-free data of the ray; null: not
+  /// needed.
   void radiance_of_all(const Ray& ray, int hero, EmitterHits counted, GroupLight& into,
                        const KnownRadiance* known = nullptr, FirstHit* first = nullptr) {
     ends_.clear();
     const Path path{ray, PathBands::all(hero_, hero), counted, 1, into};
-    next_event_.start_event(0);  // before the ray: asking for glows may drop the cell of its hit
+    next_event_.start_event(0);  // before the ray: computing glows may drop the cell of its hit
     if (known != nullptr || first != nullptr) met_first_ = view_.meet(ray, path.bands);
     if (first != nullptr) view_.describe(ray, path.bands, met_first_, *first);
     if (known == nullptr) return trace(path, nullptr, 0);
@@ -102,12 +104,12 @@ class PathTracer {
     for (const Path& part : parts_) trace(part, known, 1);
   }
 
-  /// Where the last path of radiance() has ended in known light, or the parts of that of
+  /// Cached light at which the last path of radiance() has ended, or the parts of the last path of
   /// radiance_of_all().
   std::span<const KnownEnd> ends() const { return ends_; }
 
-  /// The same of a path that a Lambertian surface has sent along `ray`, where `reflected_light` has
-  /// sampled emitters.
+  /// Continues a path that a Lambertian surface has scattered along `ray`, after
+  /// `add_reflected_light` has sampled emitters there.
   void radiance_after_reflection(const Ray& ray, const Vec3& normal, int band, double weight,
                                  GroupLight& into) {
     Path path{ray, PathBands::one(band), EmitterHits::weighted, weight, into};
@@ -117,8 +119,8 @@ class PathTracer {
     trace(path, nullptr, 0);
   }
 
-  /// The same of a path that a medium has turned to `direction`, where `flight` along `line`, for
-  /// which `add_single_scattering` has sampled emitters, has collided.
+  /// Continues a path that a medium has scattered to `direction` at the collision of `flight` along
+  /// `line`, after `add_single_scattering` has sampled emitters for it.
   void radiance_after_scattering(const Ray& line, Real length, const FreeFlight& flight,
                                  double share, const Vec3& direction, int band, double weight,
                                  GroupLight& into) {
@@ -129,9 +131,9 @@ class PathTracer {
     trace(path, nullptr, 0);
   }
 
-  /// Adds `weight` times the radiance [W/(m2 sr)] that emitters send to the first `length` of the
-  /// ray and the medium there turns against it, once. `flight` is one along it whose collisions
-  /// have the density sigma_t exp(-depth) / `share`: 1 if it was free, less if a collision was
+  /// Adds `weight` times the radiance [W/(m2 sr)] of emitters that the medium on the first `length`
+  /// of the ray scatters once against it. `flight` is one sample along it, whose collisions have
+  /// the density sigma_t exp(-depth) / `share`: 1 for a free flight, less if a collision was
   /// forced.
   void add_single_scattering(const Ray& ray, Real length, const FreeFlight& flight, double share,
                              int band, double weight, GroupLight& into) {
@@ -140,8 +142,8 @@ class PathTracer {
                               {flight.albedo}, weight, into);
   }
 
-  /// Adds `weight` times the light of an emitter that a surface sends against `direction`; one
-  /// emitter is sampled.
+  /// Adds `weight` times the emitted light that a surface reflects against `direction`, by sampling
+  /// one emitter.
   void add_reflected_light(const Vec3& place, const Vec3& direction, const Vec3& normal,
                            const SurfaceModel& model, int band, double weight, GroupLight& into) {
     next_event_.add_reflected(place, direction, normal, {&model, 1}, PathBands::one(band), weight,
@@ -151,9 +153,9 @@ class PathTracer {
  private:
   using Path = EyePath;
 
-  /// Splits a path at its first event. All parts share the ray from the eye, and what is sampled of
-  /// emitters on a surface and near the ray; their flights and turns are spread evenly. Into
-  /// `parts_`: those that go on. Requires: `met_first_` is of the path.
+  /// Splits a path at its first event. All parts share the ray from the eye, and the emitters
+  /// sampled on its surface and near it; their flights and directions are stratified. Writes the
+  /// parts that continue to `parts_`. Requires: `met_first_` belongs to the path.
   void split(Path path, const PathEnds& ends, int parts) {
     parts_.clear();
     flights_.clear();
@@ -161,7 +163,7 @@ class PathTracer {
     if (path.counted != EmitterHits::none) met_.add_along(path, hit);
     const bool media = scene_.features.media != MediaNeed::none;
     const Real end = line_end(scene_, hit.distance);
-    // A flight that meets no surface may go beyond the stretch's end: it is a free one.
+    // Without a surface a flight may go beyond the segment's end, so none is forced.
     const bool may_force = media && hit.found();
     const double more = may_force ? more_collisions(path) : 1;
     // Collisions of all parts together are denser than those of one free flight.
@@ -181,12 +183,12 @@ class PathTracer {
     }
     const int passing = parts - static_cast<int>(flights_.size());
     if (passing > 0 && hit.found()) split_at_surface(path, hit, passing, parts, more);
-    // Last, since asking may drop the cell that the hit is of.
+    // Last, since learning cells may drop the cell of the hit.
     if (media) split_in_medium(path, stretch, ends);
   }
 
-  /// By how much more often the first flight collides than a free one does, in all bands alike.
-  /// Thin smoke that scatters well brings more light than its few collisions find.
+  /// Factor by which the first flight collides more often than in free flight, equal for all bands.
+  /// Thin smoke of high albedo contributes more light than its few collisions would sample well.
   double more_collisions(const Path& path) const {
     const BandValues& through = met_first_.passed;
     const double least = *std::min_element(through.begin(), through.begin() + path.bands.count());
@@ -197,8 +199,8 @@ class PathTracer {
     return std::max(1.0, wanted / free);
   }
 
-  /// The light that a medium passes up to the surface, where flights collide `more` often than free
-  /// ones.
+  /// Updates the light that reaches the surface through the media, if flights collide `more` times
+  /// as often as free ones.
   void reach_surface(Path& p, double more) {
     const BandValues& through = met_first_.passed;
     for (size_t i = 0; i < p.bands.count(); ++i) drawn_[i] = 1 - more * (1 - through[i]);
@@ -207,7 +209,7 @@ class PathTracer {
     p.bands.go_on(passed_, drawn_, all);
   }
 
-  /// `passing` of the parts reach the surface.
+  /// Continues `passing` of the parts at the surface.
   void split_at_surface(Path path, const Hit& hit, int passing, int parts, double more) {
     if (scene_.features.media != MediaNeed::none) reach_surface(path, more);
     const SurfaceEvent event = meet(path, hit);
@@ -221,7 +223,7 @@ class PathTracer {
     }
   }
 
-  /// `flights_` have collided.
+  /// Continues the parts whose flights, `flights_`, have collided.
   void split_in_medium(const Path& path, const Stretch& stretch, const PathEnds& ends) {
     const bool emitters_near = next_event_.add_near(stretch, path.weight, path.into, ends);
     if (flights_.empty()) return;
@@ -239,7 +241,7 @@ class PathTracer {
     }
   }
 
-  /// From event number `first` on.
+  /// Traces a path from event number `first` on.
   void trace(Path path, const KnownRadiance* known, int first) {
     for (int event = first; event < limits::eye_events; ++event) {
       next_event_.start_event(event);
@@ -255,10 +257,10 @@ class PathTracer {
       const Stretch stretch{path.ray, line_end(scene_, hit.distance), 1, path.bands};
       const FreeFlight flight = fly(path.ray, hit.distance, path.bands.hero());
       pass_media(path, flight);
-      const double weight = path.weight;  // before the turn
+      const double weight = path.weight;  // before the scattering
       const bool alive =
           flight.collided ? scatter(path, flight, stretch, ends) : meet_surface(path, hit, ends);
-      // Last, since asking may drop the cell that the hit is of.
+      // Last, since learning cells may drop the cell of the hit.
       if (scene_.features.media != MediaNeed::none)
         next_event_.add_scattered(stretch, flight, passed_, weight, path.into, ends);
       if (!alive || (event >= 2 && !survives_roulette(path.bands))) return;
@@ -271,7 +273,7 @@ class PathTracer {
     return fly_by(ray, length, band, -std::log(1 - u), random_.uniform());
   }
 
-  /// In [0, 1), by steps of 2^-32.
+  /// In [0, 1), in steps of 2^-32.
   static double uniform_of(uint32_t bits) { return static_cast<double>(bits) * 0x1p-32; }
 
   FreeFlight fly_by(const Ray& ray, Real length, int band, double tau, Real choice) {
@@ -279,13 +281,13 @@ class PathTracer {
                                            tau, choice, resolver_);
   }
 
-  /// The light that the media pass, where what they scatter into the stretch is known.
+  /// Applies the transmittance of a segment whose in-scattered light was taken from the cache.
   void pass_without_collision(Path& p, Real end) {
     next_event_.media().transmittances(p.ray, end, p.bands, passed_, resolver_);
     for (size_t i = 0; i < p.bands.count(); ++i) p.bands.scale(i, passed_[i]);
   }
 
-  /// The light and the shares of bands after a flight; `passed_` keeps what a collision lets go on.
+  /// Updates light and shares of bands after a flight; `passed_` keeps the light after a collision.
   void pass_media(Path& p, const FreeFlight& flight) {
     if (scene_.features.media == MediaNeed::none) return;
     if (flight.collided) next_event_.media().albedos(flight, p.bands, passed_);
@@ -306,8 +308,8 @@ class PathTracer {
     return kind == MaterialKind::lambertian || kind == MaterialKind::glossy;
   }
 
-  /// Medium event: a new direction, or the end in known light. Light sampled from emitters is
-  /// NextEvent's, where it is not of the known. False ends the path.
+  /// Medium event: a new direction, or the end in the cache. NextEvent samples the light of
+  /// emitters that is not in the cache. False ends the path.
   bool scatter(Path& p, const FreeFlight& flight, const Stretch& stretch, const PathEnds& ends) {
     if (p.bands.brightest() <= 0) return false;
     const Known known = add_known_of_medium(p, flight, ends);
@@ -316,7 +318,8 @@ class PathTracer {
     return true;
   }
 
-  /// Where the path has collided. Returns how much is known there, which its rest need not find.
+  /// Adds cached light at a collision. Returns which light that was: the rest of the path must not
+  /// find it again.
   Known add_known_of_medium(Path& p, const FreeFlight& flight, const PathEnds& ends) {
     const Vec3 place = p.ray.origin + p.ray.direction * flight.t;
     const Known which = ends.in_medium(place);
@@ -357,11 +360,12 @@ class PathTracer {
     p.scattered_known = known == Known::scattered;
   }
 
-  /// Whether a part of the turns goes towards glows.
+  /// Whether a part of the directions is guided towards glows.
   bool aims() const { return !next_event_.guide().empty(); }
 
-  /// Of a turn whose own density is `p.turn.pdf`: the density of both ways, and the light by it.
-  /// Roulette does not ask for that: aimed turns are rare in the other way, not poor.
+  /// For a direction whose unguided density is `p.turn.pdf`: replaces it by the density of the
+  /// mixture, and weights the path by the ratio. Russian roulette ignores this weight: guided
+  /// directions are rare for the unguided technique, not of low contribution.
   void weigh_aimed(Path& p, const Vec3& direction) {
     if (!aims()) return;
     const double own = p.turn.pdf;
@@ -380,7 +384,7 @@ class PathTracer {
             flight.t};
   }
 
-  /// Surface event, where the path may end in known light. False ends it.
+  /// Surface event; the path may end in the cache. False ends it.
   bool meet_surface(Path& p, const Hit& hit, const PathEnds& ends) {
     if (!hit.found()) return false;
     const KnownRadiance* known = ends.known;
@@ -392,36 +396,36 @@ class PathTracer {
     return false;
   }
 
-  /// Ends in known radiance of the band in place `i`.
+  /// Adds cached radiance of the band in place `i`.
   void add_known(Path& p, size_t i, double radiance) {
     const double brought = p.weight * p.bands.light(i) * radiance;
     p.into.add_of_all(p.bands.band(i), brought);
     brought_luminance_ += brought * scene_.bands[p.bands.band(i)].lm_per_w;
   }
 
-  /// After all bands of it.
+  /// Call after all bands were added.
   template <class ErrorOf>
   void end_in_known(ErrorOf&& error_of) {
     if (brought_luminance_ > 0) ends_.push_back({error_of(), brought_luminance_});
     brought_luminance_ = 0;
   }
 
-  /// A place of a surface where a path has an event.
+  /// A surface event of a path.
   struct SurfaceEvent {
-    Vec3 place, normal;  // the normal on the path's side
-    Vec3 before;         // the place, moved off the surface
+    Vec3 place, normal;  // on the path's side
+    Vec3 before;         // the place, offset from the surface
     bool front;
     Real distance;  // along the path's ray
   };
 
-  /// Surface event: light sampled from an emitter, then a new direction. False ends the path.
+  /// Surface event: samples an emitter, then a new direction. False ends the path.
   bool bounce(Path& p, const Hit& hit) {
     const SurfaceEvent event = meet(p, hit);
     add_reflected(p, event);
     return turn_at_surface(p, event, surface_numbers());
   }
 
-  /// Into `models_`, how the surface reflects.
+  /// Writes the surface's reflection models to `models_`.
   SurfaceEvent meet(const Path& p, const Hit& hit) {
     const TriangleRecord& t = *hit.triangle;
     const bool front = glm::dot(t.unit_normal(), p.ray.direction) < 0;
@@ -459,7 +463,7 @@ class PathTracer {
     if (aimed && !aim_reflection(e, numbers, s)) return false;
     double pdf = 0;
     if (!reflect_bands(p, s, normal, pdf)) return false;
-    // Straight through a pane nothing has happened that asking does not know of.
+    // Passing straight through a pane is no event: next-event estimation accounts for it.
     const bool straight = s.specular && s.transmitted && model.kind != SurfaceKind::dielectric;
     if (straight) {
       p.travelled += e.distance;
@@ -480,8 +484,8 @@ class PathTracer {
     return true;
   }
 
-  /// Draws the direction of a Lambertian reflection anew, where it is an aimed one. False: it goes
-  /// below the horizon, where nothing is sent.
+  /// Replaces the direction of a Lambertian reflection if it is to be guided. False: it points
+  /// below the horizon, where nothing is reflected.
   bool aim_reflection(const SurfaceEvent& e, const TurnNumbers& numbers, SurfaceSample& s) {
     const GlowGuide& guide = next_event_.guide_at(e.before, e.normal, Known::nothing);
     if (numbers.choice >= guide.aimed()) return true;
@@ -489,8 +493,8 @@ class PathTracer {
     return glm::dot(s.direction, e.normal) > 0;
   }
 
-  /// What `models_` let go on of each band where the hero's has drawn the sample; and the density
-  /// [1/sr] of the direction drawn, by the path's bands together. False: nothing goes on.
+  /// Updates each band for a direction sampled with the hero's model, by `models_`; and computes
+  /// the density [1/sr] of that direction in the hero mixture. False: nothing continues.
   bool reflect_bands(Path& p, const SurfaceSample& s, const Vec3& normal, double& pdf) {
     const SurfaceModel& hero = models_[p.bands.hero_place()];
     const Vec3 wo = -p.ray.direction;
@@ -516,8 +520,8 @@ class PathTracer {
     return p.bands.brightest() > 0;
   }
 
-  /// Of a glossy surface or a pane in the band in place `i`: into `passed_` what of the light takes
-  /// the sampled way, into `drawn_` how densely that is sampled.
+  /// For a glossy surface or a pane in the band in place `i`: writes the light that continues in
+  /// the sampled direction to `passed_`, and the density of sampling it to `drawn_`.
   void share_lobes(const SurfaceModel& model, const SurfaceSample& s, const Vec3& wo,
                    const Vec3& normal, size_t i) {
     if (model.kind == SurfaceKind::glossy) {
@@ -552,9 +556,9 @@ class PathTracer {
   EyeView<Resolver> view_;
   std::vector<SurfaceModel> models_;  // of the path's bands, at the last surface
   BandValues passed_, drawn_;
-  EyeRay met_first_;                 // of the path of all bands that was traced last
-  std::vector<Path> parts_;          // of the path that was split last
-  std::vector<FreeFlight> flights_;  // theirs
+  EyeRay met_first_;                 // of the last path of all bands
+  std::vector<Path> parts_;          // of the last split path
+  std::vector<FreeFlight> flights_;  // of its parts
   std::vector<KnownEnd> ends_;
   double brought_luminance_ = 0;  // by the end that is being added
 };

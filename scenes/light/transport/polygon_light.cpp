@@ -7,7 +7,7 @@ namespace luxodus {
 
 namespace {
 
-/// What is left of a polygon above the horizon: one corner more at most.
+/// A polygon clipped at the horizon: at most one corner more.
 struct Clipped {
   std::array<glm::dvec3, limits::polygon_corners + 1> corner{};
   size_t count = 0;
@@ -38,7 +38,7 @@ double projected_solid_angle(std::span<const glm::dvec3> corners, const glm::dve
     const double sine = glm::length(across);
     if (sine > 0) sum += std::atan2(sine, glm::dot(a, b)) * glm::dot(normal, across) / sine;
   }
-  return std::abs(sum) / 2;  // the sign tells the corners' turn
+  return std::abs(sum) / 2;  // the sign depends on the corners' orientation
 }
 
 double solid_angle(std::span<const glm::dvec3> corners) {

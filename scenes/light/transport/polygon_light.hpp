@@ -1,7 +1,7 @@
-// Light of an evenly radiant polygon in clear air with nothing in the way, in closed form: the
-// integral of the cosine over its solid angle (Lambert 1760, as in Baum, Rushmeier and Winget
-// 1989), after the polygon is cut at the receiver's horizon, and the solid angle itself (Van
-// Oosterom and Strackee 1983). Pure; any thread.
+// Light of a uniform Lambertian polygon without media or occlusion, in closed form: the integral of
+// the cosine over its solid angle (Lambert 1760, as in Baum, Rushmeier and Winget 1989), after
+// clipping at the receiver's horizon, and the solid angle itself (Van Oosterom and Strackee 1983).
+// Pure; any thread.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,7 +14,7 @@ inline constexpr size_t polygon_corners = 8;
 }
 
 /// Illuminance per radiance [sr]: the projected solid angle above the horizon of a receiver at the
-/// origin. Requires: a flat convex polygon of at most limits::polygon_corners corners, in turn;
+/// origin. Requires: a flat convex polygon of at most limits::polygon_corners corners, in order;
 /// `normal` of unit length.
 double projected_solid_angle(std::span<const glm::dvec3> corners, const glm::dvec3& normal);
 

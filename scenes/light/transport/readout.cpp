@@ -11,7 +11,7 @@ namespace luxodus {
 
 namespace {
 
-/// Watts that one particle of unit weight stands for, times the particles of a group.
+/// Watts that one particle of unit weight represents, times the particles of a group.
 double watts_per_share(const Group& group, size_t band) {
   const double share = group.band_share[band];
   return share > 0 ? group.power_w[band] / share : 0;
@@ -25,7 +25,7 @@ double largest_lumens_per_share(const CompiledScene& scene, const Group& group) 
   return most;
 }
 
-/// NaN stands for fewer than two batches: not known, so not small.
+/// NaN (fewer than two batches) means unknown, so it must not count as small.
 double known_error(const Estimate& e) {
   const double error = e.relative_error();
   return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
@@ -94,7 +94,7 @@ Estimate Readout::lumens(uint32_t block, uint32_t bin, uint32_t quantity, int gr
 }
 
 Estimate Readout::value(uint32_t block, uint32_t bin, uint32_t quantity) const {
-  // Values come with every batch, whatever its group: the groups' samples are pooled.
+  // Every batch has value scores, whatever its group: the groups' samples are pooled.
   const int64_t index = scene_.layout.total_index(block, bin, 0, quantity);
   const BatchMean m = totals_.pooled_mean(index);
   return {m.mean * limits::value_quantum, m.standard_error * limits::value_quantum};

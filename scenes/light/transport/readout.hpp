@@ -1,6 +1,6 @@
-// From totals to physical values: watts, lumens, lux, cd/m2, each with its standard error over
+// Converts totals to physical values: watts, lumens, lux, cd/m2, each with its standard error over
 // batches. Values of several source groups add; groups are independent samples, so their variances
-// add too.
+// add, too. Reads its totals; not while they are changed by other threads.
 #pragma once
 
 #include <optional>
@@ -27,32 +27,33 @@ class Readout {
  public:
   Readout(const CompiledScene& scene, const Totals& totals) : scene_(scene), totals_(totals) {}
 
-  /// Watts in a band; with a length score watts x metres. All groups, or one.
+  /// Watts in a band; for a length score watts x metres. All groups, or one.
   Estimate watts(uint32_t block, uint32_t bin, int band, uint32_t quantity, int group = -1) const;
   /// Lumens (lumen metres). All groups, or one.
   Estimate lumens(uint32_t block, uint32_t bin, uint32_t quantity, int group = -1) const;
   /// A value score in its own unit.
   Estimate value(uint32_t block, uint32_t bin, uint32_t quantity) const;
 
-  /// What a run is judged by and all its batches of a group tell of: fluxes, of which lumens()
-  /// gives the estimate. Probes and signs are seen from the eye, whatever the group.
+  /// A flux whose error is a target, and that all batches of a group contribute to; lumens()
+  /// estimates it. Probes and signs are estimated from the eye, independently of the group.
   struct TargetFlux {
     uint32_t block = 0, bin = 0, quantity = 0;
-    double sure_lm = 0;  // direct light beside it, computed without chance
+    double sure_lm = 0;  // deterministic direct light in addition
   };
   std::vector<TargetFlux> target_planes() const;
-  /// Of one plane, a number in the description.
+  /// The cells of one plane, given by its index in the description.
   std::vector<TargetFlux> target_cells(uint32_t plane) const;
-  /// Those into which at least a hundredth of all light goes.
+  /// The surfaces that receive at least a hundredth of all light.
   std::vector<TargetFlux> target_surfaces() const;
   std::vector<TargetFlux> target_patches() const;
 
-  /// The relative standard error that a run is judged by: the worst of what CompiledScene::judged
-  /// names, of mean illuminances of planes, indirect illuminances of probes, luminances of signs at
-  /// the eye, flux into surfaces; of cells of a plane, and of patches, that which 95 % of those
-  /// that get light do not exceed. Infinite where nothing of it has any light yet.
+  /// The relative standard error that a run is judged by: the largest among
+  /// CompiledScene::error_target, i.e. mean illuminances of planes, indirect illuminances of
+  /// probes, luminances of signs at the eye, flux into surfaces; for cells of a plane and for
+  /// patches, the 95th percentile of those that receive light. Infinite if no target has any light
+  /// yet.
   double worst_relative_error() const;
-  /// What is judged but has no light, and so no part in that error: "sign NAME", "3 of 40 patches".
+  /// Targets without light, which that error excludes: "sign NAME", "3 of 40 patches".
   std::vector<std::string> unlit() const;
 
  private:
@@ -60,9 +61,9 @@ class Readout {
     std::string name;  // "plane NAME"
     Estimate value;
   };
-  /// Those that are judged each by itself.
+  /// Targets that are judged individually.
   std::vector<TargetValue> target_values() const;
-  /// Those of which the 95th percentile is judged.
+  /// Targets that are judged by their 95th percentile.
   struct TargetPercentile {
     std::string name;  // "patches"
     std::vector<TargetFlux> fluxes;

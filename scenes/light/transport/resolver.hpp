@@ -1,7 +1,7 @@
-// Resolvers: how the transport loop reads what lies beyond the skeleton. The loop asks; a resolver
-// answers at once (everything resident), or may wait in between (a fiber that fetches). What it
-// answers is the same content either way, so the bits are the same. A reference that a resolver
-// returns is good until its next call.
+// Resolvers: access of the transport loop to data outside the skeleton. A resolver answers at once
+// (everything resident), or may wait (a fiber that fetches). The content is the same either way, so
+// the bits are, too. A returned reference is valid until the next call. Thread rule: one resolver
+// per thread or fiber; a SceneIndex is immutable and shared by all.
 //
 // A resolver has: nearest(ray) -> Hit, occluded(ray) -> bool, cell_of(hit) -> const GeometryCell&,
 // brick(medium, brick) -> const Brick&, web(index) -> const PhotometricWeb&, texel(image, x, y) ->
@@ -18,8 +18,8 @@
 
 namespace luxodus {
 
-/// All parts of a scene, ready for use: the search structures over its cells, built once and shared
-/// by all threads, bricks and pictures.
+/// All parts of a scene in memory: the search structures over its cells, built once and shared by
+/// all threads, bricks and textures.
 class SceneIndex {
  public:
   /// Requires: `scene` outlives this.
@@ -40,7 +40,7 @@ class SceneIndex {
   std::vector<std::shared_ptr<const Image>> images_;
 };
 
-/// Everything but geometry, resident.
+/// Access to resident data other than geometry.
 class ResidentData {
  public:
   ResidentData(const CompiledScene& scene, const SceneIndex& index)
@@ -62,7 +62,7 @@ class ResidentData {
   const SceneIndex* index_;
 };
 
-/// One merged cell, resident: no proxy on the path.
+/// One merged cell, resident: without a proxy scene.
 class MergedResolver : public ResidentData {
  public:
   MergedResolver(const CompiledScene& scene, const SceneIndex& index)
@@ -75,7 +75,7 @@ class MergedResolver : public ResidentData {
   const CellScene* cell_;
 };
 
-/// Many cells, all resident: candidates are collected, then visited front to back.
+/// Many cells, all resident: candidates are collected, then entered front to back.
 class PartitionResolver : public ResidentData {
  public:
   PartitionResolver(const CompiledScene& scene, const SceneIndex& index)
@@ -94,20 +94,20 @@ class PartitionResolver : public ResidentData {
   std::vector<Candidate> candidates_;
 };
 
-/// Many parts, each of which may have to be waited for. A hit's triangle is copied, because its
-/// cell may be gone when the next one is entered.
+/// Many parts, each of which may have to be fetched. A hit's triangle is copied, because its cell
+/// may be evicted when the next one is entered.
 class SourcedResolver {
  public:
   SourcedResolver(const CompiledScene& scene, const ProxyScene& proxies, ObjectSource& source)
       : scene_(&scene), proxies_(&proxies), source_(&source) {}
 
-  /// Clear where it cannot be had.
+  /// A clear brick if it is not available.
   const Brick& brick(int medium, int index) {
     const Brick* brick = source_->brick(medium, index);
     return brick != nullptr ? *brick : clear_brick();
   }
   const PhotometricWeb& web(uint32_t i) const { return *scene_->webs[i]; }
-  /// Black where it cannot be had.
+  /// Black if it is not available.
   const float* texel(uint32_t i, int x, int y) {
     static constexpr float black[4] = {};
     const ImageTile* tile = source_->tile(i, tile_of(*scene_->images[i], x, y));
@@ -143,13 +143,13 @@ class SourcedResolver {
   ObjectSource* source_;
   std::vector<Candidate> candidates_;
   TriangleRecord triangle_;
-  GeometryCell kept_;  // holds the texture coordinates of that triangle only
+  GeometryCell kept_;  // holds only the texture coordinates of that triangle
 };
 
-/// What a tracer reaches a scene's parts by: everything resident, or a source that may wait.
+/// Access to a scene's parts: everything resident, or a source that may wait.
 struct GeometryAccess {
   const SceneIndex* index = nullptr;
-  const ProxyScene* proxies = nullptr;  // with `source`, instead of the index
+  const ProxyScene* proxies = nullptr;  // used with `source`, instead of the index
   ObjectSource* source = nullptr;
 
   static GeometryAccess resident(const SceneIndex& index) { return {&index, nullptr, nullptr}; }
@@ -158,7 +158,7 @@ struct GeometryAccess {
   }
 };
 
-/// Calls `use(resolver)` with the resolver that fits, moved into place by whoever receives it.
+/// Calls `use(resolver)` with the matching resolver as an rvalue.
 template <class Use>
 auto with_resolver(const CompiledScene& scene, const GeometryAccess& access, Use&& use) {
   if (access.source != nullptr) return use(SourcedResolver(scene, *access.proxies, *access.source));

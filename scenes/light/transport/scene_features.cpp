@@ -18,7 +18,7 @@ std::string joined(const std::vector<std::string>& parts) {
   return text;
 }
 
-/// The first names of a list, and how many more there are.
+/// The first names of a list, and the number of the others.
 std::string some_of(const std::vector<std::string>& names) {
   constexpr size_t shown = 3;
   std::vector<std::string> first(
@@ -70,7 +70,7 @@ SceneFeature media(const CompiledScene& scene) {
   return {"media", true, "bounded: a footprint, a quadric or a data set"};
 }
 
-/// Where nothing has extinction, nothing scatters, whatever is described.
+/// Without extinction nothing scatters, whatever is described.
 SceneFeature phases(const CompiledScene& scene) {
   const bool on = scene.features.media != MediaNeed::none &&
                   std::any_of(scene.phases.begin(), scene.phases.end(), [](const auto& phase) {
@@ -90,7 +90,7 @@ SceneFeature glow(const CompiledScene& scene) {
           names.empty() ? "no flame is lit" : some_of(names)};
 }
 
-/// Materials that a surface has, on either side.
+/// Materials used by some surface, on either side.
 std::vector<CompiledMaterial> used_materials(const CompiledScene& scene) {
   std::set<uint32_t> used;
   for (const CompiledSurface& s : scene.surfaces)

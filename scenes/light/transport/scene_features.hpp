@@ -1,5 +1,5 @@
-// What of the program a scene needs, and what is left out because nothing asks for it: each with
-// its reason, for people. Pure.
+// Which features of the tracer a scene uses and which are left out, each with the reason, for
+// people. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct SceneFeature {
   std::string why;  // "no medium is active"
 };
 
-/// In the order in which a particle meets them.
+/// In the order in which a particle encounters them.
 std::vector<SceneFeature> features_of(const CompiledScene& scene);
 
 }  // namespace luxodus

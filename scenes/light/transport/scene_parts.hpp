@@ -1,7 +1,7 @@
-// What a scene consists of beside its skeleton, numbered: the geometry cells, then the bricks of
-// its data sets, then the tiles of its reflectance pictures. Every machine comes to the same
-// numbers, from the scene's file or from a pack, whatever the scenario. Bricks that rays pass
-// without looking inside are nobody's. Immutable once made; any thread.
+// The parts of a scene outside its skeleton, numbered: the geometry cells, then the bricks of its
+// data sets, then the tiles of its reflectance textures. Every machine gets the same numbers, from
+// the scene's file or from a pack, for any scenario. Clear bricks, which rays skip, have no number.
+// Immutable once made; any thread.
 #pragma once
 
 #include <cstddef>
@@ -19,19 +19,19 @@ struct ScenePart {
   enum class Kind : uint8_t { cell, brick, tile };
   Kind kind = Kind::cell;
   uint32_t owner = 0;  // the medium or picture
-  uint32_t index = 0;  // within it; of a cell, its number
+  uint32_t index = 0;  // within its owner; for a cell, its number
 };
 
 class SceneParts {
  public:
-  /// `tables` by medium, empty ones of media that are no data sets.
+  /// `tables` by medium; empty for media that are not data sets.
   SceneParts(const SceneDescription& description, size_t cells, std::vector<BrickTable> tables);
-  /// Looks through all data of a scene that is not packed.
+  /// Reads all data of a scene that is not packed.
   explicit SceneParts(const CompiledScene& scene);
 
   size_t count() const { return parts_.size(); }
   const ScenePart& operator[](size_t part) const { return parts_[part]; }
-  /// none_index where rays need not look inside.
+  /// The part of a brick; none_index if rays skip it.
   uint32_t of_brick(int medium, int brick) const {
     return brick_[static_cast<size_t>(medium)][static_cast<size_t>(brick)];
   }
@@ -39,7 +39,7 @@ class SceneParts {
   const BrickTable& table(uint32_t medium) const { return tables_[medium]; }
   const std::vector<BrickTable>& tables() const { return tables_; }
 
-  /// How many parts there would be, in case nobody can hold them. Requires: tables fit the media.
+  /// Number of parts without making them, in case it is too large. Requires: tables fit the media.
   static uint64_t count_of(const SceneDescription& description, size_t cells,
                            const std::vector<BrickTable>& tables);
 
@@ -47,14 +47,13 @@ class SceneParts {
   std::vector<ScenePart> parts_;
   std::vector<BrickTable> tables_;
   std::vector<std::vector<uint32_t>> brick_;  // [medium][brick]
-  std::vector<uint32_t> first_tile_;          // by picture
+  std::vector<uint32_t> first_tile_;          // by texture
 };
 
 /// Whether a scene has more than one part, so that a node may hold some and fetch others.
 bool in_parts(const CompiledScene& scene);
 
-/// The reflectance pictures of a scene's materials, each once: those that CompiledScene::images
-/// names.
+/// The distinct reflectance textures of a scene's materials, in the order of CompiledScene::images.
 std::vector<std::shared_ptr<const Image>> distinct_images(const SceneDescription& description);
 
 /// A part as bytes. Requires: the scene is not packed.

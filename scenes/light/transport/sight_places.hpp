@@ -1,6 +1,7 @@
-// Places that stand for all those of a cell of space where paths have events: in its air, or on
-// surfaces in it that face one way. What lights the two sides of a wall is unlike, and so is what
-// lights a desk and the air beside it. Suspends: where the resolver does.
+// Places that represent a cell of space: in its air, or on its surfaces that face one way. They are
+// kept apart because the two sides of a wall receive different light, and so do a desk and the air
+// beside it. Functions without state; one thread or fiber per resolver; suspends
+// where the resolver does.
 #pragma once
 
 #include <cmath>
@@ -17,22 +18,21 @@
 namespace luxodus {
 
 namespace limits {
-/// Of a cell and a side: with half as many, emitters that a part of a cell sees are missed too
-/// often.
+/// Places per cell and side: with half as many, emitters visible from a part of the cell are missed
+/// too often.
 inline constexpr size_t sight_places = 16;
-/// Of these, at most so many on surfaces, and what one in the air counts beside them: a part of the
-/// surfaces that no line has met may see what the rest does not.
+/// Largest number of these on surfaces, and the weight of each in the air beside them: a part of
+/// the surfaces that no ray has hit may see what the rest does not.
 inline constexpr size_t surface_places = 12;
 inline constexpr double air_beside_surfaces = 0.1;
-/// Lines along which surfaces of a side are looked for.
+/// Rays that search for surfaces of a side.
 inline constexpr int surface_lines = 64;
 }  // namespace limits
 
-/// The sides of a cell that places are told by: its air, and surfaces that face along x, y or z, or
-/// against them.
+/// The sides of a cell: its air, and surfaces that face along x, y or z, or against them.
 inline constexpr size_t cell_sides = 7;
 
-/// That of a place, by the normal of its surface; zero: it is in the air.
+/// The side of a place, by the normal of its surface; zero normal: in the air.
 inline size_t cell_side(const Vec3& normal) {
   if (normal == Vec3(0)) return 0;
   const Vec3 size = glm::abs(normal);
@@ -41,23 +41,23 @@ inline size_t cell_side(const Vec3& normal) {
 }
 
 struct SightPlace {
-  Vec3 at{0};         // off the surface
+  Vec3 at{0};         // offset from the surface
   Vec3 normal{0};     // of the surface; zero in the air
-  double weight = 1;  // beside the others
-  /// Whether light that arrives against the direction could be seen here.
+  double weight = 1;  // relative to the other places
+  /// Whether light that arrives against the direction can be received here.
   bool faces(const Vec3& direction) const {
     return normal == Vec3(0) || glm::dot(normal, direction) > 0;
   }
 };
 
-/// Root mean square of what places see, by the sum of its squares times their weights.
+/// Root mean square over places, from the weighted sum of squares.
 inline double root_mean(double squares, std::span<const SightPlace> places) {
   double weights = 0;
   for (const SightPlace& place : places) weights += place.weight;
   return std::sqrt(squares / weights);
 }
 
-/// limits::sight_places of them. Where no surface is found, places in the air.
+/// limits::sight_places places of a side. If no surface is found, all are in the air.
 template <class Resolver>
 std::vector<SightPlace> sight_places(const CompiledScene& scene, const CellGrid& grid, size_t cell,
                                      size_t side, Random& random, Resolver& resolver) {
@@ -70,7 +70,8 @@ std::vector<SightPlace> sight_places(const CompiledScene& scene, const CellGrid&
   };
   Vec3 facing(0);
   if (side > 0) facing[static_cast<int>((side - 1) / 2)] = side % 2 == 1 ? 1.0_r : -1.0_r;
-  // From the cell, and from the one that the surfaces face, which may hold most of their air.
+  // Starts in the cell, or in the next one that the surfaces face, which may hold most of their
+  // air.
   for (int i = 0; side > 0 && i < limits::surface_lines && out.size() < limits::surface_places;
        ++i) {
     const Vec3 place = random_place();

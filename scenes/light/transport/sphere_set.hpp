@@ -1,5 +1,5 @@
-// Spheres around emitters, laid out so that many are compared with a line at once: which of them a
-// ray passes is asked for every stretch of every path. Immutable once filled; any thread.
+// Bounding spheres of emitters, stored for vectorised tests: every segment of every path tests
+// which of them it passes near. Immutable once filled; any thread.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ class SphereSet {
   Vec3 centre(size_t i) const { return {x_[i], y_[i], z_[i]}; }
   Real radius(size_t i) const { return radius_[i]; }
 
-  /// Calls visit(i, t, square), ascending, for the spheres that come nearer than `reach` [m] to the
-  /// first `end` of the ray. `t`: where their middle is nearest to that [m]; `square`: of the
+  /// Calls visit(i, t, square), ascending, for the spheres that are nearer than `reach` [m] to the
+  /// first `end` of the ray. `t`: where the ray is nearest to the centre [m]; `square`: squared
   /// distance there [m2].
   template <class Visit>
   void for_each_near(const Ray& ray, Real end, Real reach, Visit&& visit) const;

@@ -11,50 +11,52 @@ namespace luxodus {
 namespace {
 
 constexpr Real far_m = 1e5_r;
-/// Of a place in a body: in these many directions, for at least two thirds of them, a line leaves
-/// the body more often than it enters it. Beside a lone surface half of all directions do. After
-/// the first few there must be some, which is what tells most places.
+/// Test for a place in a body: in at least two thirds of these directions a line must leave the
+/// body more often than it enters it. Beside a single surface half of all directions do. The first
+/// few directions already decide most places.
 constexpr int body_directions = 24;
 constexpr int body_backs = 16;
 constexpr int first_directions = 4;
 constexpr int first_backs = 2;
-/// What stands on a floor has its bottom in the floor's plane, where either may be met: below, such
-/// a body is not told from its floor. It is one all the same if it shows its back in nearly all
-/// directions that rise, the flattest by 2.4 degrees, which no roof does, and its front in none.
+/// The bottom of a body on a floor lies in the floor's plane, where either may be hit: downwards,
+/// the body cannot be distinguished from its floor. It counts as a body if it shows its back in
+/// nearly all upward directions, the flattest at 2.4 degrees, which no roof does, and its front in
+/// none.
 constexpr int rising_directions = 12;
 constexpr int rising_backs = 11;
 /// Surfaces that one line may cross: as many as a hall of furniture has in a row.
 constexpr int crossings = 256;
 constexpr int sky_directions = 128;
-/// Before a long wall half of all directions are open, and nearly half of the level ones, which
-/// rise or fall by less than 30 degrees.
+/// In front of a long wall half of all directions are free, and nearly half of the horizontal ones,
+/// i.e. those that rise or fall by less than 30 degrees.
 constexpr double outside_share = 0.5;
 constexpr double outside_level_share = 0.4;
 constexpr Real level_rise = 0.5_r;
-/// A room is at least as wide, as long and as high; walls are thinner, tables are lower [m].
+/// Least dimensions of a room; walls are thinner, tables are lower [m].
 constexpr double room_width_m = 0.8;
 constexpr double room_length_m = 1.5;
 constexpr double room_height_m = 1.8;
-/// Sides, of six, on which a room's backs must be what is seen most.
+/// Number of the six sides on which a room's backs must dominate.
 constexpr int sides_of_room = 4;
 constexpr size_t max_places = 64;
-/// Where people on a route look from [m].
+/// Eye height for places on a route [m].
 constexpr double waist_m = 1.0;
-/// Off a lamp's opening, a sign's face: none of them lies within what it is fixed to [m].
+/// Distance from a lamp's opening or a sign's face, so that no place lies within what it is fixed
+/// to [m].
 constexpr double off_m = 0.01;
 
 bool is_object(const CompiledScene& scene, uint32_t surface) {
   return surface < scene.description->objects.size();
 }
 
-/// Faces of signs and bodies of luminaires enclose nobody.
+/// Faces of signs and bodies of luminaires do not enclose people.
 auto solid_objects(const CompiledScene& scene) {
   return [&scene](const Facing& f) {
     return !is_object(scene, f.surface) || lets_light_through(f.kind);
   };
 }
 
-/// As panes and closed doors are: of what people and air are kept from.
+/// Panes and closed doors count as closed: they keep out people and air.
 auto closed_objects(const CompiledScene& scene) {
   return [&scene](const Facing& f) {
     return !is_object(scene, f.surface) || f.kind == MaterialKind::open;
@@ -69,7 +71,7 @@ size_t side_of(const Vec3& d) {
   return 2 * axis + (d[static_cast<int>(axis)] > 0 ? 1 : 0);
 }
 
-/// Where lamps, eyes and routes are, at most so many of them, evenly chosen. Planes reach through
+/// Places of lamps, eyes and routes, at most so many of them, evenly chosen. Planes extend through
 /// shafts and cupboards, so they do not count.
 std::vector<Vec3> inhabited(const CompiledScene& scene) {
   const SceneDescription& d = *scene.description;
@@ -86,8 +88,8 @@ std::vector<Vec3> inhabited(const CompiledScene& scene) {
   return out;
 }
 
-/// What is seen from one place: by side, how far it is, and whose backs they are. Parts of one
-/// table of the scene file belong together, as the faces of a room do.
+/// The view from one place: by side, distances and whose backs are visible. Parts of one table of
+/// the scene file belong together, as the faces of a room do.
 struct View {
   using Table = std::pair<std::string, int>;  // file and line
   std::array<int, 6> directions{};
@@ -116,7 +118,7 @@ View view_from(const CompiledScene& scene, const GeometryAccess& access, const V
   return view;
 }
 
-/// Middle distance on a side; far where most directions there meet nothing.
+/// Median distance on a side; far if most directions there are free.
 double clear_m(View& view, size_t side) {
   auto& list = view.distances[side];
   if (2 * list.size() < static_cast<size_t>(view.directions[side])) return far_m;
@@ -125,7 +127,7 @@ double clear_m(View& view, size_t side) {
   return static_cast<double>(*middle);
 }
 
-/// Tables that hold one flat face: a room may be drawn as six of them.
+/// Tables with a single flat face: a room may be modelled as six of them.
 std::set<View::Table> lone_faces(const CompiledScene& scene) {
   std::map<View::Table, std::vector<const Object*>> by_table;
   for (const Object& object : scene.description->objects)
@@ -143,7 +145,7 @@ bool has_size_of_room(View& view) {
   return std::min(x, y) >= room_width_m && std::max(x, y) >= room_length_m && z >= room_height_m;
 }
 
-/// Whether backs of one table are what is seen most on so many sides that it is the room.
+/// Whether the backs of one table dominate on enough sides for it to be the room.
 bool surrounds(const View& view, const std::array<int, 6>& backs) {
   int sides = 0;
   for (size_t side = 0; side < backs.size(); ++side)
@@ -151,17 +153,18 @@ bool surrounds(const View& view, const std::array<int, 6>& backs) {
   return sides >= sides_of_room;
 }
 
-/// What one line crosses of a body, and in how many directions it came out of it. With no table:
-/// the first surface alone, whoever it belongs to, since a body may be drawn in several tables.
+/// Crossings of one line with a body, and in how many directions it came out of it. Without a table
+/// only the first surface counts, whatever it belongs to, since a body may be modelled in several
+/// tables.
 struct Around {
   const SourcePlace* table = nullptr;
-  int side = 0;  // that its first surface shows: 1 back, -1 front, 0 none is met
+  int side = 0;  // shown by its first surface: 1 back, -1 front, 0 no hit
   int backs = 0, rising = 0, fronts = 0;
 
   bool stands_around() const { return table != nullptr && fronts == 0 && rising >= rising_backs; }
 };
 
-/// Goes on to the end: what stands in a body, or the floor that it is sunk into, shows its fronts
+/// Continues to the end: things in a body, or the floor that it is sunk into, show their fronts
 /// before the body's own back.
 void cross(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place,
            const Vec3& direction, std::span<const char> turned, std::span<const char> ignored,
@@ -184,7 +187,7 @@ void cross(const CompiledScene& scene, const GeometryAccess& access, const Vec3&
   });
 }
 
-/// Whether half of all directions meet nothing, and nearly as many of the level ones.
+/// Whether half of all directions are free, and nearly as many of the horizontal ones.
 bool is_open(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place) {
   static const std::vector<Vec3> directions = sphere_directions(sky_directions);
   int open = 0, level = 0, open_level = 0;
@@ -275,8 +278,8 @@ bool in_body(const CompiledScene& scene, const GeometryAccess& access, const Vec
 
 bool is_outside(const CompiledScene& scene, const GeometryAccess& access, const Vec3& place) {
   if (!is_open(scene, access, place)) return false;
-  // Level with the upper edge of walls, a place in a room without a ceiling is as open as one
-  // outside. Walls stand around what is below it.
+  // At the height of the upper edge of walls, a place in a room without a ceiling is as open as one
+  // outdoors. Below it the walls enclose it.
   const Vec3 down(0, 0, -1);
   const auto below = first_stop(scene, access, place, down, far_m, closed_objects(scene));
   return !below || is_open(scene, access, place + down * (below->distance_m / 2));

@@ -1,5 +1,5 @@
-// The material and the surface model at a hit, also where it varies over the surface: reflectance
-// pictures and sign faces.
+// Material and surface model at a hit, including reflectance textures and sign faces. Pure but for
+// the resolver; any thread.
 #pragma once
 
 #include "scenes/light/geometry/real.hpp"
@@ -11,21 +11,20 @@ namespace luxodus {
 /// Texture coordinates at a hit; (0, 0) is the picture's lower left corner, and pictures repeat.
 Vec2 texture_uv(const GeometryCell& cell, const Hit& hit);
 
-/// The picture's texel nearest to (u, v): column and row. Only its size is looked at.
+/// Column and row of the texel nearest to (u, v). Uses only the picture's size.
 glm::ivec2 texel_of(const Image& image, const Vec2& uv);
-/// Reflectance factor in a band of a texel of so many channels, in [0, 1].
+/// Reflectance factor in a band for a texel of this many channels, in [0, 1].
 Real texel_factor(const CompiledScene& scene, const float* texel, int channels, int band);
 
 /// Texel of a sign's face at (u, v); (0, 0) is the reader's lower left corner.
 size_t texel_at(const SignFace& face, const Vec2& uv);
 
-/// The material on one side of what was hit.
+/// The material on one side of the surface hit.
 inline const CompiledMaterial& material_at(const CompiledScene& scene, const Hit& hit, bool front) {
   return scene.materials[scene.surfaces[hit.triangle->surface].material[front ? 0 : 1]];
 }
 
-/// The model that holds at this hit: the material's, with its diffuse part taken from picture or
-/// sign face.
+/// The surface model at this hit: the material's, with the diffuse part from texture or sign face.
 template <class Resolver>
 SurfaceModel surface_at(const CompiledScene& scene, const Hit& hit, bool front, int band,
                         const CompiledMaterial& material, Resolver& resolver) {

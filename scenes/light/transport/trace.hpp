@@ -1,5 +1,6 @@
-// Batches: the door through which callers trace a scene, whatever its kernel and its partition. It
-// includes no template of a resolver, so that callers compile quickly: those stay behind it.
+// The entry point for callers that trace a scene, for any kernel and partition. It includes no
+// template of a resolver, so that callers compile quickly. Thread rule: one tracer per thread or
+// fiber.
 #pragma once
 
 #include <memory>
@@ -19,16 +20,16 @@ namespace luxodus {
 class BatchTracer {
  public:
   virtual ~BatchTracer() = default;
-  /// Particles [first, first + count) of a source group, into `scores`.
+  /// Traces particles [first, first + count) of a source group into `scores`.
   virtual void trace(int group, uint64_t first, int64_t count, BatchScores& scores) = 0;
-  /// The eye paths that belong to a batch number fall into units that stand alone: parts of signs,
-  /// and probes.
+  /// The eye paths of a batch number are divided into independent units: parts of signs, and
+  /// probes.
   virtual uint32_t look_units() const = 0;
-  /// Those of one unit, into `scores`.
+  /// Traces the eye paths of one unit into `scores`.
   virtual void look(int64_t batch, uint32_t unit, BatchScores& scores) = 0;
 };
 
-/// The kernel that the scene's features ask for. All that is referred to must outlive it.
+/// The kernel for the scene's features. All references must outlive it.
 std::unique_ptr<BatchTracer> make_batch_tracer(const CompiledScene& scene,
                                                const GeometryAccess& access, uint64_t seed);
 
@@ -40,36 +41,36 @@ DirectLight direct_light_at(const CompiledScene& scene, const GeometryAccess& ac
 class PictureTracer {
  public:
   virtual ~PictureTracer() = default;
-  /// Begins path number `path` of `count` in a set, whose first draws are low-discrepancy points.
+  /// Starts path number `path` of `count` in a set whose first draws are low-discrepancy points.
   virtual void start(uint64_t set, uint32_t count, uint32_t path) = 0;
   virtual Real uniform() = 0;
-  /// The hero of a path of all bands, from a uniform number.
+  /// Chooses the hero of a path of all bands, from a uniform number.
   virtual int choose_band(double u) const = 0;
-  /// By band, from one path that goes as the hero's; until the next call. But for what emitters
-  /// send straight to the eye: `first` has that without chance, where it is asked for (not null).
-  /// It keeps its memory.
+  /// Radiance by band, from one path sampled for the hero; valid until the next call. Light that
+  /// emitters send straight to the eye is excluded and returned in `first`, free of noise, if that
+  /// is not null. `first` keeps its memory.
   virtual std::span<const double> radiance(const Ray& ray, int hero, const KnownRadiance* gather,
                                            FirstHit* first) = 0;
-  /// Where the parts of the path of the last radiance() have ended in known light.
+  /// Cached light at which the parts of the last path of radiance() have ended.
   virtual std::span<const KnownEnd> ends() const = 0;
-  /// The same in one band, from a path of that band alone.
+  /// Radiance in one band, from a path of that band alone.
   virtual double radiance_in_band(const Ray& ray, int band, const KnownRadiance* gather) = 0;
 };
 
 class EmitterSight;
-/// What paths of pictures choose emitters by, learned as they go; for all tracers of a scene.
-/// Requires: the scene outlives it. Null where there is nothing to choose.
+/// Data for the light sampler of pictures, learned during tracing; shared by all tracers of a
+/// scene. Requires: the scene outlives it. Null if there is nothing to choose.
 std::shared_ptr<const EmitterSight> make_emitter_sight(const CompiledScene& scene);
 
-/// Memory that it takes at most [bytes]; 0 where there is nothing to choose.
+/// Largest memory that it takes [bytes]; 0 if there is nothing to choose.
 uint64_t emitter_sight_bytes(const CompiledScene& scene);
 
-/// `sight`: of the scene, or null where emitters are chosen by power and distance alone.
+/// `sight`: that of the scene, or null to choose emitters by power and distance alone.
 std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,
                                                    const GeometryAccess& access, uint64_t seed,
                                                    std::shared_ptr<const EmitterSight> sight);
 
-/// "layered media, 8 bands, ...": what the chosen kernel contains, and what it leaves out.
+/// "layered media, 8 bands, ...": what the chosen kernel contains, and what it omits.
 std::string describe_kernel(const CompiledScene& scene);
 
 }  // namespace luxodus

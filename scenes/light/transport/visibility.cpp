@@ -49,8 +49,8 @@ double depth_between(const CompiledScene& scene, const GeometryAccess& access, c
                                                length, resolver);
     });
   };
-  // What goes by 1/wavelength has its mean over a band at the band's wavelength; between two of
-  // those a power of the wavelength is straight.
+  // A quantity proportional to 1/wavelength takes its mean over a band at this wavelength of the
+  // band; between two of those, a power of the wavelength is linear in logarithms.
   Spectrum inverse;
   for (int i = 0; i < spectrum_samples; ++i)
     inverse.value[static_cast<size_t>(i)] = 1 / Spectrum::wavelength_nm(i);

@@ -4,10 +4,11 @@ namespace luxodus {
 
 namespace {
 
-/// Rows that one piece of work has.
+/// Rows per work item.
 constexpr int rows_at_once = 16;
 
-/// Adds to each pixel of the rows how many pixels of its small window are alike, itself included.
+/// Adds to each pixel of the rows the number of similar pixels in its small window, itself
+/// included.
 void add_alike(const UncertainLight& light, int height, const Rectangle& rows, float k2,
                std::vector<float>& alike) {
   const Rectangle area{0, std::max(0, rows.y0 - close_patch_px), rows.x1,

@@ -1,6 +1,6 @@
-// What the filter of pictures (regression_filter.hpp) will leave of a pixel's error, before it has
-// filtered: by how many pixels of a small window are alike, since light is taken from these. At
-// edges and in things that fill a pixel or two it leaves most. Pure function; any thread.
+// Predicts how much error the filter of pictures (regression_filter.hpp) will leave in a pixel:
+// from the number of similar pixels in a small window, since the filter averages these. Most error
+// remains at edges and in details of a pixel or two. Pure function; any thread.
 #pragma once
 
 #include "scenes/light/vision/likeness.hpp"
@@ -8,8 +8,8 @@
 
 namespace luxodus {
 
-/// Standard errors, one per pixel [cd/m2]. The same for any threads. Requires: width * height
-/// pixels.
+/// Standard errors, one per pixel [cd/m2]; independent of the threads used. Requires: width *
+/// height pixels.
 std::vector<float> error_left(UncertainLight light, int width, int height, double tolerance,
                               const ShareWork& share);
 

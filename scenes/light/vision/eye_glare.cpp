@@ -11,9 +11,9 @@ namespace luxodus {
 
 namespace {
 
-/// Every cell veils every other: the time goes with the square. A view of more degrees has coarser
-/// cells: their next neighbours are less exact, and far light veils by a fifth more, since a mean
-/// leaves out what is within its own cell.
+/// Every cell veils every other, so the time is quadratic. A view with more degrees uses coarser
+/// cells: near neighbours are less exact, and far light veils by a fifth more, since the mean
+/// excludes a cell's own light.
 constexpr size_t max_veil_cells = 8192;
 
 using SightLine = std::array<double, 3>;
@@ -24,7 +24,7 @@ double finite_light(float v) {
   return std::isfinite(v) && v > 0 ? static_cast<double>(v) : 0;
 }
 
-/// X, Y, Z and scotopic luminance of a pixel; nothing of what is no light.
+/// X, Y, Z and scotopic luminance of a pixel; 0 if the pixel is invalid.
 VeilLight veil_light_at(const XyzPicture& picture, size_t i) {
   VeilLight out{};
   for (const size_t c : {size_t{0}, size_t{1}, size_t{2}})
@@ -33,8 +33,8 @@ VeilLight veil_light_at(const XyzPicture& picture, size_t i) {
   return out;
 }
 
-/// cos(a) / a^2 of the angle between two directions; 0 from a right angle on. The square of the
-/// angle is a series in the square of its chord, good to 1 % up to a right angle.
+/// cos(a) / a^2 of the angle between two directions; 0 from a right angle on. The squared angle is
+/// a series in the squared chord, accurate to 1 % up to a right angle.
 double veil_weight(const SightLine& a, const SightLine& b) {
   const double cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   if (cosine <= 0) return 0;
@@ -43,7 +43,7 @@ double veil_weight(const SightLine& a, const SightLine& b) {
   return cosine / angle2;
 }
 
-/// What cells hold: where they lie, what they send, and how large they are.
+/// A cell's direction, light and size.
 struct VeilCell {
   SightLine direction;
   VeilLight light{};       // mean over its pixels
@@ -85,7 +85,7 @@ std::vector<VeilCell> veil_cells(const XyzPicture& picture, const FovealCells& c
   return out;
 }
 
-/// Of each channel, by cell: veil_share of the weighted mean over all other cells.
+/// The veil of each channel, by cell: veil_share of the weighted mean over all other cells.
 std::array<std::vector<double>, veil_channels> veils_of(const std::vector<VeilCell>& cells) {
   std::vector<VeilLight> sums(cells.size(), VeilLight{});
   std::vector<double> weights(cells.size(), 0.0);

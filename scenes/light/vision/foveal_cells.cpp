@@ -8,7 +8,7 @@ namespace luxodus {
 namespace {
 
 constexpr double fovea_deg = 1.0;
-constexpr double min_cells = 256;  // of a histogram
+constexpr double min_cells = 256;  // for a useful histogram
 
 int cells_along(int pixels, int cell_px) {
   return (pixels + cell_px - 1) / cell_px;

@@ -4,10 +4,10 @@ namespace luxodus {
 
 namespace {
 
-/// Pixels are as far as this asked for the variance of one that has missed all rare paths.
+/// Reach of the neighbourhood for the variance of a pixel that no rare path has reached.
 constexpr int variance_reach_px = 2;
 
-/// Columns that have a pixel beside them by dx.
+/// Columns that have a neighbour at offset dx.
 struct Columns {
   Columns(int width, int dx) : begin(std::max(0, -dx)), end(std::min(width, width - dx)) {}
   int begin, end;

@@ -6,14 +6,14 @@
 namespace luxodus {
 namespace {
 
-// V'(555 nm): ratio of the two luminous efficacies, so that both luminances are of one scale at 555
+// V'(555 nm): ratio of the two luminous efficacies, which puts both luminances on one scale at 555
 // nm.
 constexpr double scotopic_at_555 = 683.0 / 1699.0;
 // CIE 191: m = a + b log10(L_mes), which is 1 at 5 cd/m2 and 0 at 0.005 cd/m2 to rounding.
 constexpr double offset = 0.7670;
 constexpr double slope = 0.3334;
-// The published start. Light of strong red with nearly no scotopic part has several fixed points;
-// the start selects the one the recommendation means.
+// The published start value. Strong red light with nearly no scotopic part has several fixed
+// points; the start value selects the one that the recommendation means.
 constexpr double first_adaptation = 0.5;
 constexpr int max_steps = 500;
 constexpr double settled = 1e-12;
@@ -44,7 +44,7 @@ MesopicLuminance mesopic_luminance(double photopic_cd_m2, double scotopic_cd_m2)
 
 double scotopic_from_xyz(double x, double y, double z) {
   y = usable(y);
-  if (!(x > 0)) return 2.3 * y;  // the ratio of white light: nothing better is known
+  if (!(x > 0)) return 2.3 * y;  // the ratio of white light, for lack of a better estimate
   const double ratio = 1.33 * (1 + (y + usable(z)) / x) - 1.68;
   return y * std::clamp(ratio, 0.0, 10.0);
 }

@@ -8,17 +8,17 @@ namespace luxodus {
 
 namespace {
 
-/// Pixels as far as this say how much halves differ here.
+/// Reach of the neighbourhood that gives the usual difference of halves.
 constexpr int reach_px = 2;
-/// A pixel is an outlier where its halves differ by more than this many times the median.
+/// A pixel is an outlier if its halves differ by more than this many times the median.
 constexpr float outlying = 5;
-/// Pixels as far as this take an outlier's light at most.
+/// Largest distance of pixels that receive an outlier's light.
 constexpr int farthest_px = 32;
-/// And as far as this at least, so that some are alike.
+/// Least such distance, so that some pixels are similar.
 constexpr int nearest_px = 3;
-/// As many pixels take it as are brightened by no more than this share of their mean light.
+/// The area grows until no pixel brightens by more than this share of their mean light.
 constexpr double unseen_share = 0.05;
-/// Features that differ by this are alike to a factor of exp(-1/2).
+/// A feature difference of this size reduces the weight by a factor of exp(-1/2).
 constexpr double alike = 0.5;
 
 using Light = std::array<double, light_channels>;
@@ -35,14 +35,14 @@ struct Receiver {
   double weight = 0;
 };
 
-/// Finds outliers, and who takes their light.
+/// Finds outliers and the pixels that receive their light.
 class Outliers {
  public:
   explicit Outliers(const NoisyPicture& picture) : picture_(picture) {
     for (size_t i = 0; i < picture.pixels(); ++i) differences_.push_back(light(0, i) - light(1, i));
   }
 
-  /// The outlier that a pixel is; all of it is left where it is none.
+  /// The outlier at a pixel; `left` is 1 if it is none.
   Outlier at(int x, int y) {
     const size_t i = pixel(x, y);
     const float difference = std::abs(differences_[i]);
@@ -57,7 +57,7 @@ class Outliers {
     return out;
   }
 
-  /// Who takes its light; weights sum to 1.
+  /// The receivers of its light; their weights sum to 1.
   const std::vector<Receiver>& receivers(const Outlier& outlier) {
     receivers_.clear();
     double weights = 0, light_of_all = 0;
@@ -85,7 +85,7 @@ class Outliers {
     return picture_.half[half].light[light_channels * pixel + channel];
   }
 
-  /// Of the differences of halves around a pixel, without its own [cd/m2].
+  /// Median difference of the halves around a pixel, without its own [cd/m2].
   float median_around(int x, int y) {
     around_.clear();
     for (int v = std::max(0, y - reach_px); v <= std::min(picture_.height - 1, y + reach_px); ++v)
@@ -108,8 +108,8 @@ class Outliers {
     }
   }
 
-  /// By features, and no more than in proportion to light: that of the other half, which knows
-  /// nothing of the outlier.
+  /// Weight by features, at most in proportion to the receiver's light in the other half, which is
+  /// independent of the outlier.
   double likeness(const Outlier& outlier, size_t there) const {
     const size_t here = pixel(outlier.x, outlier.y), n = picture_.feature_count;
     double square = 0;
@@ -150,7 +150,7 @@ void spread_outliers(NoisyPicture& picture) {
       move(here, -1);
       for (const Receiver& receiver : outliers.receivers(outlier))
         move(receiver.pixel, receiver.weight);
-      // What is left of it errs by as much less.
+      // The error of the remaining light shrinks in proportion.
       for (size_t c = 0; c < 3; ++c)
         picture.half[outlier.half].variance[3 * here + c] *=
             static_cast<float>(outlier.left * outlier.left);

@@ -1,6 +1,5 @@
-// Pictures of the display: light per pixel on the one side, sRGB bytes on the other. Plain values;
-// any thread. Written to files by scenes/formats/images and actors/results/files; made here by
-// tone.hpp.
+// Pictures of the display: light per pixel (XYZ), and sRGB bytes. Plain values; any thread.
+// scenes/formats/images and actors/results/files write them; tone.hpp converts one to the other.
 #pragma once
 
 #include <cmath>
@@ -15,12 +14,12 @@ struct XyzPicture {
   int width = 0;
   int height = 0;
   std::vector<float> xyz;       // 3 per pixel
-  std::vector<float> scotopic;  // [scotopic cd/m2], 1 per pixel, or empty: estimated from XYZ
+  std::vector<float> scotopic;  // [scotopic cd/m2], 1 per pixel; if empty, estimated from XYZ
 
   size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
 };
 
-/// Whether a pixel is light, if it be none: no number that went wrong.
+/// Whether a pixel is valid light (0 included): finite and not negative.
 inline bool is_light(const XyzPicture& picture, size_t i) {
   const float* xyz = &picture.xyz[3 * i];
   return std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]) && xyz[1] >= 0;

@@ -11,33 +11,33 @@ namespace luxodus {
 
 namespace {
 
-/// Rows of centres that one piece of work has.
+/// Rows of window centres per work item.
 constexpr int rows_of_a_band = 8;
-/// Ridge of the regression, relative to the features' own spread: where they do not vary in a
-/// window, they explain nothing.
+/// Ridge of the regression, relative to the features' own spread: features that do not vary in a
+/// window explain nothing.
 constexpr double ridge = 1e-4;
-/// Features that vary less than this are not scaled up any further.
+/// Features that vary less than this are not scaled up further.
 constexpr double min_spread = 0.1;
-/// Pixels are as far as this asked to compare what the variances say with how far the halves
-/// differ.
+/// Reach of the neighbourhood in which stated variances are compared with the difference of the
+/// halves.
 constexpr int calibration_reach_px = 8;
-/// Of a pixel's own light beside what windows say of it: it decides where no centre is like it.
+/// Weight of a pixel's own light beside its windows' fits: decides if no window is similar to it.
 constexpr double own_weight = 0.25;
-/// A pixel that windows say less of has a small window of its own: of an edge as of a thin line,
-/// large surroundings are like few others, and those nearest to it are.
+/// A pixel whose windows give it less weight than this gets a small window of its own: at an edge
+/// or a thin line, few large patches are similar, but those of the nearest pixels are.
 constexpr double least_said = 12;
-/// What an alike pixel of a small window says, by what a large window does.
+/// Weight of a similar pixel in a small window, relative to a large one.
 constexpr double said_by_close_pixel = 0.25;
-/// Of the mean luminance of its windows: a fit of less is the chance of what is around it.
+/// Share of the mean luminance of its windows: a fit below it is due to noise around the pixel.
 constexpr double least_coloured = 0.1;
 constexpr size_t max_features = 16;
 constexpr size_t colour_channels = 3;
 
-/// A half, channel by channel, as comparisons read it.
+/// One half, channel by channel, in the form that comparisons read.
 using Compared = std::array<UncertainLight, colour_channels>;
 
-/// Variances of a half, one channel of it, that the difference of the halves bears out around each
-/// pixel. Low-discrepancy paths err less than the spread of their values says.
+/// Variances of one channel of a half, calibrated by the difference of the halves around each
+/// pixel: low-discrepancy paths have a smaller error than the spread of their values suggests.
 std::vector<float> borne_out_variance(const NoisyPicture& picture, const HalfPicture& half,
                                       size_t channel) {
   const Rectangle all{0, 0, picture.width, picture.height};
@@ -58,7 +58,7 @@ std::vector<float> borne_out_variance(const NoisyPicture& picture, const HalfPic
   return variance;
 }
 
-/// Of what both halves say of a channel [(cd/m2)2].
+/// Squared mean of both halves in a channel [(cd/m2)2].
 std::vector<float> squared_light(const NoisyPicture& picture, size_t channel) {
   std::vector<float> out(picture.pixels());
   for (size_t i = 0; i < picture.pixels(); ++i) {
@@ -82,8 +82,8 @@ Compared compared(const NoisyPicture& picture, const HalfPicture& half) {
   return out;
 }
 
-/// Every feature shifted and scaled to spread 1 over the picture, but none that hardly varies blown
-/// up: it is not to explain more than it does.
+/// Features shifted and scaled to a spread of 1 over the picture, except that nearly constant ones
+/// are not scaled up: they must not explain more than they do.
 std::vector<float> standardised(const NoisyPicture& picture) {
   const size_t n = picture.feature_count;
   std::vector<double> mean(n, 0.0), squares(n, 0.0);
@@ -123,7 +123,7 @@ class NormalEquations {
   double diagonal(size_t i) const { return matrix_[i][i]; }
   const std::array<double, Sides>& side(size_t i) const { return side_[i]; }
 
-  /// In place; a pivot that is nothing leaves its unknown at 0.
+  /// Solves in place; a vanishing pivot sets its unknown to 0.
   void solve() {
     for (size_t i = 0; i < n_; ++i) {
       for (size_t j = 0; j <= i; ++j) {
@@ -156,7 +156,7 @@ class NormalEquations {
   std::array<std::array<double, Sides>, MaxUnknowns> side_{};
 };
 
-/// A pixel of a window, and how much it counts there.
+/// A pixel of a window and its weight there.
 struct Member {
   size_t pixel = 0;
   double weight = 0;
@@ -191,13 +191,13 @@ class Fit {
         out[c] += row[k] * equations_.solution(k)[c];
     return out;
   }
-  /// Without regard to features [cd/m2].
+  /// The weighted mean without features [cd/m2].
   const Light& mean() const { return mean_; }
 
  private:
   using Row = std::array<double, max_features + 1>;
 
-  /// 1, and by how much each feature of a pixel differs from the centre's.
+  /// 1, followed by the difference of each feature of a pixel from the centre's.
   Row row_of(size_t pixel) const {
     const size_t n = picture_.feature_count;
     Row row;
@@ -214,7 +214,7 @@ class Fit {
   Light mean_{};
 };
 
-/// Filters one half by the likeness of pixels in the other.
+/// Filters one half, with weights from the other half.
 class HalfFilter {
  public:
   HalfFilter(const NoisyPicture& picture, const RegressionFilter& filter, const Compared& likeness,
@@ -233,8 +233,8 @@ class HalfFilter {
     return (centres + rows_of_a_band - 1) / rows_of_a_band;
   }
 
-  /// Adds what the windows of a band say of all their pixels. Bands that are not neighbours may be
-  /// done at once.
+  /// Adds the fits of a band's windows to all their pixels. Bands that are not adjacent may run
+  /// concurrently.
   void filter_band(int band) {
     const int rows = rows_of_a_band * filter_.stride_px;
     const Rectangle centres{0, band * rows, picture_.width,
@@ -247,7 +247,8 @@ class HalfFilter {
 
   bool has_close_windows() const { return filter_.closely; }
   int rows() const { return picture_.height; }
-  /// After all bands: what small windows say of the pixels of a row. Any rows may be done at once.
+  /// After all bands: adds the small windows for the pixels of a row. Any rows may run
+  /// concurrently.
   void filter_closely(int row) {
     for (int x = 0; x < picture_.width; ++x) add_close_window(x, row);
   }
@@ -258,14 +259,15 @@ class HalfFilter {
     const auto own = static_cast<double>(light_.light[light_channels * pixel + channel]);
     return (sums[channel] + own_weight * own) / (sums[light_channels] + own_weight);
   }
-  /// Of the windows around a pixel, without regard to its features [cd/m2].
+  /// The weighted mean of the windows around a pixel, without features [cd/m2].
   double mean(size_t pixel, size_t channel) const {
     const double weight = sums_[(light_channels + 1) * pixel + light_channels];
     return weight > 0 ? means_[light_channels * pixel + channel] / weight : 0;
   }
 
  private:
-  /// Calls with(x, y) for every centre of the rows: the middle of each stride, or what there is.
+  /// Calls with(x, y) for every window centre of the rows: the middle of each stride, clamped to
+  /// the picture.
   template <class With>
   void for_each_centre(const Rectangle& rows, const With& with) const {
     const int stride = filter_.stride_px;
@@ -304,8 +306,8 @@ class HalfFilter {
     return weights;
   }
 
-  /// How unlike every pixel of the area and the one beside it by (dx, dy) are, in units of what
-  /// their errors explain; `inside` is 1 where both are in the picture.
+  /// Unlikeness of every pixel of the area to the pixel offset by (dx, dy), relative to their
+  /// errors; `inside` is 1 if both are in the picture.
   void measure(const Rectangle& area, int dx, int dy, std::vector<float>& distance,
                std::vector<float>& inside) const {
     std::fill(distance.begin(), distance.end(), 0.0f);
@@ -324,7 +326,7 @@ class HalfFilter {
     return x >= 0 && x < picture_.width && y >= 0 && y < picture_.height;
   }
 
-  /// The weight of one pixel in the small window of another, by their closest surroundings.
+  /// The weight of one pixel in the small window of another, by small patches.
   float likeness_of(int x, int y, int other_x, int other_y) const {
     float unlike = 0;
     int count = 0;
@@ -353,7 +355,7 @@ class HalfFilter {
     for (const Member& member : window) add(fit, member);
   }
 
-  /// Of a pixel that little is said of, the small window around it: what is missing.
+  /// Adds the small window around a pixel with little weight, for the missing weight.
   void add_close_window(int x, int y) {
     const size_t centre = pixel_at(x, y);
     const double missing = least_said - said_of(centre);
@@ -375,7 +377,7 @@ class HalfFilter {
     return sums_[(light_channels + 1) * pixel + light_channels];
   }
 
-  /// What a window says of one pixel.
+  /// Adds a window's fit for one pixel.
   void add(const Fit& fit, const Member& of) {
     const Light light = fit.at(of.pixel);
     double* sums = &sums_[(light_channels + 1) * of.pixel];
@@ -395,7 +397,7 @@ class HalfFilter {
   std::vector<double> means_;  // per pixel: weighted means of windows
 };
 
-/// Windows of a band reach into its neighbours, but no further.
+/// Windows of a band extend into the adjacent bands only, so every second band runs concurrently.
 void filter_half(HalfFilter& half, const ShareWork& share) {
   for (const int parity : {0, 1}) {
     const int64_t count = (half.bands() + 1 - parity) / 2;
@@ -405,8 +407,8 @@ void filter_half(HalfFilter& half, const ShareWork& share) {
     share(half.rows(), [&](int64_t row) { half.filter_closely(static_cast<int>(row)); });
 }
 
-/// What both halves say of a pixel. Where the fit leaves it too little light to have a colour, or
-/// less than none of one channel, its colour is that of its windows.
+/// Mean of both halves' fits at a pixel. If the fit has too little light to have a colour, or a
+/// negative channel, the pixel takes the colour of its windows' means.
 Light filtered_light(const std::vector<HalfFilter>& halves, size_t pixel) {
   Light fit{}, mean{};
   for (const HalfFilter& half : halves)
@@ -425,8 +427,8 @@ Light filtered_light(const std::vector<HalfFilter>& halves, size_t pixel) {
   return fit;
 }
 
-/// Scales each channel so that its sum is that of the halves: a filter that knows pixels by their
-/// light loses a little of what is bright by chance, and so of the mean.
+/// Scales each channel so that its sum is that of the halves: weights that depend on light remove
+/// some of what is bright by chance, and so reduce the mean a little.
 void keep_means(const NoisyPicture& picture, std::vector<float>& light) {
   for (size_t c = 0; c < light_channels; ++c) {
     double traced = 0, filtered = 0;

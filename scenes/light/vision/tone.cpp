@@ -1,6 +1,6 @@
-// Both operators carry a pixel's colour along: its XYZ is divided by its luminance and multiplied
-// by the display's. Where a channel would pass the monitor's white all three are scaled alike, so
-// that hue and saturation stay and luminance gives way; but for colours of fire, which turn yellow.
+// Both operators preserve a pixel's colour: its XYZ is divided by its luminance and multiplied by
+// the display's. If a channel would exceed the monitor's white, all three are scaled alike, so that
+// hue and saturation stay and luminance decreases; except colours of fire, which turn yellow.
 #include "scenes/light/vision/tone.hpp"
 
 #include <algorithm>
@@ -15,13 +15,12 @@
 namespace luxodus {
 namespace {
 
-// Below this nobody sees anything (absolute threshold about 1e-6 cd/m2), and logarithms stay
-// finite.
+// The absolute threshold of vision is about 1e-6 cd/m2; this also keeps logarithms finite.
 constexpr double darkest_cd_m2 = 1e-6;
 
 struct Pixel {
   Xyz xyz{};
-  double luminance = 0;  // [cd/m2], 0 where there is nothing usable
+  double luminance = 0;  // [cd/m2], 0 for an invalid pixel
 };
 
 Pixel pixel(const XyzPicture& picture, size_t i) {
@@ -42,7 +41,7 @@ double leading(const std::array<double, 3>& rgb) {
 }
 
 // Linear sRGB of luminance `shown` with the colour of `xyz`, unbounded above. A colour more
-// saturated than the monitor's moves towards the grey of its luminance, just as far as it must.
+// saturated than the monitor's moves towards the grey of its luminance, just as far as needed.
 std::array<double, 3> shown_colour(const Xyz& xyz, double shown) {
   const double k = shown / xyz[1];
   std::array<double, 3> rgb = linear_srgb_from_xyz({k * xyz[0], shown, k * xyz[2]});
@@ -54,16 +53,16 @@ std::array<double, 3> shown_colour(const Xyz& xyz, double shown) {
   return rgb;
 }
 
-// The colour with all channels scaled alike, so that the leading one becomes `to`.
+// The colour with all channels scaled alike, so that the largest one becomes `to`.
 void put_scaled(SrgbPicture& out, const std::array<double, 3>& rgb, double to) {
   const double most = leading(rgb);
   for (const double v : rgb) out.rgb.push_back(srgb_byte(most > 0 ? v / most * to : 0));
 }
 
-// How much a colour is one of fire, from red to amber: 1 where its channels are a quarter of the
-// leading one apart, red first and blue last; 0 where they are in another order. Beyond the white
-// that a picture takes by itself such colours burn out channel by channel, as on film: the core of
-// a flame turns yellow, and stands out from a wall that it lights. A sign's green would turn cyan.
+// Similarity of a colour to fire, from red to amber: 1 if its channels are a quarter of the largest
+// one apart, red first and blue last; 0 in any other order. Beyond an automatically chosen white,
+// such colours burn out channel by channel, as on film: the core of a flame turns yellow, and
+// contrasts with a wall that it lights. A sign's green would turn cyan.
 double warmth(const std::array<double, 3>& rgb) {
   const double apart = std::min(rgb[0] - rgb[1], rgb[1] - rgb[2]);
   return std::clamp(4 * apart / leading(rgb), 0.0, 1.0);
@@ -101,7 +100,7 @@ Exposure exposure_of(const XyzPicture& picture, const PlainTone& tone) {
   return {factor, std::max(1.0, factor * lit[rank])};
 }
 
-// How much of a colour burns out whose leading channel is exposed so far.
+// The share of a colour that burns out if its largest channel has this exposure.
 double burnt_share(const Exposure& exposure, double lead, const std::array<double, 3>& rgb) {
   return lead > exposure.white ? (1 - exposure.white / lead) * warmth(rgb) : 0;
 }
@@ -109,7 +108,7 @@ double burnt_share(const Exposure& exposure, double lead, const std::array<doubl
 // ---- human --------------------------------------------------------------------------------------
 
 constexpr int histogram_bins = 100;       // Ward Larson et al. 1997
-constexpr double trim_tolerance = 0.025;  // their share of the histogram that a pass may still cut
+constexpr double trim_tolerance = 0.025;  // their share that a pass may still cut
 constexpr int max_passes = 200;
 
 struct LogHistogram {
@@ -142,8 +141,8 @@ LogHistogram histogram_of(const std::vector<double>& luminances) {
 
 // Cuts every bin to the count at which the curve is as steep as an eye allows:
 //   f(b) <= dL_t(L_d)/dL_t(L_w) * T step L_w / (log(L_dmax/L_dmin) L_d)     (their eq. 10)
-// until a pass cuts little. False when hardly anything is left: the scene has less contrast than
-// the display.
+// until a pass cuts little. False if hardly anything is left: the scene has less contrast than the
+// display.
 bool trim_to_human_contrast(LogHistogram& h, double log_black, double log_white) {
   const double whole = h.total();
   for (int pass = 0; pass < max_passes; ++pass) {
@@ -169,13 +168,13 @@ bool trim_to_human_contrast(LogHistogram& h, double log_black, double log_white)
   return true;
 }
 
-// The leading channel of a colour as a camera with this exposure has it.
+// The largest channel of a colour at this exposure.
 double lead_of_colour(const Pixel& p, const Exposure& exposure) {
   return p.luminance > 0 ? leading(shown_colour(p.xyz, exposure.factor * p.luminance)) : 0;
 }
 
 // One factor for all, so that what is just visible in the scene is just visible on the display
-// (Ward 1994): the eye before the display adapts to half of its white.
+// (Ward 1994): an observer of the display adapts to half of its white.
 ToneCurve linear_curve(const std::vector<double>& luminances, const DisplayModel& display) {
   double log_sum = 0;
   for (const double l : luminances) log_sum += std::log(l);
@@ -189,7 +188,7 @@ ToneCurve linear_curve(const std::vector<double>& luminances, const DisplayModel
   return curve;
 }
 
-// What each pixel looks like to the adapted eye, and the mean of that over cells of one degree.
+// The light of each pixel for the adapted eye, and its mean over cells of one degree.
 struct Seen {
   FovealCells cells;
   std::vector<double> cell_adaptation;  // m of CIE 191, per cell
@@ -225,10 +224,10 @@ Seen see(const XyzPicture& picture, const HumanTone& tone) {
   return seen;
 }
 
-// Sums over all pixels above and to the left: means over rectangles in four steps.
+// Sums over all pixels above and to the left; four look-ups give the mean over a rectangle.
 class SummedArea {
  public:
-  // `value(i)`: of a pixel.
+  // `value(i)`: value of pixel i.
   template <class ValueOf>
   SummedArea(int width, int height, ValueOf&& value)
       : stride_(static_cast<size_t>(width) + 1),
@@ -243,7 +242,7 @@ class SummedArea {
     }
   }
 
-  // Over columns [x0, x1) and rows [y0, y1).
+  // Mean over columns [x0, x1) and rows [y0, y1).
   double mean(int x0, int y0, int x1, int y1) const {
     const double sum = at(x1, y1) - at(x0, y1) - at(x1, y0) + at(x0, y0);
     return std::max(0.0, sum / (static_cast<double>(x1 - x0) * (y1 - y0)));
@@ -257,8 +256,8 @@ class SummedArea {
   std::vector<double> sums_;
 };
 
-// Means over squares of real width around a pixel, between those of the next odd widths; what lies
-// beyond the edge is left out.
+// Mean over a square of real-valued width around a pixel, interpolated between those of the nearest
+// odd widths; pixels beyond the edge are left out.
 double mean_around(const SummedArea& sums, const XyzPicture& picture, int x, int y, double width) {
   const int reach = static_cast<int>((width - 1) / 2);
   const double more = (width - 1) / 2 - reach;
@@ -270,7 +269,7 @@ double mean_around(const SummedArea& sums, const XyzPicture& picture, int x, int
 }
 
 // The picture as an eye resolves it: each pixel is the mean over the finest spot, half a cycle of
-// the finest grating, of an eye that is adapted to its degree of view.
+// the finest grating, for an eye adapted to its degree of view.
 XyzPicture as_resolved(const XyzPicture& picture, const Seen& seen, double degrees_per_pixel) {
   const auto spot_px = [&](int x, int y) {
     const double adaptation = seen.cells.at_pixel(seen.cell_luminance, x, y);
@@ -317,8 +316,8 @@ SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone) {
     const Pixel p = pixel(picture, i);
     std::array<double, 3> rgb{};
     if (p.luminance > 0) rgb = shown_colour(p.xyz, exposure.factor * p.luminance);
-    // The leading channel meets the shoulder, not the luminance: a green that is as bright as white
-    // would have to be white, and a sign's legend would be lost on it.
+    // The shoulder is applied to the largest channel, not to the luminance: a green as bright as
+    // white would have to be white, and a sign's legend would be lost on it.
     const double lead = leading(rgb), to = shoulder(lead, exposure.white);
     const double burnt = tone.white_cd_m2 ? 0 : burnt_share(exposure, lead, rgb);
     for (double& v : rgb) {
@@ -400,13 +399,13 @@ SrgbPicture tone_human(const XyzPicture& whole, const HumanTone& tone) {
   Seen seen = see(picture, tone);
   if (tone.lose_acuity && angles_known) {
     picture = as_resolved(picture, seen, tone.degrees_per_pixel);
-    // Cells stay what they were: adaptation is taken before the blur.
+    // Cells stay unchanged: adaptation is taken before the blur.
     const Seen resolved = see(picture, tone);
     seen.pixel_photopic = resolved.pixel_photopic;
     seen.pixel_scotopic = resolved.pixel_scotopic;
   }
   const ToneCurve curve = human_curve(seen.cell_luminance, tone.display);
-  const Exposure exposure = exposure_of(picture, {});  // beyond whose white fire burns out
+  const Exposure exposure = exposure_of(picture, {});  // fire burns out beyond its white
   const double black = tone.display.black_cd_m2;
   const double range = tone.display.white_cd_m2 - black;
   for (int y = 0; y < picture.height; ++y)
@@ -417,7 +416,8 @@ SrgbPicture tone_human(const XyzPicture& whole, const HumanTone& tone) {
       const double m = seen.cells.at_pixel(seen.cell_adaptation, x, y);
       const double l = mesopic_luminance_adapted(seen.pixel_photopic[i], seen.pixel_scotopic[i], m);
       if (tone.lose_colour && p.luminance > 0) {
-        // Rods see no colour: the cones' share of the adaptation is the share of the colour kept.
+        // Rods see no colour: the share of colour that is kept is the cones' share of the
+        // adaptation.
         for (size_t k = 0; k < 3; ++k)
           p.xyz[k] = p.luminance * (m * p.xyz[k] / p.luminance + (1 - m) * d65_white[k]);
       }

@@ -1,6 +1,6 @@
-// What a scene says, after everything it names has been read: plain values in SI units (m, sr, W,
-// lm, cd/m2, 1/m, nm), one struct per TOML table, each with the place it stands at, for messages.
-// Made by scenes/formats/scene_file, compiled for the tracer by scenes/light/transport/compile.*.
+// A scene's description after all files it names have been read: plain values in SI units (m, sr,
+// W, lm, cd/m2, 1/m, nm), one struct per TOML table, each with its source place for messages.
+// scenes/formats/scene_file makes it; scenes/light/transport/compile.* compiles it for the tracer.
 // Immutable once read; any thread.
 #pragma once
 
@@ -33,11 +33,11 @@ struct Image {
 
 enum class MaterialKind {
   lambertian,  // reflectance
-  glossy,      // reflectance (diffuse part) + specular through a GGX lobe of given roughness
+  glossy,      // reflectance (diffuse part) + specular through a GGX lobe with the given roughness
   mirror,      // specular
   glass_pane,  // thin pane: ior, transmittance of the glass itself (internal), no deviation
   dielectric,  // smooth refracting boundary of a solid: ior inside (behind the front side)
-  open,        // not there: light passes, fluxes are counted
+  open,        // not there: light passes, its flux is counted
 };
 
 struct Material {
@@ -48,14 +48,14 @@ struct Material {
   Spectrum specular = Spectrum::constant(0);       // [0, 1], reflectance + specular <= 1
   double roughness = 0.3;                          // GGX alpha, (0, 1]
   double ior = 1.52;
-  Spectrum internal_transmittance = Spectrum::constant(1);  // one pass, glass_pane
+  Spectrum internal_transmittance = Spectrum::constant(1);  // of one pass, glass_pane
   std::shared_ptr<const Image> reflectance_image;           // multiplies reflectance; needs uv
 };
 
 struct Door {
-  bool open = false;         // state unless a scenario says otherwise
+  bool open = false;         // unless a scenario says otherwise
   glm::dvec3 hinge{0};       // a point of the hinge [m]
-  glm::dvec3 axis{0, 0, 1};  // of the hinge
+  glm::dvec3 axis{0, 0, 1};  // direction of the hinge
   double open_angle_deg = 90;
 };
 
@@ -64,9 +64,9 @@ struct Object {
   SourcePlace place;
   Mesh mesh;  // placed: scene coordinates
   int material = 0;
-  int back_material = 0;    // seen from behind the triangles; same as material unless said
+  int back_material = 0;    // of the triangles' backs; the same as material unless given
   double patch_edge_m = 0;  // maximum edge of a flux patch; 0: one patch per triangle
-  bool one_patch = false;   // one patch a side for all of it
+  bool one_patch = false;   // one patch per side for the whole object
   std::vector<std::string> tags;
   std::string group;  // surface group, "" for none
   std::optional<Door> door;
@@ -101,40 +101,40 @@ struct Emitter {
   // radiometric in W.
   bool radiometric = false;
   double mains_flux = 0;              // [lm] or [W]
-  double emergency_flux = 0;          // [lm] or [W]; 0 for a luminaire that fails with the mains
-  double emergency_ageing = 1;        // maintenance x end of duration: contained in emergency_flux
-  double maintenance_factor = 1;      // contained in both fluxes
-  double end_of_duration_factor = 1;  // contained in emergency_flux
-  bool maintained = false;            // of an emergency luminaire: lit with the mains, too
-  std::string file;         // of the photometric data, as the scene writes it; "" for none
-  std::string product;      // what that file calls the luminaire
-  std::string ifc_guid;     // GlobalId in the model that it came from; "" for none
-  glm::dvec3 opening_m{0};  // luminous opening: length, width, height; 0 where not said
-  /// After a failure of the mains: time [s], share of emergency_flux; ascending in both, linear
-  /// between, the last holds. Empty: not said.
+  double emergency_flux = 0;          // [lm] or [W]; 0 if the luminaire fails with the mains
+  double emergency_ageing = 1;        // maintenance x end of duration: included in emergency_flux
+  double maintenance_factor = 1;      // included in both fluxes
+  double end_of_duration_factor = 1;  // included in emergency_flux
+  bool maintained = false;            // an emergency luminaire that is also lit in mains operation
+  std::string file;         // the photometric file, as the scene names it; "" if there is none
+  std::string product;      // the luminaire's name in that file
+  std::string ifc_guid;     // GlobalId in the model it came from; "" if none
+  glm::dvec3 opening_m{0};  // luminous opening: length, width, height; 0 if not given
+  /// Run-up after a failure of the mains: time [s], share of emergency_flux; ascending in both,
+  /// linear between rows, constant after the last. Empty: not given.
   std::vector<glm::dvec2> onset;
-  std::optional<double> duration_s;  // of the emergency supply, after which it is dark
-  std::string body_material;         // "" for none: returning light passes
+  std::optional<double> duration_s;  // of the emergency supply; dark afterwards
+  std::string body_material;         // "" if none: returning light passes
 };
 
 // ---- signs ------------------------------------------------------------------------------------
 
 enum class SignLighting { internal, external, photoluminescent };
 
-/// What each texel of a face is. White and green are the colours of the legend and its ground;
-/// which of them is the legend is `legend`. `other` is neither (a border, a lamp cover).
+/// The class of each texel of a face. White and green are the colours of legend and ground;
+/// `legend` says which is which. `other` is neither (a border, a lamp cover).
 enum class SignColour : uint8_t { white, green, other };
 
 struct SignFace {
   int width = 0;  // texels; square texels up to rounding
   int height = 0;
-  std::vector<SignColour> colour;  // top row first, seen by a reader
+  std::vector<SignColour> colour;  // top row first, as a reader sees it
   std::vector<float>
       relative_luminance;  // empty: uniform in each colour; else per texel, mean 1 per colour
   SignColour legend = SignColour::white;
 };
 
-/// Where the arrow of a sign's front points, as its reader sees it.
+/// Direction of the arrow on a sign's front, as its reader sees it.
 enum class SignArrow { left, right, ahead };
 
 /// A route that a sign belongs to.
@@ -148,7 +148,7 @@ struct SignState {
   double green_cd_m2 = 0;
 };
 
-/// Of a sign with words.
+/// Letters of a text sign.
 struct SignLetters {
   double height_m = 0;
   double stroke_m = 0;
@@ -165,17 +165,17 @@ struct Sign {
   double height_m = 0;
   double smallest_detail_m = 0;
   std::optional<SignLetters> letters;
-  std::string file;      // of the drawing of its face, as the scene writes it; "" for none
-  std::string text;      // of its face, if that is words
-  std::string ifc_guid;  // GlobalId in the model that it came from; "" for none
+  std::string file;      // the drawing of its face, as the scene names it; "" if none
+  std::string text;      // text on its face, if any
+  std::string ifc_guid;  // GlobalId in the model it came from; "" if none
   bool double_sided = false;
   double thickness_m = 0.03;  // distance between the two faces
   SignFace face;
   SignLighting lighting = SignLighting::internal;
   SignState mains;
   SignState emergency;
-  std::optional<double> duration_s;  // of the emergency supply, after which it is dark
-  std::vector<LeadsTo> leads_to;     // routes that it belongs to
+  std::optional<double> duration_s;  // of the emergency supply; dark afterwards
+  std::vector<LeadsTo> leads_to;     // routes that it marks
   double angular_exponent = 0;       // luminance ~ cos^n from the normal; 0: Lambertian
   std::vector<glm::dvec2>
       decay;  // photoluminescent: time after excitation [s], share of the luminance
@@ -234,7 +234,7 @@ struct Observer {
   SourcePlace place;
   glm::dvec3 eye{0};
   glm::dvec3 gaze{1, 0, 0};
-  std::optional<std::vector<uint32_t>> signs;  // numbers of those looked at; all unless said
+  std::optional<std::vector<uint32_t>> signs;  // indices of the signs looked at; absent: all
 };
 
 struct Camera {
@@ -248,7 +248,7 @@ struct Camera {
   int height = 360;
 };
 
-// ---- what an assessment is of ------------------------------------------------------------------
+// ---- assessment --------------------------------------------------------------------------------
 
 /// A defined way out, along the floor.
 struct EscapeRoute {
@@ -258,18 +258,18 @@ struct EscapeRoute {
   double width_m = 0;
 };
 
-/// A floor that people cross on no defined way (open area), or a plane on which they work at a risk
-/// that outlasts the lights (task area).
+/// A floor that people cross without a defined way out (open area), or a work plane with a risk
+/// that continues after the lights fail (task area).
 struct AssessedArea {
   std::string name;
   SourcePlace place;
   std::vector<glm::dvec2> outline;  // counter-clockwise
   double z_m = 0;
-  double mains_lx = 0;   // of a task area: the illuminance maintained in mains operation
-  std::string ifc_guid;  // GlobalId of its space in the model that it came from; "" for none
+  double mains_lx = 0;   // task area: maintained illuminance in mains operation
+  std::string ifc_guid;  // GlobalId of its space in the model it came from; "" if none
 };
 
-/// What an emergency luminaire has to be near to.
+/// A place that must have an emergency luminaire near it.
 enum class EmphasisKind {
   exit_door,
   final_exit,
@@ -284,7 +284,7 @@ enum class EmphasisKind {
   refuge
 };
 
-/// The kinds as they are written, in their order.
+/// Names of the kinds in scene files, in their order.
 inline constexpr std::array<std::string_view, 11> emphasis_words{
     "exit_door",        "final_exit",   "stairs",    "level_change",
     "direction_change", "intersection", "first_aid", "fire_equipment",
@@ -295,53 +295,53 @@ struct EmphasisPoint {
   SourcePlace place;
   EmphasisKind kind = EmphasisKind::exit_door;
   glm::dvec3 position{0};
-  std::optional<glm::dvec3> facing;  // where the front of equipment looks
+  std::optional<glm::dvec3> facing;  // direction that the front of equipment faces
 };
 
-/// How people and smoke are taken to be.
+/// Assumptions about people and smoke.
 struct AssessmentSettings {
   double age_years = 65;
   std::vector<double> eye_heights_m = {1.65, 1.2, 0.6};
-  double spacing_m = 2;                 // of observers along routes
+  double spacing_m = 2;                 // spacing of observers along routes
   bool smoke_expected = true;           // smoke may occur where signs are (EN 1838)
-  std::optional<bool> irritant_smoke;   // it stings: people see less than their eyes could
-  std::vector<std::string> rules;       // rule sets, by name; empty: not said
+  std::optional<bool> irritant_smoke;   // eye irritation: people see less than their eyes could
+  std::vector<std::string> rules;       // rule sets, by name; empty: not given
   std::vector<std::string> deviations;  // national deviations from them, by name
   SourcePlace place;
 };
 
 namespace limits {
-/// States of one assessment over time: each is traced.
+/// Largest number of states of one assessment over time; each is traced.
 inline constexpr int max_states = 1000;
 }  // namespace limits
 
-/// The states that are assessed one after another, and the clock that all of them go by.
+/// The states that are assessed one after another, on one common clock.
 struct TimeSettings {
   SourcePlace place;
   double from_s = 0, to_s = 0, step_s = 1;
-  std::optional<double> mains_fail_at_s;    // never unless said
-  std::optional<double> walking_speed_m_s;  // nobody walks unless said
+  std::optional<double> mains_fail_at_s;    // absent: never
+  std::optional<double> walking_speed_m_s;  // absent: nobody walks
 };
 
-/// What a report says of the project, on its first page and in its footers. "" where not said.
+/// Project data on a report's first page and in its footers. "" if not given.
 struct ProjectSettings {
   std::string name, client, address, document, revision, date, author, checker;
-  std::string logo;      // the picture's file, as the scene writes it
-  double north_deg = 0;  // of north, from +y towards +x, seen from above
+  std::string logo;      // picture file, as the scene names it
+  double north_deg = 0;  // direction of north, from +y towards +x, seen from above
   SourcePlace place;
 };
 
-/// A drawing that lies under plans of some floors: what others have drawn of the building. It is no
-/// geometry, and light knows nothing of it.
+/// A drawing of the building from another source, shown under plans of some floors. It is not
+/// geometry and does not affect light.
 struct Backdrop {
   SourcePlace place;
-  std::string file;      // as it was found
+  std::string file;      // resolved path
   bool picture = false;  // PNG; else lines of a DXF
-  glm::dvec2 corner{0};  // of a picture: its lower left one [m]
-  glm::dvec2 across{0};  // and its lower and left edges from there [m]
+  glm::dvec2 corner{0};  // lower left corner of a picture [m]
+  glm::dvec2 across{0};  // lower and left edges of a picture from there [m]
   glm::dvec2 up{0};
-  std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;  // of a drawing [m]
-  double low_m = -1e7, high_m = 1e7;                     // heights of its floors
+  std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;  // lines of a drawing [m]
+  double low_m = -1e7, high_m = 1e7;                     // heights of the floors it belongs to
 
   bool lies_under(double floor_m) const { return floor_m >= low_m && floor_m <= high_m; }
 };
@@ -367,13 +367,13 @@ struct Scenario {
   std::string name;
   SourcePlace place;
   Operation operation = Operation::mains;          // at the time of the state
-  Operation written_operation = Operation::mains;  // once the mains have failed
-  double seconds_after_failure = 0;                // photoluminescent decay, onset of luminaires
-  bool says_seconds = false;            // it is written; else luminaires are taken as fully on
-  std::vector<Factor> circuits;         // by circuit name; others 1
-  std::vector<Factor> media;            // extinction factor by medium name; 0 removes it
-  double smoke_factor = 1;              // for every medium not named
-  double emission_factor = 1;           // flames
+  Operation written_operation = Operation::mains;  // after the mains have failed
+  double seconds_after_failure = 0;  // for photoluminescent decay and the run-up of luminaires
+  bool says_seconds = false;         // whether it is given; else luminaires are taken as fully on
+  std::vector<Factor> circuits;      // by circuit name; others 1
+  std::vector<Factor> media;         // extinction factor by medium name; 0 removes it
+  double smoke_factor = 1;           // for every medium not named
+  double emission_factor = 1;        // for flames
   std::vector<std::string> doors_open;  // by object name
   std::vector<std::string> doors_closed;
 };
@@ -383,27 +383,27 @@ enum class GroupRule { one, by_circuit, by_emitter };
 struct RunSettings {
   uint64_t seed = 1;
   int max_bands = 8;                  // 1 forces one band
-  std::vector<double> band_edges_nm;  // empty: told apart automatically
+  std::vector<double> band_edges_nm;  // empty: chosen automatically to distinguish the spectra
   double band_tolerance = 0.02;
-  int64_t batch_particles = 0;  // 0: follows from the scene
-  double voxel_edge_m = 0;      // 0: follows from the scene; only where a medium is
+  int64_t batch_particles = 0;  // 0: computed from the scene
+  double voxel_edge_m = 0;      // 0: computed from the scene; only where a medium is
   bool voxels = true;
   bool analogue = false;   // sampled absorption instead of weighted survival
   bool stratified = true;  // low-discrepancy points for the first draws of histories and eye paths
   GroupRule groups = GroupRule::one;
-  double eye_path_factor = 1.0;  // paths from the eye per batch, relative to the default
+  double eye_path_factor = 1.0;  // eye paths per batch, relative to the default
   std::vector<std::string>
-      error_of;  // what the error is judged by: see scenes/light/transport/error_target.hpp
+      error_of;  // quantities whose error ends a run: see scenes/light/transport/error_target.hpp
   SourcePlace error_of_place;
 };
 
-/// Of a scene out of a pack: see scenes/light/transport/packed_scene.hpp.
+/// Bulk data of a scene from a pack: see scenes/light/transport/packed_scene.hpp.
 struct PackedScene;
 
-/// What `luxodus design` may place: see design.hpp.
+/// Settings of `luxodus design`: see design.hpp.
 struct DesignSettings;
 
-/// See files_as_read.hpp.
+/// Files and their hashes: see files_as_read.hpp.
 class FilesAsRead;
 
 struct SceneDescription {
@@ -431,16 +431,16 @@ struct SceneDescription {
   ProjectSettings project;
   std::vector<Backdrop> backdrops;  // none in a pack
   std::optional<TimeSettings> time;
-  std::optional<double> at_s;                    // of the state that this is, where a time was said
+  std::optional<double> at_s;                    // time of this state, if one was given
   std::shared_ptr<const DesignSettings> design;  // null in a pack, and in scenes made by programs
   std::vector<Side> open_sides;                  // through which light is meant to leave
-  std::vector<Scenario> scenarios;               // empty: mains, as written
-  uint64_t content_hash = 0;                     // of every file read
+  std::vector<Scenario> scenarios;               // empty: mains, as described
+  uint64_t content_hash = 0;                     // hash of every file read
   std::shared_ptr<const FilesAsRead> files;      // null in a pack, and in scenes made by programs
   int64_t degenerate_triangles = 0;              // dropped on reading
-  std::vector<Problem> warnings;                 // said by `check`, not fatal
-  std::vector<Problem> notes;  // said by `check`: what a reader of the results should know
-  /// Where the triangles are, if not in the objects; null where they are.
+  std::vector<Problem> warnings;                 // reported by `check`, not fatal
+  std::vector<Problem> notes;  // reported by `check`: what a reader of the results should know
+  /// Source of the triangles if they are not in the objects; else null.
   std::shared_ptr<const PackedScene> packed;
 };
 

@@ -1,7 +1,7 @@
-// The files that a scene was read from, each with a hash of its bytes: what goes on with a scene
-// for long, and reads states of it at other times, tells by them that the scene on the disk is
-// another one now. Index and frames of fire simulations are not among them: a simulation that still
-// runs adds to them. Plain values; any thread.
+// The files that a scene was read from, each with a hash of its bytes. Long-running programs, which
+// read states of the scene at other times, use them to detect that the scene on disk has changed.
+// Index and frames of fire simulations are not included: a running simulation still adds to them.
+// Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,23 @@
 
 namespace luxodus {
 
-/// Whether a file stays as it is while a scene is open, or is written to by a program that runs.
+/// Whether a file stays unchanged while a scene is open, or a running program still writes to it.
 enum class FileLife { settled, grows };
 
 class FilesAsRead {
  public:
-  /// `before`: of the file before it was hashed; without it the file is read whenever it is asked
-  /// for.
+  /// `before`: stamp of the file taken before it was hashed; without it the file is read at every
+  /// check.
   void add(const std::string& path, uint64_t hash, FileStamp before = {}) {
     files_[path] = {hash, before};
   }
-  /// The hash of a file that was added; none of others.
+  /// The hash of a file that was added; nothing for others.
   std::optional<uint64_t> hash_of(const std::string& path) const;
 
-  /// The first file that is not on the disk any more, or has other bytes there. Reads those whose
-  /// stamps are others.
+  /// The first file that no longer exists or has other bytes on disk. Reads only files whose stamps
+  /// have changed.
   std::optional<Problem> change_on_disk() const;
-  /// The first file that a later reading of the scene has found with other bytes.
+  /// The first file that a later reading of the scene found with other bytes.
   std::optional<Problem> change_in(const FilesAsRead& later) const;
 
  private:

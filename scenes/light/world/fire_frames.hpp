@@ -1,11 +1,11 @@
-// Which smoke a fire simulation has at a time that lies between two of its frames. Values only.
+// Smoke of a fire simulation at a time between two of its frames. Plain values; any thread.
 #pragma once
 
 namespace luxodus {
 
 enum class FireFrames {
-  between,  // linear between the two: for light, pictures and films
-  nearest,  // that of the nearer one: for verdicts, which are of what was computed
+  between,  // linear interpolation: for light, pictures and films
+  nearest,  // the nearer frame: for verdicts, which refer to computed states
 };
 
 }  // namespace luxodus

@@ -1,5 +1,5 @@
-// A scene without what its file asks to be measured, for those who ask other things of it. Pure;
-// any thread.
+// Removes the measurements that a scene file asks for, for code with other questions. Pure; any
+// thread.
 #pragma once
 
 #include "scenes/light/world/description.hpp"
@@ -16,7 +16,7 @@ inline void clear_measurements(SceneDescription& scene) {
   scene.cameras.clear();
 }
 
-/// One bin for each side of an object, none in smoke: as little to tally as can be.
+/// The smallest tally: one bin for each side of an object, none in smoke.
 inline void count_by_object(SceneDescription& scene) {
   clear_measurements(scene);
   scene.run.voxels = false;

@@ -1,5 +1,5 @@
-// A scene at several times. The last few are kept: reading one again takes as long as opening the
-// scene did. Any thread.
+// A scene at several times. The last few are cached, since reading one takes as long as opening the
+// scene. Any thread.
 #pragma once
 
 #include <deque>
@@ -14,27 +14,28 @@
 namespace luxodus {
 
 namespace limits {
-/// Descriptions that are kept, besides the first: each holds the triangles of the scene.
+/// Descriptions that are cached, besides the first: each holds the triangles of the scene.
 inline constexpr size_t kept_scenes = 4;
 }  // namespace limits
 
-/// Reads the scene as it is at a time [s]. Errors: as reading it.
+/// Reads the scene at a time [s]. Errors: those of reading it.
 using SceneAtTime = std::function<Result<std::shared_ptr<const SceneDescription>>(double at_s)>;
 
 class TimedScenes {
  public:
-  /// `read` may be empty: then there is the first alone.
+  /// If `read` is empty, only the first exists.
   TimedScenes(std::shared_ptr<const SceneDescription> first, SceneAtTime read)
       : first_(std::move(first)), read_(std::move(read)) {}
 
-  /// The first where no time is said. Errors: as the reader; a time, and none.
+  /// The scene at a time; the first if no time is given. Errors: those of the reader; a time
+  /// without a reader.
   Result<std::shared_ptr<const SceneDescription>> at(std::optional<double> at_s);
 
  private:
   const std::shared_ptr<const SceneDescription> first_;
   const SceneAtTime read_;
   std::mutex mutex_;
-  std::deque<std::shared_ptr<const SceneDescription>> kept_;  // the last asked for first
+  std::deque<std::shared_ptr<const SceneDescription>> kept_;  // most recently used first
 };
 
 }  // namespace luxodus

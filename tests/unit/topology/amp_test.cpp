@@ -31,7 +31,7 @@ std::string refusal(const AmpRequest& request) {
 
 }  // namespace
 
-TEST_CASE("a search of 32 nodes and 4 links meets the bound with balanced routes and no weak spot",
+TEST_CASE("a search of 32 nodes and 4 links meets the bound with balanced routes and robust links",
           "[topology][amp]") {
   const Measures m = measure(found(request(32, 4)));
   CHECK(m.all.paths.diameter == 3);
@@ -41,17 +41,18 @@ TEST_CASE("a search of 32 nodes and 4 links meets the bound with balanced routes
   CHECK(m.all.any_vertex.diameter == 4);
 }
 
-TEST_CASE("a search with a controller of 4 links meets the bounds of all and of the nodes alone",
-          "[topology][amp]") {
+TEST_CASE(
+    "a search with a controller of 4 links meets the bounds of all vertices and of the nodes alone",
+    "[topology][amp]") {
   AmpRequest r = request(32, 4, 4);
-  r.runs = 6;  // each meets them; the default compares more
+  r.runs = 6;  // each run meets them; the default compares more
   const Measures m = measure(found(r));
   CHECK(m.all.paths.average() == 2.375);
   CHECK(m.workers->paths.hops == 2368);
   CHECK(m.from_controller->hops == m.from_controller_bound->hops);
 }
 
-TEST_CASE("searches of 8, 13 and 40 nodes meet the bound, and of 16 what is known to be best",
+TEST_CASE("searches of 8, 13 and 40 nodes meet the bound, and of 16 the best known",
           "[topology][amp]") {
   for (const uint32_t nodes : {8u, 13u, 40u}) {
     const Measures m = measure(found(request(nodes, 4)));
@@ -61,7 +62,7 @@ TEST_CASE("searches of 8, 13 and 40 nodes meet the bound, and of 16 what is know
   CHECK(path_lengths(found(request(16, 4)).all()).average() == 1.75);
 }
 
-TEST_CASE("few nodes or many links make what one expects", "[topology][amp]") {
+TEST_CASE("few nodes or many links give the expected graphs", "[topology][amp]") {
   CHECK(found(request(1, 4)).links().empty());
   CHECK(found(request(1, 0)).links().empty());
   CHECK(found(request(2, 4)).links().size() == 1);
@@ -74,7 +75,8 @@ TEST_CASE("few nodes or many links make what one expects", "[topology][amp]") {
   CHECK(found(request(4, 4, 4)).links().size() == 6 + 4);
 }
 
-TEST_CASE("odd sizes and odd sums of links are connected within their links", "[topology][amp]") {
+TEST_CASE("odd sizes and odd sums of links give connected graphs within their limits",
+          "[topology][amp]") {
   for (const auto& [nodes, links, controller] : {std::tuple{7u, 3u, 0u},
                                                  {13u, 3u, 0u},
                                                  {11u, 4u, 1u},
@@ -91,7 +93,7 @@ TEST_CASE("odd sizes and odd sums of links are connected within their links", "[
   CHECK(path_lengths(found(request(13, 3)).all()).hops == 318);
 }
 
-TEST_CASE("what no links can connect is refused with the reason", "[topology][amp]") {
+TEST_CASE("a request that no links can connect is rejected with the reason", "[topology][amp]") {
   CHECK_THAT(refusal(request(0, 4)), Catch::Contains("at least one node"));
   CHECK_THAT(refusal(request(3, 1)), Catch::Contains("3 ends of links, and 4 are needed"));
   CHECK_THAT(refusal(request(2, 0)), Catch::Contains("are needed"));
@@ -110,7 +112,7 @@ TEST_CASE("equal requests give equal graphs, other seeds others", "[topology][am
   CHECK(found(r).hash() != found(other).hash());
 }
 
-TEST_CASE("a search that is stopped gives the best it has", "[topology][amp]") {
+TEST_CASE("a stopped search returns its best graph so far", "[topology][amp]") {
   int questions = 0;
   AmpRequest r = request(64, 4);
   r.runs = UINT32_MAX;
@@ -121,7 +123,7 @@ TEST_CASE("a search that is stopped gives the best it has", "[topology][amp]") {
   CHECK(path_lengths(result->graph.all()).average() < 3.1);
 }
 
-TEST_CASE("a controller may be told to forward", "[topology][amp]") {
+TEST_CASE("a controller can be made to forward", "[topology][amp]") {
   AmpRequest r = request(8, 4, 2);
   CHECK_FALSE(found(r).forwards(8));
   r.controller_forwards = true;

@@ -7,7 +7,7 @@
 
 using namespace luxodus;
 
-TEST_CASE("a builder refuses sizes for which it has no graph", "[topology][builders]") {
+TEST_CASE("a builder rejects sizes for which it has no graph", "[topology][builders]") {
   for (const auto& make :
        {make_ring, make_mesh, make_torus, make_hypercube, make_ternary_tree, make_chordal_ring}) {
     CHECK_FALSE(make(0).ok());
@@ -32,14 +32,14 @@ TEST_CASE("every builder makes graphs of one, two and three nodes", "[topology][
   CHECK(make_hypercube(2)->links().size() == 1);
 }
 
-TEST_CASE("rotations show in the numbers", "[topology][builders]") {
+TEST_CASE("rotations apply to the vertex numbers", "[topology][builders]") {
   CHECK(make_ring(12)->rotation() == 12);
   CHECK(make_torus(32)->rotation() == 4);
   CHECK(make_hypercube(32)->rotation() == 2);
   CHECK(make_chordal_ring(13)->rotation() == 13);
 }
 
-TEST_CASE("a random graph has its links at every node and follows its seed",
+TEST_CASE("a random graph has its links at every node and depends on its seed",
           "[topology][builders]") {
   for (const uint32_t links : {2u, 3u, 4u, 7u}) {
     const auto graph = make_random_regular(40, links, 9);
@@ -50,7 +50,7 @@ TEST_CASE("a random graph has its links at every node and follows its seed",
   }
 }
 
-TEST_CASE("random graphs are about as short as theory says", "[topology][builders]") {
+TEST_CASE("random graphs are about as short as theory predicts", "[topology][builders]") {
   // ln N / ln(d - 1) + 1/2 - (ln d - ln(d - 2) + Euler's constant) / ln(d - 1), for large N.
   const double expected = std::log(1000.0) / std::log(3.0) + 0.5 -
                           (std::log(4.0) - std::log(2.0) + 0.5772) / std::log(3.0);

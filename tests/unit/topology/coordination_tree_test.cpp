@@ -1,4 +1,4 @@
-// Who coordinates whom: everybody once, no more than the fan-out, near each other.
+// The tree of coordinators: every worker once, at most the fan-out each, close together.
 #include "topology/coordination_tree.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using namespace luxodus;
 
 namespace {
 
-/// A ring with chords, and a controller that has up to four links to it.
+/// A ring with chords, and a controller with up to four links to it.
 Graph graph_of(uint32_t workers) {
   GraphPlan plan;
   plan.workers = workers;
@@ -28,7 +28,7 @@ Graph graph_of(uint32_t workers) {
   return Graph(plan);
 }
 
-/// Every worker is below the root; who coordinates leads 1 to `fan_out`, and is higher than they.
+/// Every worker is below the root; each coordinator leads 1 to `fan_out`, and is higher than they.
 void check_tree(const Graph& graph, uint32_t fan_out) {
   INFO(graph.workers() << " workers, fan-out " << fan_out);
   const CoordinationTree tree(graph, fan_out);
@@ -53,13 +53,13 @@ void check_tree(const Graph& graph, uint32_t fan_out) {
 
 }  // namespace
 
-TEST_CASE("a tree of coordinators holds everybody once, and no more than the fan-out",
+TEST_CASE("a tree of coordinators has every worker once, and never exceeds the fan-out",
           "[topology][coordination]") {
   for (const uint32_t nodes : {1u, 2u, 3u, 4u, 5u, 13u, 40u, 64u, 100u})
     for (const uint32_t fan_out : {2u, 3u, 8u, 63u}) check_tree(graph_of(nodes), fan_out);
 }
 
-TEST_CASE("below 64 workers there is one level, and from there a square root leads",
+TEST_CASE("below 64 workers there is one level, and from there the fan-out is the square root",
           "[topology][coordination]") {
   const Graph few = graph_of(63);
   const CoordinationTree flat(few, usual_fan_out(63));
@@ -102,7 +102,7 @@ TEST_CASE("coordinators are nearer to those whom they lead than others are on av
   CHECK(own / tracing < 0.75 * any / tracing);
 }
 
-TEST_CASE("whose coordinator is lost knows the next ones, higher than itself, the root last",
+TEST_CASE("a worker without coordinator knows the next ones, higher than itself, the root last",
           "[topology][coordination]") {
   const Graph graph = graph_of(40);
   const CoordinationTree tree(graph, 3);

@@ -10,7 +10,7 @@
 
 using namespace luxodus;
 
-TEST_CASE("hops counted for all sources at once are those of a search from each", "[topology]") {
+TEST_CASE("hops counted for all sources at once equal those of a search from each", "[topology]") {
   for (const uint32_t nodes : {1u, 2u, 3u, 17u, 63u, 64u, 65u, 130u}) {
     const Graph tree = make_ternary_tree(nodes).value();
     const PathLengths fast = path_lengths(tree.all()), plain = test::plain_path_lengths(tree);
@@ -23,7 +23,7 @@ TEST_CASE("hops counted for all sources at once are those of a search from each"
   CHECK(path_lengths(random.all()).hops == test::plain_path_lengths(random).hops);
 }
 
-TEST_CASE("pairs without a way are counted apart", "[topology]") {
+TEST_CASE("disconnected pairs are counted separately", "[topology]") {
   const std::vector<GraphLink> two_parts{{0, 1}, {1, 2}, {3, 4}};
   const PathLengths lengths = path_lengths(Adjacency(5, two_parts));
   CHECK(lengths.unconnected == 12);
@@ -32,7 +32,7 @@ TEST_CASE("pairs without a way are counted apart", "[topology]") {
   CHECK(lengths.average() == Approx(10.0 / 8));
 }
 
-TEST_CASE("graphs with a name and the bound have the published diameters and averages",
+TEST_CASE("named graphs and the bound have the published diameters and averages",
           "[topology][reference]") {
   std::ifstream in(LUX_SOURCE_DIR "/tests/reference/topology/baselines.csv");
   std::string line;
@@ -58,8 +58,8 @@ TEST_CASE("graphs with a name and the bound have the published diameters and ave
     const PathLengths lengths =
         bound ? hop_bound(full_degrees(nodes, static_cast<uint32_t>(std::stoi(name.substr(6))), 0))
               : path_lengths(makers.at(name)(nodes)->all());
-    // Where nodes x links is odd one link stays free, and the bound is sharper than that of equal
-    // degrees, which is what is published.
+    // If nodes x links is odd one link end stays free, and the bound is sharper than the published
+    // one for equal degrees.
     if (bound && nodes % 2 == 1 && name.back() % 2 == 1) {
       CHECK(lengths.average() >= average - 1e-4);
     } else {
@@ -71,11 +71,11 @@ TEST_CASE("graphs with a name and the bound have the published diameters and ave
   CHECK(checked > 80);
 }
 
-TEST_CASE("bounds are those that were counted by hand", "[topology]") {
+TEST_CASE("bounds equal those computed by hand", "[topology]") {
   CHECK(hop_bound(full_degrees(32, 4, 0)).hops == 32 * 73);
-  // 13 nodes of 3 links: one link's end is left over.
+  // 13 nodes of 3 links: one link end is left over.
   CHECK(hop_bound(full_degrees(13, 3, 0)).hops == 318);
-  // 32 nodes and a controller with 4 links: all, and the nodes alone.
+  // 32 nodes and a controller with 4 links: all vertices, and the nodes alone.
   CHECK(hop_bound(full_degrees(32, 4, 4)).average() == Approx(2.375));
   CHECK(hop_bound(full_worker_degrees(32, 4, 4)).hops == 2368);
   CHECK(hop_bound(full_worker_degrees(32, 4, 2)).hops == 2352);

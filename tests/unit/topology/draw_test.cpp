@@ -25,7 +25,7 @@ size_t count(const std::string& text, const std::string& piece) {
 
 }  // namespace
 
-TEST_CASE("vertices are drawn in the disc, each apart from all others", "[topology][draw]") {
+TEST_CASE("vertices are drawn in the disc, without overlap", "[topology][draw]") {
   for (const Graph& graph :
        {make_mesh(40).value(), make_ternary_tree(40).value(), make_hypercube(16).value(),
         *shipped_graph({32, 4, 4}), *shipped_graph({16, 4, 0}), make_ring(2).value()}) {
@@ -39,7 +39,7 @@ TEST_CASE("vertices are drawn in the disc, each apart from all others", "[topolo
   CHECK(layout(make_ring(1).value()).size() == 1);
 }
 
-TEST_CASE("a turn of the graph is a turn of its drawing", "[topology][draw]") {
+TEST_CASE("a rotation of the graph is a rotation of its drawing", "[topology][draw]") {
   const Graph graph = *shipped_graph({32, 4, 4});
   REQUIRE(graph.rotation() == 4);
   const std::vector<DrawnPlace> places = layout(graph);
@@ -51,14 +51,14 @@ TEST_CASE("a turn of the graph is a turn of its drawing", "[topology][draw]") {
   CHECK(apart(places[32], {0, 0}) == 0);
 }
 
-TEST_CASE("a ring is drawn as a ring, whatever its numbers", "[topology][draw]") {
+TEST_CASE("a ring is drawn as a ring, whatever its numbering", "[topology][draw]") {
   const std::vector<DrawnPlace> places = layout(make_ring(24).value());
   for (Vertex v = 0; v < 24; ++v) {
     CHECK(apart(places[v], places[(v + 1) % 24]) == Approx(2 * std::sin(std::numbers::pi / 24)));
   }
 }
 
-TEST_CASE("neighbours in a mesh are drawn nearer than its corners", "[topology][draw]") {
+TEST_CASE("neighbours in a mesh are drawn closer than its corners", "[topology][draw]") {
   const Graph mesh = make_mesh(36).value();
   const std::vector<DrawnPlace> places = layout(mesh);
   for (const GraphLink& link : mesh.links()) {
@@ -66,7 +66,7 @@ TEST_CASE("neighbours in a mesh are drawn nearer than its corners", "[topology][
   }
 }
 
-TEST_CASE("a drawing shows every vertex and every link once, and no markup of a title",
+TEST_CASE("a drawing shows every vertex and every link once, and escapes its title",
           "[topology][draw]") {
   const Graph graph = *shipped_graph({32, 4, 4});
   const std::string svg = graph_svg(graph, "a < \"b\" & c");

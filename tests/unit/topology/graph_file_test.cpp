@@ -18,7 +18,7 @@ std::string problem_of(const std::string& text) {
   return graph.ok() ? "" : graph.problem().text();
 }
 
-/// The text of a square, with one piece of it replaced.
+/// The text of a square graph, with one piece replaced.
 std::string square_with(const std::string& piece, const std::string& replacement) {
   std::string text = graph_text(make_ring(4).value());
   const size_t at = text.find(piece);
@@ -28,7 +28,7 @@ std::string square_with(const std::string& piece, const std::string& replacement
 
 }  // namespace
 
-TEST_CASE("a graph comes back from its text as it was", "[topology][file]") {
+TEST_CASE("a graph is read back from its text unchanged", "[topology][file]") {
   for (const ShippedSize& size : shipped_sizes()) {
     const Graph graph = *shipped_graph(size);
     const std::string text = graph_text(graph);
@@ -43,7 +43,7 @@ TEST_CASE("a graph comes back from its text as it was", "[topology][file]") {
   CHECK(lonely->vertices() == 1);
 }
 
-TEST_CASE("the graph in the README is one", "[topology][file]") {
+TEST_CASE("the graph in the README is valid", "[topology][file]") {
   std::ifstream in(LUX_SOURCE_DIR "/topology/README.md");
   std::ostringstream all;
   all << in.rdbuf();
@@ -55,7 +55,7 @@ TEST_CASE("the graph in the README is one", "[topology][file]") {
   CHECK(graph->hash() == make_ring(4)->hash());
 }
 
-TEST_CASE("spacing and comments of a graph's text are free", "[topology][file]") {
+TEST_CASE("spacing and comments in a graph's text are free", "[topology][file]") {
   const std::string text =
       "# by hand\n\nformat=\"luxodus graph 1\"\r\n\tlinks = [\n[0,1] , # here\n[ 1,\n"
       "2 ]\n] # end\nnodes = 3\nrotation = 1\nmax_links = 2\ncontroller = \"none\"\n";
@@ -64,7 +64,7 @@ TEST_CASE("spacing and comments of a graph's text are free", "[topology][file]")
   CHECK(problem_of(text + hash_line).empty());
 }
 
-TEST_CASE("a graph's file of an earlier release is read, under the former name of a key",
+TEST_CASE("a graph file of an earlier release is read, with the former name of a key",
           "[topology][file]") {
   const std::string text = graph_text(test::graph(3, 2, {{0, 1}, {1, 2}}));
   std::string old = text;
@@ -73,7 +73,7 @@ TEST_CASE("a graph's file of an earlier release is read, under the former name o
   CHECK(parse_graph(old, "g.toml")->hash() == parse_graph(text, "g.toml")->hash());
 }
 
-TEST_CASE("each mistake in a graph's text is told with its line", "[topology][file]") {
+TEST_CASE("each mistake in a graph's text is reported with its line", "[topology][file]") {
   CHECK(problem_of("") == "g.toml:1: a graph begins with format = \"luxodus graph 1\"");
   CHECK(problem_of("nodes = 3\n") == "g.toml:1: a graph begins with format = \"luxodus graph 1\"");
   CHECK_THAT(problem_of(square_with("graph 1", "graph 2")),
@@ -102,11 +102,11 @@ TEST_CASE("each mistake in a graph's text is told with its line", "[topology][fi
              Catch::StartsWith("g.toml:9: the hash of this graph is"));
 }
 
-TEST_CASE("a longer file than any graph's is refused before it is read", "[topology][file]") {
+TEST_CASE("a file longer than any graph's is rejected before it is parsed", "[topology][file]") {
   CHECK_THAT(problem_of(std::string(limits::graph_file_bytes + 1, '#')), Catch::Contains("longer"));
 }
 
-TEST_CASE("no text of a graph that was cut or scratched ends the program or gives another graph",
+TEST_CASE("a damaged text of a graph never ends the program or gives another graph",
           "[topology][file]") {
   const Graph graph = *shipped_graph({32, 4, 4});
   const std::string text = graph_text(graph);

@@ -27,7 +27,7 @@ TEST_CASE("a graph names the neighbours of each vertex in ascending order", "[to
   CHECK(g.links() == std::vector<GraphLink>{{0, 1}, {0, 2}, {0, 3}, {2, 3}});
 }
 
-TEST_CASE("what is no graph is refused with the reason", "[topology]") {
+TEST_CASE("an invalid plan is rejected with the reason", "[topology]") {
   const auto none = ControllerRole::none;
   CHECK(fault({3, 2, none, 1, triangle}).empty());
   CHECK_THAT(fault({0, 2, none, 1, {}}), Catch::Contains("at least one node"));
@@ -44,7 +44,7 @@ TEST_CASE("what is no graph is refused with the reason", "[topology]") {
   CHECK_THROWS_AS(Graph({3, 2, none, 1, {{1, 1}}}), std::invalid_argument);
 }
 
-TEST_CASE("a fault of a link names the first that is wrong", "[topology]") {
+TEST_CASE("a wrong link is named, and it is the first one", "[topology]") {
   const auto fault = fault_of({3, 2, ControllerRole::none, 1, {{0, 1}, {1, 2}, {2, 2}, {1, 1}}});
   REQUIRE(fault);
   CHECK(fault->link == size_t{2});
@@ -63,7 +63,7 @@ TEST_CASE("a controller that forwards nothing connects nothing", "[topology]") {
   CHECK(g.among_workers().arcs() == 2);
 }
 
-TEST_CASE("links turn around the workers while the controller stays", "[topology]") {
+TEST_CASE("links rotate around the workers while the controller stays", "[topology]") {
   CHECK(turned(6, 3, std::vector<GraphLink>{{0, 1}}) ==
         std::vector<GraphLink>{{0, 1}, {2, 3}, {4, 5}});
   CHECK(turned(4, 2, std::vector<GraphLink>{{0, 2}, {1, 4}}) ==
@@ -73,7 +73,7 @@ TEST_CASE("links turn around the workers while the controller stays", "[topology
   CHECK(Graph(plan).rotation() == 2);
 }
 
-TEST_CASE("the hash follows the graph and not the order of its links", "[topology]") {
+TEST_CASE("the hash depends on the graph and not on the order of its links", "[topology]") {
   const Graph g = test::graph(3, 2, triangle);
   CHECK(g.hash() == test::graph(3, 2, {{2, 0}, {2, 1}, {1, 0}}).hash());
   CHECK(g.hash() != test::graph(3, 2, {{0, 1}, {1, 2}}).hash());

@@ -1,5 +1,5 @@
-// What tests of graphs share: a plain breadth-first search to check the fast counting against, and
-// graphs by a few words.
+// Shared by tests of graphs: a plain breadth-first search to check the fast counting against, and
+// short ways to make graphs. Pure.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +15,13 @@ inline Graph graph(uint32_t workers, uint32_t max_links, std::vector<GraphLink> 
   return Graph({workers, max_links, role, 1, std::move(links)});
 }
 
-/// A search that ends when it is done.
+/// Never stops a search.
 inline bool never_stop() {
   return false;
 }
 
-/// Hops from one vertex to all, by breadth-first search; -1 where there is no way. A vertex that
-/// does not forward is reached, but nothing is reached through it.
+/// Hops from one vertex to all, by breadth-first search; -1 if unreachable. A vertex that does not
+/// forward is reached, but nothing is reached through it.
 inline std::vector<int> hops_from(const Graph& graph, Vertex from) {
   std::vector<int> hops(graph.vertices(), -1);
   std::vector<Vertex> queue{from};
@@ -37,7 +37,7 @@ inline std::vector<int> hops_from(const Graph& graph, Vertex from) {
   return hops;
 }
 
-/// The same figures as path_lengths(graph.all()), one source after another.
+/// The results of path_lengths(graph.all()), one source after another.
 inline PathLengths plain_path_lengths(const Graph& graph) {
   PathLengths lengths;
   for (Vertex from = 0; from < graph.vertices(); ++from) {

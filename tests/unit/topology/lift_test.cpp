@@ -12,7 +12,7 @@ const std::vector<LiftShape> shapes{{8, 4, 4, 4},  {8, 4, 4, 0},  {16, 1, 3, 0},
                                     {7, 3, 3, 3},  {5, 7, 4, 0},  {9, 8, 4, 0},   {70, 1, 4, 0},
                                     {64, 2, 3, 2}, {8, 32, 4, 0}, {12, 10, 4, 0}, {1, 13, 4, 0}};
 
-/// The graph of a lift, if it is one.
+/// The graph of a lift, if it is valid.
 std::optional<Graph> graph_of(const Lift& lift) {
   const LiftShape& shape = lift.shape();
   const GraphPlan plan{shape.workers(), shape.links,
@@ -24,7 +24,7 @@ std::optional<Graph> graph_of(const Lift& lift) {
 
 }  // namespace
 
-TEST_CASE("a lift of any shape stays within its links and keeps its rotation, whatever changes",
+TEST_CASE("a lift of any shape stays within its links and keeps its rotation through all changes",
           "[topology][lift]") {
   Random random(3, RandomStream::test);
   for (size_t s = 0; s < shapes.size(); ++s) {
@@ -45,7 +45,7 @@ TEST_CASE("a lift of any shape stays within its links and keeps its rotation, wh
   }
 }
 
-TEST_CASE("a change that is taken back leaves no trace", "[topology][lift]") {
+TEST_CASE("an undone change leaves no trace", "[topology][lift]") {
   Random random(4, RandomStream::test);
   random.start(0);
   for (const LiftShape& shape : shapes) {
@@ -60,7 +60,7 @@ TEST_CASE("a change that is taken back leaves no trace", "[topology][lift]") {
   }
 }
 
-TEST_CASE("hops of a lift are those of its graph", "[topology][lift]") {
+TEST_CASE("hops of a lift equal those of its graph", "[topology][lift]") {
   Random random(5, RandomStream::test);
   random.start(0);
   int compared = 0;
@@ -82,7 +82,7 @@ TEST_CASE("hops of a lift are those of its graph", "[topology][lift]") {
   CHECK(compared > 100);
 }
 
-TEST_CASE("a count that is cut short is above what was enough", "[topology][lift]") {
+TEST_CASE("a count that is cut short exceeds the limit", "[topology][lift]") {
   Random random(6, RandomStream::test);
   random.start(0);
   const LiftShape shape{8, 4, 4, 0};

@@ -8,7 +8,7 @@
 
 using namespace luxodus;
 
-TEST_CASE("a ring becomes a path when a link or a vertex fails, a path falls apart",
+TEST_CASE("a ring becomes a path when a link or a vertex fails, and a path is disconnected",
           "[topology][measure]") {
   const Graph ring = make_ring(8).value();
   const FailureHarm link = harm_of_any_link(ring.all());
@@ -25,7 +25,7 @@ TEST_CASE("a ring becomes a path when a link or a vertex fails, a path falls apa
   CHECK_FALSE(harm_of_any_vertex(make_ring(1)->all()).falls_apart);
 }
 
-TEST_CASE("harm is the worst over all links and vertices", "[topology][measure]") {
+TEST_CASE("harm is the worst case over all links and vertices", "[topology][measure]") {
   const Graph graph = *shipped_graph({32, 4, 0});
   uint32_t diameter = 0;
   double average = 0;
@@ -40,16 +40,17 @@ TEST_CASE("harm is the worst over all links and vertices", "[topology][measure]"
   CHECK(harm_of_any_link(graph.all()).average == average);
 }
 
-TEST_CASE("classes of buffers are as many as the longest route has hops, and a spare after failure",
-          "[topology][measure]") {
+TEST_CASE(
+    "there are as many buffer classes as the longest route has hops, and one spare after a failure",
+    "[topology][measure]") {
   const Measures m = measure(*shipped_graph({32, 4, 0}));
   CHECK(m.hop_classes == 3);
   CHECK(m.hop_classes_after_failure == 5);
 }
 
-TEST_CASE("nodes are measured without a controller's help, and the controller to them",
+TEST_CASE("nodes are measured without the controller, and the controller by its paths to them",
           "[topology][measure]") {
-  // A path of 4 with a controller at its ends: it makes a ring only where it forwards.
+  // A path of 4 with a controller at its ends: it closes a ring only if it forwards.
   const std::vector<GraphLink> links{{0, 1}, {1, 2}, {2, 3}, {0, 4}, {3, 4}};
   const Measures m = measure(test::graph(4, 2, links, ControllerRole::endpoint));
   CHECK(m.all.paths.diameter == 2);

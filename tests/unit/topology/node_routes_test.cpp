@@ -1,4 +1,4 @@
-// Every node makes its next hops by itself; together they must be ways. Failures are drawn at
+// Every node computes its next hops by itself; together they must form paths. Failures are drawn at
 // random: LUXODUS_SEED draws others.
 #include "topology/node_routes.hpp"
 
@@ -18,13 +18,13 @@ namespace {
 
 using Links = std::vector<GraphLink>;
 
-/// All nodes of a graph, each of which makes its next hops by itself.
+/// All nodes of a graph, each with its own next hops.
 class AllNodes {
  public:
   explicit AllNodes(const Graph& graph) : graph_(graph), balanced_(balanced_routes(graph)) {
     for (Vertex v = 0; v < graph.vertices(); ++v) nodes_.emplace_back(graph, balanced_, v);
   }
-  /// Every node hears of it.
+  /// Tells every node of the failures.
   void fail(const Links& failed) {
     next_.clear();
     for (NodeRoutes& node : nodes_) {
@@ -36,8 +36,8 @@ class AllNodes {
   std::optional<Vertex> next_hop(Vertex from, Vertex to) const { return next_[from][to]; }
   std::vector<std::vector<std::optional<Vertex>>> tables() const { return next_; }
 
-  /// Every message arrives after as many steps as the nearest way over `failed` has, over links
-  /// that work, through vertices that forward; where there is no way, nothing is sent.
+  /// Checks that every message arrives after as many steps as a shortest path around `failed` has,
+  /// over working links and forwarding vertices; an unreachable destination has no next hop.
   void check_ways(const Links& failed) const {
     for (Vertex from = 0; from < graph_.vertices(); ++from) {
       const std::vector<int> hops = hops_around(from, failed);
@@ -60,7 +60,7 @@ class AllNodes {
     }
   }
 
-  /// Whether the balanced route passes none of `failed`.
+  /// Whether the balanced route avoids all of `failed`.
   bool balanced_route_works(Vertex from, Vertex to, const Links& failed) const {
     for (Vertex at = from; at != to;) {
       const Vertex next = balanced_.next_hop(at, to);
@@ -75,7 +75,7 @@ class AllNodes {
     return std::binary_search(graph_.links().begin(), graph_.links().end(), link) &&
            std::count(failed.begin(), failed.end(), link) == 0;
   }
-  /// -1 where there is no way. What is left need not be a Graph, which is connected.
+  /// -1 if unreachable. The rest need not be connected, as a Graph must be.
   std::vector<int> hops_around(Vertex from, const Links& failed) const {
     std::vector<int> hops(graph_.vertices(), -1);
     std::vector<Vertex> queue{from};
@@ -97,14 +97,14 @@ class AllNodes {
   std::vector<std::vector<std::optional<Vertex>>> next_;
 };
 
-/// What fails.
+/// Draws failures.
 class Chance {
  public:
   Chance() : seed_(seed_said()), random_(seed_, RandomStream::test) { random_.start(0); }
   uint64_t seed() const { return seed_; }
 
   uint32_t below(size_t end) { return static_cast<uint32_t>(uint64_t{random_.bits()} * end >> 32); }
-  /// `count` links, the same one perhaps twice.
+  /// `count` links, possibly with duplicates.
   Links links(const Graph& graph, uint32_t count) {
     Links links;
     while (links.size() < count) links.push_back(graph.links()[below(graph.links().size())]);
@@ -126,7 +126,7 @@ Links links_of(const Graph& graph, Vertex node) {
   return links;
 }
 
-/// Regular and irregular ones, with and without a controller, with links to spare and without.
+/// Regular and irregular graphs, with and without a controller, with and without spare links.
 std::vector<Graph> graphs() {
   std::vector<Graph> all{*shipped_graph({32, 4, 0}),
                          *shipped_graph({32, 4, 4}, ControllerRole::endpoint),
@@ -147,7 +147,7 @@ std::vector<Graph> graphs() {
 
 }  // namespace
 
-TEST_CASE("without failures each node has the row of the balanced routes",
+TEST_CASE("without failures each node has its row of the balanced routes",
           "[topology][node_routes]") {
   for (const Graph& graph : graphs()) {
     AllNodes nodes(graph);
@@ -158,7 +158,7 @@ TEST_CASE("without failures each node has the row of the balanced routes",
   }
 }
 
-TEST_CASE("whatever links have failed, every message takes a shortest way that is left",
+TEST_CASE("after any link failures every message takes a shortest remaining path",
           "[topology][node_routes]") {
   Chance chance;
   INFO("seed " << chance.seed());
@@ -174,7 +174,7 @@ TEST_CASE("whatever links have failed, every message takes a shortest way that i
   }
 }
 
-TEST_CASE("around any lost nodes the others keep shortest ways", "[topology][node_routes]") {
+TEST_CASE("around any lost nodes the others keep shortest routes", "[topology][node_routes]") {
   Chance chance;
   INFO("seed " << chance.seed());
   const Graph graph = *shipped_graph({32, 4, 4}, ControllerRole::endpoint);
@@ -194,8 +194,7 @@ TEST_CASE("around any lost nodes the others keep shortest ways", "[topology][nod
   }
 }
 
-TEST_CASE("a route that passes nothing that has failed stays as it was",
-          "[topology][node_routes]") {
+TEST_CASE("a route that avoids all failures is unchanged", "[topology][node_routes]") {
   Chance chance;
   INFO("seed " << chance.seed());
   const Graph graph = *shipped_graph({64, 4, 4}, ControllerRole::endpoint);
@@ -214,8 +213,7 @@ TEST_CASE("a route that passes nothing that has failed stays as it was",
   }
 }
 
-TEST_CASE("routes follow from what has failed now, not from what came before",
-          "[topology][node_routes]") {
+TEST_CASE("routes depend on the present failures, not on earlier ones", "[topology][node_routes]") {
   Chance chance;
   INFO("seed " << chance.seed());
   const Graph graph = *shipped_graph({32, 4, 4}, ControllerRole::endpoint);
@@ -234,7 +232,8 @@ TEST_CASE("routes follow from what has failed now, not from what came before",
   CHECK(nodes.tables() == at_first);
 }
 
-TEST_CASE("where failures part the graph, its parts keep their routes", "[topology][node_routes]") {
+TEST_CASE("if failures disconnect the graph, its parts keep their routes",
+          "[topology][node_routes]") {
   const Graph path = test::graph(4, 2, {{0, 1}, {1, 2}, {2, 3}});
   AllNodes nodes(path);
   nodes.fail({{1, 2}});
@@ -244,15 +243,14 @@ TEST_CASE("where failures part the graph, its parts keep their routes", "[topolo
   CHECK_FALSE(nodes.next_hop(1, 2));
 }
 
-TEST_CASE("failures of links that the graph has not change nothing", "[topology][node_routes]") {
+TEST_CASE("failures of links that are not in the graph change nothing", "[topology][node_routes]") {
   const Graph graph = make_ring(6).value();
   AllNodes nodes(graph);
   nodes.fail({{0, 3}, {2, 99}});
   nodes.check_ways({});
 }
 
-TEST_CASE("around a failure the heaviest link carries at most half as much again",
-          "[topology][node_routes]") {
+TEST_CASE("around a failure the heaviest load grows by at most half", "[topology][node_routes]") {
   const Graph graph = *shipped_graph({64, 4, 0});
   AllNodes nodes(graph);
   const uint64_t before = all_to_all_loads(graph, nodes.balanced()).heaviest;

@@ -18,8 +18,8 @@ Graph amp32_with_controller(ControllerRole role = ControllerRole::endpoint) {
   return *shipped_graph({32, 4, 4}, role);
 }
 
-/// Follows every route and checks that it takes as many steps as the nearest way, through vertices
-/// that forward.
+/// Follows every route and checks that it has as many steps as a shortest path, through forwarding
+/// vertices.
 void check_routes(const Graph& graph) {
   const Routes routes = balanced_routes(graph);
   for (Vertex from = 0; from < graph.vertices(); ++from) {
@@ -42,7 +42,7 @@ void check_routes(const Graph& graph) {
 
 }  // namespace
 
-TEST_CASE("every route is a shortest one and ends where it should", "[topology][routes]") {
+TEST_CASE("every route is shortest and ends at its destination", "[topology][routes]") {
   for (const Graph& graph :
        {amp32(), amp32_with_controller(), amp32_with_controller(ControllerRole::forwards),
         make_ternary_tree(30).value(), make_ring(1).value(), make_ring(2).value()}) {
@@ -50,7 +50,7 @@ TEST_CASE("every route is a shortest one and ends where it should", "[topology][
   }
 }
 
-TEST_CASE("32 nodes with 4 links carry at most 19 messages on a link, the bound",
+TEST_CASE("32 nodes with 4 links carry at most 19 messages on a link, which is the bound",
           "[topology][routes]") {
   const Graph graph = amp32();
   const LinkLoads loads = all_to_all_loads(graph, balanced_routes(graph));
@@ -58,7 +58,7 @@ TEST_CASE("32 nodes with 4 links carry at most 19 messages on a link, the bound"
   CHECK(loads.heaviest == 19);
 }
 
-TEST_CASE("beside a controller the workers' heaviest link and the gather are at their bounds",
+TEST_CASE("with a controller the workers' heaviest link and the gather are at their bounds",
           "[topology][routes]") {
   const Graph graph = amp32_with_controller();
   const Routes routes = balanced_routes(graph);
@@ -68,7 +68,7 @@ TEST_CASE("beside a controller the workers' heaviest link and the gather are at 
   CHECK(gather_loads(graph, routes).heaviest == 8);
 }
 
-TEST_CASE("loads count each message on each link of its way", "[topology][routes]") {
+TEST_CASE("loads count each message on each link of its path", "[topology][routes]") {
   // Over the middle link of a path of 4, 2 x 2 messages go either way; over the others 1 x 3.
   const Graph path = make_mesh(2).value();
   CHECK(all_to_all_loads(path, balanced_routes(path)).heaviest == 1);
@@ -79,7 +79,7 @@ TEST_CASE("loads count each message on each link of its way", "[topology][routes
   CHECK(loads.bound == 4);
 }
 
-TEST_CASE("routes of symmetric graphs are balanced to one message above the bound",
+TEST_CASE("routes of symmetric graphs are balanced to within one message of the bound",
           "[topology][routes]") {
   for (const Graph& graph : {make_hypercube(16).value(), make_torus(16).value(),
                              make_hypercube(64).value(), make_chordal_ring(31).value()}) {
@@ -96,7 +96,8 @@ TEST_CASE("a graph of 1024, which is searched less, is balanced to 1 % above the
   }
 }
 
-TEST_CASE("the same graph gives the same tables, and another graph others", "[topology][routes]") {
+TEST_CASE("the same graph gives the same tables, and another graph different ones",
+          "[topology][routes]") {
   const uint64_t hash = balanced_routes(amp32()).hash();
   CHECK(balanced_routes(amp32()).hash() == hash);
   CHECK(balanced_routes(amp32_with_controller()).hash() != hash);

@@ -18,7 +18,7 @@ double average(uint32_t nodes, uint32_t controller_links = 0) {
 
 }  // namespace
 
-TEST_CASE("every graph that ships is whole, of its size, and within its links",
+TEST_CASE("every shipped graph is valid, of its size, and within its links",
           "[topology][shipped]") {
   CHECK(shipped_sizes().size() >= 15);
   for (const ShippedSize& size : shipped_sizes()) {
@@ -32,7 +32,7 @@ TEST_CASE("every graph that ships is whole, of its size, and within its links",
   CHECK_FALSE(shipped_graph({33, 4, 0}));
 }
 
-TEST_CASE("the graphs that ship are as short as was promised", "[topology][shipped]") {
+TEST_CASE("the shipped graphs are as short as promised", "[topology][shipped]") {
   for (const uint32_t nodes : {8u, 13u, 32u, 40u}) {
     const PathLengths paths = test::plain_path_lengths(*shipped_graph({nodes, 4, 0}));
     const PathLengths bound = hop_bound(full_degrees(nodes, 4, 0));
@@ -47,7 +47,7 @@ TEST_CASE("the graphs that ship are as short as was promised", "[topology][shipp
   CHECK(average(256) <= 4.13);
 }
 
-TEST_CASE("no graph that ships falls apart when a link or a vertex fails", "[topology][shipped]") {
+TEST_CASE("no shipped graph is disconnected by one link or vertex failure", "[topology][shipped]") {
   for (const ShippedSize& size : shipped_sizes()) {
     const Graph graph = *shipped_graph(size);
     INFO(size.nodes << " nodes");
@@ -56,7 +56,7 @@ TEST_CASE("no graph that ships falls apart when a link or a vertex fails", "[top
   }
 }
 
-TEST_CASE("no known best is below the bound", "[topology][shipped]") {
+TEST_CASE("no known record is below the bound", "[topology][shipped]") {
   int known = 0;
   for (uint32_t nodes = 1; nodes <= limits::graph_vertices; ++nodes) {
     for (uint32_t links = 3; links <= 8; ++links) {

@@ -47,7 +47,7 @@ TEST_CASE("the Petersen graph has connectivity 3 and girth 5", "[topology]") {
   CHECK(structure(petersen) == Structure{3, 3, 5, 5});
 }
 
-TEST_CASE("two dense parts joined at one vertex fall apart without it", "[topology]") {
+TEST_CASE("two dense parts joined at one vertex are disconnected without it", "[topology]") {
   // Triangles 0 1 2 and 2 3 4: two links must fail, or one vertex.
   const Graph bow = test::graph(5, 4, {{0, 1}, {1, 2}, {0, 2}, {2, 3}, {3, 4}, {2, 4}});
   CHECK(edge_connectivity(bow.all()) == 2);

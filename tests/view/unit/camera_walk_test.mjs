@@ -26,7 +26,7 @@ function walking() {
   return { walk, told };
 }
 
-test('the first scene says where to stand, later ones leave the camera there', () => {
+test('the first scene places the camera, later ones leave it there', () => {
   const { walk } = walking();
   assert.deepEqual(walk.motion.eye, [2, 3, 1.65]);
   walk.go([0.5, 0, 0]);
@@ -34,7 +34,7 @@ test('the first scene says where to stand, later ones leave the camera there', (
   assert.ok(Math.abs(walk.motion.eye[0] - 2.5) < 1e-6);
 });
 
-test('a wall stops the walk unless walls are passed through', () => {
+test('a wall stops the walk unless collisions are off', () => {
   const { walk } = walking();
   for (let i = 0; i < 100; ++i) walk.go([-0.1, 0, 0]);
   assert.ok(walk.motion.eye[0] > 0.1);
@@ -43,7 +43,7 @@ test('a wall stops the walk unless walls are passed through', () => {
   assert.ok(walk.motion.eye[0] < -5);
 });
 
-test('a move counts as one until it is shown, however long pictures take', (context) => {
+test('a move counts until it is shown, however long pictures take', (context) => {
   let now = 1000;
   context.mock.method(performance, 'now', () => now);
   const { walk } = walking();
@@ -55,7 +55,7 @@ test('a move counts as one until it is shown, however long pictures take', (cont
   assert.ok(!walk.moving);
 });
 
-test('the picture looks anew once after each change, and not without one', () => {
+test('the picture is drawn again once after each change, and not without one', () => {
   const { walk, told } = walking();
   walk.show();
   assert.equal(told.looks, 1);
@@ -69,7 +69,7 @@ test('the picture looks anew once after each change, and not without one', () =>
   assert.equal(told.looks, 2);
 });
 
-test('plan and orbit cut the building, and the plan is shifted where walking turns', () => {
+test('plan and orbit cut the building, and plan shifts where walking turns', () => {
   const { walk, told } = walking();
   assert.equal(walk.cut, null);
   walk.setMode('plan');
@@ -82,7 +82,7 @@ test('plan and orbit cut the building, and the plan is shifted where walking tur
   assert.equal(walk.motion.yaw, 0);
 });
 
-test('another eye height moves the eye and no feet', () => {
+test('another eye height moves the eye and not the feet', () => {
   const { walk } = walking();
   walk.setHeight(0.6);
   const [x, y, z] = walk.motion.eye;

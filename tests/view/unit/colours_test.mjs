@@ -9,7 +9,7 @@ const linear = (byte) => {
   return x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4;
 };
 
-test('the scale grows lighter all the way, so that it survives grey print', () => {
+test('the lightness of the scale rises throughout, so that it works in grey', () => {
   const lightness = Array.from({ length: 101 }, (_, i) => {
     const [r, g, b] = scaleColour(i / 100).map(linear);
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
@@ -24,7 +24,7 @@ test('a decade is a sixth of the scale', () => {
   assert.equal(scaleTexels().length, 1024);
 });
 
-test('numbers have three digits, errors two, and values as many as their error allows', () => {
+test('numbers have three digits, errors two, and values as many decimals as their error', () => {
   assert.equal(words(0.012345), '0.0123');
   assert.equal(words(12345.6), '12\u202f346');
   assert.equal(words(0), '0');
@@ -36,7 +36,7 @@ test('numbers have three digits, errors two, and values as many as their error a
   assert.equal(count(800000), '800\u202f000');
 });
 
-test('the meter gives the log-average of what has light', () => {
+test('the meter gives the log-average of pixels with light', () => {
   const cells = Float32Array.of(10 * Math.log2(4), 10, 0, 1, 10 * Math.log2(16), 10, 0, 1,
     0, 0, 0, 1);
   assert.ok(Math.abs(readMeter(cells) - 8) < 1e-6);
@@ -46,11 +46,11 @@ test('the meter gives the log-average of what has light', () => {
 test('a dark-adapted eye needs less light for the same grey', () => {
   assert.ok(eyeScale(0.01) > eyeScale(1));
   assert.ok(eyeScale(1) > eyeScale(100));
-  // As bright a building as the screen's own half: a cd/m2 is shown as a cd/m2.
+  // A building as bright as half of the screen's white: a cd/m2 is shown as a cd/m2.
   assert.ok(Math.abs(eyeScale(125) - 1 / 250) < 1e-6);
 });
 
-test('exposure adapts towards what is metered and then rests', () => {
+test('exposure adapts towards the metered value and then rests', () => {
   const exposure = new Exposure();
   exposure.meter(Float32Array.of(Math.log2(1), 1, 0, 0));
   exposure.adapt(0.1);
@@ -64,7 +64,7 @@ test('exposure adapts towards what is metered and then rests', () => {
   assert.equal(exposure.adapt(0.1), false);
 });
 
-test('as slowly as eyes: to more light within seconds, to less within minutes', () => {
+test('slow adaptation takes seconds to more light, and minutes to less', () => {
   const exposure = new Exposure();
   exposure.slow = true;
   const after = (from, to, time) => {
@@ -79,7 +79,7 @@ test('as slowly as eyes: to more light within seconds, to less within minutes', 
   assert.ok(Math.abs(Math.log(after(100, 1, 120)) / Math.log(100) - 1 / Math.E) < 0.01);
 });
 
-test('who wants no motion gets the new exposure at once, and is shown it', () => {
+test('with reduced motion the new exposure is applied and shown at once', () => {
   const exposure = new Exposure();
   for (const luminance of [1, 30]) {
     exposure.meter(Float32Array.of(Math.log2(luminance), 1, 0, 0));

@@ -8,7 +8,7 @@ import { decodeBackdrops, limits, under }
 const lines = () => ({ floors: [-1, 2], lines: [[0, 0, 5, 0], [5, 0, 5, 4]] });
 const picture = () => ({ floors: [2, 5], png: 'iVBORw0KGgo=', corner: [0, 0], across: [5, 0], up: [0, 4] });
 
-test('lines and pictures are taken over field by field', () => {
+test('lines and pictures are decoded field by field', () => {
   const [first, second] = decodeBackdrops([{ ...lines(), surprise: 1 }, picture()]);
   assert.equal(first.lines.length, 2);
   assert.ok(!('surprise' in first));
@@ -16,7 +16,7 @@ test('lines and pictures are taken over field by field', () => {
   assert.deepEqual(decodeBackdrops([]), []);
 });
 
-test('a wrong part is refused, and the part named', () => {
+test('a wrong field is refused, and named', () => {
   const refused = (one, pattern) => assert.throws(
     () => decodeBackdrops([one]),
     (error) => error instanceof ProtocolError && pattern.test(error.message));
@@ -30,7 +30,7 @@ test('a wrong part is refused, and the part named', () => {
   assert.throws(() => decodeBackdrops({}), ProtocolError);
 });
 
-test('a plan shows what lies under the storey that it is cut in', () => {
+test('a plan shows the drawings of the storey that it cuts', () => {
   const all = decodeBackdrops([lines(), { ...lines(), floors: [2, 5] }, picture()]);
   assert.deepEqual(under(all, 1.2), [all[0]]);
   assert.deepEqual(under(all, 3.2), [all[1], all[2]]);
@@ -42,7 +42,7 @@ test('a plan shows what lies under the storey that it is cut in', () => {
   assert.deepEqual(under([...all, everywhere], 9), [everywhere]);
 });
 
-test('they are asked for beside the page, with its token alone', async () => {
+test('backdrops are requested beside the page, with only its token', async () => {
   let asked;
   const ask = (answer) => async (address) => {
     asked = address;

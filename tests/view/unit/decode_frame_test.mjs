@@ -17,7 +17,7 @@ test('geometry has corners and surfaces of every triangle', () => {
   assert.deepEqual([generation, triangles, corners.length, [...surfaces]], [5, 2, 18, [3, 4]]);
 });
 
-test('a length that does not fit the count is refused', () => {
+test('a length that contradicts the count is refused', () => {
   for (const bytes of [0, 40, 79, 81, 84]) assert.throws(() => decodeFrame(frame(1, 1, 2, bytes)),
     ProtocolError);
   assert.throws(() => decodeFrame(frame(1, 1, limits.triangles + 1, 80)), ProtocolError);
@@ -36,7 +36,7 @@ test('numbers that are not finite are refused', () => {
   assert.throws(() => decodeFrame(light), ProtocolError);
 });
 
-test('harmed bytes are read or refused, and nothing else', () => {
+test('mutated bytes are decoded or refused, and nothing else', () => {
   let state = 12345;
   const random = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0);
   for (let i = 0; i < 5000; ++i) {

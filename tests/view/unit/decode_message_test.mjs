@@ -11,7 +11,7 @@ import { greyPng, MockServer } from '../mock_server.mjs';
 const scene = () => new MockServer().scene(null);
 const read = (message) => decodeMessage(JSON.stringify(message));
 
-test('a scene is taken over field by field', () => {
+test('a scene is decoded field by field', () => {
   const { groups, signs, voxels, editor } = read({ ...scene(), surprise: 1 });
   assert.equal(groups.length, 6);
   assert.equal(signs[0].texels.length, 128 * 64);
@@ -21,7 +21,7 @@ test('a scene is taken over field by field', () => {
   assert.ok(!('surprise' in read({ ...scene(), surprise: 1 })));
 });
 
-test('lamps come with tables of brightness, surfaces with their gloss', () => {
+test('lamps have tables of brightness, surfaces have gloss', () => {
   const { lamps, lampTables, gloss } = read({ ...scene(), gloss: glossyFloor(0.2) });
   assert.deepEqual(lamps.map(({ shape, table }) => [shape, table]), Array(3).fill(['disc', 0]));
   assert.deepEqual([...lampTables[0].values], [...Array(18).fill(65535), ...Array(18).fill(0)]);
@@ -29,7 +29,7 @@ test('lamps come with tables of brightness, surfaces with their gloss', () => {
     spread: 0.6, roughness: 0.2 }]);
 });
 
-test('a scene with a wrong part is refused, and the part named', () => {
+test('a scene with a wrong field is refused, and the field named', () => {
   const harmed = (change) => {
     const s = structuredClone(scene());
     change(s);
@@ -58,7 +58,7 @@ test('a scene with a wrong part is refused, and the part named', () => {
   assert.throws(harmed((s) => (s.luminaires[0] = null)), ProtocolError);
 });
 
-test('the states of a scene are from a time to a later one, or there is none', () => {
+test('the states of a scene range from a time to a later one, or are absent', () => {
   const server = new MockServer();
   assert.equal(read(server.scene(null)).states, null);
   const states = { from: 0, to: 90, step: 30, at: 60 };
@@ -71,7 +71,7 @@ test('the states of a scene are from a time to a later one, or there is none', (
   refused({ at: 'now' });
 });
 
-test('time since a failure is a number or none, and shares are numbers', () => {
+test('time since a failure is a number or absent, and shares are numbers', () => {
   assert.deepEqual(read({ type: 'time', seconds: 5, shares: { lamp: 0.5 } }),
     { type: 'time', seconds: 5, shares: [{ name: 'lamp', share: 0.5 }] });
   assert.equal(read({ type: 'time', seconds: null, shares: {} }).seconds, null);
@@ -79,7 +79,7 @@ test('time since a failure is a number or none, and shares are numbers', () => {
   assert.throws(() => read({ type: 'time', seconds: 'now', shares: {} }), ProtocolError);
 });
 
-test('what was added is told apart, and the program says its name', () => {
+test('additions are marked, and the program sends their names', () => {
   const server = new MockServer();
   assert.equal(read(server.scene(null)).signs[0].added, false);
   assert.equal(read(server.scene(null)).relaid, false);
@@ -93,7 +93,7 @@ test('what was added is told apart, and the program says its name', () => {
   assert.throws(() => read({ ...added, name: 7 }), ProtocolError);
 });
 
-test('a picture is a PNG file in base64, or none yet', () => {
+test('a picture is a PNG file in base64, or still absent', () => {
   const png = greyPng(8, 4).toString('base64');
   const picture = { type: 'picture', id: 3, particles: 1e6, paths: 8, relative_error: null,
     seconds: 2, done: false, png };
@@ -107,7 +107,7 @@ test('a picture is a PNG file in base64, or none yet', () => {
     ProtocolError);
 });
 
-test('a picture is asked for as large as may be, in the shape of the screen', () => {
+test("a picture is requested as large as allowed, with the screen's aspect ratio", () => {
   assert.deepEqual(sizeOf(640, 360), [640, 360]);
   const [width, height] = sizeOf(2560, 1440);
   assert.ok(width * height <= 1 << 19 && width * height > 0.99 * (1 << 19));
@@ -115,23 +115,23 @@ test('a picture is asked for as large as may be, in the shape of the screen', ()
   assert.deepEqual(sizeOf(4000, 4), [4000, 16]);
 });
 
-test('text that is no message is refused', () => {
+test('text that is not a message is refused', () => {
   for (const text of ['', '{', '[]', '7', 'null', '{"type":"toString"}', '{"type":"sudo"}'])
     assert.throws(() => decodeMessage(text), ProtocolError);
 });
 
-test('an error that is not known stays unknown', () => {
+test('an unknown error stays unknown', () => {
   const base = { generation: 1, particles: 5, seconds: 1 };
   assert.equal(read({ type: 'progress', ...base, relative_error: null }).relativeError, null);
   assert.equal(read({ type: 'progress', ...base, relative_error: 0.5 }).relativeError, 0.5);
 });
 
-test('of the address of the page only the token goes on', () => {
+test("only the token of the page's address is passed on", () => {
   assert.equal(liveAddress('http://a:8080/?token=x%26y&z=1#q'), 'ws://a:8080/live?token=x%26y');
   assert.equal(liveAddress('https://a/'), 'wss://a/live');
 });
 
-test('a suggestion is taken over field by field, and refused with a wrong part', () => {
+test('a suggestion is decoded field by field, and refused with a wrong field', () => {
   const suggestion = () => ({
     type: 'suggested',
     luminaires: [{ of: 'lamp', position: [1, 2, 3], facing: [0, 0, -1] }],
@@ -150,7 +150,7 @@ test('a suggestion is taken over field by field, and refused with a wrong part',
   assert.throws(() => read({ ...suggestion(), luminaires: [{ of: 7 }] }), /luminaires\[0\]\.of/);
 });
 
-test('a refusal says what it is of, where that is a picture or a suggestion', () => {
+test('a refusal names its picture or suggestion, if it concerns one', () => {
   const read = (more) => decodeMessage(JSON.stringify({ type: 'refused', why: 'so', ...more }));
   assert.deepEqual(read({}), { type: 'refused', why: 'so', picture: null, suggestion: false });
   assert.equal(read({ picture: 7 }).picture, 7);

@@ -30,7 +30,7 @@ test('refined light of one group waits for others, all other light does not', ()
   assert.ok(light.settled);
 });
 
-test('the sums are made afresh once after the last dimming', () => {
+test('the sums are recomputed once after the last dimming', () => {
   const { light, told } = display();
   light.dimmed();
   light.update(performance.now());
@@ -41,7 +41,7 @@ test('the sums are made afresh once after the last dimming', () => {
   assert.equal(told.settled, 1);
 });
 
-test('a group under the own hand hears no echo, and is said to the program by name', () => {
+test('a group being dimmed ignores its echo, and is sent to the program by name', () => {
   const { light, live } = display();
   const said = [];
   const edits = new Edits(live, light, (message, key) => said.push([message, key]));

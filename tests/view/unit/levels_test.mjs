@@ -6,7 +6,7 @@ import { isSameGloss, levelIn, levelsOf, mirrored, seenOf }
 import { Building } from '../../../actors/apps/view/page/src/walk/building.js';
 import { cross, dot, length, subtract } from '../../../actors/apps/view/page/src/walk/vectors.js';
 
-/** A square of two triangles, front up where `up`. */
+/** A square of two triangles, front up if `up`. */
 function square(x, y, z, size, up = true) {
   const [a, b, c, d] = [[x, y, z], [x + size, y, z], [x + size, y + size, z], [x, y + size, z]];
   return up ? [a, b, c, a, c, d] : [a, c, b, a, d, c];
@@ -20,7 +20,7 @@ const building = (...parts) => {
 const gloss = (surface, back = false) =>
   ({ surface, back, mirrored: [0.1, 0.1, 0.1], spread: 0.5, roughness: 0.1 });
 
-test('a glossy floor is a level, a glossy wall and a matt floor are none', () => {
+test('a glossy floor is a level, a glossy wall and a matt floor are not', () => {
   const wall = [[0, 0, 0], [0, 2, 0], [0, 2, 2], [0, 0, 0], [0, 2, 2], [0, 0, 2]];
   const scene = building({ points: square(0, 0, 0.5, 4), surface: 0 },
     { points: square(9, 0, 0, 4), surface: 1 }, { points: wall, surface: 0 });
@@ -31,7 +31,7 @@ test('a glossy floor is a level, a glossy wall and a matt floor are none', () =>
   assert.deepEqual([...level.parts.values()].map((corners) => corners.length), [18]);
 });
 
-test('gloss is the same where each side is, and where there was some before', () => {
+test('gloss is unchanged only if the same sides have it', () => {
   const sides = () => [gloss(0), gloss(3, true)];
   assert.ok(isSameGloss(sides(), sides()));
   assert.ok(isSameGloss([], []));
@@ -44,19 +44,19 @@ test('gloss is the same where each side is, and where there was some before', ()
   }
 });
 
-test('of a floor the side that faces up counts', () => {
+test('only the side of a floor that faces up counts', () => {
   const scene = building({ points: square(0, 0, 0, 2, false), surface: 7 });
   assert.equal(levelsOf(...scene, [gloss(7)]).length, 0);
   assert.equal(levelsOf(...scene, [gloss(7, true)]).length, 1);
 });
 
-test('the inside of a body of glossy sides is no floor', () => {
+test('the inside of a body with glossy sides is not a floor', () => {
   const box = [...square(0, 0, 0, 2, false), ...square(0, 0, 1, 2)];
   const scene = building({ points: box, surface: 3 });
   assert.deepEqual(levelsOf(...scene, [gloss(3), gloss(3, true)]).map(({ height }) => height), [1]);
 });
 
-test('of floors of two heights the one that fills more of the view is taken', () => {
+test('with floors of two heights, the one that fills more of the view is used', () => {
   const scene = building({ points: square(2, -1, 0, 2), surface: 0 },
     { points: square(-20, -4, 1, 8), surface: 0 });
   const levels = levelsOf(...scene, [gloss(0)]);
@@ -67,13 +67,13 @@ test('of floors of two heights the one that fills more of the view is taken', ()
   assert.equal(levelIn(levels, view([0, 0, 9]), 1.5), null);
 });
 
-test('a level that the eye is below is not seen', () => {
+test('a level above the eye is not visible', () => {
   const [level] = levelsOf(...building({ points: square(0, 0, 1, 2), surface: 0 }), [gloss(0)]);
   const view = { eye: [1, 1, 0.9], target: [1, 2, 1], up: [0, 0, 1], fov: 60 };
   assert.equal(seenOf(level, view, 1), 0);
 });
 
-test('a far patch fills the solid angle that its area and its slant give', () => {
+test('a distant patch fills the solid angle of its area and slant', () => {
   const scene = building({ points: square(9.95, -0.05, 0, 0.1), surface: 0 });
   const [level] = levelsOf(...scene, [gloss(0)]);
   const view = { eye: [0, 0, 2], target: [10, 0, 0], up: [0, 0, 1], fov: 60 };
@@ -89,7 +89,7 @@ test('the mirrored eye sees a thing through the point where a floor reflects it'
   const share = (height - behind.eye[2]) / (thing[2] - behind.eye[2]);
   const mirror = behind.eye.map((x, k) => x + share * (thing[k] - x));
   const [down, up] = [subtract(mirror, view.eye), subtract(thing, mirror)];
-  // Angles of arrival and of reflection are equal, in one plane.
+  // The angles of incidence and reflection are equal, in one plane.
   assert.ok(Math.abs(down[2] / length(down) + up[2] / length(up)) < 1e-12);
   assert.ok(length(cross([down[0], down[1], 0], [up[0], up[1], 0])) < 1e-12);
   assert.deepEqual([behind.up, behind.fov], [[0, 0, -1], 50]);

@@ -23,7 +23,7 @@ test('newer light of a group replaces its older light', () => {
   assert.deepEqual([...sum.sum], [8, 8, 8, 0, 16, 16, 16, 0]);
 });
 
-test('settling leaves nothing of what was bright', () => {
+test('recomputing the sum leaves no rounding errors of bright light', () => {
   const sum = smokeSum(1);
   sum.set(0, halves(60000, 60000, 60000), 1);
   sum.set(1, halves(1e-4, 1e-4, 1e-4), 1);
@@ -35,7 +35,7 @@ test('settling leaves nothing of what was bright', () => {
   assert.equal(sum.rounded, false);
 });
 
-test('light that changes while the sum is settled is not lost', () => {
+test('light that changes while the sum is recomputed is not lost', () => {
   const sum = smokeSum(1);
   sum.set(0, halves(1, 1, 1), 1);
   sum.set(1, halves(2, 2, 2), 1);
@@ -48,14 +48,14 @@ test('light that changes while the sum is settled is not lost', () => {
   assert.deepEqual([...sum.sum], [10.25, 10.25, 10.25, 0, 0, 0, 0, 0]);
 });
 
-test('dimming a group that has no light, or to what it is, changes nothing', () => {
+test('dimming a group without light, or to its present value, changes nothing', () => {
   const sum = smokeSum(1);
   sum.set(0, halves(1, 1, 1), 1);
   assert.equal(sum.dim(0, 1), false);
   assert.equal(sum.dim(9, 0.5), false);
 });
 
-test('one of thirty-two groups of 120 000 triangles is dimmed; the time is printed', () => {
+test('dimming one of thirty-two groups of 120 000 triangles prints its time', () => {
   const sum = surfaceSum(120_000);
   const light = new Uint16Array(sum.length).fill(toHalf(1));
   for (let g = 0; g < 32; ++g) sum.set(g, light, 1);
@@ -65,7 +65,7 @@ test('one of thirty-two groups of 120 000 triangles is dimmed; the time is print
   assert.equal(sum.sum[0], 31.25);
 });
 
-test('flames lie in one texture, each with dark above and below', () => {
+test('flames share one texture, each with dark layers above and below', () => {
   const flames = [{ count: [2, 1, 2], cells: Uint8Array.of(1, 2, 3, 4) },
     { count: [1, 2, 1], cells: Uint8Array.of(5, 6) }];
   const { size, bytes, parts } = atlasOf(flames);
@@ -91,7 +91,7 @@ test('triangles of one flat surface share their points', () => {
   assert.deepEqual([...area], [0.5, 0.5]);
 });
 
-test('points lie where their corners do', () => {
+test('points have the coordinates of their corners', () => {
   const welded = weld(square);
   const places = placesOf(welded, square.corners);
   assert.equal(places.length, 3 * 4);
@@ -100,14 +100,14 @@ test('points lie where their corners do', () => {
     [...square.corners.subarray(3 * i, 3 * i + 3)]));
 });
 
-test('another surface or another plane keeps its own points', () => {
+test('another surface or another plane has its own points', () => {
   assert.equal(weld({ ...square, surfaces: Uint32Array.of(0, 1) }).points, 6);
   const corners = Float32Array.from(square.corners);
   corners[17] = 1;
   assert.equal(weld({ ...square, corners }).points, 6);
 });
 
-test('even light stays even when smoothed, and shared points take the mean by area', () => {
+test('uniform light stays uniform when smoothed, and shared points take the mean by area', () => {
   const welded = weld(square);
   const out = new Float32Array(8 * welded.points);
   smooth(Float32Array.of(2, 2, 2, 0, 1, 1, 1, 0, 4, 4, 4, 0, 1, 1, 1, 0), welded, out);

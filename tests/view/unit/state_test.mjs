@@ -8,11 +8,11 @@ import { geometryFrame, lightFrame, smokeFrame, sources, startState, trianglesOf
   from '../mock_room.mjs';
 import { MockServer } from '../mock_server.mjs';
 
-/** A scene in which the light of some groups goes on being shown. */
+/** A scene in which the light of some groups stays visible. */
 const keeping = (scene, kept, how = 'kept') =>
   ({ ...scene, groups: scene.groups.map((g, i) => ({ ...g, light: kept(i) ? how : 'new' })) });
 
-/** A page's state without a page, and a clock that only tests turn. */
+/** A page's state without a page, and a clock set by tests. */
 function heard() {
   const events = [];
   const waiting = [];
@@ -45,7 +45,7 @@ test('the first scene is shown at once', () => {
   assert.deepEqual(named('fading').filter(Boolean), []);
 });
 
-test('a new generation waits for its light, the old one stays', () => {
+test('a new generation waits for its light, while the old one stays', () => {
   const { live, scene, named, ring } = started();
   live.hear(scene(2));
   assert.equal(live.number, 1);
@@ -65,7 +65,7 @@ test('a new generation whose groups all have light waits no longer', () => {
   assert.equal(live.number, 2);
 });
 
-test('late frames of an older generation are thrown away', () => {
+test('late frames of an older generation are dropped', () => {
   const { live, scene, ring } = started();
   live.hear(scene(3));
   const before = Float32Array.from(live.shown.surfaces.sum);
@@ -75,7 +75,7 @@ test('late frames of an older generation are thrown away', () => {
   assert.deepEqual(live.shown.surfaces.sum, before);
 });
 
-test('a newer scene overtakes one that still waits', () => {
+test('a newer scene replaces one that still waits', () => {
   const { live, scene, ring } = started();
   live.hear(scene(2));
   live.hear(light(2, 0));
@@ -87,7 +87,7 @@ test('a newer scene overtakes one that still waits', () => {
   assert.equal(live.number, 3);
 });
 
-test('a new connection begins anew, whatever the generations were called', () => {
+test('a new connection begins anew, whatever the numbers of generations', () => {
   const { live, scene, ring } = started();
   live.hear(scene(5));
   live.forget();
@@ -109,7 +109,7 @@ test('light of another size, of no group, or before its scene is refused', () =>
   assert.throws(() => live.hear(smoke), ProtocolError);
 });
 
-test('factors dim the picture and those not named stay', () => {
+test('factors dim the picture, and groups not named stay', () => {
   const { live } = started();
   const before = Float32Array.from(live.shown.surfaces.sum);
   live.hear({ type: 'factors', factors: sources.map(({ name }) => ({ name, factor: 0.5 })) });
@@ -121,7 +121,7 @@ test('factors dim the picture and those not named stay', () => {
   assert.equal(live.scene.groups[1].factor, 0.5);
 });
 
-test('an echo does not pull a slider out of the hand', () => {
+test('an echo does not move a slider that is being dragged', () => {
   const { live, named } = started();
   live.held = (name) => name === 'lamp west';
   live.setFactor('lamp west', 0.2);
@@ -131,7 +131,7 @@ test('an echo does not pull a slider out of the hand', () => {
   assert.deepEqual(named('factors').at(-1), [{ name: 'lamp east', factor: 0.9 }]);
 });
 
-test('a slider sends its last value and no more than the program takes', () => {
+test('a slider sends its last value, and no more messages than the program accepts', () => {
   const sent = [];
   const waiting = [];
   let interval = 0;
@@ -147,7 +147,7 @@ test('a slider sends its last value and no more than the program takes', () => {
   assert.ok(1000 / intervalMs < 50);
 });
 
-test('what moves waits for its own light alone, and nothing fades', () => {
+test('a moved thing waits only for its own light, and nothing fades', () => {
   const { live, scene, named } = started();
   const others = live.shown.surfaces.groups.get(1).halves;
   live.hear(keeping(scene(2), (i) => i !== 0));
@@ -160,7 +160,7 @@ test('what moves waits for its own light alone, and nothing fades', () => {
   assert.equal(live.shown.surfaces.groups.get(1).halves, others, 'the others keep their light');
 });
 
-test('a generation that keeps all light is shown at once; new geometry takes none of it', () => {
+test('a generation that keeps all light is shown at once, and new geometry drops all of it', () => {
   const { live, scene, named } = started();
   live.hear(keeping(scene(2), () => true, 'before'));
   assert.equal(live.number, 2);
@@ -169,13 +169,13 @@ test('a generation that keeps all light is shown at once; new geometry takes non
   assert.equal(live.shown.surfaces.groups.size, sources.length);
 });
 
-/** The room with one sign more, its light and its triangles. */
+/** The room with another sign, its light and its triangles. */
 const more = startState();
 more.signs.push({ ...more.signs[0], name: 'new exit', position: [6.49, 2, 2.4], added: true });
 const lightOfMore = (generation, group) => decodeFrame(lightFrame(generation, group, more));
 const relaid = (scene, kept) => ({ ...keeping(scene, kept, 'before'), relaid: true });
 
-test('other triangles wait for all the light that comes with them', () => {
+test('other triangles wait for all the light sent with them', () => {
   const { live, scene, named } = started();
   live.hear(relaid(scene(2), () => true));
   assert.equal(live.number, 1, 'nothing of the old light fits');
@@ -191,7 +191,7 @@ test('other triangles wait for all the light that comes with them', () => {
   assert.equal(live.shown.surfaces.groups.size, sources.length);
 });
 
-test('what moves after other triangles were laid waits for their light as well', () => {
+test('a move after a change of triangles waits for their light as well', () => {
   const { live, scene } = started();
   live.hear(relaid(scene(2), () => true));
   live.hear(decodeFrame(geometryFrame(2, more)));
@@ -204,7 +204,7 @@ test('what moves after other triangles were laid waits for their light as well',
   assert.equal(live.shown.surfaces.groups.size, sources.length);
 });
 
-test('triangles laid twice before any was shown are the last ones', () => {
+test('triangles changed twice before any was shown are the last ones', () => {
   const { live, scene } = started();
   live.hear(relaid(scene(2), () => true));
   live.hear(decodeFrame(geometryFrame(2, more)));
@@ -216,14 +216,14 @@ test('triangles laid twice before any was shown are the last ones', () => {
   assert.equal(live.shown.surfaces.cells, trianglesOf(state));
 });
 
-test('a copy that was asked for is no frame, whatever its kind', () => {
+test('a requested copy is a message, not a frame', () => {
   const { live, named } = started();
   const said = { type: 'added', kind: 'sign', of: 'exit', name: 'exit copy' };
   live.hear(said);
   assert.deepEqual(named('added'), [said]);
 });
 
-test('what came for a generation that was overtaken is not lost', () => {
+test('frames of a generation that was replaced are not lost', () => {
   const { live, scene } = started();
   live.hear(scene(2));
   const other = geometry(2);
@@ -237,7 +237,7 @@ test('what came for a generation that was overtaken is not lost', () => {
   assert.equal(live.shown.surfaces.groups.get(1).halves, early);
 });
 
-test('time after a failure dims by shares, beside the factors', () => {
+test('time after a failure dims by shares, in addition to factors', () => {
   const { live, named } = started();
   const before = Float32Array.from(live.shown.surfaces.sum);
   const shares = sources.map(({ name }) => ({ name, share: 0.5 }));

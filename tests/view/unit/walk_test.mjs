@@ -11,7 +11,7 @@ const near = (a, b, most = 1e-6) =>
 const keys = (changes) => ({ forward: 0, side: 0, turn: 0, fast: false, ...changes });
 const start = () => startMotion([0, 0, 0], [10, 6, 3]);
 
-test('forward is where the eye looks, right is to the right of it', () => {
+test('forward is the direction of the gaze, right is to its right', () => {
   const motion = start();
   near(stride(motion, keys({ forward: 1 }), 1), [speeds.walk, 0, 0]);
   near(stride(motion, keys({ side: 1 }), 1), [0, -speeds.walk, 0]);
@@ -19,7 +19,7 @@ test('forward is where the eye looks, right is to the right of it', () => {
   near(stride(motion, keys({ forward: 1 }), 0.5), [0, speeds.walk / 2, 0]);
 });
 
-test('walking aslant is no faster, looking up is no slower', () => {
+test('walking diagonally is no faster, looking up is no slower', () => {
   const motion = start();
   turn(motion, 0.3, 1);
   const step = stride(motion, keys({ forward: 1, side: -1 }), 1);
@@ -27,7 +27,7 @@ test('walking aslant is no faster, looking up is no slower', () => {
   assert.equal(step[2], 0);
 });
 
-test('an eye that stands somewhere looks at its target', () => {
+test('an eye placed somewhere looks at its target', () => {
   const motion = start();
   stand(motion, [1, 1, 2], [4, 5, 2], 50, 0);
   near(gazeOf(motion), [0.6, 0.8, 0]);
@@ -35,7 +35,7 @@ test('an eye that stands somewhere looks at its target', () => {
   assert.equal(viewOf(motion).fov, 50);
 });
 
-test('heads do not turn over, lenses stay within reason', () => {
+test('the view never turns upside down, and the angle of view is limited', () => {
   const motion = start();
   turn(motion, 0, 9);
   assert.ok(motion.pitch < Math.PI / 2);
@@ -43,7 +43,7 @@ test('heads do not turn over, lenses stay within reason', () => {
   assert.ok(motion.fov >= 15);
 });
 
-test('the ray through the middle is the gaze, in every mode', () => {
+test('the ray through the centre is the gaze, in every mode', () => {
   for (const mode of ['walk', 'orbit', 'plan']) {
     const motion = start();
     motion.mode = mode;
@@ -63,7 +63,7 @@ test('in plan the ray through the right edge starts half a width to the right', 
 
 const building = () => new Building(decodeFrame(geometryFrame(1)));
 
-test('a wall stops, a doorway lets through, the floor carries', () => {
+test('a wall blocks, a doorway lets through, the floor supports', () => {
   const b = building();
   const through = (y) => {
     let eye = [5.5, y, 1.65];
@@ -81,7 +81,7 @@ test('a step against a wall slides along it', () => {
   assert.ok(eye[0] < 6.3 && eye[1] > 1.4, String(eye));
 });
 
-test('nobody climbs a table', () => {
+test('the walker does not climb a table', () => {
   const b = building();
   let eye = [2.4, 3.6, 1.65];
   for (let i = 0; i < 40; ++i) eye = b.walk(eye, 1.65, [0, 0.05, 0]);

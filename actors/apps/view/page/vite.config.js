@@ -1,5 +1,5 @@
-// One page, one file: script and style are written into it, and a policy that lets nothing else
-// run or be fetched. The program serves this file and no other.
+// Builds one page in one file: script and style are inlined, and a policy forbids running or
+// fetching anything else. The program serves only this file.
 import { createHash } from 'node:crypto';
 import { defineConfig } from 'vite';
 

@@ -15,7 +15,7 @@
 namespace luxodus::vdb {
 namespace {
 
-/// The descriptor by which this process has a file open.
+/// The descriptor of a file that this process has open.
 std::optional<int> descriptor_of(const struct stat& file) {
   std::error_code failed;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", failed)) {

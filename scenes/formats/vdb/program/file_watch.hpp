@@ -1,5 +1,5 @@
-// Tells how much of a file this process has read, by where its reading stands: for libraries that
-// read it by themselves and do not say. One thread makes and ends it; a thread of its own looks.
+// Reports how much of a file this process has read, by the file offset, for libraries that read it
+// themselves without reporting. One thread makes and destroys it; its own thread polls.
 #pragma once
 
 #include <condition_variable>
@@ -11,7 +11,7 @@ namespace luxodus::vdb {
 
 class FileWatch {
  public:
-  /// `share`: of the work of a job (tell_share), which reading all of the file is.
+  /// `share`: the part of the job's work (tell_share) that reading the whole file is.
   /// Requires: the file is open.
   FileWatch(const std::string& file, double share);
   ~FileWatch();

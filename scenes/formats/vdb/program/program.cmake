@@ -1,12 +1,13 @@
-# The program that reads OpenVDB files for `luxodus import vdb`: beside luxodus, where OpenVDB is.
+# The program that reads OpenVDB files for `luxodus import vdb`: built beside luxodus if OpenVDB is
+# found.
 set(LUX_VDB "AUTO" CACHE STRING "whether OpenVDB files are read: AUTO (where OpenVDB is), ON, OFF")
 set_property(CACHE LUX_VDB PROPERTY STRINGS AUTO ON OFF)
 if(NOT LUX_VDB MATCHES "^(AUTO|ON|OFF)$")
   message(FATAL_ERROR "LUX_VDB is AUTO, ON or OFF, not \"${LUX_VDB}\"")
 endif()
 set(LUX_HAS_VDB OFF)
-# What luxodus and luxodus_vdb have in common: one that was not built anew with the other is told by
-# its name for the job (vdb_answer.hpp).
+# What luxodus and luxodus_vdb share: the job's name (vdb_answer.hpp) reveals a program that was not
+# rebuilt with the other.
 file(GLOB exchanged CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/formats/vdb/*.[ch]pp
   ${PROJECT_SOURCE_DIR}/scenes/formats/vdb/program/*.cpp ${PROJECT_SOURCE_DIR}/runtime/core/isolated_job.*
   ${PROJECT_SOURCE_DIR}/runtime/core/plain_stream.*)
@@ -37,10 +38,10 @@ endif()
 add_library(lux_openvdb INTERFACE)
 target_include_directories(lux_openvdb SYSTEM INTERFACE ${OPENVDB_INCLUDE_DIR})
 target_link_libraries(lux_openvdb INTERFACE ${OPENVDB_LIBRARY} TBB::tbb Imath::Imath)
-# Alone, since the library's headers take half a minute and half a gigabyte to compile.
+# Compiled alone, since the library's headers take half a minute and half a gigabyte.
 add_library(lux_vdb_job OBJECT ${PROJECT_SOURCE_DIR}/scenes/formats/vdb/program/file_watch.cpp
   ${PROJECT_SOURCE_DIR}/scenes/formats/vdb/program/read_grids.cpp)
-# Its types are known to the library by their names, which hidden visibility would take away.
+# The library identifies its types by their names, which hidden visibility would break.
 target_compile_options(lux_vdb_job PRIVATE -fPIE "${LUX_HARDENING}")
 target_compile_definitions(lux_vdb_job PRIVATE LUX_VDB_BUILD="${LUX_VDB_BUILD}")
 lux_optimise_less(lux_vdb_job)

@@ -1,6 +1,6 @@
-// The job of luxodus_vdb: lists the grids of an OpenVDB file, and makes even cells of one. It has
-// limits on memory and time (isolated_job.hpp): what the library does with a damaged file is an end
-// of this process alone.
+// The job of luxodus_vdb: lists the grids of an OpenVDB file, and resamples one to even cells. It
+// has limits on memory and time (isolated_job.hpp): a crash of the library on a damaged file ends
+// only this process.
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
@@ -24,7 +24,7 @@ namespace {
 using openvdb::FloatGrid;
 using openvdb::GridBase;
 
-/// Cells along an axis: corners may be as far apart as indices go.
+/// Cells along an axis, in 64 bits: corners may be as far apart as indices go.
 int64_t cells_along(const openvdb::CoordBBox& box, int axis) {
   return int64_t{box.max()[axis]} - int64_t{box.min()[axis]} + 1;
 }
@@ -34,8 +34,8 @@ std::string sizes_text(const openvdb::CoordBBox& box) {
          std::to_string(cells_along(box, 2));
 }
 
-/// Edges of a cell and the place of index 0, where the axes of the grid are those of the file's
-/// space; nothing where they are turned, mirrored or bent.
+/// Edges of a cell and the place of index 0, if the axes of the grid are those of the file's space;
+/// nothing where they are rotated, mirrored or nonlinear.
 struct Place {
   openvdb::Vec3d spacing, origin;
 };
@@ -43,7 +43,7 @@ struct Place {
 std::optional<Place> place_of(const GridBase& grid) {
   const openvdb::math::Transform& transform = grid.transform();
   if (!transform.isLinear()) return std::nullopt;
-  const openvdb::Mat4R m = transform.baseMap()->getAffineMap()->getMat4();  // of row vectors
+  const openvdb::Mat4R m = transform.baseMap()->getAffineMap()->getMat4();  // for row vectors
   Place place;
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) {
@@ -59,7 +59,7 @@ std::optional<Place> place_of(const GridBase& grid) {
   return place;
 }
 
-/// Why a grid is not read, by what its head says; "" where it is.
+/// Why a grid is not read, by its metadata; "" where it is.
 std::string fault_of(const GridBase& grid) {
   if (grid.valueType() != "float")
     return "its values are \"" + excerpt(grid.valueType()) + "\"; floats are read";
@@ -92,7 +92,7 @@ void answer_list(openvdb::io::File& file, PlainWriter& out) {
   for (const VdbGrid& grid : grids) put(out, grid);
 }
 
-/// The box of a grid that has values, by the file's head where it says it: before anything large is
+/// The box of a grid's values, from the file's metadata where stated: before anything large is
 /// read.
 openvdb::CoordBBox checked_box(const openvdb::CoordBBox& box) {
   if (box.empty()) throw std::runtime_error("the grid has no values");
@@ -117,10 +117,10 @@ void check_head(const GridBase& head) {
   if (low && high) checked_box({openvdb::Coord(low->value()), openvdb::Coord(high->value())});
 }
 
-/// Of the work of reading a grid, what reading the file is; the rest is taking its cells.
+/// Share of the work that reading the file is; the rest is copying its cells.
 constexpr double read_share = 0.5;
 
-/// The cells of a part of the box, which has all of its x and y, to their place in all of them.
+/// Copies the cells of a part of the box, over all of its x and y, to their place in the whole.
 void copy_cells(const FloatGrid& grid, const openvdb::CoordBBox& box,
                 const openvdb::CoordBBox& part, VdbSmoke& smoke) {
   const size_t begin = smoke.nx * smoke.ny * static_cast<size_t>(part.min().z() - box.min().z());
@@ -147,7 +147,7 @@ VdbSmoke cells_of(const FloatGrid& grid, const Place& place) {
   smoke.ny = static_cast<uint64_t>(dim.y());
   smoke.nz = static_cast<uint64_t>(dim.z());
   smoke.values.resize(smoke.nx * smoke.ny * smoke.nz);
-  constexpr int64_t slab = 64;  // cells: not all is done at once
+  constexpr int64_t slab = 64;  // cells: done in parts, so that progress is reported
   for (int64_t z = box.min().z(); z <= box.max().z(); z += slab) {
     openvdb::CoordBBox part = box;
     part.min().z() = static_cast<int>(z);
@@ -163,7 +163,7 @@ VdbSmoke cells_of(const FloatGrid& grid, const Place& place) {
   return smoke;
 }
 
-/// The same cells where the file's y is up: (x, y, z) becomes (x, -z, y).
+/// Rotates cells of a file whose y is up: (x, y, z) becomes (x, -z, y).
 VdbSmoke stood_up(const VdbSmoke& lying) {
   VdbSmoke out;
   out.nx = lying.nx;
@@ -212,13 +212,13 @@ void vdb_answer(PlainReader& in, PlainWriter& out) {
   try {
     openvdb::initialize();
     openvdb::io::File file(question.file);
-    file.open(false);  // all of it at once: values are needed, and the file may change
+    file.open(false);  // reads all at once: values are needed, and the file may change
     if (question.grid.empty())
       answer_list(file, out);
     else
       answer_grid(file, question, out);
   } catch (const std::bad_alloc&) {
-    throw;  // said with the limit
+    throw;  // reported with the limit
   } catch (const std::exception& error) {
     out.put(uint8_t{0});
     out.put(excerpt(error.what(), 600));

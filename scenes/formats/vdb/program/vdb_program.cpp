@@ -1,5 +1,5 @@
-// luxodus_vdb: reads OpenVDB files for `luxodus import vdb`, which begins it and asks through a
-// memory file. It does nothing else.
+// luxodus_vdb: reads OpenVDB files for `luxodus import vdb`, which starts it and passes the
+// question in a memory file. It does nothing else.
 #include <cstdio>
 
 #include "runtime/core/isolated_job.hpp"

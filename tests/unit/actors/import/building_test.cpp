@@ -1,6 +1,6 @@
 // Buildings of models: pieces of doors, floors of rooms, openings, and the folder of a scene, which
-// a second import updates without touching what a person wrote. Tests that compute shapes need
-// Node.js and the npm package, and say so where they are not there.
+// a second import updates without changing the user's files. Tests that compute shapes need Node.js
+// and the npm package, and warn if these are absent.
 #include "actors/import/building.hpp"
 
 #include <algorithm>
@@ -81,7 +81,7 @@ SceneDescription read(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("a mesh falls into its connected pieces", "[import]") {
+TEST_CASE("a mesh is split into its connected pieces", "[import]") {
   Mesh both = block({0, 0, 0}, {1, 1, 1});
   append(both, block({2, 0, 0}, {3, 1, 1}));
   const auto pieces = connected_pieces(both);
@@ -90,7 +90,7 @@ TEST_CASE("a mesh falls into its connected pieces", "[import]") {
   CHECK(bounds_of(pieces[1]).low.x == 2);
 }
 
-TEST_CASE("a ray finds the first of many parts, far from the origin too", "[import]") {
+TEST_CASE("a ray finds the first of many parts, also far from the origin", "[import]") {
   Random random(1, RandomStream::test);
   random.start(1);
   const auto number = [&](double low, double high) {
@@ -98,7 +98,7 @@ TEST_CASE("a ray finds the first of many parts, far from the origin too", "[impo
   };
   const glm::dvec3 site(500'000, -4'200'000, 350);
   const auto place = [&] { return site + glm::dvec3(number(0, 40), number(0, 30), number(0, 9)); };
-  // All in one, and each in a storey of its own.
+  // All in one storey, and each in a storey of its own.
   std::vector<BuildingStorey> all(1), each;
   for (int i = 0; i < 300; ++i) {
     const glm::dvec3 low = place();
@@ -185,14 +185,14 @@ TEST_CASE("a written binary glTF reads back with its names, materials and places
   CHECK(signed_volume_of(parts->at(0).mesh) == Approx(9));
 }
 
-TEST_CASE("names and texts of others are those of a scene file", "[import]") {
+TEST_CASE("names and texts of models are made valid in a scene file", "[import]") {
   CHECK(as_name("a/b\"c\n", "x") == "a-b-c-");
   CHECK(as_name("..hidden ", "x") == "hidden");
   CHECK(as_name("", "x") == "x");
   CHECK(toml_text("a\"b\\c\n\xff") == "\"a\\\"b\\\\c\\u000a?\"");
 }
 
-TEST_CASE("types of one name in two families stay two", "[import]") {
+TEST_CASE("types with one name in two families stay two", "[import]") {
   const auto type_of = [](const std::string& name) {
     SmallIfc small;
     small.lamp_name = name;
@@ -207,7 +207,7 @@ TEST_CASE("types of one name in two families stay two", "[import]") {
   CHECK(type_of("Pendant:Lamp:575377") == "Pendant:Lamp");
 }
 
-TEST_CASE("a type whose file cannot be used waits for a person, with the reason", "[import]") {
+TEST_CASE("a type whose file cannot be used is left to the user, with the reason", "[import]") {
   const TemporaryFolder folder;
   fs::create_directories(folder / "lights");
   std::ofstream(folder / "lights/lamp.ies") << "TILT=NONE\nno numbers\n";
@@ -223,7 +223,7 @@ TEST_CASE("a type whose file cannot be used waits for a person, with the reason"
   CHECK(written->asked[0].find("lamp.ies:") != std::string::npos);
 }
 
-TEST_CASE("a sign and a luminaire may have types of one name", "[import]") {
+TEST_CASE("a sign and a luminaire may have types of the same name", "[import]") {
   const TemporaryFolder folder;
   fs::create_directories(folder / "lights");
   std::ofstream(folder / "lights/lamp.ies") << lamp;
@@ -238,7 +238,7 @@ TEST_CASE("a sign and a luminaire may have types of one name", "[import]") {
   const auto written = write_building(building, out, (folder / "lights").string());
   REQUIRE(written.ok());
   CHECK(written->luminaires == 1);
-  CHECK(written->signs == 0);  // its type is asked for
+  CHECK(written->signs == 0);  // its type must be completed
   CHECK(written->asked.size() == 1);
   const std::string fixtures = text_of(folder / "house/fixtures.toml");
   CHECK(fixtures.find("\n[[luminaire_type]]\nname = \"Lamp\"\n") != std::string::npos);
@@ -249,7 +249,7 @@ TEST_CASE("a sign and a luminaire may have types of one name", "[import]") {
   CHECK(text_of(folder / "house/fixtures.toml") == fixtures);
 }
 
-TEST_CASE("what a model says reaches no terminal as an order", "[import]") {
+TEST_CASE("control characters of a model do not reach the terminal", "[import]") {
   const TemporaryFolder folder;
   SmallIfc small;
   const auto model = ifc_model_of(small.text(), "small.ifc");
@@ -291,7 +291,7 @@ TEST_CASE("photometric files are found by the letters of their names", "[import]
   CHECK_FALSE(photometry_by_name((folder / "absent").string()).ok());
 }
 
-TEST_CASE("without the script or in no time there are no shapes, and the reason is said",
+TEST_CASE("without the script or any time there are no shapes, and the reason is reported",
           "[import]") {
   const TemporaryFolder folder;
   SmallIfc small;
@@ -300,7 +300,7 @@ TEST_CASE("without the script or in no time there are no shapes, and the reason 
   REQUIRE_FALSE(absent.ok());
   CHECK(absent.problem().what.find("installed whole") != std::string::npos);
   if (!can_compute()) return;
-  // A script of its own folder has no package beside it.
+  // A script in its own folder has no package beside it.
   fs::copy_file(script, folder / "ifc_shapes.mjs");
   const auto alone = ifc_shapes(model, folder / "ifc_shapes.mjs", 60);
   REQUIRE_FALSE(alone.ok());
@@ -314,7 +314,8 @@ TEST_CASE("without the script or in no time there are no shapes, and the reason 
   CHECK(broken.problem().what.find("Error: no") != std::string::npos);
 }
 
-TEST_CASE("a model's parts stand where it says, in millimetres, in feet and far away", "[import]") {
+TEST_CASE("a model's parts are placed correctly, in millimetres, in feet and far away",
+          "[import]") {
   if (!can_compute()) return;
   for (const bool far : {false, true}) {
     SmallIfc small;
@@ -332,7 +333,7 @@ TEST_CASE("a model's parts stand where it says, in millimetres, in feet and far 
     const BuildingPart& door = part_with(building, small.door_guid);
     REQUIRE(door.hinge);
     CHECK(glm::length(door.hinge->point - small.site - glm::dvec3(5.1, 1.5, 1)) < 1e-3);
-    // It opens to the west, where its placement's y axis points.
+    // It opens to the west, along the y axis of its placement.
     CHECK(door.hinge->open_angle_deg == 90);
     REQUIRE(building.rooms.size() == 1);
     CHECK(building.rooms[0].open_share == 0);
@@ -348,7 +349,7 @@ TEST_CASE("a model's parts stand where it says, in millimetres, in feet and far 
   }
 }
 
-TEST_CASE("the shape of a type stands nowhere beside those of its products", "[import]") {
+TEST_CASE("the shape of a type is not added to those of its products", "[import]") {
   if (!can_compute()) return;
   const TemporaryFolder folder;
   std::string text = SmallIfc{}.text();
@@ -377,7 +378,7 @@ TEST_CASE("the shape of a type stands nowhere beside those of its products", "[i
   CHECK(names_in(text.substr(0, end) + typed + text.substr(end)) == before);
 }
 
-TEST_CASE("a wrong volume and a missing ceiling are told", "[import]") {
+TEST_CASE("a wrong volume and a missing ceiling are reported", "[import]") {
   if (!can_compute()) return;
   SmallIfc small;
   small.wall_volume_m3 = 3;
@@ -392,7 +393,7 @@ TEST_CASE("a wrong volume and a missing ceiling are told", "[import]") {
   CHECK(building.rooms[0].open_towards == "up");
 }
 
-TEST_CASE("a second import updates the building and leaves a person's files as they are",
+TEST_CASE("a second import updates the building and leaves the user's files unchanged",
           "[import]") {
   if (!can_compute()) return;
   const TemporaryFolder folder;
@@ -411,7 +412,7 @@ TEST_CASE("a second import updates the building and leaves a person's files as t
   REQUIRE(scene.emitters.size() == 1);
   CHECK(scene.emitters[0].ifc_guid == small.lamp_guid);
   CHECK(scene.open_areas.at(0).ifc_guid == small.space_guid);
-  // Bodies of fixtures whose light comes from a file would stand in its way.
+  // Bodies of fixtures whose light comes from a file would block it.
   for (const Object& object : scene.objects)
     CHECK(object.name.find(small.lamp_guid) == std::string::npos);
 

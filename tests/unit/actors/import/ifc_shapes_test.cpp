@@ -1,5 +1,5 @@
-// What the process that computes shapes says, and the folder that its answer lies in. Tests that
-// run a script need Node.js, and say so where it is not there.
+// Messages of the process that computes shapes, and the folder of its answer. Tests that run a
+// script need Node.js, and warn if it is absent.
 #include "actors/import/ifc_shapes.hpp"
 
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Temporary files of this process go there.
+/// Puts temporary files of this process there.
 class TemporaryFilesIn {
  public:
   explicit TemporaryFilesIn(const fs::path& folder) {
@@ -54,7 +54,7 @@ size_t folders_in(const fs::path& folder) {
   return count;
 }
 
-/// A triangle as the script writes it (a glTF in binary form), told with `said` on its output.
+/// A triangle as the script writes it (binary glTF), with `said` as its output.
 std::string script_that_says(const std::string& said) {
   return "import { writeFileSync } from 'node:fs';\n"
          "const bin = Buffer.alloc(36);\n"
@@ -83,7 +83,7 @@ bool node_is_there() {
 
 }  // namespace
 
-TEST_CASE("a folder that a killed process has left is removed by the next", "[import]") {
+TEST_CASE("a folder left by a killed process is removed by the next one", "[import]") {
   const TemporaryFolder folder;
   const TemporaryFilesIn there(folder.path());
   const pid_t child = ::fork();
@@ -107,7 +107,7 @@ TEST_CASE("a folder that a killed process has left is removed by the next", "[im
   CHECK(folders_in(folder.path()) == 0);
 }
 
-TEST_CASE("a folder that is in use stays, and so does what nobody knows", "[import]") {
+TEST_CASE("a folder in use is kept, and so are unknown files", "[import]") {
   const TemporaryFolder folder;
   const TemporaryFilesIn there(folder.path());
   const AnswerFolder used;
@@ -122,8 +122,7 @@ TEST_CASE("a folder that is in use stays, and so does what nobody knows", "[impo
   CHECK(fs::is_directory(folder / "target"));
 }
 
-TEST_CASE("shapes that come without their place are refused, and nothing is moved in silence",
-          "[import]") {
+TEST_CASE("shapes without their position are rejected, and nothing is moved silently", "[import]") {
   if (!node_is_there()) return;
   const TemporaryFolder folder;
   const auto model = folder.write("small.ifc", "");
@@ -144,7 +143,7 @@ TEST_CASE("shapes that come without their place are refused, and nothing is move
   }
 }
 
-TEST_CASE("notes beyond those that are kept are counted", "[import]") {
+TEST_CASE("notes beyond the limit are counted", "[import]") {
   if (!node_is_there()) return;
   const TemporaryFolder folder;
   const auto model = folder.write("small.ifc", "");
@@ -159,11 +158,11 @@ TEST_CASE("notes beyond those that are kept are counted", "[import]") {
   CHECK(shapes->notes.back().find("7 more") == 0);
 }
 
-TEST_CASE("who waits for shapes hears how much of them is computed", "[import]") {
+TEST_CASE("progress of computing shapes is reported", "[import]") {
   if (!node_is_there()) return;
   const TemporaryFolder folder;
   const auto model = folder.write("small.ifc", std::string(1000, ' '));
-  // Each share is said, the last one not as a whole line, until somebody has heard the one before.
+  // Each share is written, the last one as an incomplete line, once the previous one was received.
   const auto slow = folder.write(
       "slow.mjs",
       "import { existsSync, writeSync } from 'node:fs';\n"
@@ -194,7 +193,7 @@ TEST_CASE("who waits for shapes hears how much of them is computed", "[import]")
   CHECK(share.share() == std::optional(1.0));
 }
 
-TEST_CASE("the script computes products some at a time, and says which share is done", "[import]") {
+TEST_CASE("the script computes products in batches, and reports the share done", "[import]") {
   const fs::path script = fs::path(LUX_SOURCE_DIR) / "actors/import/shapes/ifc_shapes.mjs";
   if (!node_is_there()) return;
   if (!fs::is_directory(script.parent_path() / "node_modules/@ifc-lite/wasm")) {
@@ -211,7 +210,7 @@ TEST_CASE("the script computes products some at a time, and says which share is 
   std::ifstream in(said);
   for (std::string line; std::getline(in, line);)
     if (line.starts_with("done ")) shares.push_back(std::stod(line.substr(5)));
-  // Fewer products than batches: each is one.
+  // With fewer products than batches, each is a batch.
   REQUIRE(shares.size() > 5);
   CHECK(std::is_sorted(shares.begin(), shares.end()));
   CHECK(shares.front() == Approx(1 / static_cast<double>(shares.size())));

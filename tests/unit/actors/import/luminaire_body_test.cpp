@@ -1,4 +1,4 @@
-// Bodies of luminaires from their models, and how they stand at the luminous opening.
+// Bodies of luminaires from their models, and their placement at the luminous opening.
 #include "actors/import/luminaire_body.hpp"
 
 #include <catch2/catch.hpp>
@@ -27,7 +27,7 @@ Mesh body_of(const L3dModel& model) {
   return std::move(body).value().mesh;
 }
 
-/// A model of a box that is half red and half white, and one without any colour.
+/// A model with a box that is half red and half white, and a box without any colour.
 L3dModel partly_coloured() {
   SmallL3d small;
   small.joints = joint_with("");
@@ -41,7 +41,7 @@ L3dModel partly_coloured() {
 
 }  // namespace
 
-TEST_CASE("a body has the volume of its parts, in metres, and comes back from its file",
+TEST_CASE("a body has the volume of its parts, in metres, and is read back from its file",
           "[import][l3d]") {
   SmallL3d small;
   small.joints = joint_with("");
@@ -59,7 +59,7 @@ TEST_CASE("a body has the volume of its parts, in metres, and comes back from it
   CHECK(signed_volume_of(back->front().mesh) == Approx(2 * 0.2 * 0.1 * 0.04).epsilon(1e-5));
 }
 
-TEST_CASE("colours of a model come back from the files of its body, none above that of paint",
+TEST_CASE("colours of a model are read back from the files of its body, none brighter than paint",
           "[import][l3d]") {
   const auto body = luminaire_body(partly_coloured());
   if (!body) FAIL(body.problem().text());
@@ -81,8 +81,7 @@ TEST_CASE("colours of a model come back from the files of its body, none above t
   CHECK(triangles_of(glm::dvec3(0.7)) == 12);
 }
 
-TEST_CASE("a body stands a millimetre above its opening, with the opening in its middle",
-          "[import][l3d]") {
+TEST_CASE("a body is a millimetre above its opening, centred on the opening", "[import][l3d]") {
   const L3dModel model = l3d_model({});
   const Mesh body = body_of(model);
   const BodyPlace place = body_place(model, body, "leo");
@@ -94,7 +93,7 @@ TEST_CASE("a body stands a millimetre above its opening, with the opening in its
   CHECK(bounds.high.y + place.offset_m.y == Approx(0.05));
 }
 
-TEST_CASE("a body that reaches far below its opening stands as the model says, and that is said",
+TEST_CASE("a body that extends far below its opening keeps the model's place, and that is reported",
           "[import][l3d]") {
   L3dModel model = l3d_model({});
   const Mesh body = body_of(model);
@@ -129,7 +128,7 @@ TEST_CASE("a body above its opening is not lowered to it", "[import][l3d]") {
   CHECK(place.below_m == 0);
 }
 
-TEST_CASE("a model without openings hangs by its own origin", "[import][l3d]") {
+TEST_CASE("a model without openings is placed by its own origin", "[import][l3d]") {
   L3dModel model = l3d_model({});
   model.openings.clear();
   const Mesh body = body_of(model);
@@ -138,7 +137,7 @@ TEST_CASE("a model without openings hangs by its own origin", "[import][l3d]") {
   CHECK(bounds_of(body).low.z + place.offset_m.z == Approx(0.001));
 }
 
-TEST_CASE("the shapes of bodies are read as they were foreseen, also after one that is no mesh",
+TEST_CASE("shapes of bodies are read as announced, also after one that is not a mesh",
           "[import][l3d]") {
   L3dModel model = l3d_model({});
   model.shapes.push_back(model.shapes.front());
@@ -156,7 +155,7 @@ TEST_CASE("the shapes of bodies are read as they were foreseen, also after one t
   CHECK(share.share() == std::optional(1.0));
 }
 
-TEST_CASE("a shape that is no mesh is said by its name, and too many triangles are refused",
+TEST_CASE("a shape that is not a mesh is reported by name, and too many triangles are rejected",
           "[import][l3d]") {
   L3dModel model = l3d_model({});
   model.parts.resize(20'000, model.parts.front());

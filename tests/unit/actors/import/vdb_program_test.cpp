@@ -1,4 +1,4 @@
-// What is said where luxodus_vdb is not there, or cannot be begun. Needs no OpenVDB.
+// Messages if luxodus_vdb is missing, or cannot be started. Needs no OpenVDB.
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -19,12 +19,13 @@ Problem said_with_program(const TemporaryFolder& folder, const std::filesystem::
 
 }  // namespace
 
-TEST_CASE("a missing luxodus_vdb and missing libraries are no fault of the file", "[import][vdb]") {
+TEST_CASE("a missing luxodus_vdb, or missing libraries, are not reported as faults of the file",
+          "[import][vdb]") {
   namespace fs = std::filesystem;
   const TemporaryFolder folder;
   CHECK_THAT(said_with_program(folder, folder / "absent").what,
              Contains("by the program luxodus_vdb, which is not there"));
-  // As the loader of libraries ends a program.
+  // As the dynamic loader ends a program with missing libraries.
   const fs::path program = folder.write("luxodus_vdb", "#!/bin/sh\nexit 127\n");
   fs::permissions(program, fs::perms::owner_all);
   const Problem missing = said_with_program(folder, program);
@@ -33,9 +34,9 @@ TEST_CASE("a missing luxodus_vdb and missing libraries are no fault of the file"
         "luxodus_vdb cannot be begun: its libraries are missing (apt-get install libopenvdb10.0)");
 }
 
-TEST_CASE("a luxodus_vdb of another build is told by its name, and what to do", "[import][vdb]") {
+TEST_CASE("a luxodus_vdb of another build is reported by name, with a remedy", "[import][vdb]") {
   const TemporaryFolder folder;
-  // This test program serves jobs, but none of this name: as a luxodus_vdb of other sources does.
+  // This test program serves jobs, but none with this name: like a luxodus_vdb of other sources.
   const std::filesystem::path program = folder / "luxodus_vdb";
   std::filesystem::create_symlink(std::filesystem::read_symlink("/proc/self/exe"), program);
   const Problem stale = said_with_program(folder, program);
@@ -44,7 +45,7 @@ TEST_CASE("a luxodus_vdb of another build is told by its name, and what to do", 
              Contains("luxodus_vdb is of another build than this program: build both "));
 }
 
-TEST_CASE("a luxodus_vdb that is no such program is told by its name", "[import][vdb]") {
+TEST_CASE("a luxodus_vdb that is another program is reported by name", "[import][vdb]") {
   const TemporaryFolder folder;
   const Problem silent = said_with_program(folder, "/bin/true");
   CHECK(silent.where.file == "/bin/true");

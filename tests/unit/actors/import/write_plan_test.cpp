@@ -1,4 +1,4 @@
-// The scene that a person's table makes of a DXF plan.
+// The scene that the user's table makes of a DXF plan.
 #include "actors/import/write_plan.hpp"
 
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ DxfPlan plan_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a person's table says what layers and blocks become", "[import][dxf]") {
+TEST_CASE("the user's table says what layers and blocks become", "[import][dxf]") {
   const TemporaryFolder folder;
   const auto out = folder / "office";
   const DxfPlan plan = plan_of(dxf_drawing());
@@ -59,15 +59,14 @@ TEST_CASE("a person's table says what layers and blocks become", "[import][dxf]"
   for (const Object& object : scene.scene->objects)
     if (object.name.starts_with("WALLS"))
       for (const glm::dvec3& p : object.mesh.positions) walls.extend(p);
-  // The drawn line is a wall's middle.
+  // The drawn line is the middle of a wall.
   CHECK((walls.low.x == Approx(-0.1) && walls.high.y == Approx(4.1)));
   REQUIRE(scene.scene->signs.size() == 1);
   CHECK(scene.scene->signs[0].frame.axes[2].x == Approx(-1));
   CHECK(scene.scene->signs[0].frame.origin.z == Approx(2.3));
 }
 
-TEST_CASE("the reference explains every key of a plan's table as the reader has it",
-          "[import][dxf]") {
+TEST_CASE("the reference explains every key of a plan's table like the schema", "[import][dxf]") {
   std::ifstream in(std::string(LUX_SOURCE_DIR) + "/docs/reference/plan-file.md");
   const std::string page((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   std::string tables = toml::schema_markdown(plan_schema());
@@ -75,7 +74,7 @@ TEST_CASE("the reference explains every key of a plan's table as the reader has 
   CHECK(page.find(tables) != std::string::npos);
 }
 
-TEST_CASE("a table's mistakes are told with their line, and metres taken for kilometres too",
+TEST_CASE("a table's mistakes are reported with their line, also metres taken for kilometres",
           "[import][dxf]") {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "office");

@@ -1,4 +1,4 @@
-// Smoke that came as even cells, as files of a scene.
+// Smoke given as even cells, as files of a scene.
 #include "actors/import/write_smoke.hpp"
 
 #include <catch2/catch.hpp>
@@ -20,7 +20,7 @@ VdbSmoke six_cells() {
 
 }  // namespace
 
-TEST_CASE("smoke that is written comes back as a data set, in metres and 1/m", "[vdb][import]") {
+TEST_CASE("written smoke is read back as a data set, in metres and 1/m", "[vdb][import]") {
   const TemporaryFolder folder;
   const VdbSmoke smoke = six_cells();
   const std::string out = (folder / "smoke").string();
@@ -37,7 +37,7 @@ TEST_CASE("smoke that is written comes back as a data set, in metres and 1/m", "
     CHECK(back->data.extinction[i] == 2 * smoke.values[i]);
 }
 
-TEST_CASE("what a person wrote of imported smoke is kept by the next import", "[vdb][import]") {
+TEST_CASE("the next import keeps the user's text about imported smoke", "[vdb][import]") {
   const TemporaryFolder folder;
   const std::string out = (folder / "smoke").string();
   const SmokeOrigin origin{"smoke.vdb", "density", 2.0, 1};
@@ -52,7 +52,7 @@ TEST_CASE("what a person wrote of imported smoke is kept by the next import", "[
   CHECK(line == "# mine");
 }
 
-TEST_CASE("a density that would be no smoke is refused", "[vdb][import]") {
+TEST_CASE("a density beyond the limit is rejected", "[vdb][import]") {
   const TemporaryFolder folder;
   const auto dense =
       write_smoke(six_cells(), {"a.vdb", "density", 1e9, 1}, (folder / "smoke").string());

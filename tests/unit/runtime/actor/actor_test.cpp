@@ -24,7 +24,7 @@ struct Hint {
   int number;
 };
 
-/// Notes what it handles; while `busy`, the handler of Work waits at a gate.
+/// Records what it handles; while `busy`, the handler of Work waits at a gate.
 class Worker final
     : public Actor<
           Worker,
@@ -73,7 +73,7 @@ std::vector<int> numbers(int from, int to) {
 
 }  // namespace
 
-TEST_CASE("data is handled in the order it was sent", "[runtime][actor]") {
+TEST_CASE("data messages are handled in the order in which they were sent", "[runtime][actor]") {
   Node node;
   Worker worker(node);
   worker.start();
@@ -107,7 +107,7 @@ TEST_CASE("a full mailbox makes the sender wait and loses nothing", "[runtime][m
   node.settle();
 }
 
-TEST_CASE("waiting senders are served in the order they came, and none overtakes them",
+TEST_CASE("waiting senders are served in order of arrival, and none overtakes them",
           "[runtime][mailbox]") {
   Node node;
   Worker worker(node);
@@ -125,7 +125,7 @@ TEST_CASE("waiting senders are served in the order they came, and none overtakes
   node.noted.clear();
   for (int freed = 0; freed < 3; ++freed) {
     node.scheduler.fibers().wake_one(worker.gate);
-    // Runs after a place was freed and before its sender: the place is that sender's.
+    // Runs after a slot was freed and before its sender: the slot is reserved for that sender.
     node.start([&node, &worker] {
       if (worker.offer(Work{99}) == Offered::rejected) node.note("kept");
     });
@@ -155,7 +155,7 @@ TEST_CASE("control overtakes data, even while a data handler waits", "[runtime][
   node.settle();
 }
 
-TEST_CASE("control has a place of its own however full the data lane is", "[runtime][mailbox]") {
+TEST_CASE("control has slots of its own however full the data lane is", "[runtime][mailbox]") {
   Node node;
   Worker worker(node);
   for (int i = 1; i <= 4; ++i) CHECK(worker.offer(Work{i}) == Offered::taken);
@@ -168,7 +168,7 @@ TEST_CASE("control has a place of its own however full the data lane is", "[runt
   CHECK(node.noted == "stop beat1 ");
 }
 
-TEST_CASE("a kind that coalesces keeps its place and its last content", "[runtime][mailbox]") {
+TEST_CASE("a kind that coalesces keeps its position and its latest content", "[runtime][mailbox]") {
   Node node;
   Worker worker(node);
   CHECK(worker.offer(Beat{1}) == Offered::taken);
@@ -180,7 +180,8 @@ TEST_CASE("a kind that coalesces keeps its place and its last content", "[runtim
   CHECK(node.noted == "beat3 stop ");
 }
 
-TEST_CASE("a kind that may not be full ends the process when it is", "[runtime][mailbox]") {
+TEST_CASE("a full mailbox aborts the process if the kind's reaction is fail",
+          "[runtime][mailbox]") {
   const test::End end = test::end_of([] {
     Node node;
     Worker worker(node);

@@ -9,7 +9,8 @@
 using namespace luxodus;
 using test::Node;
 
-TEST_CASE("a blocking call runs on another thread, and its end on the node's", "[runtime][actor]") {
+TEST_CASE("a blocking call runs on another thread, and its completion on the node's",
+          "[runtime][actor]") {
   Node node;
   BlockingThread calls(node.scheduler.handoff());
   std::atomic<bool> may_return{false};
@@ -21,17 +22,18 @@ TEST_CASE("a blocking call runs on another thread, and its end on the node's", "
         while (!may_return) std::this_thread::yield();
       },
       [&done] { done = true; });
-  for (int turn = 0; turn < 10; ++turn) node.scheduler.turn();  // the node goes on meanwhile
+  for (int turn = 0; turn < 10; ++turn) node.scheduler.turn();  // the node runs meanwhile
   CHECK_FALSE(done);
   may_return = true;
   calls.finish();
-  CHECK_FALSE(done);  // until the node's next turn
+  CHECK_FALSE(done);  // only in the node's next turn
   node.settle();
   CHECK(done);
   CHECK(called_on != std::this_thread::get_id());
 }
 
-TEST_CASE("one blocking call after another, each with its own end", "[runtime][actor]") {
+TEST_CASE("blocking calls run one after another, each with its own completion",
+          "[runtime][actor]") {
   Node node;
   BlockingThread calls(node.scheduler.handoff());
   int called = 0, done = 0;

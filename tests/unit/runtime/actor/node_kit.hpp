@@ -1,5 +1,5 @@
-// A node for tests: a scheduler on a clock that is moved by hand, with a source that brings what it
-// is told to. Tests say turn() and advance(); nothing waits.
+// A node for tests: a scheduler on a manual clock, with a scripted source. Tests call turn() and
+// advance(); nothing waits. One thread.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@
 
 namespace luxodus::test {
 
-/// Counts what the scheduler asks of it.
+/// Records the scheduler's calls.
 struct ScriptedSource final : EventSource {
   bool poll() override {
     if (on_poll) on_poll();
@@ -40,7 +40,7 @@ struct Node {
     REQUIRE(id.has_value());
     return *id;
   }
-  /// Turns until only time or the source could bring more.
+  /// Turns until only time or the source could bring more work.
   void settle() {
     while (scheduler.turn() <= clock.now()) {
     }

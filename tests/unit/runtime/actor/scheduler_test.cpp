@@ -26,7 +26,7 @@ struct NotingReceiver final : ControlReceiver {
 
 }  // namespace
 
-TEST_CASE("a turn goes from the urgent to the ready: timers, arrivals, control, results, fibers",
+TEST_CASE("a turn serves timers, arrivals, control, results and fibers, in this order",
           "[runtime][scheduler]") {
   Node node;
   NotingReceiver receiver(node);
@@ -53,7 +53,7 @@ TEST_CASE("a receiver that calls for control from its handler is called in the n
   CHECK(node.noted == "control control ");
 }
 
-TEST_CASE("fibers that are always ready leave every turn after their budget of resumes",
+TEST_CASE("fibers that are always ready leave every turn after the limit of resumes",
           "[runtime][scheduler]") {
   SchedulerLimits limits = test::small_limits();
   limits.resumes_per_turn = 10;
@@ -72,7 +72,7 @@ TEST_CASE("fibers that are always ready leave every turn after their budget of r
   CHECK(node.scheduler.fibers().live() == 0);
 }
 
-TEST_CASE("fibers leave a turn after their budget of time", "[runtime][scheduler]") {
+TEST_CASE("fibers leave a turn after their time limit", "[runtime][scheduler]") {
   Node node;
   for (int i = 0; i < 5; ++i) node.start([&node] { node.clock.advance(microseconds(400)); });
   node.scheduler.turn();
@@ -123,7 +123,8 @@ TEST_CASE("a wait with a deadline ends by whichever comes first, and leaves no t
   CHECK(node.scheduler.timers().set_now() == 0);
 }
 
-TEST_CASE("a fiber that runs for too long is reported with what it did", "[runtime][scheduler]") {
+TEST_CASE("a fiber that runs too long is reported with its tag and reason",
+          "[runtime][scheduler]") {
   Node node;
   node.start([&node] { node.clock.advance(milliseconds(20)); }, "quick");
   node.settle();
@@ -146,7 +147,7 @@ TEST_CASE("a fiber that runs for too long is reported with what it did", "[runti
   node.settle();
 }
 
-TEST_CASE("the handoff takes no more than it holds, in order, and wakes the node",
+TEST_CASE("the handoff holds no more than its capacity, keeps the order, and wakes the node",
           "[runtime][scheduler]") {
   SchedulerLimits limits = test::small_limits();
   limits.handoffs = 2;
@@ -185,8 +186,7 @@ TEST_CASE("results of other threads wake a waiting node, and all arrive", "[runt
   CHECK(arrived == builders * results_each);
 }
 
-TEST_CASE("the same node does the same in the same order, however often it is run",
-          "[runtime][scheduler]") {
+TEST_CASE("the same node behaves the same way every time it is run", "[runtime][scheduler]") {
   const auto history = [] {
     Node node;
     Random random(11, RandomStream::test);
@@ -245,7 +245,7 @@ TEST_CASE("the scheduler's own numbers can be published", "[runtime][scheduler]"
   CHECK(text.find("luxodus_fiber_resumes_total{node=\"n0\"} 1\n") != std::string::npos);
 }
 
-TEST_CASE("a fiber that overflows its stack under the running scheduler is one readable line",
+TEST_CASE("a stack overflow under the running scheduler is reported in one line",
           "[runtime][scheduler]") {
   const test::End end = test::end_of([] {
     const SystemClock clock;

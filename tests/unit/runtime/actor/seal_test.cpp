@@ -1,4 +1,4 @@
-// After the seal a node's thread takes no memory, whatever it does.
+// After the seal a node's thread allocates no memory, whatever it does.
 #include <catch2/catch.hpp>
 #include <memory>
 
@@ -30,7 +30,7 @@ class Tally final : public Actor<Tally, ControlLane<Accepts<SealedBeat, 1, WhenF
   int sum = 0, scores = 0, beats = 0;
 };
 
-/// What one particle's fiber does: all kinds of waits, and a message.
+/// Work of one particle's fiber: all kinds of waits, and a message.
 struct Stage {
   Stage() : node(test::small_limits(513)), tally(node.scheduler), trace(4096, 10) {}
 
@@ -76,7 +76,7 @@ TEST_CASE("the allocations of this thread are counted", "[runtime][seal]") {
   CHECK(test::allocations_of_this_thread() == before + *one);
 }
 
-TEST_CASE("after the seal thousands of fibers, messages, timers and waits take no memory",
+TEST_CASE("after the seal thousands of fibers, messages, timers and waits allocate no memory",
           "[runtime][seal]") {
   Stage stage;
   Metrics metrics("n0");

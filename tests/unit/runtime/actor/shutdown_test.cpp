@@ -19,7 +19,7 @@ ShutdownPhase phase(Node& node, const std::string& name, Nanoseconds most, const
           [name] { return "the " + name + " flag"; }};
 }
 
-/// What each phase came to, in words.
+/// The outcome of each phase, as text.
 std::vector<std::string> outcomes(const Shutdown& shutdown) {
   std::vector<std::string> out;
   for (const Shutdown::Outcome& o : shutdown.outcomes())
@@ -52,15 +52,17 @@ TEST_CASE("phases follow each other, each begun when the one before is done",
   CHECK(outcomes(shutdown) == std::vector<std::string>{"stop: done", "flush: done"});
 }
 
-TEST_CASE("a phase is given up at its deadline, says what it waited for, and the end goes on",
-          "[runtime][shutdown]") {
+TEST_CASE(
+    "a phase that misses its deadline is abandoned with what it waited for, and the shutdown goes "
+    "on",
+    "[runtime][shutdown]") {
   Node node;
   const bool no = false, yes = true;
   Shutdown& shutdown = node.scheduler.shutdown();
   shutdown.add(phase(node, "flush", milliseconds(1500), no));
   shutdown.add(phase(node, "bye", seconds(1), yes));
   shutdown.begin("a test");
-  CHECK(node.scheduler.turn() == seconds(1));  // then it says what it waits for
+  CHECK(node.scheduler.turn() == seconds(1));  // then it logs what it waits for
   node.advance(seconds(1));
   CHECK_FALSE(shutdown.finished());
   CHECK(node.scheduler.turn() == milliseconds(1500));
@@ -72,7 +74,8 @@ TEST_CASE("a phase is given up at its deadline, says what it waited for, and the
         std::vector<std::string>{"flush: gave up on the flush flag", "bye: done"});
 }
 
-TEST_CASE("all pools are full again after a shutdown in the midst of work", "[runtime][shutdown]") {
+TEST_CASE("all pools are full again after a shutdown in the middle of work",
+          "[runtime][shutdown]") {
   struct Work {
     int number;
   };
@@ -116,7 +119,7 @@ TEST_CASE("all pools are full again after a shutdown in the midst of work", "[ru
   CHECK(held.use_count() == 1);
 }
 
-TEST_CASE("fibers that have not ended in time are named by what they are and wait for",
+TEST_CASE("fibers that have not ended in time are named with their tag and reason",
           "[runtime][shutdown]") {
   Node node;
   for (int i = 0; i < 2; ++i)

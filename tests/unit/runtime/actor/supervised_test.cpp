@@ -1,4 +1,4 @@
-// An actor that throws: it does nothing more, its supervisor is told once, and a new life begins
+// An actor that throws: it does nothing more, its supervisor is notified once, and a restart begins
 // with an empty mailbox.
 #include "runtime/actor/supervised.hpp"
 
@@ -21,7 +21,7 @@ struct Task1 {
   int number;
 };
 
-/// Throws at a negative number, and notes all others.
+/// Throws at a negative number, and records all others.
 class Clerk final : public Actor<Clerk, ControlLane<Accepts<Order, 4, WhenFull::reject>>,
                                  DataLane<Accepts<Task1, 4, WhenFull::reject>>> {
  public:
@@ -74,7 +74,7 @@ struct Office {
 
 }  // namespace
 
-TEST_CASE("an actor that has failed does nothing more, and its supervisor is told once",
+TEST_CASE("a failed actor does nothing more, and its supervisor is notified once",
           "[actor][supervision]") {
   Office office;
   office.clerk.supervise_by(office.failures);
@@ -103,7 +103,7 @@ TEST_CASE("an actor that has failed does nothing more, and its supervisor is tol
   CHECK(office.failures.text == how);
 }
 
-TEST_CASE("an actor that begins anew has an empty mailbox, and no timer of its earlier life",
+TEST_CASE("a restarted actor has an empty mailbox, and no timer of its earlier life",
           "[actor][supervision]") {
   Office office;
   office.clerk.supervise_by(office.failures);
@@ -124,7 +124,7 @@ TEST_CASE("an actor that begins anew has an empty mailbox, and no timer of its e
   CHECK(office.node.noted == "timer6 order4 task5 ");
 }
 
-TEST_CASE("an actor fails on purpose once, at what it does next", "[actor][supervision]") {
+TEST_CASE("an injected failure hits an actor once, at its next handler", "[actor][supervision]") {
   Office office;
   office.clerk.supervise_by(office.failures);
   office.clerk.fail_next();
@@ -137,7 +137,7 @@ TEST_CASE("an actor fails on purpose once, at what it does next", "[actor][super
   CHECK(office.node.noted == "order1 ");
 }
 
-TEST_CASE("what leaves an actor that nobody supervises leaves the turn", "[actor][supervision]") {
+TEST_CASE("without a supervisor an actor's exception leaves the turn", "[actor][supervision]") {
   Office office;
   office.give(-1, 0);
   CHECK_THROWS_WITH(office.node.scheduler.turn(), "order");

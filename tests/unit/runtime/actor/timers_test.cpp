@@ -13,7 +13,8 @@ namespace {
 
 constexpr size_t no_limit = 1'000'000;
 
-/// What a wheel promises, said as slowly as possible: a list sorted by deadline, then by setting.
+/// The specification of the wheel, as slow as can be: a list sorted by deadline, then by order of
+/// setting.
 class Model {
  public:
   void set(Nanoseconds deadline, int name) {
@@ -76,7 +77,8 @@ TEST_CASE("a timer fires at its deadline, never before, and once", "[runtime][ti
   CHECK(wheel.timers.set_now() == 0);
 }
 
-TEST_CASE("a cancelled timer does not fire, and its name is of no use later", "[runtime][timers]") {
+TEST_CASE("a cancelled timer does not fire, and its id is useless afterwards",
+          "[runtime][timers]") {
   Wheel wheel(1);
   const TimerId first = wheel.set(1000, 1);
   CHECK(wheel.timers.cancel(first));
@@ -86,7 +88,7 @@ TEST_CASE("a cancelled timer does not fire, and its name is of no use later", "[
   CHECK(wheel.run(1000) == std::vector<int>{2});
 }
 
-TEST_CASE("a deadline that has passed counts as now, behind what is set for now",
+TEST_CASE("a deadline in the past counts as now, after timers that were set for now",
           "[runtime][timers]") {
   Wheel wheel;
   wheel.run(5000);
@@ -97,7 +99,7 @@ TEST_CASE("a deadline that has passed counts as now, behind what is set for now"
   CHECK(wheel.run(5000) == std::vector<int>{1, 2, 3});
 }
 
-TEST_CASE("the farthest deadline keeps its place", "[runtime][timers]") {
+TEST_CASE("the farthest deadline stays in its slot", "[runtime][timers]") {
   Wheel wheel;
   wheel.set(never, 1);
   wheel.set(never - 1, 2);
@@ -106,7 +108,7 @@ TEST_CASE("the farthest deadline keeps its place", "[runtime][timers]") {
   CHECK(wheel.run(never) == std::vector<int>{2, 1});
 }
 
-TEST_CASE("a timer that sets itself again for now cannot hold the loop", "[runtime][timers]") {
+TEST_CASE("a timer that sets itself again for now cannot block the loop", "[runtime][timers]") {
   Timers timers(4, 0);
   struct Again {
     Timers& timers;

@@ -22,7 +22,7 @@ const std::vector<Edge> all_edges{{id(0), id(1)}, {id(0), id(2)}, {id(0), id(3)}
 
 }  // namespace
 
-TEST_CASE("workers are numbered as they stand and the controller is the last",
+TEST_CASE("workers are numbered in the order of the file and the controller is the last",
           "[runtime][config]") {
   const ClusterConfig cluster = good(mixed);
   CHECK(cluster.workers() == 3);
@@ -47,7 +47,7 @@ TEST_CASE("a link is memory in a process, a local socket on a host, TCP beyond",
 }
 
 TEST_CASE("of two neighbours one listens where the other connects to", "[runtime][config]") {
-  // Host b is known by its name, at which nobody can listen: there it listens to all.
+  // Host b is known by name, which cannot be bound: there it listens to all.
   const ClusterConfig cluster = good(mixed);
   std::set<std::string> listening;
   for (uint16_t n = 0; n < 4; ++n) {
@@ -74,7 +74,7 @@ TEST_CASE("of two neighbours one listens where the other connects to", "[runtime
   CHECK(cluster.hosts[1].listen == "*");
 }
 
-TEST_CASE("ports follow from the host's first, unless they are said", "[runtime][config]") {
+TEST_CASE("ports follow from the host's first port unless they are given", "[runtime][config]") {
   const ClusterConfig cluster = good(
       mixed + "port = 5000\n[observe]\nmetrics_port = 9000\nallow_host = \"lux.example.org\"\n");
   CHECK(cluster.observe.allow_host == "lux.example.org");
@@ -97,13 +97,13 @@ TEST_CASE("only links that can leave a host need keys", "[runtime][config]") {
   CHECK(only_problem(run_part + host_part + "listen = \"0.0.0.0\"\n" + controller_part +
                      worker_part + tcp)
             .what.find("no keys") != std::string::npos);
-  // A name that only begins like loopback is none.
+  // A name that only begins like a loopback address is no loopback address.
   CHECK(only_problem(run_part + host_part + "address = \"127.example.org\"\n" + controller_part +
                      worker_part + tcp)
             .what.find("no keys") != std::string::npos);
 }
 
-TEST_CASE("the longest names give names of local sockets that the system takes",
+TEST_CASE("the longest names give local socket names that the system accepts",
           "[runtime][config]") {
   const std::string longest(limits::cluster_name_chars, 'x');
   const ClusterConfig cluster =
@@ -127,7 +127,7 @@ TEST_CASE("a node's network has the run's level and id, and its own number", "[r
   CHECK(net.identity.node == id(2));
 }
 
-TEST_CASE("names can stand in files', units' and sockets' names", "[runtime][config]") {
+TEST_CASE("names are valid as parts of file, unit and socket names", "[runtime][config]") {
   for (const char* name : {"n", "n0", "lux-1.example", "A_b", "0"}) CHECK(name_fault(name) == "");
   for (const char* name :
        {"", "-n", ".", "..", ".n", "a b", "a/b", "a'b", "a%b", "a\nb", "\xc3\xa9"})
@@ -135,7 +135,7 @@ TEST_CASE("names can stand in files', units' and sockets' names", "[runtime][con
   CHECK(name_fault(std::string(33, 'n')) != "");
 }
 
-TEST_CASE("an address is four numbers or a host's name", "[runtime][config]") {
+TEST_CASE("an address is four numbers or a host name", "[runtime][config]") {
   for (const char* address : {"10.0.0.1", "lux1", "lux-1.example.org", "localhost", "3com.com"})
     CHECK(address_fault(address) == "");
   for (const char* address : {"", "10.0.0", "10.0.0.256", "::1", "a..b", ".a", "a.", "-a", "a b",
@@ -143,7 +143,7 @@ TEST_CASE("an address is four numbers or a host's name", "[runtime][config]") {
     CHECK(address_fault(address) != "");
 }
 
-TEST_CASE("the clusters that ship are good, and name scenes that ship where they name one",
+TEST_CASE("the shipped clusters are valid, and the shipped scenes that they name exist",
           "[runtime][config]") {
   namespace fs = std::filesystem;
   struct Row {
@@ -166,7 +166,7 @@ TEST_CASE("the clusters that ship are good, and name scenes that ship where they
   }
 }
 
-TEST_CASE("a controller that traces does so by a worker in its process", "[runtime][config]") {
+TEST_CASE("a controller that traces has a worker for it in its process", "[runtime][config]") {
   const ClusterConfig alone = good(run_part + host_part + controller_part + "traces = true\n");
   REQUIRE(alone.nodes.size() == 2);
   CHECK(alone.nodes[0].name == "c-tracer");

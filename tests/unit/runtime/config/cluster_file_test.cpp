@@ -7,8 +7,7 @@
 
 namespace luxodus {
 
-TEST_CASE("a file that says little has the defaults of the rooms that use them",
-          "[runtime][config]") {
+TEST_CASE("a minimal file has the defaults of the rooms that use them", "[runtime][config]") {
   const ClusterConfig cluster = good(small_cluster);
   const NetConfig usual;
   CHECK(cluster.links.hop_limit == usual.hop_limit);
@@ -47,7 +46,7 @@ TEST_CASE("paths are relative to the folder of the file", "[runtime][config]") {
   CHECK(cluster.topology.file == "/srv/graph.toml");
 }
 
-TEST_CASE("a run may be of any time of the scene's clock", "[runtime][config]") {
+TEST_CASE("a run may use any time of the scene's clock", "[runtime][config]") {
   CHECK_FALSE(good(small_cluster).run.at_s.has_value());
   const auto at = [](const std::string& at_s) {
     return run_part + "at_s = " + at_s + "\n" + host_part + controller_part + worker_part;
@@ -57,14 +56,14 @@ TEST_CASE("a run may be of any time of the scene's clock", "[runtime][config]") 
   CHECK(only_problem(at("-2e6")).what.find("at_s") != std::string::npos);
 }
 
-TEST_CASE("shards of the totals are workers by their names", "[runtime][config]") {
+TEST_CASE("shards of the totals are given to workers by name", "[runtime][config]") {
   CHECK(good(small_cluster).tally.shards.empty());
   const ClusterConfig cluster =
       good(small_cluster + "count = 4\n[tally]\nshards = [\"n3\", \"n0\"]\n");
   CHECK(cluster.tally.shards == std::vector<NodeId>{{3}, {0}});
 }
 
-TEST_CASE("a cluster makes pictures of a finished run where its file asks for them",
+TEST_CASE("a cluster makes pictures of a finished run if its file asks for them",
           "[runtime][config]") {
   CHECK(good(small_cluster).is_run());
   const ClusterConfig cluster =
@@ -79,7 +78,7 @@ TEST_CASE("a cluster makes pictures of a finished run where its file asks for th
   CHECK_FALSE(cluster.render.full_paths);
 }
 
-TEST_CASE("the run is shown by the controller, or by the node that the file names",
+TEST_CASE("the display is at the controller, or at the node that the file names",
           "[runtime][config]") {
   const ClusterConfig usual = good(small_cluster);
   CHECK(usual.display.node == usual.controller());
@@ -91,7 +90,7 @@ TEST_CASE("the run is shown by the controller, or by the node that the file name
   CHECK(cluster.display.preview_s == 5);
 }
 
-TEST_CASE("a node's own budget replaces what it names of the common one", "[runtime][config]") {
+TEST_CASE("a node's own budget overrides the keys that it gives", "[runtime][config]") {
   const ClusterConfig cluster = good(small_cluster +
                                      "[node.budget]\nfibers = 7\nobject_bytes = \"2 GiB\"\n"
                                      "[budget]\nfibers = 100\nstack_kb = 96\n");
@@ -103,7 +102,7 @@ TEST_CASE("a node's own budget replaces what it names of the common one", "[runt
   CHECK(controller.object_bytes == uint64_t{1} << 30);
 }
 
-TEST_CASE("what is wrong with a key is told once, with its line", "[runtime][config]") {
+TEST_CASE("a wrong key is reported once, with its line", "[runtime][config]") {
   struct Row {
     std::string text;
     int line;
@@ -194,7 +193,7 @@ TEST_CASE("what is wrong with a key is told once, with its line", "[runtime][con
   }
 }
 
-TEST_CASE("what does not fit together is told with the names it concerns", "[runtime][config]") {
+TEST_CASE("inconsistent parts are reported with the names involved", "[runtime][config]") {
   const std::string hosts =
       run_part + two_hosts("10.0.0.1", "lux2.example.org") + "[keys]\nfolder = \"k\"\n";
   const std::string a = "host = \"a\"\n", b = "host = \"b\"\n";
@@ -214,7 +213,8 @@ TEST_CASE("what does not fit together is told with the names it concerns", "[run
             .what.find("no port is left for \"c\"") == 0);
 }
 
-TEST_CASE("links one by one are between nodes, once each, and not too many", "[runtime][config]") {
+TEST_CASE("single links join two nodes, are given once, and respect the limit",
+          "[runtime][config]") {
   const std::string nodes = small_cluster + "count = 4\n[topology]\nkind = \"links\"\n";
   const std::string ring = "[\"n0\",\"n1\"],[\"n1\",\"n2\"],[\"n2\",\"n3\"],[\"n3\",\"n0\"]";
   const auto links = [&](const std::string& more) {
@@ -237,7 +237,7 @@ TEST_CASE("links one by one are between nodes, once each, and not too many", "[r
             .topology.max_controller_links == 0);
 }
 
-TEST_CASE("all slips of a file are told at once, by line", "[runtime][config]") {
+TEST_CASE("all mistakes in a file are reported at once, by line", "[runtime][config]") {
   const ReadCluster read =
       parse_cluster("[run]\nname = \"r r\"\nscene = 3\nlevel = \"bits\"\n" + host_part +
                         "adress = \"::1\"\n" + worker_part + "count = 0\n" + controller_part,
@@ -266,7 +266,7 @@ TEST_CASE("former names of keys are read as the present ones, with one warning e
             .warnings.empty());
 }
 
-TEST_CASE("a file that is too long, no file, or a folder is refused with a reason",
+TEST_CASE("a file that is too long, missing, or a folder is rejected with a reason",
           "[runtime][config]") {
   CHECK(only_problem(std::string(limits::cluster_file_bytes + 1, '\n')).what.find("longer than") !=
         std::string::npos);
@@ -283,7 +283,7 @@ TEST_CASE("a file that is too long, no file, or a folder is refused with a reaso
   CHECK(read.problems.list().size() == limits::toml_problems + 1);
 }
 
-TEST_CASE("however a file is damaged, it is a cluster or has problems with lines, never both",
+TEST_CASE("a damaged file gives either a cluster or problems with lines, never both",
           "[runtime][config]") {
   const std::string text = small_cluster + "count = 3\nport = 2000\n[node.budget]\nfibers = 3\n" +
                            "[topology]\nkind = \"links\"\npairs = [[\"n0\", \"n1\"]]\n[links]\n" +

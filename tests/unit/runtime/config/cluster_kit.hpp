@@ -1,4 +1,4 @@
-// What tests of cluster files share: small files made of parts, and readings that must succeed or
+// Shared by tests of cluster files: small files made of parts, and parse calls that must succeed or
 // fail. Test code; one thread.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The README of cluster files says what the reader does: its tables are the schema's, its example
-// reads.
+// The README of cluster files matches the reader: its tables are the schema's, and its example is
+// valid.
 #include "runtime/config/cluster_schema.hpp"
 
 #include <fstream>
@@ -20,7 +20,7 @@ std::string readme() {
 
 }  // namespace
 
-TEST_CASE("the README ends with every table and key of the schema, in its words",
+TEST_CASE("the README ends with every table and key of the schema, word for word",
           "[runtime][config]") {
   const std::string text = readme();
   const size_t from = text.find("### ");
@@ -34,7 +34,7 @@ TEST_CASE("the README ends with every table and key of the schema, in its words"
   CHECK(said.peek() == EOF);
 }
 
-TEST_CASE("every type of the schema is explained, every default lies in its range",
+TEST_CASE("every type of the schema is explained, and every default is in its range",
           "[runtime][config]") {
   const std::string text = readme();
   const size_t from = text.find("## Every table and key");
@@ -51,7 +51,7 @@ TEST_CASE("every type of the schema is explained, every default lies in its rang
       if (counted) {
         const auto range = toml::interval_of(key.range);
         REQUIRE(range.has_value());
-        // A scene's clock alone may begin before zero.
+        // Only a scene's clock may begin before zero.
         if (table.name != "run" || key.name != "at_s") CHECK(range->low >= 0);
         CHECK(range->low < range->high);
         if (const auto value = toml::bytes_in(fallback)) CHECK(range->holds(*value));
@@ -64,7 +64,7 @@ TEST_CASE("every type of the schema is explained, every default lies in its rang
   }
 }
 
-TEST_CASE("the example of the README is a good cluster", "[runtime][config]") {
+TEST_CASE("the example in the README is a valid cluster", "[runtime][config]") {
   const std::string text = readme();
   const size_t begin = text.find("```toml\n") + 8;
   const ClusterConfig cluster = good(text.substr(begin, text.find("```", begin) - begin));

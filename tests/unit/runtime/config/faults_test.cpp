@@ -13,7 +13,7 @@ std::string wrong(const std::string& text) {
 }
 }  // namespace
 
-TEST_CASE("a cluster without faults has none, and one with faults has what it says",
+TEST_CASE("a cluster without faults has none, and one with faults has those of its file",
           "[runtime][config]") {
   CHECK_FALSE(good(small_cluster).faults.any());
   const FaultPlan plan =
@@ -40,7 +40,8 @@ TEST_CASE("a cluster without faults has none, and one with faults has what it sa
   CHECK(plan.faults[1].lasts == seconds(1));
 }
 
-TEST_CASE("faults of nobody, or of too few, are told with their line", "[runtime][config]") {
+TEST_CASE("faults of unknown nodes, or without enough nodes, are reported with their line",
+          "[runtime][config]") {
   const std::string event = "[[faults.event]]\nat_s = 1\n";
   CHECK(wrong(small_cluster + event + "kind = \"pause\"\nnode = \"m\"\n").find("no node \"m\"") !=
         std::string::npos);
@@ -59,7 +60,7 @@ TEST_CASE("faults of nobody, or of too few, are told with their line", "[runtime
   CHECK(wrong(small_cluster + "[faults]\nloss = 1.5\n").find("loss") != std::string::npos);
 }
 
-TEST_CASE("a file of faults alone is for the nodes that are named", "[runtime][config]") {
+TEST_CASE("a file with only faults refers to the given nodes", "[runtime][config]") {
   const test::TemporaryFolder folder;
   const auto path = folder.write("faults.toml",
                                  "[faults]\ncorruption = 0.5\n[[faults.event]]\nkind = \"crash\"\n"

@@ -30,7 +30,7 @@ bool says(const Problem& problem, const std::string& part) {
   return problem.text().find(part) != std::string::npos;
 }
 
-/// A disk that is full after so many bytes, as far as this process is concerned.
+/// Limits file sizes of this process, like a disk that is full after so many bytes.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : before_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -53,7 +53,7 @@ class FileSizeLimit {
 
 }  // namespace
 
-TEST_CASE("what is written is what is read, and nothing else is in the folder", "[format]") {
+TEST_CASE("a file reads back as written, and leaves nothing else in the folder", "[format]") {
   const test::TemporaryFolder folder;
   const std::string text("line\n\0\xff end", 11);
   REQUIRE(write_file_atomically(folder / "a.txt", std::string_view(text)).ok());
@@ -66,7 +66,7 @@ TEST_CASE("what is written is what is read, and nothing else is in the folder", 
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("a file may have any name the system takes", "[format]") {
+TEST_CASE("a file may have any name that the system accepts", "[format]") {
   const test::TemporaryFolder folder;
   const std::vector<std::string> names = {
       "ä ö ü.txt",   "with space", "new\nline", "\xff\xfe", "-rf",
@@ -78,7 +78,7 @@ TEST_CASE("a file may have any name the system takes", "[format]") {
   CHECK(folder.entries() == names.size());
 }
 
-TEST_CASE("a disk that fills up leaves the old file, no new one, and says why", "[format]") {
+TEST_CASE("a full disk leaves the old file, no new one, and gives the reason", "[format]") {
   const test::TemporaryFolder folder;
   REQUIRE(write_file_atomically(folder / "a.txt", std::string_view("old")).ok());
   {
@@ -94,7 +94,7 @@ TEST_CASE("a disk that fills up leaves the old file, no new one, and says why", 
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("a place that cannot be written to is named with the system's reason", "[format]") {
+TEST_CASE("a target that cannot be written is reported with the system's reason", "[format]") {
   const test::TemporaryFolder folder;
   REQUIRE(write_file_atomically(folder / "file", std::string_view("x")).ok());
   const auto reason = [](const std::filesystem::path& path) {
@@ -116,7 +116,7 @@ TEST_CASE("a place that cannot be written to is named with the system's reason",
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("a folder without permission to write refuses, except to root", "[format]") {
+TEST_CASE("a folder without write permission is rejected, except for root", "[format]") {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "locked");
   ::chmod((folder / "locked").c_str(), 0555);
@@ -151,8 +151,7 @@ TEST_CASE("a replaced file keeps its permissions, and no link is followed", "[fo
   CHECK_FALSE(std::filesystem::exists(folder / "nowhere"));
 }
 
-TEST_CASE("a folder that is a link is not written into, unless who named it resolves it",
-          "[format]") {
+TEST_CASE("a folder that is a link is not written into unless its user resolves it", "[format]") {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "real");
   std::filesystem::create_directory_symlink("real", folder / "link");
@@ -176,7 +175,7 @@ TEST_CASE("a writer that is killed leaves nothing", "[format]") {
   int status = 0;
   REQUIRE(::waitpid(child, &status, 0) == child);
   REQUIRE(WIFSIGNALED(status));
-  // Where files cannot be without a name, what is left is removed by the next that looks.
+  // On file systems without unnamed files the next cleaner removes the rest.
   remove_stale_temporaries(folder.path());
   CHECK(folder.entries() == 0);
 }
@@ -199,14 +198,14 @@ TEST_CASE("stale temporary files are removed, those of living writers and of oth
   ::close(living);
 }
 
-TEST_CASE("a reader gets a whole file up to its limit and refuses a longer one", "[format]") {
+TEST_CASE("a reader gets a whole file up to its limit and rejects a longer one", "[format]") {
   const test::TemporaryFolder folder;
   REQUIRE(write_file_atomically(folder / "a", std::string_view("12345")).ok());
   CHECK(read_whole_file(folder / "a", 5).ok());
   const auto longer = read_whole_file(folder / "a", 4);
   REQUIRE_FALSE(longer.ok());
   CHECK(says(longer.problem(), "longer than 4 bytes"));
-  CHECK_FALSE(read_whole_file("/dev/zero", 100000).ok());  // has no size of its own
+  CHECK_FALSE(read_whole_file("/dev/zero", 100000).ok());  // its size is unlimited
   CHECK(says(read_whole_file(folder / "none", 5).problem(), "No such file"));
   CHECK(says(read_whole_file(folder.path(), 5).problem(), "Is a directory"));
 }

@@ -13,13 +13,13 @@ using namespace luxodus::test;
 
 namespace {
 
-/// As if the file had been written well before.
+/// Marks the stamp as of a file written well before.
 FileStamp settled(FileStamp stamp) {
   stamp.sure = true;
   return stamp;
 }
 
-/// Writes the same number of bytes until the file system's clock has gone on since the stamp.
+/// Writes the same number of bytes until the file system's clock has advanced since the stamp.
 void write_later(const TemporaryFolder& folder, const FileStamp& before) {
   FileStamp now = before;
   while (now.changed_ns == before.changed_ns) now = stamp_at(folder.write("a", "other bytes"));
@@ -27,8 +27,9 @@ void write_later(const TemporaryFolder& folder, const FileStamp& before) {
 
 }  // namespace
 
-TEST_CASE("a file that was written well before and not since has the same stamp", "[runtime]") {
-  // Of the system, and thus older than any test.
+TEST_CASE("a file that has not changed since well before its stamp has the same stamp",
+          "[runtime]") {
+  // Installed with the system, and thus older than any test.
   const FileStamp shell = stamp_at("/bin/sh");
   CHECK(shell.sure);
   CHECK(shell.bytes > 0);
@@ -38,7 +39,7 @@ TEST_CASE("a file that was written well before and not since has the same stamp"
   const FileStamp before = settled(stamp_at(path));
   CHECK(before.bytes == 11);
   CHECK(before.same_as(stamp_at(path)));
-  // Nor does it matter by which way it is reached.
+  // The path by which it is reached does not matter.
   std::filesystem::create_symlink(path, folder / "link");
   CHECK(before.same_as(stamp_at(folder / "link")));
   const FileDescriptor open(::open(path.c_str(), O_RDONLY));
@@ -46,14 +47,15 @@ TEST_CASE("a file that was written well before and not since has the same stamp"
   CHECK_FALSE(stamp_of(-1).sure);
 }
 
-TEST_CASE("a file that was written just now is not sure to be what it was", "[runtime]") {
+TEST_CASE("the stamp of a file that was written just now is not sure", "[runtime]") {
   const TemporaryFolder folder;
   const FileStamp now = stamp_at(folder.write("a", "first bytes"));
   CHECK_FALSE(now.sure);
   CHECK_FALSE(now.same_as(now));
 }
 
-TEST_CASE("a write, another length and another file under the name change a stamp", "[runtime]") {
+TEST_CASE("a write, another length and another file of the same name change the stamp",
+          "[runtime]") {
   const TemporaryFolder folder;
   const auto path = folder.write("a", "first bytes");
   const FileStamp before = settled(stamp_at(path));

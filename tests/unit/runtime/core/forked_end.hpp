@@ -1,5 +1,5 @@
-// How a piece of code ends the process, seen from outside: it runs in a forked child, whose
-// standard error and end are given. For promises about mistakes that abort.
+// Observes how a piece of code ends the process: it runs in a forked child, whose standard error
+// and exit status are returned. For tests of assertions that abort. One thread.
 #pragma once
 
 #include <fcntl.h>
@@ -19,7 +19,7 @@ struct End {
   std::string standard_error;
 };
 
-/// Runs `piece` in a child; if it returns, the child exits as if nothing were wrong.
+/// Runs `piece` in a child; if it returns, the child exits normally.
 template <class Piece>
 End end_of(Piece&& piece) {
   std::array<int, 2> ends{};

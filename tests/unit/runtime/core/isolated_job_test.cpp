@@ -19,7 +19,7 @@ using namespace luxodus;
 
 namespace {
 
-/// What the other process is to do with its question.
+/// What the other process should do with its question.
 enum class ChildTask {
   answer,
   crash,
@@ -94,7 +94,7 @@ std::string failure(ChildTask task) {
 
 }  // namespace
 
-TEST_CASE("a job in a process of its own gets its question and gives its answer",
+TEST_CASE("a job in a process of its own receives its question and returns its answer",
           "[runtime][isolated]") {
   std::vector<uint32_t> numbers(100'000);
   std::iota(numbers.begin(), numbers.end(), 0u);
@@ -110,7 +110,7 @@ TEST_CASE("a job in a process of its own gets its question and gives its answer"
   CHECK_FALSE(answer->get(sum));
 }
 
-TEST_CASE("what the code of a job prints is no part of its answer", "[runtime][isolated]") {
+TEST_CASE("what a job prints is not part of its answer", "[runtime][isolated]") {
   auto answer = run(ChildTask::print);
   INFO((answer.ok() ? std::string() : answer.problem().what));
   REQUIRE(answer.ok());
@@ -119,7 +119,7 @@ TEST_CASE("what the code of a job prints is no part of its answer", "[runtime][i
   CHECK(text == "text!");
 }
 
-TEST_CASE("copies of this process do jobs as processes of their own do, with the same ends",
+TEST_CASE("jobs in copies of this process behave like jobs in new processes",
           "[runtime][isolated]") {
   const ForkedJobs here;
   auto answer = run(ChildTask::answer, {1, 2, 3});
@@ -146,7 +146,7 @@ TEST_CASE("copies of this process do jobs as processes of their own do, with the
   CHECK(strange.problem().what.find("of another build") != std::string::npos);
 }
 
-TEST_CASE("a crash, a loop and a flood of a job are problems of their own words",
+TEST_CASE("a crash, an endless loop and exhausted memory of a job are distinct problems",
           "[runtime][isolated]") {
   CHECK(failure(ChildTask::crash).find("crash (Segmentation fault)") != std::string::npos);
   CHECK(failure(ChildTask::loop).find("takes longer than") != std::string::npos);
@@ -157,7 +157,7 @@ TEST_CASE("a crash, a loop and a flood of a job are problems of their own words"
 #endif
 }
 
-TEST_CASE("an answer that claims more than it holds takes no memory", "[runtime][isolated]") {
+TEST_CASE("an answer that claims more than it holds allocates nothing", "[runtime][isolated]") {
   auto answer = run(ChildTask::lie);
   REQUIRE(answer.ok());
   std::vector<double> numbers;
@@ -165,7 +165,7 @@ TEST_CASE("an answer that claims more than it holds takes no memory", "[runtime]
   CHECK(numbers.empty());
 }
 
-TEST_CASE("threads run jobs side by side, and none leaves a descriptor", "[runtime][isolated]") {
+TEST_CASE("threads run jobs concurrently, and none leaks a descriptor", "[runtime][isolated]") {
   std::vector<int> good(4, 0);
   {
     std::vector<std::jthread> threads;
@@ -183,7 +183,7 @@ TEST_CASE("threads run jobs side by side, and none leaves a descriptor", "[runti
   ::close(second);
 }
 
-TEST_CASE("who waits for a job hears how far it is, up to its end", "[runtime][isolated]") {
+TEST_CASE("the caller of a job receives its progress up to the end", "[runtime][isolated]") {
   std::vector<double> heard;
   auto answer = run(ChildTask::tell, {1, 2}, [&](double share) { heard.push_back(share); });
   REQUIRE(answer.ok());
@@ -196,25 +196,25 @@ TEST_CASE("who waits for a job hears how far it is, up to its end", "[runtime][i
   CHECK((text == "text!" && sum == 3));
 }
 
-TEST_CASE("a share of reading is that of all bytes, and each counts once", "[runtime]") {
+TEST_CASE("the share of reading is over all bytes, each counted once", "[runtime]") {
   ReadingShare share;
   CHECK_FALSE(share.share());
   {
     ReadingPart first(&share, 300);
     CHECK(share.share() == std::optional(0.0));
     first.at(150);
-    first.at(120);  // what was told before is not undone
+    first.at(120);  // progress never goes back
     CHECK(share.share() == std::optional(0.5));
     ReadingPart second(&share, 300);
     CHECK(share.share() == std::optional(0.25));
-    second.at_share(2);  // more than all there is
+    second.at_share(2);  // beyond the end
     CHECK(share.share() == std::optional(0.75));
   }
   CHECK(share.share() == std::optional(1.0));
   ReadingPart(nullptr, 5).at(5);
 }
 
-TEST_CASE("files that are foreseen are expected before the first of them is read", "[runtime]") {
+TEST_CASE("announced files count as expected before the first of them is read", "[runtime]") {
   ReadingShare share;
   share.foresee(300);
   share.foresee(100);
@@ -232,7 +232,7 @@ TEST_CASE("files that are foreseen are expected before the first of them is read
   CHECK(share.share() == std::optional(0.5));
 }
 
-TEST_CASE("a file of unknown length is known when its own reading begins", "[runtime]") {
+TEST_CASE("the size of a file of unknown length counts once its own reading begins", "[runtime]") {
   ReadingShare share;
   CHECK(share.all_known());
   share.foresee_unknown();
@@ -240,11 +240,11 @@ TEST_CASE("a file of unknown length is known when its own reading begins", "[run
   share.know();
   CHECK_FALSE(share.all_known());
   share.know();
-  share.know();  // of one that nobody foresaw
+  share.know();  // for a file that was not announced
   CHECK(share.all_known());
 }
 
-TEST_CASE("more memory is allowed in a job only", "[runtime][isolated]") {
+TEST_CASE("more memory is allowed only in a job", "[runtime][isolated]") {
   rlimit before{}, after{};
   REQUIRE(::getrlimit(RLIMIT_CPU, &before) == 0);
   allow_more({1, 1});

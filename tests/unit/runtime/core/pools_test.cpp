@@ -49,8 +49,7 @@ TEST_CASE("a pool lends each object once, the last given back first", "[core][po
   CHECK(pool.index_of(middle) == 1);
 }
 
-TEST_CASE("the name of a loan finds its object while it is lent, and nothing after",
-          "[core][pool]") {
+TEST_CASE("a Loan finds its object while it is lent, and nothing afterwards", "[core][pool]") {
   FixedPool<Pooled> pool("test", 2, WhenEmpty::wait);
   Pooled* object = pool.take();
   const Loan first = pool.loan_of(*object);
@@ -63,7 +62,7 @@ TEST_CASE("the name of a loan finds its object while it is lent, and nothing aft
   CHECK(pool.find(~Loan{0}) == nullptr);
 }
 
-TEST_CASE("an empty pool that arithmetic forbids ends the process and names itself",
+TEST_CASE("an empty pool that the memory plan rules out aborts the process and names itself",
           "[core][pool]") {
   const test::End end = test::end_of([] {
     FixedPool<Pooled> pool("requests", 1, WhenEmpty::mistake);
@@ -73,7 +72,7 @@ TEST_CASE("an empty pool that arithmetic forbids ends the process and names itse
   CHECK(end.standard_error.find("memory plan: requests") != std::string::npos);
 }
 
-TEST_CASE("giving back twice, or to another pool, is a mistake that is seen", "[core][pool]") {
+TEST_CASE("giving back twice, or to another pool, is detected", "[core][pool]") {
   CHECK(test::end_of([] {
           FixedPool<Pooled> pool("test", 2, WhenEmpty::wait);
           Pooled* object = pool.take();
@@ -87,7 +86,7 @@ TEST_CASE("giving back twice, or to another pool, is a mistake that is seen", "[
         }).standard_error.find("another pool") != std::string::npos);
 }
 
-TEST_CASE("a ring gives back in order what it took, around its end, and says when it is full",
+TEST_CASE("a ring returns its elements in order across its end, and says when it is full",
           "[core][ring]") {
   Ring<int> ring(3);
   int pushed = 0, popped = 0;
@@ -102,7 +101,7 @@ TEST_CASE("a ring gives back in order what it took, around its end, and says whe
   CHECK(pushed == popped + 1);
 }
 
-TEST_CASE("members leave a list from anywhere, by hand or by their end", "[core][list]") {
+TEST_CASE("members leave a list from any position, explicitly or by destruction", "[core][list]") {
   IntrusiveList<Member> list;
   Member a(1), b(2), c(3);
   {
@@ -115,7 +114,7 @@ TEST_CASE("members leave a list from anywhere, by hand or by their end", "[core]
   CHECK(list.empty());
 }
 
-TEST_CASE("a list that ends before its members leaves them free", "[core][list]") {
+TEST_CASE("a list that is destroyed before its members leaves them unlinked", "[core][list]") {
   Member a(1);
   {
     IntrusiveList<Member> list;
@@ -138,7 +137,7 @@ TEST_CASE("a task carries its captures with it when it is copied", "[core][task]
   CHECK(sum == 24);
 }
 
-TEST_CASE("a memory plan names its terms and holds their sum against the budget",
+TEST_CASE("a memory plan names its terms and compares their sum with the budget",
           "[core][memory]") {
   MemoryPlan plan;
   plan.add("timers", 1 << 20, "8192 timers x 128 B");

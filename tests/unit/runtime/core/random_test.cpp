@@ -16,7 +16,7 @@ TEST_CASE("Philox gives the published test vectors", "[core][random]") {
         std::array<uint32_t, 4>{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1});
 }
 
-TEST_CASE("a particle's draws are the blocks of its counter, past any refill", "[core][random]") {
+TEST_CASE("a particle's draws are the blocks of its counter, beyond any refill", "[core][random]") {
   const uint64_t seed = 0x1234567890abcdef;
   const uint64_t particle = 0x9876543210;
   Random random(seed, RandomStream::eye);
@@ -32,8 +32,7 @@ TEST_CASE("a particle's draws are the blocks of its counter, past any refill", "
   }
 }
 
-TEST_CASE("starting a particle again repeats its draws whatever was drawn before",
-          "[core][random]") {
+TEST_CASE("restarting a particle repeats its draws whatever was drawn before", "[core][random]") {
   Random random(7, RandomStream::particle);
   random.start(41);
   std::vector<uint32_t> first;

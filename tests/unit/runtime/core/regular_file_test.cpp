@@ -33,10 +33,10 @@ TEST_CASE("a file is read whole, up to its limit", "[core][files]") {
   }
   std::ofstream(file, std::ios::binary) << std::string(101, 'x');
   CHECK(refusal(file).find("longer than 100 bytes") != std::string::npos);
-  CHECK(read_regular_file("/proc/self/status", 1 << 20).ok());  // which says that it has 0 bytes
+  CHECK(read_regular_file("/proc/self/status", 1 << 20).ok());  // it reports 0 bytes
 }
 
-TEST_CASE("what is no file is refused, and never waited for", "[core][files]") {
+TEST_CASE("anything but a regular file is rejected without waiting", "[core][files]") {
   const test::TemporaryFolder folder;
   const fs::path pipe = folder / "pipe";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);

@@ -16,7 +16,8 @@ bool all_zero(const ZeroedMemory& memory) {
 
 }  // namespace
 
-TEST_CASE("memory is whole pages of zeros, and zeros again once it is given back", "[memory]") {
+TEST_CASE("memory is whole pages of zeros, and reads as zeros again after it is returned",
+          "[memory]") {
   ZeroedMemory memory(10'000, ZeroedMemory::Pages::small);
   CHECK(memory.bytes() == 3 * ZeroedMemory::page_bytes);
   CHECK(all_zero(memory));

@@ -4,7 +4,7 @@
 using namespace luxodus;
 using namespace luxodus::test;
 
-TEST_CASE("a fetch takes no memory but for the object", "[runtime][fetch]") {
+TEST_CASE("a fetch allocates only the object", "[runtime][fetch]") {
   constexpr uint32_t count = 8;
   Objects objects;
   for (uint32_t i = 0; i < count; ++i) objects.add(64, {{0}});
@@ -37,5 +37,5 @@ TEST_CASE("a fetch takes no memory but for the object", "[runtime][fetch]") {
   const size_t taken = allocations_of_this_thread() - before;
   CHECK(got == 100 * count);
   CHECK(node.builder.built.size() - built == 100 * count);
-  if (allocations_are_counted()) CHECK(taken == 100 * count);  // one for each object that is built
+  if (allocations_are_counted()) CHECK(taken == 100 * count);  // one for each object built
 }

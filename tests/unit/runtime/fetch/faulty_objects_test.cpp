@@ -31,7 +31,7 @@ Fault failed_read(NodeId node, Nanoseconds at, Nanoseconds lasts) {
 
 }  // namespace
 
-TEST_CASE("reads of a node fail while its plan says so, and of no other", "[fetch]") {
+TEST_CASE("a node's reads fail while its fault plan says so, and other nodes' do not", "[fetch]") {
   ManualClock clock(seconds(5));
   FullStore store;
   FaultPlan plan;

@@ -1,5 +1,5 @@
-// Nodes that fetch, for tests: network in memory, time by hand, stores that hold what they are told
-// to, a builder that answers at once, on demand, or with a problem. One thread.
+// Nodes that fetch, for tests: an in-memory network, a manual clock, stores with given objects, and
+// a builder that answers at once, on demand, or with a problem. One thread.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -14,7 +14,7 @@
 
 namespace luxodus::test {
 
-/// Objects of a test, known by number: bytes that look like chance, and who holds them.
+/// Objects of a test, by number: pseudo-random bytes, and their holders.
 struct Objects {
   std::vector<ObjectPlace> places;
   std::vector<SharedBytes> bytes;
@@ -37,7 +37,7 @@ struct MapStore final : ObjectStore {
 };
 
 struct TestObject final : BuiltObject {
-  /// `alive` counts, and outlives its node where objects are shared.
+  /// `alive` counts instances, and outlives the node if objects are shared.
   TestObject(uint32_t n, size_t charged, std::shared_ptr<int> alive, SharedBytes wire = {})
       : number(n), charge(charged), wire_(std::move(wire)), alive_(std::move(alive)) {
     ++*alive_;
@@ -53,7 +53,8 @@ struct TestObject final : BuiltObject {
   std::shared_ptr<int> alive_;
 };
 
-/// Objects of `charge` bytes each, unless told otherwise. Answers at once, or when told to.
+/// Builds objects of `charge` bytes each, unless `charges` says otherwise. Answers at once, or on
+/// request.
 class TestBuilder final : public ObjectBuilder {
  public:
   void build(uint32_t object, SharedBytes bytes, Client& client) override {
@@ -87,7 +88,7 @@ class TestBuilder final : public ObjectBuilder {
   SharedBytes bytes_;
 };
 
-/// What a test node is made of, where it matters.
+/// Settings of a test node.
 struct FetchSetup {
   FetchConfig fetch;
   CacheConfig cache{.budget_bytes = 1'000'000, .largest_build_bytes = 100, .pinned_share = 0.5};
@@ -123,7 +124,7 @@ class FetchNode final : public NetHandler, public EventSource {
   ObjectCache& cache = server.cache();
   const Fetcher& fetcher = server.fetcher();
   std::function<void(const Delivery&)> on_deliver;
-  bool mute = false;  // takes requests, and answers none
+  bool mute = false;  // takes requests without answering
   bool intercepts = true;
 
   FiberId start(const Task& body) {
@@ -138,7 +139,7 @@ class FetchNode final : public NetHandler, public EventSource {
     scheduler.turn();
     run_fibers();
   }
-  /// As if the part server of this node said it to that of another.
+  /// Sends a message as this node's part server would, to the part server of another node.
   void say(NodeId to, const MessageId& id, const Message& message, SharedBytes bytes = {}) {
     (void)system.send(server.address(), {to, ActorName::part_server}, id, message,
                       std::move(bytes));
@@ -184,7 +185,7 @@ class FetchNode final : public NetHandler, public EventSource {
   const ManualClock& clock_;
 };
 
-/// Nodes in a row, each linked to the next: node 0 asks, mostly.
+/// Nodes in a row, each linked to the next; usually node 0 asks.
 class FetchCluster {
  public:
   FetchCluster(uint16_t nodes, const Objects& objects, const FetchSetup& setup = {},
@@ -223,7 +224,7 @@ class FetchCluster {
   void run(Nanoseconds span, Nanoseconds step = milliseconds(10)) {
     for (Nanoseconds t = 0; t < span; t += step) turn(step);
   }
-  /// Turns until it holds, or `most` has passed: then the test fails.
+  /// Turns until it holds; fails the test after `most`.
   void until(const std::function<bool()>& holds, Nanoseconds most = seconds(100)) {
     const Nanoseconds end = clock.now() + most;
     while (!holds()) {
@@ -240,13 +241,13 @@ class FetchCluster {
   std::vector<std::unique_ptr<FetchNode>> nodes_;
 };
 
-/// What became of one get().
+/// The outcome of one get().
 struct Asking {
   FetchNode& node;
   uint32_t object;
   bool done = false;
   Got got{};
-  uint32_t number = 0;  // of the object, read while it was there
+  uint32_t number = 0;  // of the object, read while it was resident
 
   Task body() {
     return [this] {

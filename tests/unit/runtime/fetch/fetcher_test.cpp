@@ -12,10 +12,10 @@ using namespace luxodus::test;
 namespace {
 
 constexpr NodeId a{0}, b{1}, c{2};
-constexpr size_t small = 1000;     // travels in one frame
-constexpr size_t large = 300'000;  // in five
+constexpr size_t small = 1000;     // sent in one frame
+constexpr size_t large = 300'000;  // sent in five frames
 
-/// Fetches an object at the first node, to the end.
+/// Fetches an object at the first node, and runs until the result.
 Got fetch(FetchCluster& cluster, uint32_t object) {
   Asking asking{cluster[0], object};
   cluster[0].start(asking.body());
@@ -24,12 +24,12 @@ Got fetch(FetchCluster& cluster, uint32_t object) {
   return asking.got;
 }
 
-/// Other bytes of the same length under the object's name.
+/// Replaces the object's bytes by others of the same length.
 void spoil(MapStore& store, const Objects& objects, uint32_t object) {
   store.held[objects.id(object).value] = share(pattern(objects.places[object].wire_bytes, 99));
 }
 
-/// Nothing under way, nothing reserved, no timer but those that end nothing.
+/// Nothing in flight, nothing reserved, no timer but harmless ones.
 void check_at_rest(FetchNode& node) {
   CHECK(node.fetcher.counters().receive_bytes_held == 0);
   CHECK(node.timers.set_now() == 0);
@@ -38,7 +38,7 @@ void check_at_rest(FetchNode& node) {
 
 }  // namespace
 
-TEST_CASE("objects of one piece and of many come from their holder, whole", "[runtime][fetch]") {
+TEST_CASE("objects of one piece and of several come from their holder, whole", "[runtime][fetch]") {
   Objects objects;
   objects.add(small, {b});
   objects.add(large, {b});
@@ -67,7 +67,7 @@ TEST_CASE("a holder without the object is asked once, then the replica", "[runti
   CHECK(cluster[2].server.counters().served == 1);
 }
 
-TEST_CASE("the nearest holder is asked first where distances are known, then the others",
+TEST_CASE("the nearest holder is asked first if distances are known, then the others",
           "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(small, {c, b});
@@ -85,8 +85,7 @@ TEST_CASE("the nearest holder is asked first where distances are known, then the
   CHECK(gone[2].server.counters().served == 1);
 }
 
-TEST_CASE("a holder that is gone costs no time where a replica can be reached",
-          "[runtime][fetch]") {
+TEST_CASE("a lost holder costs no time if a replica is reachable", "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(small, {c, b});
   FetchCluster cluster(3, objects);
@@ -98,7 +97,7 @@ TEST_CASE("a holder that is gone costs no time where a replica can be reached",
   CHECK(cluster[1].server.counters().served == 1);
 }
 
-TEST_CASE("a silent holder is asked the agreed number of times, with growing patience",
+TEST_CASE("a silent holder is asked the configured number of times, with growing timeouts",
           "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(small, {b, c});
@@ -106,7 +105,7 @@ TEST_CASE("a silent holder is asked the agreed number of times, with growing pat
   setup.fetch.tries = 3;
   FetchCluster cluster(3, objects, setup);
   std::vector<Nanoseconds> asked;
-  // Requests arrive at b, whose store has lost the object and who answers nothing.
+  // Requests arrive at b, which has lost the object and does not answer.
   cluster[1].store.held.clear();
   cluster[1].on_deliver = [&](const Delivery& d) {
     if (!std::holds_alternative<FetchObject>(d.message)) return;
@@ -124,7 +123,7 @@ TEST_CASE("a silent holder is asked the agreed number of times, with growing pat
   CHECK(cluster[2].server.counters().served == 1);
 }
 
-TEST_CASE("this node's own store is the last resort, and the first where it is a holder",
+TEST_CASE("a node's own store is the last resort, or the first if it is a holder",
           "[runtime][fetch]") {
   Objects objects;
   const uint32_t elsewhere = objects.add(small, {b});
@@ -139,8 +138,7 @@ TEST_CASE("this node's own store is the last resort, and the first where it is a
   CHECK(cluster[0].fetcher.delay(0).count() == 2);
 }
 
-TEST_CASE("when everybody has said no, all who wait are told, and may ask again",
-          "[runtime][fetch]") {
+TEST_CASE("when all holders refuse, every waiter is told, and may ask again", "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(small, {b, c});
   FetchCluster cluster(3, objects);
@@ -172,7 +170,7 @@ TEST_CASE("an object whose holders are all gone is unobtainable after a bounded 
   check_at_rest(cluster[0]);
 }
 
-TEST_CASE("what is lost, doubled, disordered or harmed on the way comes all the same",
+TEST_CASE("a fetch succeeds despite loss, duplication, reordering and corruption",
           "[runtime][fetch]") {
   Objects objects;
   for (int i = 0; i < 40; ++i) objects.add(i % 4 == 0 ? large : small, {b, c});
@@ -194,7 +192,7 @@ TEST_CASE("what is lost, doubled, disordered or harmed on the way comes all the 
   check_at_rest(cluster[0]);
 }
 
-TEST_CASE("an answer that comes late, or twice, is dropped", "[runtime][fetch]") {
+TEST_CASE("a late or duplicate answer is dropped", "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(small, {b, c});
   FetchCluster cluster(3, objects);
@@ -214,7 +212,7 @@ TEST_CASE("an answer that comes late, or twice, is dropped", "[runtime][fetch]")
   CHECK(cluster[0].builder.built.size() == 1);
 }
 
-TEST_CASE("the answer of a holder that was given up is taken while another is asked",
+TEST_CASE("a late answer of an abandoned holder is accepted while another is asked",
           "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(small, {b, c});
@@ -222,7 +220,7 @@ TEST_CASE("the answer of a holder that was given up is taken while another is as
   setup.fetch.tries = 1;
   FetchCluster cluster(3, objects, setup);
   cluster[1].mute = cluster[2].mute = true;
-  cluster[1].store.held.clear();  // so that b passes on what is for c
+  cluster[1].store.held.clear();  // so that b forwards requests to c
   std::vector<MessageId> questions;
   cluster[1].on_deliver = [&](const Delivery& d) { questions.push_back(d.id); };
   Asking asking{cluster[0], object};
@@ -231,20 +229,21 @@ TEST_CASE("the answer of a holder that was given up is taken while another is as
   REQUIRE(questions.size() == 1);
   cluster[1].say(a, questions[0], ObjectNotHere{objects.id(object), b});
   cluster.run(milliseconds(10), milliseconds(1));
-  CHECK_FALSE(asking.done);  // b's word is of no weight any more
+  CHECK_FALSE(asking.done);  // b's answer no longer counts
   cluster[1].say(a, questions[0], ObjectFound{objects.id(object), b}, objects.bytes[object]);
   cluster.run(milliseconds(10), milliseconds(1));
   CHECK(asking.got.how == Got::How::resident);
 }
 
-TEST_CASE("wrong bytes are counted, dropped, and asked for elsewhere", "[runtime][fetch]") {
+TEST_CASE("wrong bytes are counted, dropped, and requested elsewhere", "[runtime][fetch]") {
   for (const size_t size : {small, large}) {
     Objects objects;
     const uint32_t object = objects.add(size, {b, c});
     FetchCluster cluster(3, objects);
     spoil(cluster[1].store, objects, object);
     cluster[1].intercepts = false;
-    cluster[1].on_deliver = [&](const Delivery& d) {  // it answers twice: what comes late stays out
+    // it answers twice: the late answer is dropped
+    cluster[1].on_deliver = [&](const Delivery& d) {
       cluster[1].say(d.source, d.id, ObjectFound{objects.id(object), b},
                      cluster[1].store.find(objects.id(object)));
     };
@@ -255,7 +254,7 @@ TEST_CASE("wrong bytes are counted, dropped, and asked for elsewhere", "[runtime
   }
 }
 
-TEST_CASE("an object of which all have wrong bytes is unobtainable", "[runtime][fetch]") {
+TEST_CASE("an object of which all holders have wrong bytes is unobtainable", "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(small, {b});
   FetchCluster cluster(2, objects);
@@ -266,7 +265,7 @@ TEST_CASE("an object of which all have wrong bytes is unobtainable", "[runtime][
   check_at_rest(cluster[0]);
 }
 
-TEST_CASE("an answer that has begun to come is waited for", "[runtime][fetch]") {
+TEST_CASE("an answer that has begun to arrive is awaited", "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(10 * large, {b});
   FetchSetup setup;
@@ -278,7 +277,7 @@ TEST_CASE("an answer that has begun to come is waited for", "[runtime][fetch]") 
   CHECK(cluster[0].fetcher.counters().timeouts == 0);
 }
 
-TEST_CASE("a fetch that ends with some pieces there lets go of their room", "[runtime][fetch]") {
+TEST_CASE("a fetch that ends with some pieces received releases their room", "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(10 * large, {b});
   FetchCluster cluster(2, objects, {},
@@ -295,7 +294,7 @@ TEST_CASE("a fetch that ends with some pieces there lets go of their room", "[ru
   check_at_rest(cluster[0]);
 }
 
-TEST_CASE("a reply longer than its object finds no room", "[runtime][fetch]") {
+TEST_CASE("a reply longer than its object gets no room", "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(large, {b});
   FetchCluster cluster(2, objects);
@@ -305,8 +304,7 @@ TEST_CASE("a reply longer than its object finds no room", "[runtime][fetch]") {
   CHECK(cluster[0].network.counters().dropped_unexpected > 0);
 }
 
-TEST_CASE("a node on the way that has the object answers in the holder's place",
-          "[runtime][fetch]") {
+TEST_CASE("a node on the way that has the object answers for the holder", "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(large, {c});
   FetchCluster cluster(3, objects);
@@ -336,7 +334,7 @@ TEST_CASE("fetches beyond the room for their bytes wait their turn", "[runtime][
   for (const Asking& asking : askings) CHECK(asking.got.how == Got::How::resident);
 }
 
-TEST_CASE("a full outbox makes questions wait, and costs no try", "[runtime][fetch]") {
+TEST_CASE("a full outbox delays requests without using up a try", "[runtime][fetch]") {
   Objects objects;
   for (int i = 0; i < 50; ++i) objects.add(small, {b});
   FetchSetup setup;
@@ -359,12 +357,12 @@ TEST_CASE("a fetcher that ends in the middle of a fetch leaves nothing behind",
   cluster[0].cache.prefetch(std::array{object});
   for (int i = 0; i < 3; ++i) cluster.turn();
   CHECK(cluster[0].cache.state(object) == ObjectState::requested);
-  cluster.stop(0);  // pieces are there, and timers set
+  cluster.stop(0);  // some pieces have arrived, and timers are set
   cluster.run(seconds(1));
   CHECK(cluster[1].server.counters().served == 1);
 }
 
-TEST_CASE("the same seed gives the same fetches, moment by moment", "[runtime][fetch]") {
+TEST_CASE("the same seed gives the same fetches at the same times", "[runtime][fetch]") {
   const auto run = [](uint64_t seed) {
     Objects objects;
     for (int i = 0; i < 12; ++i) objects.add(i % 3 == 0 ? large : small, {c, b});
@@ -386,8 +384,7 @@ TEST_CASE("the same seed gives the same fetches, moment by moment", "[runtime][f
   CHECK(run(7) != run(8));
 }
 
-TEST_CASE("what is counted can be read by name, and what is taken stands in the plan",
-          "[runtime][fetch]") {
+TEST_CASE("counters can be read by name, and memory is in the plan", "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(small, {b});
   const FetchSetup setup;
@@ -407,7 +404,7 @@ TEST_CASE("what is counted can be read by name, and what is taken stands in the 
   CHECK(plan.total_bytes() > setup.fetch.receive_bytes + setup.cache.budget_bytes);
 }
 
-TEST_CASE("objects that cannot be fetched as configured are refused at the start",
+TEST_CASE("objects that the configuration cannot fetch are rejected at the start",
           "[runtime][fetch]") {
   FetchSetup setup;
   setup.fetch.receive_bytes = 100;

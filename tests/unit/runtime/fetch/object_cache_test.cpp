@@ -13,14 +13,14 @@ namespace {
 
 constexpr NodeId here{0};
 
-/// Objects that the one node of a test holds itself, so that bytes are a turn away.
+/// Objects that the test's only node holds itself, so that their bytes are one turn away.
 Objects own_objects(size_t count) {
   Objects objects;
   for (size_t i = 0; i < count; ++i) objects.add(64, {here});
   return objects;
 }
 
-/// Room for `count` objects of 100 bytes, none to be pinned, beside one build.
+/// Room for `count` unpinned objects of 100 bytes, beside one build.
 FetchSetup room_for_objects(size_t count) {
   FetchSetup setup;
   setup.cache = {.budget_bytes = 100 * (count + 1), .largest_build_bytes = 100, .pinned_share = 0};
@@ -43,7 +43,7 @@ void bring(FetchCluster& cluster, std::vector<uint32_t> objects) {
 
 }  // namespace
 
-TEST_CASE("an object goes from absent to resident and back as drawn", "[runtime][fetch]") {
+TEST_CASE("an object goes from absent to resident and back as in the diagram", "[runtime][fetch]") {
   const Objects objects = own_objects(3);
   FetchCluster cluster(1, objects, room_for_objects(1));
   FetchNode& node = cluster[0];
@@ -100,7 +100,7 @@ TEST_CASE("however many fibers want an object, it is fetched and built once", "[
   CHECK(node.builder.built.size() == 1);
 }
 
-TEST_CASE("with room for one object thousands of fibers reach all that they visit",
+TEST_CASE("with room for one object thousands of fibers get every object that they visit",
           "[runtime][fetch]") {
   constexpr uint32_t count = 40;
   constexpr size_t fibers = 2000;
@@ -131,11 +131,11 @@ TEST_CASE("with room for one object thousands of fibers reach all that they visi
   cluster.until([&] { return node.fibers.live() == 0; });
   for (const Walker& walker : walkers) REQUIRE(walker.reached == visits);
   CHECK(max_alive <= 1);
-  // Those who wait for one object share its fetch: far fewer fetches than visits.
+  // Fibers that wait for one object share its fetch: far fewer fetches than visits.
   CHECK(node.fetcher.counters().fetches < fibers * visits / 50);
 }
 
-TEST_CASE("an object stays until all who waited for it have run, though the next is ready",
+TEST_CASE("an object stays until all its waiters have run, even if the next is ready",
           "[runtime][fetch]") {
   const Objects objects = own_objects(2);
   FetchCluster cluster(1, objects, room_for_objects(1));
@@ -151,7 +151,7 @@ TEST_CASE("an object stays until all who waited for it have run, though the next
   askings.push_back({node, 1});
   for (Asking& asking : askings) node.start(asking.body());
   node.run_fibers();  // all wait
-  without_fibers();   // 0 has come in, and 1 is built
+  without_fibers();   // 0 has become resident, and 1 is built
   CHECK(node.builder.built == std::vector<uint32_t>{0, 1});
   CHECK(node.cache.state(0) == ObjectState::resident);
   for (int i = 0; i < 2; ++i) {
@@ -167,7 +167,7 @@ TEST_CASE("an object stays until all who waited for it have run, though the next
   for (const Asking& asking : askings) CHECK(asking.number == asking.object);
 }
 
-TEST_CASE("the object unused for the longest makes room", "[runtime][fetch]") {
+TEST_CASE("the least recently used object is evicted", "[runtime][fetch]") {
   const Objects objects = own_objects(5);
   FetchCluster cluster(1, objects, room_for_objects(3));
   FetchNode& node = cluster[0];
@@ -181,7 +181,7 @@ TEST_CASE("the object unused for the longest makes room", "[runtime][fetch]") {
   CHECK(*node.builder.alive == 3);
 }
 
-TEST_CASE("objects are charged what they take once built, and leave room for one build",
+TEST_CASE("objects are charged their built size, and leave room for one build",
           "[runtime][fetch]") {
   const Objects objects = own_objects(4);
   FetchSetup setup;
@@ -192,7 +192,7 @@ TEST_CASE("objects are charged what they take once built, and leave room for one
   bring(cluster, {0, 1, 2});
   CHECK(node.cache.counters().resident_bytes == 600);
   CHECK(node.cache.counters().evictions == 0);
-  bring(cluster, {3});  // 350 more than 600: both 0 and 1 must go
+  bring(cluster, {3});  // 350 over 600: both 0 and 1 must go
   CHECK(resident(node, 4) == std::vector<uint32_t>{2, 3});
   CHECK(node.cache.counters().resident_bytes == 450);
 }
@@ -210,13 +210,13 @@ TEST_CASE("an object larger than planned is used all the same, alone, and counte
   CHECK(resident(node, 3) == std::vector<uint32_t>{0});
 }
 
-TEST_CASE("pinned objects stay, as many as fit their share, the first first", "[runtime][fetch]") {
+TEST_CASE("pinned objects stay, in order, as many as fit the pinned share", "[runtime][fetch]") {
   const Objects objects = own_objects(10);
   FetchSetup setup;
   setup.cache = {.budget_bytes = 600, .largest_build_bytes = 100, .pinned_share = 0.4};
   FetchCluster cluster(1, objects, setup);
   FetchNode& node = cluster[0];
-  bring(cluster, {1});  // one of them is there already
+  bring(cluster, {1});  // one of them is resident already
   node.cache.pin(std::array<uint32_t, 3>{0, 1, 2});
   cluster.run(milliseconds(20), milliseconds(1));
   CHECK(node.cache.counters().pinned_bytes == 200);
@@ -228,7 +228,7 @@ TEST_CASE("pinned objects stay, as many as fit their share, the first first", "[
   CHECK(node.cache.counters().resident_bytes == 500);
 }
 
-TEST_CASE("a fiber that is cancelled while it waits is told so, and the others get theirs",
+TEST_CASE("a fiber cancelled while it waits is told so, and the others get their object",
           "[runtime][fetch]") {
   const Objects objects = own_objects(1);
   FetchCluster cluster(1, objects);
@@ -247,14 +247,14 @@ TEST_CASE("a fiber that is cancelled while it waits is told so, and the others g
     cluster.clock.advance(1);
   }
   REQUIRE(node.cache.state(0) == ObjectState::resident);
-  node.fibers.cancel(too_late);  // it was woken before: that stands
+  node.fibers.cancel(too_late);  // it was woken before: the wake counts
   node.run_fibers();
   CHECK(stays.got.how == Got::How::resident);
   CHECK(late.got.how == Got::How::resident);
   CHECK(node.fibers.live() == 0);
 }
 
-TEST_CASE("a fetch that nobody waits for any more ends as any other", "[runtime][fetch]") {
+TEST_CASE("a fetch without any waiter left ends like any other", "[runtime][fetch]") {
   const Objects objects = own_objects(2);
   FetchCluster cluster(1, objects, room_for_objects(1));
   FetchNode& node = cluster[0];
@@ -268,8 +268,7 @@ TEST_CASE("a fetch that nobody waits for any more ends as any other", "[runtime]
   CHECK(node.fetcher.counters().receive_bytes_held == 0);
 }
 
-TEST_CASE("what cannot be built is told to all who wait, and may be asked for again",
-          "[runtime][fetch]") {
+TEST_CASE("a failed build is reported to all waiters, and may be retried", "[runtime][fetch]") {
   const Objects objects = own_objects(1);
   FetchCluster cluster(1, objects);
   FetchNode& node = cluster[0];
@@ -288,7 +287,7 @@ TEST_CASE("what cannot be built is told to all who wait, and may be asked for ag
   CHECK(again.got.how == Got::How::resident);
 }
 
-TEST_CASE("who waits for an object has what comes next fetched as well, and gets the object first",
+TEST_CASE("a waiting fiber has the next objects prefetched, and gets its own first",
           "[runtime][fetch]") {
   const Objects objects = own_objects(4);
   FetchCluster cluster(1, objects);
@@ -299,13 +298,13 @@ TEST_CASE("who waits for an object has what comes next fetched as well, and gets
   CHECK(got.how == Got::How::resident);
   CHECK(node.builder.built == std::vector<uint32_t>{2, 0, 3});
   CHECK(node.cache.counters().misses == 1);
-  // Where nothing is waited for, nothing is asked for.
+  // Without a wait nothing is prefetched.
   node.start([&] { got = node.cache.get(2, false, std::array<uint32_t, 1>{1}); });
   cluster.run(milliseconds(20), milliseconds(1));
   CHECK(node.cache.state(1) == ObjectState::absent);
 }
 
-TEST_CASE("while fibers run, the builder has one object and no more", "[runtime][fetch]") {
+TEST_CASE("while fibers run, the builder has at most one object", "[runtime][fetch]") {
   const Objects objects = own_objects(4);
   FetchCluster cluster(1, objects);
   FetchNode& node = cluster[0];
@@ -324,7 +323,7 @@ TEST_CASE("while fibers run, the builder has one object and no more", "[runtime]
   CHECK(resident(node, 4) == all);
 }
 
-TEST_CASE("a budget without room for pins, an object and a build is refused", "[runtime][fetch]") {
+TEST_CASE("a budget without room for pins, an object and a build is rejected", "[runtime][fetch]") {
   const Objects objects = own_objects(1);
   FetchSetup setup;
   setup.cache = {.budget_bytes = 398, .largest_build_bytes = 100, .pinned_share = 0.5};

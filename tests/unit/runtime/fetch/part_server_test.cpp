@@ -1,4 +1,4 @@
-// What a node does for others' requests. How it fetches for itself: fetcher_test.cpp.
+// How a node serves others' requests. Its own fetches are in fetcher_test.cpp.
 #include "runtime/fetch/part_server.hpp"
 
 #include <functional>
@@ -19,8 +19,8 @@ Got::How fetch(FetchCluster& cluster, size_t node, uint32_t object) {
   return asking.got.how;
 }
 
-/// Fifty fibers get what they ask of a holder whose outbox takes one message at a time; `look` sees
-/// how.
+/// Fifty fibers get their objects from a holder whose outbox takes one message at a time; `look`
+/// observes it.
 void crowd(FetchSetup setup, const std::function<void(FetchCluster&)>& look) {
   Objects objects;
   for (int i = 0; i < 50; ++i) objects.add(1000, {b});
@@ -38,8 +38,7 @@ void crowd(FetchSetup setup, const std::function<void(FetchCluster&)>& look) {
 
 }  // namespace
 
-TEST_CASE("what a node has ready for itself it gives to others, though it does not hold it",
-          "[runtime][fetch]") {
+TEST_CASE("a node serves objects from its cache, even if it is no holder", "[runtime][fetch]") {
   for (const size_t size : {1000, 200'000}) {
     Objects objects;
     const uint32_t object = objects.add(size, {c});
@@ -55,7 +54,7 @@ TEST_CASE("what a node has ready for itself it gives to others, though it does n
   }
 }
 
-TEST_CASE("a node that shares nothing but what it holds passes requests on", "[runtime][fetch]") {
+TEST_CASE("a node that does not share its cache forwards requests", "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(1000, {c});
   FetchSetup setup;
@@ -67,7 +66,8 @@ TEST_CASE("a node that shares nothing but what it holds passes requests on", "[r
   CHECK(cluster[2].server.counters().served == 2);
 }
 
-TEST_CASE("a request from outside does not keep an object from being evicted", "[runtime][fetch]") {
+TEST_CASE("a request from another node does not protect an object from eviction",
+          "[runtime][fetch]") {
   Objects objects;
   for (int i = 0; i < 3; ++i) objects.add(1000, {c});
   FetchSetup setup;
@@ -82,7 +82,7 @@ TEST_CASE("a request from outside does not keep an object from being evicted", "
   CHECK(cluster[1].cache.peek(1) != nullptr);
 }
 
-TEST_CASE("requests without room for an answer wait for it, and are answered in their turn",
+TEST_CASE("requests without room for an answer wait, and are answered in order",
           "[runtime][fetch]") {
   FetchSetup setup;
   setup.fetch.tries = 1;
@@ -93,7 +93,7 @@ TEST_CASE("requests without room for an answer wait for it, and are answered in 
   });
 }
 
-TEST_CASE("requests beyond those that may wait are dropped, counted, and asked again",
+TEST_CASE("requests beyond those that may wait are dropped, counted, and retried",
           "[runtime][fetch]") {
   FetchSetup setup;
   setup.fetch.requests = 4;
@@ -103,7 +103,7 @@ TEST_CASE("requests beyond those that may wait are dropped, counted, and asked a
   });
 }
 
-TEST_CASE("requests and answers go through the mailbox, and others' messages do not",
+TEST_CASE("requests and answers go through the mailbox, and other messages do not",
           "[runtime][fetch]") {
   Objects objects;
   const uint32_t object = objects.add(1000, {b});

@@ -16,14 +16,13 @@ RouteDelay after(int answers, Nanoseconds delay) {
 
 }  // namespace
 
-TEST_CASE("of a route that nothing is known of, the first patience is the configured one",
-          "[runtime][fetch]") {
+TEST_CASE("on an unknown route the first timeout is the configured one", "[runtime][fetch]") {
   CHECK(RouteDelay().timeout(usual, 1) == usual.first);
   CHECK(RouteDelay().timeout(usual, 2) == 2 * usual.first);
   CHECK(RouteDelay().timeout(usual, 200) == usual.most);
 }
 
-TEST_CASE("the 99th of 100 delays is known to half a power of two, from above",
+TEST_CASE("the 99th percentile of delays is known to half a power of two, from above",
           "[runtime][fetch]") {
   for (Nanoseconds delay = microseconds(1); delay < seconds(60); delay = delay * 5 / 3) {
     const Nanoseconds p99 = after(10, delay).p99();
@@ -33,7 +32,7 @@ TEST_CASE("the 99th of 100 delays is known to half a power of two, from above",
   }
 }
 
-TEST_CASE("one slow answer in 100 is left out, and two are not", "[runtime][fetch]") {
+TEST_CASE("one slow answer in 100 is ignored, and two are not", "[runtime][fetch]") {
   RouteDelay route = after(198, milliseconds(1));
   route.answered(seconds(1));
   CHECK(route.p99() < milliseconds(2));
@@ -43,7 +42,7 @@ TEST_CASE("one slow answer in 100 is left out, and two are not", "[runtime][fetc
   CHECK(route.p99() > seconds(1));
 }
 
-TEST_CASE("patience is three times the 99th of 100 delays, within its limits", "[runtime][fetch]") {
+TEST_CASE("the timeout is three times the 99th percentile, within its limits", "[runtime][fetch]") {
   CHECK(after(10, microseconds(100)).timeout(usual, 1) == usual.floor);
   const RouteDelay route = after(10, milliseconds(100));
   CHECK(route.timeout(usual, 1) == 3 * route.p99());
@@ -51,13 +50,13 @@ TEST_CASE("patience is three times the 99th of 100 delays, within its limits", "
   CHECK(after(10, seconds(10)).timeout(usual, 1) == usual.most);
 }
 
-TEST_CASE("a route that has become slow keeps its doubled patience until it answers in time",
+TEST_CASE("a route that has become slow keeps its doubled timeout until it answers in time",
           "[runtime][fetch]") {
   RouteDelay route = after(10, milliseconds(100));
   const Nanoseconds before = route.timeout(usual, 1);
   route.timed_out(seconds(1), seconds(2));
   CHECK(route.timeout(usual, 1) == 2 * before);
-  route.timed_out(seconds(1), seconds(2));  // asked before that was known
+  route.timed_out(seconds(1), seconds(2));  // sent before that was known
   CHECK(route.timeout(usual, 1) == 2 * before);
   route.timed_out(seconds(2), seconds(3));
   CHECK(route.timeout(usual, 1) == 4 * before);

@@ -1,5 +1,5 @@
-// Nodes of one process that share what they have built: one build, one copy, and nothing lost when
-// one of them lets go.
+// Nodes of one process that share built objects: one build, one copy, and nothing lost when one of
+// them evicts it.
 #include "runtime/fetch/shared_objects.hpp"
 
 #include <array>
@@ -32,7 +32,7 @@ void bring_shared(FetchCluster& cluster, size_t node, uint32_t object) {
 
 }  // namespace
 
-TEST_CASE("an object that another node of the process has is neither fetched nor built again",
+TEST_CASE("an object resident at another node of the process is neither fetched nor built again",
           "[runtime][fetch]") {
   Pair pair(3);
   FetchCluster cluster(2, pair.objects, pair.setup);
@@ -50,7 +50,7 @@ TEST_CASE("an object that another node of the process has is neither fetched nor
   CHECK(cluster[1].cache.counters().resident_bytes == 100);
 }
 
-TEST_CASE("a shared object lives until the last node has let it go", "[runtime][fetch]") {
+TEST_CASE("a shared object lives until the last node has released it", "[runtime][fetch]") {
   Pair pair(5);
   FetchCluster cluster(2, pair.objects, pair.setup);
   bring_shared(cluster, 0, 0);
@@ -60,7 +60,7 @@ TEST_CASE("a shared object lives until the last node has let it go", "[runtime][
   CHECK(*cluster[0].builder.alive == 3);
   REQUIRE(cluster[1].cache.find(0) != nullptr);
   CHECK(static_cast<const TestObject*>(cluster[1].cache.find(0))->number == 0);
-  bring_shared(cluster, 0, 0);  // and is taken back
+  bring_shared(cluster, 0, 0);  // and is taken again
   CHECK(cluster[0].cache.counters().builds == 3);
   CHECK(cluster[0].cache.counters().builds_saved == 1);
   for (const size_t node : {0u, 1u})
@@ -68,7 +68,7 @@ TEST_CASE("a shared object lives until the last node has let it go", "[runtime][
   CHECK(pair.shared.find(0) == nullptr);
 }
 
-TEST_CASE("what was let go before its turn is fetched after all", "[runtime][fetch]") {
+TEST_CASE("an object released before its turn is fetched after all", "[runtime][fetch]") {
   Pair pair(3);
   FetchCluster cluster(2, pair.objects, pair.setup);
   auto elsewhere =
@@ -84,7 +84,7 @@ TEST_CASE("what was let go before its turn is fetched after all", "[runtime][fet
   CHECK(cluster[1].fetcher.counters().receive_bytes_held == 0);
 }
 
-TEST_CASE("of two nodes that build the same at once one copy remains", "[runtime][fetch]") {
+TEST_CASE("if two nodes build the same object at once, one copy remains", "[runtime][fetch]") {
   Pair pair(2);
   FetchCluster cluster(2, pair.objects, pair.setup);
   for (const size_t node : {0u, 1u}) {

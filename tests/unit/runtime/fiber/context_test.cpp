@@ -13,7 +13,7 @@ using namespace luxodus;
 
 namespace {
 
-/// One execution with room for its own notes.
+/// One execution with a place for its notes.
 struct Execution {
   Execution(StackPool& stacks, size_t index, Context::Entry entry) {
     context.prepare(stacks.stack(index), entry, this);
@@ -42,7 +42,7 @@ void rethrow_after_leaving(void* argument) {
 
 }  // namespace
 
-TEST_CASE("executions that leave within catch blocks rethrow each its own exception",
+TEST_CASE("executions that leave within catch blocks rethrow their own exceptions",
           "[runtime][context]") {
   StackPool stacks(2, default_stack_bytes(), 100);
   Execution a(stacks, 0, rethrow_after_leaving);
@@ -59,7 +59,7 @@ TEST_CASE("executions that leave within catch blocks rethrow each its own except
   CHECK_FALSE(exception_in_flight());
 }
 
-TEST_CASE("whoever enters from within a catch block still handles his own exception",
+TEST_CASE("the caller of enter in a catch block still handles its own exception",
           "[runtime][context]") {
   StackPool stacks(1, default_stack_bytes(), 100);
   Execution a(stacks, 0, rethrow_after_leaving);
@@ -81,7 +81,7 @@ TEST_CASE("whoever enters from within a catch block still handles his own except
   CHECK(a.noted == "A");
 }
 
-TEST_CASE("floating-point control begins as its maker's and then belongs to the execution",
+TEST_CASE("floating-point control starts as the maker's and then belongs to the execution",
           "[runtime][context]") {
   constexpr unsigned int flush_to_zero = 0x8000;
   const unsigned int before = _mm_getcsr();

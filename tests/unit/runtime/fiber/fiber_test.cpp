@@ -13,7 +13,7 @@ using namespace luxodus;
 
 namespace {
 
-/// The fibers of one test, with what they wrote.
+/// The fibers of one test, and their output.
 struct Stage {
   explicit Stage(size_t count = 8) : fibers({count, default_stack_bytes(), 1000}) {}
 
@@ -34,7 +34,7 @@ struct Stage {
 
 }  // namespace
 
-TEST_CASE("fibers run in the order they were made ready", "[runtime][fiber]") {
+TEST_CASE("fibers run in the order in which they became ready", "[runtime][fiber]") {
   Stage stage;
   for (int i = 0; i < 3; ++i)
     stage.start([&stage, i] {
@@ -45,7 +45,7 @@ TEST_CASE("fibers run in the order they were made ready", "[runtime][fiber]") {
   CHECK(stage.noted == "a0 a1 a2 b0 b1 b2 ");
 }
 
-TEST_CASE("a wait list wakes in the order of coming, one or all", "[runtime][fiber]") {
+TEST_CASE("a wait list wakes in order of arrival, one fiber or all", "[runtime][fiber]") {
   Stage stage;
   for (int i = 0; i < 3; ++i)
     stage.start([&stage, i] {
@@ -63,8 +63,7 @@ TEST_CASE("a wait list wakes in the order of coming, one or all", "[runtime][fib
   CHECK(stage.fibers.live() == 0);
 }
 
-TEST_CASE("a suspended fiber is woken by name, and a name of an earlier life finds nobody",
-          "[runtime][fiber]") {
+TEST_CASE("a suspended fiber is woken by its id, and an old id wakes none", "[runtime][fiber]") {
   Stage stage(1);
   const auto body = [&stage] {
     if (stage.fibers.suspend("bell") == Wake::woken) stage.note("woken");
@@ -86,7 +85,7 @@ TEST_CASE("a suspended fiber is woken by name, and a name of an earlier life fin
   CHECK(stage.fibers.live() == 0);
 }
 
-TEST_CASE("who waits in a list is not woken by name, but may time out", "[runtime][fiber]") {
+TEST_CASE("a fiber in a wait list is not woken by its id, but may time out", "[runtime][fiber]") {
   Stage stage;
   const FiberId id = stage.start([&stage] {
     if (stage.fibers.wait(stage.list, "place") == Wake::timed_out) stage.note("too late");
@@ -118,7 +117,7 @@ TEST_CASE("a cancelled fiber is told so at its suspend, and at every later one",
   CHECK(stage.fibers.live() == 0);
 }
 
-TEST_CASE("what a wake handed over is not lost to a cancellation that comes after it",
+TEST_CASE("a cancellation after a wake does not lose what the wake handed over",
           "[runtime][fiber]") {
   Stage stage;
   const FiberId id = stage.start([&stage] {
@@ -132,7 +131,7 @@ TEST_CASE("what a wake handed over is not lost to a cancellation that comes afte
   CHECK(stage.noted == "got it ended ");
 }
 
-TEST_CASE("destructors run on cancelled fibers, and the pool is full again", "[runtime][fiber]") {
+TEST_CASE("destructors of cancelled fibers run, and the pool is full again", "[runtime][fiber]") {
   Stage stage(4);
   auto held = std::make_shared<int>(7);
   const std::shared_ptr<int>* source = &held;
@@ -152,7 +151,7 @@ TEST_CASE("destructors run on cancelled fibers, and the pool is full again", "[r
   CHECK(stage.fibers.max_live() == 4);
 }
 
-TEST_CASE("a body of any later start runs on the stack of the one before it", "[runtime][fiber]") {
+TEST_CASE("a later body runs on the stack of the one before it", "[runtime][fiber]") {
   Stage stage(1);
   int sum = 0;
   for (int i = 1; i <= 1000; ++i) {
@@ -162,7 +161,7 @@ TEST_CASE("a body of any later start runs on the stack of the one before it", "[
   CHECK(sum == 500500);
 }
 
-TEST_CASE("exceptions stay in the fiber that throws them, however many take turns",
+TEST_CASE("exceptions stay in the fiber that throws them, however fibers alternate",
           "[runtime][fiber]") {
   Stage stage(8);
   for (int i = 0; i < 8; ++i)
@@ -182,7 +181,7 @@ TEST_CASE("exceptions stay in the fiber that throws them, however many take turn
   CHECK(stage.noted == "whole whole whole whole whole whole whole whole ");
 }
 
-TEST_CASE("what the rules forbid a fiber ends the process with the rule", "[runtime][fiber]") {
+TEST_CASE("a fiber that breaks a rule aborts the process with that rule", "[runtime][fiber]") {
   const auto has = [](const test::End& end, const char* words) {
     return end.signal == SIGABRT && end.standard_error.find(words) != std::string::npos;
   };

@@ -20,7 +20,7 @@ int deep(int levels) {
 
 }  // namespace
 
-TEST_CASE("stacks are apart, of the size asked for but for their colour, and aligned",
+TEST_CASE("stacks are disjoint, of the requested size but for their colour, and aligned",
           "[runtime][stack]") {
   const StackPool stacks(40, 32 * 1024, 1000);
   CHECK(stacks.guard_every() == 1);
@@ -52,7 +52,7 @@ TEST_CASE("beyond the limit of maps every k-th stack has a guard and the others 
   CHECK(stacks.canary_lives(2));
 }
 
-TEST_CASE("the overflow of a guarded stack is one readable line", "[runtime][stack]") {
+TEST_CASE("the overflow of a guarded stack is reported in one line", "[runtime][stack]") {
   const test::End end = test::end_of([] {
     const OverflowReport report;
     Fibers fibers({2, 16 * 1024, 100});
@@ -66,7 +66,7 @@ TEST_CASE("the overflow of a guarded stack is one readable line", "[runtime][sta
         "luxodus: fiber 1 (photon) overflowed its stack of 16384 bytes; raise stack_kb\n");
 }
 
-TEST_CASE("the overflow of a stack without a guard is found when its fiber next leaves",
+TEST_CASE("the overflow of a stack without a guard is found at its fiber's next suspend",
           "[runtime][stack]") {
   const test::End end = test::end_of([] {
     Fibers fibers({2, 16 * 1024, 2});
@@ -78,7 +78,7 @@ TEST_CASE("the overflow of a stack without a guard is found when its fiber next 
   CHECK(end.standard_error.find("overflowed its stack") != std::string::npos);
 }
 
-TEST_CASE("a fault that is no overflow goes to whoever handled faults before", "[runtime][stack]") {
+TEST_CASE("a fault that is no overflow goes to the previous handler", "[runtime][stack]") {
   const test::End end = test::end_of([] {
     std::signal(SIGSEGV, [](int) {
       const char line[] = "handled before\n";

@@ -10,7 +10,7 @@ using namespace luxodus;
 using namespace luxodus::test;
 using Catch::Matchers::Contains;
 
-TEST_CASE("an address of a page is host and port, and perhaps more", "[runtime][http]") {
+TEST_CASE("a page's address is host and port, optionally with scheme and path", "[runtime][http]") {
   const auto whole = parse_http_url("http://lux1.example.org:9464/metrics");
   REQUIRE(whole.ok());
   CHECK(whole.value().host == "lux1.example.org");
@@ -26,7 +26,7 @@ TEST_CASE("an address of a page is host and port, and perhaps more", "[runtime][
   }
 }
 
-TEST_CASE("a page is fetched whole, and another status is a problem that says so",
+TEST_CASE("a page is fetched whole, and another status is a problem with that status",
           "[runtime][http]") {
   const std::string page(300'000, 'x');
   const Serving serving([&] { return page; });
@@ -40,7 +40,7 @@ TEST_CASE("a page is fetched whole, and another status is a problem that says so
   CHECK_THAT(missing.problem().what, Contains("404"));
 }
 
-TEST_CASE("a page longer than the limit is refused, and so is a place where nobody answers",
+TEST_CASE("a page longer than the limit is rejected, and so is an address where nothing answers",
           "[runtime][http]") {
   uint16_t port = 0;
   {
@@ -55,8 +55,8 @@ TEST_CASE("a page longer than the limit is refused, and so is a place where nobo
   CHECK_THAT(gone.problem().what, Contains(std::to_string(port)));
 }
 
-TEST_CASE("a server that listens and does not answer is given up", "[runtime][http]") {
-  // Connections are taken by the system, and by nobody behind it.
+TEST_CASE("a server that accepts and does not answer times out", "[runtime][http]") {
+  // The system accepts connections, but no server reads them.
   const auto server = HttpServer::listen({}, {});
   REQUIRE(server.ok());
   const auto mute = http_get({"127.0.0.1", server.value()->port()}, milliseconds(50));

@@ -24,7 +24,7 @@ bool begins(const std::string& text, const std::string& with) {
   return text.rfind(with, 0) == 0;
 }
 
-/// Says all that it hears, and tells how many of it are there.
+/// Echoes every message, and counts its instances.
 class Echo final : public SocketListener {
  public:
   Echo(WebSocket& socket, std::atomic<int>& open) : socket_(socket), open_(open) { ++open_; }
@@ -59,7 +59,7 @@ std::string frame(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("each answer is the page of the moment", "[runtime][http]") {
+TEST_CASE("each answer is the current page", "[runtime][http]") {
   std::atomic<int> asked{0};
   const Serving serving([&] { return "page " + std::to_string(++asked) + "\n"; });
   for (int i = 1; i <= 3; ++i) {
@@ -70,7 +70,7 @@ TEST_CASE("each answer is the page of the moment", "[runtime][http]") {
   }
 }
 
-TEST_CASE("the server refuses what it does not know, and lives on", "[runtime][http]") {
+TEST_CASE("the server rejects unknown requests, and goes on", "[runtime][http]") {
   const Serving serving(one_page);
   const auto ask = [&](const std::string& bytes) { return answer(serving.port(), bytes); };
   CHECK(begins(ask(serving.request("GET", "/")), "HTTP/1.1 404"));
@@ -86,7 +86,7 @@ TEST_CASE("the server refuses what it does not know, and lives on", "[runtime][h
   CHECK(ask(serving.request()) == http_ok);
 }
 
-TEST_CASE("who asks for the head of a page gets its length and no page", "[runtime][http]") {
+TEST_CASE("a HEAD request gets the page's length and no page", "[runtime][http]") {
   const Serving serving(one_page);
   const std::string whole = whole_answer(serving.port(), serving.request());
   const std::string head = whole_answer(serving.port(), serving.request("HEAD"));
@@ -94,7 +94,7 @@ TEST_CASE("who asks for the head of a page gets its length and no page", "[runti
   CHECK(whole == head + "page\n");
 }
 
-TEST_CASE("a site whose name leads to this machine is served nothing", "[runtime][http]") {
+TEST_CASE("a site whose name resolves to this machine is served nothing", "[runtime][http]") {
   HttpAddress at;
   at.allowed_hosts = {"view.example.org", "behind:9000"};
   std::atomic<int> open{0};
@@ -106,7 +106,7 @@ TEST_CASE("a site whose name leads to this machine is served nothing", "[runtime
   const auto socket_at = [&](const std::string& host, const std::string& origin) {
     return answer(port, upgrade(host, "Origin: " + origin + "\r\n"));
   };
-  // Its page says its own name in both: they agree.
+  // Host and Origin agree: both are the site's name.
   const std::string evil = serving.here("evil.example");
   CHECK(page_at(evil) == http_forbidden);
   CHECK(socket_at(evil, "http://" + evil) == http_forbidden);
@@ -128,7 +128,7 @@ TEST_CASE("a site whose name leads to this machine is served nothing", "[runtime
   CHECK(socket_at(serving.here(), "file://" + serving.here()) == http_forbidden);
 }
 
-TEST_CASE("a server with a token wants it for pages and sockets", "[runtime][http]") {
+TEST_CASE("a server with a token requires it for pages and sockets", "[runtime][http]") {
   HttpAddress at;
   at.token = "secret";
   std::atomic<int> open{0};
@@ -142,9 +142,9 @@ TEST_CASE("a server with a token wants it for pages and sockets", "[runtime][htt
   CHECK(answer(serving.port(), upgrade(serving.here())) == http_forbidden);
 }
 
-TEST_CASE("an answer does not wait for the end of a client that says nothing", "[runtime][http]") {
+TEST_CASE("an answer does not wait for a silent client to end", "[runtime][http]") {
   const Serving serving(one_page);
-  // On a machine that stands still for seconds its time may be over: then once more.
+  // On a machine that stalls for seconds its time may be over: then another try.
   bool answered_before = false;
   for (int i = 0; i < 5 && !answered_before; ++i) {
     const RawClient mute;
@@ -155,7 +155,7 @@ TEST_CASE("an answer does not wait for the end of a client that says nothing", "
   CHECK(answered_before);
 }
 
-TEST_CASE("clients that say nothing or read nothing keep nobody waiting, however many they are",
+TEST_CASE("silent and non-reading clients delay no others, however many they are",
           "[runtime][http]") {
   const std::string page(8 << 20, 'p');  // more than a socket takes at once
   const Serving serving([&] { return page; });
@@ -164,12 +164,13 @@ TEST_CASE("clients that say nothing or read nothing keep nobody waiting, however
     mute[i].connect(serving.port());
     if (i % 3 > 0) mute[i].say(i % 3 == 1 ? serving.request() : "GET /met");
   }
-  // One after another the mute would take limits::http_client each: twenty minutes.
+  // Served one after another the silent clients would take limits::http_client each: twenty
+  // minutes.
   for (int i = 0; i < 3; ++i)
     CHECK(whole_answer(serving.port(), serving.request()).size() > page.size());
 }
 
-TEST_CASE("when descriptors run out the server rests between its tries, and goes on after",
+TEST_CASE("without descriptors the server pauses between its tries, and goes on afterwards",
           "[runtime][http]") {
   spdlog::set_level(spdlog::level::off);
   const Serving serving(one_page);
@@ -189,7 +190,7 @@ TEST_CASE("when descriptors run out the server rests between its tries, and goes
   CHECK(begins(late.hear_some(), http_ok));
 }
 
-TEST_CASE("rubbish ends its own connection alone", "[runtime][http]") {
+TEST_CASE("invalid bytes end only their own connection", "[runtime][http]") {
   std::atomic<int> open{0};
   const Serving serving(one_page, {}, echoing(open));
   const uint16_t port = serving.port();
@@ -198,7 +199,7 @@ TEST_CASE("rubbish ends its own connection alone", "[runtime][http]") {
   CHECK(answer(port, noise).find("200") == std::string::npos);
   CHECK(answer(port, "GET / HTTP/1.1\r\n" + std::string(20'000, 'a')).find("200") ==
         std::string::npos);
-  // Frames that lie: reserved bits, a length of exabytes, an unmasked text.
+  // Invalid frames: reserved bits, a length of exabytes, an unmasked text.
   for (const std::string& lie :
        {std::string("\xff\xff\xff\xff", 4),
         std::string("\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 10), std::string("\x81\x05hello")})
@@ -206,7 +207,8 @@ TEST_CASE("rubbish ends its own connection alone", "[runtime][http]") {
   CHECK(answer(port, serving.request()) == http_ok);
 }
 
-TEST_CASE("a socket is heard and answered, and its listener ends with it", "[runtime][http]") {
+TEST_CASE("a socket's messages are received and answered, and its listener ends with it",
+          "[runtime][http]") {
   std::atomic<int> open{0};
   const Serving serving(one_page, {}, echoing(open));
   {
@@ -248,7 +250,7 @@ TEST_CASE("sockets beyond the limit are refused", "[runtime][http]") {
   CHECK(answer(serving.port(), upgrade(serving.here())) == http_forbidden);
 }
 
-TEST_CASE("a server that cannot listen says where and why", "[runtime][http]") {
+TEST_CASE("a server that cannot listen names the address and the reason", "[runtime][http]") {
   const Serving first(one_page);
   const auto second = HttpServer::listen({"127.0.0.1", first.port()}, {});
   REQUIRE_FALSE(second.ok());

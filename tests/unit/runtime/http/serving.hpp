@@ -33,7 +33,7 @@ class Serving {
   }
   HttpServer& server() const { return *server_; }
   uint16_t port() const { return server_->port(); }
-  /// As a client says where it is.
+  /// The Host that a client sends.
   std::string here(const std::string& name = "127.0.0.1") const {
     return name + ":" + std::to_string(port());
   }

@@ -1,5 +1,5 @@
-// Actors of two nodes and of one that write to each other: it reads the same. What finds no actor,
-// no room or a full mailbox is dropped and counted, and holds nobody else up.
+// Actors on two nodes and on one that send each other messages by the same calls. A message without
+// an actor, without room or to a full mailbox is dropped and counted, and delays no other.
 #include "runtime/messaging/actor_system.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,7 +14,7 @@ using namespace luxodus;
 
 namespace {
 
-/// Asks for batches, and notes what it is granted.
+/// Asks for batches, and records its grants.
 class Asker final
     : public NodeActor<Asker, ControlLane<Accepts<Letter<LeaseGranted>, 4, WhenFull::reject>>,
                        DataLane<>> {
@@ -32,7 +32,7 @@ class Asker final
   uint32_t batches = 0;
 };
 
-/// Grants what it is asked for; flushes go to its fiber, where it notes their bytes.
+/// Grants every request; flushes go to its fiber, which records their bytes.
 class Lender final
     : public NodeActor<Lender, ControlLane<Accepts<Letter<RequestLease>, 2, WhenFull::reject>>,
                        DataLane<Accepts<Letter<Flush>, 2, WhenFull::reject>>> {
@@ -96,7 +96,7 @@ struct Member final : NetHandler {
   ActorSystem system;
 };
 
-/// The asker is on the first node; so is one lender, and another is on the second.
+/// The asker and one lender are on the first node; another lender is on the second.
 struct Stage {
   Stage() {
     spdlog::set_level(spdlog::level::off);
@@ -123,7 +123,7 @@ struct Stage {
       net.arrive();
     }
   }
-  /// Whatever is said to it, this is how it is done.
+  /// Selects the local or the remote lender.
   Address lender(bool local) const { return local ? near.address() : far.address(); }
   Lender& lender_at(bool local) { return local ? near : far; }
 
@@ -143,7 +143,7 @@ std::vector<std::byte> bytes_of(size_t count, int first) {
 
 }  // namespace
 
-TEST_CASE("a question and its answer go alike on a node and across nodes", "[messaging]") {
+TEST_CASE("a question and its answer work alike on a node and across nodes", "[messaging]") {
   for (const bool local : {true, false}) {
     INFO((local ? "on a node" : "across nodes"));
     Stage stage;
@@ -156,7 +156,7 @@ TEST_CASE("a question and its answer go alike on a node and across nodes", "[mes
   }
 }
 
-TEST_CASE("a payload arrives whole, in one frame or in pieces, and outlives its handler where kept",
+TEST_CASE("a payload arrives whole, in one frame or in pieces, and outlives its handler if kept",
           "[messaging]") {
   for (const bool local : {true, false})
     for (const size_t size : {size_t{100}, 3 * defaults::bulk_chunk_bytes + 17}) {
@@ -176,7 +176,7 @@ TEST_CASE("a payload arrives whole, in one frame or in pieces, and outlives its 
     }
 }
 
-TEST_CASE("a full mailbox rejects on the node and drops what comes from others, and counts both",
+TEST_CASE("a full mailbox rejects local messages, drops remote ones, and counts both",
           "[messaging]") {
   Stage stage;
   for (int i = 0; i < 2; ++i) CHECK(stage.asker.ask(stage.near.address(), 1) == SendOutcome::taken);
@@ -186,7 +186,8 @@ TEST_CASE("a full mailbox rejects on the node and drops what comes from others, 
   stage.run(milliseconds(100));
   CHECK(stage.asker.batches == 2);
 
-  // From outside more may come in a turn than the mailbox takes: the link goes on all the same.
+  // More remote messages may arrive in a turn than the mailbox takes: the link continues all the
+  // same.
   for (int i = 0; i < 50; ++i) CHECK(stage.asker.ask(stage.far.address(), 1) == SendOutcome::taken);
   stage.run(seconds(1));
   const uint64_t dropped = stage.second.system.counters().rejected;
@@ -198,7 +199,7 @@ TEST_CASE("a full mailbox rejects on the node and drops what comes from others, 
   CHECK(stage.asker.batches == before + 7);
 }
 
-TEST_CASE("what is for no actor, or of a type that it does not receive, is counted and dropped",
+TEST_CASE("a message for no actor, or of a type that it does not accept, is counted and dropped",
           "[messaging]") {
   Stage stage;
   const auto id = [&] { return stage.first.system.next_id(); };
@@ -218,7 +219,7 @@ TEST_CASE("what is for no actor, or of a type that it does not receive, is count
   CHECK(stage.asker.batches == 0);
 }
 
-TEST_CASE("any message to any byte of an actor's name is taken, dropped or counted, and no more",
+TEST_CASE("any message to any actor name is taken, dropped or counted, and nothing else",
           "[messaging][fuzz]") {
   Stage stage;
   const std::vector<Message> messages = test::sample_messages();
@@ -273,7 +274,7 @@ TEST_CASE("payloads beyond the pool are dropped and counted, and later ones have
   CHECK(stage.far.flushed == bytes_of(payload_budget / 4, 3));
 }
 
-TEST_CASE("rooms are used again: a pool that has grown takes no more memory", "[messaging]") {
+TEST_CASE("rooms are reused, so a pool that has grown allocates no more", "[messaging]") {
   RoomPool pool(1 << 20);
   const std::byte* places[2] = {};
   for (int round = 0; round < 4; ++round) {

@@ -8,7 +8,7 @@ namespace {
 constexpr Nanoseconds least = seconds(2), most = seconds(30);
 }
 
-TEST_CASE("a question is asked again after the least wait, then each time after twice as long",
+TEST_CASE("a question is retried after the least wait, then after twice as long each time",
           "[messaging]") {
   RetryTimer timer(least, most);
   CHECK(timer.may_ask(0));
@@ -50,8 +50,7 @@ TEST_CASE("the first wait is twice what the last answer took", "[messaging]") {
   }
 }
 
-TEST_CASE("what is asked in place of a question that was given up begins with the first wait",
-          "[messaging]") {
+TEST_CASE("a question that replaces an abandoned one begins with the first wait", "[messaging]") {
   RetryTimer timer(least, most);
   timer.asked(0);
   timer.asked(seconds(2));
@@ -61,8 +60,7 @@ TEST_CASE("what is asked in place of a question that was given up begins with th
   CHECK(timer.is_due(seconds(5)));
 }
 
-TEST_CASE("of several copies that is taken to be answered which fits what answers took before",
-          "[messaging]") {
+TEST_CASE("among several copies the answered one is inferred from earlier answers", "[messaging]") {
   RetryTimer timer(least, most);
   timer.asked(0);
   timer.answered(seconds(3));
@@ -78,7 +76,7 @@ TEST_CASE("of several copies that is taken to be answered which fits what answer
   CHECK(answered_after(seconds(1), seconds(2)) == seconds(2));   // the first took no more
 }
 
-TEST_CASE("a first copy that is lost each time does not lengthen waits", "[messaging]") {
+TEST_CASE("losing the first copy each time does not lengthen the waits", "[messaging]") {
   RetryTimer timer(least, most);
   for (int question = 0; question < 10; ++question) {
     const Nanoseconds begun = seconds(100) * question;
@@ -90,11 +88,11 @@ TEST_CASE("a first copy that is lost each time does not lengthen waits", "[messa
   CHECK(timer.first_wait() == least);
 }
 
-TEST_CASE("what can wait rests for eight times as long as the last answer took", "[messaging]") {
+TEST_CASE("the pause after an answer is eight times as long as the answer took", "[messaging]") {
   RetryTimer timer(least, most);
   CHECK(timer.has_rested(0));  // nothing was asked
   timer.asked(0);
-  CHECK_FALSE(timer.has_rested(seconds(100)));  // it is asked
+  CHECK_FALSE(timer.has_rested(seconds(100)));  // a question is in flight
   timer.answered(seconds(1));
   CHECK(timer.rest() == seconds(8));
   CHECK_FALSE(timer.has_rested(seconds(9) - 1));

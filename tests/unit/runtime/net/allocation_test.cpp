@@ -1,5 +1,5 @@
-// The steady path takes no memory: two nodes ask and answer over a transport that takes none
-// itself, while every call for memory is counted.
+// The steady path allocates nothing: two nodes exchange requests and answers over a transport that
+// allocates nothing itself, while every allocation is counted.
 #include <array>
 #include <catch2/catch.hpp>
 
@@ -11,7 +11,7 @@ using namespace luxodus::test;
 
 namespace {
 
-/// Frames between two nodes, in memory taken once.
+/// Frames between two nodes, in memory allocated once.
 struct Wire {
   struct Queue {
     Queue() : frames(64) {
@@ -60,7 +60,7 @@ class WireTransport final : public Transport {
   NodeId self_;
 };
 
-/// Answers every question with an object of several chunks; keeps nothing.
+/// Answers every request with an object of several chunks; keeps nothing.
 struct Holder final : NetHandler {
   explicit Holder(SharedBytes bytes)
       : object(std::move(bytes)), room(object.bytes.size() / 8 + 9) {}
@@ -86,7 +86,7 @@ struct Holder final : NetHandler {
 
 }  // namespace
 
-TEST_CASE("asking, answering in chunks and beating take no memory", "[runtime][network]") {
+TEST_CASE("requests, answers in chunks and heartbeats allocate no memory", "[runtime][network]") {
   if (!allocations_are_counted()) {
     WARN("sanitizers have an allocator of their own: nothing is counted in this build");
     return;

@@ -25,7 +25,7 @@ TEST_CASE("nothing is sent before the first grant", "[runtime][credit]") {
   CHECK_FALSE(out.allows(1001));
 }
 
-TEST_CASE("what is held never exceeds the window, and credit comes back", "[runtime][credit]") {
+TEST_CASE("held bytes never exceed the window, and credit returns", "[runtime][credit]") {
   Random random(5, RandomStream::test);
   random.start(0);
   CreditOut out(1000);
@@ -41,7 +41,8 @@ TEST_CASE("what is held never exceeds the window, and credit comes back", "[runt
       if (random.uniform() >= 0.2f) wire.push_back({out.sent(), bytes});  // a fifth is lost
     }
     if (!wire.empty() && random.uniform() < 0.5f) {
-      CHECK(in.arrive(wire.front().total, wire.front().bytes));  // in order: never beyond
+      // in order: never beyond the window
+      CHECK(in.arrive(wire.front().total, wire.front().bytes));
       held.push_back(wire.front().bytes);
       wire.pop_front();
     }
@@ -53,17 +54,17 @@ TEST_CASE("what is held never exceeds the window, and credit comes back", "[runt
     if (random.uniform() < 0.2f) out.grant(in.announce());
     if (wire.empty() && random.uniform() < 0.05f) in.settle(out.sent());  // a beat
   }
-  CHECK(sent_frames > 2000);  // losses did not eat the credit
+  CHECK(sent_frames > 2000);  // losses did not use up the credit
 }
 
-TEST_CASE("who sends beyond the window loses it", "[runtime][credit]") {
+TEST_CASE("a frame sent beyond the window is lost", "[runtime][credit]") {
   CreditIn in(1000);
   CHECK(in.arrive(600, 600));
   CHECK_FALSE(in.arrive(1200, 600));
   CHECK(in.held() == 600);
 }
 
-TEST_CASE("a late or doubled grant takes nothing back", "[runtime][credit]") {
+TEST_CASE("a late or duplicate grant takes nothing back", "[runtime][credit]") {
   CreditOut out(1000);
   out.grant(500);
   out.spend(100);
@@ -71,7 +72,7 @@ TEST_CASE("a late or doubled grant takes nothing back", "[runtime][credit]") {
   CHECK(out.allows(400));
 }
 
-TEST_CASE("no grant lets more than the window be outstanding", "[runtime][credit]") {
+TEST_CASE("no grant allows more than the window to be outstanding", "[runtime][credit]") {
   CreditOut out(1000);
   for (int i = 0; i < 3; ++i) out.grant(~uint64_t{0} - static_cast<uint64_t>(i));
   CHECK(out.allows(1000));

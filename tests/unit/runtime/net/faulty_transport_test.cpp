@@ -1,4 +1,4 @@
-// Links and nodes as bad as a plan says, over a network in memory, time by hand.
+// Links and nodes with injected faults, over an in-memory network with a manual clock.
 #include "runtime/net/faulty_transport.hpp"
 
 #include <catch2/catch.hpp>
@@ -28,7 +28,7 @@ FaultyConfig config_of_end(NodeId self, const FaultPlan& plan,
   return config;
 }
 
-/// Two ends of links to each other.
+/// Two ends of a link.
 struct Pair {
   explicit Pair(const FaultPlan& plan = delayed(), size_t max_held = limits::held_back_bytes)
       : one(below_one, config_of_end(a, plan, max_held), clock),
@@ -38,7 +38,7 @@ struct Pair {
     REQUIRE(one.send(b, lane, {}, bytes) == Sent::taken);
     net.arrive();
   }
-  /// Everything that the other end gives out now, as the first byte of each frame.
+  /// Everything that the other end delivers now, as the first byte of each frame.
   std::vector<int> given() {
     std::vector<int> first;
     while (const auto arrival = other.receive()) {
@@ -60,7 +60,7 @@ std::vector<std::byte> frame(int first, size_t bytes = 100) {
   return out;
 }
 
-/// Nothing ever comes; it remembers until when it was asked to wait.
+/// Nothing ever arrives; it records until when it was asked to wait.
 class Waiting final : public Transport {
  public:
   Sent send(NodeId, Lane, std::span<const std::byte>, std::span<const std::byte>) override {
@@ -91,7 +91,7 @@ std::vector<std::byte> stamped(Nanoseconds sent, Nanoseconds hold) {
 
 }  // namespace
 
-TEST_CASE("a frame comes when the delay has passed, whole, and not before", "[runtime][delay]") {
+TEST_CASE("a frame is delivered whole after the delay, and not before", "[runtime][delay]") {
   Pair pair;
   REQUIRE(pair.one.send(b, Lane::control, frame(7, 3), frame(8, 2)) == Sent::taken);
   pair.net.arrive();
@@ -108,7 +108,7 @@ TEST_CASE("a frame comes when the delay has passed, whole, and not before", "[ru
   CHECK(pair.other.held_bytes() == 0);
 }
 
-TEST_CASE("a node that was busy gets what is due at once", "[runtime][delay]") {
+TEST_CASE("a node that was busy gets due frames at once", "[runtime][delay]") {
   Pair pair;
   pair.send(Lane::bulk, frame(1));
   pair.clock.advance(delay + milliseconds(3));
@@ -127,7 +127,7 @@ TEST_CASE("frames of a lane keep their order, and control overtakes bulk", "[run
   CHECK(pair.given() == std::vector{5, 1, 2, 3, 4});
 }
 
-TEST_CASE("a wait ends when a held frame is due, or when it was to end", "[runtime][delay]") {
+TEST_CASE("a wait ends when a held frame is due, or at its own deadline", "[runtime][delay]") {
   ManualClock clock{seconds(1)};
   Waiting below;
   FaultyTransport transport(below, config_of_end(b, delayed()), clock);
@@ -142,7 +142,7 @@ TEST_CASE("a wait ends when a held frame is due, or when it was to end", "[runti
   CHECK(below.waited_until == sent + delay / 2);
 }
 
-TEST_CASE("what is held back is bounded, and nothing beyond it is lost", "[runtime][delay]") {
+TEST_CASE("held bytes are bounded, and nothing beyond the bound is lost", "[runtime][delay]") {
   Pair pair(delayed(), 1000);
   for (int i = 0; i < 50; ++i) pair.send(Lane::bulk, frame(i));
   CHECK(pair.given().empty());
@@ -156,7 +156,7 @@ TEST_CASE("what is held back is bounded, and nothing beyond it is lost", "[runti
   CHECK(std::is_sorted(all.begin(), all.end()));
 }
 
-TEST_CASE("a frame from an end that has no plan is dropped and counted", "[runtime][delay]") {
+TEST_CASE("a frame from an end without a plan is dropped and counted", "[runtime][delay]") {
   Pair pair;
   REQUIRE(pair.below_one.send(b, Lane::control, {}, frame(1, 4)) == Sent::taken);
   pair.net.arrive();
@@ -164,8 +164,7 @@ TEST_CASE("a frame from an end that has no plan is dropped and counted", "[runti
   CHECK(pair.other.counters().unstamped == 1);
 }
 
-TEST_CASE("a frame that says it comes from the future waits no longer than the delay",
-          "[runtime][delay]") {
+TEST_CASE("a frame stamped in the future waits no longer than the delay", "[runtime][delay]") {
   ManualClock clock{seconds(1)};
   Waiting below;
   FaultyTransport transport(below, config_of_end(b, delayed()), clock);
@@ -176,7 +175,7 @@ TEST_CASE("a frame that says it comes from the future waits no longer than the d
   CHECK(transport.receive());
 }
 
-TEST_CASE("two nodes on delayed links ask and answer in two delays, and objects come whole",
+TEST_CASE("on delayed links a request and its answer take two delays, and objects arrive whole",
           "[runtime][delay]") {
   spdlog::set_level(spdlog::level::off);
   Pair pair;
@@ -207,7 +206,7 @@ TEST_CASE("two nodes on delayed links ask and answer in two delays, and objects 
   CHECK(asker.counters().dropped_malformed + holder.counters().dropped_malformed == 0);
 }
 
-TEST_CASE("links do to frames what the plan says, until it is healed", "[runtime][delay]") {
+TEST_CASE("links treat frames by the plan, until it is healed", "[runtime][delay]") {
   FaultPlan plan = delayed();
   plan.healed_at = seconds(10);
   plan.links.tail = milliseconds(1);
@@ -257,7 +256,7 @@ TEST_CASE("links do to frames what the plan says, until it is healed", "[runtime
     Pair pair(plan);
     int taken = 0;
     while (pair.one.send(b, Lane::bulk, {}, frame(taken)) == Sent::taken) ++taken;
-    CHECK(taken == 11);  // of 100 bytes each, one of them on the wire
+    CHECK(taken == 11);  // 100 bytes each, one of them on the wire
     pair.net.arrive();
     pair.clock.advance(delay + microseconds(300));
     CHECK(pair.given().size() == 3);
@@ -265,7 +264,8 @@ TEST_CASE("links do to frames what the plan says, until it is healed", "[runtime
   }
 }
 
-TEST_CASE("ways that are cut lose, clogged ones hold, and broken ones say so", "[runtime][delay]") {
+TEST_CASE("cut links lose frames, clogged ones hold them, and broken ones report it",
+          "[runtime][delay]") {
   FaultPlan plan;
   Fault fault;
   fault.at = milliseconds(10);
@@ -282,7 +282,8 @@ TEST_CASE("ways that are cut lose, clogged ones hold, and broken ones say so", "
   const auto cut = at_20ms(Fault::Kind::cut);
   cut->send(Lane::control, frame(1));
   CHECK(cut->given().empty());
-  CHECK(cut->other.send(a, Lane::control, {}, frame(2)) == Sent::taken);  // the other way works
+  // the other direction works
+  CHECK(cut->other.send(a, Lane::control, {}, frame(2)) == Sent::taken);
   cut->net.arrive();
   CHECK(cut->one.receive());
   cut->clock.advance(milliseconds(10));
@@ -303,7 +304,7 @@ TEST_CASE("ways that are cut lose, clogged ones hold, and broken ones say so", "
   CHECK(broken->one.send(b, Lane::control, {}, frame(1)) == Sent::taken);
 }
 
-TEST_CASE("nodes stand still, are slow and crash when the plan says so", "[runtime][delay]") {
+TEST_CASE("nodes pause, slow down and crash by the plan", "[runtime][delay]") {
   ManualClock clock;
   Waiting below;
   FaultyConfig config = config_of_end(a, {});

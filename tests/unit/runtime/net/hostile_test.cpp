@@ -1,7 +1,7 @@
-// A neighbour that was admitted, or stole an admitted one's place, and means harm: it costs bounded
-// memory and its own link, and the others go on. Node 0 is that neighbour: its frames are made by
-// hand. Bytes at random are the fuzzer's (tests/fuzz); objects that are not what they are called
-// are the fetcher's (tests/unit/runtime/fetch).
+// A hostile neighbour that was admitted, or took an admitted one's place: it costs bounded memory
+// and its own link, and the others go on. Node 0 is that neighbour: the test makes its frames.
+// Random bytes are tested by the fuzzers (tests/fuzz); objects with false content by the fetcher's
+// tests (tests/unit/runtime/fetch).
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
@@ -39,14 +39,14 @@ class Besieged {
     e.id = {{0}, {of_hostile}, ++sequence_};
     return e;
   }
-  /// A frame as the codec makes it, to the victim.
+  /// A frame encoded by the codec, to the victim.
   void send(const Envelope& e, std::span<const std::byte> body) {
     std::vector<std::byte> frame(limits::frame_head_bytes);
     frame.resize(codec_.encode(e, body, frame));
     frame.insert(frame.end(), body.begin(), body.end());
     nodes.net.send({0}, {1}, lane_of(e.kind), frame, {});
   }
-  /// A message in one piece, of the kind that it is.
+  /// A message in one piece, of its own kind.
   void say(const Message& message, size_t payload_bytes = 0, uint64_t sent = 0) {
     std::vector<std::byte> body(limits::message_bytes);
     body.resize(codec_.encode(message, body).value());
@@ -56,7 +56,7 @@ class Besieged {
     e.sent = sent;
     send(e, body);
   }
-  /// The honest neighbour's question and long flush come through in a second.
+  /// The honest neighbour's request and long flush arrive within a second.
   void check_that_others_go_on() {
     const size_t asked = nodes[1].handler.count<AskStatus>();
     const size_t flushed = nodes[1].handler.count<Flush>();
@@ -78,7 +78,7 @@ class Besieged {
 
 }  // namespace
 
-TEST_CASE("a neighbour that floods without credit fills its own windows and no more",
+TEST_CASE("a neighbour that floods without credit fills only its own windows",
           "[runtime][hostile]") {
   Besieged siege;
   const size_t memory = siege.victim().memory_bytes();
@@ -90,13 +90,13 @@ TEST_CASE("a neighbour that floods without credit fills its own windows and no m
     if (i % 100 == 99) siege.nodes.turn();
   }
   siege.nodes.run(milliseconds(100), milliseconds(1));  // a turn takes in a megabyte
-  // A window holds four such frames; what it holds is passed over to nobody here.
+  // A window holds four such frames, and they are not delivered here.
   CHECK(siege.victim().counters().dropped_over_credit - before >= frames - 5);
   CHECK(siege.victim().memory_bytes() == memory);
   siege.check_that_others_go_on();
 }
 
-TEST_CASE("a neighbour that begins messages and ends none makes room for others",
+TEST_CASE("a neighbour that begins messages without ending them makes room for others",
           "[runtime][hostile]") {
   Besieged siege;
   const std::vector<std::byte> piece(1000);
@@ -108,18 +108,18 @@ TEST_CASE("a neighbour that begins messages and ends none makes room for others"
     if (i % 20 == 19) siege.nodes.turn();
   }
   siege.nodes.turn();
-  CHECK(siege.victim().counters().dropped_unexpected > 0);  // it has as many as there may be
+  CHECK(siege.victim().counters().dropped_unexpected > 0);  // it has as many as the limit
   siege.check_that_others_go_on();
   CHECK(siege.victim().counters().assemblies_abandoned >= 1);
   siege.nodes.run(seconds(15));
   CHECK(siege.victim().counters().assemblies_abandoned >= defaults::assemblies);
 }
 
-TEST_CASE("a neighbour that grants without bound and reads nothing is sent a window of each pool",
+TEST_CASE("a neighbour that grants without bound and reads nothing is sent one window per pool",
           "[runtime][hostile]") {
   Besieged siege;
   siege.nodes.net.faults.capacity = 4096;
-  siege.nodes.stop(0);  // from here on nobody reads there, and its connection stays
+  siege.nodes.stop(0);  // from here on it reads nothing, and its connection stays
   siege.nodes.net.join({0});
   uint64_t answered = 0;
   siege.nodes[1].handler.on_deliver = [&](const Delivery& d) {
@@ -144,7 +144,7 @@ TEST_CASE("a neighbour that grants without bound and reads nothing is sent a win
   siege.check_that_others_go_on();
 }
 
-TEST_CASE("a neighbour that lies about sizes is not believed", "[runtime][hostile]") {
+TEST_CASE("a neighbour's false sizes are rejected", "[runtime][hostile]") {
   Besieged siege;
   const std::vector<std::byte> piece(1000);
   const auto lie = [&](uint32_t chunk, uint32_t chunk_bytes, uint32_t total) {
@@ -158,13 +158,13 @@ TEST_CASE("a neighbour that lies about sizes is not believed", "[runtime][hostil
   const uint64_t before = siege.victim().counters().dropped_malformed;
   lie(0, 1000, 0xffffffff);           // longer than any message
   lie(0, 0xffffffff, 1000);           // pieces longer than any
-  lie(7, 1000, 5000);                 // a piece behind the end
-  lie(0xffffffff, 0xffffffff, 5000);  // the product of these wraps
+  lie(7, 1000, 5000);                 // a piece beyond the end
+  lie(0xffffffff, 0xffffffff, 5000);  // their product wraps
   lie(0, 0, 1000);
-  lie(0, 2000, 5000);  // a piece shorter than it says
-  lie(4, 1000, 4500);  // the last one longer than what is left
+  lie(0, 2000, 5000);  // a piece shorter than declared
+  lie(4, 1000, 4500);  // the last one longer than the rest
   CHECK(siege.victim().counters().dropped_malformed == before + 7);
-  // A length that could be true waits for its handler's room, and is given none.
+  // A plausible length asks for the handler's room, and gets none.
   siege.nodes[1].handler.wants_pieces = false;
   lie(0, 1000, defaults::max_message_bytes);
   CHECK(siege.victim().counters().dropped_unexpected == 1);
@@ -172,21 +172,20 @@ TEST_CASE("a neighbour that lies about sizes is not believed", "[runtime][hostil
   siege.check_that_others_go_on();
 }
 
-TEST_CASE("a neighbour that says of others' links that they are down is contradicted by their ends",
-          "[runtime][hostile]") {
+TEST_CASE("the ends of a link contradict a neighbour that reports it down", "[runtime][hostile]") {
   Besieged siege;
   siege.say(LinkChanges{{{{1}, {2}, 77}, {{0}, {1}, 99}}});
   siege.nodes.turn();
-  CHECK_FALSE(siege.victim().reaches({2}));  // it was believed
+  CHECK_FALSE(siege.victim().reaches({2}));  // the report was believed
   siege.nodes.run(seconds(6));
   CHECK(siege.victim().reaches({2}));
-  siege.say(LinkChanges{{{{1}, {2}, 0xffffffff}}});  // which nobody could contradict
+  siege.say(LinkChanges{{{{1}, {2}, 0xffffffff}}});  // which could never be superseded
   siege.nodes.run(seconds(1));
   CHECK(siege.victim().reaches({2}));
   siege.check_that_others_go_on();
 }
 
-TEST_CASE("what is replayed to a later life of a node is dropped", "[runtime][hostile]") {
+TEST_CASE("replayed frames to a later incarnation of a node are dropped", "[runtime][hostile]") {
   Besieged siege;
   siege.nodes.net.max_record = 1000;
   for (int i = 0; i < 20; ++i)
@@ -213,7 +212,7 @@ TEST_CASE("what is replayed to a later life of a node is dropped", "[runtime][ho
   siege.check_that_others_go_on();
 }
 
-TEST_CASE("what is replayed to the same life is bounded by the window of its pool",
+TEST_CASE("replayed frames to the same incarnation are bounded by the window of their pool",
           "[runtime][hostile]") {
   Besieged siege;
   const size_t memory = siege.victim().memory_bytes();
@@ -231,7 +230,8 @@ TEST_CASE("what is replayed to the same life is bounded by the window of its poo
   siege.check_that_others_go_on();
 }
 
-TEST_CASE("a neighbour that is refused a thousand times fills no log", "[runtime][hostile]") {
+TEST_CASE("a neighbour that is refused a thousand times cannot flood the log",
+          "[runtime][hostile]") {
   Besieged siege;
   std::ostringstream lines;
   const auto usual = spdlog::default_logger();

@@ -21,11 +21,11 @@ TEST_CASE("keys are read back as they were written", "[runtime][keys]") {
   CHECK(open.value() == keys.public_key);
 }
 
-TEST_CASE("two pairs are never the same", "[runtime][keys]") {
+TEST_CASE("two key pairs always differ", "[runtime][keys]") {
   CHECK(make_keypair().secret_key != make_keypair().secret_key);
 }
 
-TEST_CASE("a secret key's file is for its owner alone", "[runtime][keys]") {
+TEST_CASE("only the owner may read a secret key file", "[runtime][keys]") {
   const test::TemporaryFolder folder;
   const fs::path path = folder / "n1.key";
   REQUIRE(write_keys(make_keypair(), path).ok());
@@ -36,7 +36,7 @@ TEST_CASE("a secret key's file is for its owner alone", "[runtime][keys]") {
   CHECK(refused.problem().what.find("chmod 600") != std::string::npos);
 }
 
-TEST_CASE("a key that is there already is not overwritten", "[runtime][keys]") {
+TEST_CASE("an existing key is not overwritten", "[runtime][keys]") {
   const test::TemporaryFolder folder;
   const fs::path path = folder / "n1.key";
   const KeyPair first = make_keypair();
@@ -45,10 +45,10 @@ TEST_CASE("a key that is there already is not overwritten", "[runtime][keys]") {
   CHECK(read_keys(path)->secret_key == first.secret_key);
   size_t files = 0;
   for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder.path())) ++files;
-  CHECK(files == 2);  // nothing half-written is left
+  CHECK(files == 2);  // no half-written file is left
 }
 
-TEST_CASE("a file that holds no key is refused with the reason", "[runtime][keys]") {
+TEST_CASE("a file without a key is rejected with the reason", "[runtime][keys]") {
   const test::TemporaryFolder folder;
   const fs::path path = folder / "n1.key";
   CHECK_FALSE(read_keys(path).ok());

@@ -12,7 +12,7 @@ enum class Event { greeted, unreachable, accepted, acknowledged, heard, bye, ref
 constexpr LinkTimes times{};
 constexpr Incarnation first_life{7}, second_life{8};
 
-/// A link in this phase at time 0, its peer in its first life.
+/// A link in this phase at time 0, with the peer's first incarnation.
 LinkState in(LinkPhase phase) {
   LinkState link(times, 0);
   if (phase == LinkPhase::connecting) return link;
@@ -54,7 +54,7 @@ void feed(LinkState& link, Event event) {
 
 }  // namespace
 
-TEST_CASE("every phase of a link answers every event as the drawing says", "[runtime][link]") {
+TEST_CASE("every phase of a link handles every event as in the diagram", "[runtime][link]") {
   using enum LinkPhase;
   struct Row {
     LinkPhase from;
@@ -102,14 +102,14 @@ TEST_CASE("a link is suspect after three silent beats and down after eight", "[r
   CHECK_FALSE(link.usable());
 }
 
-TEST_CASE("who stood still itself blames nobody", "[runtime][link]") {
+TEST_CASE("a node that was stalled itself suspects no neighbour", "[runtime][link]") {
   LinkState link = in(LinkPhase::up);
   link.forgive(seconds(5));
   link.tick(seconds(5));
   CHECK(link.phase() == LinkPhase::up);
 }
 
-TEST_CASE("hellos are said ever more rarely, up to a bound", "[runtime][link]") {
+TEST_CASE("hellos become rarer, up to a bound", "[runtime][link]") {
   LinkState link(times, 0);
   Nanoseconds now = 0, last_gap = 0;
   for (int i = 0; i < 8; ++i) {
@@ -126,7 +126,7 @@ TEST_CASE("hellos are said ever more rarely, up to a bound", "[runtime][link]") 
   CHECK(last_gap <= times.max_backoff);
 }
 
-TEST_CASE("another life of the peer is told from the same one", "[runtime][link]") {
+TEST_CASE("a new incarnation of the peer is told from the same one", "[runtime][link]") {
   LinkState link = in(LinkPhase::up);
   CHECK_FALSE(link.accept(first_life, 1));
   CHECK(link.phase() == LinkPhase::up);
@@ -135,7 +135,7 @@ TEST_CASE("another life of the peer is told from the same one", "[runtime][link]
   CHECK(link.peer() == second_life);
 }
 
-TEST_CASE("a link that was down comes up again with the same life", "[runtime][link]") {
+TEST_CASE("a link that was down comes up again with the same incarnation", "[runtime][link]") {
   LinkState link = in(LinkPhase::down);
   CHECK_FALSE(link.accept(first_life, 1));
   link.acknowledge(1);

@@ -1,4 +1,4 @@
-// What a node knows of links: news, and whether two nodes know the same.
+// A node's view of links: changes, and whether two views are equal.
 #include "runtime/net/link_view.hpp"
 
 #include <catch2/catch.hpp>
@@ -15,9 +15,9 @@ LinkView view_of_two() {
 
 }  // namespace
 
-// Nodes once compared sums of versions. Two that had missed different news believed to know the
-// same, for ever.
-TEST_CASE("views of the same number of changes that differ are told apart", "[net]") {
+// Nodes once compared sums of versions. Two that had missed different changes then took their views
+// for equal, forever.
+TEST_CASE("different views with the same number of changes have different hashes", "[net]") {
   LinkView a = view_of_two(), b = view_of_two();
   CHECK(a.hash() == b.hash());
   CHECK(a.set(first, false));
@@ -30,7 +30,7 @@ TEST_CASE("views of the same number of changes that differ are told apart", "[ne
   CHECK(a.down() == b.down());
 }
 
-TEST_CASE("views that heard the same in another order are the same", "[net]") {
+TEST_CASE("views that received the same changes in another order are equal", "[net]") {
   LinkView a = view_of_two(), b = view_of_two();
   const LinkChange one{first.a, first.b, 3}, other{second.a, second.b, 2};
   CHECK(a.merge(one));
@@ -38,6 +38,6 @@ TEST_CASE("views that heard the same in another order are the same", "[net]") {
   CHECK(b.merge(other));
   CHECK(b.merge(one));
   CHECK(a.hash() == b.hash());
-  CHECK_FALSE(a.merge(one));  // no news
+  CHECK_FALSE(a.merge(one));  // no change
   CHECK(a.hash() == b.hash());
 }

@@ -1,5 +1,5 @@
-// Nodes of a test: a cluster on a graph, with a handler that remembers what it was given and can be
-// told to refuse, answer on the way, or echo. One thread, time by hand.
+// Nodes of a test: a cluster on a graph, with a handler that records deliveries and can refuse,
+// answer on the way, or echo. One thread, manual clock.
 #pragma once
 
 #include <spdlog/spdlog.h>
@@ -24,7 +24,7 @@ inline std::vector<Edge> ring(uint16_t nodes) {
   return edges;
 }
 
-/// A ring and chords of +-`step`: four links a node.
+/// A ring with chords of +-`step`: four links a node.
 inline std::vector<Edge> chordal_ring(uint16_t nodes, uint16_t step) {
   auto edges = ring(nodes);
   for (uint16_t i = 0; i < nodes; ++i) {
@@ -35,7 +35,7 @@ inline std::vector<Edge> chordal_ring(uint16_t nodes, uint16_t step) {
   return edges;
 }
 
-/// Shortest ways by breadth-first search from every destination; ties to the smaller neighbour.
+/// Shortest paths by breadth-first search from every destination; ties go to the smaller neighbour.
 inline NextHops shortest(NodeId self, size_t nodes, const std::vector<Edge>& edges,
                          std::span<const Edge> down) {
   std::vector<std::vector<uint16_t>> links(nodes);
@@ -94,7 +94,7 @@ class Handler : public NetHandler {
   std::vector<Taken> taken;
   std::vector<std::pair<NodeId, LinkPhase>> changes;
   std::vector<MessageId> abandoned_ids;
-  std::function<bool(const Delivery&)> on_deliver;  // before it is remembered
+  std::function<bool(const Delivery&)> on_deliver;  // before it is recorded
   std::function<bool(const Delivery&)> on_intercept;
   std::function<void(NodeId, LinkPhase)> on_link;
   bool wants_pieces = true;
@@ -162,7 +162,7 @@ class Cluster {
   NetNode& operator[](size_t i) { return *nodes_[i]; }
   size_t size() const { return nodes_.size(); }
 
-  /// Polls every node a few times, then moves time.
+  /// Polls every node a few times, then advances time.
   void turn(Nanoseconds by = milliseconds(1)) {
     for (int round = 0; round < 3; ++round) {
       for (auto& node : nodes_)

@@ -11,7 +11,7 @@ namespace {
 
 constexpr NodeId a{0}, b{1}, c{2};
 
-/// Two nodes and the link between them, the second's configuration changed.
+/// Two nodes and the link between them; `change` modifies the second's configuration.
 Cluster pair_with(const std::function<void(NetConfig&)>& change) {
   return Cluster(2, ring(2), [&](NetConfig& config) {
     if (config.self == b) change(config);
@@ -20,7 +20,7 @@ Cluster pair_with(const std::function<void(NetConfig&)>& change) {
 
 }  // namespace
 
-TEST_CASE("two nodes that agree come up and exchange messages", "[runtime][network]") {
+TEST_CASE("two nodes with the same identity connect and exchange messages", "[runtime][network]") {
   Cluster pair(2, ring(2));
   pair.bring_up();
   REQUIRE(pair[0].network.phase(b) == LinkPhase::up);
@@ -37,7 +37,8 @@ TEST_CASE("two nodes that agree come up and exchange messages", "[runtime][netwo
   CHECK(std::get<FetchObject>(got.message).object == ObjectId{42});
 }
 
-TEST_CASE("a node that has sent is due at once, and not with its next beat", "[runtime][network]") {
+TEST_CASE("a node that has sent is due at once, and not only at its next beat",
+          "[runtime][network]") {
   Cluster pair(2, ring(2));
   pair.bring_up();
   pair.turn();
@@ -50,14 +51,14 @@ TEST_CASE("a node that has sent is due at once, and not with its next beat", "[r
   CHECK(pair[0].network.next_deadline() > 0);
 }
 
-TEST_CASE("a reply of many chunks arrives whole, and its bytes are given back",
+TEST_CASE("a reply of many chunks arrives whole, and its bytes are released",
           "[runtime][network]") {
   Cluster pair(2, ring(2));
   pair.bring_up();
   const auto object = pattern(1'000'003);
   auto shared = share(object);
   const std::weak_ptr<const void> alive = shared.owner;
-  const MessageId id = pair[1].network.next_id();  // the question was of node b
+  const MessageId id = pair[1].network.next_id();  // node b asked
   REQUIRE(pair[0].network.send(b, id, ObjectFound{{7}, a}, std::move(shared)) ==
           SendOutcome::taken);
   pair.run(milliseconds(100));
@@ -66,7 +67,7 @@ TEST_CASE("a reply of many chunks arrives whole, and its bytes are given back",
   CHECK(alive.expired());
 }
 
-TEST_CASE("pieces that nobody waits for are dropped and counted", "[runtime][network]") {
+TEST_CASE("unexpected pieces are dropped and counted", "[runtime][network]") {
   Cluster pair(2, ring(2));
   pair.bring_up();
   pair[1].handler.wants_pieces = false;
@@ -76,12 +77,12 @@ TEST_CASE("pieces that nobody waits for are dropped and counted", "[runtime][net
   CHECK(pair[1].network.counters().dropped_unexpected == 4);
 }
 
-TEST_CASE("a message whose pieces stop coming is abandoned", "[runtime][network]") {
+TEST_CASE("a message whose pieces stop arriving is abandoned", "[runtime][network]") {
   Cluster pair(2, ring(2));
   pair.bring_up();
   const MessageId id = pair[1].network.next_id();
   pair[0].network.send(b, id, ObjectFound{}, share(pattern(10 * defaults::bulk_chunk_bytes)));
-  pair[0].network.poll(pair.clock.now());  // a window's worth goes out
+  pair[0].network.poll(pair.clock.now());  // one window goes out
   pair[1].network.poll(pair.clock.now());
   pair.stop(0);
   pair.run(seconds(11));
@@ -90,7 +91,7 @@ TEST_CASE("a message whose pieces stop coming is abandoned", "[runtime][network]
   CHECK(pair[1].network.counters().assemblies_abandoned == 1);
 }
 
-TEST_CASE("nodes that disagree refuse each other with the reason at both ends",
+TEST_CASE("nodes with different identities refuse each other with the reason at both ends",
           "[runtime][network]") {
   struct Row {
     RefusalReason reason;
@@ -125,7 +126,7 @@ TEST_CASE("nodes that disagree refuse each other with the reason at both ends",
 
 namespace {
 
-/// A worker and a controller whose results go somewhere, which are up.
+/// A connected worker and controller; the controller has a results path.
 Cluster working_pair() {
   Cluster pair(2, ring(2), [](NetConfig& config) {
     if (config.self == b) config.identity.results = "/results/first";
@@ -136,7 +137,7 @@ Cluster working_pair() {
 
 }  // namespace
 
-TEST_CASE("a node that works for a run refuses the controller of another, and its link stands",
+TEST_CASE("a node that works for a run refuses the controller of another, and its link stays up",
           "[runtime][network]") {
   Cluster pair = working_pair();
   REQUIRE(pair[0].network.phase(b) == LinkPhase::up);
@@ -153,7 +154,7 @@ TEST_CASE("a node that works for a run refuses the controller of another, and it
   CHECK(words.find("/results/second") != std::string::npos);
   CHECK(pair[0].network.phase(b) != LinkPhase::refused);
   CHECK(pair[0].network.counters().links_up == 1);
-  // The first, which was paused or begins anew, is taken back.
+  // The first controller, after a pause or a restart, is accepted again.
   NetConfig first = second;
   first.incarnation = {3001};
   first.identity.results = "/results/first";
@@ -179,7 +180,7 @@ TEST_CASE("a node whose run has said bye is free for another", "[runtime][networ
   CHECK(pair[1].network.phase(a) == LinkPhase::up);
 }
 
-TEST_CASE("at level statistical the instruction set is free", "[runtime][network]") {
+TEST_CASE("at level statistical the instruction sets may differ", "[runtime][network]") {
   Cluster pair(2, ring(2), [](NetConfig& config) {
     config.identity.level = Level::statistical;
     if (config.self == b) config.identity.isa = "sse2";
@@ -188,7 +189,7 @@ TEST_CASE("at level statistical the instruction set is free", "[runtime][network
   CHECK(pair[0].network.phase(b) == LinkPhase::up);
 }
 
-TEST_CASE("a refused node that was put right is taken in", "[runtime][network]") {
+TEST_CASE("a refused node is accepted after its configuration is fixed", "[runtime][network]") {
   Cluster pair = pair_with([](NetConfig& n) { ++n.identity.scene_hash; });
   pair.bring_up();
   REQUIRE(pair[0].network.phase(b) == LinkPhase::refused);
@@ -202,7 +203,7 @@ TEST_CASE("a refused node that was put right is taken in", "[runtime][network]")
   CHECK(pair[1].network.phase(a) == LinkPhase::up);
 }
 
-TEST_CASE("a node that restarts is taken in anew, and its earlier life is not mixed in",
+TEST_CASE("a restarted node is accepted, and its earlier incarnation is not mixed in",
           "[runtime][network]") {
   Cluster pair(2, ring(2));
   pair.bring_up();
@@ -224,7 +225,7 @@ TEST_CASE("a node that restarts is taken in anew, and its earlier life is not mi
   CHECK(pair[1].network.counters().dropped_stale >= 1);
 }
 
-TEST_CASE("a silent link is suspected, goes down, and comes up when it is healed",
+TEST_CASE("a silent link becomes suspect, goes down, and comes up when it is healed",
           "[runtime][network]") {
   Cluster pair(2, ring(2));
   pair.bring_up();
@@ -235,7 +236,7 @@ TEST_CASE("a silent link is suspected, goes down, and comes up when it is healed
   CHECK_FALSE(pair[0].network.phase(b) == LinkPhase::up);
   CHECK(pair[0].network.send(b, pair[0].network.next_id(), AskStatus{}) ==
         SendOutcome::unreachable);
-  // A connection may be what swallowed the frames.
+  // The connection may have swallowed the frames.
   CHECK(pair[0].transport.renewed == std::vector<NodeId>{b});
   CHECK(pair[1].transport.renewed == std::vector<NodeId>{a});
   pair.net.heal();
@@ -247,7 +248,7 @@ TEST_CASE("a silent link is suspected, goes down, and comes up when it is healed
   CHECK(pair[1].handler.count<AskStatus>() == 1);
 }
 
-TEST_CASE("who says bye is down at once", "[runtime][network]") {
+TEST_CASE("after bye a link is down at once", "[runtime][network]") {
   Cluster pair(2, ring(2));
   pair.bring_up();
   pair[1].network.say_bye();
@@ -256,11 +257,11 @@ TEST_CASE("who says bye is down at once", "[runtime][network]") {
   CHECK(pair[0].network.phase(b) == LinkPhase::down);
 }
 
-TEST_CASE("a node that stood still blames nobody and counts its lag", "[runtime][network]") {
+TEST_CASE("a stalled node suspects no neighbour and counts its lag", "[runtime][network]") {
   Cluster pair(2, ring(2));
   pair.bring_up();
   const uint64_t late = pair[0].network.counters().beats_late;
-  for (int i = 0; i < 10; ++i) {  // only b is polled, and beats into a full queue
+  for (int i = 0; i < 10; ++i) {  // only b is polled, and its beats fill the queue
     pair[1].network.poll(pair.clock.now());
     pair.clock.advance(milliseconds(100));
   }
@@ -293,7 +294,7 @@ TEST_CASE("small replies do not wait for a large one", "[runtime][network]") {
   CHECK(std::holds_alternative<ObjectNotHere>(pair[1].handler.taken[0].message));
 }
 
-TEST_CASE("an actor without room stops its senders and loses nothing", "[runtime][network]") {
+TEST_CASE("an actor without room blocks its senders and loses nothing", "[runtime][network]") {
   Cluster pair(2, ring(2), [](NetConfig& config) { config.outbox_messages = 8; });
   pair.bring_up();
   bool busy = true;
@@ -310,7 +311,7 @@ TEST_CASE("an actor without room stops its senders and loses nothing", "[runtime
       ++sent;
     }
   }
-  REQUIRE(sent < 100'000);  // the sender was stopped
+  REQUIRE(sent < 100'000);  // the sender was blocked
   busy = false;
   pair.run(seconds(1));
   CHECK(pair[1].handler.taken.size() >= sent);
@@ -329,7 +330,7 @@ TEST_CASE("a full transport delays frames and loses none", "[runtime][network]")
   CHECK(pair[0].network.counters().transport_full > 0);
 }
 
-TEST_CASE("frames that were flipped on the way end no node", "[runtime][network]") {
+TEST_CASE("frames with flipped bits end no node", "[runtime][network]") {
   Cluster trio(3, ring(3));
   trio.bring_up();
   trio.net.faults = {.loss = 0.02f, .twice = 0.02f, .reorder = 0.02f, .flipped_bit = 0.5f};
@@ -340,7 +341,7 @@ TEST_CASE("frames that were flipped on the way end no node", "[runtime][network]
   }
   CHECK(trio[1].network.counters().dropped_malformed > 100);
   trio.net.faults = {};
-  trio.run(seconds(70));  // a flipped bit may look like another scene: refused, and asked again
+  trio.run(seconds(70));  // a flipped bit may look like another scene, which is refused and retried
   for (uint16_t i = 0; i < 3; ++i)
     CHECK(trio[i].network.phase({static_cast<uint16_t>((i + 1) % 3)}) == LinkPhase::up);
   const size_t before = trio[1].handler.taken.size();
@@ -349,7 +350,7 @@ TEST_CASE("frames that were flipped on the way end no node", "[runtime][network]
   CHECK(trio[1].handler.taken.size() > before);
 }
 
-TEST_CASE("a configuration that contradicts itself is refused at start", "[runtime][network]") {
+TEST_CASE("an inconsistent configuration is rejected at start", "[runtime][network]") {
   const auto starts = [](const std::function<void(NetConfig&)>& change) {
     NetConfig config = config_of(0, 2, ring(2), 1);
     change(config);

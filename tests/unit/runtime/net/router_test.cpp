@@ -1,5 +1,5 @@
-// Frames that pass nodes: routes, hop limit, failures, answers on the way, and the proof by load
-// that store and forward cannot deadlock.
+// Forwarding: routes, hop limit, failures, answers on the way, and a load test that store and
+// forward cannot deadlock.
 #include "runtime/net/router.hpp"
 
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@ using namespace luxodus::test;
 
 namespace {
 
-/// The least that the protocol allows: every pool holds one chunk of 256 bytes.
+/// The smallest buffers that the protocol allows: every pool holds one chunk of 256 bytes.
 void tiny(NetConfig& config) {
   config.small_chunk_bytes = config.bulk_chunk_bytes = 256;
   config.small_window_bytes = config.bulk_window_bytes = frame_charge(256);
@@ -23,9 +23,9 @@ uint64_t dropped(const NetCounters& c) {
          c.dropped_hop_limit + c.dropped_unreachable + c.dropped_unexpected;
 }
 
-/// Every node asks `questions` questions, of the nodes at these distances in turn; each is answered
-/// with 1000 bytes. Boxes are kept full, so every buffer on every way is in use. Returns turns
-/// until all answers had come.
+/// Every node sends `questions` requests to the nodes at these distances in turn; each is answered
+/// with 1000 bytes. Outboxes are kept full, so every buffer on every path is in use. Returns the
+/// number of turns until all answers have arrived.
 int ask(Cluster& cluster, const std::vector<size_t>& distances, size_t questions, int max_turns) {
   const size_t n = cluster.size();
   const SharedBytes object = share(pattern(1000));
@@ -62,7 +62,7 @@ void check_no_drops(Cluster& cluster) {
 
 }  // namespace
 
-TEST_CASE("a message passes the nodes between and says how many links", "[runtime][router]") {
+TEST_CASE("a forwarded message arrives with its number of links", "[runtime][router]") {
   Cluster cluster(6, ring(6));
   cluster.bring_up();
   const MessageId id = cluster[0].network.next_id();
@@ -106,7 +106,7 @@ TEST_CASE("a node on the way that has the object answers", "[runtime][router]") 
   CHECK(std::get<FetchObject>(cluster[2].handler.taken[0].message).object == ObjectId{6});
 }
 
-TEST_CASE("when a link goes down all nodes go round it, and back when it returns",
+TEST_CASE("when a link goes down all nodes route around it, and back when it returns",
           "[runtime][router]") {
   Cluster cluster(6, ring(6));
   cluster.bring_up();
@@ -126,7 +126,7 @@ TEST_CASE("when a link goes down all nodes go round it, and back when it returns
   CHECK(cluster[1].handler.taken.back().hops == 1);
 }
 
-TEST_CASE("nodes that were parted agree on all links when they meet again", "[runtime][router]") {
+TEST_CASE("partitioned nodes agree on all links when they meet again", "[runtime][router]") {
   Cluster cluster(6, ring(6));
   cluster.bring_up();
   cluster.net.cut({0}, {5});
@@ -143,7 +143,7 @@ TEST_CASE("nodes that were parted agree on all links when they meet again", "[ru
   CHECK(cluster[4].handler.taken.size() == 1);
 }
 
-TEST_CASE("a node that restarts learns what became of the links meanwhile", "[runtime][router]") {
+TEST_CASE("a restarted node learns of link changes that it missed", "[runtime][router]") {
   Cluster cluster(6, ring(6));
   cluster.bring_up();
   NetConfig again = cluster[3].config;
@@ -159,7 +159,7 @@ TEST_CASE("a node that restarts learns what became of the links meanwhile", "[ru
   CHECK(cluster[4].handler.taken[0].hops == 2);
 }
 
-TEST_CASE("who is told that a link is up can send over it, also where routes had given it up",
+TEST_CASE("a handler told that a link is up can send over it, even if routes had given it up",
           "[runtime][router]") {
   Cluster pair(2, ring(2));
   pair.bring_up();
@@ -182,36 +182,36 @@ TEST_CASE("who is told that a link is up can send over it, also where routes had
   CHECK(pair[1].handler.count<AskStatus>() == 1);
 }
 
-// Without hop classes this one stops for good: every node fills the next one's buffer with frames
-// that have to go on, and no buffer ever becomes free.
-TEST_CASE("a full circle of frames that all have to go on does not deadlock", "[runtime][router]") {
+// Without hop classes this stops forever: every node fills the next one's buffer with frames to be
+// forwarded, and no buffer ever becomes free.
+TEST_CASE("a full cycle of frames that must all be forwarded does not deadlock",
+          "[runtime][router]") {
   Cluster cluster(7, ring(7), tiny);
   cluster.bring_up();
   CHECK(ask(cluster, {3}, 100, 20'000) < 20'000);
   check_no_drops(cluster);
 }
 
-TEST_CASE("full load from all to all on a ring does not deadlock", "[runtime][router]") {
+TEST_CASE("full all-to-all load on a ring does not deadlock", "[runtime][router]") {
   Cluster cluster(7, ring(7), tiny);
   cluster.bring_up();
   CHECK(ask(cluster, {1, 2, 3, 4, 5, 6}, 120, 40'000) < 40'000);
   check_no_drops(cluster);
 }
 
-TEST_CASE("full load from all to all on a graph of four links does not deadlock",
-          "[runtime][router]") {
-  Cluster cluster(13, chordal_ring(13, 5), tiny);  // C13(1,5): diameter 2, the least
+TEST_CASE("full all-to-all load on a graph of four links does not deadlock", "[runtime][router]") {
+  Cluster cluster(13, chordal_ring(13, 5), tiny);  // C13(1,5): diameter 2, the minimum
   cluster.bring_up();
   CHECK(ask(cluster, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 120, 40'000) < 40'000);
   check_no_drops(cluster);
 }
 
-TEST_CASE("under loss, doubles and disorder credit comes back and load goes on",
+TEST_CASE("under loss, duplication and reordering credit returns and load goes on",
           "[runtime][router]") {
   Cluster cluster(7, ring(7), tiny);
   cluster.bring_up();
   cluster.net.faults = {.loss = 0.05f, .twice = 0.05f, .reorder = 0.05f};
-  ask(cluster, {1, 2, 3, 4, 5, 6}, 120, 2'000);  // some answers never come
+  ask(cluster, {1, 2, 3, 4, 5, 6}, 120, 2'000);  // some answers never arrive
   cluster.net.faults = {};
   cluster.run(seconds(12));
   std::vector<size_t> before(cluster.size());

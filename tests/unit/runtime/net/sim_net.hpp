@@ -1,6 +1,5 @@
-// A network in memory for tests. Frames are on their way until arrive() is called, so that all
-// nodes act on what was sent before, as nodes at a distance do. Faults are drawn from a seed. One
-// thread.
+// An in-memory network for tests. Frames are in flight until arrive() is called, so that all nodes
+// act on what was sent before, as distant nodes do. Faults are drawn from a seed. One thread.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +17,7 @@
 namespace luxodus::test {
 
 struct SimFaults {
-  float loss = 0;  // shares of frames
+  float loss = 0;  // fractions of frames
   float twice = 0;
   float reorder = 0;  // a frame goes to the front of its queue
   float flipped_bit = 0;
@@ -31,10 +30,10 @@ class SimNet {
 
   SimFaults faults;
 
-  /// Frames between these two vanish, and sends say "taken".
+  /// Frames between these two are lost, while sends return "taken".
   void cut(NodeId a, NodeId b) { cut_.insert(std::minmax(a, b)); }
   void heal() { cut_.clear(); }
-  /// Sends to this node say "unreachable"; what was on its way to it is gone.
+  /// Sends to this node return "unreachable"; frames in flight to it are lost.
   void leave(NodeId node) {
     absent_.insert(node);
     for (auto* all : {&queues_, &on_way_})
@@ -65,7 +64,7 @@ class SimNet {
     return Sent::taken;
   }
 
-  /// What is on its way arrives.
+  /// Delivers the frames in flight.
   void arrive() {
     for (auto& [way, frames_on_way] : on_way_) {
       auto& queue = queues_[way];
@@ -98,7 +97,7 @@ class SimNet {
   }
 
   uint64_t frames = 0;
-  /// The first frames that were sent, as many as asked for.
+  /// The first `max_record` frames that were sent.
   std::vector<std::vector<std::byte>> recorded;
   size_t max_record = 0;
 
@@ -125,7 +124,7 @@ class SimTransport final : public Transport {
   std::optional<Arrival> receive() override {
     const auto from = net_.receive(self_, frame_);
     if (!from) return std::nullopt;
-    // At an odd address, as a real network hands frames out.
+    // At an odd address, as on a real network.
     shifted_.resize(frame_.size() + 1);
     if (!frame_.empty()) std::memcpy(shifted_.data() + 1, frame_.data(), frame_.size());
     return Arrival{from->first, from->second, std::span(shifted_).subspan(1)};

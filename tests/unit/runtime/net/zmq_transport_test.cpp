@@ -1,5 +1,5 @@
-// Real sockets on this machine. Nodes are polled until what is expected has happened; a bound on
-// polls makes a failure end. Only what libzmq does by its own clock is waited for.
+// Real sockets on this machine. Nodes are polled until the expected event; a limit on polls ends a
+// failing test. The tests wait only for libzmq's own timers.
 #include "runtime/net/zmq_transport.hpp"
 
 #include <arpa/inet.h>
@@ -52,7 +52,7 @@ bool both_up(RealNode& one, RealNode& other) {
   });
 }
 
-/// A question, and an answer of several chunks.
+/// A request, and an answer of several chunks.
 void exchange(RealNode& one, RealNode& other) {
   const auto object = pattern(300'001);
   other.handler.on_deliver = [&](const Delivery& d) {
@@ -117,7 +117,8 @@ TEST_CASE("nodes whose keys are listed exchange frames over CURVE", "[runtime][z
   CHECK(pair.context_a.turned_away() == 0);
 }
 
-TEST_CASE("a key that is not listed is turned away, and both ends count it", "[runtime][zmq]") {
+TEST_CASE("a client whose key is not listed is rejected, and both ends count it",
+          "[runtime][zmq]") {
   const KeyPair keys_a = make_keypair(), keys_b = make_keypair();
   CurvePair pair({{b, make_keypair().public_key}}, keys_a, keys_b, keys_a.public_key);
   CHECK(poll_until({&pair.one, &pair.other}, [&] {
@@ -137,7 +138,7 @@ TEST_CASE("a wrong server key ends the handshake, and both ends count it", "[run
   CHECK(pair.other.network.phase(a) != LinkPhase::up);
 }
 
-TEST_CASE("who breaks off a handshake where others have succeeded is not said to have another key",
+TEST_CASE("an aborted handshake at a proven endpoint is not reported as a wrong key",
           "[runtime][zmq]") {
   const KeyPair keys_a = make_keypair(), keys_b = make_keypair();
   ZmqContext context_b({});
@@ -150,7 +151,7 @@ TEST_CASE("who breaks off a handshake where others have succeeded is not said to
     REQUIRE(other.transport.connect(a, where, keys_a.public_key).ok());
     REQUIRE(both_up(one, other));
   }
-  // What a node that leaves is for who connects to it again: it accepts, and is gone.
+  // What a reconnecting neighbour sees of a leaving node: it accepts, and is gone.
   const int leaving = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const int yes = 1;
   ::setsockopt(leaving, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -169,7 +170,7 @@ TEST_CASE("who breaks off a handshake where others have succeeded is not said to
   CHECK(other.transport.counters().handshake_failed == 0);
 }
 
-TEST_CASE("a node without keys does not get in where keys are asked for", "[runtime][zmq]") {
+TEST_CASE("a node without keys is rejected if keys are required", "[runtime][zmq]") {
   const KeyPair keys_a = make_keypair();
   ZmqContext context_a({}), context_b({});
   RealNode one(context_a, {a, keys_a}, config_of(0, 2, ring(2), 1000));
@@ -181,16 +182,16 @@ TEST_CASE("a node without keys does not get in where keys are asked for", "[runt
   CHECK(one.network.counters().frames_received == 0);
 }
 
-TEST_CASE("a listed key speaks for its own node alone", "[runtime][zmq]") {
+TEST_CASE("a listed key is valid only for its own node", "[runtime][zmq]") {
   const KeyPair keys_a = make_keypair(), keys_b = make_keypair();
-  // The key of node 2, used by who calls itself node 1.
+  // The key of node 2, used by a node that claims to be node 1.
   CurvePair pair({{{2}, keys_b.public_key}}, keys_a, keys_b, keys_a.public_key);
   CHECK(poll_until({&pair.one, &pair.other},
                    [&] { return pair.one.transport.counters().strangers >= 1; }));
   CHECK(pair.one.network.counters().frames_received == 0);
 }
 
-TEST_CASE("endpoints beyond the host need keys, or the word insecure", "[runtime][zmq]") {
+TEST_CASE("endpoints beyond the host need keys or the option insecure", "[runtime][zmq]") {
   ZmqContext context({});
   ZmqTransport without(context, {a}, system_clock);
   const auto refused = without.listen({"tcp://*:*", "tcp://*:*"});
@@ -208,7 +209,7 @@ TEST_CASE("endpoints beyond the host need keys, or the word insecure", "[runtime
   CHECK_FALSE(stays_on_host("tcp://10.0.0.1:7000"));
 }
 
-TEST_CASE("an endpoint that is taken is a problem in words", "[runtime][zmq]") {
+TEST_CASE("an endpoint in use is reported with a message", "[runtime][zmq]") {
   ZmqContext context({});
   ZmqTransport one(context, {a}, system_clock), other(context, {b}, system_clock);
   const auto where = one.listen(tcp());
@@ -218,7 +219,7 @@ TEST_CASE("an endpoint that is taken is a problem in words", "[runtime][zmq]") {
   CHECK(taken.problem().text().find("cannot listen") != std::string::npos);
 }
 
-TEST_CASE("a neighbour that nobody hears is unreachable, not silently lost", "[runtime][zmq]") {
+TEST_CASE("a neighbour that does not exist is unreachable, not silently lost", "[runtime][zmq]") {
   ZmqContext context({});
   ZmqTransport alone(context, {b}, system_clock);
   REQUIRE(alone.connect(a, {"tcp://127.0.0.1:9", "tcp://127.0.0.1:9"}).ok());
@@ -226,7 +227,7 @@ TEST_CASE("a neighbour that nobody hears is unreachable, not silently lost", "[r
   CHECK(alone.send(a, Lane::control, frame, {}) == Sent::unreachable);
 }
 
-TEST_CASE("a process that starts again is taken in over the same sockets", "[runtime][zmq]") {
+TEST_CASE("a restarted process is accepted over the same sockets", "[runtime][zmq]") {
   ZmqContext context_a({});
   RealNode one(context_a, {a}, config_of(0, 2, ring(2), 1000));
   const auto where = one.transport.listen(tcp());
@@ -242,14 +243,14 @@ TEST_CASE("a process that starts again is taken in over the same sockets", "[run
   CHECK(one.network.counters().links_up == 2);
 }
 
-TEST_CASE("a connection that is renewed carries frames again", "[runtime][zmq]") {
+TEST_CASE("a renewed connection carries frames again", "[runtime][zmq]") {
   const KeyPair keys_a = make_keypair(), keys_b = make_keypair();
   CurvePair pair({{b, keys_b.public_key}}, keys_a, keys_b, keys_a.public_key);
   REQUIRE(both_up(pair.one, pair.other));
   for (int i = 0; i < 3; ++i) {
     const uint64_t before = pair.one.transport.counters().connected;
     pair.other.transport.renew(a);
-    pair.one.transport.renew(b);  // was not begun there: nothing happens
+    pair.one.transport.renew(b);  // it was not opened there: no effect
     REQUIRE(poll_until({&pair.one, &pair.other},
                        [&] { return pair.one.transport.counters().connected >= before + lanes; }));
     REQUIRE(both_up(pair.one, pair.other));
@@ -258,8 +259,7 @@ TEST_CASE("a connection that is renewed carries frames again", "[runtime][zmq]")
   }
 }
 
-TEST_CASE("a peer that ends while nobody reads what it has sent harms no one",
-          "[runtime][zmq][hostile]") {
+TEST_CASE("a peer that ends with unread frames does no harm", "[runtime][zmq][hostile]") {
   ZmqContext context_a({});
   ZmqConfig config{a};
   config.high_water_frames = 8;
@@ -280,7 +280,7 @@ TEST_CASE("a peer that ends while nobody reads what it has sent harms no one",
     }
   }
   REQUIRE(full == 100);
-  // What libzmq does with the connection by its own clock, it does in these seconds.
+  // libzmq's own timers act on the connection in these seconds.
   ZmqContext quiet({});
   ZmqTransport alone(quiet, {b}, system_clock);
   for (const Nanoseconds end = system_clock.now() + seconds(3); system_clock.now() < end;)
@@ -301,7 +301,7 @@ TEST_CASE("a wait ends when another thread wakes the node", "[runtime][zmq]") {
   SUCCEED("both waits ended");
 }
 
-TEST_CASE("a peer that floods a node which does not look fills queues of bounded length",
+TEST_CASE("a flooding peer fills only bounded queues of a node that does not read",
           "[runtime][zmq][hostile]") {
   spdlog::set_level(spdlog::level::off);
   ZmqContext context_a({}), context_b({});
@@ -314,7 +314,7 @@ TEST_CASE("a peer that floods a node which does not look fills queues of bounded
   ZmqTransport flood(context_b, config, system_clock);
   REQUIRE(flood.connect(a, where.value()).ok());
   const auto frame = pattern(60'000);
-  constexpr int in_a_row = 300;  // turns in which nothing more goes
+  constexpr int in_a_row = 300;  // consecutive turns without progress
   uint64_t taken = 0;
   int full = 0;
   for (int turn = 0; turn < 20'000 && full < in_a_row; ++turn) {
@@ -324,7 +324,7 @@ TEST_CASE("a peer that floods a node which does not look fills queues of bounded
     if (sent != Sent::taken) flood.wait_until(system_clock.now() + milliseconds(1));
   }
   CHECK(full == in_a_row);
-  // Both queues, and what the system's buffers of a connection hold, 12 MB at the very most.
+  // Both queues, and the system's socket buffers, at most 12 MB.
   CHECK(taken >= 32);
   CHECK(taken < 64 + 300);
   uint64_t come = 0;
@@ -332,10 +332,10 @@ TEST_CASE("a peer that floods a node which does not look fills queues of bounded
     while (node.receive()) ++come;
     node.wait_until(system_clock.now() + milliseconds(1));
   }
-  CHECK(come == taken);  // and nothing was lost
+  CHECK(come == taken);  // nothing was lost
 }
 
-TEST_CASE("strangers at the ports who say nothing, or anything, keep nobody from meeting",
+TEST_CASE("silent or noisy strangers at the ports do not prevent handshakes",
           "[runtime][zmq][hostile]") {
   ZmqContext context_a({}), context_b({});
   RealNode one(context_a, {a}, config_of(0, 2, ring(2), 1000));

@@ -19,7 +19,7 @@ TEST_CASE("an empty histogram has no durations", "[runtime][histogram]") {
   CHECK(empty.at(0.99) == 0);
 }
 
-TEST_CASE("one duration is every quantile, least and most", "[runtime][histogram]") {
+TEST_CASE("a single duration is every quantile, the least and the most", "[runtime][histogram]") {
   for (const Nanoseconds one : {Nanoseconds{1}, Nanoseconds{999}, microseconds(1), microseconds(99),
                                 microseconds(100), milliseconds(37), seconds(99), seconds(1000)}) {
     Histogram histogram;
@@ -33,7 +33,7 @@ TEST_CASE("one duration is every quantile, least and most", "[runtime][histogram
   }
 }
 
-TEST_CASE("quantiles err by less than a tenth, upwards, over all decades", "[runtime][histogram]") {
+TEST_CASE("quantiles err by less than a tenth, upwards, in all decades", "[runtime][histogram]") {
   Random random(5, RandomStream::test);
   random.start(1);
   Histogram histogram;
@@ -53,7 +53,7 @@ TEST_CASE("quantiles err by less than a tenth, upwards, over all decades", "[run
   }
 }
 
-TEST_CASE("two histograms add up to what one would have counted", "[runtime][histogram]") {
+TEST_CASE("two merged histograms equal one that counted everything", "[runtime][histogram]") {
   Histogram one, two, both;
   for (int i = 0; i < 1000; ++i) {
     const Nanoseconds duration = microseconds(1) << (i % 25);
@@ -71,7 +71,7 @@ TEST_CASE("two histograms add up to what one would have counted", "[runtime][his
   for (const double q : {0.1, 0.5, 0.9, 0.99}) CHECK(sum.at(q) == both.at(q));
 }
 
-TEST_CASE("negative durations count as none, and too long ones keep their maximum",
+TEST_CASE("negative durations count as zero, and too long ones keep their maximum",
           "[runtime][histogram]") {
   Histogram histogram;
   histogram.add(-5);

@@ -8,7 +8,7 @@
 
 using namespace luxodus;
 
-TEST_CASE("metrics are written as Prometheus reads them, families together", "[runtime][metrics]") {
+TEST_CASE("metrics are written in Prometheus' format, families together", "[runtime][metrics]") {
   uint64_t fetches = 0, resident = 0;
   Histogram latency;
   Metrics one("n1"), two("n2");
@@ -49,8 +49,7 @@ TEST_CASE("metrics are written as Prometheus reads them, families together", "[r
         "luxodus_resident_bytes{node=\"n2\"} 0\n");
 }
 
-TEST_CASE("what is read is what was published, not what is counted meanwhile",
-          "[runtime][metrics]") {
+TEST_CASE("readers see what was published, not what was counted since", "[runtime][metrics]") {
   uint64_t turns = 1;
   Metrics metrics("n1");
   metrics.add_counter({"turns", "", "Rounds.", ""}, turns);
@@ -61,8 +60,8 @@ TEST_CASE("what is read is what was published, not what is counted meanwhile",
   CHECK(Metrics::published({&metrics}).find("} 2\n") != std::string::npos);
 }
 
-TEST_CASE("readers and a publishing node do not meet", "[runtime][metrics]") {
-  // The two numbers are equal whenever they are published; a torn copy would show them apart.
+TEST_CASE("readers never see a partial publication", "[runtime][metrics]") {
+  // The two numbers are equal whenever they are published; a torn copy would show a difference.
   uint64_t first = 0, second = 0;
   Metrics metrics("n1");
   metrics.add_gauge({"first", "", "One of two.", ""}, first);

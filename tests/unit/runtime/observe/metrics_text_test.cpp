@@ -1,4 +1,4 @@
-// What one process writes another reads, and nothing that comes instead does harm.
+// Metrics text written by one process and parsed by another, and invalid text.
 #include "runtime/observe/metrics_text.hpp"
 
 #include <catch2/catch.hpp>
@@ -7,7 +7,8 @@
 
 using namespace luxodus;
 
-TEST_CASE("what is published is read again, names, labels and numbers", "[runtime][metrics]") {
+TEST_CASE("published metrics are parsed back, with names, labels and numbers",
+          "[runtime][metrics]") {
   uint64_t hits = 7;
   Histogram delay;
   Metrics metrics("n\"3\\");
@@ -26,7 +27,7 @@ TEST_CASE("what is published is read again, names, labels and numbers", "[runtim
   CHECK(samples[1].label("no_such_label").empty());
 }
 
-TEST_CASE("lines that are no samples are passed over", "[runtime][metrics]") {
+TEST_CASE("lines that are no samples are skipped", "[runtime][metrics]") {
   for (const char* line :
        {"", "# HELP a b", "{} 1", "a", "a{", "a{b}", "a{b=\"c} 1", "a{b=\"c\\", "a b", "a 1x",
         "a{b=\"c\"", "a{=\"c\"} 1", "\x01\xff", "a{b=\"c\"d=e} 1"}) {

@@ -5,8 +5,7 @@
 
 using namespace luxodus;
 
-TEST_CASE("particles are chosen by their id, and none where the sample is off",
-          "[runtime][trace]") {
+TEST_CASE("particles are sampled by their id, and none if sampling is off", "[runtime][trace]") {
   const TraceRing ring(8, 1000);
   CHECK(ring.wants(0));
   CHECK(ring.wants(41'000));
@@ -28,7 +27,7 @@ TEST_CASE("a ring keeps the last events, the oldest first", "[runtime][trace]") 
   CHECK(ring.recorded() == 5);
 }
 
-TEST_CASE("a trace is JSON with one track a node, and spans that join by request across nodes",
+TEST_CASE("a trace is JSON with one track per node, and spans join by request across nodes",
           "[runtime][trace]") {
   const uint64_t request = 0xfeed;
   const std::vector<TraceTrack> tracks{

@@ -14,7 +14,7 @@ namespace {
 
 constexpr NodeId first{0}, second{1};
 
-/// Sends a number every millisecond, so many in all, and notes what comes.
+/// Sends a number every millisecond, up to a count, and records what arrives.
 class Counting final : public SimNode {
  public:
   Counting(SimWorld& world, NodeId self, int sends)
@@ -91,7 +91,7 @@ FaultPlan quiet() {
 
 }  // namespace
 
-TEST_CASE("frames come after the link's delay, in their order", "[sim]") {
+TEST_CASE("frames arrive after the link's delay, in order", "[sim]") {
   FaultPlan plan = quiet();
   plan.links.delay = milliseconds(7);
   plan.links.jitter = milliseconds(3);
@@ -105,7 +105,7 @@ TEST_CASE("frames come after the link's delay, in their order", "[sim]") {
   }
 }
 
-TEST_CASE("one seed is one run, and another seed another", "[sim]") {
+TEST_CASE("the same seed gives the same run, and another seed another", "[sim]") {
   FaultPlan plan = quiet();
   plan.links.loss = plan.links.duplication = plan.links.reordering = plan.links.corruption = 0.1;
   const auto hash_of = [&](uint64_t seed) {
@@ -117,7 +117,7 @@ TEST_CASE("one seed is one run, and another seed another", "[sim]") {
   CHECK(hash_of(3) != hash_of(4));
 }
 
-TEST_CASE("links lose, double and overtake as often as they are told to", "[sim]") {
+TEST_CASE("links lose, duplicate and reorder at their configured rates", "[sim]") {
   FaultPlan plan = quiet();
   SECTION("loss") {
     plan.links.loss = 0.2;
@@ -154,7 +154,7 @@ TEST_CASE("links lose, double and overtake as often as they are told to", "[sim]
   }
 }
 
-TEST_CASE("nothing goes wrong once all is healed", "[sim]") {
+TEST_CASE("after healing no faults occur", "[sim]") {
   FaultPlan plan = quiet();
   plan.links.loss = plan.links.duplication = plan.links.corruption = 0.5;
   plan.healed_at = 0;
@@ -164,7 +164,7 @@ TEST_CASE("nothing goes wrong once all is healed", "[sim]") {
   CHECK(pair.world->counters().lost == 0);
 }
 
-TEST_CASE("a cut loses frames and tells nobody, a broken connection tells its ends", "[sim]") {
+TEST_CASE("a cut loses frames silently, a broken connection notifies both ends", "[sim]") {
   FaultPlan plan = quiet();
   Fault fault;
   fault.at = milliseconds(100);
@@ -185,7 +185,7 @@ TEST_CASE("a cut loses frames and tells nobody, a broken connection tells its en
     plan.faults = {fault};
     Pair pair(plan);
     pair.run(seconds(2));
-    CHECK(pair.nodes[0]->outcomes[Sent::unreachable] > 95);  // until it is connected again
+    CHECK(pair.nodes[0]->outcomes[Sent::unreachable] > 95);  // until it reconnects
     CHECK(pair.nodes[0]->outcomes[Sent::unreachable] < 105);
   }
   SECTION("clog") {
@@ -198,7 +198,7 @@ TEST_CASE("a cut loses frames and tells nobody, a broken connection tells its en
   }
 }
 
-TEST_CASE("a crashed node is gone with what was on its way, and begins anew", "[sim]") {
+TEST_CASE("a crashed node loses the frames in flight to it, and restarts", "[sim]") {
   FaultPlan plan = quiet();
   plan.links.delay = milliseconds(50);
   plan.faults = {{Fault::Kind::crash, milliseconds(500), milliseconds(200), second, {}, 1}};
@@ -210,11 +210,11 @@ TEST_CASE("a crashed node is gone with what was on its way, and begins anew", "[
   CHECK(pair.world->node(second) == nullptr);
   pair.run(seconds(2));
   CHECK(pair.lives[1] == 2);
-  CHECK(pair.nodes[1]->came.front() > 690);  // nothing of what was sent to the life before
+  CHECK(pair.nodes[1]->came.front() > 690);  // nothing that was sent to the life before
   CHECK(pair.nodes[0]->outcomes[Sent::unreachable] > 150);
 }
 
-TEST_CASE("a paused node stands still, a slow one takes its time", "[sim]") {
+TEST_CASE("a paused node stops, a slow one takes longer", "[sim]") {
   FaultPlan plan = quiet();
   plan.faults = {{Fault::Kind::pause, milliseconds(100), milliseconds(300), first, {}, 1}};
   Pair pair(plan);
@@ -231,7 +231,7 @@ TEST_CASE("a paused node stands still, a slow one takes its time", "[sim]") {
   CHECK(clock.now() == 300);
 }
 
-TEST_CASE("swarms differ from seed to seed, and nothing outlasts their healing", "[sim]") {
+TEST_CASE("swarms differ from seed to seed, and no fault outlasts their healing", "[sim]") {
   SwarmFrame frame;
   frame.nodes = 5;
   for (uint16_t i = 0; i < 5; ++i)

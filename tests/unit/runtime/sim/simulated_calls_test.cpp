@@ -6,7 +6,7 @@
 
 using namespace luxodus;
 
-TEST_CASE("a simulated call is made at once, and done when its time has passed", "[runtime][sim]") {
+TEST_CASE("a simulated call is made at once, and completes after its delay", "[runtime][sim]") {
   test::Node node;
   SimulatedCalls calls(node.scheduler, [] { return milliseconds(5); });
   bool called = false, done = false;

@@ -26,7 +26,7 @@ std::string text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// A store in memory that outlives the journals over it, and fails when told to.
+/// An in-memory store that outlives its journals, and fails on request.
 struct Disk {
   Bytes bytes;
   size_t room = SIZE_MAX;
@@ -62,7 +62,7 @@ Result<Journal> opened(Disk& disk, std::vector<std::string>& records, uint64_t i
                        });
 }
 
-/// With three records.
+/// A disk with three records.
 Disk filled() {
   Disk disk;
   std::vector<std::string> none;
@@ -77,7 +77,7 @@ const std::vector<std::string> three = {"first", "", "third, and longer"};
 
 }  // namespace
 
-TEST_CASE("a journal shows its records again, in their order", "[storage]") {
+TEST_CASE("a reopened journal returns its records in order", "[storage]") {
   Disk disk = filled();
   std::vector<std::string> records;
   auto journal = opened(disk, records);
@@ -91,7 +91,7 @@ TEST_CASE("a journal shows its records again, in their order", "[storage]") {
   CHECK(records.back() == "fourth");
 }
 
-TEST_CASE("a journal cut anywhere keeps every record that is whole, and goes on", "[storage]") {
+TEST_CASE("a journal truncated anywhere keeps every whole record, and continues", "[storage]") {
   const Disk whole = filled();
   size_t most = 0;
   for (size_t bytes = 0; bytes <= whole.bytes.size(); ++bytes) {
@@ -111,7 +111,7 @@ TEST_CASE("a journal cut anywhere keeps every record that is whole, and goes on"
   CHECK(most == 3);
 }
 
-TEST_CASE("a record of which any bit has changed is no end before whole ones, and none is wrong",
+TEST_CASE("a flipped bit before whole records is an error, and no record is ever wrong",
           "[storage]") {
   const Disk whole = filled();
   const size_t last = whole.bytes.size() - 16 - three.back().size();
@@ -122,7 +122,7 @@ TEST_CASE("a record of which any bit has changed is no end before whole ones, an
     std::vector<std::string> records;
     const auto journal = opened(disk, records);
     if (bit / 8 < 24) {
-      CHECK_FALSE(journal.ok());  // its head: of another run, or none
+      CHECK_FALSE(journal.ok());  // its head: of another run, or no journal
       continue;
     }
     if (bit / 8 < last) {
@@ -138,7 +138,7 @@ TEST_CASE("a record of which any bit has changed is no end before whole ones, an
   }
 }
 
-TEST_CASE("a full disk costs the record that finds no room, and nothing else", "[storage]") {
+TEST_CASE("a full disk loses only the record without space", "[storage]") {
   Disk disk = filled();
   std::vector<std::string> records;
   auto journal = opened(disk, records);
@@ -153,7 +153,7 @@ TEST_CASE("a full disk costs the record that finds no room, and nothing else", "
   CHECK(records.back() == "this does");
 }
 
-TEST_CASE("a journal of another run is refused, and one begun anew is empty", "[storage]") {
+TEST_CASE("a journal of another run is rejected, and a restarted one is empty", "[storage]") {
   Disk disk = filled();
   const Bytes before = disk.bytes;
   std::vector<std::string> records;
@@ -169,7 +169,7 @@ TEST_CASE("a journal of another run is refused, and one begun anew is empty", "[
   CHECK(records == std::vector<std::string>{"of the new beginning"});
 }
 
-TEST_CASE("a file keeps a journal, for one process at a time", "[storage]") {
+TEST_CASE("a journal file is open in one process at a time", "[storage]") {
   const test::TemporaryFolder folder;
   const fs::path path = folder / "run.journal";
   std::vector<std::string> records;

@@ -9,7 +9,7 @@
 
 using namespace luxodus;
 
-TEST_CASE("room is kept without a file that anybody sees, and more than there is is refused",
+TEST_CASE("space is reserved without a visible file, and more than there is is refused",
           "[storage]") {
   const test::TemporaryFolder folder;
   const std::string name = folder.path();

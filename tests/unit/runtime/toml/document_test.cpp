@@ -1,11 +1,11 @@
-// From text to values: what the parser says, in our types and with lines.
+// From text to values: the parser's results in our types, with lines.
 #include "runtime/toml/document.hpp"
 
 #include "tests/unit/runtime/toml/toml_kit.hpp"
 
 namespace luxodus::toml {
 
-TEST_CASE("every type of TOML is a value with its line", "[runtime][toml]") {
+TEST_CASE("every TOML type becomes a value with its line", "[runtime][toml]") {
   const Document document = parsed(
       "t = 'a'\ni = 7\nf = 1.5\nb = true\nd = 1979-05-27\nh = 07:32:00\n"
       "l = [1,\n 'x']\n[x.y]\nz = { q = 1 }\n");
@@ -35,7 +35,7 @@ TEST_CASE("values keep their place when their document moves", "[runtime][toml]"
   CHECK(second.top.find("a")->place().file == "dir/lamp.toml");
 }
 
-TEST_CASE("what is no TOML, too long or too deep is one problem with its line", "[runtime][toml]") {
+TEST_CASE("invalid, too long or too deep TOML is one problem with its line", "[runtime][toml]") {
   const auto wrong = [](const std::string& text, Quoting quoting = Quoting::allowed) {
     const auto document = parse(text, "f.toml", 1000, quoting);
     return document ? std::string() : document.problem().text();

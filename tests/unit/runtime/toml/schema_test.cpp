@@ -1,4 +1,4 @@
-// Tables as data, their reference, and the words of people.
+// Schemas and their Markdown reference; nearest words and sizes.
 #include "runtime/toml/schema.hpp"
 
 #include "runtime/toml/words.hpp"
@@ -6,7 +6,8 @@
 
 namespace luxodus::toml {
 
-TEST_CASE("a schema is a heading and a table of keys for each table", "[runtime][toml]") {
+TEST_CASE("a schema is printed as a heading and a table of keys for each table",
+          "[runtime][toml]") {
   const Schema schema{{{"a",
                         "`[a]`",
                         {{"x", "number", "m", "1", "[0, 2]", "a width", "w, wide"},
@@ -23,7 +24,7 @@ TEST_CASE("a schema is a heading and a table of keys for each table", "[runtime]
   CHECK_THROWS_AS(schema.key("a", "z"), std::logic_error);
 }
 
-TEST_CASE("a range holds its ends where they are closed", "[runtime][toml]") {
+TEST_CASE("a range contains its ends if they are closed", "[runtime][toml]") {
   const auto range = interval_of("(0, 1e3]");
   REQUIRE(range.has_value());
   CHECK_FALSE(range->holds(0));
@@ -37,7 +38,7 @@ TEST_CASE("a range holds its ends where they are closed", "[runtime][toml]") {
   CHECK(words_of("").empty());
 }
 
-TEST_CASE("sizes are written as people write them", "[runtime][toml]") {
+TEST_CASE("sizes are parsed as people write them", "[runtime][toml]") {
   CHECK(bytes_in("4096") == 4096.0);
   CHECK(bytes_in("512 MiB") == 512.0 * 1024 * 1024);
   CHECK(bytes_in("1.5GB") == 1.5e9);
@@ -47,7 +48,7 @@ TEST_CASE("sizes are written as people write them", "[runtime][toml]") {
   }
 }
 
-TEST_CASE("the nearest word is what was meant, or nothing", "[runtime][toml]") {
+TEST_CASE("the nearest word is the intended one, or none", "[runtime][toml]") {
   const std::vector<std::string_view> keys{"object_bytes", "tally_bytes", "fibers", "port"};
   CHECK(nearest_word("objects_bytes", keys) == "object_bytes");
   CHECK(nearest_word("fibres", keys) == "fibers");
@@ -58,8 +59,8 @@ TEST_CASE("the nearest word is what was meant, or nothing", "[runtime][toml]") {
   CHECK(nearest_word("reflectence", materials) == "reflectance");
   CHECK(nearest_word("oir", materials) == "ior");
   CHECK_FALSE(nearest_word("transparency", materials).has_value());
-  CHECK_FALSE(nearest_word("n9", {"n0"}).has_value());  // half of it, not a third
-  CHECK_FALSE(nearest_word("m", {"n"}).has_value());    // of "n" nothing would be left
+  CHECK_FALSE(nearest_word("n9", {"n0"}).has_value());  // half of it is wrong, not a third
+  CHECK_FALSE(nearest_word("m", {"n"}).has_value());    // nothing of "n" would be left
 }
 
 }  // namespace luxodus::toml

@@ -1,4 +1,4 @@
-// The reader of tables, by a schema of its own: values, defaults, and one sentence for each slip.
+// The table reader with a schema of its own: values, defaults, and one message for each mistake.
 #include "runtime/toml/table_reader.hpp"
 
 #include "tests/unit/runtime/toml/toml_kit.hpp"
@@ -14,7 +14,7 @@ struct Slip {
   std::string sentence;
 };
 
-/// Each text must give exactly the sentence that stands beside it.
+/// Each text must give exactly the message beside it.
 void check(const std::vector<Slip>& slips) {
   for (const Slip& slip : slips) {
     INFO(slip.text);
@@ -46,7 +46,7 @@ TEST_CASE("an empty table has the defaults of its schema", "[runtime][toml]") {
   CHECK(keys.clean());
 }
 
-TEST_CASE("values are read as they stand, of the types of the schema", "[runtime][toml]") {
+TEST_CASE("values are read with the types of the schema", "[runtime][toml]") {
   const Document document = parsed(
       "title = 't'\nheight_m = 3\nmax_tubes = 8\ncache = '2 KB'\nlit = false\ncolour = 'cold'\n"
       "at = [0, 1.5, -2]\ncurve = [[-5, 0.5]]\nlevels = [1, 2.5]\ntags = ['a', 'b']\n"
@@ -77,7 +77,7 @@ TEST_CASE("values are read as they stand, of the types of the schema", "[runtime
   CHECK_FALSE(findings.any_problem());
 }
 
-TEST_CASE("a slip in a key or a single value is one sentence that says what is right",
+TEST_CASE("a mistake in a key or a single value gives one message that says what is right",
           "[runtime][toml]") {
   check({
       {"heigth_m = 1", [](TableReader& keys) { keys.number("height_m"); },
@@ -124,7 +124,7 @@ TEST_CASE("a slip in a key or a single value is one sentence that says what is r
   });
 }
 
-TEST_CASE("a slip in a list or a table is one sentence that says what is right",
+TEST_CASE("a mistake in a list or a table gives one message that says what is right",
           "[runtime][toml]") {
   check({
       {"at = [1, 2]", [](TableReader& keys) { keys.components<3>("at", "point"); },
@@ -151,7 +151,7 @@ TEST_CASE("a slip in a list or a table is one sentence that says what is right",
   });
 }
 
-TEST_CASE("a key that is like none of the schema is told with those that are known",
+TEST_CASE("an unknown key unlike any in the schema is reported with the known ones",
           "[runtime][toml]") {
   const auto found = problems_of("zzzzzzzzz = 1", [](TableReader&) {});
   REQUIRE(found.size() == 1);
@@ -159,7 +159,7 @@ TEST_CASE("a key that is like none of the schema is told with those that are kno
       "dir/lamp.toml:1: unknown key 'zzzzzzzzz'; known here: title name height_m max_tubes"));
 }
 
-TEST_CASE("a former name of a key is read with one warning, however often it stands",
+TEST_CASE("a former name of a key is read with one warning, however often it occurs",
           "[runtime][toml]") {
   const Document document = parsed("tubes_most = 3\nhigh = 4\n[[part]]\ntubes_most = 5\n");
   Findings findings;
@@ -182,8 +182,7 @@ TEST_CASE("a former name of a key is read with one warning, however often it sta
                   "'max_tubes'"});
 }
 
-TEST_CASE("a usual angle in radians, where degrees are read, is read with a warning",
-          "[runtime][toml]") {
+TEST_CASE("a common angle in radians given as degrees is read with a warning", "[runtime][toml]") {
   const KeySpec turn{"turn_deg", "number", "deg", "0", "[-360, 360]", "", {}};
   const Schema turned{{TableSpec{"lamp", "", {turn}}}};
   const auto warned = [&](const std::string& number) {
@@ -204,7 +203,7 @@ TEST_CASE("a usual angle in radians, where degrees are read, is read with a warn
     CHECK(warned(meant).empty());
 }
 
-TEST_CASE("the kind of a table decides which keys it has besides", "[runtime][toml]") {
+TEST_CASE("the kind of a table decides which further keys it has", "[runtime][toml]") {
   const auto kind_of = [](const std::string& text) {
     const Document document = parsed(text);
     return chosen_kind(document.top, lamp_schema(), "lamp", "kind");
@@ -220,7 +219,7 @@ TEST_CASE("the kind of a table decides which keys it has besides", "[runtime][to
   CHECK(specs("") == Sentences{"lamp", "lamp.round", "lamp.long"});
 }
 
-TEST_CASE("a key that the schema does not have is a mistake of the program", "[runtime][toml]") {
+TEST_CASE("a key that the schema lacks is a programming error", "[runtime][toml]") {
   const Document document = parsed("");
   Findings findings;
   TableReader keys(document.top, lamp_schema(), {"lamp"}, findings);
@@ -230,7 +229,8 @@ TEST_CASE("a key that the schema does not have is a mistake of the program", "[r
   CHECK_THROWS_AS(TableReader(document.top, lamp_schema(), {"lmap"}, findings), std::logic_error);
 }
 
-TEST_CASE("problems are told once, by file and line, and not without end", "[runtime][toml]") {
+TEST_CASE("problems are reported once, by file and line, and their number is bounded",
+          "[runtime][toml]") {
   Findings findings;
   findings.problem({"b.toml", 9}, "late");
   findings.problem({"b.toml", 2}, "early");

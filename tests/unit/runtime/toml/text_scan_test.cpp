@@ -12,13 +12,13 @@ std::string repeated(const std::string& part, size_t times) {
   return out;
 }
 
-/// The line that is refused, 0 where none is.
+/// The line that is rejected, 0 if none is.
 int refused_line(const std::string& text) {
   const auto problem = toml::too_deep(text, "deep.toml");
   return problem ? problem->where.line : 0;
 }
 
-/// A key with so many dots.
+/// A key with this many dots.
 std::string key(size_t dots) {
   return repeated("a.", dots) + "a";
 }
@@ -29,7 +29,7 @@ std::string list(size_t brackets) {
 
 }  // namespace
 
-TEST_CASE("keys and brackets nest up to the limit and no deeper, and the line is told",
+TEST_CASE("keys and brackets nest up to the limit and no deeper, and the line is reported",
           "[runtime][toml]") {
   const size_t most = limits::toml_nesting;
   CHECK(refused_line(key(most) + " = 1\n" + list(most)) == 0);
@@ -42,7 +42,7 @@ TEST_CASE("keys and brackets nest up to the limit and no deeper, and the line is
   CHECK(refused_line("x = " + repeated("{a=", most + 1)) == 1);
 }
 
-TEST_CASE("width is not depth: long lists of fractions and many keys pass", "[runtime][toml]") {
+TEST_CASE("long lists of fractions and many keys do not count as depth", "[runtime][toml]") {
   CHECK(refused_line("x = [" + repeated("1.5, ", 1000) + "]\n") == 0);
   CHECK(refused_line("x = [" + repeated("[1.5, 2.5], ", 1000) + "]\n") == 0);
   CHECK(refused_line(repeated("[[t]]\na.b = 1.5\n", 1000)) == 0);
@@ -67,7 +67,7 @@ TEST_CASE("strings and comments do not count, and what follows them does", "[run
   CHECK(refused_line("\"\\") == 0);
 }
 
-TEST_CASE("a text with the oldest names of its keys is the text that said them",
+TEST_CASE("a text rewritten with the oldest names equals the text that used them",
           "[runtime][toml]") {
   const toml::Schema schema{{{"t",
                               "`[t]`",

@@ -1,4 +1,4 @@
-// A small schema and tiny verbs for tests of the reader. Test code; one thread.
+// A small schema and short helpers for tests of the reader. Test code; one thread.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -48,7 +48,7 @@ inline Document parsed(const std::string& text) {
   return std::move(document).value();
 }
 
-/// What `read` finds wrong with a text, a sentence each.
+/// The messages that `read` causes for a text.
 template <class Read>
 std::vector<std::string> problems_of(const std::string& text, const Read& read) {
   const Document document = parsed(text);

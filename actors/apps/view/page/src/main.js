@@ -1,5 +1,4 @@
-// The page of `luxodus view`: makes its parts, tells each what concerns it, and runs the loop of
-// the screen.
+// The page of `luxodus view`: makes its parts, connects them, and runs the frame loop.
 import './page.css';
 import { LightDisplay } from './draw/light_display.js';
 import { Picture } from './draw/picture.js';
@@ -46,7 +45,7 @@ class Page {
     requestAnimationFrame((now) => this.tick(now));
   }
 
-  /** What people ask for with the panels' buttons, boxes and sliders. */
+  /** Actions of the panels' buttons, boxes and sliders. */
   wants() {
     const { walk, edits, building, light } = this;
     return {
@@ -73,7 +72,7 @@ class Page {
     };
   }
 
-  /** What hands on the picture and on the keyboard ask for. */
+  /** Actions of pointer and keyboard on the picture. */
   gestures() {
     const { walk, selection } = this;
     const keys = keyActions(this);
@@ -90,7 +89,7 @@ class Page {
     };
   }
 
-  /** Who hears of what the program tells, by the events of `Live`. */
+  /** Receivers of the program's messages, by the events of `Live`. */
   listeners() {
     const { panels, building, light, selection, edits } = this;
     return {
@@ -140,7 +139,7 @@ class Page {
     this.selection.keep(scene);
   }
 
-  /** A traced picture of what is looked at. A plan is no perspective. */
+  /** A traced picture of the current view. A plan has no perspective. */
   render() {
     const { live, walk, picture, panels } = this;
     if (!live.scene || walk.inPlan) return;
@@ -163,7 +162,7 @@ class Page {
     requestAnimationFrame((then) => this.tick(then));
   }
 
-  /** Nothing waits to be brought to the screen. */
+  /** Nothing waits to be shown. */
   get settled() {
     return this.light.settled && this.walk.shown && this.picture.complete;
   }
@@ -172,7 +171,7 @@ class Page {
 function begin() {
   try {
     const page = new Page();
-    // For tests and for the curious at the console.
+    // For tests and for the browser's console.
     window.luxodus = {
       page,
       meanLuminance: () => page.picture.meanLuminance(),

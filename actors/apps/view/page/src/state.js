@@ -1,12 +1,12 @@
-// What the program has told: the generation that is shown, and the next one while its light is
-// awaited. Pure: knows no screen, no socket, and only the clock that it is given.
+// The state received from the program: the generation that is shown, and the next one while its
+// light is awaited. Pure: uses no screen and no socket, and only the clock that it is given.
 import { kinds, ProtocolError } from './protocol/decode_frame.js';
 import { smokeSum, surfaceSum } from './light/sum.js';
 
-/** After a new generation's first light, so long are the other groups waited for. */
+/** After a new generation's first light, how long to wait for the other groups. */
 const gatherMs = 250;
 
-/** What a group gives of the light that was traced: dimmed by hands, and by the time since. */
+/** The factor of a group's traced light: the viewers' dimming, times the share at this time. */
 export const weightOf = ({ factor, share }) => factor * share;
 
 const demand = (condition, what) => {
@@ -20,20 +20,20 @@ class Generation {
     this.geometry = null;
     this.smoke = null;
     this.frames = new Map();
-    /** Whether its triangles are others: then all light comes with it, and none is carried over. */
+    /** Whether its triangles differ: then all light comes with it, and none is carried over. */
     this.relaid = scene.relaid;
   }
 }
 
 /**
- * Tells `tell(event, detail)` of: 'scene', 'geometry', 'smoke', 'light', 'fading' (true, false),
- * and passes on the messages that concern no picture under their type.
+ * Calls `tell(event, detail)` for 'scene', 'geometry', 'smoke', 'light', 'fading' (true, false),
+ * and passes on messages that do not concern the picture under their type.
  */
 export class Live {
   constructor(tell, later = (f, ms) => setTimeout(f, ms)) {
     this.tell = tell;
     this.later = later;
-    /** Groups under this viewer's own hand: what comes of them is an echo, and older. */
+    /** Groups that this viewer is dimming: values received for them are older echoes. */
     this.held = () => false;
     this.forget();
   }
@@ -83,7 +83,7 @@ export class Live {
     this.tell('editor', { editor: scene.editor });
   }
 
-  /** What was sent for a generation that was never shown, and is not sent again. */
+  /** Data sent for a generation that was never shown, and that are not sent again. */
   carry(waited, next) {
     next.smoke = waited.smoke;
     if (next.relaid) return;
@@ -135,7 +135,7 @@ export class Live {
     this.later(() => this.next === next && this.promote(), gatherMs);
   }
 
-  /** The next generation becomes the one shown; of the old one's light stays what still fits. */
+  /** Shows the next generation; keeps the old one's light where it still applies. */
   promote() {
     const { next } = this;
     const old = this.shown;
@@ -193,7 +193,7 @@ export class Live {
     this.tell('factors', changes);
   }
 
-  /** Dims a group, in the picture and in the generation that is awaited. */
+  /** Dims a group, in the shown and in the awaited generation. */
   setFactor(name, factor) {
     for (const generation of [this.shown, this.next]) {
       const group = generation?.scene.groups.find((g) => g.name === name);
@@ -202,7 +202,7 @@ export class Live {
     this.refactor();
   }
 
-  /** So long after the mains have failed, in the picture and in the generation that is awaited. */
+  /** Sets the time since the mains failure, in the shown and in the awaited generation. */
   time({ seconds, shares }) {
     const byName = new Map(shares.map(({ name, share }) => [name, share]));
     for (const generation of [this.shown, this.next]) {
@@ -224,7 +224,7 @@ export class Live {
     if (changed) this.tell('light', null);
   }
 
-  /** Takes out what rounding has left in the sums, some groups at a time; true when it is done. */
+  /** Removes rounding errors from the sums, some groups at a time; true when done. */
   settle(most) {
     const sums = [this.shown?.surfaces, this.shown?.air].filter((sum) => sum?.rounded);
     if (!sums.every((sum) => sum.settle(most))) return false;

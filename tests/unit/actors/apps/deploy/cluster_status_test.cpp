@@ -1,4 +1,4 @@
-// What a line of `luxodus status` says follows from the pages of the processes.
+// The lines of `luxodus status`, made from the pages of the processes.
 #include "actors/apps/deploy/cluster_status.hpp"
 
 #include <catch2/catch.hpp>
@@ -34,7 +34,7 @@ const std::string page_of_a =
 
 }  // namespace
 
-TEST_CASE("a node's line has its own numbers, and the state that its neighbours see",
+TEST_CASE("a node's line has its own numbers, and the state seen by its neighbours",
           "[supervise][status]") {
   const std::vector<AskedProcess> processes{process_of("p", {"a"}), process_of("q", {"b", "c"})};
   const std::string page_of_others =
@@ -49,7 +49,7 @@ TEST_CASE("a node's line has its own numbers, and the state that its neighbours 
   CHECK(rows[0].state == NodeState::up);
   CHECK(rows[0].role == "worker");
   CHECK(rows[0].led_by == "c");
-  CHECK(rows[1].led_by == "node 7");  // no page tells its name
+  CHECK(rows[1].led_by == "node 7");  // no page states its name
   CHECK(rows[2].led_by.empty());
   CHECK(rows[0].fibers == 40.0);
   CHECK(rows[0].letters == 5.0);
@@ -84,7 +84,7 @@ TEST_CASE("nodes of a process that does not answer are down, each with the reaso
   CHECK(table.find(" \n") == std::string::npos);
 }
 
-TEST_CASE("what a process shows of its nodes is what status reads of them", "[supervise][status]") {
+TEST_CASE("status reads the pages that processes serve about their nodes", "[supervise][status]") {
   ObserveOptions options;
   options.metrics_port = 0;
   const auto seen = Observation::start(options);
@@ -107,7 +107,8 @@ TEST_CASE("what a process shows of its nodes is what status reads of them", "[su
   CHECK(rows[0].process_bytes.value_or(0) > 0);
 }
 
-TEST_CASE("a cluster without a metrics port is told which key it lacks", "[supervise][status]") {
+TEST_CASE("a cluster without a metrics port gets a message with the missing key",
+          "[supervise][status]") {
   ClusterConfig cluster;
   cluster.file = "c.toml";
   cluster.hosts.push_back({"here", "10.0.0.1", "*", 27600});

@@ -1,4 +1,4 @@
-// What a view says where the files of its scene are others than when it was opened.
+// A live view after the files of its scene have changed.
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -18,7 +18,7 @@ const std::string watched_room = live_room +
                                  "target = [5.9, 2, 2.2]\n"
                                  "[assessment]\nirritant_smoke = false\n";
 
-/// What the viewer is refused when it says this.
+/// The refusal that the viewer gets for this message.
 std::string refused_when(Edited& live, const std::string& said) {
   live.says(said);
   live.posts.until([&] { return live.viewer.last("refused") != nullptr; });
@@ -33,7 +33,7 @@ TEST_CASE("verdicts, pictures, suggestions and variants of an edited scene are r
   const auto file = folder.write("scene.toml", watched_room);
   Edited live(described(file));
   CHECK(live.verdicts_on("exit")["rows"].size() == 1);
-  folder.write("scene.toml", watched_room);  // the same bytes: nobody has changed it
+  folder.write("scene.toml", watched_room);  // the same bytes: the scene is unchanged
   CHECK(live.verdicts_on("exit")["rows"].size() == 1);
 
   folder.write("scene.toml", watched_room + "# a word\n");
@@ -51,7 +51,7 @@ TEST_CASE("verdicts, pictures, suggestions and variants of an edited scene are r
   CHECK(refused_when(live, R"({"type":"judge","sign":"exit"})") == why);
 }
 
-TEST_CASE("a state at another time is not taken from edited files", "[view][changed]") {
+TEST_CASE("a state at another time is refused if files were edited", "[view][changed]") {
   const TemporaryFolder folder;
   const std::string sinking = "[time]\nfrom = 0\nto = 60\nstep = 30\n" + watched_room +
                               "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nalbedo = 0.5\n"
@@ -68,8 +68,9 @@ TEST_CASE("a state at another time is not taken from edited files", "[view][chan
   CHECK_THAT(at(60).problem().what, Contains("the scene has changed on disk"));
 }
 
-TEST_CASE("verdicts at frames are not of an edited scene, though a simulation may go on",
-          "[view][changed][fds]") {
+TEST_CASE(
+    "verdicts at frames are refused for an edited scene, but not for a simulation in progress",
+    "[view][changed][fds]") {
   const TemporaryFolder folder;
   const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {6, 4, 3});
   const std::string label = "SOOT EXTINCTION COEFFICIENT";
@@ -84,7 +85,7 @@ TEST_CASE("verdicts at frames are not of an edited scene, though a simulation ma
   const auto scene = described(file);
   const auto before = FrameScenes::of(*scene, file, std::nullopt);
   folder.write("a.sf", slice_file(mesh, label, {{0, thin}, {10, thin}}));
-  // FDS adds what happens to its index, too.
+  // FDS appends events to its index, too.
   folder.write("fire.smv", index + "DEVICE_ACT\n     1    0.50000E+01     1\n");
   CHECK_FALSE(scene->files->change_on_disk());
   CHECK(before->at(std::nullopt).ok());

@@ -5,7 +5,7 @@
 
 using namespace luxodus;
 
-TEST_CASE("a wish is the same after its way to a node", "[view]") {
+TEST_CASE("scene edits are unchanged after their way to a node", "[view]") {
   SceneEdits edits;
   edits.scenario = "smoke \"emergency\"";
   edits.smoke = 1.0 / 3;
@@ -31,7 +31,7 @@ TEST_CASE("a wish is the same after its way to a node", "[view]") {
   CHECK(edits_text(read) == text);
 }
 
-TEST_CASE("what is no wish is refused with a reason", "[view][failure]") {
+TEST_CASE("malformed text of edits is refused with a reason", "[view][failure]") {
   for (const char* text :
        {"", "[]", "{", "{\"scenario\":1}", "null",
         R"({"scenario":"","smoke":"thick","signs":{},"luminaires":{},"added":[]})",

@@ -1,4 +1,4 @@
-// What frames for the page hold.
+// The content of frames for the page.
 #include "actors/apps/view/frames.hpp"
 
 #include <catch2/catch.hpp>
@@ -40,7 +40,7 @@ g = 0.7
 
 constexpr double of_channel[] = {0.2126, 0.7152, 0.0722};
 
-/// The halves of a frame.
+/// The half floats of a frame.
 std::vector<double> halves_of(const LiveFrame& frame) {
   std::vector<double> out((frame->size() - sizeof(FrameHead)) / sizeof(uint16_t));
   for (size_t i = 0; i < out.size(); ++i) {
@@ -53,7 +53,7 @@ std::vector<double> halves_of(const LiveFrame& frame) {
 
 /// A voxel of a frame of light in smoke.
 struct SmokeGlow {
-  double luminance = 0;  // of a metre, in the mean over directions
+  double luminance = 0;  // of a metre, as the mean over directions
   glm::dvec3 beam{0};
 };
 std::vector<SmokeGlow> glows_of(const LiveFrame& frame, const VoxelGrid& grid) {
@@ -67,7 +67,7 @@ std::vector<SmokeGlow> glows_of(const LiveFrame& frame, const VoxelGrid& grid) {
   return out;
 }
 
-/// Lumens that all voxels of a frame send out.
+/// Lumens emitted by all voxels of a frame.
 double lumens_in(const LiveFrame& frame, const VoxelGrid& grid) {
   double sum = 0;
   for (const SmokeGlow& glow : glows_of(frame, grid)) sum += glow.luminance;
@@ -85,7 +85,7 @@ void trace_some(LiveRun& run, int64_t level) {
 
 }  // namespace
 
-TEST_CASE("a flame has its shape and its light, and voxels do not glow with it again", "[view]") {
+TEST_CASE("a flame has its shape and its light, and voxels do not repeat its glow", "[view]") {
   const LiveRoom room(flame);
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   const CompiledScene& scene = run.scene();
@@ -97,7 +97,7 @@ TEST_CASE("a flame has its shape and its light, and voxels do not glow with it a
   REQUIRE(smoke.flames->size() == 1);
   const LiveFlame& shown = smoke.flames->front();
   CHECK(shown.group == group_of_flame("fire"));
-  // A cone of 1 m over a disc of 0.3 m: within its box, and wide below, narrow above.
+  // A cone of 1 m over a disc of 0.3 m: within its box, and wide at the bottom, narrow at the top.
   CHECK(shown.low.z == Approx(0.5).margin(0.1));
   CHECK(shown.size.z == Approx(1).margin(0.15));
   CHECK(shown.size.x == Approx(0.6).margin(0.1));
@@ -129,7 +129,7 @@ TEST_CASE("a flame has its shape and its light, and voxels do not glow with it a
   REQUIRE(frames.size() == 4);
   CHECK(lumens_in(frames[2], scene.voxels) == 0);
   CHECK(lumens_in(frames[3], scene.voxels) == 0);
-  // One that is not shown apart glows in the voxels that it is in.
+  // A flame that is not shown separately glows in its voxels.
   LiveSmoke none = smoke;
   none.flames = std::make_shared<const std::vector<LiveFlame>>();
   const auto evenly = light_frames(run, geometry->patches, none, 1, {group});
@@ -148,8 +148,7 @@ TEST_CASE("smoke has the extinction and the mean cosine of its media", "[view]")
   CHECK(smoke_of(*LiveRoom().compiled({}), run.index(), 1).frame == nullptr);
 }
 
-TEST_CASE("smoke sends out what the run scatters in it, along the light that it comes from",
-          "[view]") {
+TEST_CASE("smoke emits the run's scattered light, along the light that it comes from", "[view]") {
   const LiveRoom room(haze);
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   const CompiledScene& scene = run.scene();
@@ -159,7 +158,7 @@ TEST_CASE("smoke sends out what the run scatters in it, along the light that it 
   const auto frames =
       light_frames(run, geometry->patches, smoke_of(scene, run.index(), 1), 1, {left});
   REQUIRE(frames.size() == 2);
-  // Collisions count it, too: that has more noise, but no voxels' volume in it.
+  // Collisions score it, too: with more noise, but independent of voxel volumes.
   const Readout readout(scene, run.shown(left));
   double scattered = 0, variance = 0;
   for (uint32_t voxel = 0; voxel < scene.voxels.count(); ++voxel) {
@@ -169,8 +168,8 @@ TEST_CASE("smoke sends out what the run scatters in it, along the light that it 
   }
   REQUIRE(std::sqrt(variance) < 0.01 * scattered);
   CHECK(lumens_in(frames[1], scene.voxels) == Approx(scattered).epsilon(0.03));
-  // Beside the lamp, which is a point, most light comes straight from it: at 0.8 m, with walls of
-  // 108 m2 that reflect a half, 1000 lm exp(-0.24) / (4 pi 0.64 m2) against some 40 lx from around.
+  // Near the point lamp most light is direct: at 0.8 m, with walls of 108 m2 that reflect a half,
+  // 1000 lm exp(-0.24) / (4 pi 0.64 m2) against about 40 lx indirect.
   const VoxelGrid& grid = scene.voxels;
   const std::vector<SmokeGlow> glows = glows_of(frames[1], grid);
   const glm::dvec3 lamp = glm::dvec3(2, 2, 2) - scene.local_origin;

@@ -1,4 +1,4 @@
-// Viewers that remember, and a hub whose thread is the test's.
+// Viewers that record messages, and a hub on the test's thread.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -45,7 +45,7 @@ struct Remembers final : Viewer {
   }
 };
 
-/// The server's thread, by hand: what is posted runs when asked for.
+/// The server's thread, run by hand: posted functions run on request.
 class Posts {
  public:
   ViewHub::Post post() {
@@ -55,7 +55,7 @@ class Posts {
       came_.notify_all();
     };
   }
-  /// Runs what comes until `holds`. The hub tells at every doubling, so it will.
+  /// Runs posts until `holds`. The hub reports at every doubling, so that happens.
   template <class Holds>
   void until(Holds&& holds) {
     while (!holds()) {
@@ -81,7 +81,7 @@ inline HubOptions small_runs(const TemporaryFolder& folder) {
   return options;
 }
 
-/// A hub with one viewer who edits, after all that it was told.
+/// A hub with one editing viewer, after its first messages.
 class Edited {
  public:
   explicit Edited(std::shared_ptr<const SceneDescription> scene = nullptr,
@@ -95,7 +95,7 @@ class Edited {
     viewer.texts.clear();
     hub.says(viewer, text);
   }
-  /// Until the building as it is wished now is traced.
+  /// Until the building with the present edits is traced.
   void until_done() {
     posts.until([&] {
       const Json* progress = viewer.last("progress");
@@ -103,7 +103,7 @@ class Edited {
     });
   }
   const Json& scene() const { return *viewer.last("scene"); }
-  /// Of a group by its name.
+  /// A group by its name.
   const Json& group(const std::string& name) const { return named(scene()["groups"], name); }
   static const Json& named(const Json& list, const std::string& name) {
     const auto at = std::find_if(list.begin(), list.end(),
@@ -111,14 +111,14 @@ class Edited {
     REQUIRE(at != list.end());
     return *at;
   }
-  /// All that the hub has told since something was said.
+  /// All messages of the hub since the last request.
   std::string answers() const {
     std::string out;
     for (const Json& text : viewer.texts) out += text.dump() + "\n";
     return out;
   }
   std::string why() const { return (*viewer.last("refused"))["why"].get<std::string>(); }
-  /// What a click on a sign tells.
+  /// The answer to a click on a sign.
   Json verdicts_on(const std::string& name) {
     says(Json({{"type", "judge"}, {"sign", name}}).dump());
     posts.until(

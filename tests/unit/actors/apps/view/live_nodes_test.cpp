@@ -1,5 +1,5 @@
-// A live view that nodes trace for: their light is that of threads, to the bit, whoever comes and
-// goes. Real nodes of this process, over inproc.
+// A live view traced by nodes: their light equals that of threads, bit for bit, whichever nodes
+// join and leave. Real nodes of this process, over inproc.
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <thread>
@@ -20,11 +20,11 @@ constexpr int64_t level_batches = 24;
 const auto never_stop = [] { return LiveRun::Stop::none; };
 const auto no_tick = [] {};
 
-/// Nodes of this process, and what makes states for them.
+/// Nodes of this process, and the maker of their states.
 struct LiveNodes {
   explicit LiveNodes(const LiveRoom& room, const NodesOptions& options = {})
       : states(room.scene()) {
-    // What nodes agree on may have bins that no state has: here those of a probe.
+    // The scene that nodes agree on may have bins that no state has: here those of a probe.
     const auto other = std::make_shared<SceneDescription>(*room.scene());
     other->probes.emplace_back().position = {1, 1, 1};
     auto compiled = compile_scene(other, find_scenario(*other, "").value(), {1});
@@ -58,7 +58,7 @@ void same_light(const LiveRun& a, const LiveRun& b) {
   }
 }
 
-/// The light of threads.
+/// The light traced by threads.
 LiveRun traced_here(const LiveRoom& room, const SceneEdits& edits) {
   LiveRun run(room.compiled(edits), 1, 1, nullptr, false);
   ThreadExecutor threads(1);
@@ -78,7 +78,7 @@ TEST_CASE("nodes give a live view the light of threads, state after state", "[vi
   same_light(first, traced_here(room, {}));
   CHECK(executor.counters().workers == 2);
   first.tell(first.news());
-  // A lamp moves: its group alone is traced by the nodes, in the other building.
+  // A lamp moves: the nodes trace only its group, in the other building.
   const int64_t particles = first.particles();
   executor.foresee(state_of(moved_lamp()));
   executor.enter(state_of(moved_lamp()));
@@ -89,7 +89,7 @@ TEST_CASE("nodes give a live view the light of threads, state after state", "[vi
   CHECK(second.particles() == particles);
 }
 
-TEST_CASE("nodes trace what a viewer has added, by its own random numbers", "[view][nodes]") {
+TEST_CASE("nodes trace additions of a viewer, with their own random numbers", "[view][nodes]") {
   const LiveRoom room;
   LiveNodes nodes(room);
   NodeExecutor& executor = nodes.executor();
@@ -113,7 +113,7 @@ TEST_CASE("nodes trace what a viewer has added, by its own random numbers", "[vi
   same_light(second, second_beside);
 }
 
-TEST_CASE("a building that was foreseen and never entered changes nothing", "[view][nodes]") {
+TEST_CASE("a building that was announced and never entered changes nothing", "[view][nodes]") {
   const LiveRoom room;
   LiveNodes nodes(room);
   NodeExecutor& executor = nodes.executor();
@@ -129,7 +129,8 @@ TEST_CASE("a building that was foreseen and never entered changes nothing", "[vi
   same_light(run, traced_here(room, {}));
 }
 
-TEST_CASE("what nodes have not given when tracing stops is traced later", "[view][nodes]") {
+TEST_CASE("batches that nodes have not returned when tracing stops are traced later",
+          "[view][nodes]") {
   const LiveRoom room;
   LiveNodes nodes(room);
   NodeExecutor& executor = nodes.executor();
@@ -137,7 +138,7 @@ TEST_CASE("what nodes have not given when tracing stops is traced later", "[view
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   int stops = 0;
   bool done = false;
-  // Any thread may ask; after so many answers each call has to end, the first long before all is
+  // Any thread may ask; after a number of answers each call ends, the first long before all is
   // lent.
   for (int patience = 6; !done; patience *= 2) {
     std::atomic<int> asked = 0;
@@ -173,7 +174,7 @@ TEST_CASE("a live view goes on when one of its nodes leaves", "[view][nodes][fai
   NodesOptions options;
   std::atomic<bool> one_leaves = false;
   std::atomic<std::thread::id> leaver{};
-  // The first worker that asks when one has to leave is the one.
+  // The first worker that asks after the signal has to leave.
   options.stop = [&] {
     if (!one_leaves) return false;
     std::thread::id nobody{};

@@ -40,7 +40,7 @@ inline constexpr int left = 0, right = 1, sign = 2;
 
 class LiveRoom {
  public:
-  /// `more`: what is in it besides.
+  /// `more`: additional tables.
   explicit LiveRoom(const std::string& more = "")
       : scene_(described(folder_.write("scene.toml", live_room + more))) {}
   const std::shared_ptr<const SceneDescription>& scene() const { return scene_; }

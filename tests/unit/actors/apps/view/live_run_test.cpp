@@ -1,4 +1,4 @@
-// What a state of a live building takes over from the one before, and what it traces anew.
+// What a state of a live building keeps from the previous one, and what it traces anew.
 #include "actors/apps/view/live_run.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using namespace luxodus::test;
 
 namespace {
 
-/// Its body stands behind all signs.
+/// Its body is after all signs.
 const std::string panel = R"(
 [[emitter]]
 name = "panel"
@@ -42,7 +42,7 @@ SceneEdits moved_sign() {
   return edits;
 }
 
-/// Lumens that arrive on all surfaces from one group.
+/// Lumens of one group that arrive on all surfaces.
 Estimate caught(const LiveRun& run, int group) {
   Estimate sum;
   const Readout readout(run.scene(), run.shown(group));
@@ -56,7 +56,7 @@ Estimate caught(const LiveRun& run, int group) {
 
 }  // namespace
 
-TEST_CASE("a moved luminaire begins anew, and all other light is kept to the bit", "[view]") {
+TEST_CASE("a moved luminaire begins anew, and all other light is kept bit for bit", "[view]") {
   const LiveRoom room;
   LiveRun before(room.compiled({}), 1, 1, nullptr, false);
   reach(before, 8);
@@ -73,12 +73,12 @@ TEST_CASE("a moved luminaire begins anew, and all other light is kept to the bit
   reach(after, 4);
   CHECK(told(after) == std::vector<int>{left});
   CHECK(after.shown(right).batches(right) == kept);  // it had more already
-  // A closed room of a half: each lumen arrives twice in all.
+  // A closed room with reflectance a half: each lumen arrives twice in all.
   const Estimate light = caught(after, left);
   CHECK(std::abs(light.value - 2000) < 5 * light.standard_error + 5);
 }
 
-TEST_CASE("light that goes on after a move is the light of one run", "[view]") {
+TEST_CASE("light continued after a move equals that of one run", "[view]") {
   const LiveRoom room;
   LiveRun whole(room.compiled({}), 1, 1, nullptr, false);
   reach(whole, 8);
@@ -106,7 +106,7 @@ TEST_CASE("a moved sign leaves light of before, which ends when its own has caug
   told(after);
   CHECK(after.light(left) == ShownLight::before);
   CHECK(caught(after, left).value == caught(before, left).value);
-  // Moved once more while nothing has caught up: the light of before goes on to be shown.
+  // Moved again before anything has caught up: the light of before continues to be shown.
   const LiveRun again(room.compiled({}), 1, 1, &after, true);
   CHECK(again.groups_with(ShownLight::before) == 2);
   CHECK(caught(again, left).value == caught(before, left).value);
@@ -146,7 +146,7 @@ int group_of(const LiveRun& run, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("an added luminaire is traced, and all other light is kept to the bit", "[view]") {
+TEST_CASE("an added luminaire is traced, and all other light is kept bit for bit", "[view]") {
   const LiveRoom room;
   LiveRun before(room.compiled({}), 1, 1, nullptr, false);
   reach(before, 8);
@@ -163,16 +163,16 @@ TEST_CASE("an added luminaire is traced, and all other light is kept to the bit"
   }
   reach(after, 4);
   CHECK(told(after) == std::vector<int>{copy});
-  // A closed room of a half: each lumen arrives twice in all.
+  // A closed room with reflectance a half: each lumen arrives twice in all.
   const Estimate light = caught(after, copy);
   CHECK(std::abs(light.value - 2000) < 5 * light.standard_error + 5);
-  // It goes again: the others are still what they were.
+  // It is removed again: the others are unchanged.
   const LiveRun again(room.compiled({}), 1, 1, &after, true);
   CHECK(again.groups_with(ShownLight::own) == 3);
   for (const int group : {left, right, sign}) CHECK(same_bits(again, group, before, group));
 }
 
-TEST_CASE("light that goes on beside an added luminaire is the light of one run", "[view]") {
+TEST_CASE("light continued beside an added luminaire equals that of one run", "[view]") {
   const LiveRoom room;
   LiveRun whole(room.compiled({}), 1, 1, nullptr, false);
   reach(whole, 8);
@@ -182,12 +182,12 @@ TEST_CASE("light that goes on beside an added luminaire is the light of one run"
   LiveRun second(room.compiled(added_lamp()), 1, 2, &first, true);
   reach(second, 8);
   const int now = group_of(second, "sign exit");
-  REQUIRE(now != sign);  // a luminaire more stands before it
+  REQUIRE(now != sign);  // an additional luminaire precedes it
   REQUIRE(second.shown(now).batches(now) == whole.shown(sign).batches(sign));
   CHECK(same_bits(second, now, whole, sign));
 }
 
-TEST_CASE("of two copies in one place, whatever came and went before, each has its own particles",
+TEST_CASE("two copies in one place have different particles, after any sequence of edits",
           "[view]") {
   const LiveRoom room;
   const auto with = [&](const std::vector<std::string>& names) {
@@ -228,17 +228,17 @@ TEST_CASE("an added sign leaves light of before, in the bins of the new building
   reach(after, 24);
   told(after);
   CHECK(after.groups_with(ShownLight::own) == 4);
-  // The same as of a run that began with it.
+  // Equal to a run that began with it.
   LiveRun fresh(room.compiled(added_sign()), 1, 1, nullptr, false);
   reach(fresh, 24);
   CHECK(caught(fresh, left).value == caught(after, left).value);
-  // It goes again: light of before once more.
+  // It is removed again: light of before once more.
   const LiveRun again(room.compiled({}), 1, 1, &after, true);
   CHECK(again.groups_with(ShownLight::before) == 3);
   CHECK(again.shown(left).batches(left) == after.shown(left).batches(left));
 }
 
-TEST_CASE("bins of a building with another sign are found surface by surface", "[view]") {
+TEST_CASE("bins of a building with another sign are matched surface by surface", "[view]") {
   const LiveRoom room(panel);
   const auto a = room.compiled({}), b = room.compiled(added_sign());
   const auto bins = BinMap::between(*a, *b), back = BinMap::between(*b, *a);
@@ -278,12 +278,12 @@ TEST_CASE("bins of a building with another sign are found surface by surface", "
   const auto same = BinMap::between(*a, *room.compiled(moved_sign()));
   REQUIRE(same);
   CHECK(same->is_same());
-  SceneEdits beyond;  // the room's middle, from which all is measured, is elsewhere then
+  SceneEdits beyond;  // then the room's centre, the origin of coordinates, is elsewhere
   beyond.luminaires["left"] = {{-3, 1, 1}, std::nullopt};
   CHECK_FALSE(BinMap::between(*a, *room.compiled(beyond)));
 }
 
-TEST_CASE("in other air nothing is kept but the geometry's frame", "[view]") {
+TEST_CASE("other smoke keeps nothing but the frame of geometry", "[view]") {
   const LiveRoom room;
   LiveRun before(room.compiled({}), 1, 1, nullptr, false);
   reach(before, 2);
@@ -293,7 +293,7 @@ TEST_CASE("in other air nothing is kept but the geometry's frame", "[view]") {
   CHECK(after.groups_with(ShownLight::none) == 3);
 }
 
-TEST_CASE("tracing stops between batches when it is told to, and goes on", "[view]") {
+TEST_CASE("tracing stops between batches on request, and continues", "[view]") {
   const LiveRoom room;
   LiveRun run(room.compiled({}), 1, 1, nullptr, false);
   int asked = 0;

@@ -58,7 +58,7 @@ TEST_CASE("each light of a live scene is a group of its own, whatever the file s
   CHECK_FALSE(compile_live(scene, {"night", 1, {}, {}}).ok());
 }
 
-TEST_CASE("a wish moves signs and luminaires and thickens smoke", "[view]") {
+TEST_CASE("edits move signs and luminaires and scale smoke", "[view]") {
   const test::TemporaryFolder folder;
   const SceneDescription scene = scene_of(folder.write("room.toml", room));
   SceneEdits edits;
@@ -78,7 +78,7 @@ TEST_CASE("a wish moves signs and luminaires and thickens smoke", "[view]") {
   CHECK_FALSE(live_description(scene, edits).ok());
 }
 
-TEST_CASE("a saved variant is the building as it was seen", "[view]") {
+TEST_CASE("a saved variant is the building as shown", "[view]") {
   const test::TemporaryFolder folder;
   const SceneDescription scene = scene_of(folder.write("room.toml", room));
   SceneEdits edits;
@@ -110,8 +110,7 @@ SceneEdits added_to_room() {
 
 }  // namespace
 
-TEST_CASE("what was added is a copy of the original as the file has it, at its own place",
-          "[view]") {
+TEST_CASE("an addition is a copy of the original in the file, at its own place", "[view]") {
   const test::TemporaryFolder folder;
   const SceneDescription scene = scene_of(folder.write("room.toml", room));
   const SceneEdits edits = added_to_room();
@@ -131,7 +130,7 @@ TEST_CASE("what was added is a copy of the original as the file has it, at its o
   CHECK_FALSE(live_description(scene, wrong).ok());
 }
 
-TEST_CASE("a saved variant adds what was added, and compiles to the same building", "[view]") {
+TEST_CASE("a saved variant contains the additions, and compiles to the same building", "[view]") {
   const test::TemporaryFolder folder;
   const SceneDescription scene = scene_of(folder.write("room.toml", room));
   const SceneEdits edits = added_to_room();
@@ -141,7 +140,8 @@ TEST_CASE("a saved variant adds what was added, and compiles to the same buildin
   REQUIRE(variant.signs.size() == 2);
   REQUIRE(variant.emitters.size() == 2);
   CHECK(variant.emitters[0].mains_flux == 500);
-  CHECK(variant.emitters[1].mains_flux == 250);  // of the original's own, not of the dimmed one's
+  CHECK(variant.emitters[1].mains_flux == 250);  // a copy of the file's own luminaire, not of the
+                                                 // dimmed one
   CHECK(variant.signs[1].mains.white_cd_m2 == 1000);
   const auto live = compile_live(scene, edits), fresh = compile_live(variant, {});
   REQUIRE(live.ok());
@@ -160,7 +160,7 @@ TEST_CASE("a saved variant adds what was added, and compiles to the same buildin
   for (size_t g = 0; g < a.groups.size(); ++g) CHECK(a.groups[g].name == b.groups[g].name);
 }
 
-TEST_CASE("bands stay those of the scene, whatever copies weigh", "[view]") {
+TEST_CASE("bands stay those of the scene, whatever the copies' light", "[view]") {
   const test::TemporaryFolder folder;
   SceneDescription scene = scene_of(folder.write("room.toml", room));
   scene.emitters[0].spectrum =
@@ -179,7 +179,7 @@ TEST_CASE("bands stay those of the scene, whatever copies weigh", "[view]") {
   }
 }
 
-TEST_CASE("copies are counted, and no name is given twice", "[view]") {
+TEST_CASE("copies are numbered, and no name is used twice", "[view]") {
   const test::TemporaryFolder folder;
   SceneDescription scene = scene_of(folder.write("room.toml", room));
   SceneEdits edits;
@@ -192,13 +192,13 @@ TEST_CASE("copies are counted, and no name is given twice", "[view]") {
   CHECK(add("exit") == "exit copy 2");
   CHECK(add("exit copy 2") == "exit copy 3");
   CHECK(add("lamp") == "lamp copy");
-  scene.emitters[0].name = "sign door copy";  // its group's name is that of a sign's
+  scene.emitters[0].name = "sign door copy";  // its group has the name of a sign's
   CHECK(add("door") == "door copy 2");
   CHECK(add("copy") == "copy copy");
   CHECK(add("copy that") == "copy that copy");
 }
 
-TEST_CASE("after a failure luminaires come on and phosphor fades, by shares of what is traced",
+TEST_CASE("after a failure luminaires come on and phosphor fades, by shares of the traced light",
           "[view]") {
   const test::TemporaryFolder folder;
   SceneDescription scene = scene_of(folder.write("room.toml", room));
@@ -212,7 +212,7 @@ TEST_CASE("after a failure luminaires come on and phosphor fades, by shares of w
   scene.scenarios[0].says_seconds = true;
   CHECK(seconds_said(scene.scenarios[0]) == 60.0);
   CHECK_FALSE(seconds_said(scene.scenarios[1]).has_value());
-  // Traced as at first, whatever time the scenario says.
+  // Traced as at the start, whatever time the scenario states.
   const auto compiled = compile_live(scene, {});
   REQUIRE(compiled.ok());
   CHECK(compiled.value()->groups[0].luminous_flux_lm == Approx(100));
@@ -227,7 +227,7 @@ TEST_CASE("after a failure luminaires come on and phosphor fades, by shares of w
   CHECK(after(60).at("lamp") == 1);
   CHECK(shares_after(scene, Operation::mains, 5.0).empty());
   CHECK(shares_after(scene, Operation::emergency, std::nullopt).empty());
-  // A run of the same scenario has the light of that time; one that says no time has all of it.
+  // A run of the same scenario has the light at that time; without a stated time it has all light.
   const auto lumens = [&](Scenario scenario, bool says) {
     scenario.seconds_after_failure = 5;
     scenario.says_seconds = says;
@@ -239,9 +239,8 @@ TEST_CASE("after a failure luminaires come on and phosphor fades, by shares of w
   CHECK(lumens(scene.scenarios[0], false) == Approx(100));
 }
 
-TEST_CASE(
-    "a building that is dimmed for a picture has one source group, and flames are dimmed, too",
-    "[view]") {
+TEST_CASE("a building dimmed for a picture has one source group, and flames are dimmed, too",
+          "[view]") {
   const test::TemporaryFolder folder;
   const auto scene = test::described(folder.write("scene.toml", room + R"(
 [[medium]]

@@ -1,4 +1,4 @@
-// What the page is told of faces of lamps and of gloss.
+// What the page gets about faces of lamps and about gloss.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -20,7 +20,7 @@ double luminance(const std::array<double, 3>& rgb) {
   return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
-/// Of a lamp, so many degrees from the axis of its table, at one azimuth [cd/m2].
+/// Luminance of a lamp at this many degrees from the axis of its table, at one azimuth [cd/m2].
 double luminance_at(const LiveLamps& lamps, size_t lamp, double polar_deg, size_t azimuth = 0) {
   const LampTable& table = lamps.tables.at(lamps.lamps.at(lamp).table);
   const auto row = static_cast<size_t>(polar_deg * limits::lamp_polar / 180);
@@ -37,7 +37,7 @@ std::string lamp(const std::string& name, const std::string& shape,
 
 const std::string square = "shape = \"rectangle\"\nsize = [0.5, 0.4]";
 
-/// 100 cd downwards, falling evenly to 20 cd sideways and nothing above.
+/// 100 cd downwards, falling linearly to 20 cd sideways and nothing above.
 std::shared_ptr<const PhotometricWeb> downlight() {
   const glm::dmat3 down(glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1));
   auto web = PhotometricWeb::make({0, 360}, {0, 89, 91, 180}, {100, 20, 0, 0, 100, 20, 0, 0}, down);
@@ -50,7 +50,7 @@ struct WebsOfScene {
   const PhotometricWeb& web(uint32_t i) const { return *scene->webs[i]; }
 };
 
-/// As the tracer has it, where a ray from afar meets the middle of the emitter's side [cd/m2].
+/// The tracer's luminance, where a distant ray hits the middle of the emitter's side [cd/m2].
 double traced_luminance(const CompiledScene& scene, const EmissionPoint& point,
                         const Vec3& to_eye) {
   const WebsOfScene webs{&scene};
@@ -61,7 +61,7 @@ double traced_luminance(const CompiledScene& scene, const EmissionPoint& point,
   return out;
 }
 
-/// The room without its other lights: one emitter.
+/// The room with only one emitter.
 CompiledScene only_panel(const std::string& shape) {
   CompiledScene scene = *LiveRoom(lamp("panel", shape, "lambertian")).compiled({});
   std::erase_if(scene.emitters, [](const CompiledEmitter& e) { return !has_own_face(e); });
@@ -69,7 +69,7 @@ CompiledScene only_panel(const std::string& shape) {
   return scene;
 }
 
-/// Likewise, with light as a file has it.
+/// One emitter with the photometric web of a file.
 CompiledScene with_web(const std::string& shape) {
   CompiledScene scene = only_panel(shape);
   scene.webs.push_back(downlight());
@@ -79,14 +79,14 @@ CompiledScene with_web(const std::string& shape) {
   return scene;
 }
 
-/// Turned about the vertical.
+/// Rotated about the vertical.
 void turn(CompiledEmitter& e, double angle) {
   const auto c = static_cast<Real>(std::cos(angle));
   const auto s = static_cast<Real>(std::sin(angle));
   e.axes = Mat3(Vec3(c, s, 0), Vec3(-s, c, 0), Vec3(0, 0, 1));
 }
 
-/// As many emitters more as there are in all to be, like the last one.
+/// Adds copies of the last emitter, up to this total.
 void fill(CompiledScene& scene, size_t count) {
   const CompiledEmitter last = scene.emitters.back();
   while (scene.emitters.size() < count) scene.emitters.push_back(last);
@@ -94,7 +94,7 @@ void fill(CompiledScene& scene, size_t count) {
 
 }  // namespace
 
-TEST_CASE("a lamp with a face is told, a point and a sign are not", "[view]") {
+TEST_CASE("a lamp with a face is sent, a point and a sign are not", "[view]") {
   const LiveRoom room(lamp("panel", square, "lambertian"));
   const auto scene = room.compiled({});
   const LiveLamps lamps = lamps_of(*scene);
@@ -107,7 +107,8 @@ TEST_CASE("a lamp with a face is told, a point and a sign are not", "[view]") {
   CHECK(panel.group != scene->groups[0].name);
 }
 
-TEST_CASE("a Lambertian face has its exitance by pi from below, and nothing from above", "[view]") {
+TEST_CASE("a Lambertian face has exitance divided by pi from below, and nothing from above",
+          "[view]") {
   const LiveRoom room(lamp("panel", square, "lambertian"));
   const LiveLamps lamps = lamps_of(*room.compiled({}));
   const double expected = 600 / (0.5 * 0.4) / pi;
@@ -123,14 +124,14 @@ TEST_CASE("lamps of one distribution share a table", "[view]") {
   REQUIRE(lamps.lamps.size() == 3);
   CHECK(lamps.tables.size() == 2);
   CHECK(lamps.lamps[0].table == lamps.lamps[1].table);
-  // Both sides of it shine: 600 lm over the sphere, by the area that is seen.
+  // Both sides shine: 600 lm over the sphere, divided by the visible area.
   const double at = 43.75 / 180 * pi;  // the middle of a cell
   const double expected = 600 / (4 * pi) / (0.5 * 0.4 * std::cos(at));
   CHECK(luminance_at(lamps, 2, 43.75) == Approx(expected).epsilon(1e-3));
   CHECK(luminance_at(lamps, 2, 180 - 43.75) == Approx(expected).epsilon(1e-3));
 }
 
-TEST_CASE("a flat luminaire of a file is as bright as the tracer has it", "[view]") {
+TEST_CASE("a flat luminaire of a file has the tracer's luminance", "[view]") {
   const CompiledScene scene = with_web(square);
   const LiveLamps lamps = lamps_of(scene);
   REQUIRE(lamps.lamps.size() == 1);
@@ -146,7 +147,7 @@ TEST_CASE("a flat luminaire of a file is as bright as the tracer has it", "[view
   CHECK(luminance_at(lamps, 0, 120) == 0);
 }
 
-TEST_CASE("a round luminaire of a file is as bright as its points are inclined", "[view]") {
+TEST_CASE("a round luminaire of a file is brighter where its points are inclined", "[view]") {
   const std::string shape = GENERATE("shape = \"sphere\"\ndiameter = 0.3",
                                      "shape = \"tube\"\nlength = 1.2\ndiameter = 0.1");
   const CompiledScene scene = with_web(shape);
@@ -167,7 +168,7 @@ TEST_CASE("a round luminaire of a file is as bright as its points are inclined",
   }
 }
 
-TEST_CASE("luminaires of one file share a table however they are turned", "[view]") {
+TEST_CASE("luminaires of one file share a table whatever their orientation", "[view]") {
   CompiledScene scene = with_web(square);
   fill(scene, scene.emitters.size() + 2);
   turn(scene.emitters.back(), 0.3);
@@ -176,32 +177,32 @@ TEST_CASE("luminaires of one file share a table however they are turned", "[view
   CHECK(lamps.lamps.size() == 3);
   CHECK(lamps.tables.size() == 1);
   CHECK(lamps.lamps[1].axes != lamps.lamps[2].axes);
-  // A sphere of the same file is another matter.
+  // A sphere of the same file needs another table.
   scene.emitters.back().kind = EmitterKind::sphere;
   CHECK(lamps_of(scene).tables.size() == 2);
 }
 
-TEST_CASE("lamps are told as far as pages read them", "[view]") {
+TEST_CASE("lamps are sent up to the limits of the page", "[view]") {
   CompiledScene scene = only_panel(square);
   CompiledEmitter& e = scene.emitters.back();
-  SECTION("of any number") {
+  SECTION("of their number") {
     fill(scene, limits::view_lamps + 1);
     CHECK(lamps_of(scene).lamps.size() == limits::view_lamps);
   }
-  SECTION("as wide as they may be") {
+  SECTION("of their width") {
     e.size.x = static_cast<Real>(limits::view_lamp_m);
     CHECK(lamps_of(scene).lamps.size() == 1);
     e.size.x = static_cast<Real>(1.01 * limits::view_lamp_m);
     CHECK(lamps_of(scene).lamps.empty());
   }
-  SECTION("no brighter than can be read, and of the same hue") {
+  SECTION("of their brightness, with the same hue") {
     const auto before = lamps_of(scene).lamps.at(0).colour;
     e.area_m2 *= 1e-9;
     const auto colour = lamps_of(scene).lamps.at(0).colour;
     CHECK(*std::max_element(colour.begin(), colour.end()) == Approx(limits::view_lamp_colour));
     CHECK(colour[2] / colour[0] == Approx(before[2] / before[0]));
   }
-  SECTION("of so many corners in all") {
+  SECTION("of their corners in all") {
     e.kind = EmitterKind::mesh;
     e.corners.assign(3 * limits::view_lamp_triangles, Vec3(1));
     const size_t most = limits::view_lamp_corners / e.corners.size();
@@ -214,7 +215,7 @@ TEST_CASE("lamps are told as far as pages read them", "[view]") {
     CHECK(lamps.lamps.size() == most + 1);  // a small one still has room
     CHECK(lamps.lamps.back().corners.size() == 3);
   }
-  SECTION("of so many tables") {
+  SECTION("of the number of tables") {
     e.distribution = Distribution::cosine_power;
     fill(scene, limits::view_lamp_tables + 1);
     for (size_t i = 0; i < scene.emitters.size(); ++i)
@@ -225,7 +226,7 @@ TEST_CASE("lamps are told as far as pages read them", "[view]") {
   }
 }
 
-TEST_CASE("gloss is told of glossy sides and of mirrors, with what is not in the lobe", "[view]") {
+TEST_CASE("gloss is sent for glossy sides and mirrors, with the share outside the lobe", "[view]") {
   const LiveRoom room(R"(
 [[material]]
 name = "lacquer"
@@ -269,7 +270,7 @@ back_material = "silver"
   CHECK(gloss[1].back);
   CHECK(gloss[1].spread == 0);
   CHECK(gloss[1].roughness == 0);
-  // More sides than pages read are left out.
+  // Sides beyond the limit of pages are left out.
   CompiledScene many = *scene;
   many.surfaces.insert(many.surfaces.end(), limits::view_gloss, scene->surfaces[gloss[0].surface]);
   CHECK(gloss_of(many).size() == limits::view_gloss);

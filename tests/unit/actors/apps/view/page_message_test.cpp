@@ -17,7 +17,7 @@ std::string refused(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("what a viewer may say is read", "[view]") {
+TEST_CASE("valid messages of a viewer are decoded", "[view]") {
   const auto factor = decode_page_message(R"({"type":"factor","group":"lamp","factor":0.25})");
   REQUIRE(factor.ok());
   CHECK(std::get<FactorEdit>(factor.value()).group == "lamp");
@@ -79,7 +79,7 @@ TEST_CASE("what a viewer may say is read", "[view]") {
   CHECK(is_edit(remove.value()));
 }
 
-TEST_CASE("all else is refused with a reason", "[view]") {
+TEST_CASE("all other messages are refused with a reason", "[view]") {
   CHECK(refused("").find("JSON") != std::string::npos);
   CHECK(refused("[]").find("JSON") != std::string::npos);
   CHECK(refused(R"({"type":"shutdown"})").find("no message of this type") != std::string::npos);
@@ -139,7 +139,7 @@ TEST_CASE("all else is refused with a reason", "[view]") {
   CHECK(refused(std::string(60'000, '[')).find("brackets") != std::string::npos);
 }
 
-TEST_CASE("rubbish is refused and never more than that", "[view]") {
+TEST_CASE("random text is refused, and nothing worse", "[view]") {
   const std::string said[] = {
       R"({"type":"move","kind":"sign","name":"exit","position":[1,2,3],"facing":[0,1,0]})",
       R"({"type":"add","kind":"sign","of":"exit","position":[1,2,3],"facing":[0,1,0]})",

@@ -1,4 +1,4 @@
-// Suggestions of a live view: of the building with what was moved and added, and what is refused.
+// Suggestions of a live view: for the building with moves and additions; and refusals.
 #include "actors/apps/view/suggestions.hpp"
 
 #include <catch2/catch.hpp>
@@ -60,8 +60,7 @@ Json suggested(const SceneDescription& scene, const SceneEdits& edits,
 
 }  // namespace
 
-TEST_CASE("what is suggested depends on what was added, and stays within the scene's types",
-          "[view][suggest]") {
+TEST_CASE("suggestions depend on additions, and use only the scene's types", "[view][suggest]") {
   const TemporaryFolder folder;
   const auto scene = emergency_room(folder);
   SceneEdits none;
@@ -72,18 +71,18 @@ TEST_CASE("what is suggested depends on what was added, and stays within the sce
   REQUIRE(alone["luminaires"].size() >= 1);
   CHECK(alone["luminaires"][0]["of"] == "lamp");
   CHECK(alone["words"].get<std::string>().find("more would do") != std::string::npos);
-  // One that stands far off is one fewer to add, or none.
+  // An addition far off saves one suggestion, or none.
   const Json helped = suggested(*scene, with_copy({10, 1.5, 2.97}));
   REQUIRE(helped["type"] == "suggested");
   CHECK(helped["missing"].get<double>() < alone["missing"].get<double>());
   CHECK(helped["luminaires"].size() <= alone["luminaires"].size());
-  // Where it need not stay it is as if it were not there.
+  // If it may be removed, the result is as if it did not exist.
   const Json freed = suggested(*scene, with_copy({10, 1.5, 2.97}), {"lamp copy"});
   CHECK(freed["luminaires"] == alone["luminaires"]);
   CHECK(freed["instead_of"] == Json(std::vector<std::string>{"lamp copy"}));
 }
 
-TEST_CASE("only what was added in the view need not stay", "[view][suggest]") {
+TEST_CASE("only additions of the view may be removed", "[view][suggest]") {
   const TemporaryFolder folder;
   const auto scene = emergency_room(folder);
   const Json answer = suggested(*scene, with_copy({10, 1.5, 2.97}), {"lamp"});
@@ -91,7 +90,7 @@ TEST_CASE("only what was added in the view need not stay", "[view][suggest]") {
   CHECK(answer["why"].get<std::string>().find("\"lamp\"") != std::string::npos);
 }
 
-TEST_CASE("a scene in which nothing is to be lit gets no suggestion", "[view][suggest]") {
+TEST_CASE("a scene without requirements on luminaires gets no suggestion", "[view][suggest]") {
   const TemporaryFolder folder;
   const auto scene = test::described(folder.write("scene.toml", R"(
 [[object]]

@@ -1,4 +1,4 @@
-// The hub with viewers that remember.
+// The hub with viewers that record messages.
 #include "actors/apps/view/view_hub.hpp"
 
 #include <catch2/catch.hpp>
@@ -18,7 +18,7 @@ using test::Remembers;
 using test::scene_in;
 using test::small_runs;
 
-TEST_CASE("viewers get the building and its light, one edits, all hear of it", "[view]") {
+TEST_CASE("viewers get the building and its light, and edits of one reach all", "[view]") {
   const test::TemporaryFolder folder;
   Posts posts;
   ViewHub hub(scene_in(folder), small_runs(folder), posts.post());
@@ -29,7 +29,7 @@ TEST_CASE("viewers get the building and its light, one edits, all hear of it", "
   CHECK((*first.last("scene"))["editor"] == true);
   CHECK((*first.last("scene"))["groups"].size() == 2);
   CHECK(first.frames_of(1, 1) == 1);
-  hub.joins(second);  // late: it gets what there is
+  hub.joins(second);  // late: it gets the present state
   CHECK((*second.last("scene"))["editor"] == false);
   CHECK(second.frames_of(1, 1) == 1);
   CHECK(second.frames_of(2, 1) == 2);
@@ -46,7 +46,7 @@ TEST_CASE("viewers get the building and its light, one edits, all hear of it", "
   hub.leaves(first);
 }
 
-TEST_CASE("what moves begins a new generation, and light answers for its place", "[view]") {
+TEST_CASE("a move begins a new generation, and questions about light are answered", "[view]") {
   const test::TemporaryFolder folder;
   Posts posts;
   ViewHub hub(scene_in(folder), small_runs(folder), posts.post());
@@ -77,7 +77,7 @@ TEST_CASE("what moves begins a new generation, and light answers for its place",
   CHECK(scene["generation"] == 2);
   CHECK(scene["groups"][0]["light"] == "new");
   CHECK(scene["groups"][1]["light"] == "kept");
-  CHECK(viewer.frames_of(1, 2) == 0);  // the same geometry is not sent again
+  CHECK(viewer.frames_of(1, 2) == 0);  // unchanged geometry is not sent again
   hub.says(viewer, R"({"type":"move","kind":"sign","name":"none","position":[1,1,1]})");
   CHECK(viewer.last("refused") != nullptr);
   hub.leaves(viewer);
@@ -85,7 +85,7 @@ TEST_CASE("what moves begins a new generation, and light answers for its place",
 
 namespace {
 
-/// Groups whose light on surfaces came in a generation.
+/// Groups whose light on surfaces was sent in a generation.
 std::set<uint32_t> lit_groups(const Remembers& viewer, uint32_t generation) {
   std::set<uint32_t> out;
   for (const LiveFrame& frame : viewer.frames) {
@@ -97,8 +97,9 @@ std::set<uint32_t> lit_groups(const Remembers& viewer, uint32_t generation) {
 
 }  // namespace
 
-TEST_CASE("after a move others get no light again, who comes late gets all, who is slow what waits",
-          "[view]") {
+TEST_CASE(
+    "after a move other groups get no new light, late viewers get everything, slow ones what waits",
+    "[view]") {
   const test::TemporaryFolder folder;
   Posts posts;
   ViewHub hub(scene_in(folder), small_runs(folder), posts.post());
@@ -111,7 +112,7 @@ TEST_CASE("after a move others get no light again, who comes late gets all, who 
   posts.until(done);
   viewer.waiting = {viewer.frames.back()};
   const FrameHead waited = head_of(viewer.frames.back());
-  REQUIRE(waited.a == 1);  // the last that came is of the lamp that stays
+  REQUIRE(waited.a == 1);  // the last frame is of the lamp that stays
   viewer.texts.clear();
   hub.says(viewer, R"({"type":"move","kind":"luminaire","name":"left","position":[1,1,1]})");
   posts.until(done);
@@ -146,8 +147,9 @@ const std::string add_left = R"({"type":"add","kind":"luminaire","of":"left","po
 
 }  // namespace
 
-TEST_CASE("an added luminaire gets light, others keep theirs, and it moves, is saved, and goes",
-          "[view]") {
+TEST_CASE(
+    "an added luminaire gets light, others keep theirs, and it moves, is saved, and is removed",
+    "[view]") {
   Edited live;
   live.says(R"({"type":"factor","group":"left","factor":0.5})");
   live.says(add_left);
@@ -157,7 +159,7 @@ TEST_CASE("an added luminaire gets light, others keep theirs, and it moves, is s
   live.until_done();
   CHECK(live.scene()["relaid"] == false);
   CHECK(live.group("left copy")["light"] == "new");
-  CHECK(live.group("left copy")["factor"] == 0.5);  // as the one that it is a copy of
+  CHECK(live.group("left copy")["factor"] == 0.5);  // like the original
   CHECK(live.group("left")["light"] == "kept");
   CHECK(live.group("right")["light"] == "kept");
   CHECK(Edited::named(live.scene()["luminaires"], "left copy")["added"] == true);
@@ -185,7 +187,7 @@ TEST_CASE("an added luminaire gets light, others keep theirs, and it moves, is s
   CHECK(live.why().find("to move") != std::string::npos);
 }
 
-TEST_CASE("an added sign lays triangles anew, and light of before comes with them", "[view]") {
+TEST_CASE("an added sign changes the triangles, and light of before comes with them", "[view]") {
   const test::TemporaryFolder folder;
   auto scene = std::make_shared<SceneDescription>(*scene_in(folder));
   Sign exit = small_sign("exit");
@@ -204,7 +206,7 @@ TEST_CASE("an added sign lays triangles anew, and light of before comes with the
         return *frame;
     return std::string();
   };
-  std::string old;  // the last of the left lamp
+  std::string old;  // the last frame of the left lamp
   for (const LiveFrame& frame : live.viewer.frames)
     if (head_of(frame).kind == 2 && head_of(frame).a == 0) old = *frame;
   live.says(R"({"type":"add","kind":"sign","of":"exit","position":[2,2,1],"facing":[1,0,0]})");
@@ -220,21 +222,21 @@ TEST_CASE("an added sign lays triangles anew, and light of before comes with the
   REQUIRE(relaid.size() == old.size() + 2 * 12);  // the new face has two triangles
   CHECK(relaid.compare(16, old.size() - 16, old, 16) == 0);
   CHECK(relaid.find_first_not_of('\0', old.size()) == std::string::npos);
-  // Whoever comes later needs no light of before.
+  // Viewers that join later need no light of before.
   Remembers late;
   live.hub.joins(late);
   CHECK((*late.last("scene"))["relaid"] == false);
   live.hub.leaves(late);
   live.says(R"({"type":"judge","sign":"exit copy"})");
-  live.says(R"({"type":"judge","sign":"exit"})");  // waits until the first is judged
+  live.says(R"({"type":"judge","sign":"exit"})");  // waits until the first is assessed
   live.posts.until([&] {
     const Json* verdicts = live.viewer.last("sign");
     return verdicts != nullptr && (*verdicts)["name"] == "exit";
   });
-  // Verdicts come with the state that they are of.
+  // Verdicts come with their state.
   CHECK((*live.viewer.last("sign"))["note"].get<std::string>().find("MAINS OPERATION") == 0);
   CHECK(live.viewer.last("refused") == nullptr);
-  // A suggestion waits in the same line; this room has no route that luminaires could light.
+  // A suggestion waits in the same queue; this room has no route that luminaires could light.
   live.says(R"({"type":"suggest","free":[]})");
   live.posts.until([&] { return live.viewer.last("refused") != nullptr; });
   CHECK(live.why().find("nothing to light") != std::string::npos);
@@ -246,7 +248,7 @@ TEST_CASE("an added sign lays triangles anew, and light of before comes with the
   CHECK(light_of(3, 0).size() == old.size());
 }
 
-TEST_CASE("verdicts are of the nearer frame where the view lies between two", "[view][fds]") {
+TEST_CASE("verdicts use the nearer frame if the view is between two", "[view][fds]") {
   using namespace test;
   const TemporaryFolder folder;
   const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {6, 4, 3});
@@ -277,7 +279,7 @@ TEST_CASE("verdicts are of the nearer frame where the view lies between two", "[
   REQUIRE(clear["rows"].size() == 1);
   CHECK(clear["rows"][0]["verdict"] == "legible");
   CHECK(dense["rows"][0]["verdict"] == "invisible");
-  // A state that was judged is kept: its files are not read again.
+  // An assessed state is cached: its files are not read again.
   const auto judged = FrameScenes::of(*shown, file, std::nullopt);
   Edited live(shown, judged);
   CHECK(live.verdicts_on("exit")["rows"] == clear["rows"]);
@@ -288,7 +290,7 @@ TEST_CASE("verdicts are of the nearer frame where the view lies between two", "[
   CHECK(FrameScenes::of(*scene_in(folder), file, std::nullopt) == nullptr);
 }
 
-TEST_CASE("what cannot be added is refused, and there is an end to it", "[view]") {
+TEST_CASE("impossible additions are refused, and their number is limited", "[view]") {
   Edited live;
   live.says(R"({"type":"add","kind":"luminaire","of":"none","position":[1,1,1]})");
   CHECK(live.why().find("to copy") != std::string::npos);
@@ -310,8 +312,9 @@ TEST_CASE("what cannot be added is refused, and there is an end to it", "[view]"
   CHECK(live.why().find("no more than 256") == 0);
 }
 
-TEST_CASE("time after a failure is shares of light, nothing is traced, and mains know no time",
-          "[view]") {
+TEST_CASE(
+    "time after a failure changes shares of light, nothing is traced, and it is refused on mains",
+    "[view]") {
   const test::TemporaryFolder folder;
   auto scene = std::make_shared<SceneDescription>(*scene_in(folder));
   scene->emitters[0].emergency_flux = scene->emitters[1].emergency_flux = 100;
@@ -377,7 +380,7 @@ TEST_CASE("a variant is saved under a plain name, and never over a file", "[view
 
 namespace {
 
-/// With a scenario in which nothing is lit, so that it cannot be traced.
+/// With an unlit scenario, which cannot be traced.
 const std::string dark_scenario = R"(
 [[scenario]]
 name = "day"
@@ -390,7 +393,7 @@ operation = "dark"
 
 }  // namespace
 
-TEST_CASE("an edit that is refused is not in force, and no variant has it", "[view]") {
+TEST_CASE("a refused edit has no effect, and is in no variant", "[view]") {
   const test::LiveRoom of_dark(dark_scenario);
   Edited live(of_dark.scene());
   const uint32_t before = live.scene()["generation"];
@@ -398,7 +401,7 @@ TEST_CASE("an edit that is refused is not in force, and no variant has it", "[vi
   live.posts.until([&] { return live.viewer.last("refused") != nullptr; });
   CHECK(live.why().find("nothing emits light") != std::string::npos);
   CHECK(live.viewer.last("scene") == nullptr);
-  // What is edited next does not carry it along.
+  // The next edit does not include it.
   live.says(R"({"type":"move","kind":"luminaire","name":"left","position":[1,1,1]})");
   live.posts.until([&] {
     return live.viewer.last("scene") != nullptr || live.viewer.last("refused") != nullptr;
@@ -414,7 +417,8 @@ TEST_CASE("an edit that is refused is not in force, and no variant has it", "[vi
   CHECK(saved.scene->emitters[0].frame.origin == glm::dvec3(1, 1, 1));
 }
 
-TEST_CASE("nothing is moved out of the world, and a variant has it where it was", "[view]") {
+TEST_CASE("nothing can be moved far outside the building, and a variant keeps its place",
+          "[view]") {
   const test::LiveRoom room;
   Edited live(room.scene());
   for (const char* edit :
@@ -434,10 +438,10 @@ TEST_CASE("nothing is moved out of the world, and a variant has it where it was"
   CHECK(saved.scene->emitters[0].frame.origin == room.scene()->emitters[0].frame.origin);
 }
 
-TEST_CASE("what would be no scene is not saved, whenever it is asked for", "[view]") {
+TEST_CASE("an invalid variant is not saved, whenever it is requested", "[view]") {
   const test::LiveRoom of_dark(dark_scenario);
   Edited live(of_dark.scene());
-  // In one breath: nobody has looked at the edit yet.
+  // Both at once: the edit has not been checked yet.
   live.says(R"({"type":"scenario","name":"night"})");
   live.hub.says(live.viewer, R"({"type":"save","name":"dark"})");
   CHECK(live.viewer.last("saved") == nullptr);
@@ -446,7 +450,7 @@ TEST_CASE("what would be no scene is not saved, whenever it is asked for", "[vie
   CHECK(std::filesystem::is_empty(live.folder / ""));
 }
 
-TEST_CASE("states of a scene with a clock are chosen, and come back with the light that they had",
+TEST_CASE("states of a scene with a clock are selectable, and return with their earlier light",
           "[view][time]") {
   const test::TemporaryFolder folder;
   const auto file = folder.write(
@@ -483,7 +487,7 @@ TEST_CASE("states of a scene with a clock are chosen, and come back with the lig
   const Json first = *viewer.last("scene");
   CHECK(first["states"]["at"] == 0);
   CHECK(first["states"]["to"] == 60);
-  CHECK(first["groups"].size() == 2);  // the mains are on
+  CHECK(first["groups"].size() == 2);  // mains operation
   CHECK(first["scenarios"][0]["operation"] == "mains");
   CHECK(viewer.frames_of(3, 1) == 0);  // no smoke yet
 
@@ -501,7 +505,7 @@ TEST_CASE("states of a scene with a clock are chosen, and come back with the lig
   hub.says(viewer, R"({"type":"state","at":0})");
   posts.until([&] { return generation() == 3 && done(); });
   CHECK((*viewer.last("scene"))["groups"].size() == 2);
-  CHECK(viewer.frames_of(2, 3) == 2);  // each group's light once: it was there
+  CHECK(viewer.frames_of(2, 3) == 2);  // each group's light once: it was cached
 
   hub.says(viewer, R"({"type":"state","at":30})");
   posts.until([&] { return generation() == 4 && done(); });
@@ -535,7 +539,7 @@ TEST_CASE("a scene without a clock has one state", "[view][time]") {
   hub.leaves(viewer);
 }
 
-TEST_CASE("a viewer who asks for a picture gets it as the building stands, and no other viewer",
+TEST_CASE("a viewer gets its requested picture of the present building, and no other viewer does",
           "[view]") {
   const test::TemporaryFolder folder;
   Posts posts;
@@ -559,13 +563,13 @@ TEST_CASE("a viewer who asks for a picture gets it as the building stands, and n
   CHECK(bright["id"] == 3);
   CHECK(bright["paths"] == 8);
   CHECK(bright["particles"] == 1 << 14);
-  // What is dimmed by hand is dimmed in the picture.
+  // Dimming by viewers applies to the picture.
   hub.says(asks, R"({"type":"factor","factor":0,"group":"left"})");
   asks.texts.clear();
   hub.says(asks, ask);
   posts.until(picture);
   CHECK((*asks.last("picture"))["png"] != bright["png"]);
-  // Where all is dark there is none.
+  // If everything is dark there is none.
   hub.says(asks, R"({"type":"factor","factor":0,"group":"right"})");
   asks.texts.clear();
   hub.says(asks, ask);

@@ -1,4 +1,4 @@
-// Traced pictures for viewers: what they are told, in which order, and what ends it.
+// Traced pictures for viewers: their messages, order, and cancellation.
 #include "actors/apps/view/view_pictures.hpp"
 
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@ using namespace luxodus::test;
 
 namespace {
 
-/// As many paths and particles as are needed, however slow the machine is.
+/// Limits by paths and particles only, however slow the machine is.
 ViewPictureLimits few_paths() {
   ViewPictureLimits out;
   out.seconds = out.flux_seconds = 1e9;
@@ -29,7 +29,7 @@ RenderAsk small_picture(int64_t id) {
   return ask;
 }
 
-/// Pictures of a room, and what viewers were told of them.
+/// Pictures of a room, and the messages about them.
 class ToldPictures {
  public:
   explicit ToldPictures(const LiveRoom& room)
@@ -39,7 +39,7 @@ class ToldPictures {
             [this](uint64_t viewer, const Json& message) { hear(viewer, message); }, few_paths()) {}
 
   ViewPictures& pictures() { return pictures_; }
-  /// Waits for a message to a viewer that holds.
+  /// Waits for a message to a viewer for which `holds` is true.
   template <class Holds>
   Json wait(uint64_t viewer, Holds&& holds) {
     std::unique_lock lock(mutex_);
@@ -79,17 +79,18 @@ class ToldPictures {
   std::mutex mutex_;
   std::condition_variable came_;
   std::vector<std::pair<uint64_t, Json>> told_;
-  ViewPictures pictures_;  // the last: it tells
+  ViewPictures pictures_;  // declared last: it sends messages
 };
 
-/// The error of paths falls with their root; that of the flux is common to all, and stays.
+/// The error of paths falls with the root of their number; that of the flux is common to all, and
+/// stays.
 double error_of(const Json& message) {
   return message["relative_error"].get<double>();
 }
 
 }  // namespace
 
-TEST_CASE("a picture is told pass by pass, with less and less error", "[view]") {
+TEST_CASE("a picture is sent pass by pass, with decreasing error", "[view]") {
   const LiveRoom room;
   ToldPictures told(room);
   told.pictures().order({1, small_picture(7), {}, {}});
@@ -109,18 +110,18 @@ TEST_CASE("a picture is told pass by pass, with less and less error", "[view]") 
   });
   REQUIRE(first != messages.end());
   CHECK(error_of(last) < 0.8 * error_of(*first));
-  // The flux is kept: the next picture of the same building begins with its paths.
+  // The flux is cached: the next picture of the same building begins with its paths.
   told.pictures().order({1, small_picture(8), {}, {}});
   told.wait_done(1, 8);
   CHECK_FALSE(told.of(1, 8).front()["png"].is_null());
-  // A building that is dimmed has other flux, and a darker picture has another file.
+  // A dimmed building has another flux, and a darker picture has another file.
   told.pictures().order({1, small_picture(9), {}, {{"left", 0.0}}});
   told.wait_done(1, 9);
   CHECK(told.of(1, 9).front()["png"].is_null());
   CHECK(told.of(1, 9).back()["png"] != told.of(1, 8).back()["png"]);
 }
 
-TEST_CASE("pictures are made in their order, and whoever cancels is told no more", "[view]") {
+TEST_CASE("pictures are made in order, and a cancelled viewer gets no more messages", "[view]") {
   const LiveRoom room;
   ToldPictures told(room);
   RenderAsk large = small_picture(1);
@@ -128,7 +129,8 @@ TEST_CASE("pictures are made in their order, and whoever cancels is told no more
   told.pictures().order({1, large, {}, {}});
   told.pictures().order({2, small_picture(2), {}, {}});
   told.pictures().order({3, small_picture(3), {}, {}});
-  told.pictures().order({2, small_picture(4), {}, {}});  // in place of the one before, and last
+  told.pictures().order({2, small_picture(4), {}, {}});  // replaces the previous one, and comes
+                                                         // last
   told.wait(1, [](const Json& message) { return !message["png"].is_null(); });
   told.pictures().cancel(1);
   told.wait_done(2, 4);
@@ -137,7 +139,7 @@ TEST_CASE("pictures are made in their order, and whoever cancels is told no more
   CHECK_FALSE(told.of(1, 1).back()["done"].get<bool>());
 }
 
-TEST_CASE("a picture that cannot be had is refused with a reason, and others are made", "[view]") {
+TEST_CASE("an impossible picture is refused with a reason, and others are made", "[view]") {
   const LiveRoom room;
   ToldPictures told(room);
   SceneEdits edits;

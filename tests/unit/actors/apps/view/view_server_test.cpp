@@ -1,5 +1,5 @@
-// What a live view serves, asked for with raw sockets. What holds for every server of the program
-// is tested in tests/unit/runtime/http.
+// What a live view serves, requested with raw sockets. Promises of every server of the program are
+// tested in tests/unit/runtime/http.
 #include "actors/apps/view/view_server.hpp"
 
 #include <catch2/catch.hpp>
@@ -30,7 +30,7 @@ class Serving {
     thread_.join();
   }
   uint16_t port() const { return server_->port(); }
-  /// As a browser says where it is.
+  /// The address as a browser sends it.
   std::string here() const { return "127.0.0.1:" + std::to_string(port()); }
   std::string get(const std::string& target, const std::string& method = "GET") const {
     return method + " " + target + " HTTP/1.1\r\nHost: " + here() + "\r\n\r\n";
@@ -52,7 +52,7 @@ class Serving {
 
 }  // namespace
 
-TEST_CASE("the server has a page and a socket, and no other path of the machine", "[view]") {
+TEST_CASE("the server has a page and a socket, and no other path", "[view]") {
   const Serving serving("");
   const uint16_t port = serving.port();
   CHECK(answer(port, serving.get("/")) == http_ok);
@@ -65,7 +65,7 @@ TEST_CASE("the server has a page and a socket, and no other path of the machine"
   CHECK(answer(port, serving.upgrade("/live", "Origin: http://elsewhere\r\n")) == http_forbidden);
 }
 
-TEST_CASE("a server with a token wants it for page and socket", "[view]") {
+TEST_CASE("a server with a token requires it for page and socket", "[view]") {
   const Serving serving("secret");
   const uint16_t port = serving.port();
   CHECK(answer(port, serving.get("/")) == http_forbidden);
@@ -77,10 +77,10 @@ TEST_CASE("a server with a token wants it for page and socket", "[view]") {
   CHECK(answer(port, serving.upgrade("/live?token=secret")) == http_switching);
 }
 
-TEST_CASE("a socket that speaks rubbish ends its own connection alone", "[view]") {
+TEST_CASE("a malformed WebSocket frame ends only its own connection", "[view]") {
   const Serving serving("");
   const uint16_t port = serving.port();
-  // Frames that lie: reserved bits, a length of exabytes, an unmasked text.
+  // Malformed frames: reserved bits, a length of exabytes, an unmasked text.
   for (const std::string& frame :
        {std::string("\xff\xff\xff\xff", 4),
         std::string("\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 10), std::string("\x81\x05hello")})

@@ -9,7 +9,7 @@ namespace {
 constexpr NodeId ann{1}, bob{2};
 }
 
-TEST_CASE("a batch that was late is given twice the time, until it is counted", "[leases]") {
+TEST_CASE("a late batch gets twice the time, until it is counted", "[leases]") {
   LeaseBook book(0);
   book.open_until(1);
   Nanoseconds now = 0;
@@ -26,8 +26,9 @@ TEST_CASE("a batch that was late is given twice the time, until it is counted", 
   CHECK(book.fence_late(now + 100).size() == 1);
 }
 
-TEST_CASE("where a batch took longer than a lease, the next are given as long and half as much",
-          "[leases]") {
+TEST_CASE(
+    "after a batch that took longer than a lease, later leases last half as long again as it did",
+    "[leases]") {
   LeaseBook book(0);
   book.open_until(3);
   const auto lent_for = [&](Nanoseconds now) {
@@ -43,7 +44,7 @@ TEST_CASE("where a batch took longer than a lease, the next are given as long an
   CHECK(lent_for(400) == 240);
 }
 
-TEST_CASE("a book beside rounds lends what is added, and no more what is removed", "[leases]") {
+TEST_CASE("a book without rounds leases added batches, and no removed ones", "[leases]") {
   LeaseBook book(0);
   for (const int64_t batch : {7, 8, 11}) book.add(batch);
   CHECK(book.waiting() == 3);
@@ -52,7 +53,7 @@ TEST_CASE("a book beside rounds lends what is added, and no more what is removed
   CHECK(first.count == 2);
   std::set<int64_t> batches{8, 11};
   const std::vector<Lease> fenced = book.remove(batches);
-  REQUIRE(fenced.size() == 1);  // nobody had the other
+  REQUIRE(fenced.size() == 1);  // the other one was not leased
   CHECK(fenced.front().id == first.first_lease + 1);
   CHECK(batches.empty());
   CHECK(book.lend(bob, 5, 0, 100).count == 0);
@@ -66,7 +67,7 @@ TEST_CASE("a book beside rounds lends what is added, and no more what is removed
   CHECK(book.waiting() == 0);
 }
 
-TEST_CASE("leases of a node that makes progress are not late before it stops", "[leases]") {
+TEST_CASE("renewed leases are not late while their node makes progress", "[leases]") {
   LeaseBook book(0);
   book.open_until(4);
   book.lend(ann, 2, 0, 100);
@@ -77,7 +78,7 @@ TEST_CASE("leases of a node that makes progress are not late before it stops", "
   CHECK(book.fence_late(150).size() == 2);
 }
 
-TEST_CASE("batches that nobody can trace are taken out of a book that returns them", "[leases]") {
+TEST_CASE("batches that no node can trace are removed from the book", "[leases]") {
   LeaseBook book(0);
   book.add(3);
   const uint64_t lease = book.lend(ann, 1, 0, 100).first_lease;
@@ -91,8 +92,7 @@ TEST_CASE("batches that nobody can trace are taken out of a book that returns th
   CHECK(book.lend(ann, 1, 0, 100).count == 1);
 }
 
-TEST_CASE("a book that goes on lends the batches that are missing first, and tells them",
-          "[lease]") {
+TEST_CASE("a continued book leases the missing batches first, and lists them", "[lease]") {
   LeaseBook book(10, {3, 7}, 1000);
   CHECK(book.committed() == 8);
   CHECK(book.missing() == std::vector<int64_t>{3, 7});
@@ -107,11 +107,11 @@ TEST_CASE("a book that goes on lends the batches that are missing first, and tel
   CHECK(fresh.count == 2);
   book.commit({1000}, 0);
   CHECK(book.missing() == std::vector<int64_t>{7, 10, 11});
-  CHECK(book.fence_leases(NodeId{2}, {1001, 1002}).size() == 1);  // the other is of node 1
+  CHECK(book.fence_leases(NodeId{2}, {1001, 1002}).size() == 1);  // the other lease is node 1's
   CHECK(book.lend(NodeId{1}, 1, 0, 100).first_batch == 10);
 }
 
-TEST_CASE("a lease book lends every batch of a round once and none beyond it", "[lease]") {
+TEST_CASE("a lease book leases every batch of a round once and none beyond it", "[lease]") {
   LeaseBook book(3);
   CHECK(book.lend(ann, 4, 0, 100).count == 0);
   book.open_until(10);
@@ -129,7 +129,7 @@ TEST_CASE("a lease book lends every batch of a round once and none beyond it", "
   CHECK(book.committed() == 10);
 }
 
-TEST_CASE("a lease book knows how many batches of the round wait", "[lease]") {
+TEST_CASE("a lease book counts the waiting batches of the round", "[lease]") {
   LeaseBook book(0, {}, 1, 8);
   CHECK(book.waiting() == 0);
   book.open_until(10);
@@ -138,12 +138,12 @@ TEST_CASE("a lease book knows how many batches of the round wait", "[lease]") {
   CHECK(book.waiting() == 7);
   book.lend({1}, 1, 50, 100, [](int64_t batch) { return batch == 6 ? 0u : 1u; });  // out of turn
   CHECK(book.waiting() == 6);
-  book.fence_late(120);  // the first three are lent again
+  book.fence_late(120);  // the first three wait again
   CHECK(book.waiting() == 9);
   CHECK(book.lend({1}, 3, 130, 100).first_batch == 0);
 }
 
-TEST_CASE("a late lease is fenced, lent again first, and can no longer be counted", "[lease]") {
+TEST_CASE("a late lease is fenced, leased again first, and can no longer be counted", "[lease]") {
   LeaseBook book(0);
   book.open_until(8);
   const LentBatches late = book.lend(ann, 2, 0, 100);
@@ -152,7 +152,7 @@ TEST_CASE("a late lease is fenced, lent again first, and can no longer be counte
   CHECK(book.fence_late(99).empty());
   CHECK(book.fence_late(100).size() == 2);
   CHECK_FALSE(book.stand(ann, {late.first_lease}));
-  const LentBatches again = book.lend(bob, 3, 0, 200);  // 0 and 1 are no neighbours of 4
+  const LentBatches again = book.lend(bob, 3, 0, 200);  // 0 and 1 are not adjacent to 4
   CHECK(again.first_batch == 0);
   CHECK(again.count == 2);
   CHECK(book.lend(bob, 8, 0, 200).first_batch == 4);
@@ -172,7 +172,7 @@ TEST_CASE("a flush counts only for the node that has all its leases, each named 
   CHECK(book.standing() == 1);
 }
 
-TEST_CASE("a round that is closed ends with what was lent", "[lease]") {
+TEST_CASE("a closed round ends with the leased batches", "[lease]") {
   LeaseBook book(0);
   book.open_until(100);
   const LentBatches lent = book.lend(ann, 2, 0, 100);
@@ -185,14 +185,13 @@ TEST_CASE("a round that is closed ends with what was lent", "[lease]") {
 }
 
 namespace {
-/// Batches of two groups in turn, of which a node likes one.
+/// Alternating batches of two groups, of which a node prefers one.
 LeaseBook::Rank likes(int64_t group) {
   return [group](int64_t batch) { return batch % 2 == group ? 0u : 1u; };
 }
 }  // namespace
 
-TEST_CASE("a node is lent what it prefers while there is some within reach, then the rest",
-          "[lease]") {
+TEST_CASE("a node gets preferred batches within reach, then the rest", "[lease]") {
   LeaseBook book(0, {}, 1, 6);
   book.open_until(8);
   const auto next = [&](int64_t group) {
@@ -211,7 +210,7 @@ TEST_CASE("a node is lent what it prefers while there is some within reach, then
   CHECK(book.lend(ann, 1, 0, 100, likes(0)).count == 0);
 }
 
-TEST_CASE("preferences change who traces a batch, never which batches a round holds", "[lease]") {
+TEST_CASE("preferences change which node traces a batch, never the batches of a round", "[lease]") {
   LeaseBook book(5, {}, 1, 8);
   book.open_until(25);
   std::set<int64_t> seen;
@@ -228,7 +227,7 @@ TEST_CASE("preferences change who traces a batch, never which batches a round ho
   CHECK(book.lend(bob, 1, 0, 100, likes(0)).count == 0);
 }
 
-TEST_CASE("a round that is closed holds no gaps: what was skipped is still lent", "[lease]") {
+TEST_CASE("a closed round has no gaps, since skipped batches are still leased", "[lease]") {
   LeaseBook book(0, {}, 1, 10);
   book.open_until(100);
   const uint64_t first = book.lend(ann, 1, 0, 100, likes(1)).first_lease;   // 1
@@ -246,7 +245,7 @@ TEST_CASE("a round that is closed holds no gaps: what was skipped is still lent"
   CHECK(book.round_done());
 }
 
-TEST_CASE("what was fenced is lent again before what a node prefers", "[lease]") {
+TEST_CASE("fenced batches are leased again before preferred ones", "[lease]") {
   LeaseBook book(0, {}, 1, 10);
   book.open_until(10);
   book.lend(ann, 1, 0, 100, likes(0));
@@ -255,8 +254,9 @@ TEST_CASE("what was fenced is lent again before what a node prefers", "[lease]")
   CHECK(book.lend(bob, 1, 0, 200, likes(1)).first_batch == 1);
 }
 
-TEST_CASE("a batch that a node gives back is lent to others, and lost when all have given it back",
-          "[lease]") {
+TEST_CASE(
+    "a batch that a node gives back is leased to others, and lost when all have given it back",
+    "[lease]") {
   LeaseBook book(0);
   book.open_until(4);
   const LentBatches lent = book.lend(ann, 2, 0, 100);
@@ -264,7 +264,7 @@ TEST_CASE("a batch that a node gives back is lent to others, and lost when all h
   const auto back = book.give_back(ann, {lent.first_lease, 999});
   REQUIRE(back.size() == 1);
   CHECK(back.front().batch == 0);
-  CHECK(book.give_back(ann, {lent.first_lease}).empty());  // it does not stand any more
+  CHECK(book.give_back(ann, {lent.first_lease}).empty());  // the lease is no longer valid
   CHECK(book.lose_what_all_gave_back({ann, bob}) == 0);
 
   // Ann gets what comes next, bob what she gave back.
@@ -279,7 +279,7 @@ TEST_CASE("a batch that a node gives back is lent to others, and lost when all h
   SECTION("it is lost where nobody can, and the round ends without it") {
     book.give_back(bob, {of_bob.first_lease});
     CHECK(book.lose_what_all_gave_back({ann, bob}) == 1);
-    CHECK(book.lose_what_all_gave_back({ann, bob}) == 0);  // told once
+    CHECK(book.lose_what_all_gave_back({ann, bob}) == 0);  // reported once
     CHECK(book.lost() == 1);
     CHECK(book.missing() == std::vector<int64_t>{0, 1, 2});
     const LentBatches last = book.lend(bob, 5, 0, 100);
@@ -297,8 +297,9 @@ TEST_CASE("a batch that a node gives back is lent to others, and lost when all h
   }
 }
 
-TEST_CASE("a lease whose flush is being kept cannot be fenced, and its batch is not lent again",
-          "[lease]") {
+TEST_CASE(
+    "a lease whose flush is being journaled cannot be fenced, and its batch is not leased again",
+    "[lease]") {
   LeaseBook book(0);
   book.open_until(4);
   const LentBatches lent = book.lend(ann, 4, 0, 100);

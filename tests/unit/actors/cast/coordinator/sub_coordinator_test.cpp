@@ -1,6 +1,6 @@
-// A coordinator that leads two nodes in another one's stead, with the test as those two and as the
-// tracer above it: batches are lent on under its own leases, and named upwards under those that
-// they were given with.
+// A coordinator that leads two nodes on behalf of another one; the test plays the two nodes and the
+// tracer above. Batches are leased onwards under its own leases, and reported upwards under the
+// leases that they came with.
 #include "actors/cast/coordinator/sub_coordinator.hpp"
 
 #include <catch2/catch.hpp>
@@ -20,7 +20,7 @@ constexpr NodeId self{0}, left{1}, right{2};
 constexpr Nanoseconds lease_time = seconds(60), lost_after = seconds(5);
 using Numbers = std::vector<uint64_t>;
 
-/// Notes what is asked of the tracer above.
+/// Records the requests to the tracer above.
 struct NotedPort final : LeasePort {
   void want_leases(size_t count) override { wanted = count; }
   void leases_done(std::span<const uint64_t> leases) override {
@@ -63,7 +63,7 @@ struct Stage : test::LoneNode {
   }
   ~Stage() { end_fibers(); }
 
-  /// What a node's tracer says.
+  /// Sends a message as a node's tracer.
   void say(NodeId node, const Message& message, std::vector<std::byte> payload = {}) {
     Message copy = message;
     REQUIRE(coordinator.accept({{node, ActorName::tracer},
@@ -77,7 +77,7 @@ struct Stage : test::LoneNode {
     REQUIRE_FALSE(sender.told<LeaseGranted>(node).empty());
     return sender.told<LeaseGranted>(node).back();
   }
-  /// Both say that they are here, and that they have nothing to do.
+  /// Both nodes announce themselves without asking for work.
   void bring_both() {
     ask(left, 1);
     ask(right, 1);
@@ -110,7 +110,7 @@ struct Stage : test::LoneNode {
 
 }  // namespace
 
-TEST_CASE("nothing is asked for above before all who are led have come, or half the time is over",
+TEST_CASE("nothing is requested above before all workers are present, or half the time is over",
           "[sub-coordinator]") {
   Stage stage;
   CHECK(stage.ask(left, 2).batches == 0);
@@ -125,7 +125,7 @@ TEST_CASE("nothing is asked for above before all who are led have come, or half 
   }
 }
 
-TEST_CASE("batches that come are offered to as many as can have one, in turn",
+TEST_CASE("new batches are offered to as many workers as can get one, in turn",
           "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
@@ -134,7 +134,7 @@ TEST_CASE("batches that come are offered to as many as can have one, in turn",
   stage.coordinator.look_again();
   stage.coordinator.look_again();
   CHECK(told(left) == 1);
-  CHECK(told(right) == 1);  // the second time: the first may not come
+  CHECK(told(right) == 1);  // offered to the second worker, since the first may not come
   stage.coordinator.look_again();
   CHECK(told(left) + told(right) == 2);
   SECTION("who does not come is told again, ever more seldom") {
@@ -162,7 +162,7 @@ TEST_CASE("batches that come are offered to as many as can have one, in turn",
   }
 }
 
-TEST_CASE("batches are lent on, and named upwards under the leases that they came with",
+TEST_CASE("batches are leased onwards, and reported under the leases that they came with",
           "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
@@ -171,7 +171,7 @@ TEST_CASE("batches are lent on, and named upwards under the leases that they cam
   stage.coordinator.look_again();
   const LeaseGranted granted = stage.ask(left, 2);
   CHECK(granted.first_batch == 30);
-  REQUIRE(granted.batches == 1);  // its share of what there is
+  REQUIRE(granted.batches == 1);  // its share of what is available
   const LeaseGranted other = stage.ask(right, 2);
   CHECK(other.first_batch == 31);
   CHECK(stage.coordinator.at_hand() == 2);
@@ -184,7 +184,7 @@ TEST_CASE("batches are lent on, and named upwards under the leases that they cam
   CHECK(Stage::sum_of(stage.coordinator.merged()) == 2);
 }
 
-TEST_CASE("what is given upwards is what was merged since the last time", "[sub-coordinator]") {
+TEST_CASE("totals passed upwards are those merged since the last time", "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
   stage.coordinator.add(901, 30);
@@ -199,8 +199,7 @@ TEST_CASE("what is given upwards is what was merged since the last time", "[sub-
   CHECK(Stage::sum_of(stage.coordinator.merged()) == 2);
 }
 
-TEST_CASE("a lease that is fenced above is fenced below, and its flush is refused",
-          "[sub-coordinator]") {
+TEST_CASE("a lease fenced above is fenced below, and its flush is refused", "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
   stage.coordinator.add(901, 30);
@@ -216,20 +215,20 @@ TEST_CASE("a lease that is fenced above is fenced below, and its flush is refuse
   CHECK(Stage::sum_of(stage.coordinator.merged()) == 0);
 }
 
-TEST_CASE("a batch that comes again under another lease is merged once, and named by the new one",
+TEST_CASE("a batch that returns under another lease is merged once, and reported under the new one",
           "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
   stage.coordinator.add(901, 30);
   const uint64_t lease = stage.ask(left, 1).first_lease;
-  stage.coordinator.add(950, 30);  // no word has come that 901 was fenced
+  stage.coordinator.add(950, 30);  // the fencing of 901 was not heard of
   CHECK(stage.coordinator.at_hand() == 1);
   CHECK(stage.ask(right, 1).batches == 0);
   stage.flush(left, {lease});
   CHECK(stage.port.done == Numbers{950});
 }
 
-TEST_CASE("a lease that is late below is lent to the other, and stands above",
+TEST_CASE("a lease that is late below goes to the other worker, and stays valid above",
           "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
@@ -246,7 +245,8 @@ TEST_CASE("a lease that is late below is lent to the other, and stands above",
   CHECK(Stage::sum_of(stage.coordinator.merged()) == 1);
 }
 
-TEST_CASE("a flush is counted when the one above has room for its leases", "[sub-coordinator]") {
+TEST_CASE("a flush is counted once the coordinator above has room for its leases",
+          "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
   stage.coordinator.add(901, 30);
@@ -262,20 +262,20 @@ TEST_CASE("a flush is counted when the one above has room for its leases", "[sub
   CHECK(stage.port.done == Numbers{901});
 }
 
-TEST_CASE("what nobody below can trace goes back", "[sub-coordinator]") {
+TEST_CASE("batches that no worker below can trace are given back", "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
   stage.coordinator.add(901, 30);
   stage.say(left, LeasesFenced{{stage.ask(left, 1).first_lease}});
   stage.run(seconds(1));
-  CHECK(stage.port.given_back.empty());  // the other may
+  CHECK(stage.port.given_back.empty());  // the other may trace it
   stage.say(right, LeasesFenced{{stage.ask(right, 1).first_lease}});
   stage.run(seconds(1));
   CHECK(stage.port.given_back == Numbers{901});
   CHECK(stage.coordinator.at_hand() == 0);
 }
 
-TEST_CASE("leases are returned when all who are led are lost", "[sub-coordinator]") {
+TEST_CASE("leases are returned when all workers are lost", "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
   stage.coordinator.add(901, 30);
@@ -288,12 +288,12 @@ TEST_CASE("leases are returned when all who are led are lost", "[sub-coordinator
 }
 
 TEST_CASE(
-    "it is said above that all who are led have left or trace nothing, though nothing is lent",
+    "the coordinator above is told that all workers have left or are idle, even without leases",
     "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
   stage.say(left, EnterPhase{EndPhase::leave, 0});
-  CHECK(stage.sender.told<LeaseGranted>(left).size() == 2);  // the word has come
+  CHECK(stage.sender.told<LeaseGranted>(left).size() == 2);  // the message has arrived
   stage.run(seconds(1));
   CHECK(stage.port.returns == 0);
   stage.ask(right, 0);
@@ -301,7 +301,7 @@ TEST_CASE(
   CHECK(stage.port.returns > 0);
 }
 
-TEST_CASE("who has returned its leases is waited for at the end, who has left is not",
+TEST_CASE("a worker that returned its leases is awaited at the end, one that left is not",
           "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
@@ -315,7 +315,8 @@ TEST_CASE("who has returned its leases is waited for at the end, who has left is
   CHECK(stage.coordinator.end_is_known() == leaves);
 }
 
-TEST_CASE("who has not come yet is told of the end, as long as it may come", "[sub-coordinator]") {
+TEST_CASE("a worker that has not come yet is told of the end, as long as it may come",
+          "[sub-coordinator]") {
   Stage stage;
   stage.ask(left, 1);
   SECTION("it is there, and answers") {
@@ -335,8 +336,7 @@ TEST_CASE("who has not come yet is told of the end, as long as it may come", "[s
   }
 }
 
-TEST_CASE("a word of leaving that comes late does not count against one who is here again",
-          "[sub-coordinator]") {
+TEST_CASE("a late goodbye does not count against a worker that is back", "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
   const uint64_t before = stage.questions;
@@ -349,7 +349,7 @@ TEST_CASE("a word of leaving that comes late does not count against one who is h
   CHECK_FALSE(stage.coordinator.end_is_known());
 }
 
-TEST_CASE("the end is told until all have heard it, and then they are let go",
+TEST_CASE("the end is repeated until all have confirmed it, and then they are released",
           "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();
@@ -369,7 +369,7 @@ TEST_CASE("the end is told until all have heard it, and then they are let go",
   CHECK(stage.coordinator.gone());
 }
 
-TEST_CASE("the end is told again as soon as it was answered, and ever more seldom where it was not",
+TEST_CASE("the end is repeated soon after an answer, and ever more rarely without one",
           "[sub-coordinator]") {
   Stage stage;
   stage.bring_both();

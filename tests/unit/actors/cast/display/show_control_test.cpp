@@ -1,5 +1,5 @@
-// What a coordinator tells a display: pieces of one show at a time, again as often as they are
-// asked for, and the end until the flux is on a disk.
+// What a coordinator sends a display: pieces of one show at a time, repeated on request, and the
+// end until the flux is on a disk.
 #include "actors/cast/display/show_control.hpp"
 
 #include <catch2/catch.hpp>
@@ -57,7 +57,7 @@ struct Desk {
 
 }  // namespace
 
-TEST_CASE("the first piece is told when the totals are packed, the others when they are asked for",
+TEST_CASE("the first piece is sent when the totals are packed, the others on request",
           "[showing]") {
   Desk desk;
   CHECK_FALSE(desk.control.begin_pack());
@@ -80,7 +80,8 @@ TEST_CASE("the first piece is told when the totals are packed, the others when t
   CHECK_FALSE(desk.control.wanted());
 }
 
-TEST_CASE("a piece of a show that is gone, or of another life, is answered by none", "[showing]") {
+TEST_CASE("a request for a piece of an old show or another life gets an empty answer",
+          "[showing]") {
   Desk desk;
   desk.ask(1, 3, 10);
   CHECK(desk.shown().pieces == 0);
@@ -92,7 +93,7 @@ TEST_CASE("a piece of a show that is gone, or of another life, is answered by no
   CHECK(desk.shown().pieces == 0);
 }
 
-TEST_CASE("while totals are packed no piece of an earlier show is told", "[showing]") {
+TEST_CASE("while totals are packed no piece of an earlier show is sent", "[showing]") {
   Desk desk;
   desk.ask(1, 0, 10);
   desk.pack();
@@ -102,13 +103,13 @@ TEST_CASE("while totals are packed no piece of an earlier show is told", "[showi
   desk.ask(1, 1, 12);
   REQUIRE(desk.sender.sent.size() == before + 1);
   CHECK(desk.shown().pieces == 0);
-  desk.control.end_life(display_node);  // nobody is left who asked
+  desk.control.end_life(display_node);  // the requester is gone
   desk.control.pack(desk.run, 0);
   desk.control.packed(false, StopReason::time);
   CHECK(desk.sender.sent.size() == before + 1);
 }
 
-TEST_CASE("the end is told until the flux is on a disk, and again to a display that begins anew",
+TEST_CASE("the end is repeated until the flux is on a disk, and again to a restarted display",
           "[showing]") {
   Desk desk;
   Nanoseconds now = 0;
@@ -134,7 +135,7 @@ TEST_CASE("the end is told until the flux is on a disk, and again to a display t
   CHECK(told());
 }
 
-TEST_CASE("a run without a display has nobody to tell", "[showing]") {
+TEST_CASE("a run without a display sends no show messages", "[showing]") {
   Desk desk;
   ShowControl none(std::nullopt, desk.run, desk.timer, desk.sender, {{9}, ActorName::coordinator});
   none.tell_end({3, ""}, 0);

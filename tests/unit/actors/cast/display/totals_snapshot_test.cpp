@@ -1,5 +1,5 @@
-// Totals that are packed in pieces and put together elsewhere are the same bits, and nothing else
-// is taken for them.
+// Totals that are packed in pieces and reassembled elsewhere have the same bits, and invalid pieces
+// are rejected.
 #include "actors/cast/display/totals_snapshot.hpp"
 
 #include <catch2/catch.hpp>
@@ -29,7 +29,7 @@ Result<void> take(TotalsCopy& copy, const TotalsSnapshot& snapshot, uint32_t pie
 
 }  // namespace
 
-TEST_CASE("totals that are shown in pieces are the same bits, and stay where they were",
+TEST_CASE("totals copied in pieces have the same bits, and the originals are unchanged",
           "[showing]") {
   Traced traced(6);
   const TotalsSnapshot& snapshot = traced.snapshot;
@@ -50,7 +50,7 @@ TEST_CASE("totals that are shown in pieces are the same bits, and stay where the
   CHECK(traced.run.totals().balance().particles > 0);
 }
 
-TEST_CASE("a run that lacks batches is shown as one that lacks them", "[showing]") {
+TEST_CASE("a run with missing batches is copied with them missing", "[showing]") {
   Traced traced(4);
   traced.run.resume(7, {4, 5, 6});
   traced.snapshot.pack(traced.run, 0);
@@ -64,7 +64,7 @@ TEST_CASE("a run that lacks batches is shown as one that lacks them", "[showing]
   CHECK(run->traced() == 4);
 }
 
-TEST_CASE("what is no next piece of this run is refused", "[showing]") {
+TEST_CASE("an invalid next piece is rejected", "[showing]") {
   Traced traced(3);
   const TotalsSnapshot& snapshot = traced.snapshot;
   TotalsCopy copy(traced.run.empty_copy());

@@ -18,7 +18,7 @@ using namespace luxodus;
 
 namespace {
 
-/// Traces single batches, as a worker does, into flushes.
+/// Traces single batches into flushes, as a worker does.
 class Worker {
  public:
   explicit Worker(const LocalRun& run)
@@ -72,13 +72,13 @@ std::unique_ptr<FluxJournal> opened(std::vector<std::byte>& bytes, LocalRun& run
 
 }  // namespace
 
-TEST_CASE("a run that begins again from its journal, anywhere, ends as one that never stopped",
+TEST_CASE("a run restarted from its journal at any point ends like one that never stopped",
           "[journal]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   LocalRun whole(scene, 1, 1);
   trace(whole, 5);
   const Worker worker(whole);
-  const std::vector<int64_t> order = {1, 0, 4, 2, 3};  // flushes come as they come
+  const std::vector<int64_t> order = {1, 0, 4, 2, 3};  // flushes arrive in any order
   for (size_t stop = 0; stop <= order.size(); ++stop) {
     INFO("stopped after " << stop << " flushes");
     std::vector<std::byte> disk;
@@ -99,7 +99,7 @@ TEST_CASE("a run that begins again from its journal, anywhere, ends as one that 
   }
 }
 
-TEST_CASE("a journal that is older than the flux file in part is counted once", "[journal]") {
+TEST_CASE("a journal that is partly older than the flux file is counted once", "[journal]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   LocalRun whole(scene, 1, 1);
   trace(whole, 3);
@@ -112,13 +112,13 @@ TEST_CASE("a journal that is older than the flux file in part is counted once", 
       REQUIRE(journal->keep(std::array{batch}, worker.flush_of(batch)).ok());
   }
   LocalRun second(scene, 1, 1);
-  trace(second, 2);  // as a flux file would have it
+  trace(second, 2);  // as in a flux file
   const auto journal = opened(disk, second);
   CHECK(journal->recovered() == 1);
   CHECK(same(whole, second));
 }
 
-TEST_CASE("a journal that has become a snapshot, and one that was about to, end in the same bits",
+TEST_CASE("a journal with a snapshot gives the same bits, whether it was emptied or not",
           "[journal]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   LocalRun whole(scene, 1, 1);
@@ -129,14 +129,14 @@ TEST_CASE("a journal that has become a snapshot, and one that was about to, end 
   config.folder = folder.path();
   config.max_bytes = 1;
   const SystemClock clock;
-  const bool cut = GENERATE(true, false);  // a crash before the journal was cut, or none
+  const bool cut = GENERATE(true, false);  // whether a crash came before the journal was emptied
   {
     LocalRun first(scene, 1, 1);
     const auto journal = RunJournal::open(config, first, clock);
     REQUIRE(journal.ok());
     for (int64_t batch = 0; batch < 2; ++batch)
       REQUIRE(journal.value()->keep(std::array{batch}, worker.flush_of(batch)).ok());
-    trace(first, 2);  // the totals hold what was kept
+    trace(first, 2);  // the totals hold everything journaled
     REQUIRE(journal.value()->rest_is_due());
     if (cut)
       journal.value()->rest();
@@ -155,8 +155,8 @@ TEST_CASE("a journal that has become a snapshot, and one that was about to, end 
   CHECK(folder.entries() == 0);
 }
 
-// A run that was recovered so once ended without the last batches, and took itself for whole.
-TEST_CASE("batches that a snapshot lacks at its end are still missing when the journal is counted",
+// A recovered run once ended without the last batches, and took itself for complete.
+TEST_CASE("batches missing at a snapshot's end are still missing after the journal is counted",
           "[journal]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   LocalRun whole(scene, 1, 1);
@@ -172,7 +172,7 @@ TEST_CASE("batches that a snapshot lacks at its end are still missing when the j
     const auto journal = RunJournal::open(config, first, clock);
     REQUIRE(journal.ok());
     trace(first, 1);
-    first.resume(5, {1, 2, 3, 4});  // all are lent, and one is counted
+    first.resume(5, {1, 2, 3, 4});  // all are leased, and one is counted
     journal.value()->rest();
     REQUIRE(journal.value()->keep(std::array<int64_t, 1>{2}, worker.flush_of(2)).ok());
   }
@@ -186,7 +186,7 @@ TEST_CASE("batches that a snapshot lacks at its end are still missing when the j
   CHECK(same(whole, second));
 }
 
-TEST_CASE("what a journal on a full disk could not take is in a snapshot, and nothing is lost",
+TEST_CASE("a flush that a full disk kept out of the journal is in a snapshot, and nothing is lost",
           "[journal]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   LocalRun whole(scene, 1, 1);
@@ -204,7 +204,7 @@ TEST_CASE("what a journal on a full disk could not take is in a snapshot, and no
     REQUIRE(journal.ok());
     const auto keep = [&](int64_t batch) {
       const bool kept = journal.value()->keep(std::array{batch}, worker.flush_of(batch)).ok();
-      trace(first, batch + 1);  // it is counted all the same
+      trace(first, batch + 1);  // counted all the same
       return kept;
     };
     CHECK(keep(0));
@@ -223,7 +223,7 @@ TEST_CASE("what a journal on a full disk could not take is in a snapshot, and no
     REQUIRE(journal.value()->rest_is_due());
     journal.value()->rest();
     clock.advance(seconds(60));
-    CHECK(keep(3));  // there is room again
+    CHECK(keep(3));  // there is space again
   }
   LocalRun second(scene, 1, 1);
   config.faults = {};
@@ -233,8 +233,7 @@ TEST_CASE("what a journal on a full disk could not take is in a snapshot, and no
   CHECK(same(whole, second));
 }
 
-TEST_CASE("a snapshot that cannot be written is tried again, and the journal stays as it is",
-          "[journal]") {
+TEST_CASE("a failed snapshot is retried, and the journal stays as it is", "[journal]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   LocalRun run(scene, 1, 1);
   const Worker worker(run);
@@ -249,7 +248,7 @@ TEST_CASE("a snapshot that cannot be written is tried again, and the journal sta
   trace(run, 1);
   const auto journal_bytes = [&] { return std::filesystem::file_size(folder / "run.journal"); };
   const auto before = journal_bytes();
-  std::filesystem::create_directory(folder / "run.snapshot");  // no file can take its place
+  std::filesystem::create_directory(folder / "run.snapshot");  // a folder in the snapshot's place
   REQUIRE(journal.value()->rest_is_due());
   journal.value()->rest();
   CHECK(journal_bytes() == before);
@@ -262,7 +261,7 @@ TEST_CASE("a snapshot that cannot be written is tried again, and the journal sta
   CHECK(journal_bytes() < before);
 }
 
-TEST_CASE("a run that goes on from its flux file, after any batch, ends as one that never stopped",
+TEST_CASE("a run continued from its flux file after any batch ends like one that never stopped",
           "[journal]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   constexpr int64_t batches = 5;
@@ -283,7 +282,7 @@ TEST_CASE("a run that goes on from its flux file, after any batch, ends as one t
   }
 }
 
-TEST_CASE("records that do not belong to a run are refused", "[journal]") {
+TEST_CASE("records of another run are rejected", "[journal]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   LocalRun run(scene, 1, 1);
   const Worker worker(run);

@@ -1,4 +1,4 @@
-// The journal's actor: what it is given is durable before it says so, its node's loop goes on
+// The journal's actor: it reports a flush only when it is durable, its node's loop goes on
 // meanwhile, and a node that ends waits for the disk, not for its own loop.
 #include "actors/cast/journal/journal_actor.hpp"
 
@@ -14,7 +14,7 @@ using test::Node;
 
 namespace {
 
-/// Notes what it is asked to keep; it takes as long as it is told to, and can fail.
+/// Records the flushes; it takes a configurable time, and can fail.
 struct NotedKeeper final : FlushKeeper {
   Result<void> keep(std::span<const int64_t> batches, std::span<const std::byte>) override {
     while (slow) std::this_thread::yield();
@@ -62,7 +62,7 @@ struct Desk {
 
 }  // namespace
 
-TEST_CASE("a flush is said to be kept when the keeper has it, and not before", "[journal]") {
+TEST_CASE("a flush is reported as kept when the keeper has it, and not before", "[journal]") {
   Desk desk;
   desk.keeper.slow = true;
   Kept kept;
@@ -78,7 +78,7 @@ TEST_CASE("a flush is said to be kept when the keeper has it, and not before", "
   CHECK(desk.journal.is_whole());
 }
 
-TEST_CASE("what the disk does not take is told, and tidying makes the journal whole", "[journal]") {
+TEST_CASE("a failed write is reported, and tidying makes the journal whole", "[journal]") {
   Desk desk;
   desk.keeper.fails = true;
   Kept kept;
@@ -94,7 +94,7 @@ TEST_CASE("what the disk does not take is told, and tidying makes the journal wh
   CHECK(desk.journal.is_whole());
 }
 
-TEST_CASE("a node that ends waits for a call that is under way", "[journal]") {
+TEST_CASE("a node that ends waits for the call in progress", "[journal]") {
   Desk desk;
   desk.keeper.slow = true;
   Kept kept;
@@ -102,7 +102,7 @@ TEST_CASE("a node that ends waits for a call that is under way", "[journal]") {
   for (int turn = 0; turn < 20; ++turn) desk.node.scheduler.turn();
   std::thread disk([&] { desk.keeper.slow = false; });
   desk.node.scheduler.fibers().cancel_all();
-  desk.node.settle();  // its fiber ends, and not before the call has returned
+  desk.node.settle();  // its fiber ends only after the call has returned
   disk.join();
   CHECK(desk.node.scheduler.fibers().live() == 0);
   CHECK(desk.keeper.kept == std::vector<int64_t>{7});

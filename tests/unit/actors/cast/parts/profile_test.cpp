@@ -1,4 +1,4 @@
-// Profiles of a real scene: what they count, and that a file gives them back or refuses.
+// Profiles of a real scene: their counts, and their file.
 #include <unistd.h>
 
 #include <array>
@@ -42,8 +42,10 @@ constexpr uint64_t plenty = std::numeric_limits<uint64_t>::max();
 
 }  // namespace
 
-TEST_CASE("a profile counts the same whatever room it has, and no cell more often than it can",
-          "[profile]") {
+TEST_CASE(
+    "a profile's counts do not depend on its budget, and no cell is visited more often than "
+    "possible",
+    "[profile]") {
   const auto scene = tank(24);
   const ReferenceProfile profile = profile_of(*scene, plenty);
   CHECK(profile == profile_of(*scene, 1));
@@ -59,7 +61,7 @@ TEST_CASE("a profile counts the same whatever room it has, and no cell more ofte
       if (counts.references[cell] > 0) CHECK(profile.built_bytes[cell] > 0);
     }
   }
-  CHECK(references > 2000);  // every particle meets something
+  CHECK(references > 2000);  // every particle hits something
 }
 
 TEST_CASE("a profile has particles of every group, and no more than its limit", "[profile]") {
@@ -69,10 +71,10 @@ TEST_CASE("a profile has particles of every group, and no more than its limit", 
   CHECK(many == std::vector<int64_t>(2, limits::profile_particles / 2));
 }
 
-TEST_CASE("a profile comes back from its file, and is refused for another partition", "[profile]") {
+TEST_CASE("a profile is read back from its file, and rejected for another partition", "[profile]") {
   const auto scene = tank(24);
   const ReferenceProfile profile = profile_of(*scene, plenty);
-  const size_t objects = scene->cell_boxes.size();  // and no smoke data, no pictures
+  const size_t objects = scene->cell_boxes.size();  // no smoke data, no pictures
   const test::TemporaryFolder folder;
   const fs::path file = folder / "profile";
   REQUIRE(write_profile(file, profile).ok());

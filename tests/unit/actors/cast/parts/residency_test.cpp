@@ -1,4 +1,4 @@
-// Plans of residency, from profiles made up here: what follows from counts alone.
+// Residency plans from artificial profiles: they depend on counts only.
 #include "actors/cast/parts/residency.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint64_t kib = 1024;
 
-/// Every history of a group visits some cells, once a visit.
+/// Every history of a group visits some cells, one reference per visit.
 ReferenceCounts visits_of(std::vector<uint64_t> visits) {
   return {1000, visits, visits};
 }
@@ -39,7 +39,7 @@ struct Made {
   }
 };
 
-/// Groups of equal share; those of like letters ask for like cells.
+/// Groups of equal share; those with similar rows visit similar cells.
 Made made(const std::vector<std::vector<uint64_t>>& visits) {
   Made m;
   for (const auto& of_group : visits) {
@@ -58,14 +58,14 @@ std::vector<ObjectDemand> zipf(int cells) {
   return demand;
 }
 
-/// Hits of a cache of `room` equal cells that lets the one unused for the longest go.
+/// Hits of an LRU cache of `room` equal cells.
 double simulated_lru(const std::vector<ObjectDemand>& cells, size_t room, int references) {
   std::vector<double> cumulative;
   double sum = 0;
   for (const ObjectDemand& cell : cells) cumulative.push_back(sum += cell.visits);
   Random random(1, RandomStream::test);
   random.start(0);
-  std::vector<size_t> used;  // the one unused for the longest first
+  std::vector<size_t> used;  // the least recently used first
   int hits = 0;
   for (int i = 0; i < references; ++i) {
     const double u = sum * random.uniform_double();
@@ -85,7 +85,7 @@ double simulated_lru(const std::vector<ObjectDemand>& cells, size_t room, int re
 
 }  // namespace
 
-TEST_CASE("the expected hit rate of independent visits is what a simulated cache gives",
+TEST_CASE("the expected hit rate of independent visits equals that of a simulated cache",
           "[residency]") {
   const auto cells = zipf(200);
   for (const size_t room : {10u, 50u, 120u}) {
@@ -97,8 +97,7 @@ TEST_CASE("the expected hit rate of independent visits is what a simulated cache
   }
 }
 
-TEST_CASE("with equal visits a cache finds the share of cells that it has room for",
-          "[residency]") {
+TEST_CASE("with equal visits the hit rate is the share of cells that fit", "[residency]") {
   const std::vector<ObjectDemand> cells(100, {1, 1, kib});
   CHECK(lru_hit_rate(cells, 25 * kib) == Approx(0.25).epsilon(1e-6));
   CHECK(lru_hit_rate(cells, 100 * kib) == 1);
@@ -106,12 +105,12 @@ TEST_CASE("with equal visits a cache finds the share of cells that it has room f
   CHECK(lru_hit_rate({}, 0) == 1);
 }
 
-TEST_CASE("what a history refers to again it finds, however small the cache", "[residency]") {
+TEST_CASE("repeated references of a history are hits, however small the cache", "[residency]") {
   const std::vector<ObjectDemand> cells(100, {10, 1, kib});
   CHECK(lru_hit_rate(cells, 0) == Approx(0.9).epsilon(1e-6));
 }
 
-TEST_CASE("a node prefers groups that ask for like cells, and all nodes get as much work",
+TEST_CASE("a node prefers groups that visit similar cells, and all nodes get equal work",
           "[residency]") {
   // Groups 0 and 2 light one end of a building, 1 and 3 the other.
   const Made m = made({{90, 80, 1, 0}, {0, 1, 80, 90}, {80, 90, 1, 0}, {0, 1, 90, 80}});
@@ -122,7 +121,7 @@ TEST_CASE("a node prefers groups that ask for like cells, and all nodes get as m
   CHECK(std::max(second[1], second[3]) < std::min(second[0], second[2]));
 }
 
-TEST_CASE("every node ranks every group, also where groups are fewer than nodes", "[residency]") {
+TEST_CASE("every node ranks every group, also with fewer groups than nodes", "[residency]") {
   const Made m = made({{9, 1}, {1, 9}, {5, 5}});
   for (const size_t nodes : {1u, 2u, 5u, 8u}) {
     const Residency plan = plan_residency(m.request(nodes, kib, 0));
@@ -135,7 +134,7 @@ TEST_CASE("every node ranks every group, also where groups are fewer than nodes"
   }
 }
 
-TEST_CASE("pins are the cells visited most for their bytes, and fit their share", "[residency]") {
+TEST_CASE("pins are the cells with the most visits per byte, and fit their share", "[residency]") {
   const Made m = made({{10, 400, 30, 200}});
   ResidencyRequest request = m.request(1, 4 * kib, 2 * kib);
   request.built_bytes[1] = 8 * kib;  // 50 visits a KiB, and no room
@@ -144,7 +143,7 @@ TEST_CASE("pins are the cells visited most for their bytes, and fit their share"
   CHECK(plan.nodes[0].pinned_bytes == 2 * kib);
 }
 
-TEST_CASE("a cell is held where it is visited, and no node holds more than half above its share",
+TEST_CASE("a cell is held where it is visited, and no node holds more than 1.5 times its share",
           "[residency]") {
   const Made m = made({{90, 80, 70, 60, 1, 1, 1, 1}, {1, 1, 1, 1, 60, 70, 80, 90}});
   const Residency plan = plan_residency(m.request(2, 4 * kib, 0));
@@ -153,7 +152,7 @@ TEST_CASE("a cell is held where it is visited, and no node holds more than half 
     REQUIRE(plan.holders[cell].size() == 1);
     CHECK(plan.holders[cell][0].value == (cell < 4 ? low : 1 - low));
   }
-  // All is visited at one node: it may hold 6 of 8.
+  // All visits are at one node: it may hold 6 of 8.
   const Made lopsided = made({{1, 1, 1, 1, 1, 1, 1, 1}, {0, 0, 0, 0, 0, 0, 0, 0}});
   const Residency fair = plan_residency(lopsided.request(4, 4 * kib, 0));
   uint64_t held = 0;
@@ -164,9 +163,9 @@ TEST_CASE("a cell is held where it is visited, and no node holds more than half 
   CHECK(held == 8 * kib);
 }
 
-TEST_CASE("replicas of a cell are on different nodes, near those that the first is far from",
+TEST_CASE("replicas of a cell are on different nodes, near those far from the first",
           "[residency]") {
-  // A line of three nodes: one work, everywhere the same.
+  // A line of three nodes with the same work everywhere.
   const Made m = made({{5, 5, 5}});
   ResidencyRequest request = m.request(3, 2 * kib, 0);
   request.hops = {{0, 1, 2}, {1, 0, 1}, {2, 1, 0}};
@@ -179,7 +178,7 @@ TEST_CASE("replicas of a cell are on different nodes, near those that the first 
   CHECK(plan.holders[0][0].value == 1);  // the middle costs 2 hops, an end 3
 }
 
-TEST_CASE("pins make the expected hit rate no worse where visits are independent", "[residency]") {
+TEST_CASE("pins do not lower the expected hit rate of independent visits", "[residency]") {
   std::vector<uint64_t> visits;
   for (uint64_t i = 1; i <= 64; ++i) visits.push_back(6400 / i);
   const Made m = made({visits});
@@ -189,7 +188,7 @@ TEST_CASE("pins make the expected hit rate no worse where visits are independent
   CHECK(plan_residency(m.request(2, 64 * kib, 0)).expected_hit_rate == 1);
 }
 
-TEST_CASE("a profile without any reference makes a plan all the same", "[residency]") {
+TEST_CASE("a profile without references still gives a plan", "[residency]") {
   const Made m = made({{0, 0, 0}, {0, 0, 0}});
   const Residency plan = plan_residency(m.request(2, kib, kib));
   CHECK(plan.expected_hit_rate == 1);

@@ -1,5 +1,5 @@
-// The display of a run on nodes: what it is given is what the plain loop counts, wherever it lives;
-// losing it loses nothing, and without it there are no results.
+// The display of a run on nodes: it gets the plain loop's totals on any node; losing it loses
+// nothing, and without it there are no results.
 #include <spdlog/spdlog.h>
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ using namespace luxodus;
 
 namespace {
 
-/// Keeps copies of what it is to show, and does what the test wants instead.
+/// Keeps copies of what it should show, and fails on request.
 class NotedWork final : public RunOutput {
  public:
   explicit NotedWork(const LocalRun& base) : base_(base) {}
@@ -43,7 +43,7 @@ class NotedWork final : public RunOutput {
 
   int shows_wanted = 0;
   std::atomic<int> shown{0};
-  int throws = 0, throws_late = 0;  // so often: before the flux is kept, and after
+  int throws = 0, throws_late = 0;  // number of failures: before the flux is kept, and after
   std::string refuses;
   std::string done;
   std::unique_ptr<LocalRun> kept;
@@ -86,7 +86,7 @@ struct Shown {
 
 }  // namespace
 
-TEST_CASE("a display is given the totals of the plain loop, and flux comes before results",
+TEST_CASE("a display gets the totals of the plain loop, and writes flux before results",
           "[nodes][display]") {
   Shown shown(100'000);
   SECTION("on the controller's node") {}
@@ -108,7 +108,7 @@ TEST_CASE("a display is given the totals of the plain loop, and flux comes befor
   shown.check_kept();
 }
 
-TEST_CASE("a display that shows a run while it goes on changes no bit", "[nodes][display]") {
+TEST_CASE("previews during a run change no bit", "[nodes][display]") {
   Shown shown(2'000'000);
   shown.work.shows_wanted = 1000;
   SECTION("on the controller's node") {}
@@ -121,7 +121,7 @@ TEST_CASE("a display that shows a run while it goes on changes no bit", "[nodes]
   shown.check_kept();
 }
 
-TEST_CASE("a display that fails begins anew and asks again: no flux is lost",
+TEST_CASE("a display that fails restarts and asks again, without loss of flux",
           "[nodes][display][supervision]") {
   Shown shown(100'000);
   shown.work.throws = 2;
@@ -157,7 +157,7 @@ TEST_CASE("results that can never be written end the run with an error",
   shown.check_kept();
 }
 
-TEST_CASE("a display that fails again and again ends the run with an error",
+TEST_CASE("a display that fails repeatedly ends the run with an error",
           "[nodes][display][supervision]") {
   Shown shown(50'000);
   shown.work.throws = 1000;
@@ -169,7 +169,7 @@ TEST_CASE("a display that fails again and again ends the run with an error",
   CHECK(shown.work.kept == nullptr);
 }
 
-TEST_CASE("a run whose flux cannot be written says so", "[nodes][display]") {
+TEST_CASE("a run whose flux cannot be written reports it", "[nodes][display]") {
   Shown shown(50'000);
   shown.work.refuses = "the disk is full";
   SECTION("on the controller's node") {}
@@ -181,7 +181,7 @@ TEST_CASE("a run whose flux cannot be written says so", "[nodes][display]") {
   CHECK(ended.problem().what.find("the disk is full") != std::string::npos);
 }
 
-TEST_CASE("the plan of a node that shows the run has its copy and its pictures",
+TEST_CASE("the memory plan of the display's node includes its copy and its pictures",
           "[nodes][display]") {
   Shown shown(1);
   const std::string plan = plan_on_nodes(shown.run, shown.options).value();

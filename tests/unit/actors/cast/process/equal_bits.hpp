@@ -1,4 +1,4 @@
-// Runs that nobody watches or stops, and whether two of them counted the same.
+// Uninterrupted runs without reports, and a comparison of their totals. One thread.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@ namespace luxodus {
 inline const std::atomic<bool> nobody{false};
 inline void ignore(const Progress&) {}
 
-/// Bins of the totals that differ in any bit.
+/// Number of bins that differ in any bit.
 inline int64_t differences(const LocalRun& a, const LocalRun& b) {
   int64_t count = 0;
   for (int g = 0; g < a.totals().groups(); ++g) {

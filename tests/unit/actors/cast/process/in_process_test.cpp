@@ -1,4 +1,4 @@
-// Runs on nodes of this process against the plain loop: the same bits, whatever the nodes.
+// Runs on nodes of this process against the plain loop: the same bits on any nodes.
 #include "actors/cast/process/in_process.hpp"
 
 #include <spdlog/spdlog.h>
@@ -57,20 +57,21 @@ TEST_CASE("1, 2, 8 and 32 nodes give the bits of the plain loop", "[nodes]") {
                   {nodes_of(1, 1), nodes_of(2, 5), nodes_of(8, 1), nodes_of(32, 3)});
 }
 
-TEST_CASE("nodes that lead others in the controller's stead change no bit", "[nodes][levels]") {
+TEST_CASE("coordinators below the controller change no bit", "[nodes][levels]") {
   StopRule stop;
   stop.particles = 200'000;
-  std::vector<NodesOptions> cases{nodes_of(64, 1), nodes_of(13, 3)};  // by themselves; 3 levels
+  // with the default fan-out, and with 3 levels
+  std::vector<NodesOptions> cases{nodes_of(64, 1), nodes_of(13, 3)};
   cases[1].fan_out = 3;
   check_same_bits(scene_of("smoke_tank", "", 1), stop, cases);
   stop.particles = 24'000;
   cases = {nodes_of(9, 2)};
   cases[0].fan_out = 3;
-  cases[0].object_bytes = 4 << 20;  // parts are held by who coordinates, too
+  cases[0].object_bytes = 4 << 20;  // coordinators hold parts, too
   check_same_bits(scene_of("office_floor", "smoke_emergency", 6), stop, cases);
 }
 
-TEST_CASE("by error, runs of two levels have the rounds of one", "[nodes][levels]") {
+TEST_CASE("by error, runs of two levels have the same rounds as runs of one", "[nodes][levels]") {
   StopRule stop;
   stop.relative_error = 0.02;
   std::vector<NodesOptions> cases{nodes_of(7, 1)};
@@ -78,7 +79,7 @@ TEST_CASE("by error, runs of two levels have the rounds of one", "[nodes][levels
   check_same_bits(scene_of("smoke_tank", "", 1), stop, cases);
 }
 
-TEST_CASE("levels of coordinators and shards of the totals are refused together",
+TEST_CASE("levels of coordinators together with shards of the totals are rejected",
           "[nodes][levels][shards]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   NodesOptions options = nodes_of(8, 1);
@@ -97,26 +98,27 @@ TEST_CASE("levels of coordinators and shards of the totals are refused together"
   CHECK(alone.problem().what.find("at least 2 nodes") != std::string::npos);
 }
 
-TEST_CASE("a partitioned scene with signs, probes and bands is the same on nodes", "[nodes]") {
+TEST_CASE("a partitioned scene with signs, probes and bands gives the same bits on nodes",
+          "[nodes]") {
   StopRule stop;
   stop.particles = 24'000;
   check_same_bits(scene_of("office_floor", "smoke_emergency", 6), stop, {nodes_of(3, 7)});
 }
 
-TEST_CASE("totals in shards are those of the plain loop", "[nodes][shards]") {
+TEST_CASE("sharded totals equal those of the plain loop", "[nodes][shards]") {
   StopRule stop;
   stop.particles = 100'000;
   std::vector<NodesOptions> cases{nodes_of(2, 3), nodes_of(3, 1), nodes_of(3, 1)};
   cases[0].tally_shards = 2;
   cases[1].tally_shards = 3;
-  cases[2].tally_shards = 4;  // of every worker one
+  cases[2].tally_shards = 4;  // one for every worker
   cases[2].link_delay = milliseconds(5);
   check_same_bits(scene_of("smoke_tank", "", 1), stop, cases);
   stop.particles = 16'000;
   check_same_bits(scene_of("office_floor", "smoke_emergency", 6), stop, {cases[1]});
 }
 
-TEST_CASE("with shards a run by error has the same rounds, and goes on where another ended",
+TEST_CASE("with shards a run by error has the same rounds, and continues where another ended",
           "[nodes][shards]") {
   NodesOptions shards = nodes_of(2, 2);
   shards.tally_shards = 3;
@@ -138,8 +140,7 @@ TEST_CASE("with shards a run by error has the same rounds, and goes on where ano
   CHECK(report.shards.decisions >= 2 * report.flushes);
 }
 
-TEST_CASE("who looks at totals in shards while a run goes on sees whole flushes",
-          "[nodes][shards]") {
+TEST_CASE("a reader of sharded totals during a run sees whole flushes", "[nodes][shards]") {
   spdlog::set_level(spdlog::level::err);
   const auto scene = scene_of("smoke_tank", "", 1);
   StopRule stop;
@@ -148,14 +149,14 @@ TEST_CASE("who looks at totals in shards while a run goes on sees whole flushes"
   options.tally_shards = 3;
   LocalRun run(scene, 1, 1);
   int looks = 0;
-  bool due = true;  // at once: the whole run may end before its first progress is told
+  bool due = true;  // at once: the whole run may end before its first progress report
   run.add_pause(
       &due, [&] { return due; },
       [&] {
         due = false;
         ++looks;
         CHECK(run.totals().balance().closes());
-        // What patches have kept lies in all shards, and the balance with the controller.
+        // Absorption by patches is in all shards, the balance with the controller.
         Int128 absorbed = 0;
         const TallyBlock& patches = scene->layout.block(scene->blocks.patches);
         for (int64_t i = 0; i < int64_t{patches.bins} * patches.quantities; ++i) {
@@ -175,7 +176,7 @@ TEST_CASE("who looks at totals in shards while a run goes on sees whole flushes"
   CHECK(differences(plain, run) == 0);
 }
 
-TEST_CASE("more shards than nodes that could hold them are refused", "[nodes][shards]") {
+TEST_CASE("more shards than nodes are rejected", "[nodes][shards]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   for (const int shards : {0, 4}) {
     NodesOptions options = nodes_of(2, 1);
@@ -193,7 +194,7 @@ TEST_CASE("nodes stop at the same round as the plain loop for an error", "[nodes
   check_same_bits(scene_of("smoke_tank", "", 1), stop, {nodes_of(2, 2)});
 }
 
-TEST_CASE("a run on nodes goes on where another ended, as if it were one", "[nodes]") {
+TEST_CASE("a run on nodes continues where another ended, like a single run", "[nodes]") {
   spdlog::set_level(spdlog::level::err);
   const auto scene = scene_of("smoke_tank", "", 1);
   StopRule half, all;
@@ -207,8 +208,7 @@ TEST_CASE("a run on nodes goes on where another ended, as if it were one", "[nod
   CHECK(differences(plain, run) == 0);
 }
 
-TEST_CASE("an interrupted run on nodes ends with whole batches that can be gone on from",
-          "[nodes]") {
+TEST_CASE("an interrupted run on nodes ends with whole batches and can be continued", "[nodes]") {
   spdlog::set_level(spdlog::level::err);
   const auto scene = scene_of("smoke_tank", "", 1);
   std::atomic<bool> interrupt{false};
@@ -227,8 +227,9 @@ TEST_CASE("an interrupted run on nodes ends with whole batches that can be gone 
   CHECK(differences(plain, run) == 0);
 }
 
-TEST_CASE("nodes whose budget holds a part of the cells fetch the others and give the same bits",
-          "[nodes]") {
+TEST_CASE(
+    "nodes whose budget holds only a part of the cells fetch the others and give the same bits",
+    "[nodes]") {
   spdlog::set_level(spdlog::level::err);
   const auto scene = scene_of("office_floor", "smoke_emergency", 64);
   StopRule stop;
@@ -252,7 +253,7 @@ TEST_CASE("nodes whose budget holds a part of the cells fetch the others and giv
   }
 }
 
-TEST_CASE("nodes with a twentieth of the scene each, which share nothing, give the same bits",
+TEST_CASE("nodes with a twentieth of the scene each, without sharing, give the same bits",
           "[nodes]") {
   spdlog::set_level(spdlog::level::err);
   const auto scene = scene_of("office_floor", "smoke_emergency", 256);
@@ -325,7 +326,7 @@ TEST_CASE("a delay on all links changes no bit", "[nodes]") {
   CHECK(report.workers.fetches > 0);
 }
 
-TEST_CASE("a budget without a partition, or more holders than nodes, is refused", "[nodes]") {
+TEST_CASE("a budget without a partition, or more holders than nodes, is rejected", "[nodes]") {
   StopRule stop;
   stop.particles = 1;
   NodesOptions options = nodes_of(2, 1);
@@ -337,7 +338,7 @@ TEST_CASE("a budget without a partition, or more holders than nodes, is refused"
   CHECK_FALSE(run_on_nodes(cells, options, stop, nobody, ignore).ok());
 }
 
-TEST_CASE("nodes of a packed scene that nobody holds whole give the bits of the plain loop",
+TEST_CASE("nodes of a packed scene that no node holds whole give the bits of the plain loop",
           "[nodes]") {
   const auto scene = scene_of("office_floor", "smoke_emergency", 64);
   const test::TemporaryFolder folder;
@@ -361,7 +362,7 @@ TEST_CASE("nodes of a packed scene that nobody holds whole give the bits of the 
   CHECK(differences(plain, run) == 0);
   CHECK(report.workers.fetches > 0);
   CHECK(report.workers.evictions > 0);
-  // What is computed of the result reaches the same geometry, on fibers.
+  // Computations on the result use the same geometry, on fibers.
   const auto direct = [](const LocalRun& of) {
     std::vector<double> out(40);
     of.rows().run(40, [&](const GeometryAccess& access) {
@@ -376,7 +377,7 @@ TEST_CASE("nodes of a packed scene that nobody holds whole give the bits of the 
   CHECK(direct(plain) == direct(run));
 }
 
-TEST_CASE("a pack that is damaged while it is used is named by its file and part", "[nodes]") {
+TEST_CASE("a pack damaged during its use is reported by file and part", "[nodes]") {
   const auto scene = scene_of("office_floor", "clear_emergency", 16);
   const test::TemporaryFolder folder;
   const auto file = folder / "floor.luxpack";
@@ -388,7 +389,7 @@ TEST_CASE("a pack that is damaged while it is used is named by its file and part
   const std::array holders{NodeId{0}};
   CHECK(SceneObjects(*packed, holders, 1).stored_name(3) == "scene part 3 of " + file.string());
   {
-    // In place, as a disk that fails under a run: eight parts, behind the head of 128 bytes.
+    // In place, as by a failing disk: eight parts, after the header of 128 bytes.
     std::fstream pack(file, std::ios::in | std::ios::out | std::ios::binary);
     size_t end = 128;
     for (size_t part = 0; part < 8; ++part) end += objects[part].wire_bytes;

@@ -1,4 +1,4 @@
-// A scene that ships, in small batches: several of them make a short run.
+// A shipped scene, in small batches, so that a short run has several. Test code; any thread.
 #pragma once
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
-// Nodes that fetch whatever a scene consists of, cells, bricks of smoke and tiles of pictures,
-// against the plain loop on the same partition: the same bits, also where nodes share what they
-// have built, and where an object is lost for a while.
+// Nodes that fetch all kinds of scene parts (cells, bricks of smoke, tiles of pictures) against the
+// plain loop on the same partition: the same bits, also if nodes share what they have built, and if
+// an object is lost for a while.
 #include <spdlog/spdlog.h>
 
 #include <array>
@@ -27,7 +27,7 @@ std::shared_ptr<const CompiledScene> compiled(
   return scene.value();
 }
 
-/// The gallery from its files, and from a pack of as many cells.
+/// The gallery from its files, and from a pack with the same number of cells.
 struct Gallery {
   explicit Gallery(int cells) : scene(compiled(gallery_in(folder.path()), cells)) {
     spdlog::set_level(spdlog::level::off);
@@ -42,7 +42,7 @@ struct Gallery {
   std::shared_ptr<const CompiledScene> scene, packed;
 };
 
-/// Room for two objects, or one and what is made of the next.
+/// Room for two objects, or for one and a build.
 size_t tight_budget(const CompiledScene& scene) {
   return 2 * SceneObjects(scene, std::array{NodeId{0}}, 1).largest_build_bytes() + 1;
 }
@@ -92,7 +92,7 @@ double shown(const Observation& seen, const std::string& name) {
   return sum;
 }
 
-/// Turns one byte of a file over.
+/// Inverts one byte of a file.
 void flip(const fs::path& file, uint64_t at) {
   std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
   bytes.seekg(static_cast<std::streamoff>(at));
@@ -101,7 +101,7 @@ void flip(const fs::path& file, uint64_t at) {
   bytes.put(static_cast<char>(byte ^ 0x20));
 }
 
-/// Where an object of a pack lies.
+/// Offset of an object in its pack.
 uint64_t offset_of(const Gallery& gallery, uint32_t object) {
   const PackedScene& packed = *gallery.packed->description->packed;
   return static_cast<uint64_t>(packed.file->object(object).data() - packed.file->object(0).data()) +
@@ -110,7 +110,7 @@ uint64_t offset_of(const Gallery& gallery, uint32_t object) {
 
 }  // namespace
 
-TEST_CASE("smoke data and pictures are fetched with room for two objects, to the same bits",
+TEST_CASE("smoke data and pictures fetched with room for two objects give the same bits",
           "[nodes][objects]") {
   for (const int cells : {1, 4}) {
     const Gallery gallery(cells);
@@ -137,7 +137,7 @@ TEST_CASE("smoke data and pictures are fetched with room for two objects, to the
   }
 }
 
-TEST_CASE("nodes that share what they build build less, and give the same bits",
+TEST_CASE("nodes that share built objects build fewer, and give the same bits",
           "[nodes][objects]") {
   const Gallery gallery(4);
   const auto plain = plain_run(gallery, 40'000);
@@ -156,7 +156,7 @@ TEST_CASE("nodes that share what they build build less, and give the same bits",
   CHECK(shared.workers.builds < apart.workers.builds);
 }
 
-TEST_CASE("every part that is built gives the bytes that it was built of", "[nodes][objects]") {
+TEST_CASE("every built part serialises to the bytes from which it was built", "[nodes][objects]") {
   const Gallery gallery(4);
   const SceneObjects objects(*gallery.scene, std::array{NodeId{0}}, 1);
   PartBuilder builder(*gallery.scene, objects.parts());
@@ -168,21 +168,20 @@ TEST_CASE("every part that is built gives the bytes that it was built of", "[nod
   }
 }
 
-TEST_CASE("an object that is lost for a while spoils batches, which are traced again",
-          "[nodes][objects]") {
+TEST_CASE("a temporarily lost object spoils batches, which are traced again", "[nodes][objects]") {
   const Gallery gallery(4);
   const auto plain = plain_run(gallery, 12'000);
   const SceneParts parts(*gallery.packed);
-  // A brick that flames are in, and a tile of the picture.
+  // A brick with flames, and a tile of the picture.
   for (const uint32_t object : {parts.of_brick(1, 0), parts.of_tile(0, 1)}) {
     INFO("object " << object);
     const uint64_t at = offset_of(gallery, object) + 2000;
     const auto seen = Observation::start({std::string("127.0.0.1"), uint16_t{0}, 0});
     REQUIRE(seen.ok());
     NodesOptions options = object_nodes_of(2, tight_budget(*gallery.packed));
-    options.profile_share = 0;  // which would be refused
+    options.profile_share = 0;  // it would be rejected
     options.observation = seen.value().get();
-    // Nodes begin with a pack that is whole; then it is damaged until somebody has noticed.
+    // Nodes begin with an intact pack; then it is damaged until a node has noticed.
     std::atomic<bool> begun{false}, lost{true};
     options.stop = [&] {  // on the workers' threads, between their turns
       if (!begun.exchange(true)) {

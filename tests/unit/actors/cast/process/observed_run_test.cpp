@@ -1,5 +1,5 @@
-// A run on nodes as those see it who watch: its numbers over HTTP while it goes on, its memory
-// before it begins.
+// What an observer sees of a run on nodes: its metrics over HTTP during the run, its memory plan
+// before it.
 #include <spdlog/spdlog.h>
 
 #include <array>
@@ -28,7 +28,7 @@ std::unique_ptr<Observation> watching() {
 
 }  // namespace
 
-TEST_CASE("while nodes trace, their page tells what each of them does", "[nodes][observe]") {
+TEST_CASE("during tracing the page shows what each node does", "[nodes][observe]") {
   spdlog::set_level(spdlog::level::err);
   const auto scene = scene_of("office_floor", "smoke_emergency", 64);
   const auto seen = watching();
@@ -57,7 +57,7 @@ TEST_CASE("while nodes trace, their page tells what each of them does", "[nodes]
     const NodeStatus& row = rows[static_cast<size_t>(worker)];
     CHECK(row.role == "worker");
     CHECK(row.state == NodeState::up);
-    CHECK(row.fibers.value_or(0) >= 20);  // and one that packs flushes
+    CHECK(row.fibers.value_or(0) >= 20);  // plus one that packs flushes
     CHECK(row.hit_rate.value_or(0) > 0.5);
     CHECK(row.resident_bytes.value_or(0) > 0);
     CHECK(row.resident_bytes.value_or(0) <= static_cast<double>(options.object_bytes));
@@ -71,7 +71,7 @@ TEST_CASE("while nodes trace, their page tells what each of them does", "[nodes]
   CHECK(by_hops);
 }
 
-TEST_CASE("the plan names what nodes take, alike nodes once, and what they share",
+TEST_CASE("the plan lists the memory of nodes, equal nodes once, and what they share",
           "[nodes][plan]") {
   const auto scene = scene_of("office_floor", "smoke_emergency", 64);
   LocalRun run(scene, 1, 1);
@@ -89,7 +89,7 @@ TEST_CASE("the plan names what nodes take, alike nodes once, and what they share
   }
 }
 
-TEST_CASE("what a plan says of a flush, no flush passes", "[nodes][plan]") {
+TEST_CASE("no flush exceeds the plan's size of a flush", "[nodes][plan]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   LocalRun run(scene, 1, 1);
   StopRule stop;
@@ -104,7 +104,7 @@ TEST_CASE("what a plan says of a flush, no flush passes", "[nodes][plan]") {
   CHECK(packed <= planned);
 }
 
-TEST_CASE("a budget that is too small is refused with the key and what it must be",
+TEST_CASE("a budget that is too small is rejected with the key and the required value",
           "[nodes][plan]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   AmpRequest request;

@@ -1,5 +1,5 @@
-// After its start a node's thread takes no memory, whatever it traces, leads, holds, asks and
-// sends; where cells are fetched, only for their bytes and what is built of them.
+// After its start a node's thread allocates nothing, whatever it traces, leads, holds, requests and
+// sends; if it fetches cells, only for their bytes and the objects built from them.
 #include <spdlog/spdlog.h>
 
 #include <atomic>
@@ -18,7 +18,7 @@ uint64_t so_far() {
   return test::allocations_of_this_thread() - test::allocations_by_zmq();
 }
 
-/// Batches that the nodes of a process say they have merged.
+/// Number of merged batches that the nodes of a process report.
 double batches_shown(const Observation& seen) {
   double batches = 0;
   for (const MetricSample& sample : parse_metrics(seen.page()))
@@ -26,7 +26,7 @@ double batches_shown(const Observation& seen) {
   return batches;
 }
 
-/// By a node's thread between its first look and its last.
+/// Allocations of a node's thread at the first and the last look.
 struct Looked {
   uint64_t at_start = 0;
   uint64_t at_end = 0;
@@ -40,11 +40,11 @@ struct Looked {
 };
 
 struct Taken {
-  uint64_t allocations = 0;  // libzmq's messages aside
+  uint64_t allocations = 0;  // without libzmq's messages
   WorkerReport report;       // of the whole run
 };
 
-/// What the one worker of a run took from its first batch on, over many rounds and flushes.
+/// Allocations of a run's only worker from its first batch on, over many rounds and flushes.
 Taken taken_by_a_worker(const std::shared_ptr<const CompiledScene>& scene, NodesOptions options) {
   spdlog::set_level(spdlog::level::err);
   const auto seen = Observation::start({std::string("127.0.0.1"), uint16_t{0}, 0});
@@ -80,7 +80,7 @@ Taken taken_by_a_worker(const std::shared_ptr<const CompiledScene>& scene, Nodes
 
 }  // namespace
 
-TEST_CASE("a worker that holds its scene takes no memory while it traces, flushes and publishes",
+TEST_CASE("a worker with its whole scene allocates nothing while it traces, flushes and publishes",
           "[nodes][seal]") {
   if (!test::allocations_are_counted()) {
     WARN("sanitizers have an allocator of their own: nothing is counted in this build");
@@ -88,12 +88,12 @@ TEST_CASE("a worker that holds its scene takes no memory while it traces, flushe
   }
   NodesOptions options;
   options.fibers = 3;
-  // A place in the outbox grows once, for the longest list of leases that goes through it.
+  // An outbox slot grows once, for the longest list of leases sent through it.
   CHECK(taken_by_a_worker(scene_of("smoke_tank", "", 1), options).allocations <=
         defaults::outbox_messages);
 }
 
-TEST_CASE("a worker that holds a shard of the totals takes no memory for the slices it adds",
+TEST_CASE("a worker with a shard of the totals allocates nothing for the slices that it adds",
           "[nodes][seal]") {
   if (!test::allocations_are_counted()) return;
   NodesOptions options;
@@ -103,7 +103,7 @@ TEST_CASE("a worker that holds a shard of the totals takes no memory for the sli
         2 * defaults::outbox_messages);
 }
 
-TEST_CASE("a coordinator takes no memory for the flushes that it counts", "[nodes][seal]") {
+TEST_CASE("a coordinator allocates nothing for the flushes that it counts", "[nodes][seal]") {
   if (!test::allocations_are_counted()) return;
   spdlog::set_level(spdlog::level::err);
   constexpr int warm = 8, looks = 30;  // a quarter of a second apart
@@ -129,11 +129,11 @@ TEST_CASE("a coordinator takes no memory for the flushes that it counts", "[node
   REQUIRE(report.flushes > 4);
   INFO(looked.allocations() << " for " << report.flushes << " flushes, " << report.leases
                             << " leases");
-  // Rooms for payloads grow, in steps, to the longest flush of each worker. Some sixty come.
+  // Payload rooms grow stepwise to the longest flush of each worker. About sixty arrive.
   CHECK(looked.allocations() <= 16 + report.flushes / 4);
 }
 
-TEST_CASE("a worker that fetches takes memory for cells and what is built of them alone",
+TEST_CASE("a worker that fetches allocates only for cells and objects built from them",
           "[nodes][seal]") {
   if (!test::allocations_are_counted()) return;
   const auto scene = scene_of("office_floor", "smoke_emergency", 64);
@@ -142,7 +142,7 @@ TEST_CASE("a worker that fetches takes memory for cells and what is built of the
   options.object_bytes = built_bytes_of(*scene) / 4;
   const Taken taken = taken_by_a_worker(scene, options);
   REQUIRE(taken.report.builds > 100);
-  // The bytes, a cell's arrays, and what Embree and its tasks ask for one by one.
+  // The bytes, a cell's arrays, and the single allocations of Embree and its tasks.
   constexpr uint64_t of_a_cell = 200;
   INFO(taken.allocations << " for " << taken.report.builds << " builds");
   CHECK(taken.allocations < of_a_cell * taken.report.builds);

@@ -12,7 +12,7 @@ using namespace luxodus;
 
 namespace {
 
-/// A tank of smoke in voxels so small that all bins take tens of megabytes.
+/// A tank of smoke with voxels so small that all bins take tens of megabytes.
 std::shared_ptr<const CompiledScene> fine_tank(double voxel_edge_m) {
   auto read = read_scene(std::string(LUX_SOURCE_DIR) + "/scenes/library/smoke_tank.toml");
   REQUIRE(read.scene);
@@ -26,8 +26,7 @@ std::shared_ptr<const CompiledScene> fine_tank(double voxel_edge_m) {
 
 }  // namespace
 
-TEST_CASE("a tally that is full flushes, takes no more than its budget, and changes no bit",
-          "[nodes][tally]") {
+TEST_CASE("a full tally flushes, stays within its budget, and changes no bit", "[nodes][tally]") {
   spdlog::set_level(spdlog::level::err);
   const auto scene = fine_tank(0.05);
   StopRule stop;
@@ -45,12 +44,12 @@ TEST_CASE("a tally that is full flushes, takes no more than its budget, and chan
   INFO((ended.ok() ? "" : ended.problem().what));
   REQUIRE(ended.ok());
   CHECK(differences(plain, run) == 0);
-  CHECK(report.flushes > 4);  // one a round of each node without a budget
+  CHECK(report.flushes > 4);  // without a budget: one per round and node
   CHECK(report.workers.max_tally_bytes > 0);
   CHECK(report.workers.max_tally_bytes <= options.tally_bytes);
 }
 
-TEST_CASE("a batch that is more than the budget by itself ends the run with the key to change",
+TEST_CASE("a single batch that exceeds the budget ends the run with the key to change",
           "[nodes][tally]") {
   spdlog::set_level(spdlog::level::off);
   const auto scene = fine_tank(0.05);

@@ -1,5 +1,5 @@
-// The trace of a run: JSON that viewers read, spans that end and nest, waits of sampled particles
-// only, and results that do not know of it.
+// The trace of a run: valid JSON, spans that end and nest, waits of sampled particles only, and
+// unchanged results.
 #include <spdlog/spdlog.h>
 
 #include <catch2/catch.hpp>
@@ -35,7 +35,7 @@ struct Span {
   double begin = 0;
 };
 
-/// The spans of one id on one node, of which the inner must end first.
+/// The open spans of one id on one node; the innermost must end first.
 using Open = std::map<std::pair<int, std::string>, std::vector<Span>>;
 
 /// Checks nesting, and counts the spans of each name.
@@ -53,7 +53,7 @@ std::map<std::string, int> check_spans(const nlohmann::json& events) {
       if (name == "particle") CHECK(number % every == 0);
       if (name == "wait") {
         CHECK(number % every == 0);
-        REQUIRE(!spans.empty());  // while its particle is traced
+        REQUIRE(!spans.empty());  // its particle is being traced
         CHECK(spans.back().name == "particle");
       }
       spans.push_back({name, event.at("ts")});
@@ -71,7 +71,7 @@ std::map<std::string, int> check_spans(const nlohmann::json& events) {
 
 }  // namespace
 
-TEST_CASE("a run's trace nests, and tells waits of sampled particles only", "[nodes][trace]") {
+TEST_CASE("a run's trace nests, and has waits of sampled particles only", "[nodes][trace]") {
   spdlog::set_level(spdlog::level::err);
   const auto scene = office();
   const test::TemporaryFolder folder;
@@ -116,7 +116,7 @@ TEST_CASE("a run's trace nests, and tells waits of sampled particles only", "[no
   }
 }
 
-TEST_CASE("without a sample there is no trace and no file", "[nodes][trace]") {
+TEST_CASE("without sampling there is no trace and no file", "[nodes][trace]") {
   const test::TemporaryFolder folder;
   const auto seen = Observation::start({});
   REQUIRE(seen.ok());

@@ -1,4 +1,4 @@
-// What becomes of a node and its run when an actor throws: the table, and each of its rows.
+// What happens to a node and its run when an actor throws: the table, and a test of each row.
 #include "actors/cast/supervision/supervision.hpp"
 
 #include <spdlog/spdlog.h>
@@ -21,7 +21,7 @@ using namespace luxodus;
 
 namespace {
 
-/// "| a | b | c |" -> its cells, without blanks at their ends.
+/// Splits "| a | b | c |" into its cells, trimmed.
 std::vector<std::string> cells_of_row(const std::string& line) {
   std::vector<std::string> cells;
   for (size_t at = line.find('|'); at != std::string::npos;) {
@@ -52,7 +52,7 @@ std::vector<std::vector<std::string>> documented() {
 
 struct Order {};
 
-/// Throws whenever it is told to.
+/// Throws on request.
 class Thrower final
     : public Actor<Thrower, ControlLane<Accepts<Order, 4, WhenFull::reject>>, DataLane<>> {
  public:
@@ -91,7 +91,7 @@ NodesOptions nodes_with(ActorName actor, NodeId node, Nanoseconds at) {
 
 constexpr NodeId controller_of_three{3};
 
-/// Of a run that would not end by itself.
+/// The problem of a run that would not end by itself.
 std::string problem_of_endless_run(const NodesOptions& options) {
   LocalRun run(scene_of("smoke_tank", "", 1), 1, 1);
   const auto ended = run_on_nodes(run, options, {}, nobody, ignore);
@@ -99,7 +99,7 @@ std::string problem_of_endless_run(const NodesOptions& options) {
   return ended.problem().what;
 }
 
-/// Breaks at its second trace.
+/// Throws at its second trace.
 class BreakingTracer final : public BatchTracer {
  public:
   explicit BreakingTracer(std::unique_ptr<BatchTracer> real) : real_(std::move(real)) {}
@@ -124,7 +124,7 @@ struct BreakingKeeper final : FlushKeeper {
   bool is_whole() const override { return true; }
 };
 
-/// Nodes of this process whose parts the test chooses.
+/// Nodes of this process with parts chosen by the test.
 struct OwnNodes {
   OwnNodes(LocalRun& own_run, const NodesOptions& options, const StopRule& rule)
       : run(own_run),
@@ -153,9 +153,9 @@ struct OwnNodes {
 
 }  // namespace
 
-TEST_CASE("the table of supervision in the README is that of the program", "[supervision]") {
+TEST_CASE("the table of supervision in the README equals the program's", "[supervision]") {
   const auto rows = documented();
-  REQUIRE(rows.size() == supervision_rules.size() + 2);  // headings and a line
+  REQUIRE(rows.size() == supervision_rules.size() + 2);  // headings and a separator line
   for (size_t i = 0; i < supervision_rules.size(); ++i) {
     const SupervisionRule& rule = supervision_rules[i];
     std::string name = actor_names[static_cast<size_t>(rule.actor)];
@@ -168,12 +168,12 @@ TEST_CASE("the table of supervision in the README is that of the program", "[sup
   }
 }
 
-TEST_CASE("every actor that can be addressed has a rule for its failure", "[supervision]") {
+TEST_CASE("every actor with an address has a supervision rule", "[supervision]") {
   for (size_t name = 1; name < actor_names.size(); ++name)
     CHECK(supervision_rule(static_cast<ActorName>(name)) != nullptr);
 }
 
-TEST_CASE("an actor begins anew as often as its rule says, and then the rest of it holds",
+TEST_CASE("an actor is restarted as often as its rule says, and then the remedy applies",
           "[supervision]") {
   for (const SupervisionRule& rule : supervision_rules) {
     INFO(actor_names[static_cast<size_t>(rule.actor)]);
@@ -201,7 +201,7 @@ TEST_CASE("an actor begins anew as often as its rule says, and then the rest of 
   }
 }
 
-TEST_CASE("failures that lie far apart are not counted together", "[supervision]") {
+TEST_CASE("failures far apart in time are not counted together", "[supervision]") {
   Stage stage;
   const SupervisionRule& rule = *supervision_rule(ActorName::display);
   stage.supervisor.watch(rule.actor, stage.actor);
@@ -213,15 +213,14 @@ TEST_CASE("failures that lie far apart are not counted together", "[supervision]
   CHECK(stage.actor.life() == 3 * rule.restarts + 1);
 }
 
-TEST_CASE("a coordinator that fails ends the run with an error, and its workers with it",
+TEST_CASE("a failed coordinator ends the run with an error, and its workers with it",
           "[supervision]") {
   const std::string what = problem_of_endless_run(
       nodes_with(ActorName::coordinator, controller_of_three, milliseconds(300)));
   CHECK(what.find("controller: the coordinator has failed: a failure on purpose") == 0);
 }
 
-TEST_CASE("a journal that fails ends the run with an error, and its workers with it",
-          "[supervision]") {
+TEST_CASE("a failed journal ends the run with an error, and its workers with it", "[supervision]") {
   spdlog::set_level(spdlog::level::off);
   LocalRun run(scene_of("smoke_tank", "", 1), 1, 1);
   NodesOptions options;
@@ -233,7 +232,7 @@ TEST_CASE("a journal that fails ends the run with an error, and its workers with
   CHECK(nodes.failed);
 }
 
-TEST_CASE("a shard of the totals that fails ends the run, as losing its node does",
+TEST_CASE("a failed shard of the totals ends the run, as losing its node does",
           "[supervision][shards]") {
   NodesOptions options = nodes_with(ActorName::tally_shard, {1}, seconds(1));
   options.tally_shards = 3;
@@ -241,7 +240,7 @@ TEST_CASE("a shard of the totals that fails ends the run, as losing its node doe
   CHECK(what.find("n1 is lost, and with it a shard of the totals") != std::string::npos);
 }
 
-TEST_CASE("a photon-thread that throws takes its node, and the others leave the same bits",
+TEST_CASE("a photon-thread that throws takes down its node, and the others give the same bits",
           "[supervision]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   StopRule stop;

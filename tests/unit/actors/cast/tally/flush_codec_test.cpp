@@ -19,7 +19,7 @@ TallyLayout layout_of(int64_t bins) {
 }
 const std::vector<std::vector<int64_t>> photopic(groups, {1 << 24});
 
-/// Sums and squares of all sizes, some bins zero.
+/// Sums and squares of all magnitudes, some bins zero.
 TotalsGain some_gain() {
   Random random(3, RandomStream::test);
   random.start(0);
@@ -68,7 +68,7 @@ bool same(const Totals& a, const Totals& b) {
 
 }  // namespace
 
-TEST_CASE("a flush comes back as it was made, in steps of any length", "[flush]") {
+TEST_CASE("a flush is read back unchanged, packed in steps of any length", "[flush]") {
   for (const int64_t step : {1, 7, 999, 1000, 5000}) {
     const auto back = decode_flush(some_flush(step), groups, totals);
     REQUIRE(back.ok());
@@ -83,7 +83,7 @@ TEST_CASE("a flush comes back as it was made, in steps of any length", "[flush]"
   }
 }
 
-TEST_CASE("a flush in parts, each of a range of bins, is the whole flush", "[flush]") {
+TEST_CASE("a flush in parts, each a range of bins, equals the whole flush", "[flush]") {
   const TallyLayout layout = layout_of(totals);
   Totals sent(layout, groups, photopic), whole(layout, groups, photopic);
   Totals taken(layout, groups, photopic);
@@ -104,7 +104,7 @@ TEST_CASE("a flush in parts, each of a range of bins, is the whole flush", "[flu
   CHECK(same(whole, taken));
 }
 
-TEST_CASE("a flush of another layout, cut short or damaged is refused whole", "[flush]") {
+TEST_CASE("a flush of another layout, truncated or damaged is rejected whole", "[flush]") {
   const auto bytes = some_flush(100);
   CHECK_FALSE(decode_flush(bytes, groups + 1, totals).ok());
   CHECK_FALSE(decode_flush(bytes, groups, totals - 10).ok());
@@ -120,11 +120,11 @@ TEST_CASE("a flush of another layout, cut short or damaged is refused whole", "[
     if (!read.ok()) continue;
     const TallyLayout layout = layout_of(totals);
     Totals holder(layout, groups, photopic);
-    read->add_to(holder);  // within its bins: the sanitizers would tell
+    read->add_to(holder);  // within its bins: otherwise the sanitizers report it
   }
 }
 
-TEST_CASE("reading a long flush rests between its parts, and can be broken off", "[flush]") {
+TEST_CASE("reading a long flush yields between its parts, and can be stopped", "[flush]") {
   const TallyLayout layout = layout_of(100'000);
   Totals node(layout, 1, photopic), other(layout, 1, photopic);
   TotalsGain gain;
@@ -144,7 +144,7 @@ TEST_CASE("reading a long flush rests between its parts, and can be broken off",
   REQUIRE_FALSE(broken.ok());
 }
 
-TEST_CASE("totals that take the gains of others are the totals of all batches", "[flush]") {
+TEST_CASE("totals that add others' gains equal the totals of all batches", "[flush]") {
   TallyLayout layout(1);
   layout.add_block({"patches", 50, 2, ScoreUnit::weight});
   const std::vector<std::vector<int64_t>> one{{1 << 24}};

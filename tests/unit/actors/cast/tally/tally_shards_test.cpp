@@ -1,5 +1,5 @@
-// Shards of the totals, their owners and the controller, on a wire that loses, repeats and delays
-// what is sent: what is taken is counted once, what is refused never.
+// Shards of the totals, their owners and the controller, over a wire that loses, duplicates and
+// delays messages: a taken flush is counted once, a refused one never.
 #include <catch2/catch.hpp>
 #include <deque>
 #include <map>
@@ -25,7 +25,7 @@ TallyLayout layout_of_bins() {
   return layout;
 }
 
-/// What somebody has sent.
+/// A message in flight.
 struct Mail {
   Address from, to;
   MessageId id;
@@ -41,7 +41,7 @@ Address shard_of(NodeId node) {
   return {node, ActorName::tally_shard};
 }
 
-/// A controller, workers of which some hold shards, and the wire between them, moved by hand.
+/// A controller, workers of which some hold shards, and the wire between them, moved by the test.
 struct Stage : Sender {
   explicit Stage(std::vector<NodeId> owners)
       : plan{std::move(owners)},
@@ -77,7 +77,7 @@ struct Stage : Sender {
     else
       receiver.on(letter);
   }
-  /// Calls the handler of one who is no actor by himself, if he has one for the message.
+  /// Calls the receiver's handler, if it has one for the message.
   template <class... Kinds, class Receiver>
   void hand_to(Receiver& receiver, const Mail& sent) {
     const auto hand = [&](const auto* body) {
@@ -104,7 +104,7 @@ struct Stage : Sender {
     }
     node.settle();
   }
-  /// Delivers what is sent until nothing is; keeps a copy of everything in `passed`.
+  /// Delivers messages until there are none; keeps a copy of each in `passed`.
   void pass() {
     while (!wire.empty()) {
       const Mail next = wire.front();
@@ -114,7 +114,7 @@ struct Stage : Sender {
     }
   }
 
-  /// A flush of a worker, packed in slices: adds to what is expected where it will be taken.
+  /// Packs a worker's flush in slices; adds it to the expected totals if it will be taken.
   SliceSender& pack(NodeId worker, const MessageId& id, uint64_t seed, bool counts) {
     auto& sender = senders[worker];
     if (!sender) {
@@ -148,7 +148,7 @@ struct Stage : Sender {
     sender->send(id, node.clock.now());
     return *sender;
   }
-  /// What the controller does when it takes the flush that was packed last.
+  /// What the controller does when it takes the flush packed last.
   void take(const MessageId& id, const std::vector<uint64_t>& hashes) {
     control.take(id, hashes);
     decode_flush(payload, shard_groups, plan.range(0, bins)).value().add_to(totals);
@@ -192,7 +192,7 @@ MessageId flush_of(NodeId node, uint64_t sequence, uint64_t life = 7) {
 
 }  // namespace
 
-TEST_CASE("ranges of shards follow one another and cover all bins", "[shards]") {
+TEST_CASE("ranges of shards are consecutive and cover all bins", "[shards]") {
   for (const size_t owners : {0, 1, 2, 6}) {
     const ShardPlan plan{std::vector<NodeId>(owners)};
     for (const int64_t totals : {int64_t{0}, int64_t{3}, int64_t{1000}, int64_t{1} << 40}) {
@@ -231,7 +231,7 @@ TEST_CASE("a slice is held until its flush is decided, then added once or droppe
   CHECK_FALSE(stage.control.fault());
 }
 
-TEST_CASE("what comes again, in any order and however late, adds nothing", "[shards]") {
+TEST_CASE("duplicates in any order, however late, add nothing", "[shards]") {
   Stage stage(std::vector<NodeId>{{0}, {2}});
   for (uint64_t flush = 1; flush <= 3; ++flush) {
     const bool taken = flush != 2;
@@ -256,7 +256,7 @@ TEST_CASE("what comes again, in any order and however late, adds nothing", "[sha
   CHECK_FALSE(stage.control.fault());
 }
 
-TEST_CASE("a life has one slice at a shard: the next waits until the first is decided",
+TEST_CASE("an incarnation has one slice at a shard, and the next waits until it is decided",
           "[shards]") {
   Stage stage(std::vector<NodeId>{{2}});
   SliceSender& sender = stage.pack(worker, flush_of(worker, 1), 7, true);
@@ -279,7 +279,7 @@ TEST_CASE("a life has one slice at a shard: the next waits until the first is de
   CHECK(stage.differences() == 0);
 }
 
-TEST_CASE("what a life that ended has left at shards is dropped, and its next life goes on",
+TEST_CASE("slices of an ended incarnation are dropped, and the next incarnation goes on",
           "[shards]") {
   Stage stage(std::vector<NodeId>{{2}});
   stage.pack(worker, flush_of(worker, 4, 7), 8, false);
@@ -321,7 +321,7 @@ TEST_CASE("a slice that is damaged, of other bins, or counts batches is refused"
   CHECK(answer_to(other));
   CHECK_FALSE(answer_to(slice));
   CHECK(stage.shards.at({2})->counters().held == 1);
-  // Nobody sends slices of somebody else's flush, nor decides but the controller.
+  // Only a flush's worker may send its slices, and only the controller may decide.
   Mail forged = slice;
   forged.from = tracer_of({3});
   stage.deliver(forged);
@@ -334,7 +334,7 @@ TEST_CASE("a slice that is damaged, of other bins, or counts batches is refused"
   CHECK(stage.shards.at({2})->counters().held == 1);
 }
 
-TEST_CASE("a sender whose slice was refused tells the controller of no slices", "[shards]") {
+TEST_CASE("a sender whose slice was refused reports no slices to the controller", "[shards]") {
   Stage stage(std::vector<NodeId>{{0}, {2}});
   SliceSender& sender = stage.pack(worker, flush_of(worker, 1), 9, false);
   sender.on(Letter<FlushRefused>{shard_of({2}), flush_of(worker, 1), {{}, "damaged"}});
@@ -342,7 +342,7 @@ TEST_CASE("a sender whose slice was refused tells the controller of no slices", 
   CHECK(sender.hashes().empty());
 }
 
-TEST_CASE("decisions about several nodes are under way at once, about each node one", "[shards]") {
+TEST_CASE("decisions about several nodes are in flight at once, one per node", "[shards]") {
   constexpr NodeId other{3};
   Stage stage(std::vector<NodeId>{{2}});
   stage.control.refuse(flush_of(worker, 1));
@@ -356,7 +356,7 @@ TEST_CASE("decisions about several nodes are under way at once, about each node 
     return flushes;
   };
   REQUIRE(under_way() == std::vector<MessageId>{flush_of(worker, 1), flush_of(other, 1)});
-  // The second is answered first: the first stays, and what waits for it.
+  // The second is answered first: the first stays, and so does what waits for it.
   std::swap(stage.wire[0], stage.wire[1]);
   const auto deliver_next = [&] {
     const Mail next = stage.wire.front();
@@ -372,7 +372,7 @@ TEST_CASE("decisions about several nodes are under way at once, about each node 
   CHECK_FALSE(stage.control.fault());
 }
 
-TEST_CASE("no more decisions are under way than a shard's mailbox holds twice", "[shards]") {
+TEST_CASE("at most half of a shard's mailbox is filled by decisions in flight", "[shards]") {
   Stage stage(std::vector<NodeId>{{2}});
   for (uint16_t node = 10; node < 60; ++node) stage.control.refuse(flush_of({node}, 1));
   CHECK(stage.wire.size() == ShardControl::max_decisions);
@@ -380,7 +380,8 @@ TEST_CASE("no more decisions are under way than a shard's mailbox holds twice", 
   CHECK(stage.control.settled());
 }
 
-TEST_CASE("slices that find no room are sent again without waiting for an answer", "[shards]") {
+TEST_CASE("slices without room in the network are sent again without waiting for an answer",
+          "[shards]") {
   Stage stage(std::vector<NodeId>{{2}, {5}});
   stage.room = 1;
   SliceSender& sender = stage.pack(worker, flush_of(worker, 1), 7, true);
@@ -389,7 +390,7 @@ TEST_CASE("slices that find no room are sent again without waiting for an answer
   sender.ask_again(stage.node.clock.now());
   CHECK(stage.wire.size() == 3);
   sender.ask_again(stage.node.clock.now());
-  CHECK(stage.wire.size() == 3);  // both are on their way
+  CHECK(stage.wire.size() == 3);  // both are in flight
   sender.ask_now(stage.node.clock.now());
   CHECK(stage.wire.size() == 5);
   stage.pass();
@@ -398,14 +399,14 @@ TEST_CASE("slices that find no room are sent again without waiting for an answer
   CHECK(stage.wire.empty());
 }
 
-TEST_CASE("a shard that lacks a slice of a flush that was taken is a fault", "[shards]") {
+TEST_CASE("a shard without the slice of a taken flush is a fault", "[shards]") {
   Stage stage(std::vector<NodeId>{{2}});
   stage.control.take(flush_of(worker, 1), {1});
   stage.pass();
   REQUIRE(stage.control.fault());
 }
 
-TEST_CASE("shards of a wire that loses, repeats and delays have counted what was taken",
+TEST_CASE("shards on a wire that loses, duplicates and delays count every taken flush once",
           "[shards]") {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     INFO("seed " << seed);
@@ -438,7 +439,7 @@ TEST_CASE("shards of a wire that loses, repeats and delays have counted what was
         const size_t which = chance.bits() % stage.wire.size();
         const Mail sent = stage.wire[which];
         const uint32_t fate = chance.bits() % 8;
-        if (fate != 0) stage.deliver(sent);  // 0: lost; 1: comes again
+        if (fate != 0) stage.deliver(sent);  // 0: lost; 1: duplicated
         if (fate != 1) {
           const auto same =
               std::find_if(stage.wire.begin(), stage.wire.end(), [&](const Mail& other) {

@@ -1,5 +1,5 @@
 // A node that traces states of a scene leaves one while a batch of it is being merged, in steps.
-// The test is the tracer's part, and each step of a merge.
+// The test plays the tracer and controls each step of a merge.
 #include "actors/cast/tracing/state_tracing.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,7 +14,7 @@ using namespace luxodus;
 
 namespace {
 
-/// What went into which totals, and what happens in the midst of the next merge.
+/// Which totals were written, and what happens in the middle of the next merge.
 struct Merges {
   std::vector<const Totals*> into;
   std::function<void()> meanwhile;
@@ -81,7 +81,7 @@ struct Tracing : test::LoneNode {
     work.start();
   }
   ~Tracing() { end_fibers(); }
-  /// Traces a batch of the first state; `meanwhile` happens while it is merged.
+  /// Traces a batch of the first state; `meanwhile` runs during its merge.
   void trace(std::function<void()> meanwhile) {
     states.merges.meanwhile = std::move(meanwhile);
     work.add(7, 0);
@@ -99,12 +99,12 @@ struct Tracing : test::LoneNode {
 
 }  // namespace
 
-TEST_CASE("a batch that is being merged is in totals when its lease is done", "[states]") {
+TEST_CASE("a batch being merged is in the totals when its lease is done", "[states]") {
   Tracing node;
   node.trace([&] {
     CHECK_FALSE(node.work.may_give());  // these totals are being written
     CHECK_FALSE(node.work.forget_merged());
-    node.work.drop_all();  // it goes on: half a batch would be left in the totals
+    node.work.drop_all();  // the merge goes on: otherwise half a batch would be left in the totals
   });
   CHECK(node.port.done == std::vector<uint64_t>{7});
   REQUIRE(node.work.may_give());
@@ -112,7 +112,7 @@ TEST_CASE("a batch that is being merged is in totals when its lease is done", "[
   CHECK(&node.work.give_totals() == node.states.merges.into.front());
 }
 
-TEST_CASE("a state that is left while a batch of it is merged hears of it no more", "[states]") {
+TEST_CASE("a state left during the merge of its batch gets no report of it", "[states]") {
   Tracing node;
   const auto leave = [&] {
     node.work.leave_state();

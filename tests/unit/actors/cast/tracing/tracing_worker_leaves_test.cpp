@@ -1,5 +1,5 @@
-// A tracer whose coordinator is lost: it joins another one, and takes leave of the first when the
-// other knows of it. Of one of them it hears of the end. The test is both coordinators.
+// A tracer whose coordinator is lost: it joins another one, and says goodbye to the first when the
+// other knows of it. Either may tell it of the end. The test plays both coordinators.
 #include <catch2/catch.hpp>
 
 #include "actors/cast/tracing/tracing_worker.hpp"
@@ -52,10 +52,10 @@ struct Led : test::LoneNode {
     REQUIRE(tracer.accept({{node, ActorName::coordinator}, id, copy, Payload()}) == Offered::taken);
     settle();
   }
-  /// The answer to its last question, or word, to a node.
+  /// Answers its last message to a node.
   void grant(NodeId node) { say(node, sender.sent.at(node).back().id, LeaseGranted{}); }
   size_t leaves(NodeId node) const { return sender.told<EnterPhase>(node).size(); }
-  /// Its coordinator is out of reach until it has joined the other, and then is back.
+  /// Its coordinator is unreachable until it has joined the other, and then is back.
   void lose_first() {
     cluster.stop(first.value);
     run(rejoin_after + seconds(4));
@@ -73,7 +73,7 @@ struct Led : test::LoneNode {
 
 }  // namespace
 
-TEST_CASE("a tracer takes leave of the coordinator that it lost when another one knows of it",
+TEST_CASE("a tracer says goodbye to its lost coordinator when another one knows of it",
           "[tracer]") {
   Led led;
   const MessageId asked = led.sender.sent.at(first).back().id;
@@ -98,7 +98,7 @@ TEST_CASE("a tracer takes leave of the coordinator that it lost when another one
   }
 }
 
-TEST_CASE("a tracer hears of the end from the coordinator that it lost while none other knows it",
+TEST_CASE("a tracer hears of the end from its lost coordinator while no other knows it",
           "[tracer]") {
   Led led;
   led.grant(first);
@@ -112,20 +112,20 @@ TEST_CASE("a tracer hears of the end from the coordinator that it lost while non
   CHECK(led.sender.told<RequestLease>(first).back().batches == 0);
 }
 
-TEST_CASE("questions are put again when a way leads to the coordinator again", "[tracer]") {
+TEST_CASE("questions are retried at once when the coordinator is reachable again", "[tracer]") {
   Led led;
   led.grant(first);
   const auto asked = [&] { return led.sender.told<RequestLease>(first).size(); };
-  led.run(seconds(10));  // what it asks is asked ever more seldom
+  led.run(seconds(10));  // retries become rarer
   led.cluster.stop(first.value);
-  led.run(milliseconds(2500));  // down, and not lost yet
+  led.run(milliseconds(2500));  // down, but not lost yet
   const size_t before = asked();
   led.cluster.start(test::config_of(first.value, 3, test::ring(3), 2001));
   led.run(seconds(1));
   CHECK(asked() > before);
 }
 
-TEST_CASE("who was answered that there is nothing asks again after a rest", "[tracer]") {
+TEST_CASE("a tracer that got no batches asks again after a pause", "[tracer]") {
   Led led;
   led.grant(first);
   const auto asked = [&] { return led.sender.told<RequestLease>(first).size(); };
@@ -133,16 +133,16 @@ TEST_CASE("who was answered that there is nothing asks again after a rest", "[tr
   led.run(milliseconds(1500));
   CHECK(asked() == before);
   led.run(seconds(1));
-  REQUIRE(asked() == before + 1);  // after the patience: this answer took no time
+  REQUIRE(asked() == before + 1);  // after the retry time: this answer took no time
   led.run(seconds(1));
-  led.grant(first);  // this one took a second, and some
+  led.grant(first);  // this one took more than a second
   led.run(seconds(6));
   CHECK(asked() == before + 1);
   led.run(seconds(7));
   CHECK(asked() == before + 2);
 }
 
-TEST_CASE("a tracer that ends before the run says that it leaves", "[tracer]") {
+TEST_CASE("a tracer that ends before the run says goodbye", "[tracer]") {
   Led led;
   led.grant(first);
   led.tracer.say_goodbye();

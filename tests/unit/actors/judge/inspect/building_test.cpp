@@ -1,5 +1,5 @@
 // The building as a whole: units, rooms drawn inside out, rooms that are not closed, routes, planes
-// and media; each mistake, and beside it what is near to it and right.
+// and media; each mistake, and a similar scene that is correct.
 #include "actors/judge/inspect/building.hpp"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ using namespace luxodus::inspection;
 
 namespace {
 
-/// A room of 4 x 3 x 2.8 units as a modelling program writes it, its faces to the inside or not;
-/// the floor's always looks up.
+/// A room of 4 x 3 x 2.8 units as a modelling program writes it, with its faces inwards or
+/// outwards; the floor always faces up.
 std::string room_obj(bool inward) {
   std::string out =
       "v 0 0 0\nv 4 0 0\nv 4 3 0\nv 0 3 0\nv 0 0 2.8\nv 4 0 2.8\nv 4 3 2.8\nv 0 3 2.8\n"
@@ -59,7 +59,7 @@ std::string smoke(const std::string& name, double extinction, const std::string&
 
 }  // namespace
 
-TEST_CASE("an import whose size is that of another unit is told", "[inspect]") {
+TEST_CASE("an import with a size in another unit is reported", "[inspect]") {
   const auto millimetres = found_in(imported("mm"), {{"room.obj", room_obj(true)}});
   check_found(millimetres, Severity::warning, "\"room\" is 4 mm x 3 mm x 2.8 mm large");
   check_found(millimetres, Severity::error, "emitter \"lamp\" is ");
@@ -75,33 +75,33 @@ TEST_CASE("an import whose size is that of another unit is told", "[inspect]") {
   CHECK(found_in(imported("m"), {{"room.obj", room_obj(true)}}).empty());
 }
 
-TEST_CASE("a room drawn with its faces to the outside is told, and taken as a room", "[inspect]") {
+TEST_CASE("a room drawn with its faces outwards is reported, and treated as a room", "[inspect]") {
   const auto turned = found_in(imported("m") + way, {{"room.obj", room_obj(false)}});
   check_found(turned, Severity::warning,
               "the room \"room\" is drawn with its faces to the outside (\"room.");
   CHECK(that_say(turned, "leads through").empty());
   CHECK_FALSE(has_error(turned));
   CHECK(found_in(imported("m") + way, {{"room.obj", room_obj(true)}}).empty());
-  // A body as large as a room, with nobody in it, is one.
+  // A body as large as a room, with nothing inside, is a body.
   const std::string block =
       "[[object]]\nname = \"block\"\nshape = \"box\"\nlow = [1, -1.5, 0]\n"
       "high = [4, 1.5, 2.5]\nmaterial = \"grey50\"\n";
   CHECK(that_say(found_in(furnished_room + block), "faces to the outside").empty());
 }
 
-TEST_CASE("rooms that are not closed are told with the share of light that leaves, by side",
+TEST_CASE("rooms that are not closed are reported with the share of escaping light, by side",
           "[inspect]") {
   const auto top = found_in(room_without("\"ceiling\""));
   check_found(top, Severity::warning, "the rooms are not closed");
   CHECK(that_say(top, "top ").size() == 1);
   CHECK(that_say(top, "west ").empty());
   check_found(found_in(room_without("\"x0\"")), Severity::warning, "(west ");
-  // Declared, and with one more that is not.
+  // Declared open; and with another side that is not.
   CHECK(that_say(found_in("open_sides = [\"top\"]\n" + room_without("\"ceiling\"")), "closed")
             .empty());
   check_found(found_in("open_sides = [\"top\"]\n" + room_without("\"ceiling\", \"x0\"")),
               Severity::warning, "declare open_sides = [\"top\", \"west\"]");
-  // A window of glass is meant; a hole of 2 cm lets out less than 1 %.
+  // A pane of glass is intended; a hole of 2 cm loses less than 1 %.
   const std::string window =
       "[[material]]\nname = \"pane\"\nkind = \"glass\"\ntransmittance = 0.9\n" +
       room_without("\"x0\"") +
@@ -114,8 +114,8 @@ TEST_CASE("rooms that are not closed are told with the share of light that leave
   CHECK(that_say(found_in(hole), "closed").empty());
 }
 
-TEST_CASE("the share that escapes is that of the closed form, by lamps inside alone", "[inspect]") {
-  // A black room without a ceiling: of an isotropic point 0.5 m below its rim, what goes up between
+TEST_CASE("the escaping share equals the closed form, counting only lamps inside", "[inspect]") {
+  // A black room without a ceiling: of an isotropic point 0.5 m below its rim, the light between
   // the walls' upper edges. Solid angle of a rectangle a x b at distance d, Khadjavi 1968.
   const std::string black =
       replaced(closed_room, "material = \"grey50\"",
@@ -135,7 +135,7 @@ TEST_CASE("the share that escapes is that of the closed form, by lamps inside al
   const std::string& what = open.front().problem.what;
   const double said = std::stod(what.substr(what.find("air ") + 4)) / 100;
   CHECK(said == Approx(expected).margin(0.02));
-  // A lamp beside the room sends all of its light away, and is none of the room's.
+  // A lamp beside the room loses all of its light, and does not count for the room.
   const auto beside = found_in(furnished_room +
                                "[[emitter]]\nname = \"street\"\nshape = \"point\"\n"
                                "distribution = \"isotropic\"\nposition = [20, 0, 2]\n"
@@ -143,7 +143,8 @@ TEST_CASE("the share that escapes is that of the closed form, by lamps inside al
   CHECK(that_say(beside, "not closed").empty());
 }
 
-TEST_CASE("routes outside, above their floor, through walls and too wide are told", "[inspect]") {
+TEST_CASE("routes outside, above their floor, through walls and too wide are reported",
+          "[inspect]") {
   const auto with = [&](const std::string& more) { return found_in(furnished_room + more); };
   check_no_alarm(with(route("[[1, 0, 0], [11, 0, 0]]", 4)));
   check_found(with(route("[[1, 0, 0], [11, 0, 0]]", 0.4)), Severity::warning,
@@ -155,20 +156,20 @@ TEST_CASE("routes outside, above their floor, through walls and too wide are tol
   check_found(with(route("[[1, 0, 0.2], [11, 0, 0.2]]", 1)), Severity::warning,
               "route \"way\" lies 0.2 m above its floor");
   check_no_alarm(with(route("[[1, 0, 0.04], [11, 0, 0.04]]", 1)));
-  // 4.4 m in 4 m: edges in walls. 8 m: strips. Aside of the middle: one edge.
+  // 4.4 m in 4 m: edges in walls. 8 m: strips. Off-centre: one edge.
   check_found(with(route("[[1, 0, 0], [11, 0, 0]]", 4.4)), Severity::warning,
               "its edges are judged inside walls; give it the width of what it leads through");
   check_found(with(route("[[1, 0, 0], [11, 0, 0]]", 8)), Severity::error,
               "strips of it are judged inside walls");
   check_found(with(route("[[1, 1, 0], [11, 1, 0]]", 3)), Severity::warning,
               "its edges are judged inside walls; move its line to the middle");
-  // Through a doorway of 2 m in a wall of 0.2 m, which is no corridor.
+  // Through a doorway of 2 m in a wall of 0.2 m, which is not a corridor.
   check_no_alarm(with(thick_wall + route("[[1, 0, 0], [11, 0, 0]]", 3)));
   check_found(with(thick_wall + route("[[1, 1.5, 0], [11, 1.5, 0]]", 0.8)), Severity::error,
               "route \"way\" leads through the wall or body \"partition\"");
 }
 
-TEST_CASE("closed doors count by scenario, and are told with it", "[inspect]") {
+TEST_CASE("closed doors count by scenario, and are reported with it", "[inspect]") {
   const std::string door = R"(
 [[object]]
 name = "leaf"
@@ -190,7 +191,7 @@ doors_open = ["leaf"]
   check_found(found, Severity::warning, "no direct light of an emergency luminaire on ");
 }
 
-TEST_CASE("areas without a floor or at another height are told", "[inspect]") {
+TEST_CASE("areas without a floor or at another height are reported", "[inspect]") {
   const auto area = [&](const std::string& outline, const std::string& more = "") {
     return found_in(furnished_room + "[[open_area]]\nname = \"hall\"\noutline = " + outline + "\n" +
                     more);
@@ -216,17 +217,17 @@ TEST_CASE("cells of a plane in bodies are counted", "[inspect]") {
   const auto some = found_in(furnished_room + plane + block("[5, 1, 1]"));
   check_found(some, Severity::note, "plane \"floor\": 6 of 48 cells lie inside bodies");
   CHECK(found_in(furnished_room + plane).empty());
-  // Standing on the floor, its bottom in the floor's plane.
+  // On the floor, with its bottom in the floor's plane.
   const std::string standing = replaced(block("[5, 1, 1]"), "[2, -1, -0.1]", "[2, -1, 0]");
   check_found(found_in(furnished_room + plane + standing), Severity::note,
               "plane \"floor\": 6 of 48 cells lie inside bodies");
-  // The box of 3 m x 2 m below the plane: it looks at the box's top.
+  // The box of 3 m x 2 m is below the plane, which faces the box's top.
   CHECK(found_in(furnished_room + plane + block("[5, 1, 0.015]")).empty());
   check_found(found_in(furnished_room + plane + block("[14, 3, 1]") + ""), Severity::warning,
               "cells lie inside bodies");
 }
 
-TEST_CASE("which cells lie in a body is told by their numbers, whatever the threads", "[inspect]") {
+TEST_CASE("cells in a body are identified by number, for any number of threads", "[inspect]") {
   const test::TemporaryFolder folder;
   const auto scene = described(folder.write(
       "scene.toml", furnished_room +
@@ -245,7 +246,7 @@ TEST_CASE("which cells lie in a body is told by their numbers, whatever the thre
   }
 }
 
-TEST_CASE("media that overlap are told, flames and hazes aside", "[inspect]") {
+TEST_CASE("overlapping media are reported, except flames and hazes", "[inspect]") {
   const std::string west = "box = [[0, -2], [6, 2]]\n", east = "box = [[6, -2], [12, 2]]\n";
   const std::string middle = "box = [[4, -2], [8, 2]]\n";
   const auto twice = found_in(furnished_room + smoke("one", 0.5, west) + smoke("two", 0.4, middle));
@@ -258,12 +259,12 @@ TEST_CASE("media that overlap are told, flames and hazes aside", "[inspect]") {
       "position = [3, 0, 0.6]\nradii = [0.3, 0.3, 0.5]\nextinction = 0.5\n"
       "albedo = 0\nemission = { power_w = 1000, temperature_k = 1400 }\n";
   CHECK(found_in(furnished_room + smoke("one", 0.5) + flame).empty());
-  // Only where both are there.
+  // Only where both exist.
   const std::string scenarios = "[[scenario]]\nname = \"one\"\nmedia = { two = 0 }\n";
   CHECK(found_in(furnished_room + smoke("one", 0.5) + smoke("two", 0.4) + scenarios).empty());
 }
 
-TEST_CASE("an eye in smoke through which nothing is seen is noted", "[inspect]") {
+TEST_CASE("an eye in opaque smoke is noted", "[inspect]") {
   const std::string camera =
       "[[camera]]\nname = \"view\"\neye = [6, 0, 1.5]\ntarget = [11, 0, 1.5]\n";
   // 1.5 m to the floor's and the walls' nearest points in its picture, and more: e^-9.2 is 1e-4.
@@ -272,8 +273,10 @@ TEST_CASE("an eye in smoke through which nothing is seen is noted", "[inspect]")
   CHECK(found_in(furnished_room + camera + smoke("thin", 1)).empty());
 }
 
-TEST_CASE("what many scenarios show is told once, and after ten of a kind the rest is counted",
-          "[inspect]") {
+TEST_CASE(
+    "a finding common to several scenarios is reported once, and after ten of a kind the rest is "
+    "counted",
+    "[inspect]") {
   std::string lamps;
   for (int i = 0; i < 14; ++i)
     lamps += "[[emitter]]\nname = \"lost " + std::to_string(i) +

@@ -1,4 +1,4 @@
-// People and lines of sight outside of the meshes of a fire simulation.
+// People and lines of sight outside the meshes of a fire simulation.
 #include "tests/kit/small_fire.hpp"
 #include "tests/unit/actors/judge/inspect/inspect_kit.hpp"
 
@@ -7,7 +7,7 @@ using namespace luxodus::inspection;
 
 namespace {
 
-/// A simulation of even smoke whose mesh is a box, as the files of a scene.
+/// A simulation of uniform smoke whose mesh is a box, as the files of a scene.
 std::vector<std::pair<std::string, std::string>> fire_of(const glm::dvec3& low,
                                                          const glm::ivec3& cells) {
   using namespace test;
@@ -39,15 +39,14 @@ TEST_CASE("a route that leaves the meshes of a simulation is an error", "[inspec
   CHECK(has_error(found));
 }
 
-TEST_CASE("a sign that is seen through air that the simulation does not know is an error",
-          "[inspect][fds]") {
+TEST_CASE("a sign seen through air outside the simulation is an error", "[inspect][fds]") {
   // The route ends at x = 8, the mesh at x = 9, the sign hangs at x = 11.95.
   const std::string scene = test::replaced(burning, "[11, 0, 0]", "[8, 0, 0]");
   const auto found = found_in(scene, fire_of({0, -2, 0}, {18, 8, 6}));
   CHECK(that_say(found, "an eye of the route").empty());
   CHECK(that_say(found, "the line of sight to").size() == 1);
   CHECK(has_error(found));
-  // Behind a wall nobody looks.
+  // Nobody looks through a wall.
   const std::string walled = scene + test::replaced(thick_wall,
                                                     "opening = [{ at = 1, width = 2, "
                                                     "height = 2.1 }]\n",
@@ -57,7 +56,7 @@ TEST_CASE("a sign that is seen through air that the simulation does not know is 
   CHECK(that_say(behind, "the line of sight to").empty());
 }
 
-TEST_CASE("smoke that no scenario has is asked for no meshes", "[inspect][fds]") {
+TEST_CASE("smoke that is in no scenario needs no meshes", "[inspect][fds]") {
   const std::string clear =
       burning + "[[scenario]]\nname = \"clear\"\noperation = \"mains\"\nmedia = { fire = 0 }\n";
   CHECK(that_say(found_in(clear, fire_of({0, -2, 0}, {4, 8, 6})), "outside of the meshes").empty());

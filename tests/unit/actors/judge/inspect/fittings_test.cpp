@@ -1,5 +1,5 @@
-// Slips of places, signs, eyes and routes: equipment in the air, faces that look up, arrows that
-// point back, barriers across a route; each, and beside it what is near to it and right.
+// Mistakes in places, signs, eyes and routes: equipment in the air, faces that look up, arrows that
+// point back, barriers across a route; each, and a similar scene that is correct.
 #include "tests/unit/actors/judge/inspect/inspect_kit.hpp"
 
 using namespace luxodus;
@@ -30,7 +30,7 @@ const std::string in_place = "position = [11.95, 0, 2.2]";
 
 }  // namespace
 
-TEST_CASE("equipment that hangs nowhere, out of reach or outside is told", "[inspect]") {
+TEST_CASE("equipment that hangs on nothing, is out of reach or outside is reported", "[inspect]") {
   const auto extinguisher = [](const std::string& position) {
     return found_in(furnished_room + emphasis("fire_equipment", position));
   };
@@ -43,7 +43,7 @@ TEST_CASE("equipment that hangs nowhere, out of reach or outside is told", "[ins
   CHECK(extinguisher("[6, 0, 0]").empty());
 }
 
-TEST_CASE("doors away from every wall and marks far above the floor are told", "[inspect]") {
+TEST_CASE("doors away from every wall and marks far above the floor are reported", "[inspect]") {
   const std::string hall =
       replaced(replaced(furnished_room, "low = [0, -2, 0]", "low = [0, -8, 0]"),
                "high = [12, 2, 3]", "high = [12, 8, 3]");
@@ -55,7 +55,7 @@ TEST_CASE("doors away from every wall and marks far above the floor are told", "
               "lies 2 m above what is below it");
 }
 
-TEST_CASE("the front of equipment that looks into its wall, or up, is told", "[inspect]") {
+TEST_CASE("equipment whose front faces its wall, or up, is reported", "[inspect]") {
   const auto panel = [](const std::string& facing) {
     return found_in(furnished_room + emphasis("alarm_panel", "[0.1, 0, 1.5]", facing));
   };
@@ -64,7 +64,8 @@ TEST_CASE("the front of equipment that looks into its wall, or up, is told", "[i
   CHECK(panel("[1, 0, 0]").empty());
 }
 
-TEST_CASE("signs that look up, hang on their side or have no sign's size are told", "[inspect]") {
+TEST_CASE("signs that look up, hang on their side or have an implausible size are reported",
+          "[inspect]") {
   check_found(found_in(with("position = [11.95, 0, 2.2]\nfacing = [-1, 0, 0]",
                             "position = [8, 0, 2.2]\nfacing = [0, 0, -1]\nup = [1, 0, 0]")),
               Severity::warning, "sign \"exit\" faces the floor");
@@ -77,8 +78,7 @@ TEST_CASE("signs that look up, hang on their side or have no sign's size are tol
   CHECK(found_in(with(in_place, "position = [11.95, 0, 2.3]")).empty());
 }
 
-TEST_CASE("signs that stick through a ceiling, above it or at a man's waist are told",
-          "[inspect]") {
+TEST_CASE("signs through a ceiling, above it or at waist height are reported", "[inspect]") {
   check_found(found_in(with(in_place, "position = [11.95, 0, 2.98]")), Severity::warning,
               "sign \"exit\" sticks through \"room.ceiling\"");
   check_found(found_in(with(in_place, "position = [11.5, 0, 3.4]")), Severity::warning,
@@ -88,8 +88,8 @@ TEST_CASE("signs that stick through a ceiling, above it or at a man's waist are 
   CHECK(found_in(with(in_place, "position = [11.95, 0, 0.3]")).empty());
 }
 
-TEST_CASE("an arrow that points back along its route is told", "[inspect]") {
-  // On the north wall: the reader looks north, and east is on his right.
+TEST_CASE("an arrow that points back along its route is reported", "[inspect]") {
+  // On the north wall: the reader looks north, and east is to the right.
   const auto arrow = [](const std::string& text) {
     const std::string words =
         "[[sign]]\nname = \"arrow\"\nposition = [6, 1.95, 2.2]\n"
@@ -119,7 +119,8 @@ TEST_CASE("an arrow that points back along its route is told", "[inspect]") {
   CHECK(that_say(told("exit_left.svg", "[[1, 0, 0], [6, 0, 0]]"), "points to").empty());
 }
 
-TEST_CASE("observers that look up or away, and eyes where no eye is, are told", "[inspect]") {
+TEST_CASE("observers that look up or away, and eyes at implausible heights, are reported",
+          "[inspect]") {
   const auto eye = [](const std::string& at, const std::string& gaze) {
     return found_in(furnished_room + "[[observer]]\nname = \"eye\"\neye = " + at +
                     "\ngaze = " + gaze + "\n");
@@ -131,7 +132,7 @@ TEST_CASE("observers that look up or away, and eyes where no eye is, are told", 
   CHECK(eye("[2, 0, 0.6]", "[1, 0, 0]").empty());
 }
 
-TEST_CASE("barriers, sills and beams across a route are told", "[inspect]") {
+TEST_CASE("barriers, sills and beams across a route are reported", "[inspect]") {
   const std::string way = route_of("[[1, 0, 0], [11, 0, 0]]");
   check_found(found_in(furnished_room + way + bar("[5, -2, 0]", "[5.1, 2, 0.6]")),
               Severity::warning, "route \"way\" climbs over \"bar\"");
@@ -146,7 +147,7 @@ TEST_CASE("barriers, sills and beams across a route are told", "[inspect]") {
   CHECK(found_in(furnished_room + way + bar("[5, -2, 2.1]", "[5.1, 2, 3]")).empty());
 }
 
-TEST_CASE("furniture that floats is told, and slabs, hung and stacked things are not",
+TEST_CASE("floating furniture is reported, and slabs, hung and stacked things are not",
           "[inspect]") {
   const auto piece = [](const std::string& low, const std::string& high) {
     return found_in(furnished_room + bar(low, high) + "tags = [\"furniture\"]\n");
@@ -158,7 +159,7 @@ TEST_CASE("furniture that floats is told, and slabs, hung and stacked things are
   CHECK(piece("[5, 1.6, 1.4]", "[6, 2, 2]").empty());
 }
 
-TEST_CASE("a door that turns about a hinge away from its leaf is told", "[inspect]") {
+TEST_CASE("a door whose hinge is away from its leaf is reported", "[inspect]") {
   const auto leaf = [](const std::string& door) {
     return found_in(furnished_room + thick_wall + bar("[8.05, -1, 0.01]", "[8.09, 1, 2.1]") +
                     "door = { " + door + " }\n");
@@ -173,7 +174,7 @@ TEST_CASE("a door that turns about a hinge away from its leaf is told", "[inspec
   CHECK(leaf("hinge = [8.07, 1, 0]").empty());
 }
 
-TEST_CASE("objects laid exactly on each other are told", "[inspect]") {
+TEST_CASE("objects placed exactly on each other are reported", "[inspect]") {
   const std::string second = replaced(bar("[5, 1, 0]", "[6, 2, 1]"), "\"bar\"", "\"again\"");
   check_found(found_in(furnished_room + bar("[5, 1, 0]", "[6, 2, 1]") + second), Severity::warning,
               "\"again\" fills the very space of \"bar\"");
@@ -183,7 +184,7 @@ TEST_CASE("objects laid exactly on each other are told", "[inspect]") {
   CHECK(found_in(furnished_room + bar("[5, 1, 0]", "[6, 2, 1]") + beside).empty());
 }
 
-TEST_CASE("planes over people's heads and above the ceiling are told", "[inspect]") {
+TEST_CASE("planes above people's heads and above the ceiling are reported", "[inspect]") {
   const auto plane = [](const std::string& z) {
     return found_in(furnished_room + "[[plane]]\nname = \"desk\"\ncorner = [1, -1, " + z +
                     "]\nedge_u = [5, 0, 0]\nedge_v = [0, 2, 0]\ncells = [5, 2]\n");

@@ -1,5 +1,5 @@
-// What the tests of the inspection share: a closed room in which nothing is wrong, and what is
-// found when something is added to it.
+// Shared by the tests of the inspection: a closed room without mistakes, and the findings after an
+// addition.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -14,7 +14,7 @@
 
 namespace luxodus::inspection {
 
-/// From end to end of the furnished and of the closed room.
+/// From one end of the furnished and of the closed room to the other.
 inline const std::string long_way =
     "[[route]]\nname = \"way\"\npath = [[1, 0, 0], [11, 0, 0]]\nwidth = 1\n";
 
@@ -31,7 +31,7 @@ inline const std::string lamp = test::middle_lamp;
 inline const std::string exit_sign = test::exit_sign_at("[11.95, 0, 2.2]");
 inline const std::string furnished_room = closed_room + lamp + exit_sign;
 
-/// A wall of 0.2 m across the room, its faces at x = 8 and 8.2, with a doorway in its middle.
+/// A wall of 0.2 m across the room, its faces at x = 8 and 8.2, with a doorway in the middle.
 inline const std::string thick_wall = R"(
 [[object]]
 name = "partition"
@@ -55,7 +55,7 @@ inline std::vector<Finding> inspected(const std::shared_ptr<const SceneDescripti
   return std::move(found).value();
 }
 
-/// Everything found in a scene of this text. `files`: beside it, by name.
+/// All findings in a scene with this text. `files`: beside it, by name.
 inline std::vector<Finding> found_in(
     const std::string& text, const std::vector<std::pair<std::string, std::string>>& files = {}) {
   const test::TemporaryFolder folder;
@@ -63,7 +63,7 @@ inline std::vector<Finding> found_in(
   return inspected(described(folder.write("scene.toml", text)));
 }
 
-/// The findings whose sentence holds these words.
+/// The findings whose message contains these words.
 inline std::vector<Finding> that_say(const std::vector<Finding>& findings,
                                      const std::string& words) {
   std::vector<Finding> out;
@@ -82,7 +82,7 @@ inline void check_found(const std::vector<Finding>& findings, Severity severity,
   CHECK(matching.front().problem.where.file.find("scene.toml") != std::string::npos);
 }
 
-/// Nothing but notes.
+/// No findings except notes.
 inline void check_no_alarm(const std::vector<Finding>& findings) {
   for (const Finding& f : findings) {
     INFO(f.text());

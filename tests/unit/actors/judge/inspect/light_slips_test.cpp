@@ -1,5 +1,5 @@
-// Slips in luminaires, light, materials and signs that once passed in silence: each is told with
-// its line, and what is right beside it is not.
+// Mistakes in luminaires, light, materials and signs: each is reported with its line, and similar
+// correct scenes are not.
 #include "tests/unit/actors/judge/inspect/inspect_kit.hpp"
 
 using namespace luxodus;
@@ -46,7 +46,7 @@ std::string glowing(const std::string& white, const std::string& decay) {
 
 }  // namespace
 
-TEST_CASE("emergency fluxes that are those of the mains, of nothing or of a share are told",
+TEST_CASE("emergency fluxes that equal the mains flux, are zero or are a share are reported",
           "[inspect][light]") {
   check_found(with_luminaire(emergency("emergency_flux = 0.15")), Severity::warning,
               "gives 0.15 lm in emergency operation: emergency_flux is in lm");
@@ -67,7 +67,7 @@ TEST_CASE("emergency fluxes that are those of the mains, of nothing or of a shar
       with_luminaire(emergency("emergency_factor = 0.1", "maintained"), "office_panel.ldt"));
 }
 
-TEST_CASE("factors that state a loss, a percentage or no ageing are told", "[inspect][light]") {
+TEST_CASE("factors that state a loss, a percentage or no ageing are reported", "[inspect][light]") {
   check_found(with_lamp("maintenance_factor = 0.8", "maintenance_factor = 0.2"), Severity::warning,
               "it is the share that is left of the light, not the one that is lost");
   check_found(with_lamp("end_of_duration_factor = 0.75", "end_of_duration_factor = 0.25"),
@@ -81,7 +81,8 @@ TEST_CASE("factors that state a loss, a percentage or no ageing are told", "[ins
   check_no_alarm(with_luminaire("mains_factor = 0.5\nmaintenance_factor = 0.8\n"));
 }
 
-TEST_CASE("what luminaires share is told once, with their number", "[inspect][light]") {
+TEST_CASE("a finding shared by luminaires is reported once, with their number",
+          "[inspect][light]") {
   const auto twice = found_in(
       closed_room + exit_sign + long_way +
       replaced(lamp, "maintenance_factor = 0.8", "maintenance_factor = 1") +
@@ -91,7 +92,8 @@ TEST_CASE("what luminaires share is told once, with their number", "[inspect][li
   check_found(twice, Severity::warning, "is usual (and 1 other)");
 }
 
-TEST_CASE("the one luminaire of a file that fails with the mains is noted", "[inspect][light]") {
+TEST_CASE("the only luminaire of a file that goes off with the mains is noted",
+          "[inspect][light]") {
   const auto found = [](const std::string& first, int more) {
     std::string others;
     for (int i = 1; i <= more; ++i)
@@ -107,7 +109,7 @@ TEST_CASE("the one luminaire of a file that fails with the mains is noted", "[in
   CHECK(that_say(found(emergency("emergency_factor = 0.5"), 2), words).empty());
 }
 
-TEST_CASE("photometric files in another unit, of too little light or normalised are told",
+TEST_CASE("photometric files in another unit, with too little light or normalised are reported",
           "[inspect][light]") {
   const auto with_file = [](const std::string& from, const std::string& to) {
     const test::TemporaryFolder folder;
@@ -143,13 +145,13 @@ TEST_CASE("photometric files in another unit, of too little light or normalised 
   for (const auto& found : {weak, normalised, strong}) CHECK_FALSE(has_error(found));
 }
 
-TEST_CASE("colour temperatures with a digit too many or too few are told", "[inspect][light]") {
+TEST_CASE("colour temperatures with a digit too many or too few are reported", "[inspect][light]") {
   check_found(with_lamp("flux_lm = 1000", "flux_lm = 1000\nspectrum = \"65000 K\""),
               Severity::warning, "'spectrum' is a black body of 65000 K");
   check_no_alarm(with_lamp("flux_lm = 1000", "flux_lm = 1000\nspectrum = \"2700 K\""));
 }
 
-TEST_CASE("reflectances of no paint, and rooms that are black, are told", "[inspect][light]") {
+TEST_CASE("implausible reflectances, and black rooms, are reported", "[inspect][light]") {
   const auto walls = [](const std::string& material, const std::string& more = long_way) {
     return found_in(replaced(closed_room, "grey50", material) + lamp + exit_sign + more);
   };
@@ -162,7 +164,7 @@ TEST_CASE("reflectances of no paint, and rooms that are black, are told", "[insp
   check_no_alarm(walls("white85"));
 }
 
-TEST_CASE("signs that are dark, reversed or brighter than their kind are told",
+TEST_CASE("signs that are dark, reversed or brighter than their kind are reported",
           "[inspect][light]") {
   check_found(with_exit_sign("emergency_white = 100\nemergency_green = 10",
                              "emergency_white = 0\nemergency_green = 0"),
@@ -184,7 +186,7 @@ TEST_CASE("signs that are dark, reversed or brighter than their kind are told",
   check_no_alarm(with_exit_sign("mains_white = 500", "mains_white = 400"));
 }
 
-TEST_CASE("glows that are too bright, too long, or rise are told", "[inspect][light]") {
+TEST_CASE("glows that are too bright, too long, or rise are reported", "[inspect][light]") {
   check_found(found_in(glowing("300", "[[0, 1], [600, 0.05]]")), Severity::warning,
               "as much as a sign that is lit from within");
   check_found(found_in(glowing("1", "[[0, 1], [1, 0.9], [60, 0.7]]")), Severity::warning,
@@ -196,7 +198,7 @@ TEST_CASE("glows that are too bright, too long, or rise are told", "[inspect][li
   check_no_alarm(found_in(glowing("1.5", "[[0, 1], [120, 0.35], [600, 0.08]]")));
 }
 
-TEST_CASE("faces lit from outside with colours swapped, and large details, are told",
+TEST_CASE("externally lit faces with swapped colours, and large details, are reported",
           "[inspect][light]") {
   const auto external = [](const std::string& more) {
     return found_in(closed_room + lamp +

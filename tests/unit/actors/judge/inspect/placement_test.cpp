@@ -1,4 +1,4 @@
-// Where luminaires, signs and eyes stand: each mistake, and beside it what is near to it and right.
+// Places of luminaires, signs and eyes: each mistake, and a similar scene that is correct.
 #include "tests/unit/actors/judge/inspect/inspect_kit.hpp"
 
 using namespace luxodus;
@@ -33,8 +33,8 @@ TEST_CASE("a closed room with a lamp and a sign has no findings", "[inspect]") {
   CHECK(found_in(furnished_room).empty());
 }
 
-TEST_CASE("a luminaire in a wall is an error, one on a wall is none", "[inspect]") {
-  // In the middle of 0.2 m: nothing of its light gets out, though it flies farther than 2 cm.
+TEST_CASE("a luminaire in a wall is an error, one on a wall is not", "[inspect]") {
+  // In the middle of 0.2 m: no light escapes, although it travels farther than 2 cm.
   const auto inside = found_in(furnished_room + thick_wall + lamp_at("lost", "[8.1, -1.5, 2]"));
   check_found(inside, Severity::error, "emitter \"lost\" lies inside \"partition\"");
   const auto near = found_in(furnished_room + thick_wall +
@@ -42,11 +42,11 @@ TEST_CASE("a luminaire in a wall is an error, one on a wall is none", "[inspect]
                                      "distribution = \"cosine_power\"\ncosine_power = 2\n"
                                      "direction = [-1, 0, 0]\n"));
   check_found(near, Severity::error, "emitter \"lost\" lies in a wall or body: 88 %");
-  // A tenth of a millimetre before it: half of what it sends out ends there, and is meant to.
+  // A tenth of a millimetre in front: half of its light ends there, as intended.
   check_no_alarm(found_in(furnished_room + thick_wall + lamp_at("right", "[7.9999, -1.5, 2]")));
 }
 
-TEST_CASE("lamps in a ceiling's plane, in a recess and with a body of their own are right",
+TEST_CASE("lamps in a ceiling's plane, in a recess and with a body of their own are accepted",
           "[inspect]") {
   check_no_alarm(found_in(furnished_room + panel("[3, 0, 3]")));
   check_no_alarm(found_in(furnished_room + panel("[3, 0, 2.98]", "body_material = \"grey50\"\n")));
@@ -76,16 +76,16 @@ material = "grey50"
   check_no_alarm(found_in(slab + ceiling + panel("[3, 0, 3.095]")));
 }
 
-TEST_CASE("a lamp above the ceiling, whose light does not come in, is told", "[inspect]") {
+TEST_CASE("a lamp above the ceiling, whose light does not enter, is reported", "[inspect]") {
   check_found(found_in(furnished_room + panel("[3, 0, 3.05]")), Severity::warning,
               "emitter \"panel\" stands outside, and 100 % of its light ends on the outer side of");
-  // On the roof, and looking away from it.
+  // On the roof, and facing away from it.
   const auto roof = found_in(furnished_room + panel("[3, 0, 3.05]", "direction = [0, 0, 1]\n"));
   check_no_alarm(roof);
   check_found(roof, Severity::note, "emitter \"panel\" stands outside the building");
 }
 
-TEST_CASE("light passes glass globes, so a lamp in one is right, and one in a box is not",
+TEST_CASE("light passes glass globes, so a lamp in one is accepted, and one in a box is not",
           "[inspect]") {
   const std::string in_box = furnished_room + lamp_at("boxed", "[3, 0, 1.5]");
   check_no_alarm(found_in(R"([[material]]
@@ -97,8 +97,9 @@ transmittance = 0.9
               "emitter \"boxed\" lies inside \"box\"");
 }
 
-TEST_CASE("what is farther away than ten times the building's height is in another unit",
-          "[inspect]") {
+TEST_CASE(
+    "a thing farther away than ten times the building's height is reported as in another unit",
+    "[inspect]") {
   check_found(found_in(furnished_room + lamp_at("mm", "[6000, 0, 2500]")), Severity::error,
               "emitter \"mm\" is 6.49 km from everything solid");
   check_found(found_in(furnished_room + camera_at("[6000, 0, 1600]", "[0, 0, 1600]")),
@@ -112,7 +113,7 @@ TEST_CASE("what is farther away than ten times the building's height is in anoth
 }
 
 TEST_CASE("outside is found by rays, not by the bounding box", "[inspect]") {
-  // An L of two rooms: its bounding box holds the yard between them.
+  // An L of two rooms: its bounding box includes the yard between them.
   const std::string wing = R"(
 [[object]]
 name = "wing"
@@ -143,7 +144,7 @@ TEST_CASE("a lamp level with a missing ceiling is inside, one on a post beside t
               "emitter \"panel\" stands outside");
 }
 
-TEST_CASE("luminaires nearer than five openings are warned of where codes judge their light",
+TEST_CASE("luminaires nearer than five openings give a warning where codes judge their light",
           "[inspect]") {
   // A round opening of 0.2 m that shines down: five openings are 1 m.
   const std::string ies =
@@ -165,18 +166,18 @@ TEST_CASE("luminaires nearer than five openings are warned of where codes judge 
   check_found(found(way + emergency), Severity::warning, sentence);
   check_found(found("[[probe]]\nname = \"spot\"\nposition = [3, 0, 0.2]\n"), Severity::note,
               "probe \"spot\" is 0.7 m from luminaire \"low lamp\"");
-  // Of two states of light with the same doors, the one that the lamp is lit in.
+  // Only the state with the lamp on, of two states of light with the same doors.
   const std::string dark = replaced(emergency, "lit", "dark") + "circuits = { low = 0 }\n";
   check_found(found(way + emergency + dark), Severity::warning, "(in scenario \"lit\")");
   check_no_alarm(found(replaced(way, "[[1, 0, 0]", "[[5, 0, 0]") + emergency));
 }
 
-TEST_CASE("two luminaires or two signs in one place are told, pairs that are meant are not",
+TEST_CASE("two luminaires or two signs in one place are reported, intended pairs are not",
           "[inspect]") {
   const std::string first_lamp = lamp_at("first", "[3, 0, 2.5]");
   check_found(found_in(furnished_room + first_lamp + lamp_at("again", "[3, 0.001, 2.5]")),
               Severity::warning, "emitter \"again\" stands where emitter \"first\" (line ");
-  // Beside it; and in its place, but lit when the other is not.
+  // Beside it; and in the same place, but on when the other is off.
   check_no_alarm(found_in(furnished_room + first_lamp + lamp_at("beside", "[3, 0.05, 2.5]")));
   check_no_alarm(found_in(furnished_room + lamp_at("of the mains", "[6, 0, 2.5]")));
   const std::string second = replaced(exit_sign, "\"exit\"", "\"second\"");
@@ -204,7 +205,7 @@ TEST_CASE("a sign in a wall is an error, one that faces a wall a warning", "[ins
       "[11.95, 0, 2.2]", "[10, 0, 2.2]")));
 }
 
-TEST_CASE("an emergency luminaire that lights no judged place is noted, where places are judged",
+TEST_CASE("an emergency luminaire that lights no judged place is noted, if places are judged",
           "[inspect]") {
   const std::string wall = R"([[object]]
 name = "partition"
@@ -228,11 +229,12 @@ material = "grey50"
   CHECK(that_say(judged, "\"lamp\" is an emergency luminaire").empty());
 }
 
-TEST_CASE("a route on which no emergency luminaire shines is told, with the lamp that could",
-          "[inspect]") {
+TEST_CASE(
+    "a route without light from emergency luminaires is reported, with a lamp that could light it",
+    "[inspect]") {
   const std::string wall =
       replaced(thick_wall, "opening = [{ at = 1, width = 2, height = 2.1 }]\n",
-               "opening = [{ at = 0.2, width = 1, height = 2.1 }]\n");  // beside the lamp's light
+               "opening = [{ at = 0.2, width = 1, height = 2.1 }]\n");  // outside the lamp's light
   const std::string route =
       "[[route]]\nname = \"way\"\npath = [[9, 1, 0], [11.5, 1, 0]]\nwidth = 1\n";
   const auto found = [&](const std::string& store) {
@@ -266,7 +268,7 @@ TEST_CASE("eyes and probes in bodies are errors, those that see nothing warnings
   check_no_alarm(found_in(furnished_room + block + probe + "[2.5, 0, 1.2]\n"));
   check_found(found_in(furnished_room + camera_at("[14, 0, 1.5]", "[20, 0, 1.5]")),
               Severity::warning, "camera \"view\" sees nothing");
-  // Under a lamp in the open, where there is nothing else; and with its back to it.
+  // Under a lamp in the open, with nothing else; and facing away from it.
   const std::string street = lamp_at("street", "[20, 0, 4]") + probe + "[20, 0, 0]\n";
   check_no_alarm(found_in(furnished_room + street));
   check_found(found_in(furnished_room + street + "normal = [0, 0, -1]\n"), Severity::warning,

@@ -1,5 +1,5 @@
-// Slips on the plan: routes that end nowhere, turn back or are written twice, areas through walls,
-// signs seen from the edge or hung in a doorway, doors in walls; each, and beside it what is right.
+// Mistakes in plan: routes that end nowhere, turn back or are written twice, areas through walls,
+// signs seen edge-on or in a doorway, doors in walls; each, and a similar scene that is correct.
 #include "tests/unit/actors/judge/inspect/inspect_kit.hpp"
 
 using namespace luxodus;
@@ -39,11 +39,11 @@ std::string hung(const std::string& position, const std::string& facing,
 
 }  // namespace
 
-TEST_CASE("a route that ends where nobody gets out is told", "[inspect]") {
+TEST_CASE("a route that ends away from any exit is reported", "[inspect]") {
   const std::string nowhere = path_named("way", "[[1, 0, 0], [6, 0, 0]]");
   check_found(found_in(furnished_room + nowhere), Severity::warning,
               "route \"way\" ends at (6.00, 0.00, 0.00), where nobody gets out");
-  // The exit sign at its end, a point of emphasis, an opening, and a route that leads on.
+  // The exit sign at its end, a point of emphasis, an opening, and a route that continues.
   check_no_alarm(found_in(furnished_room + long_way));
   for (const char* kind : {"exit_door", "final_exit", "stairs", "refuge"})
     check_no_alarm(found_in(furnished_room + nowhere + exit_point(kind, "[6, 1.9, 0]")));
@@ -54,33 +54,33 @@ TEST_CASE("a route that ends where nobody gets out is told", "[inspect]") {
               "where nobody gets out");
   check_no_alarm(
       found_in(furnished_room + nowhere + path_named("on", "[[6, 0.5, 0], [11, 0.5, 0]]")));
-  // One that only goes back leads nobody on.
+  // A route that only goes back does not continue it.
   check_found(found_in(furnished_room + nowhere + path_named("back", "[[6, 0, 0], [1, 0, 0]]") +
                        exit_point("final_exit", "[0.1, 0, 0]")),
               Severity::warning, "route \"way\" ends at");
-  // Where no way out is named, nothing says where routes should end.
+  // Without named exits, nothing says where routes should end.
   CHECK(that_say(found_in(closed_room + lamp + nowhere), "gets out").empty());
 }
 
-TEST_CASE("a route that is written from its exit inwards is told so", "[inspect]") {
+TEST_CASE("a route written from its exit inwards is reported as such", "[inspect]") {
   const std::string in = path_named("way", "[[11, 0, 0], [4, 0, 0]]");
   check_found(found_in(furnished_room + in + exit_point("final_exit", "[11.9, 0, 0]")),
               Severity::warning, "it begins at an exit: write its points the other way round");
 }
 
-TEST_CASE("a route that turns back on itself is told", "[inspect]") {
+TEST_CASE("a route that turns back on itself is reported", "[inspect]") {
   check_found(found_in(furnished_room + path_named("way",
                                                    "[[1, 0, 0], [9, 0, 0], [6, 0, 0], "
                                                    "[6, 1, 0], [11, 1, 0]]")),
               Severity::warning, "route \"way\" turns back on itself at");
-  // Stairs with a half landing: two flights that lie beside each other.
+  // Stairs with a half landing: two flights beside each other.
   check_no_alarm(found_in(
       furnished_room +
       path_named("way",
                  "[[1, -1, 0], [9, -1, 0], [9, 1, 0], [6, 1, 0], [6, 0.2, 0], [11, 0, 0]]")));
 }
 
-TEST_CASE("a route that is written twice is told, the way back is not", "[inspect]") {
+TEST_CASE("a route written twice is reported, the way back is not", "[inspect]") {
   check_found(found_in(furnished_room + long_way +
                        path_named("again", "[[1, 0, 0], [5, 0, 0], [11, 0, 0]]")),
               Severity::warning, "route \"again\" leads the very way of route \"way\" (line ");
@@ -89,14 +89,14 @@ TEST_CASE("a route that is written twice is told, the way back is not", "[inspec
       found_in(furnished_room + long_way + west + path_named("back", "[[11, 0, 0], [1, 0, 0]]")));
 }
 
-TEST_CASE("areas that reach through walls are told", "[inspect]") {
+TEST_CASE("areas that extend through walls are reported", "[inspect]") {
   const std::string both = "[[0.2, -1.8], [11.8, -1.8], [11.8, 1.8], [0.2, 1.8]]";
   check_found(found_in(furnished_room + shut_wall() + outline_of("open_area", both)),
               Severity::warning, "open area \"hall\" reaches through walls");
   check_found(found_in(furnished_room + shut_wall() +
                        outline_of("task_area", both, "z = 0.85\nmains_lx = 500\n")),
               Severity::warning, "task area \"hall\" reaches through walls");
-  // A doorway joins two rooms, and does not make them one.
+  // A doorway joins two rooms, but does not make them one.
   const std::string narrow = replaced(thick_wall, "at = 1, width = 2", "at = 1.5, width = 0.9");
   check_found(found_in(furnished_room + narrow + outline_of("open_area", both)), Severity::warning,
               "open area \"hall\" reaches through walls");
@@ -111,12 +111,12 @@ TEST_CASE("areas that reach through walls are told", "[inspect]") {
             .empty());
 }
 
-TEST_CASE("a sign that shows only its edge to the route beside it is told", "[inspect]") {
+TEST_CASE("a sign seen edge-on from the route beside it is reported", "[inspect]") {
   const std::string lone = closed_room + lamp + long_way + exit_point("final_exit", "[11.9, 0, 0]");
   check_found(found_in(lone + hung("[7, 0, 2.4]", "[0, 1, 0]", "double_sided = true\n")),
               Severity::warning, "sign \"hung\" shows only its edge to route \"way\" (line ");
   check_no_alarm(found_in(lone + hung("[7, 0, 2.4]", "[-1, 0, 0]", "double_sided = true\n")));
-  // On the side wall it is read from where one passes; the back is the other way's.
+  // On the side wall it is read by people who pass; its back serves the other direction.
   check_no_alarm(found_in(lone + hung("[7, 1.95, 2.4]", "[0, -1, 0]")));
   const auto back = found_in(lone + hung("[7, 0, 2.4]", "[1, 0, 0]"));
   check_no_alarm(back);
@@ -129,7 +129,7 @@ TEST_CASE("a sign that shows only its edge to the route beside it is told", "[in
                           outline_of("open_area", "[[0, -2], [12, -2], [12, 2], [0, 2]]")));
 }
 
-TEST_CASE("a sign that hangs in a doorway's opening is told", "[inspect]") {
+TEST_CASE("a sign that hangs in a doorway's opening is reported", "[inspect]") {
   const auto found = [](const std::string& position) {
     return found_in(closed_room + lamp + thick_wall + hung(position, "[-1, 0, 0]"));
   };
@@ -139,7 +139,7 @@ TEST_CASE("a sign that hangs in a doorway's opening is told", "[inspect]") {
   CHECK(that_say(found("[5, 0, 1.9]"), "doorway").empty());
 }
 
-TEST_CASE("a door leaf in a wall, before a wall, or in no opening is told", "[inspect]") {
+TEST_CASE("a door leaf in a wall, before a wall, or in no opening is reported", "[inspect]") {
   const std::string hinge = "hinge = [8.07, 1, 0]";
   const auto in = [&](const std::string& wall, const std::string& low, const std::string& high,
                       const std::string& door) {
@@ -154,9 +154,9 @@ TEST_CASE("a door leaf in a wall, before a wall, or in no opening is told", "[in
   CHECK(in(thick_wall, "[8.05, -1, 0.01]", "[8.09, 1, 2.1]", hinge).empty());
 }
 
-TEST_CASE("a door leaf that opens into a wall is told, in the scenarios where it is open",
+TEST_CASE("a door leaf that opens into a wall is reported, in the scenarios where it is open",
           "[inspect]") {
-  // Hung at the end of its opening beside a side wall, so that it opens by 90 degrees and no more.
+  // At the end of its opening beside a side wall, so that it opens by at most 90 degrees.
   const std::string corner = replaced(thick_wall, "at = 1, width = 2", "at = 0.1, width = 1");
   const auto opened = [&](const std::string& door, const std::string& more) {
     return found_in(

@@ -1,5 +1,5 @@
-// Slips of shapes and sizes: furniture in floors and walls, planes slightly tilted or tiny, imports
-// on their side or in another unit; each, and beside it what is right.
+// Mistakes in shapes and sizes: furniture in floors and walls, planes slightly tilted or tiny,
+// imports on their side or in another unit; each, and a similar scene that is correct.
 #include <fmt/format.h>
 
 #include "tests/unit/actors/judge/inspect/inspect_kit.hpp"
@@ -19,8 +19,8 @@ std::string desk_plane(const std::string& corner, const std::string& u, const st
          "\ncells = [4, 4]\n";
 }
 
-/// A house of one storey, 20 x 10 x 3 m in its own unit of `unit_m`, its faces to the inside;
-/// `flat`: z is up in the file, else y. Its parts are called by `names`.
+/// A house of one storey, 20 x 10 x 3 m in its own unit of `unit_m`, its faces inwards; `z_up`: z
+/// is up in the file, else y. `named`: whether its parts have names.
 std::string house_obj(double unit_m, bool z_up, bool named) {
   std::string out;
   for (const double z : {0.0, 3.0})
@@ -47,7 +47,7 @@ std::vector<Finding> house(const std::string& obj, const std::string& units,
 
 }  // namespace
 
-TEST_CASE("furniture that is sunk in the floor is told", "[inspect]") {
+TEST_CASE("furniture sunk in the floor is reported", "[inspect]") {
   check_found(found_in(furnished_room + furniture_box("[5, -0.5, -0.4]", "[6, 0.5, 1.4]")),
               Severity::warning, "the furniture \"cupboard\" is sunk by 0.4 m");
   // On the floor, pressed into a carpet, on a podium, and below a gallery.
@@ -62,7 +62,8 @@ TEST_CASE("furniture that is sunk in the floor is told", "[inspect]") {
               Severity::warning, "the furniture \"cupboard\" is sunk by 0.4 m");
 }
 
-TEST_CASE("furniture that reaches through a wall is told, what touches one is not", "[inspect]") {
+TEST_CASE("furniture through a wall is reported, and furniture that touches one is not",
+          "[inspect]") {
   check_found(found_in(furnished_room + thick_wall + furniture_box("[7, 1.2, 0]", "[9, 1.8, 1.4]")),
               Severity::warning, "the furniture \"cupboard\" reaches through \"partition\"");
   check_found(found_in(furnished_room + furniture_box("[5, 1.5, 0]", "[6, 2.5, 1.4]")),
@@ -72,7 +73,7 @@ TEST_CASE("furniture that reaches through a wall is told, what touches one is no
             .empty());
 }
 
-TEST_CASE("planes slightly out of level, upright or square are told", "[inspect]") {
+TEST_CASE("planes slightly off horizontal, vertical or rectangular are reported", "[inspect]") {
   const auto plane = [](const std::string& u, const std::string& v) {
     return found_in(furnished_room + desk_plane("[1, -1, 0.8]", u, v));
   };
@@ -88,7 +89,7 @@ TEST_CASE("planes slightly out of level, upright or square are told", "[inspect]
   CHECK(plane("[3, 0, 1.5]", "[0, 2, 0]").empty());
 }
 
-TEST_CASE("a plane that follows a ramp is no mistake", "[inspect]") {
+TEST_CASE("a plane that follows a ramp is accepted", "[inspect]") {
   const std::string ramp =
       "[[object]]\nname = \"ramp\"\nshape = \"quad\"\ncorner = [1, -1, 0.01]\n"
       "edge_u = [5, 0, 0.2]\nedge_v = [0, 2, 0]\nmaterial = \"grey50\"\n";
@@ -97,7 +98,7 @@ TEST_CASE("a plane that follows a ramp is no mistake", "[inspect]") {
   CHECK(that_say(found_in(furnished_room + over), "tilted").size() == 1);
 }
 
-TEST_CASE("a plane aslant over the floor of a route is told", "[inspect]") {
+TEST_CASE("a plane slanted over the floor of a route is reported", "[inspect]") {
   const auto found = [](const std::string& corner, const std::string& u, const std::string& v,
                         const std::string& more = "") {
     return found_in(furnished_room + long_way + more + desk_plane(corner, u, v));
@@ -105,17 +106,17 @@ TEST_CASE("a plane aslant over the floor of a route is told", "[inspect]") {
   check_found(found("[1, -1, 0.02]", "[8, 0, 0]", "[0, 2, 0.4]"), Severity::warning,
               "plane \"desk\" is tilted by 11 degrees over the level floor of route \"way\"");
   CHECK(found("[1, -1, 0.02]", "[8, 0, 0]", "[0, 2, 0]").empty());
-  // A desk's slope, and a wall's plane, are above the floor or upright.
+  // A sloped desk is above the floor, and a wall's plane is vertical.
   CHECK(found("[5, -1, 0.8]", "[2, 0, 0]", "[0, 2, 0.4]").empty());
   CHECK(found("[1, -1, 0.02]", "[8, 0, 0]", "[0, 0, 2]").empty());
-  // Over a ramp beside which the route is written level.
+  // Over a ramp, while the route beside it is horizontal.
   const std::string ramp =
       "[[object]]\nname = \"ramp\"\nshape = \"quad\"\ncorner = [1, -1, 0.01]\n"
       "edge_u = [5, 0, 0]\nedge_v = [0, 2, 0.3]\nmaterial = \"grey50\"\n";
   CHECK(that_say(found("[1, -1, 0.03]", "[5, 0, 0]", "[0, 2, 0.3]", ramp), "tilted").empty());
 }
 
-TEST_CASE("a plane whose numbers of cells are swapped is told", "[inspect]") {
+TEST_CASE("a plane with swapped numbers of cells is reported", "[inspect]") {
   const auto found = [](const std::string& cells) {
     return found_in(furnished_room + replaced(desk_plane("[1, -1, 0.8]", "[10, 0, 0]", "[0, 2, 0]"),
                                               "[4, 4]", cells));
@@ -126,13 +127,13 @@ TEST_CASE("a plane whose numbers of cells are swapped is told", "[inspect]") {
   CHECK(found("[50, 1]").empty());
 }
 
-TEST_CASE("a plane of millimetres is told", "[inspect]") {
+TEST_CASE("a plane in millimetres is reported", "[inspect]") {
   check_found(
       found_in(furnished_room + desk_plane("[1, -1, 0.8]", "[0.005, 0, 0]", "[0, 0.004, 0]")),
       Severity::warning, "plane \"desk\" is 5 mm x 4 mm large: its edges are in metres");
 }
 
-TEST_CASE("a lamp that is larger than any building is told, and its light is no hole in the room",
+TEST_CASE("a lamp larger than any building is reported, and its light is no hole in the room",
           "[inspect]") {
   const auto lamp_of = [](const std::string& size) {
     return found_in(furnished_room +
@@ -147,8 +148,8 @@ TEST_CASE("a lamp that is larger than any building is told, and its light is no 
   CHECK(lamp_of("[0.6, 0.6]").empty());
 }
 
-TEST_CASE("a building whose doors have the size of doors in feet is told", "[inspect]") {
-  // The closed room, its doorway and its leaves, `scale` times as large.
+TEST_CASE("a building whose doors have sizes in feet is reported", "[inspect]") {
+  // The closed room with its doorway and leaves, `scale` times as large.
   const auto found = [](double scale, int leaves, const std::string& more = "") {
     const auto m = [&](double length) { return fmt::format("{:.6g}", length * scale); };
     std::string text =
@@ -171,7 +172,7 @@ TEST_CASE("a building whose doors have the size of doors in feet is told", "[ins
       "all 2 doors, \"leaf 0\" first, are 6.73 m high, as no door is, and 2.05 m if that is "
       "in feet");
   CHECK(that_say(found(1, 2), words).empty());
-  // A lone gate of a hall, and a gate beside a door of this size.
+  // A single gate of a hall, and a gate beside a door of normal size.
   CHECK(that_say(found(1 / 0.3048, 1), words).empty());
   CHECK(that_say(found(1 / 0.3048, 2,
                        "[[object]]\nname = \"door\"\nshape = \"box\"\nlow = [15, 0, 0]\n"
@@ -181,7 +182,7 @@ TEST_CASE("a building whose doors have the size of doors in feet is told", "[ins
             .empty());
 }
 
-TEST_CASE("an imported building that lies on its side is told", "[inspect]") {
+TEST_CASE("an imported building on its side is reported", "[inspect]") {
   for (const bool named : {false, true}) {
     INFO("parts have names: " << named);
     CHECK(that_say(house(house_obj(1, true, named), "m", "z"), "on its side").empty());
@@ -193,7 +194,7 @@ TEST_CASE("an imported building that lies on its side is told", "[inspect]") {
               "its part \"house.Floor\" stands upright");
 }
 
-TEST_CASE("an imported building in inches is told from the height of its storey", "[inspect]") {
+TEST_CASE("an imported building in inches is detected by the height of its storey", "[inspect]") {
   const std::string inches = house_obj(0.0254, true, false);
   CHECK(that_say(house(inches, "in", "z"), "its unit right").empty());
   check_found(house(inches, "m", "z"), Severity::warning,

@@ -1,4 +1,4 @@
-// Slips that once passed in silence, or were told of what is right: smoke and flames beside the
+// Mistakes that were once missed, or reported for correct scenes: smoke and flames outside the
 // building, furniture on a route, faces of a room drawn one by one, places that nobody sees.
 #include "tests/unit/actors/judge/inspect/inspect_kit.hpp"
 
@@ -39,7 +39,7 @@ std::string face(const std::string& name, const std::string& corner, const std::
          "\nedge_u = " + u + "\nedge_v = " + v + "\nmaterial = \"grey50\"\n";
 }
 
-/// The closed room as six faces, each in a table of its own, which all look inwards or outwards.
+/// The closed room as six faces in tables of their own, all facing inwards or outwards.
 std::string six_faces(bool inward) {
   const auto one = [&](const char* name, const char* corner, const char* u, const char* v) {
     return inward ? face(name, corner, v, u) : face(name, corner, u, v);
@@ -63,7 +63,7 @@ std::string with_sign(const std::string& from, const std::string& to) {
 
 }  // namespace
 
-TEST_CASE("smoke that reaches nothing of the building is told", "[inspect]") {
+TEST_CASE("smoke that reaches no part of the building is reported", "[inspect]") {
   check_found(found_in(furnished_room + slip_smoke("box = [[20, -2], [28, 2]]\n")),
               Severity::warning, "the medium \"smoke\" lies outside the building");
   check_found(found_in(furnished_room + slip_smoke("z_low = 1500\nz_high = 3000\n")),
@@ -77,7 +77,7 @@ TEST_CASE("smoke that reaches nothing of the building is told", "[inspect]") {
   check_no_alarm(found_in(furnished_room + slip_smoke("box = [[10, -2], [28, 2]]\n")));
 }
 
-TEST_CASE("smoke whose box has its numbers in another order is told, with the order that fits",
+TEST_CASE("smoke whose box has swapped numbers is reported, with the order that fits",
           "[inspect]") {
   const std::string judged = furnished_room + long_way;
   const auto found = [&](const std::string& box) {
@@ -87,16 +87,16 @@ TEST_CASE("smoke whose box has its numbers in another order is told, with the or
               "box = [[0, -2], [12, 2]], nothing would");
   check_found(found("[[1, 11], [-1, 1]]"), Severity::warning,
               "box = [[1, -1], [11, 1]], nothing would");
-  // As much too far to the east: no order of its numbers fits.
+  // Shifted equally far to the east: no order of its numbers fits.
   check_found(found("[[10, -2], [28, 2]]"), Severity::note,
               "of the smoke of the medium \"smoke\" lies outside the building, where");
   CHECK(that_say(found("[[-40, -40], [50, 50]]"), "lies outside").empty());
   CHECK(that_say(found("[[0, -2], [12, 2]]"), "lies outside").empty());
-  // Where nobody is judged it may be meant.
+  // Without judged people it may be intended.
   check_no_alarm(found_in(furnished_room + slip_smoke("box = [[-2, 0], [2, 12]]\n")));
 }
 
-TEST_CASE("flames in bodies, outside and twice in one place are told", "[inspect]") {
+TEST_CASE("flames in bodies, outside and twice in one place are reported", "[inspect]") {
   const std::string cupboard =
       "[[object]]\nname = \"box\"\nshape = \"box\"\nlow = [3, -1.5, 0]\nhigh = [5, 0, 2]\n"
       "material = \"grey50\"\n";
@@ -118,13 +118,14 @@ TEST_CASE("flames in bodies, outside and twice in one place are told", "[inspect
       found_in(furnished_room + flame("fire", "[3, 0, 0.8]") + flame("f2", "[3.2, 0, 0.8]")));
 }
 
-TEST_CASE("furniture that stands on a route is no wall, and hides no floor", "[inspect]") {
+TEST_CASE("furniture on a route is not a wall, and hides no floor", "[inspect]") {
   check_no_alarm(found_in(furnished_room + long_way + rack("tags = [\"furniture\"]\n")));
   check_found(found_in(furnished_room + long_way + rack("")), Severity::error,
               "route \"way\" leads through the wall or body \"rack\"");
 }
 
-TEST_CASE("a room of single faces that look outwards is told, and taken as a room", "[inspect]") {
+TEST_CASE("a room of single faces that look outwards is reported, and treated as a room",
+          "[inspect]") {
   const auto turned = found_in(six_faces(false) + lamp + exit_sign + long_way);
   check_found(turned, Severity::warning, "is drawn with its faces to the outside (\"");
   CHECK(that_say(turned, "inside").empty());
@@ -132,7 +133,8 @@ TEST_CASE("a room of single faces that look outwards is told, and taken as a roo
   CHECK(found_in(six_faces(true) + lamp + exit_sign + long_way).empty());
 }
 
-TEST_CASE("signs outside are no hole in the rooms, and backs on walls show nothing", "[inspect]") {
+TEST_CASE("signs outside are no hole in the rooms, and backs on walls are not judged",
+          "[inspect]") {
   const std::string outside = replaced(
       replaced(replaced(exit_sign, "\"exit\"", "\"outer\""), "[11.95, 0, 2.2]", "[12.1, 0, 2.4]"),
       "[-1, 0, 0]", "[1, 0, 0]");
@@ -147,7 +149,7 @@ TEST_CASE("signs outside are no hole in the rooms, and backs on walls show nothi
       with_sign("position = [11.95, 0, 2.2]", "position = [6, 1, 2.2]\ndouble_sided = true")));
 }
 
-TEST_CASE("planes that look into what they lie on, or reach outside, are told", "[inspect]") {
+TEST_CASE("planes that face what they lie on, or extend outside, are reported", "[inspect]") {
   check_found(found_in(furnished_room + plane("[0, -2, 0.02]", "[0, 4, 0]", "[12, 0, 0]")),
               Severity::warning, "plane \"desk\" looks at \"room.floor\"");
   check_found(found_in(furnished_room + plane("[0, -6, 0.02]", "[12, 0, 0]", "[0, 12, 0]")),
@@ -158,7 +160,7 @@ TEST_CASE("planes that look into what they lie on, or reach outside, are told", 
   CHECK(found_in(furnished_room + plane("[0, -2, 0]", "[12, 0, 0]", "[0, 4, 0]")).empty());
 }
 
-TEST_CASE("eyes that see backs alone and probes that are shut are told", "[inspect]") {
+TEST_CASE("eyes that only see backs and blocked probes are reported", "[inspect]") {
   const auto camera = [](const std::string& eye) {
     return "[[camera]]\nname = \"view\"\neye = " + eye + "\ntarget = [9, 0, 1.5]\n";
   };
@@ -173,7 +175,7 @@ TEST_CASE("eyes that see backs alone and probes that are shut are told", "[inspe
   CHECK(found_in(furnished_room + probe("[0, 0, 1]")).empty());
 }
 
-TEST_CASE("places that are judged and lie far off or outside are told", "[inspect]") {
+TEST_CASE("judged places far away or outside are reported", "[inspect]") {
   const auto emphasis = [](const std::string& position) {
     return "[[emphasis]]\nname = \"door\"\nkind = \"final_exit\"\nposition = " + position + "\n";
   };
@@ -191,7 +193,7 @@ TEST_CASE("places that are judged and lie far off or outside are told", "[inspec
   CHECK(found_in(furnished_room + task("0.85")).empty());
 }
 
-TEST_CASE("a percentage taken for a share of the flux is told", "[inspect]") {
+TEST_CASE("a percentage taken for a share of the flux is reported", "[inspect]") {
   const auto lit = [](const std::string& factor) {
     const test::TemporaryFolder folder;
     std::filesystem::copy_file(

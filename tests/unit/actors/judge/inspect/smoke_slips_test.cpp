@@ -1,4 +1,4 @@
-// Slips in smoke, scenarios and the settings of an assessment that once passed in silence.
+// Mistakes in smoke, scenarios and the settings of an assessment.
 #include "tests/unit/actors/judge/inspect/inspect_kit.hpp"
 
 using namespace luxodus;
@@ -28,7 +28,7 @@ std::string state(const std::string& keys) {
 
 }  // namespace
 
-TEST_CASE("extinctions of another unit are told, with the factor of a scenario",
+TEST_CASE("extinctions in another unit are reported, with the factor of a scenario",
           "[inspect][smoke]") {
   check_found(found_in(judged_room + even("extinction = 500\nalbedo = 0.3")), Severity::warning,
               "has an extinction of 500 /m");
@@ -50,7 +50,7 @@ TEST_CASE("extinctions of another unit are told, with the factor of a scenario",
                                              "albedo = 0.3")));
 }
 
-TEST_CASE("optics that no smoke has are told", "[inspect][smoke]") {
+TEST_CASE("implausible optics of smoke are reported", "[inspect][smoke]") {
   const auto found = [](const std::string& optics) {
     return found_in(judged_room + even("extinction = 0.5\n" + optics));
   };
@@ -71,11 +71,11 @@ TEST_CASE("optics that no smoke has are told", "[inspect][smoke]") {
               "states its extinction at 4000 nm");
   check_no_alarm(found("albedo = 0.3\nphase = \"hg\"\ng = 0.6"));
   check_no_alarm(found("albedo = 0.95\nsmoke = \"smouldering\""));
-  // Where nobody looks for signs it may be meant.
+  // Without people who look for signs it may be intended.
   check_no_alarm(found_in(closed_room + lamp + even("extinction = 0.5\nalbedo = 1")));
 }
 
-TEST_CASE("smoke upside down, with gaps, or over no judged place is told", "[inspect][smoke]") {
+TEST_CASE("smoke upside down, with gaps, or over no judged place is reported", "[inspect][smoke]") {
   const auto found = [](const std::string& smoke) { return found_in(judged_room + smoke); };
   check_found(found(layered(layer(0, 1.5, 1) + layer(1.5, 3, 0.1))), Severity::warning,
               "is denser below than above: 1 /m in the lower half");
@@ -93,14 +93,14 @@ TEST_CASE("smoke upside down, with gaps, or over no judged place is told", "[ins
               "all eyes on routes and in open areas are below the smoke");
   CHECK(found(layered(layer(1, 2, 0.2) + layer(2, 3, 0.8))).empty());
   CHECK(found(even("extinction = 0.5\nalbedo = 0.3")).empty());
-  // In a state without it nothing is over anything.
+  // In a state without smoke there is no finding.
   CHECK(
       that_say(found(layered(layer(0, 1.5, 1) + layer(1.5, 3, 0.1)) + state("smoke_factor = 0\n")),
                "denser below")
           .empty());
 }
 
-TEST_CASE("flames of another unit are told", "[inspect][smoke]") {
+TEST_CASE("flames in another unit are reported", "[inspect][smoke]") {
   const auto found = [](const std::string& emission) {
     return found_in(judged_room +
                     "[[medium]]\nname = \"fire\"\nkind = \"bounded\"\nbody = \"ellipsoid\"\n"
@@ -115,7 +115,7 @@ TEST_CASE("flames of another unit are told", "[inspect][smoke]") {
   check_no_alarm(found("power_w = 50000\ntemperature_k = 1400\n"));
 }
 
-TEST_CASE("smoke that no scenario has is told", "[inspect][smoke]") {
+TEST_CASE("smoke that is in no scenario is reported", "[inspect][smoke]") {
   const std::string smoke = even("extinction = 0.5\nalbedo = 0.3");
   check_found(found_in(judged_room + smoke + state("smoke_factor = 0\n")), Severity::warning,
               "no scenario has the smoke \"smoke\"");
@@ -124,7 +124,8 @@ TEST_CASE("smoke that no scenario has is told", "[inspect][smoke]") {
             .empty());
 }
 
-TEST_CASE("smoke of no extinction, or over few of the judged places, is told", "[inspect][smoke]") {
+TEST_CASE("smoke without extinction, or over few of the judged places, is reported",
+          "[inspect][smoke]") {
   check_found(found_in(judged_room + even("extinction = 0\nalbedo = 0.3")), Severity::warning,
               "has an extinction of 0: it is clear air");
   check_found(found_in(judged_room + layered(layer(1, 3, 0.5), "box = [[0, -2], [3.5, 2]]\n")),
@@ -132,7 +133,7 @@ TEST_CASE("smoke of no extinction, or over few of the judged places, is told", "
   CHECK(found_in(judged_room + layered(layer(1, 2, 0) + layer(2, 3, 0.5))).size() == 1);
 }
 
-TEST_CASE("settings that contradict the smoke are told", "[inspect][smoke]") {
+TEST_CASE("settings that contradict the smoke are reported", "[inspect][smoke]") {
   const std::string flaming = even("extinction = 0.5\nsmoke = \"flaming\"\nalbedo = 0.3");
   const auto found = [&](const std::string& keys, const std::string& smoke) {
     return found_in(judged_room + smoke + state("") + "[assessment]\n" + keys);
@@ -146,7 +147,7 @@ TEST_CASE("settings that contradict the smoke are told", "[inspect][smoke]") {
   check_no_alarm(found("smoke_expected = false\n", ""));
 }
 
-TEST_CASE("scenarios with percentages, dark luminaires and late hours are told",
+TEST_CASE("scenarios with percentages, dark luminaires and late hours are reported",
           "[inspect][state]") {
   const std::string on_circuit =
       replaced(judged_room, "name = \"lamp\"\n", "name = \"lamp\"\ncircuit = \"lamps\"\n");
@@ -167,7 +168,7 @@ TEST_CASE("scenarios with percentages, dark luminaires and late hours are told",
   CHECK(found_in(judged_room + state("seconds_after_failure = 600\n")).empty());
 }
 
-TEST_CASE("smoke that a factor scales down to clear air is told", "[inspect][state][smoke]") {
+TEST_CASE("smoke scaled down to clear air is reported", "[inspect][state][smoke]") {
   const auto found = [](const std::string& keys) {
     return found_in(judged_room + even("extinction = 0.5\nalbedo = 0.3") + state(keys));
   };
@@ -178,7 +179,7 @@ TEST_CASE("smoke that a factor scales down to clear air is told", "[inspect][sta
   check_no_alarm(found("smoke_factor = 0.1\n"));
 }
 
-TEST_CASE("a glow that is judged at the moment of the failure is told", "[inspect][state]") {
+TEST_CASE("a glow that is judged at the moment of the failure is reported", "[inspect][state]") {
   const std::string glow =
       replaced(replaced(exit_sign, "mains_white = 500\nmains_green = 50\n", ""),
                "emergency_white = 100\nemergency_green = 10\n",
@@ -192,7 +193,7 @@ TEST_CASE("a glow that is judged at the moment of the failure is told", "[inspec
   CHECK(that_say(found("seconds_after_failure = 600\n"), "as at the failure").empty());
 }
 
-TEST_CASE("people who see more than most are told", "[inspect][state]") {
+TEST_CASE("better than normal sight is reported", "[inspect][state]") {
   const auto found = [](const std::string& keys) {
     return found_in(judged_room + state("") + "[assessment]\n" + keys);
   };

@@ -1,4 +1,4 @@
-// A small scene traced on the spot, for tests of what the display makes of it.
+// A small traced scene for tests of its results.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -36,7 +36,7 @@ inline std::unique_ptr<LocalRun> traced(const std::string& toml, int64_t particl
   return run;
 }
 
-/// The report of a run, begun and finished.
+/// The report of a run, from begin to finish.
 inline Result<Json> write_report(const std::filesystem::path& folder, const LocalRun& run,
                                  const RunRecord& record) {
   if (auto ok = begin_results(folder, run, record); !ok) return ok.problem();

@@ -1,4 +1,4 @@
-// What results say of smoke and flames that come from a fire simulation.
+// Results about smoke and flames from a fire simulation.
 #include "actors/results/files/run_results.hpp"
 #include "actors/results/files/run_state.hpp"
 #include "tests/kit/small_fire.hpp"
@@ -7,7 +7,7 @@
 using namespace luxodus;
 using namespace luxodus::test;
 
-TEST_CASE("a result says that a simulated fire is smoke and flame, once, and of what time",
+TEST_CASE("a result lists a simulated fire as smoke and flame, once, with its time",
           "[display][fds]") {
   const TemporaryFolder folder;
   const SmallMesh coarse = even_mesh({0, 0, 0}, {0.5, 0.5, 0.5}, {2, 2, 2});
@@ -42,14 +42,13 @@ TEST_CASE("a result says that a simulated fire is smoke and flame, once, and of 
   CHECK(state["smoke"][0]["time_s"] == 60);
   CHECK(state["flames"].size() == 1);
   CHECK(run_state_text(state).find("smoke: fire at 60 s; 1 flame") != std::string::npos);
-  // Of both grids the heat is that of the whole fire.
+  // The heat of both grids is that of the whole fire.
   double watts = 0;
   for (const Medium& m : description->media) watts += m.emission ? m.emission->power_w : 0;
   CHECK(watts == Approx(0.3 * 60e3));
 }
 
-TEST_CASE("a result keeps the time that was asked for, so that pictures are of it",
-          "[display][fds]") {
+TEST_CASE("a result keeps the requested time, for its pictures", "[display][fds]") {
   const auto run = traced(
       "[[object]]\nname = \"room\"\nshape = \"room\"\nlow = [0, 0, 0]\nhigh = [2, 1, 1]\nmaterial "
       "= "

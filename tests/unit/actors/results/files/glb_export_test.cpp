@@ -1,4 +1,4 @@
-// A run as glTF: what is read back is the scene's surfaces, with the light of its patches.
+// A run as glTF: reading it back gives the scene's surfaces, with the light of their patches.
 #include "actors/results/files/glb_export.hpp"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ double area_of(const GlbMesh& mesh, size_t triangle) {
   return glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0))) / 2;
 }
 
-/// Lumens that surfaces of this luminance send back.
+/// Lumens reflected by surfaces with this luminance.
 double lumens_of(const GlbScene& scene, double white_cd_m2) {
   double sum = 0;
   for (const GlbMesh& mesh : scene.meshes)
@@ -71,9 +71,9 @@ double lumens_of(const GlbScene& scene, double white_cd_m2) {
 
 }  // namespace
 
-TEST_CASE("an exported run sends back the light of its patches", "[display][glb]") {
+TEST_CASE("an exported run reflects the light of its patches", "[display][glb]") {
   const auto run = traced(lit_room, 60'000);
-  constexpr double white = 1e4;  // nothing is as bright
+  constexpr double white = 1e4;  // brighter than everything
   const GlbScene scene = exported(*run, white);
   const Readout readout(run->scene(), run->totals());
   double lumens = 0, area = 0;
@@ -83,10 +83,10 @@ TEST_CASE("an exported run sends back the light of its patches", "[display][glb]
   CHECK(lumens_of(scene, white) == Approx(lumens).epsilon(0.03));  // corners are means
   for (const GlbMesh& mesh : scene.meshes)
     for (size_t t = 0; t < mesh.triangles.size() / 3; ++t) area += area_of(mesh, t);
-  CHECK(area == Approx(2 * (4 * 3 + 4 * 2.5 + 3 * 2.5)).epsilon(1e-4));  // its inner side alone
+  CHECK(area == Approx(2 * (4 * 3 + 4 * 2.5 + 3 * 2.5)).epsilon(1e-4));  // only its inner side
 }
 
-TEST_CASE("white is the luminance that almost all of the lit area stays below", "[display][glb]") {
+TEST_CASE("white is the luminance that nearly all of the lit area stays below", "[display][glb]") {
   const auto run = traced(lit_room, 60'000);
   const GlbScene scene = exported(*run, 0);
   CHECK(scene.extras["white_cd_m2"].get<double>() > 10);
@@ -131,7 +131,7 @@ TEST_CASE("luminaires of an exported run have their flux, place and direction", 
   CHECK(glm::length(scene.cameras[0].eye + scene.origin - glm::dvec3(10.5, 20.5, 1.6)) < 1e-9);
 }
 
-TEST_CASE("what is exported is read back as the surfaces that it was", "[display][glb]") {
+TEST_CASE("an exported run is read back as its surfaces", "[display][glb]") {
   const auto run = traced(lit_room, 20'000);
   const TemporaryFolder folder;
   const auto path = folder.path() / "room.glb";
@@ -149,7 +149,7 @@ TEST_CASE("what is exported is read back as the surfaces that it was", "[display
   CHECK(glm::length(high - glm::dvec3(14, 23, 2.5)) < 1e-3);
 }
 
-TEST_CASE("bytes of a GLB file are as its head says", "[display][glb]") {
+TEST_CASE("a GLB file has the layout that its head states", "[display][glb]") {
   const auto run = traced(lit_room, 1'000);
   const auto bytes = glb_bytes_of(exported(*run, 100));
   REQUIRE(bytes.ok());
@@ -170,7 +170,7 @@ TEST_CASE("bytes of a GLB file are as its head says", "[display][glb]") {
   CHECK(28 + json_bytes + word(20 + json_bytes) == bytes->size());
 }
 
-TEST_CASE("meshes that are none are refused in words", "[display][glb]") {
+TEST_CASE("malformed meshes are rejected with a message", "[display][glb]") {
   const auto refused = [](const GlbMesh& mesh, const std::string& words) {
     GlbScene scene;
     scene.meshes.push_back(mesh);

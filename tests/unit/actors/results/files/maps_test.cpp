@@ -1,4 +1,4 @@
-// Planes, patches and voxels on disk against result.json and closed forms.
+// Planes, patches and voxels in files against result.json and closed forms.
 #include "actors/results/files/maps.hpp"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ using namespace luxodus::test;
 
 namespace {
 
-/// A room with a lamp that is a point, 2 m over the middle of the floor plane, and thin smoke.
+/// A room with a point lamp, 2 m above the middle of the floor plane, and thin smoke.
 const std::string measured_room = R"(
 patch_edge_m = 1.0
 [[material]]
@@ -107,7 +107,7 @@ TEST_CASE("a plane's direct light is the inverse square law, with and without sm
   }
 }
 
-TEST_CASE("the means of a plane's table are those of result.json, and extremes are cells of it",
+TEST_CASE("the means in a plane's table are those of result.json, and extremes are in its cells",
           "[display]") {
   const TemporaryFolder folder;
   const auto run = traced(measured_room, 1 << 17);
@@ -192,9 +192,8 @@ TEST_CASE("direct light on a plane is the same bits for one and three threads", 
   CHECK(a.planes[0].light.bound_lx == b.planes[0].light.bound_lx);
 }
 
-TEST_CASE("a plane's mean is that over its area, within the bound that stands beside it",
-          "[display]") {
-  // A point 2 m up, over the middle of a square of 3 m: the flux through it is a closed form.
+TEST_CASE("a plane's mean is that over its area, within the stated bound", "[display]") {
+  // A point 2 m above the middle of a square of 3 m: the flux through it has a closed form.
   std::string clear = measured_room;
   clear = clear.substr(0, clear.find("[[medium]]")) + clear.substr(clear.find("[[plane]]"));
   const int cells = GENERATE(1, 2, 7);
@@ -213,10 +212,10 @@ TEST_CASE("a plane's mean is that over its area, within the bound that stands be
   CHECK(light.group_lx[0] == Approx(mean));
 }
 
-TEST_CASE("the mean of a plane in shadows of boxes is right though cells' centres are not",
+TEST_CASE("the mean of a plane in shadows of boxes is correct although cells' centres are not",
           "[display]") {
-  // A point 2 m up and a shelf that shades a square of the floor exactly: edges beside cells'
-  // centres.
+  // A point 2 m up and a shelf that shades a square of the floor exactly, with shadow edges beside
+  // cells' centres.
   std::string shaded = measured_room;
   shaded = shaded.substr(0, shaded.find("[[medium]]")) + shaded.substr(shaded.find("[[plane]]"));
   shaded += R"(
@@ -233,7 +232,7 @@ material = "grey"
   const auto quarter = [](double a, double b, double h) {
     return std::asin(a * b / std::sqrt((a * a + h * h) * (b * b + h * h)));
   };
-  // Seen from the lamp the shelf is a quarter of a rectangle of twice its size on the floor.
+  // Seen from the lamp, the shelf covers a quarter of a rectangle of twice its size on the floor.
   const double expected = 100 * (4 * quarter(1.5, 1.5, 2) - quarter(1.06, 0.94, 2)) / 9;
   double mean = 0, at_centres = 0;
   for (const double lx : light.mean_lx) mean += lx / 15;
@@ -242,10 +241,10 @@ material = "grey"
             << expected);
   CHECK(std::abs(mean - expected) <= light.bound_lx);
   CHECK(light.bound_lx < 3e-3 * expected);
-  CHECK(std::abs(at_centres - expected) > 5 * light.bound_lx);  // what it was before
+  CHECK(std::abs(at_centres - expected) > 5 * light.bound_lx);  // the mean before quadrature
 }
 
-TEST_CASE("light of signs and flames is no part of what luminaires give in clear air",
+TEST_CASE("light of signs and flames is excluded from that of luminaires in clear air",
           "[display]") {
   std::string with_sign = measured_room;
   with_sign += R"(
@@ -314,7 +313,7 @@ TEST_CASE("a run of one batch says that an error needs two", "[display]") {
   CHECK_FALSE(result_json(*two, {"test.toml", "particles", 1}).contains("standard_errors_unknown"));
 }
 
-TEST_CASE("rates of a resumed run are of all its time, or of the part whose time is known",
+TEST_CASE("rates of a resumed run cover all its time, or the part whose time is known",
           "[display]") {
   const auto first = traced(measured_room, 1 << 17);
   const TemporaryFolder folder;
@@ -341,7 +340,7 @@ TEST_CASE("rates of a resumed run are of all its time, or of the part whose time
   CHECK(unknown.contains("timing"));
 }
 
-TEST_CASE("patches and voxels on disk hold the run's flux, in scene coordinates", "[display]") {
+TEST_CASE("patches and voxels in files hold the run's flux, in scene coordinates", "[display]") {
   const TemporaryFolder folder;
   const int cells = GENERATE(1, 3);
   const auto run = traced(measured_room, 1 << 15, 1, cells);
@@ -386,7 +385,7 @@ TEST_CASE("patches and voxels on disk hold the run's flux, in scene coordinates"
 }
 
 TEST_CASE("a patch drawn in patches.vtp lies where its light fell", "[display]") {
-  // A beam straight down on one spot: the brightest cell's corners surround it.
+  // A beam straight down onto one spot: the corners of the brightest cell surround it.
   const TemporaryFolder folder;
   const auto run = traced(R"(
 patch_edge_m = 0.3
@@ -411,7 +410,7 @@ flux_lm = 100
   const auto incident = vtk_floats(vtp, "incident_front [lx]");
   const auto brightest =
       static_cast<size_t>(std::max_element(incident.begin(), incident.end()) - incident.begin());
-  // Points are doubles, connectivity is 64-bit: read through the same appended section.
+  // Points are doubles, connectivity is 64-bit: read from the same appended section.
   const size_t head = vtp.find("NumberOfComponents=\"3\"");
   const std::string points_element = vtp.substr(vtp.rfind('<', head), 300);
   const size_t data = vtp.find('_', vtp.find("<AppendedData")) + 1;

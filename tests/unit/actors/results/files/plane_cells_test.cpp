@@ -1,4 +1,4 @@
-// Cells of planes that lie in bodies are in no mean, minimum or map, and are counted.
+// Cells of planes in bodies are excluded from mean, minimum and map, and are counted.
 #include <cmath>
 #include <sstream>
 
@@ -11,7 +11,7 @@ using namespace luxodus::test;
 
 namespace {
 
-/// A hall of 6 x 4 x 3 m with a pillar that takes in 2 x 2 of the 6 x 4 cells of the floor's plane.
+/// A hall of 6 x 4 x 3 m with a pillar that covers 2 x 2 of the 6 x 4 cells of the floor's plane.
 const std::string hall = R"(
 [[object]]
 name = "hall"
@@ -78,7 +78,7 @@ TEST_CASE("cells in bodies are in no mean and no extreme of a plane, and are cou
       continue;
     }
     sum += total;
-    // Extremes are those of the grid points: direct light at the middle, the cell's indirect light.
+    // Extremes are those of the grid points: direct light at the centre, the cell's indirect light.
     least = std::min(least, column_of(rows[i], 8) + column_of(rows[i], 4));
   }
   CHECK(empty == 4);

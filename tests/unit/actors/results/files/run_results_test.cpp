@@ -13,7 +13,7 @@ namespace {
 
 const std::string long_name(120, 'n');
 
-/// A room that asks for one value of every kind the summary tells, all but signs.
+/// A room with one value of every kind in the summary, except signs.
 const std::string asking_room = R"(
 [[material]]
 name = "white"
@@ -62,7 +62,7 @@ void put(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("the summary tells every value that was asked for, however long its name", "[display]") {
+TEST_CASE("the summary lists every requested value, however long its name", "[display]") {
   const auto run = traced(asking_room, 1 << 15);
   const Json result = result_json(*run, {});
   const std::string text = summary_text(result);
@@ -76,14 +76,14 @@ TEST_CASE("the summary tells every value that was asked for, however long its na
     CHECK(line.find(part) != std::string::npos);
 }
 
-TEST_CASE("the summary says the state first, where the light went, and nothing of the inside",
+TEST_CASE("the summary begins with the state, gives the energy balance, and no internals",
           "[display]") {
   const auto run = traced(asking_room, 1 << 15);
   const Json result = result_json(*run, {});
   const std::string text = summary_text(result);
   INFO(text);
   CHECK(text.starts_with("  scenario \"as written\": mains operation; 1 of 1 luminaire lit"));
-  // A closed room without smoke: what it does not absorb is nowhere.
+  // A closed room without smoke: surfaces absorb everything.
   CHECK(text.find("100 % absorbed by surfaces, 0 % by smoke, 0 % escaped") != std::string::npos);
   CHECK(text.find("(largest: \"desk\")") != std::string::npos);
   CHECK(text.find("(largest: \"" + long_name + "\")") != std::string::npos);
@@ -94,7 +94,8 @@ TEST_CASE("the summary says the state first, where the light went, and nothing o
   CHECK(verbose.find("closes exactly") != std::string::npos);
 }
 
-TEST_CASE("a run of one batch has no error, and the summary says no half sentence", "[display]") {
+TEST_CASE("a run of one batch has no error, and the summary has no incomplete sentence",
+          "[display]") {
   const auto run = traced(asking_room, 1);
   REQUIRE(run->traced() == 1);
   const std::string text = summary_text(result_json(*run, {}));
@@ -103,7 +104,7 @@ TEST_CASE("a run of one batch has no error, and the summary says no half sentenc
   CHECK(text.find("at most not known") == std::string::npos);
 }
 
-TEST_CASE("names of the scene become names of files without blanks, and the result says which",
+TEST_CASE("names in the scene become file names without blanks, and the result lists the files",
           "[display]") {
   std::string text = asking_room;
   text.replace(text.find(long_name), long_name.size(), "under the sign");
@@ -152,7 +153,7 @@ TEST_CASE("files that no run has written are refused, those of a run are not", "
     CHECK(refused().find(name) != std::string::npos);
     std::filesystem::remove(scratch.path() / name);
   }
-  put(scratch.path() / "notes.txt");  // in nobody's way
+  put(scratch.path() / "notes.txt");  // conflicts with no result
   REQUIRE(write_report(scratch.path(), *run, {"test.toml", "particles", 1}).ok());
   REQUIRE(save_flux(scratch.path() / "flux.lux", *run).ok());
   CHECK(refused().empty());
@@ -161,7 +162,7 @@ TEST_CASE("files that no run has written are refused, those of a run are not", "
   CHECK(refused().find("flux.lux") == std::string::npos);
 }
 
-TEST_CASE("a run that is killed goes on from its checkpoint with the same bits", "[display]") {
+TEST_CASE("a killed run continues from its checkpoint with the same bits", "[display]") {
   const TemporaryFolder scratch;
   const auto scene = scene_of(asking_room);
   StopRule stop;
@@ -172,7 +173,7 @@ TEST_CASE("a run that is killed goes on from its checkpoint with the same bits",
   std::filesystem::create_directory(scratch / "run");
   int64_t saved = 0;
   {
-    // Pauses are looked for before every batch, which takes longer than this.
+    // Pauses are checked before every batch, which takes longer than this.
     LocalRun first(scene, 11, 1);
     Checkpoint checkpoint(scratch / "run", first, {"test.toml", "", 1, stop}, 1e-4, 0);
     StopRule part;
@@ -193,7 +194,7 @@ TEST_CASE("a run that is killed goes on from its checkpoint with the same bits",
   CHECK(file_text(scratch / "second.lux") == file_text(scratch / "whole.lux"));
 }
 
-TEST_CASE("a checkpoint does not take the place of a longer run", "[display]") {
+TEST_CASE("a checkpoint does not replace a longer run", "[display]") {
   const TemporaryFolder scratch;
   const auto scene = scene_of(asking_room);
   put(scratch / "flux.lux");
@@ -223,7 +224,7 @@ TEST_CASE("the worst relative error is the worst of those of planes, probes and 
   CHECK(of["signs"]["median"]["value"].is_null());
 }
 
-TEST_CASE("old maps are cleared only where a result of ours names them", "[display]") {
+TEST_CASE("old maps are removed only where a result of ours names them", "[display]") {
   const TemporaryFolder scratch;
   const std::filesystem::path folder = scratch / "run";
   put(folder / "planes" / "floor.csv");

@@ -16,7 +16,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-/// RFC 4180, for the round trip.
+/// Parses by RFC 4180, for the round trip.
 std::vector<Row> parse_csv(const std::string& text) {
   std::vector<Row> rows;
   Row row;
@@ -62,7 +62,7 @@ TEST_CASE("only cells that need quotes have them", "[format][csv]") {
   CHECK(csv_cell("space ") == "\"space \"");
 }
 
-TEST_CASE("texts of any kind come back from a table", "[format][csv]") {
+TEST_CASE("texts of any kind are read back from a table", "[format][csv]") {
   const std::vector<std::string> texts = {"a,b;c", "\"", "\"\"", ",",  "\n\n", "\r\n",
                                           "ä€😀",   " ",  "",     "-1", "x\ty"};
   CsvTable table({"text", "n"});
@@ -73,7 +73,7 @@ TEST_CASE("texts of any kind come back from a table", "[format][csv]") {
   for (size_t i = 0; i < texts.size(); ++i) CHECK(rows[i + 1] == Row{texts[i], "1"});
 }
 
-TEST_CASE("numbers come back to the same bits from their shortest form", "[format][csv]") {
+TEST_CASE("numbers are read back to the same bits from their shortest form", "[format][csv]") {
   CHECK(shortest_number(0.1) == "0.1");
   CHECK(shortest_number(1.0) == "1");
   CHECK(shortest_number(-0.0) == "-0");
@@ -90,13 +90,13 @@ TEST_CASE("numbers come back to the same bits from their shortest form", "[forma
   }
 }
 
-TEST_CASE("what is not a number is an empty cell", "[format][csv]") {
+TEST_CASE("NaN and infinity are an empty cell", "[format][csv]") {
   CsvTable table({"a", "b", "c", "d", "e"});
   table.cell(std::nan("")).cell(INFINITY).empty_cell().cell(true).cell(int64_t{1} << 62).end_row();
   CHECK(table.text() == "a,b,c,d,e\n,,,yes,4611686018427387904\n");
 }
 
-TEST_CASE("a row with too few or too many cells is a mistake of the programmer", "[format][csv]") {
+TEST_CASE("a row with too few or too many cells is a programmer's mistake", "[format][csv]") {
   CHECK_THROWS_AS(CsvTable({}), std::logic_error);
   CsvTable table({"a", "b"});
   table.cell(1);
@@ -110,7 +110,7 @@ TEST_CASE("a row with too few or too many cells is a mistake of the programmer",
   CHECK_FALSE(write_csv(folder / "none" / "t.csv", table).ok());
 }
 
-TEST_CASE("numbers for people have the digits asked for and no more", "[format][text]") {
+TEST_CASE("numbers for people have the requested digits and no more", "[format][text]") {
   CHECK(readable_number(0) == "0");
   CHECK(readable_number(1234.5) == "1230");
   CHECK(readable_number(0.04213) == "0.0421");
@@ -123,7 +123,7 @@ TEST_CASE("numbers for people have the digits asked for and no more", "[format][
   CHECK(readable_number(12345, 5) == "12345");
 }
 
-TEST_CASE("text that is not UTF-8 is made so, and the rest is kept", "[format][text]") {
+TEST_CASE("bytes that are not UTF-8 are replaced, and the rest is kept", "[format][text]") {
   const std::string r = "\xEF\xBF\xBD";
   CHECK(clean_utf8("grün € 😀\n\t") == "grün € 😀\n\t");
   CHECK(clean_utf8("a\xff"

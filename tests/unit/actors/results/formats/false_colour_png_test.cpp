@@ -10,7 +10,7 @@
 #include "tests/kit/temporary_folder.hpp"
 
 // fontconfig keeps what it has read until the process ends; the leak sanitizer need not report it.
-// Weak, so that the test program may have suppressions of its own.
+// Weak, so that the test program can define its own suppressions.
 extern "C" __attribute__((weak)) const char* __lsan_default_suppressions() {
   return "leak:libfontconfig\n";
 }
@@ -75,7 +75,7 @@ TEST_CASE("every value is painted in the colour of its place on the scale", "[fo
   CHECK(count_colour(image, two) == Approx(expected).epsilon(0.02));
   CHECK(count_colour(image, four) == Approx(expected).epsilon(0.02));
 
-  // Row 0 is below, column 0 at the left.
+  // Row 0 is at the bottom, column 0 at the left.
   const auto where = [&](const Rgb& colour) {
     double x = 0, y = 0, n = 0;
     for (size_t i = 0; i < image.rgb.size() / 3; ++i) {
@@ -92,7 +92,7 @@ TEST_CASE("every value is painted in the colour of its place on the scale", "[fo
   CHECK(where(zero).y > where(two).y + 50);
 }
 
-TEST_CASE("a logarithmic scale gives every decade the same room", "[format][colour]") {
+TEST_CASE("a logarithmic scale gives every decade the same length", "[format][colour]") {
   FalseColourPicture p = example(3, 1);
   p.values = {0.1, 1, 10};
   p.scale = ColourScale::automatic;
@@ -106,7 +106,7 @@ TEST_CASE("a logarithmic scale gives every decade the same room", "[format][colo
   CHECK(count_colour(image, light_colour(1)) == Approx(cell).epsilon(0.04));
 }
 
-TEST_CASE("cells without a value are hatched and counted, and one value more tells its place",
+TEST_CASE("cells without a value are hatched and counted, and a single value shows its place",
           "[format][colour]") {
   FalseColourPicture p = example(20, 10);
   const PngImage whole = drawn(p);
@@ -138,7 +138,7 @@ TEST_CASE("every grid gives a picture: flat, empty, negative, one cell, very lon
   CHECK(drawn(p).width == 800);
 }
 
-TEST_CASE("a picture says its numbers in its metadata and is the same every time",
+TEST_CASE("a picture has its numbers in its metadata and is the same every time",
           "[format][colour]") {
   FalseColourPicture p = example(20, 10);
   p.text = {{"Software", "luxodus"}};
@@ -150,7 +150,7 @@ TEST_CASE("a picture says its numbers in its metadata and is the same every time
   CHECK(image.rgb == drawn(p).rgb);
 }
 
-TEST_CASE("a grid that does not fit together is refused with its numbers", "[format][colour]") {
+TEST_CASE("a grid with contradictory sizes is rejected with its numbers", "[format][colour]") {
   const auto refusal = [](auto change) {
     FalseColourPicture p = example(4, 3);
     change(p);
@@ -205,7 +205,8 @@ TEST_CASE("contours of a plane are straight lines, exact and in one piece", "[fo
   CHECK(contour_lines(x, y, values, 100).empty());
 }
 
-TEST_CASE("saddles and holes cut contours, never join what is not there", "[format][contour]") {
+TEST_CASE("saddles and holes interrupt contours, and never join separate ones",
+          "[format][contour]") {
   const std::vector<double> axis = {0, 1};
   CHECK(contour_lines(axis, axis, std::vector<double>{1, 0, 0, 1}, 0.4).size() == 2);
   const double nan = std::nan("");

@@ -5,7 +5,8 @@
 
 using namespace luxodus;
 
-TEST_CASE("a file's name has nothing that a shell or another system minds", "[format][names]") {
+TEST_CASE("a file name has no characters that are special to a shell or another system",
+          "[format][names]") {
   CHECK(file_name_of("before the sign") == "before_the_sign");
   CHECK(file_name_of("Flur 1/2 (\"Nord\")") == "Flur_1_2___Nord__");
   CHECK(file_name_of("büro") == "büro");

@@ -45,7 +45,7 @@ void set_number(Bytes& bytes, size_t at, size_t size, uint64_t value) {
   for (size_t i = 0; i < size; ++i) bytes[at + i] = static_cast<std::byte>(value >> (8 * i));
 }
 
-/// Where each record starts, and where the last ends, found from the layout in the header file.
+/// The offsets of all records, and of the end, from the layout in the header file.
 std::vector<size_t> record_starts(const Bytes& bytes) {
   std::vector<size_t> starts = {16};
   for (uint64_t i = 0; i <= number_at(bytes, 12, 4); ++i) {
@@ -67,7 +67,7 @@ using Catch::Matchers::Contains;
 
 }  // namespace
 
-TEST_CASE("a flux file comes back as it was put, in its order", "[format][flux]") {
+TEST_CASE("a flux file is read back as it was written, in its order", "[format][flux]") {
   const FluxFile file = example_flux();
   const test::TemporaryFolder folder;
   REQUIRE(write_flux_file(folder / "a.lux", file).ok());
@@ -101,7 +101,7 @@ TEST_CASE("equal content gives equal bytes", "[format][flux]") {
   CHECK(encoded(example_flux()) == encoded(example_flux()));
 }
 
-TEST_CASE("every flipped bit of a flux file is found", "[format][flux]") {
+TEST_CASE("every flipped bit of a flux file is detected", "[format][flux]") {
   const Bytes good = encoded(example_flux());
   Bytes bytes = good;
   size_t found = 0;
@@ -127,7 +127,7 @@ TEST_CASE("a damaged block is named", "[format][flux]") {
   }
 }
 
-TEST_CASE("a flux file cut anywhere is refused, and between records it says what is missing",
+TEST_CASE("a truncated flux file is rejected, and between records the missing one is named",
           "[format][flux]") {
   const Bytes good = encoded(example_flux());
   for (size_t size = 0; size < good.size(); ++size) {
@@ -144,7 +144,7 @@ TEST_CASE("a flux file cut anywhere is refused, and between records it says what
   CHECK_THAT(flux_refusal(longer), Contains("goes on after its last block"));
 }
 
-TEST_CASE("other files and newer versions are refused by name", "[format][flux]") {
+TEST_CASE("other files and newer versions are rejected by name", "[format][flux]") {
   Bytes bytes = encoded(example_flux());
   set_number(bytes, 8, 4, 2);
   CHECK_THAT(flux_refusal(bytes), Contains("version 2") && Contains("up to 1"));
@@ -156,7 +156,7 @@ TEST_CASE("other files and newer versions are refused by name", "[format][flux]"
   CHECK_THAT(flux_refusal(bytes), Contains("not a flux file"));
 }
 
-TEST_CASE("absurd sizes are refused before memory is taken for them", "[format][flux]") {
+TEST_CASE("absurd sizes are rejected before memory is allocated", "[format][flux]") {
   const Bytes good = encoded(example_flux());
   const size_t patch = record_starts(good)[1];
   const auto with = [&](size_t at, size_t size, uint64_t value) {
@@ -173,11 +173,11 @@ TEST_CASE("absurd sizes are refused before memory is taken for them", "[format][
   CHECK_THAT(with(12, 4, 0xffffffff), Contains("claims 4294967295 blocks"));
   CHECK_THAT(with(12, 4, 6), Contains("cut short"));
   CHECK_THAT(with(12, 4, 3), Contains("goes on after"));
-  // A size that the data could hold, but that the frame does not confirm.
+  // A size that the data could hold, but that contradicts the frame.
   CHECK_THAT(with(patch + 8, 8, 301), Contains("not compressed as its record says"));
 }
 
-TEST_CASE("random bytes after a good start never pass and never crash", "[format][flux]") {
+TEST_CASE("random bytes after a valid start are never accepted and never crash", "[format][flux]") {
   std::mt19937_64 random(11);
   const Bytes good = encoded(example_flux());
   for (int round = 0; round < 3000; ++round) {
@@ -191,7 +191,7 @@ TEST_CASE("random bytes after a good start never pass and never crash", "[format
   }
 }
 
-TEST_CASE("names that could not be told apart or read are not written", "[format][flux]") {
+TEST_CASE("ambiguous or unreadable names are not written", "[format][flux]") {
   const auto refused = [](std::vector<Block> blocks) {
     const Result<Bytes> bytes = encode_flux_file({"{}", std::move(blocks)}, flux_place);
     return bytes.ok() ? std::string() : bytes.problem().what;
@@ -202,7 +202,8 @@ TEST_CASE("names that could not be told apart or read are not written", "[format
   CHECK(refused({{std::string(1024, 'n'), {}}}).empty());
 }
 
-TEST_CASE("a flux file that cannot be written or read says where and why", "[format][flux]") {
+TEST_CASE("a flux file that cannot be written or read is reported with place and reason",
+          "[format][flux]") {
   const test::TemporaryFolder folder;
   const auto written = write_flux_file(folder / "none" / "a.lux", example_flux());
   REQUIRE_FALSE(written.ok());

@@ -4,7 +4,7 @@
 
 using namespace luxodus;
 
-TEST_CASE("a page says its language, its title as text, and its style before its body",
+TEST_CASE("a page states its language, its title as text, and its style before its body",
           "[output][html]") {
   const std::string page = html_page({"de", "A <b> & C", "p { color: red; }\n"}, "<p>here</p>\n");
   CHECK(page.rfind("<!doctype html>\n<html lang=\"de\">\n", 0) == 0);

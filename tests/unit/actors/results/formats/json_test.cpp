@@ -62,7 +62,7 @@ TEST_CASE("JSON is read and written in the same bytes as nlohmann's", "[format][
     INFO(text);
     for (const int indent : {-1, 0, 2})
       REQUIRE(Json::parse(text).dump(indent) == dump_theirs(Theirs::parse(text), indent));
-    // Damaged text is refused alike.
+    // Both reject damaged text.
     text[random() % text.size()] = static_cast<char>(random());
     const Theirs theirs = Theirs::parse(text, nullptr, false);
     const Json ours = Json::parse(text);
@@ -71,7 +71,7 @@ TEST_CASE("JSON is read and written in the same bytes as nlohmann's", "[format][
   }
 }
 
-TEST_CASE("braces make the same JSON as nlohmann's", "[format][json]") {
+TEST_CASE("initializer lists make the same JSON as nlohmann's", "[format][json]") {
   const std::vector<double> list = {1, 0.1, -0.0, 1e300, 5e-324, NAN, INFINITY};
   const auto build = [&](auto kind) {
     using Kind = decltype(kind);
@@ -95,7 +95,7 @@ TEST_CASE("braces make the same JSON as nlohmann's", "[format][json]") {
   CHECK(build(Json()).dump(2) == dump_theirs(build(Theirs()), 2));
 }
 
-TEST_CASE("JSON is read by key, place and path, and refuses what it is not", "[format][json]") {
+TEST_CASE("JSON is read by key, place and path, and throws for other kinds", "[format][json]") {
   const Json json = Json::parse(R"({"a": [1, {"b": "x"}], "n": -2, "t": true, "r": 0.5})");
   CHECK(json["a"][1]["b"] == "x");
   CHECK(json.at_path("a/1/b")->get<std::string>() == "x");
@@ -118,7 +118,7 @@ TEST_CASE("JSON is read by key, place and path, and refuses what it is not", "[f
   CHECK(Json::parse("{").is_discarded());
 }
 
-TEST_CASE("JSON that is nested too deeply is refused", "[format][json][hostile]") {
+TEST_CASE("JSON with excessive nesting is rejected", "[format][json][hostile]") {
   const auto nested = [](size_t depth) {
     return std::string(depth, '[') + std::string(depth, ']');
   };

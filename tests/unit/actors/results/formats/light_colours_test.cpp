@@ -13,7 +13,7 @@ using namespace luxodus;
 
 namespace {
 
-/// OKLab lightness of an sRGB colour, written anew from the published matrices.
+/// OKLab lightness of an sRGB colour, implemented independently from the published matrices.
 double lightness(const LightColour& rgb) {
   const auto linear = [](uint8_t v) {
     const double c = v / 255.0;
@@ -25,7 +25,7 @@ double lightness(const LightColour& rgb) {
          0.0040720468 * std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
 }
 
-/// The map as the live view's page has it: 256 colours, 16 a line.
+/// The map in the page of the live view: 256 colours, 16 on a line.
 std::string module_of_the_page() {
   std::string out = fmt::format(
       "// The colour map of actors/results/formats/light_colours.hpp for the live view's page. A "
@@ -47,7 +47,8 @@ std::string module_of_the_page() {
 
 }  // namespace
 
-TEST_CASE("the colour map grows lighter evenly, so that it reads in grey", "[output][colour]") {
+TEST_CASE("the lightness of the colour map rises evenly, so that it works in grey",
+          "[output][colour]") {
   for (int i = 0; i <= 100; ++i) {
     CHECK(lightness(light_colour(i / 100.0)) == Approx(0.10 + 0.87 * i / 100.0).margin(0.015));
   }
@@ -56,7 +57,7 @@ TEST_CASE("the colour map grows lighter evenly, so that it reads in grey", "[out
   CHECK(light_colour(std::nan("")) == light_colour(0));
 }
 
-TEST_CASE("1 lx has one colour, and every decade has the same room", "[output][colour]") {
+TEST_CASE("1 lx has one colour, and every decade has the same length", "[output][colour]") {
   CHECK(illuminance_scale.place(0.1) == Approx(0).margin(1e-12));
   CHECK(illuminance_scale.place(1) == Approx(1.0 / 3));
   CHECK(illuminance_scale.place(100) == Approx(1));

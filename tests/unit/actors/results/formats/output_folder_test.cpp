@@ -25,7 +25,7 @@ std::string refusal(const fs::path& folder, const OutputPlan& plan = {}) {
 
 }  // namespace
 
-TEST_CASE("a folder is made for who claims it, and is gone if nothing was written", "[format]") {
+TEST_CASE("a claimed folder is made if missing, and removed if nothing was written", "[format]") {
   const test::TemporaryFolder scratch;
   const fs::path folder = scratch / "a" / "b";
   {
@@ -43,7 +43,8 @@ TEST_CASE("a folder is made for who claims it, and is gone if nothing was writte
   CHECK(std::distance(fs::directory_iterator(folder), {}) == 1);  // the lock is gone
 }
 
-TEST_CASE("one at a time writes into a folder, and the second hears who", "[format]") {
+TEST_CASE("only one process at a time writes into a folder, and a second one is told which",
+          "[format]") {
   const test::TemporaryFolder scratch;
   {
     const auto first = OutputFolder::claim(scratch.path(), {});
@@ -54,7 +55,7 @@ TEST_CASE("one at a time writes into a folder, and the second hears who", "[form
   CHECK(OutputFolder::claim(scratch.path(), {}).ok());
 }
 
-TEST_CASE("a folder is free again however its holder ends", "[format]") {
+TEST_CASE("a folder is unlocked however its holder ends", "[format]") {
   const test::TemporaryFolder scratch;
   int told[2];
   REQUIRE(::pipe(told) == 0);
@@ -76,7 +77,8 @@ TEST_CASE("a folder is free again however its holder ends", "[format]") {
   ::close(told[1]);
 }
 
-TEST_CASE("what is no plain file in the place of a result is refused before the work", "[format]") {
+TEST_CASE("anything but a plain file in the place of a result is refused before the work",
+          "[format]") {
   const test::TemporaryFolder scratch;
   const OutputPlan plan{{"flux.lux", "views/door.png"}, {"views"}};
   CHECK(OutputFolder::claim(scratch.path(), plan).ok());
@@ -104,7 +106,7 @@ TEST_CASE("a folder that cannot be made or written is named with the system's re
   CHECK_THAT(refusal(scratch / "file"), Contains("file: cannot make this folder"));
   CHECK_THAT(refusal(scratch / "file" / "below"), Contains("Not a directory"));
   CHECK_THAT(refusal("/proc/luxodus"), Contains("cannot make this folder"));
-  // A lock file that leads elsewhere is not followed.
+  // A lock file that is a link is not followed.
   fs::create_symlink(scratch / "file", scratch / ".luxodus.lock");
   CHECK_THAT(refusal(scratch.path()), Contains("cannot write into this folder"));
 }
@@ -119,7 +121,7 @@ TEST_CASE("a folder that its user has made a link is followed, once", "[format]"
   CHECK(claimed->named() == scratch / "out");
 }
 
-TEST_CASE("a file that is to be written is tried without leaving anything", "[format]") {
+TEST_CASE("a test of whether a file can be written leaves nothing", "[format]") {
   const test::TemporaryFolder scratch;
   CHECK(check_output_file(scratch / "a.luxpack").ok());
   CHECK(scratch.entries() == 0);

@@ -1,4 +1,4 @@
-// Programs of others: their exit codes, where they run, and what they say.
+// External programs: their exit codes, their folder, and their output.
 #include "actors/results/formats/run_program.hpp"
 
 #include <catch2/catch.hpp>
@@ -9,7 +9,7 @@
 using namespace luxodus;
 using namespace luxodus::test;
 
-TEST_CASE("a program's exit code and its last words are kept", "[output]") {
+TEST_CASE("a program's exit code and the end of its output are kept", "[output]") {
   const TemporaryFolder folder;
   const auto said = folder / "said.txt";
   const auto well = run_program({"sh", "-c", "exit 0"}, said);
@@ -20,13 +20,13 @@ TEST_CASE("a program's exit code and its last words are kept", "[output]") {
   REQUIRE(badly.ok());
   CHECK(badly.value() == 3);
   CHECK(last_words(said) == ", which said: out\nno room for it\n");
-  // Of much only the end is told.
+  // Only the end of a long output is repeated.
   REQUIRE(run_program({"sh", "-c", "yes | head -c 9000; echo end"}, said).ok());
   CHECK(last_words(said).size() < 4100);
   CHECK(last_words(said).ends_with("end\n"));
 }
 
-TEST_CASE("a program that is not there is told apart from one that fails", "[output]") {
+TEST_CASE("a missing program is distinguished from one that fails", "[output]") {
   const TemporaryFolder folder;
   const auto said = folder / "said.txt";
   CHECK(run_program({"there-is-no-such-program"}, said).value() == -1);
@@ -35,7 +35,7 @@ TEST_CASE("a program that is not there is told apart from one that fails", "[out
   CHECK(killed.problem().what.find("ended by a signal") != std::string::npos);
 }
 
-TEST_CASE("a program runs in the folder that is named, with nothing to read", "[output]") {
+TEST_CASE("a program runs in the given folder, without input", "[output]") {
   const TemporaryFolder folder;
   const auto inner = folder / "50%06d";
   std::filesystem::create_directory(inner);

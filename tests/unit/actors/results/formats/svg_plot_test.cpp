@@ -47,7 +47,7 @@ size_t count(const std::string& text, const std::string& part) {
   return n;
 }
 
-/// Whether librsvg draws it, and how many pixels are not white.
+/// Renders it with librsvg, and counts the pixels that are not white.
 size_t ink(const std::string& svg) {
   GError* error = nullptr;
   RsvgHandle* handle =
@@ -101,7 +101,7 @@ TEST_CASE("points have their labels beside them, towards the middle of the plot"
   CHECK_FALSE(svg_plot_text(plot, plot_place).ok());
 }
 
-TEST_CASE("a plot is an SVG that another library draws", "[format][svg]") {
+TEST_CASE("a plot is an SVG that another library renders", "[format][svg]") {
   const std::string svg = drawn_plot(convergence());
   CHECK(ink(svg) > 2000);
   CHECK_THAT(svg, Contains("Error against particles") && Contains("wall mean") &&
@@ -129,7 +129,7 @@ TEST_CASE("a power law is a straight line on logarithmic axes, and so is its ref
   CHECK((y2 - y1) / (x2 - x1) == Approx(slope).epsilon(1e-3));
 }
 
-TEST_CASE("points that an axis cannot show are left out, counted, and break the line",
+TEST_CASE("points that an axis cannot show are left out, counted, and interrupt the line",
           "[format][svg]") {
   SvgPlot plot = convergence();
   plot.series[0].y[1] = 0;
@@ -163,7 +163,7 @@ TEST_CASE("every plot can be drawn: empty, flat, one point, huge errors, huge ra
   }
 }
 
-TEST_CASE("names with odd characters stay text", "[format][svg]") {
+TEST_CASE("names with unusual characters stay text", "[format][svg]") {
   SvgPlot plot = convergence();
   plot.title = "</title><script>alert(1)</script> & \xff";
   plot.series[0].name = "\"<&>'\" ]]> \x01";
@@ -174,7 +174,8 @@ TEST_CASE("names with odd characters stay text", "[format][svg]") {
   CHECK(ink(svg) > 2000);
 }
 
-TEST_CASE("a plot that does not fit together is refused, a bad place named", "[format][svg]") {
+TEST_CASE("a plot with contradictory data is rejected, and an unwritable place named",
+          "[format][svg]") {
   const auto refusal = [](auto change) {
     SvgPlot plot = convergence();
     change(plot);

@@ -35,7 +35,7 @@ std::string attribute(const std::string& element, const std::string& name) {
   return element.substr(from, element.find('"', from) - from);
 }
 
-/// Reads a VTK XML file of ours from scratch: head, then arrays by offset.
+/// Reads a VTK XML file independently: head, then arrays by offset.
 struct FoundFile {
   std::string head;
   std::map<std::string, FoundArray> arrays;
@@ -94,7 +94,7 @@ VtkVolume volume_example() {
   return volume;
 }
 
-/// Whether Python's XML parser takes the head, closed by hand; true where there is no Python.
+/// Whether Python's XML parser accepts the head, completed by closing tags; true without Python.
 bool python_parses(const test::TemporaryFolder& folder, const std::string& head) {
   if (std::system("command -v python3 > /dev/null 2>&1") != 0) return true;
   REQUIRE(write_file_atomically(folder / "head.xml", std::string_view(head + "</VTKFile>")).ok());
@@ -108,7 +108,7 @@ bool python_parses(const test::TemporaryFolder& folder, const std::string& head)
 
 }  // namespace
 
-TEST_CASE("a surface written for VTK comes back array by array", "[format][vtk]") {
+TEST_CASE("a surface written for VTK is read back array by array", "[format][vtk]") {
   const test::TemporaryFolder folder;
   REQUIRE(write_vtp(folder / "patches.vtp", surface_example()).ok());
   const FoundFile file(folder / "patches.vtp");
@@ -159,7 +159,7 @@ TEST_CASE("a surface without triangles and a name without a file are handled", "
              Contains("none/a.vti") && Contains("No such file"));
 }
 
-TEST_CASE("what VTK could not read is not written", "[format][vtk]") {
+TEST_CASE("data that VTK could not read are not written", "[format][vtk]") {
   const test::TemporaryFolder folder;
   const auto surface_refusal = [&](auto change) {
     VtkSurface surface = surface_example();

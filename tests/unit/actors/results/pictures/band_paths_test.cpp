@@ -11,8 +11,8 @@ using namespace luxodus::test;
 
 namespace {
 
-/// A box whose walls glow evenly, by a coloured spectrum, in front of a surface that reflects a
-/// half. What absorbs nothing cannot change its light. Each wall is tiles^2 emitters.
+/// A box whose walls glow uniformly, with a coloured spectrum, in front of a surface that reflects
+/// a half. A medium without absorption cannot change its light. Each wall is tiles^2 emitters.
 std::string coloured_furnace(const std::string& medium, int tiles) {
   std::string toml = R"(
 patch_edge_m = 0.5
@@ -53,7 +53,7 @@ material = "wall"
   return toml;
 }
 
-/// Smoke that absorbs nothing, four times as dense in blue as in red.
+/// Smoke without absorption, four times as dense in blue as in red.
 const std::string white_soot = R"(
 [[medium]]
 name = "smoke"
@@ -65,7 +65,7 @@ phase = "hg"
 g = 0.6
 )";
 
-/// The same and grey smoke in a part of the room: extinctions have no common ratio.
+/// Also grey smoke in a part of the room: extinctions have no common ratio.
 const std::string two_smokes = white_soot + R"(
 [[medium]]
 name = "grey"
@@ -77,7 +77,7 @@ extinction = 1.5
 albedo = 1
 )";
 
-/// A room with everything that treats bands unlike: coloured walls, a glossy floor, a coloured
+/// A room with everything that depends on the band: coloured walls, a glossy floor, a coloured
 /// pane, soot in layers, brown smoke.
 const std::string coloured_room = R"(
 patch_edge_m = 0.5
@@ -181,7 +181,7 @@ phase = "hg"
 g = 0.6
 )";
 
-/// Smoke that scatters red light and swallows the rest.
+/// Smoke that scatters red light and absorbs the rest.
 const std::string red_smoke_room = R"(
 patch_edge_m = 0.5
 [run]
@@ -209,8 +209,8 @@ position = [1.5, 1.5, 2.4]
 flux_lm = 1000
 )";
 
-/// Haze in which few free flights collide, and six times as many in blue as in red: of the first
-/// ones more are made to.
+/// Haze in which few free flights collide, six times as many in blue as in red: more of the first
+/// ones are forced to collide.
 const std::string hazy_room = R"(
 patch_edge_m = 0.5
 [run]
@@ -246,7 +246,7 @@ struct BandLight {
 
 enum class Paths { of_all_bands, of_one_band };
 
-/// Of each band, the mean over rays from `eye` through a fan of directions around `towards`.
+/// For each band, the mean over rays from `eye` through a fan of directions around `towards`.
 std::vector<BandLight> seen(const LocalRun& run, const glm::vec3& eye, const glm::vec3& towards,
                             int paths, Paths way, const KnownRadiance* flux, bool with_emitted) {
   const auto bands = static_cast<size_t>(run.scene().bands.count());
@@ -258,7 +258,7 @@ std::vector<BandLight> seen(const LocalRun& run, const glm::vec3& eye, const glm
     return [&, tracer](int64_t) {
       FirstHit first;
       for (uint32_t i = 0; i < static_cast<uint32_t>(paths); ++i) {
-        tracer->start(uint64_t{i} << 20, 1, 0);  // every path a set of its own: independent
+        tracer->start(uint64_t{i} << 20, 1, 0);  // every path has a set of its own: independent
         const glm::vec3 spread(tracer->uniform() - 0.5f, tracer->uniform() - 0.5f,
                                tracer->uniform() - 0.5f);
         const Ray ray{local, glm::normalize(towards + 0.8f * spread)};
@@ -312,34 +312,35 @@ void check_furnace(const LocalRun& run, int paths, double wanted_error) {
     const double exact = wall / (1 - 0.5);
     INFO("band " << b << ": " << light[b].mean << " +- " << light[b].error << ", exact " << exact);
     CHECK(light[b].error < wanted_error * exact);
-    // The emitters stand 0.5 mm before the walls, which loses 0.1 % at the edges.
+    // The emitters are 0.5 mm in front of the walls, which loses 0.1 % at the edges.
     CHECK(std::abs(light[b].mean - exact) < 4 * light[b].error + 0.003 * exact);
   }
 }
 
 }  // namespace
 
-TEST_CASE("a path of all bands sees even light of every band through any smoke that absorbs none",
-          "[display]") {
+TEST_CASE(
+    "a path of all bands sees uniform light in every band through any smoke without absorption",
+    "[display]") {
   const bool mixed = GENERATE(false, true);
   const auto run = traced(coloured_furnace(mixed ? two_smokes : white_soot, 1), 1 << 12);
   REQUIRE(run->scene().bands.count() == 5);
   check_furnace(*run, 1 << 16, 0.015);
 }
 
-TEST_CASE("even light stays even where turns are aimed at parts of it", "[display]") {
-  // Tiles of half a metre: in the middle of the box no place is within their spheres.
+TEST_CASE("uniform light stays uniform where scattering is aimed at parts of it", "[display]") {
+  // Tiles of half a metre: no place in the middle of the box is within their spheres.
   const auto run = traced(coloured_furnace(white_soot, 4), 1 << 12);
   REQUIRE(run->scene().bands.count() == 5);
   check_furnace(*run, 1 << 16, 0.025);
 }
 
-TEST_CASE("a path of all bands brings of each what a path of that band brings", "[display]") {
+TEST_CASE("a path of all bands gives in each band what a path of that band gives", "[display]") {
   const bool gather = GENERATE(false, true);
   SECTION("coloured walls, gloss, glass, soot and brown smoke") {
     check_alike(coloured_room, {0.3f, 0.4f, 1.5f}, {1, 0.4f, -0.2f}, gather);
   }
-  SECTION("smoke that scatters some bands alone") {
+  SECTION("smoke that scatters only some bands") {
     check_alike(red_smoke_room, {0.3f, 0.4f, 1.5f}, {1, 0.4f, -0.2f}, gather);
   }
   SECTION("haze that is thicker in blue") {
@@ -364,7 +365,7 @@ material = "ochre"
   }
 }
 
-TEST_CASE("a path of all bands has no colours of its own in grey air", "[display]") {
+TEST_CASE("a path of all bands adds no colour in grey air", "[display]") {
   // One spectrum and grey walls: every path has the colours of the lamp.
   const auto run = traced(R"(
 patch_edge_m = 0.5

@@ -1,4 +1,4 @@
-// Films along a route: where each frame is seen from, and that it is a picture like any other.
+// Films along a route: the position of each frame, and that a frame is an ordinary picture.
 #include "actors/results/pictures/film.hpp"
 
 #include <catch2/catch.hpp>
@@ -36,7 +36,7 @@ std::vector<Camera> walked(const EscapeRoute& route, const FilmedWalk& walk) {
   return std::move(cameras).value();
 }
 
-/// A hall that is seen at `eye`, and walked along its middle.
+/// A hall with a camera at `eye`, and a route along its middle.
 std::string hall() {
   return R"(
 [[material]]
@@ -81,13 +81,13 @@ TEST_CASE("a film has a frame for every step of a walk, at its speed along the r
   const EscapeRoute route = bent_route();
   REQUIRE(length_of(route) == Approx(12));
   const std::vector<Camera> cameras = walked(route, {1.5, 12, 1.6});
-  // 12 m at 1.5 m/s are 8 s, and both ends are seen.
+  // 12 m at 1.5 m/s take 8 s, and both ends are included.
   REQUIRE(cameras.size() == 8 * 12 + 1);
   for (size_t k = 0; k < cameras.size(); ++k) {
     const glm::dvec3 foot = place_along(route, 0.125 * static_cast<double>(k));
     CHECK(glm::length(cameras[k].eye - foot - glm::dvec3(0, 0, 1.6)) < 1e-9);
     if (k == 0) continue;
-    // As far apart as the speed says; across a corner nearer.
+    // Frames are spaced by the speed; across a corner they are closer.
     const double apart = glm::length(cameras[k].eye - cameras[k - 1].eye);
     CHECK(apart < 0.125 + 1e-9);
     if (k != 24 && k != 25 && k != 56 && k != 57) CHECK(apart == Approx(0.125));
@@ -100,25 +100,25 @@ TEST_CASE("a film has a frame for every step of a walk, at its speed along the r
   CHECK(cameras[0].vertical_fov_deg == 50);
 }
 
-TEST_CASE("who walks looks along the route, and turns before a corner", "[display]") {
+TEST_CASE("a walker looks along the route, and turns before a corner", "[display]") {
   const std::vector<Camera> cameras = walked(bent_route(), {1, 10, 1.2});
   const auto gaze = [&](size_t k) { return glm::normalize(cameras[k].target - cameras[k].eye); };
   CHECK(glm::length(gaze(0) - glm::dvec3(1, 0, 0)) < 1e-9);
   CHECK(gaze(25).y > 0.5);  // half a metre before the corner
   CHECK(glm::length(gaze(30) - glm::dvec3(0, 1, 0)) < 1e-9);
   CHECK(glm::length(gaze(120) - glm::dvec3(0, 0.8, 0.6)) < 1e-9);  // at the end, up the stairs
-  // Nowhere does he turn by more than some degrees from frame to frame.
+  // The gaze never turns by more than a few degrees between frames.
   for (size_t k = 1; k < cameras.size(); ++k) CHECK(glm::dot(gaze(k), gaze(k - 1)) > 0.98);
 }
 
-TEST_CASE("a walk of too many frames is refused with its route", "[display]") {
+TEST_CASE("a walk with too many frames is rejected with its route", "[display]") {
   const auto refused = cameras_of(bent_route(), {0.01, 240, 1.6}, lens());
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.problem().what.find("\"out\"") != std::string::npos);
   CHECK(refused.problem().what.find("50000 frames") != std::string::npos);
 }
 
-TEST_CASE("a frame is the picture of a camera that stands there, bit for bit", "[display]") {
+TEST_CASE("a frame is the picture of a camera at its place, bit for bit", "[display]") {
   const TemporaryFolder folder;
   const auto run = traced(hall(), 1 << 14);
   const SceneDescription& scene = *run->scene().description;
@@ -149,8 +149,7 @@ TEST_CASE("a frame is the picture of a camera that stands there, bit for bit", "
         pixels_of(folder / "views/at_two_metres_human.png"));
 }
 
-TEST_CASE("a film that is interrupted keeps whole frames, and none of an earlier one",
-          "[display]") {
+TEST_CASE("an interrupted film keeps whole frames, and none of an earlier one", "[display]") {
   const TemporaryFolder folder;
   const auto run = traced(hall(), 1 << 13);
   const SceneDescription& scene = *run->scene().description;
@@ -186,7 +185,7 @@ Keyframe key(double time_s, const std::string& name, const glm::dvec3& eye,
 
 }  // namespace
 
-TEST_CASE("a film through cameras is each of them at its time, and goes without a corner",
+TEST_CASE("a film through cameras reaches each of them at its time, without a corner",
           "[display]") {
   const std::vector<Keyframe> keys{key(2, "a", {0, 0, 1.6}, {10, 0, 1.6}, 40),
                                    key(4, "b", {2, 0, 1.6}, {4, 2, 1.6}, 60),
@@ -204,20 +203,20 @@ TEST_CASE("a film through cameras is each of them at its time, and goes without 
   }
   CHECK(cameras[10].vertical_fov_deg == Approx(50));
   CHECK(cameras[0].width == 12);
-  // Steps change by little from one to the next, at the camera in the middle, too.
+  // Steps change little from one to the next, also at the camera in the middle.
   for (size_t k = 2; k < cameras.size(); ++k) {
     const glm::dvec3 step = cameras[k].eye - cameras[k - 1].eye;
     const glm::dvec3 before = cameras[k - 1].eye - cameras[k - 2].eye;
     CHECK(glm::length(step - before) < 0.015);
   }
-  // Between two it goes straight and evenly.
+  // Between two cameras it is straight and uniform.
   const auto straight = cameras_through({keys[0], keys[1]}, 10, lens());
   REQUIRE(straight.ok());
   for (size_t k = 0; k < straight->size(); ++k)
     CHECK(straight.value()[k].eye.x == Approx(0.1 * static_cast<double>(k)).margin(1e-9));
 }
 
-TEST_CASE("cameras that make no film are refused with what to do", "[display]") {
+TEST_CASE("cameras that make no film are rejected with a remedy", "[display]") {
   const auto refused = [](const std::vector<Keyframe>& keys, double fps = 10) {
     const auto cameras = cameras_through(keys, fps, lens());
     REQUIRE_FALSE(cameras.ok());
@@ -233,7 +232,7 @@ TEST_CASE("cameras that make no film are refused with what to do", "[display]") 
         std::string::npos);
 }
 
-TEST_CASE("films of things whose names become one have files of their own", "[display]") {
+TEST_CASE("films of things whose file names would be equal have files of their own", "[display]") {
   SceneDescription scene;
   for (const char* name : {"to the door", "to_the door", "To The Door"}) {
     scene.routes.emplace_back();

@@ -13,8 +13,8 @@ using namespace luxodus::test;
 namespace {
 
 /// Voxels of half a metre from the corner of a room, which ends 0.1 m into the uppermost ones. A
-/// box stands in one voxel; a wall without thickness runs along a face of voxels (x = 2), and one
-/// through the middle of others (x = 3.25), each with light on both sides.
+/// box stands in one voxel; a wall without thickness lies along a face of voxels (x = 2), and one
+/// in the middle of others (x = 3.25), each with light on both sides.
 const char* const room = R"(
 [run]
 voxel_edge_m = 0.5
@@ -79,7 +79,7 @@ struct Found {
   }
 };
 
-/// All voxels are lit, and all sides but the insides of what is solid.
+/// All voxels are lit, and all sides except the insides of solids.
 Found find() {
   Found out{traced(room, 1 << 10), {}};
   const CompiledScene& scene = out.run->scene();
@@ -97,7 +97,7 @@ Found find() {
 
 }  // namespace
 
-TEST_CASE("a voxel's gas is what solids leave of its cube", "[display]") {
+TEST_CASE("a voxel's gas is its cube minus solids", "[display]") {
   const Found found = find();
   CHECK(found.share(1.2, 1.2, 1.2) == 1);
   CHECK(found.share(1.2, 1.2, 0.2) == Approx(1).margin(0.01));                // on the floor
@@ -105,7 +105,7 @@ TEST_CASE("a voxel's gas is what solids leave of its cube", "[display]") {
   CHECK(found.share(0.95, 0.95, 0.7) == Approx(1 - 0.5 * 0.6).margin(0.02));  // around the post
 }
 
-TEST_CASE("a voxel that a wall parts is not known, one beside a wall is", "[display]") {
+TEST_CASE("a voxel divided by a wall is not known, one beside a wall is", "[display]") {
   const Found found = find();
   CHECK(found.share(3.1, 1.2, 1.2) == 0);
   CHECK(found.share(1.8, 1.2, 1.2) == Approx(1).margin(0.01));

@@ -1,4 +1,4 @@
-// The last paths of a picture go where they are needed, and chance does not choose itself.
+// The last paths of a picture are allocated where they are needed, without bias.
 #include "actors/results/pictures/path_allocation.hpp"
 
 #include <catch2/catch.hpp>
@@ -24,7 +24,7 @@ void add_path(PixelSums& sums, int path, double light) {
 
 using Draw = std::function<double(int column)>;
 
-/// Pixels with as many paths each, whose light is drawn.
+/// Pixels with equal numbers of paths, whose light is random.
 std::vector<PixelSums> drawn(const Draw& draw) {
   std::vector<PixelSums> pixels(columns * rows);
   for (size_t i = 0; i < pixels.size(); ++i)
@@ -37,7 +37,7 @@ std::vector<HalfEnds> allocated(const std::vector<PixelSums>& pixels) {
   return allocate_paths(pixels, columns, rows, even, allotted, one_by_one);
 }
 
-/// Paths that are added to a pixel, on average over pixels.
+/// Paths added to a pixel, on average over pixels.
 double added(const std::vector<HalfEnds>& ends, size_t half) {
   double sum = 0;
   for (const HalfEnds& of_pixel : ends) sum += of_pixel[half] - even;
@@ -55,10 +55,10 @@ TEST_CASE("three quarters of the paths are the same for all pixels", "[display]"
   CHECK(even_paths(limits::max_paths_per_pixel) == limits::max_paths_per_pixel / 4 * 3);
 }
 
-TEST_CASE("as many paths are allocated as there are, to the noisy before the even", "[display]") {
+TEST_CASE("all remaining paths are allocated, to noisy pixels before uniform ones", "[display]") {
   std::mt19937 random(11);
   std::exponential_distribution<double> chance(1);
-  // One column is noisy, and unlike those beside it.
+  // One column is noisy, unlike its neighbours.
   const std::vector<HalfEnds> ends =
       allocated(drawn([&](int column) { return column == 9 ? 40 * chance(random) : 1.0; }));
   for (const size_t half : {size_t{0}, size_t{1}}) {
@@ -75,13 +75,13 @@ TEST_CASE("as many paths are allocated as there are, to the noisy before the eve
   }
 }
 
-TEST_CASE("where nothing is uncertain no paths are allocated", "[display]") {
+TEST_CASE("without uncertainty no paths are allocated", "[display]") {
   for (const double light : {0.0, 2.0})
     for (const HalfEnds& ends : allocated(drawn([&](int) { return light; })))
       CHECK(ends == HalfEnds{even, even});
 }
 
-TEST_CASE("a half's paths are allocated by what the other half has seen", "[display]") {
+TEST_CASE("the paths of one half are allocated by the results of the other half", "[display]") {
   std::mt19937 random(11);
   std::exponential_distribution<double> chance(1);
   std::vector<PixelSums> pixels = drawn([&](int) { return chance(random); });
@@ -95,7 +95,7 @@ TEST_CASE("a half's paths are allocated by what the other half has seen", "[disp
   for (size_t i = 0; i < pixels.size(); ++i) CHECK(after[i][1] == before[i][1]);
 }
 
-TEST_CASE("allocated paths leave the mean as it is, however rare the bright ones", "[display]") {
+TEST_CASE("allocated paths do not bias the mean, however rare bright paths are", "[display]") {
   std::mt19937 random(3);
   std::bernoulli_distribution is_bright(0.02);
   const auto light = [&] { return is_bright(random) ? 50.0 : 0.0; };  // 1 on average
@@ -117,6 +117,6 @@ TEST_CASE("allocated paths leave the mean as it is, however rare the bright ones
   const double n = double{pictures} * columns * rows;
   const double error = std::sqrt((squares / n - sum / n * sum / n) / n);
   CHECK(std::abs(sum / n - 1) < 4 * error);
-  // The test would see a bias: a mean by the numbers of paths has one.
+  // The test could detect a bias: a mean by the numbers of paths has one.
   CHECK(by_number / n < 1 - 8 * error);
 }

@@ -1,4 +1,4 @@
-// Whether a picture's errors are honest: pictures of independent runs spread as they say.
+// Whether a picture's errors are honest: pictures of independent runs spread as stated.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -59,8 +59,8 @@ height = 6
   }
 };
 
-/// Pictures that end in the flux of runs of their own. `path_seed`: of the paths of all; nothing:
-/// each has its own.
+/// Pictures that end in the flux of independent runs. `path_seed`: shared by the paths of all;
+/// none: each has its own.
 std::vector<TracedPicture> pictures_of(const SmokeRoom& room, int count, int64_t particles,
                                        int paths, std::optional<uint64_t> path_seed) {
   const auto scene = room.compiled();
@@ -83,7 +83,7 @@ double luminance(const TracedPicture& picture, size_t pixel) {
   return static_cast<double>(picture.light.xyz[3 * pixel + 1]);
 }
 
-/// Shares of pixels that lie within so many standard errors of the mean of the other pictures.
+/// Shares of pixels within a number of standard errors of the mean of the other pictures.
 struct Coverage {
   double one = 0, two = 0;
 };
@@ -99,7 +99,7 @@ Coverage coverage(const std::vector<TracedPicture>& all, ErrorOf&& error_of) {
     for (const TracedPicture& picture : all) sum += luminance(picture, i);
     for (const TracedPicture& picture : all) {
       const double others = (sum - luminance(picture, i)) / (n - 1);
-      // The mean of the others errs, too.
+      // The mean of the others has an error, too.
       const double error = error_of(picture, i) * std::sqrt(n / (n - 1));
       const double off = std::abs(luminance(picture, i) - others);
       if (off < error) out.one += share;
@@ -111,9 +111,10 @@ Coverage coverage(const std::vector<TracedPicture>& all, ErrorOf&& error_of) {
 
 }  // namespace
 
-TEST_CASE("the truth lies within one and two errors of a pixel as often as a normal law says",
-          "[display]") {
-  // Many paths that end in the flux of few particles: what errs most is common to all paths.
+TEST_CASE(
+    "the truth lies within one and two errors of a pixel as often as for a normal distribution",
+    "[display]") {
+  // Many paths that end in the flux of few particles: the largest error is common to all paths.
   const auto all = pictures_of({"0.1", "0.85"}, 24, 1 << 9, 2048, std::nullopt);
   const Coverage whole = coverage(all, [](const TracedPicture& picture, size_t i) {
     return static_cast<double>(picture.standard_error_y[i]);
@@ -125,14 +126,15 @@ TEST_CASE("the truth lies within one and two errors of a pixel as often as a nor
   });
   INFO("within one and two errors: " << whole.one << ", " << whole.two << "; of the paths' alone "
                                      << of_paths.one << ", " << of_paths.two);
-  // 0.683 and 0.954. Pixels of a picture err together: 24 runs know a share to some 0.04.
+  // 0.683 and 0.954. Errors of a picture's pixels are correlated: 24 runs determine a share to
+  // about 0.04.
   CHECK(std::abs(whole.one - 0.683) < 0.10);
   CHECK(std::abs(whole.two - 0.954) < 0.05);
   CHECK(of_paths.one < 0.50);
   CHECK(of_paths.two < 0.80);
 }
 
-TEST_CASE("what a flux errs by shows in pictures of the same paths as they say", "[display]") {
+TEST_CASE("the error of a flux appears in pictures of the same paths as stated", "[display]") {
   const SmokeRoom room = GENERATE(SmokeRoom{"0.1", "0.85"}, SmokeRoom{"0.8", "0.5"});
   const int paths = 4096;
   const auto all = pictures_of(room, 24, 1 << 11, paths, 7);
@@ -146,7 +148,7 @@ TEST_CASE("what a flux errs by shows in pictures of the same paths as they say",
     }
   }
   INFO("error seen " << std::sqrt(seen) << ", said " << std::sqrt(said));
-  // What each path has of it by itself is in the spread of the paths, and still a part here.
+  // The part of each path alone is in the spread of the paths, and is still included here.
   CHECK(std::sqrt(seen / said) > 0.7);
   CHECK(std::sqrt(seen / said) < 1.4);
 }
@@ -164,7 +166,7 @@ TEST_CASE("a picture that ends in the flux of one batch counts that as uncertain
   CHECK(of_one > 4 * of_many);
 }
 
-TEST_CASE("what two parts of a path end in together is of that path alone", "[display]") {
+TEST_CASE("the common end of two parts of a path belongs to that path alone", "[display]") {
   const ChannelLight light{1, 1, 1, 1};
   const auto variance_of = [&](uint64_t first_bin, uint64_t second_bin) {
     PixelSums sums;
@@ -174,9 +176,9 @@ TEST_CASE("what two parts of a path end in together is of that path alone", "[di
     CHECK(sums.known() == Approx(8));
     return sums.known_variance();
   };
-  // In one bin both err alike, by 2 together.
+  // In one bin both have the same error, together 2.
   CHECK(variance_of(7, 7) == Approx(0).margin(1e-6));
-  // In two they do not: twice their product, with the signs of few draws.
+  // In two bins they have not: twice their product, with the signs of few draws.
   double mean = 0;
   constexpr int pairs = 2000;
   for (uint64_t i = 0; i < pairs; ++i) mean += variance_of(2 * i, 2 * i + 1) / pairs;
@@ -184,7 +186,7 @@ TEST_CASE("what two parts of a path end in together is of that path alone", "[di
   CHECK(std::abs(mean) < 4 * of_one / std::sqrt(static_cast<double>(pairs)));
 }
 
-TEST_CASE("both halves of a pixel's paths see all of the pixel", "[display]") {
+TEST_CASE("both halves of a pixel's paths cover all of the pixel", "[display]") {
   SobolSet set(1, RandomStream::picture);
   for (const uint32_t paths : {16u, 32u, 64u}) {
     for (uint64_t pixel = 0; pixel < 20; ++pixel) {
@@ -202,7 +204,7 @@ TEST_CASE("both halves of a pixel's paths see all of the pixel", "[display]") {
   }
 }
 
-TEST_CASE("of every four paths of a pixel two are in each half", "[display]") {
+TEST_CASE("each half has two of every four paths of a pixel", "[display]") {
   for (int first = 0; first < 128; first += 4) {
     int second_half = 0;
     for (int path = first; path < first + 4; ++path) second_half += static_cast<int>(half_of(path));

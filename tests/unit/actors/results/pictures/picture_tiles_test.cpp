@@ -1,5 +1,5 @@
-// Pictures as work for an executor: the same bits as those of threads that trace them themselves,
-// by threads that take tiles and by real nodes of this process.
+// Pictures as work for an executor: the same bits as pictures traced directly, whether threads or
+// real nodes of this process trace the tiles.
 #include "actors/results/pictures/picture_tiles.hpp"
 
 #include <atomic>
@@ -14,9 +14,9 @@ using namespace luxodus::test;
 
 namespace {
 
-constexpr int asked_paths = 10;  // no multiple of a tile's
+constexpr int asked_paths = 10;  // not a multiple of a tile's
 
-/// Of both cameras of the smoky room, by the threads of the run.
+/// Pictures of both cameras of the smoky room, traced on the threads of the run.
 TracedPicture traced_here(const LocalRun& run, size_t camera, const PictureFlux& flux) {
   PictureOptions options;
   options.paths_per_pixel = asked_paths;
@@ -49,7 +49,7 @@ void check_tiles(const LocalRun& run, Executor& executor) {
   }
 }
 
-/// Nodes of this process that make pictures of a run.
+/// Nodes of this process that trace pictures of a run.
 struct PictureNodes {
   explicit PictureNodes(const LocalRun& run) : states(run) {
     auto started = ProcessExecutor::start(run.shared_scene(), states, {});
@@ -62,13 +62,13 @@ struct PictureNodes {
 
 }  // namespace
 
-TEST_CASE("tiles by threads are the pictures of threads, to the bit", "[display][tiles]") {
+TEST_CASE("tiles traced by threads give the same pictures, bit for bit", "[display][tiles]") {
   const auto run = traced(smoky_room("70"), 1 << 14);
   ThreadExecutor threads(3);
   check_tiles(*run, threads);
 }
 
-TEST_CASE("tiles by nodes are the pictures of threads, to the bit", "[display][tiles][nodes]") {
+TEST_CASE("tiles traced by nodes give the same pictures, bit for bit", "[display][tiles][nodes]") {
   const auto run = traced(smoky_room("70"), 1 << 14);
   PictureNodes nodes(*run);
   check_tiles(*run, *nodes.nodes->executor());
@@ -78,7 +78,7 @@ TEST_CASE("files of pictures that nodes trace are those of threads", "[display][
   const TemporaryFolder here, there;
   const auto run = traced(smoky_room("120"), 1 << 14);
   PictureOptions options;
-  options.paths_per_pixel = 16;  // of which four are allocated
+  options.paths_per_pixel = 16;  // four of them allocated
   options.progressive = true;
   REQUIRE(render_views(here.path(), *run, "", options, {}).ok());
   PictureNodes nodes(*run);
@@ -90,7 +90,7 @@ TEST_CASE("files of pictures that nodes trace are those of threads", "[display][
     CHECK(file_text(here / file) == file_text(there / file));
 }
 
-TEST_CASE("a picture of nodes that is interrupted stays as it was", "[display][tiles]") {
+TEST_CASE("an interrupted picture on nodes is unchanged", "[display][tiles]") {
   const auto run = traced(smoky_room("70"), 1 << 14);
   ThreadExecutor threads(2);
   std::atomic<bool> interrupt{false};
@@ -112,7 +112,7 @@ TEST_CASE("a picture of nodes that is interrupted stays as it was", "[display][t
   check_same(passes.picture(), traced_here(*run, 0, flux));
 }
 
-TEST_CASE("what is told of pictures reads back", "[display][tiles]") {
+TEST_CASE("the text of pictures is read back", "[display][tiles]") {
   TiledPictures pictures;
   pictures.paths_per_pixel = 48;
   pictures.flux = std::string("any\nbytes\0 at all", 17);
@@ -138,7 +138,7 @@ TEST_CASE("what is told of pictures reads back", "[display][tiles]") {
   CHECK(read->views[1].ends == pictures.views[1].ends);
 }
 
-TEST_CASE("what is told of no pictures is refused", "[display][tiles]") {
+TEST_CASE("malformed text of pictures is rejected", "[display][tiles]") {
   TiledPictures pictures;
   pictures.paths_per_pixel = 48;
   pictures.views.emplace_back();
@@ -161,7 +161,7 @@ TEST_CASE("what is told of no pictures is refused", "[display][tiles]") {
   }
 }
 
-TEST_CASE("paths that end before they begin are refused", "[display][tiles]") {
+TEST_CASE("paths that end before they begin are rejected", "[display][tiles]") {
   TiledPictures pictures;
   pictures.paths_per_pixel = 48;
   pictures.views.emplace_back();
@@ -172,7 +172,7 @@ TEST_CASE("paths that end before they begin are refused", "[display][tiles]") {
   CHECK_FALSE(parse_tiles(tiles_text(pictures)).ok());
 }
 
-TEST_CASE("a flux of another seed is refused by whoever makes pictures", "[display][tiles]") {
+TEST_CASE("a flux with another seed is rejected by makers of pictures", "[display][tiles]") {
   const auto run = traced(smoky_room("12"), 1 << 12);
   PictureOptions options;
   ThreadExecutor threads(1);

@@ -15,8 +15,8 @@ using namespace luxodus::test;
 
 namespace {
 
-/// A hollow white sphere around a lamp that shines evenly: its wall has the luminance rho/(1 - rho)
-/// * flux/(pi area) everywhere (Ulbricht's sphere).
+/// A hollow white sphere around an isotropic lamp: its wall has the luminance rho/(1 - rho) *
+/// flux/(pi area) everywhere (Ulbricht's sphere).
 std::string ulbricht_sphere(const std::string& reflectance) {
   return R"(
 [[material]]
@@ -45,9 +45,9 @@ height = 16
 )";
 }
 
-/// A box whose six walls glow with 100 cd/m2 in front of a surface that reflects `rho`. Light
-/// inside is the same everywhere and in all directions, 100/(1 - rho) cd/m2, and smoke that absorbs
-/// nothing cannot change it.
+/// A box whose six walls glow with 100 cd/m2 in front of a surface that reflects `rho`. The light
+/// inside is uniform and isotropic, 100/(1 - rho) cd/m2, and smoke without absorption cannot change
+/// it.
 std::string glowing_box(const std::string& rho, const std::string& extinction) {
   std::string toml = R"(
 patch_edge_m = 0.5
@@ -88,8 +88,8 @@ height = 10
   return toml;
 }
 
-/// A room of 4 x 4 x 2.5 m full of smoke, under a lamp; and behind a wall of 0.1 m one like it
-/// without any light. The camera is in the first, or in the second. `g`: of the smoke.
+/// A room of 4 x 4 x 2.5 m full of smoke, with a lamp; and behind a wall of 0.1 m an equal one
+/// without light. The camera is in the first, or in the second. `g`: of the smoke.
 std::string two_rooms(bool in_the_dark, const std::string& g = "0.5") {
   std::string toml = R"(
 patch_edge_m = 0.5
@@ -151,7 +151,7 @@ MeanLuminance mean_luminance(const TracedPicture& picture) {
 TracedPicture picture_of(const LocalRun& run, int paths, bool gather) {
   PictureOptions options;
   options.paths_per_pixel = paths;
-  options.raw = true;  // as many paths for all pixels: of most tests the mean is what counts
+  options.raw = true;  // the same number of paths for all pixels: most tests check the mean
   const auto flux = gather ? flux_radiance(run) : nullptr;
   return trace_picture(run, 0, options, flux.get());
 }
@@ -167,7 +167,7 @@ TEST_CASE("an Ulbricht sphere has the luminance of the closed form, gathered or 
   const MeanLuminance seen = mean_luminance(picture_of(*run, 32, gather));
   INFO("seen " << seen.mean << " +- " << seen.error << ", exact " << exact);
   CHECK(seen.error < 0.01 * exact);
-  // The flux errs by 0.1 %; the chords of the mesh make its wall uneven by 0.3 %.
+  // The flux has an error of 0.1 %; the facets of the mesh make its wall uneven by 0.3 %.
   CHECK(std::abs(seen.mean - exact) < 4 * seen.error + 0.005 * exact);
 }
 
@@ -200,20 +200,20 @@ TEST_CASE("colours of a picture are those of the bands", "[display]") {
   CHECK(mean[3] == Approx(scotopic).epsilon(0.02));
 }
 
-TEST_CASE("white smoke in a box of even light is invisible", "[display]") {
+TEST_CASE("white smoke in a box of uniform light is invisible", "[display]") {
   const bool gather = GENERATE(true, false);
   const auto run = traced(glowing_box("0.5", "0.8"), 1 << 17);
   const MeanLuminance seen = mean_luminance(picture_of(*run, 2048, gather));
   INFO("seen " << seen.mean << " +- " << seen.error);
-  // Close to glowing walls paths hit them, so that no connection has a rare large value.
+  // Close to glowing walls paths hit them, so no connection has a rare large value.
   CHECK(seen.error < 0.5);
-  // The emitters stand 0.5 mm before the walls, which loses 0.1 % at the edges.
+  // The emitters are 0.5 mm in front of the walls, which loses 0.1 % at the edges.
   CHECK(std::abs(seen.mean - 200) < 4 * seen.error + 0.6);
 }
 
-TEST_CASE("a picture in smoke is as bright when its paths end in voxels as when they do not",
+TEST_CASE("a picture in smoke is equally bright whether or not its paths end in voxels",
           "[display]") {
-  const char* const g = GENERATE("0.3", "0.6");  // eyes read voxels with the first alone
+  const char* const g = GENERATE("0.3", "0.6");  // eyes read voxels only with the first
   const auto run = traced(two_rooms(false, g), 1 << 19);
   const MeanLuminance full = mean_luminance(picture_of(*run, 4096, false));
   const MeanLuminance gathered = mean_luminance(picture_of(*run, 2048, true));
@@ -221,7 +221,7 @@ TEST_CASE("a picture in smoke is as bright when its paths end in voxels as when 
                      << full.error);
   CHECK(full.error < 0.005 * full.mean);
   CHECK(gathered.error < 0.005 * gathered.mean);
-  // Voxels of half a metre: what has scattered varies little within one.
+  // Voxels of half a metre: scattered light varies little within one.
   const double chance = std::hypot(full.error, gathered.error);
   CHECK(std::abs(gathered.mean - full.mean) < 4 * chance + 0.01 * full.mean);
 }
@@ -232,7 +232,7 @@ TEST_CASE("smoke in a dark room beside a bright one stays dark", "[display]") {
   for (size_t i = 0; i < picture.light.pixels(); ++i) CHECK(picture.light.xyz[3 * i + 1] == 0);
 }
 
-TEST_CASE("light is known in voxels of one room's gas, and smooth light where eyes look first",
+TEST_CASE("light is known in voxels of one room's gas, and eyes first read smooth light",
           "[display]") {
   const auto run = traced(two_rooms(true), 1 << 13);
   const auto flux = flux_radiance(*run);
@@ -240,8 +240,8 @@ TEST_CASE("light is known in voxels of one room's gas, and smooth light where ey
   const auto known = [&](double x, double y, double z) {
     return flux->known_at(Vec3(glm::dvec3(x, y, z) - origin), true);
   };
-  CHECK(known(2, 2, 1.2) == Known::all);        // amid the lit room
-  CHECK(known(3.9, 2, 1.2) == Known::all);      // before the wall, which runs along a face
+  CHECK(known(2, 2, 1.2) == Known::all);        // in the middle of the lit room
+  CHECK(known(3.9, 2, 1.2) == Known::all);      // in front of the wall, which lies along a face
   CHECK(known(2, 2, 0.1) == Known::all);        // on the floor
   CHECK(known(2, 2, 2.3) == Known::scattered);  // beside the lamp
   CHECK(known(2, 2, 1.9) == Known::scattered);  // an edge below it
@@ -249,7 +249,7 @@ TEST_CASE("light is known in voxels of one room's gas, and smooth light where ey
   CHECK(known(20, 2, 1.2) == Known::nothing);   // beyond all voxels
 }
 
-TEST_CASE("eyes read scattered light where its moments tell how it goes on", "[display]") {
+TEST_CASE("eyes read scattered light where its moments determine further scattering", "[display]") {
   const auto read = [](const char* g) {
     const auto run = traced(two_rooms(true, g), 1 << 16);
     const Vec3 amid_the_lit_room(glm::dvec3(2.7, 2, 1.2) - run->scene().local_origin);
@@ -260,10 +260,10 @@ TEST_CASE("eyes read scattered light where its moments tell how it goes on", "[d
   CHECK(read("0.75") == Known::nothing);
 }
 
-TEST_CASE("a lamp in clear air has its own luminance in every pixel, without chance", "[display]") {
+TEST_CASE("a lamp in clear air has its own luminance in every pixel, without noise", "[display]") {
   const auto run = traced(glowing_box("0", "1e-9"), 1 << 14);
   const TracedPicture picture = picture_of(*run, 8, true);
-  // A path that meets an edge of the box, within 0.5 mm, sees two of its glowing faces.
+  // A path that hits an edge of the box, within 0.5 mm, sees two of its glowing faces.
   size_t at_edges = 0;
   for (size_t i = 0; i < picture.light.pixels(); ++i) {
     if (picture.light.xyz[3 * i + 1] > 101 && ++at_edges <= 2) continue;
@@ -272,7 +272,7 @@ TEST_CASE("a lamp in clear air has its own luminance in every pixel, without cha
   }
 }
 
-/// A black box with a coloured lamp on the wall that is looked at, behind a pane.
+/// A black box with a coloured lamp on the wall in view, behind a pane.
 const std::string lamp_behind_glass = R"(
 [run]
 max_bands = 4
@@ -312,8 +312,7 @@ width = 12
 height = 8
 )";
 
-TEST_CASE("light that comes straight through a pane has all its colours, without chance",
-          "[display]") {
+TEST_CASE("light straight through a pane has all its colours, without noise", "[display]") {
   const auto run = traced(lamp_behind_glass, 1 << 12);
   REQUIRE(run->scene().bands.count() == 4);
   const TracedPicture picture = picture_of(*run, 4, true);
@@ -328,7 +327,8 @@ TEST_CASE("light that comes straight through a pane has all its colours, without
   CHECK(first[2] < first[1]);
 }
 
-TEST_CASE("a filtered picture is nearer to the closed form, and says how near", "[display]") {
+TEST_CASE("a filtered picture is closer to the closed form, and its stated error is right",
+          "[display]") {
   const auto run =
       traced("[run]\nmax_bands = 4\n" + ulbricht_sphere("[[400, 0.2], [700, 0.8]]"), 1 << 18);
   const TracedPicture long_picture = picture_of(*run, 512, true);
@@ -354,7 +354,7 @@ TEST_CASE("a filtered picture is nearer to the closed form, and says how near", 
   CHECK(colour < 0.2);
 }
 
-/// Noise about even light before a chequered wall, as if traced through smoke.
+/// Noise around uniform light in front of a chequered wall, as if traced through smoke.
 TracedPicture chequers_behind_smoke(float transmittance) {
   TracedPicture out;
   const int size = 48;
@@ -379,8 +379,8 @@ TracedPicture chequers_behind_smoke(float transmittance) {
   return out;
 }
 
-TEST_CASE("what smoke hides does not show in a filtered picture", "[display]") {
-  // Contrast of the fields that a fit makes of noise.
+TEST_CASE("surfaces hidden by smoke do not show in a filtered picture", "[display]") {
+  // Contrast of the fields that a fit produces from noise.
   const auto contrast = [](float transmittance) {
     const FilteredView view = filter_traced(chequers_behind_smoke(transmittance), 1);
     double dark = 0, bright = 0;
@@ -390,17 +390,17 @@ TEST_CASE("what smoke hides does not show in a filtered picture", "[display]") {
             static_cast<double>(view.light.xyz[static_cast<size_t>(3 * (48 * y + x) + 1)]);
     return std::abs(bright - dark) / (bright + dark);
   };
-  // All pixels are alike but for chance, which without smoke may choose the fields.
+  // All pixels are equal except for noise, which without smoke may follow the fields.
   CHECK(contrast(1e-4f) < 0.2 * contrast(1.0f));
 }
 
-TEST_CASE("glow on a lamp does not spread over what is beside it", "[display]") {
+TEST_CASE("glow on a lamp does not spread to its surroundings", "[display]") {
   const auto in_square = [](size_t i, size_t low, size_t high) {
     const size_t x = i % 48, y = i / 48;
     return x >= low && x < high && y >= low && y < high;
   };
   const auto is_lamp = [&](size_t i) { return in_square(i, 22, 26); };
-  // What has turned before the lamp is six times as bright as around it, and as noisy.
+  // Light scattered in front of the lamp is six times as bright as around it, and as noisy.
   TracedPicture picture = chequers_behind_smoke(1.0f);
   for (size_t i = 0; i < picture.light.pixels(); ++i) {
     for (size_t k = 5; k < picture_features; ++k)
@@ -411,7 +411,7 @@ TEST_CASE("glow on a lamp does not spread over what is beside it", "[display]") 
       for (size_t c = 0; c < 3; ++c) part.variance[3 * i + c] *= 36;
     }
   }
-  // The mean beside it, of a pixel's width, should be 1.
+  // The mean beside it, over a pixel's width, should be 1.
   const auto beside_lamp = [&] {
     const FilteredView view = filter_traced(picture, 1);
     double sum = 0;
@@ -446,8 +446,8 @@ TEST_CASE("a picture is the same bits for one and three threads, and for geometr
 }
 
 TEST_CASE("the standard error of a pixel is that of repeated pictures", "[display]") {
-  // Pictures of other seeds differ by what they say they err; shifted sequences may do better,
-  // never worse.
+  // Pictures with other seeds differ by their stated error; shifted sequences may do better, never
+  // worse.
   const auto scene = scene_of(ulbricht_sphere("0.6"));
   constexpr int repeats = 12;
   double spread = 0, said = 0;
@@ -471,7 +471,7 @@ TEST_CASE("the standard error of a pixel is that of repeated pictures", "[displa
   const double ratio =
       spread / static_cast<double>(pixels) / (said / (repeats * static_cast<double>(pixels)));
   INFO("variance seen over variance said " << ratio);
-  // 384 pixels x 11 degrees of freedom: the ratio itself errs by some 4 %.
+  // 384 pixels x 11 degrees of freedom: the ratio itself has an error of about 4 %.
   CHECK(ratio < 1.15);
   CHECK(ratio > 0.7);
 }
@@ -494,7 +494,7 @@ TEST_CASE("views are written as luminance data and as pixels", "[display]") {
        {"X", "Y", "Z", "R", "G", "B", "scotopic", "standard_error.Y", "flux_error.Y", "filtered.Y",
         "filtered_error.Y", "N.X", "N.Y", "N.Z", "nearness", "transmittance", "albedo.Y"})
     CHECK(exr.find(name) != nullptr);
-  // The wall of a sphere of 2 m reflects 0.6, and no smoke is before it.
+  // The wall of a sphere of 2 m reflects 0.6, without smoke in front.
   CHECK(exr.find("albedo.Y")->values[0] == Approx(0.6));
   CHECK(exr.find("transmittance")->values[0] == 1);
   CHECK(1 / exr.find("nearness")->values[0] == Approx(2).margin(0.5));
@@ -513,8 +513,7 @@ TEST_CASE("views are written as luminance data and as pixels", "[display]") {
     CHECK(file_text(folder.path() / "views" / name).substr(1, 3) == "PNG");
 }
 
-TEST_CASE("pictures that are interrupted end at once, and what is not whole is not written",
-          "[display]") {
+TEST_CASE("interrupted pictures end at once, and incomplete ones are not written", "[display]") {
   const TemporaryFolder folder;
   const auto run = traced(ulbricht_sphere("0.6"), 1 << 13);
   std::atomic<bool> interrupt{false};
@@ -530,7 +529,7 @@ TEST_CASE("pictures that are interrupted end at once, and what is not whole is n
   CHECK_FALSE(std::filesystem::is_empty(folder.path() / "views"));
 }
 
-TEST_CASE("a view that the scene does not have is refused by name", "[display]") {
+TEST_CASE("an unknown view is rejected by name", "[display]") {
   const TemporaryFolder folder;
   const auto run = traced(ulbricht_sphere("0.6"), 1 << 13);
   const auto done = render_views(folder.path(), *run, "outside", {}, {});
@@ -582,7 +581,7 @@ height = 20
 
 namespace {
 
-/// Lit smoke before a camera, and whatever else stands there.
+/// Lit smoke in front of a camera, and other things.
 std::string point_in_smoke(const std::string& more) {
   return R"(
 [run]
@@ -617,7 +616,7 @@ flux_lm = 300
 
 }  // namespace
 
-TEST_CASE("scenes of no size and as large as coordinates go have pictures", "[display]") {
+TEST_CASE("scenes of no size and as large as coordinates allow have pictures", "[display]") {
   const std::string flame = R"(
 [[medium]]
 name = "flame"

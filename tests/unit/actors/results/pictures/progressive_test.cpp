@@ -1,4 +1,4 @@
-// Pictures that grow: the same bits as at once, and where they end.
+// Pictures in passes: the same bits as at once, and where they end.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -12,7 +12,7 @@ using namespace luxodus::test;
 
 namespace {
 
-/// X, Y and Z of the first camera as a file holds them.
+/// X, Y and Z of the first camera in a file.
 void check_file(const std::filesystem::path& file, const TracedPicture& wanted) {
   const ExrImage image = read_exr(file);
   const ExrChannel* y = image.find("Y");
@@ -31,8 +31,9 @@ TracedPicture at_once(const LocalRun& run, int paths, bool raw = true) {
 
 }  // namespace
 
-TEST_CASE("a picture in passes is the picture of as many paths at once, for any threads",
-          "[display]") {
+TEST_CASE(
+    "a picture in passes equals the picture with as many paths at once, for any number of threads",
+    "[display]") {
   const auto one = traced(smoky_room("17"), 1 << 14, 1);
   const auto three = traced(smoky_room("17"), 1 << 14, 3);
   const auto flux = flux_radiance(*three);
@@ -45,12 +46,12 @@ TEST_CASE("a picture in passes is the picture of as many paths at once, for any 
   check_same(view.picture(), at_once(*one, 96));
 }
 
-TEST_CASE("pictures whose last paths are allocated are those at once", "[display]") {
+TEST_CASE("pictures in passes with allocated paths equal those at once", "[display]") {
   const TemporaryFolder folder;
   const auto run = traced(smoky_room("17"), 1 << 14, 1);
   PictureOptions options;
   options.paths_per_pixel = 32;
-  options.max_seconds = GENERATE(0.0, 1e4);  // no limit, and more than it takes
+  options.max_seconds = GENERATE(0.0, 1e4);  // no limit, and more than needed
   const auto rendered = render_views(folder.path(), *run, "", options, {});
   REQUIRE(rendered.ok());
   CHECK(rendered->paths == 32);
@@ -73,12 +74,12 @@ TEST_CASE("a first picture has the first paths of one pixel of four", "[display]
       CHECK(first.light.xyz[3 * (9 * y + x) + 1] == whole.light.xyz[3 * (17 * 2 * y + 2 * x) + 1]);
 }
 
-TEST_CASE("pictures whose time is over end with whole passes of all views", "[display]") {
+TEST_CASE("pictures at their time limit end with whole passes of all views", "[display]") {
   const TemporaryFolder folder;
   const auto run = traced(smoky_room("17"), 1 << 14);
   PictureOptions options;
   options.paths_per_pixel = limits::max_paths_per_pixel;
-  options.max_seconds = 1e-6;  // over after the first pass
+  options.max_seconds = 1e-6;  // exceeded after the first pass
   options.progressive = true;
   const auto rendered = render_views(folder.path(), *run, "", options, {});
   REQUIRE(rendered.ok());
@@ -88,7 +89,7 @@ TEST_CASE("pictures whose time is over end with whole passes of all views", "[di
   CHECK(read_exr(folder / "views/other.exr").find("filtered.Y") != nullptr);
 }
 
-TEST_CASE("pictures end when the worst is as good as was asked for", "[display]") {
+TEST_CASE("pictures end when the worst has the requested error", "[display]") {
   const TemporaryFolder folder;
   const auto run = traced(smoky_room("17"), 1 << 16);
   PictureOptions options;
@@ -112,7 +113,7 @@ TEST_CASE("pictures end when the worst is as good as was asked for", "[display]"
   CHECK(relative_error(same.light, same.standard_error_y) <= 0.1);
 }
 
-/// Renders, interrupted where `when` says so, and checks that it has kept so many paths.
+/// Renders, interrupted when `when` says so, and checks the number of paths kept.
 template <class When>
 void check_interrupted(int paths, int kept, const When& when) {
   const TemporaryFolder folder;
@@ -131,16 +132,16 @@ void check_interrupted(int paths, int kept, const When& when) {
   check_file(folder / "views/view.exr", at_once(*run, kept));
 }
 
-TEST_CASE("pictures that are interrupted keep the last whole pass", "[display]") {
+TEST_CASE("interrupted pictures keep the last whole pass", "[display]") {
   check_interrupted(4096, 8, [](const PictureProgress& progress) { return progress.paths == 8; });
 }
 
-TEST_CASE("pictures that are interrupted while paths are allocated keep those of all pixels",
-          "[display]") {
+TEST_CASE("pictures interrupted during allocated paths keep those of all pixels", "[display]") {
   check_interrupted(32, 24, [](const PictureProgress& progress) { return progress.share > 0.76; });
 }
 
-TEST_CASE("what waits for first pictures is done once, before any picture is whole", "[display]") {
+TEST_CASE("the action after first pictures runs once, before any picture is complete",
+          "[display]") {
   const TemporaryFolder folder;
   const auto run = traced(smoky_room("1000"), 1 << 14);
   PictureOptions options;
@@ -159,7 +160,7 @@ TEST_CASE("what waits for first pictures is done once, before any picture is who
   check_file(folder / "views/view.exr", at_once(*run, 8));
 }
 
-TEST_CASE("what waits for first pictures and fails ends them", "[display]") {
+TEST_CASE("a failure of the action after first pictures ends them", "[display]") {
   const TemporaryFolder folder;
   const auto run = traced(smoky_room("17"), 1 << 14);
   const auto rendered = render_views(folder.path(), *run, "", {}, {},
@@ -169,7 +170,7 @@ TEST_CASE("what waits for first pictures and fails ends them", "[display]") {
   CHECK_FALSE(std::filesystem::exists(folder / "views/view.exr"));
 }
 
-TEST_CASE("a picture that no machine has the memory for is refused with its camera", "[display]") {
+TEST_CASE("a picture that exceeds the memory limit is rejected with its camera", "[display]") {
   const auto described = described_text(smoky_room("16384"));
   SceneDescription scene = *described;
   CHECK(check_views(scene, "", {}).ok());
@@ -189,7 +190,7 @@ TEST_CASE("the error of a picture is the root mean square of relative errors", "
   // The last pixel counts as a hundredth of the mean.
   CHECK(relative_error(light, {0, 0, 0, 0.0175f}) == Approx(0.5));
   CHECK(std::isnan(relative_error(light, {0, 0, 0, NAN})));
-  // Of two hundred pixels the worst two are left out.
+  // The worst two of two hundred pixels are left out.
   XyzPicture even{200, 1, std::vector<float>(600, 1.0f), {}};
   std::vector<float> with_two(200, 0.1f);
   with_two[7] = with_two[150] = 100;

@@ -1,5 +1,5 @@
-// A room in smoke with two lamps, one behind a screen, seen by two cameras, and pictures compared
-// to the bit.
+// A room in smoke with two lamps, one behind a screen, seen by two cameras; and comparison of
+// pictures bit for bit.
 #pragma once
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// Two closed halls, each with a lamp: who asks about one of them needs no light of the other.
+// Two closed halls, each with a lamp: measurements in one of them need no light of the other.
 #include "actors/results/run/adaptive_shares.hpp"
 
 #include <catch2/catch.hpp>
@@ -53,7 +53,7 @@ std::vector<double> found(const std::shared_ptr<const CompiledScene>& scene) {
   return shares.value();
 }
 
-/// Indirect flux onto a plane after so many batches.
+/// Indirect flux onto a plane after a number of batches.
 Estimate onto_plane(const std::shared_ptr<const CompiledScene>& scene, uint32_t plane) {
   LocalRun run(scene, 1, 1);
   StopRule stop;
@@ -64,16 +64,16 @@ Estimate onto_plane(const std::shared_ptr<const CompiledScene>& scene, uint32_t 
 
 }  // namespace
 
-TEST_CASE("light that nothing asks for gets few batches, and the error falls by what that spares",
+TEST_CASE("light that no measurement needs gets few batches, and the error falls accordingly",
           "[need]") {
   const SceneDescription halls = two_halls(GroupRule::by_emitter);
   const auto usual = compiled(halls, {"plane left"});
   const std::vector<double> shares = found(usual);
   CHECK(shares[0] > 0.85);
-  CHECK(shares[1] > 0);  // its own light is told as well
+  CHECK(shares[1] > 0);  // its own light is reported as well
   const Estimate before = onto_plane(usual, 0);
   const Estimate after = onto_plane(compiled(halls, {"plane left"}, shares), 0);
-  // A quarter of the batches, and nearly all.
+  // A quarter of the batches before, and nearly all now.
   const double gain = std::pow(before.standard_error / after.standard_error, 2);
   CHECK(gain > 2.4);
   CHECK(gain < 5);
@@ -81,19 +81,20 @@ TEST_CASE("light that nothing asks for gets few batches, and the error falls by 
   CHECK(std::abs(before.value - after.value) < 4.5 * both);
 }
 
-TEST_CASE("where all is asked for, batches are dealt so that the worst is known best", "[need]") {
+TEST_CASE("if everything is measured, batches are allocated to minimise the largest error",
+          "[need]") {
   const SceneDescription halls = two_halls(GroupRule::by_emitter);
   const auto usual = compiled(halls, {"planes"});
   const auto by_need = compiled(halls, {"planes"}, found(usual));
   const auto worst = [](const std::shared_ptr<const CompiledScene>& scene) {
     return std::max(onto_plane(scene, 0).relative_error(), onto_plane(scene, 1).relative_error());
   };
-  // The usual half by lumens leaves the dim lamp a quarter; alike halls need alike batches.
+  // The usual half by lumens leaves the dim lamp a quarter; equal halls need equal batches.
   CHECK(by_need->batch_shares[0] == Approx(0.5).margin(0.15));
   CHECK(worst(by_need) < worst(usual));
 }
 
-TEST_CASE("what cannot be dealt by need is said", "[need]") {
+TEST_CASE("the reason is reported if batches cannot be allocated adaptively", "[need]") {
   const auto problem = [](const std::shared_ptr<const CompiledScene>& scene) {
     const auto shares = find_adaptive_shares(scene, 1, 1, no_interrupt, no_report);
     return shares.ok() ? "" : shares.problem().what;
@@ -109,8 +110,7 @@ TEST_CASE("what cannot be dealt by need is said", "[need]") {
   CHECK_FALSE(find_adaptive_shares(scene, 1, 1, stopped, no_report).ok());
 }
 
-TEST_CASE("shares of other groups than the scene has are refused, and are part of what it is",
-          "[need]") {
+TEST_CASE("shares must match the scene's groups, and are part of its hash", "[need]") {
   const auto description =
       std::make_shared<const SceneDescription>(two_halls(GroupRule::by_emitter));
   const Scenario scenario = find_scenario(*description, "").value();

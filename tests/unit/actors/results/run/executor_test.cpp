@@ -1,4 +1,4 @@
-// Work that comes piece by piece: how its batches are numbered, and what a state is as bytes.
+// Work given out in pieces: numbering of batches, and states as bytes.
 #include "actors/results/run/executor.hpp"
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@ std::span<const std::byte> bytes_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a batch of a state is found again by its number", "[run]") {
+TEST_CASE("a batch of a state is found by its number", "[run]") {
   const BatchRange batches[] = {
       {0, 0, 0, 1}, {3, 0, 7, 1}, {0, 5, 1, 1}, {8191, (1 << 19) - 1, (1 << 30) - 1, 1}};
   for (const BatchRange& batch : batches) {
@@ -23,7 +23,7 @@ TEST_CASE("a batch of a state is found again by its number", "[run]") {
   }
 }
 
-TEST_CASE("batches of a group have numbers that follow each other", "[run]") {
+TEST_CASE("batches of a group have consecutive numbers", "[run]") {
   const int64_t first = number_of({2, 4, 10, 3});
   CHECK(batch_of(first + 2) == BatchRange{2, 4, 12, 1});
   CHECK(number_of({2, 4, 13, 1}) == first + 3);
@@ -41,7 +41,7 @@ TEST_CASE("a state is read back from its bytes, and named by them", "[run]") {
   CHECK(StateObject{state.seed, "{}"}.id() != state.id());
 }
 
-TEST_CASE("bytes that are no state are refused in words", "[run]") {
+TEST_CASE("malformed bytes of a state are rejected with a message", "[run]") {
   for (const std::string text : {"", "12", "twelve\n{}", "-1\n{}", "99999999999999999999\n{}"}) {
     const auto read = StateObject::parse(bytes_of(text));
     REQUIRE_FALSE(read.ok());

@@ -1,4 +1,4 @@
-// Flux files that somebody has changed on purpose: the checksums are right again, a count is not.
+// Forged flux files: the checksums are correct, but a count is not.
 #include "actors/results/run/flux_store.hpp"
 
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ void trace(LocalRun& run, int64_t batches) {
 
 }  // namespace
 
-TEST_CASE("a flux file whose header is forged is refused, and counts no batch twice",
+TEST_CASE("a flux file with a forged header is rejected, and counts no batch twice",
           "[flux][hostile]") {
   const auto scene = scene_of("smoke_tank", "", 1);
   const test::TemporaryFolder folder;
@@ -53,7 +53,7 @@ TEST_CASE("a flux file whose header is forged is refused, and counts no batch tw
     CHECK(refused([&](json& h) { h["groups"][0]["batches"] = count; }).find("source group 0") !=
           std::string::npos);
   }
-  // The batches from the third on would be traced and counted once more.
+  // The batches from the third on would be traced and counted twice.
   CHECK(refused([](json& h) { h["batches"] = 2; }).find("source group") != std::string::npos);
   CHECK(refused([](json& h) {
           h["batches"] = 2;

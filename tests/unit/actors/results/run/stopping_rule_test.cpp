@@ -1,4 +1,4 @@
-// When a run stops, as a table of what it was asked and what it has come to.
+// When a run stops, as a table of rules and progress.
 #include "actors/results/run/stopping_rule.hpp"
 
 #include <catch2/catch.hpp>
@@ -34,7 +34,7 @@ TEST_CASE("particles are rounded up to whole batches", "[run][stop]") {
   CHECK(error(0.1).target_batches(batch) == std::numeric_limits<int64_t>::max());
 }
 
-TEST_CASE("a run stops for the first reason that holds", "[run][stop]") {
+TEST_CASE("a run stops at the first limit that is reached", "[run][stop]") {
   StopRule both = particles(4000);
   both.relative_error = 0.01;
   CHECK_FALSE(reason(both, {3, 0.02}));
@@ -45,13 +45,13 @@ TEST_CASE("a run stops for the first reason that holds", "[run][stop]") {
   CHECK(reason(both, {4, 0.01, true, true}) == StopReason::interrupted);
 }
 
-TEST_CASE("an error that is not known stops no run", "[run][stop]") {
+TEST_CASE("an unknown error stops no run", "[run][stop]") {
   CHECK_FALSE(reason(error(0.01), {5, std::numeric_limits<double>::quiet_NaN()}));
   CHECK_FALSE(reason(error(0.01), {5, std::numeric_limits<double>::infinity()}));
   CHECK_FALSE(particles(10).error_is_reached(0));
 }
 
-TEST_CASE("time is up at the second that was asked for, and never without one", "[run][stop]") {
+TEST_CASE("time is over at the requested second, and never without a limit", "[run][stop]") {
   StopRule stop;
   CHECK_FALSE(stop.time_is_up(1e9));
   stop.seconds = 2;
@@ -59,7 +59,7 @@ TEST_CASE("time is up at the second that was asked for, and never without one", 
   CHECK(stop.time_is_up(2));
 }
 
-TEST_CASE("progress estimates what is left from particles, error and time", "[run][stop]") {
+TEST_CASE("the remaining time is estimated from particles, error and time", "[run][stop]") {
   const auto left = [](const StopRule& stop, int64_t batches, double seconds, double error) {
     return progress_of(stop, batch, 0, batches, seconds, error).seconds_left;
   };

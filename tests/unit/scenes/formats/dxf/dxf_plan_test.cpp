@@ -1,5 +1,5 @@
-// DXF plans: lines, arcs and blocks as drawn. The seed is LUXODUS_SEED, or 1; LUXODUS_MUTATIONS
-// says how many drawings are harmed.
+// DXF plans: lines, arcs and block references as drawn. The seed is LUXODUS_SEED, or 1;
+// LUXODUS_MUTATIONS sets how many drawings are mutated.
 #include "scenes/formats/dxf/dxf_plan.hpp"
 
 #include <sys/mman.h>
@@ -39,11 +39,11 @@ bool is_finite_plan(const DxfPlan& plan) {
   return true;
 }
 
-/// Reads harmed drawings: many in one process, and in the reader's own those that end it. dxflib
-/// writes beyond its memory for some.
+/// Reads mutated drawings: many in one process, and drawings that crash it in the reader's own.
+/// dxflib writes beyond its memory for some.
 class HarmedDrawings {
  public:
-  /// Each is read, or refused with a sentence.
+  /// Each is read, or rejected with a sentence.
   void must_be_read_or_refused(std::span<const std::string> drawings) {
     if (drawings.empty()) return;
     if (in_one_process(drawings)) {
@@ -66,12 +66,13 @@ class HarmedDrawings {
   uint64_t apart() const { return apart_; }
 
  private:
-  /// False where one of them ends the process, takes longer than a minute, or holds no numbers.
+  /// False if one of them ends the process, takes longer than a minute, or gives numbers that are
+  /// not finite.
   bool in_one_process(std::span<const std::string> drawings) {
     const pid_t child = ::fork();
     REQUIRE(child >= 0);
     if (child == 0) {
-      // What a sanitizer says of dxflib is no news.
+      // Sanitizer reports about dxflib are not of interest.
       if (std::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(4);
       ::alarm(60);
       uint64_t read = 0;
@@ -89,7 +90,7 @@ class HarmedDrawings {
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
 
-  /// Of a process that has ended: it is shared with it.
+  /// Count of the process that has ended, in shared memory.
   uint64_t* const read_there_ = static_cast<uint64_t*>(
       ::mmap(nullptr, sizeof(uint64_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   const TemporaryFolder folder_;
@@ -138,7 +139,7 @@ TEST_CASE("arcs and bulges become chords of nearly their length", "[dxf]") {
   CHECK(lowest == Approx(-500));
 }
 
-TEST_CASE("what is no plan is refused in words", "[dxf]") {
+TEST_CASE("a file that is not a plan is rejected with a message", "[dxf]") {
   const auto refusal = [](const std::string& text) {
     const auto plan = dxf_plan_of(text, "x.dxf");
     return plan ? std::string("read") : plan.problem().text();
@@ -155,7 +156,7 @@ TEST_CASE("what is no plan is refused in words", "[dxf]") {
         std::string::npos);
 }
 
-TEST_CASE("harmed drawings are read or refused with one sentence", "[dxf]") {
+TEST_CASE("mutated drawings are read or rejected with one sentence", "[dxf]") {
   const char* seed_text = std::getenv("LUXODUS_SEED");
   const char* count_text = std::getenv("LUXODUS_MUTATIONS");
   const uint64_t seed = seed_text != nullptr ? std::strtoull(seed_text, nullptr, 0) : 1;

@@ -4,7 +4,7 @@
 
 using namespace luxodus::fds_input;
 
-TEST_CASE("a box less a hole is the boxes about it, with its volume", "[fds_input]") {
+TEST_CASE("a box minus a hole is the boxes around the hole, with their volume", "[fds_input]") {
   Comparisons comparisons;
   const Box box{{0, 0, 0}, {3, 3, 3}};
   const auto left = without_all(box, {{{1, 1, 1}, {2, 2, 2}}}, 10, comparisons);
@@ -18,7 +18,8 @@ TEST_CASE("a box less a hole is the boxes about it, with its volume", "[fds_inpu
   CHECK(volume == Approx(26));
 }
 
-TEST_CASE("holes that cut nothing are comparisons, too, and somebody gives up", "[fds_input]") {
+TEST_CASE("holes that cut nothing count as comparisons, and too many end the computation",
+          "[fds_input]") {
   const std::vector<Box> elsewhere(100, Box{{9, 9, 9}, {10, 10, 10}});
   const Box box{{0, 0, 0}, {1, 1, 1}};
   Comparisons comparisons{0, 250};

@@ -1,5 +1,5 @@
-// Buildings of FDS input files: what they say, multiplied, cut and snapped, and how they agree with
-// what FDS made of them.
+// Buildings of FDS input files: their content, multiplied, cut and snapped, compared with the
+// results of FDS.
 #include "scenes/formats/fds_input/fds_input.hpp"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ double volume(const fds_input::Box& box) {
   return size.x * size.y * size.z;
 }
 
-/// Cells of gas of the first mesh.
+/// Gas cells of the first mesh.
 std::vector<uint8_t> gas_of(const FdsInput& input, const FdsInputOptions& options = {}) {
   const auto fire = snapped_case(input, options);
   if (!fire) FAIL(fire.problem().text());
@@ -83,7 +83,7 @@ TEST_CASE("an obstruction has its box, its surface and its colour", "[fds][input
   CHECK(input.case_name == "room");
 }
 
-TEST_CASE("a multiplied box stands where FDS would put it", "[fds][input]") {
+TEST_CASE("a multiplied box stands where FDS puts it", "[fds][input]") {
   Case fds;
   const auto lows = [&](const std::string& mult) {
     std::vector<glm::dvec3> out;
@@ -98,20 +98,20 @@ TEST_CASE("a multiplied box stands where FDS would put it", "[fds][input]") {
   CHECK(lows("DX=2, I_LOWER=-1, I_UPPER=0, DX0=1, DZ0=3") == Places{{-1, 0, 3}, {1, 0, 3}});
   CHECK(lows("DX=2, DY=3, I_UPPER=1, J_UPPER=1") ==
         Places{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {2, 3, 0}});
-  // One after another, along a diagonal.
+  // Consecutive copies, along a diagonal.
   CHECK(lows("DX=1, DZ=2, N_UPPER=2") == Places{{0, 0, 0}, {1, 0, 2}, {2, 0, 4}});
   CHECK(lows("DX=1, N_UPPER=3, N_LOWER_SKIP=1, N_UPPER_SKIP=2") == Places{{0, 0, 0}, {3, 0, 0}});
   CHECK(lows("DX=1, I_UPPER=3, I_LOWER_SKIP=3") == Places{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
-  // A column within a field is left out.
+  // A column within a field is skipped.
   CHECK(lows("DX=1, DY=1, I_UPPER=2, J_UPPER=1, I_LOWER_SKIP=1, I_UPPER_SKIP=1").size() == 4);
-  // Boxes may grow as they go.
+  // Copies may grow.
   const auto grown =
       fds.good("&MULT ID='m', DXB=0,1,0,0,0,0, N_UPPER=2 /\n&OBST XB=0,1,0,1,0,1, MULT_ID='m' /\n");
   CHECK(grown.obstructions[2].box.high.x == 3);
   CHECK(grown.obstructions[2].box.low.x == 0);
 }
 
-TEST_CASE("a hole cuts obstructions exactly, but none that forbids it", "[fds][input]") {
+TEST_CASE("a hole cuts obstructions exactly, except those that forbid it", "[fds][input]") {
   using fds_input::Box;
   const Box wall{{0, 0, 0}, {10, 0.2, 3}};
   const Box door{{4, -1, 0}, {5, 1, 2}};
@@ -123,7 +123,7 @@ TEST_CASE("a hole cuts obstructions exactly, but none that forbids it", "[fds][i
   }
   CHECK(left == Approx(volume(wall) - 1 * 0.2 * 2));
   CHECK(pieces.size() == 3);
-  // A plate is cut by a hole about it, not by one along its face.
+  // A hole around a plate cuts it, one along its face does not.
   const Box plate{{0, 0, 0}, {10, 0, 3}};
   CHECK(fds_input::without(plate, door).size() == 3);
   CHECK(fds_input::without(plate, Box{{4, 0, 0}, {5, 1, 2}}).size() == 1);
@@ -136,21 +136,20 @@ TEST_CASE("a hole cuts obstructions exactly, but none that forbids it", "[fds][i
   const auto exact = exact_building(fds.good(text), {});
   REQUIRE(exact.ok());
   CHECK(exact->solids == 4);  // three parts of the wall, and the post
-  // Parts of the wall, and the post, have the materials of their obstructions in both.
+  // Parts of the wall, and the post, keep the materials of their obstructions in both.
   CHECK(exact->tables.materials().size() ==
         snapped_building(fds.good(text), {})->tables.materials().size());
-  // 30 cells of the wall, less 2 x 2 (3.5 snaps to 4, 5.5 to 6), and the post's 1 x 2 among them.
+  // 30 cells of the wall, minus 2 x 2 (3.5 snaps to 4, 5.5 to 6), and the post's 1 x 2 among them.
   CHECK(solid_cells(fds.good(text)) == 30 - 4 + 2);
 }
 
-TEST_CASE("obstructions are the work that is heard of, once for each mesh where they snap",
-          "[fds][input]") {
+TEST_CASE("progress counts obstructions, once for each mesh if they are snapped", "[fds][input]") {
   Case fds;
   const FdsInput input = fds.good(
       "&MESH IJK=10,10,10, XB=10,20,0,10,0,10 /\n&OBST XB=1,2,5,6,0,3 /\n&OBST XB=4,5,5,6,0,3 /\n"
       "&OBST XB=11,12,5,6,0,3 /\n");
   ReadingShare exact, snapped;
-  // As much again is to be done by others, who have not begun.
+  // Others have as much work, and have not begun.
   const ReadingPart others(&exact, 3), other_meshes(&snapped, 6);
   FdsInputOptions options;
   options.reading = &exact;
@@ -178,7 +177,7 @@ TEST_CASE("cells are snapped as FDS snaps them", "[fds][input]") {
         100);
 }
 
-TEST_CASE("a clock turns obstructions, holes and openings, and what else drives them is told",
+TEST_CASE("a clock changes obstructions, holes and openings, and other drivers are named in notes",
           "[fds][input]") {
   Case fds;
   const auto input = fds.good(
@@ -207,7 +206,7 @@ TEST_CASE("a clock turns obstructions, holes and openings, and what else drives 
   CHECK_THAT(exact_building(input, options).problem().text(), Contains("\"wal\""));
 }
 
-TEST_CASE("openings leave gaps in the faces of meshes, and are places of exits", "[fds][input]") {
+TEST_CASE("openings leave gaps in the faces of meshes, and give places of exits", "[fds][input]") {
   Case fds;
   const auto built = [&](const std::string& vent) {
     auto building = exact_building(fds.good(vent), {});
@@ -226,7 +225,7 @@ TEST_CASE("openings leave gaps in the faces of meshes, and are places of exits",
   CHECK(door.exits[0] == glm::dvec3(0, 5, 0));
   CHECK(built("&VENT XB=0,0,4,6,1,2, SURF_ID='OPEN' /\n").exits.empty());
   CHECK(built("&VENT XB=0,0,4,6,0,2, SURF_ID='INERT' /\n").faces == 6);
-  // Between two meshes there is no wall; an opening there is none.
+  // Between two meshes there is no wall, so an opening there has no effect.
   const auto two =
       built("&MESH IJK=5,5,5, XB=10,20,0,10,0,10 /\n&VENT XB=10,10,0,10,0,10, SURF_ID='OPEN' /\n");
   CHECK(two.faces == 10);
@@ -287,7 +286,7 @@ TEST_CASE("colours have the names that FDS gives them", "[fds][input]") {
   CHECK_THAT(fds.good("&SURF ID='A', COLOR='MAUVE' /\n").notes.at(0), Contains("MAUVE"));
 }
 
-TEST_CASE("what changes geometry and is not read is refused by name, with its line",
+TEST_CASE("an unsupported key that changes geometry is rejected by name, with its line",
           "[fds][input]") {
   Case fds;
   CHECK_THAT(fds.fault("\n&TRNX ID='t', CC=1, PC=2 /\n"),
@@ -303,7 +302,7 @@ TEST_CASE("what changes geometry and is not read is refused by name, with its li
              Contains("CYLINDRICAL"));
 }
 
-TEST_CASE("what an input file names and does not have is refused", "[fds][input]") {
+TEST_CASE("references of an input file to missing things are rejected", "[fds][input]") {
   Case fds;
   CHECK_THAT(fds.fault("&OBST XB=0,1,0,1,0,1, MULT_ID='m' /\n"), Contains("no &MULT \"m\""));
   CHECK_THAT(fds.fault("&OBST XB=0,1,0,1,0,1, SURF_ID='S' /\n"), Contains("no &SURF \"S\""));
@@ -321,7 +320,7 @@ TEST_CASE("what an input file names and does not have is refused", "[fds][input]
   CHECK_THAT(fds.fault("&HEAD CHID='../x' /\n"), Contains("CHID"));
 }
 
-TEST_CASE("files that &CATF names count, within the folder alone", "[fds][input]") {
+TEST_CASE("files that &CATF names are read, within the folder only", "[fds][input]") {
   Case fds;
   fds.folder.write(
       "more.fds",

@@ -1,6 +1,6 @@
-// Harmed input files of FDS: whatever stands in them, they are read or refused with one sentence,
-// in bounded time and memory. The seed is LUXODUS_SEED, or 1; LUXODUS_MUTATIONS says how many files
-// are harmed.
+// Mutated input files of FDS: whatever their content, they are read or rejected with one sentence,
+// in bounded time and memory. The seed is LUXODUS_SEED, or 1; LUXODUS_MUTATIONS sets how many files
+// are mutated.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <cstring>
@@ -42,7 +42,7 @@ const std::string whole_input =
     "&GEOM CYLINDER_ORIGIN=5,1,1, CYLINDER_LENGTH=0.5, CYLINDER_RADIUS=0.2 /\n"
     "&CATF OTHER_FILES='more.fds' /\n&TAIL /\n";
 
-/// A word becomes another one, or a line comes twice or not at all.
+/// Replaces a word, or repeats or removes a line.
 std::string harmed_words(std::string text, Random& random) {
   static const char* const words[] = {"-1",       "0",    "1e308", "99999999*1", "nan",    "1e6",
                                       "-999999",  "4096", "'a'",   "'",          "/",      "&OBST",
@@ -83,7 +83,8 @@ std::string harmed_input(const std::string& whole, const std::string& other, Ran
 
 }  // namespace
 
-TEST_CASE("harmed input files of FDS are read or refused with one sentence", "[fds][input][fuzz]") {
+TEST_CASE("mutated input files of FDS are read or rejected with one sentence",
+          "[fds][input][fuzz]") {
   const TemporaryFolder folder;
   const std::string more = "&OBST ID='table', XB=2,3,1,2,0.5,0.6 /\n&HOLE XB=2,3,0,1,0,1 /\n";
   folder.write("more.fds", more);

@@ -48,7 +48,7 @@ TEST_CASE("a group runs from '&' at the start of a line to '/', and all else is 
   CHECK_FALSE(problem);
 }
 
-TEST_CASE("subscripts, repeated and missing values and doubled quotes are taken as Fortran does",
+TEST_CASE("subscripts, repeated and missing values and doubled quotes are read as in Fortran",
           "[fds][input]") {
   const std::string text =
       "&OBST ID='it''s', RGB(2)=7, RGB(1)=6, XB(1:6)=2*0,1,3*2., rgb(3) = 8 /\n"
@@ -66,7 +66,8 @@ TEST_CASE("subscripts, repeated and missing values and doubled quotes are taken 
   CHECK_FALSE(problem);
 }
 
-TEST_CASE("what is not closed or has no name is refused with its line", "[fds][input]") {
+TEST_CASE("an unclosed group or text, or a value without a name, is rejected with its line",
+          "[fds][input]") {
   using Catch::Contains;
   CHECK_THAT(fault_of("\n&OBST XB=0,1\n"), Contains("case.fds:2:") && Contains("not closed"));
   CHECK_THAT(fault_of("&OBST XB=0\n&OBST XB=1 /\n"), Contains(":1:") && Contains("not closed"));
@@ -77,7 +78,7 @@ TEST_CASE("what is not closed or has no name is refused with its line", "[fds][i
   CHECK_THAT(fault_of("&OBST XB=7999999*1, 2, 3 /\n"), Contains("more than 8000000 values"));
 }
 
-TEST_CASE("a key of another type is refused with its line", "[fds][input]") {
+TEST_CASE("a value of the wrong type is rejected with its line", "[fds][input]") {
   using Catch::Contains;
   const std::string file = "case.fds";
   const auto fault = [&](const std::string& text, const auto& ask) {

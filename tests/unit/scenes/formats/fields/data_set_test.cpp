@@ -86,7 +86,7 @@ TEST_CASE("an attached NRRD gives its values, x fastest, and its box", "[format]
   CHECK(loaded.spacing == glm::dvec3(0.1, 0.2, 0.5));
 }
 
-TEST_CASE("a detached NRRD reads its data file, behind skipped lines and bytes", "[format][nrrd]") {
+TEST_CASE("a detached NRRD reads its data file, after skipped lines and bytes", "[format][nrrd]") {
   const TemporaryFolder folder;
   folder.write("a.raw", "a line\nanother\n#!" + bytes_of(six));
   for (const char* skip : {"line skip: 2\nbyte skip: 2\n", "byte skip: 17\n", "byteskip: -1\n"}) {
@@ -110,7 +110,7 @@ TEST_CASE("8-bit NRRD samples are mapped to the range they state", "[format][nrr
   }
 }
 
-TEST_CASE("an NRRD says which field it is, and may hold several", "[format][nrrd]") {
+TEST_CASE("an NRRD names its field, and may hold several", "[format][nrrd]") {
   const TemporaryFolder folder;
   const auto named =
       read_ok(folder.write("a.nrrd", nrrd_head + "field:=emission\n\n" + bytes_of(six)));
@@ -132,7 +132,7 @@ TEST_CASE("an NRRD says which field it is, and may hold several", "[format][nrrd
   for (size_t i = 0; i < 6; ++i) CHECK(both.data.albedo[i] == six[i] / 10);
 }
 
-TEST_CASE("NRRD places by directions and units come out in metres", "[format][nrrd]") {
+TEST_CASE("NRRD origins, directions and units are converted to metres", "[format][nrrd]") {
   const TemporaryFolder folder;
   const std::string head =
       replaced(nrrd_head, "spacings: 0.1 0.2 0.5\n",
@@ -159,7 +159,7 @@ TEST_CASE("soot density becomes extinction by the mass extinction", "[format][da
   }
 }
 
-TEST_CASE("a large NRRD is read whole, across the blocks it is read in", "[format][nrrd]") {
+TEST_CASE("a large NRRD is read completely, in blocks", "[format][nrrd]") {
   const TemporaryFolder folder;
   std::vector<float> many(100 * 90 * 80);
   for (size_t i = 0; i < many.size(); ++i) many[i] = static_cast<float>(i);
@@ -167,7 +167,7 @@ TEST_CASE("a large NRRD is read whole, across the blocks it is read in", "[forma
   CHECK(read_ok(folder.write("a.nrrd", head + "\n" + bytes_of(many))).data.extinction == many);
 }
 
-TEST_CASE("malformed NRRD files are refused with the line and what to do", "[format][nrrd]") {
+TEST_CASE("malformed NRRD files are rejected with the line and a remedy", "[format][nrrd]") {
   const TemporaryFolder folder;
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
@@ -287,7 +287,7 @@ TEST_CASE("a VTI gives several fields from appended bytes, raw or base64", "[for
 TEST_CASE("VTI point values become the mean of each cell's corners", "[format][vti]") {
   const TemporaryFolder folder;
   // A linear field f = x + 10 y + 100 z on 4 x 3 x 2 points: the mean is the value at the cell's
-  // middle.
+  // centre.
   std::string text;
   for (int z = 0; z < 2; ++z) {
     for (int y = 0; y < 3; ++y) {
@@ -304,14 +304,14 @@ TEST_CASE("VTI point values become the mean of each cell's corners", "[format][v
             Approx(x + 0.5 + 10 * (y + 0.5) + 100 * 0.5));
     }
   }
-  // A negative point is not hidden by its neighbours.
+  // Averaging does not hide a negative point.
   const std::string negative = replaced(content, "12 ", "-12 ");
   const auto refused = read_data_set(folder.write("b.vti", negative));
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.problem().what.find("point") != std::string::npos);
 }
 
-TEST_CASE("a VTI whose extent does not start at 0 stands where its cells are", "[format][vti]") {
+TEST_CASE("a VTI whose extent does not start at 0 is placed where its cells are", "[format][vti]") {
   const TemporaryFolder folder;
   std::string content = vti(cell_array("extinction", "Float32", "ascii", "1 1 1 1 1 1"));
   content =
@@ -321,8 +321,7 @@ TEST_CASE("a VTI whose extent does not start at 0 stands where its cells are", "
   CHECK(glm::length(loaded.origin - glm::dvec3(2, 1, 3)) < 1e-12);
 }
 
-TEST_CASE("arrays of other names are passed over, also those of the file's own fields",
-          "[format][vti]") {
+TEST_CASE("arrays with unknown names are ignored, even those of FieldData", "[format][vti]") {
   const TemporaryFolder folder;
   const std::string time =
       "<FieldData><DataArray type=\"Float64\" Name=\"extinction\" NumberOfTuples=\"1\" "
@@ -335,7 +334,7 @@ TEST_CASE("arrays of other names are passed over, also those of the file's own f
   CHECK(loaded.data.extinction[1] == Approx(0.87));
 }
 
-TEST_CASE("malformed VTI files are refused with the line and what to do", "[format][vti]") {
+TEST_CASE("malformed VTI files are rejected with the line and a remedy", "[format][vti]") {
   const TemporaryFolder folder;
   const std::string good = vti(cell_array("extinction", "Float32", "ascii", "0 1 2 3 4 5"));
   const std::string header = bytes_of<uint32_t>({24});
@@ -444,7 +443,7 @@ TEST_CASE("malformed VTI files are refused with the line and what to do", "[form
   CHECK(result.problem().where.line == 4);
 }
 
-TEST_CASE("an extinction that no matter has is refused with its cell", "[format][data_set]") {
+TEST_CASE("an impossible extinction is rejected with its cell", "[format][data_set]") {
   const TemporaryFolder folder;
   const auto ascii = [](const std::string& name, const std::string& first) {
     return vti(cell_array(name, "Float64", "ascii", first + " 0 0 0 0 0"));
@@ -458,7 +457,7 @@ TEST_CASE("an extinction that no matter has is refused with its cell", "[format]
   check_refused(folder, "a.nrrd", {"nrrd", nrrd, "cell (1, 0, 0)"});
 }
 
-TEST_CASE("a data set of another kind, or that is not there, is refused", "[format][data_set]") {
+TEST_CASE("a data set of another kind, or a missing one, is rejected", "[format][data_set]") {
   const TemporaryFolder folder;
   CHECK_FALSE(read_data_set(folder.write("a.vdb", "x")).ok());
   CHECK_FALSE(read_data_set(folder / "absent.nrrd").ok());
@@ -467,9 +466,9 @@ TEST_CASE("a data set of another kind, or that is not there, is refused", "[form
   CHECK_FALSE(read_data_set(folder / "folder.nrrd").ok());
 }
 
-TEST_CASE("a damaged data set is refused or read, and never more than it holds",
+TEST_CASE("a damaged data set is rejected or read, and never beyond its end",
           "[format][data_set]") {
-  // Every byte of the text changed in turn; run under the sanitizers this finds reads past the end.
+  // Every byte of the text is changed in turn; under the sanitizers this finds reads past the end.
   const TemporaryFolder folder;
   const std::string values = bytes_of<uint32_t>({24}) + bytes_of(six);
   const std::string appended =
@@ -499,7 +498,7 @@ TEST_CASE("a damaged data set is refused or read, and never more than it holds",
   CHECK(read > 0);
 }
 
-TEST_CASE("256 arrays that share their bytes are refused before any is decoded",
+TEST_CASE("256 arrays that share their bytes are rejected before any is decoded",
           "[format][vti][hostile]") {
   const TemporaryFolder folder;
   std::string arrays = "<CellData>";
@@ -513,14 +512,14 @@ TEST_CASE("256 arrays that share their bytes are refused before any is decoded",
   CHECK(read.problem().what.find("\"extinction\" would be given twice") != std::string::npos);
 }
 
-TEST_CASE("a sparse file that claims more memory than the machine has is refused unread",
+TEST_CASE("a sparse file that declares more memory than the machine has is rejected unread",
           "[format][nrrd][hostile]") {
   CHECK(data_set::memory_fault(1000, 8).empty());
   const std::string told = data_set::memory_fault(uint64_t{1} << 45, 2);
   CHECK(told.find("GiB of memory, this machine has") != std::string::npos);
 }
 
-TEST_CASE("samples of a file that a header names are not told", "[format][nrrd][hostile]") {
+TEST_CASE("messages do not show samples of a file that a header names", "[format][nrrd][hostile]") {
   const TemporaryFolder folder;
   const std::string secret = folder.write("secret", "root:x:0:0:abcdefgh");
   const std::string header =
@@ -532,7 +531,7 @@ TEST_CASE("samples of a file that a header names are not told", "[format][nrrd][
   CHECK(read.problem().what.find("114") == std::string::npos);  // the letter r
 }
 
-TEST_CASE("what a data set says is quoted short and without what a terminal obeys",
+TEST_CASE("text of a data set is quoted short and without control characters",
           "[format][data_set][hostile]") {
   const TemporaryFolder folder;
   const std::string word = "\x1b[2J\xFF" + std::string(500, 'x');

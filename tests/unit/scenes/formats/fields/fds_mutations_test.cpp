@@ -1,6 +1,6 @@
-// Harmed files of a fire simulation: whatever stands in them, they are read or refused with one
-// sentence, in bounded memory. The seed is LUXODUS_SEED, or 1; LUXODUS_MUTATIONS says how many
-// files are harmed (a sanitizer build has run 500 000).
+// Mutated files of a fire simulation: whatever their content, they are read or rejected with one
+// sentence, in bounded memory. The seed is LUXODUS_SEED, or 1; LUXODUS_MUTATIONS sets how many
+// files are mutated (a sanitizer build has run 500 000).
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <map>
@@ -68,7 +68,7 @@ std::map<std::string, std::string> whole_case() {
   return out;
 }
 
-/// A word of the text becomes another one, or a line comes twice or not at all.
+/// Replaces a word, or repeats or removes a line.
 std::string harmed_text(std::string text, Random& random) {
   static const char* const words[] = {"-1",  "0",    "1",    "2",     "99999999999", "1e308",
                                       "nan", "8192", "4096", "65535", "GRID",        "../x",
@@ -104,7 +104,7 @@ std::string harmed(const std::string& name, const std::string& whole, const std:
 
 }  // namespace
 
-TEST_CASE("harmed results of FDS are read or refused with one sentence", "[format][fds][fuzz]") {
+TEST_CASE("mutated results of FDS are read or rejected with one sentence", "[format][fds][fuzz]") {
   const auto whole = whole_case();
   std::vector<std::string> names;
   const TemporaryFolder folder;
@@ -126,7 +126,7 @@ TEST_CASE("harmed results of FDS are read or refused with one sentence", "[forma
   uint64_t read = 0;
   const uint64_t tries = said_number("LUXODUS_MUTATIONS", 3000);
   for (uint64_t i = 0; i < tries; ++i) {
-    // Half of the harms are to the index, which all else follows from.
+    // Half of the mutations change the index, on which all else depends.
     const std::string name =
         random.bits() % 2 == 0 ? "case.smv" : names[random.bits() % names.size()];
     const std::string& other = whole.at(names[random.bits() % names.size()]);

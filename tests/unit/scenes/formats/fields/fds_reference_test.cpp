@@ -1,6 +1,6 @@
-// Results of FDS 6.9 and 6.7 against values that an independent reader took from them
-// (../shared/data/fds_results): optical depths of lines as the tracer has them, and integrals of
-// extinction. Data that is absent is skipped aloud.
+// Results of FDS 6.9 and 6.7 against values that an independent reader extracted from them
+// (../shared/data/fds_results): optical depths of lines as in the tracer, and integrals of
+// extinction. A test warns if its data is absent.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::filesystem::path index_of(const std::string& name) {
   return fds_results / name / (name + ".smv");
 }
 
-/// Rows of a table by the names of its columns; what is no number is left out.
+/// Rows of a table by column name; cells that are not numbers are left out.
 std::vector<std::map<std::string, double>> table(const std::filesystem::path& path) {
   std::ifstream in(path);
   std::string line, field;
@@ -99,7 +99,7 @@ struct Distances {
   }
 };
 
-/// Of lines with smoke: how far the optical depth is from a column of the reference.
+/// For lines with smoke: relative differences of the optical depth from a column of the reference.
 Distances distances(const std::string& name, FireSource source, const std::string& column) {
   Distances out;
   std::map<double, MediaSet> at;
@@ -137,12 +137,12 @@ double reference_total(const std::string& name, double t) {
 struct Agreement {
   const char* name;
   FireSource source;
-  double median, most;  // of optical depths of lines, against the cells
+  double median, most;  // of optical depths of lines, relative to the cells
   double total;         // of the integral of extinction
 };
 
 /// NOTES.md of the data: nodes 13 % at most, Smoke3D corrected 15 % and 10 %, integrals 0.1 % and
-/// 1.3 %; what is done here is better, because the blur of nodes is undone. The uniform case is one
+/// 1.3 %; the reader does better, because it removes the blur of nodes. The uniform case is one
 /// byte of Smoke3D, whose rounding is 0.39 %.
 const Agreement agreements[] = {
     {"corridor", FireSource::cell_extinction, 1e-5, 1e-3, 1e-5},
@@ -186,19 +186,19 @@ TEST_CASE("optical depths and integrals of FDS's smoke agree with an independent
   }
 }
 
-TEST_CASE("PLOT3D of FDS is read at the time of its file's name", "[format][fds]") {
+TEST_CASE("PLOT3D of FDS is read at the time in its file's name", "[format][fds]") {
   if (!results_are_there()) return;
   const LoadedFire plot = fire_of("corridor", 45, FireSource::plot3d);
   CHECK(plot.time_s == Approx(45.02));
   const LoadedFire at_90 = fire_of("corridor", 90, FireSource::plot3d);
   CHECK(total(at_90) == Approx(reference_total("corridor", 90)).epsilon(0.002));
-  // The index says extinction where the nodes' slice is: the same numbers.
+  // The index has the node slice of extinction at this time, with the same numbers.
   const LoadedFire nodes = fire_of("corridor", 90, FireSource::node_extinction);
   REQUIRE(at_90.grids.size() == nodes.grids.size());
   CHECK(at_90.grids[0].data.extinction == nodes.grids[0].data.extinction);
 }
 
-TEST_CASE("the best source near the time is taken from a real case", "[format][fds]") {
+TEST_CASE("the best source near the time is used in a real case", "[format][fds]") {
   if (!results_are_there()) return;
   const auto taken = [](double at_s) {
     FireOptions options;
@@ -225,7 +225,7 @@ TEST_CASE("the curtain of the corridor is solid until it vanishes at 40.06 s", "
   CHECK(inside(60) > 0.5);
 }
 
-TEST_CASE("flames of a real case have the heat of its table, where HRRPUV is", "[format][fds]") {
+TEST_CASE("flames of a real case have the heat of its table, if there is HRRPUV", "[format][fds]") {
   if (!results_are_there()) return;
   FireOptions options;
   options.at_s = 60;

@@ -1,5 +1,5 @@
-// Reading of fire simulations, by cases that the tests write themselves: what each kind of file
-// means, walls and seams, time, and what is refused.
+// Reading of fire simulations, from cases that the tests write: each kind of file, walls and seams,
+// time, and rejected cases.
 #include "scenes/formats/fields/fds.hpp"
 
 #include <catch2/catch.hpp>
@@ -19,7 +19,7 @@ SmallMesh one_mesh() {
   return even_mesh({1, 2, 0}, {0.5, 0.5, 0.5}, {4, 3, 2});
 }
 
-/// Extinction that tells its cell: 1 + i + 10 j + 100 k.
+/// An extinction that identifies its cell: 1 + i + 10 j + 100 k.
 float numbered(int i, int j, int k) {
   return static_cast<float>(1 + i + 10 * j + 100 * k);
 }
@@ -55,7 +55,7 @@ LoadedFire good_fire(const Result<LoadedFire>& fire) {
   return fire.value();
 }
 
-/// What is said of a case that is refused.
+/// The message for a rejected case.
 std::string refusal(const Result<LoadedFire>& fire) {
   REQUIRE_FALSE(fire.ok());
   return fire.problem().text();
@@ -92,7 +92,7 @@ TEST_CASE("a cell-centred slice is read without its ghosts, x fastest, in absolu
   CHECK(fire.cells == 24);
 }
 
-TEST_CASE("cells in obstructions hold no smoke, whatever a file says there", "[format][fds]") {
+TEST_CASE("cells in obstructions have no smoke, whatever a file states there", "[format][fds]") {
   SmallCase small;
   small.mesh.obstructions = {{1, 2, 0, 3, 0, 1}, {3, 3, 0, 3, 0, 2}};  // the second is a plate
   small.write_index();
@@ -115,7 +115,7 @@ TEST_CASE("obstructions vanish and appear at their times", "[format][fds]") {
   CHECK(extinction_at_cell(fire, 0, 3, 0, 0) > 0);   // will appear
 }
 
-TEST_CASE("nodes in solids hold what they like: no cell of gas takes it", "[format][fds]") {
+TEST_CASE("values at nodes in solids do not affect cells of gas", "[format][fds]") {
   SmallCase small;
   small.mesh = even_mesh({0, 0, 0}, {0.5, 0.5, 0.5}, {4, 1, 1});
   small.mesh.obstructions = {{2, 4, 0, 1, 0, 1}};
@@ -134,7 +134,7 @@ TEST_CASE("nodes in solids hold what they like: no cell of gas takes it", "[form
   CHECK(extinction_at_cell(fire, 0, 3, 0, 0) == 0);
 }
 
-TEST_CASE("the mass extinction is FDS's unless it is stated", "[format][fds]") {
+TEST_CASE("the mass extinction is that of FDS unless stated", "[format][fds]") {
   SmallCase small;
   small.write_index(smoke_entry(1, "none.s3d", "SOOT DENSITY", "4350.0"));
   FireOptions options;
@@ -149,9 +149,10 @@ TEST_CASE("the mass extinction is FDS's unless it is stated", "[format][fds]") {
   CHECK(extinction() == Approx(2));
 }
 
-TEST_CASE("Smoke3D is undone at walls where the run began without smoke, and not elsewhere",
+TEST_CASE("Smoke3D is corrected at walls if the run began without smoke, and not otherwise",
           "[format][fds]") {
-  // A closed box of even smoke: 0.4 /m in cells of 0.5 x 0.25 x 1 m, a byte of 254 (1 - exp(-0.2)).
+  // A closed box of uniform smoke: 0.4 /m in cells of 0.5 x 0.25 x 1 m, a byte of 254 (1 -
+  // exp(-0.2)).
   TemporaryFolder folder;
   SmallMesh mesh = even_mesh({0, 0, 0}, {0.5, 0.25, 1}, {4, 4, 3});
   mesh.openings = {{2, 2, 0, 1, 0, 3}};  // the face x = 2
@@ -176,7 +177,7 @@ TEST_CASE("Smoke3D is undone at walls where the run began without smoke, and not
   const LoadedFire corrected = good_fire(read_fire(folder / "case.smv", options));
   CHECK(corrected.source == FireSource::smoke3d);
   for (const float v : corrected.grids[0].data.extinction) CHECK(v == Approx(0.4).epsilon(0.07));
-  // Began with smoke: nodes at walls already have it all.
+  // It began with smoke: nodes at walls already have the full value.
   const auto even = node_values(mesh, [&](int, int, int) { return byte_of(0.4); });
   folder.write("a.s3d", smoke3d_file(mesh, {{0, even}, {5, even}}));
   const LoadedFire raw = good_fire(read_fire(folder / "case.smv", options));
@@ -212,7 +213,7 @@ TEST_CASE("meshes on one lattice become one grid, and each point has its own mes
   CHECK(fire.meshes.size() == 3);
 }
 
-TEST_CASE("where meshes overlap the first is taken, and no smoke counts twice", "[format][fds]") {
+TEST_CASE("where meshes overlap the first is used, and no smoke counts twice", "[format][fds]") {
   TemporaryFolder folder;
   const SmallMesh first = even_mesh({0, 0, 0}, {0.5, 0.5, 0.5}, {2, 2, 2});
   const SmallMesh second = even_mesh({0.5, 0, 0}, {0.5, 0.5, 0.5}, {3, 2, 2});
@@ -254,7 +255,7 @@ TEST_CASE("a stretched mesh keeps its integral and its optical depths across cel
   CHECK(d.nz >= 20);
 }
 
-TEST_CASE("the frame nearest to the time is taken, and a time beyond the results is refused",
+TEST_CASE("the frame nearest to the time is used, and a time beyond the results is rejected",
           "[format][fds]") {
   const SmallCase small;
   CHECK(good_fire(small.read(4)).time_s == 0);
@@ -264,7 +265,7 @@ TEST_CASE("the frame nearest to the time is taken, and a time beyond the results
   CHECK(says(refusal(small.read(-2)), "there is no frame near -2 s"));
 }
 
-TEST_CASE("between two frames smoke is linear, if that is asked for, and a frame is itself",
+TEST_CASE("between two frames smoke is interpolated on request, and a frame's time gives the frame",
           "[format][fds]") {
   TemporaryFolder folder;
   const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {2, 1, 1});
@@ -299,7 +300,7 @@ TEST_CASE("between two frames smoke is linear, if that is asked for, and a frame
   CHECK_FALSE(at(-0.5).between_frames);
 }
 
-TEST_CASE("between frames the source counts whose two frames around the time are nearest",
+TEST_CASE("between frames, the source whose two frames are nearest to the time is used",
           "[format][fds]") {
   TemporaryFolder folder;
   const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {2, 1, 1});
@@ -320,13 +321,13 @@ TEST_CASE("between frames the source counts whose two frames around the time are
   };
   CHECK(source_at(11.5, false) == FireSource::cell_extinction);
   CHECK(source_at(11.5, true) == FireSource::smoke3d);
-  // A frame within the second does not do where the other one is far; one at the time does.
+  // A frame within a second is not enough if the other one is far; one at the time is.
   CHECK(source_at(10.5, false) == FireSource::cell_extinction);
   CHECK(source_at(10.5, true) == FireSource::smoke3d);
   CHECK(source_at(10, true) == FireSource::cell_extinction);
 }
 
-TEST_CASE("a tick that stands twice, after a restart, is one frame to what lies between",
+TEST_CASE("a tick written twice, after a restart, is one frame for interpolation",
           "[format][fds]") {
   TemporaryFolder folder;
   const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
@@ -360,7 +361,7 @@ TEST_CASE("a file of a run in progress is read up to its last whole frame", "[fo
   }
 }
 
-TEST_CASE("frames count that all meshes have", "[format][fds]") {
+TEST_CASE("only frames that all meshes have are counted", "[format][fds]") {
   TemporaryFolder folder;
   const SmallMesh a = even_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
   const SmallMesh b = even_mesh({1, 0, 0}, {1, 1, 1}, {1, 1, 1});
@@ -384,7 +385,7 @@ TEST_CASE("a fire without soot in any frame is an error, one before its smoke is
   CHECK(says(refusal(none.read()), "SOOT_YIELD is not set"));
 }
 
-TEST_CASE("flames have their share of the heat, and their own soot is taken out", "[format][fds]") {
+TEST_CASE("flames have their share of the heat, and their own soot is removed", "[format][fds]") {
   SmallCase small;
   small.folder.write("h.s3d",
                      smoke3d_file(small.mesh, {{10, node_values(small.mesh, [](int i, int, int) {
@@ -410,7 +411,8 @@ TEST_CASE("flames have their share of the heat, and their own soot is taken out"
   CHECK(extinction_at_cell(smoke, 0, 0, 0, 0) == 1);
 }
 
-TEST_CASE("flames without HRRPUV, and heat that no line gives, are refused", "[format][fds]") {
+TEST_CASE("flames without HRRPUV, or at a time without heat release, are rejected",
+          "[format][fds]") {
   SmallCase small;
   FireOptions options;
   options.at_s = 10;
@@ -433,7 +435,7 @@ TEST_CASE("flames without HRRPUV, and heat that no line gives, are refused", "[f
   }
 }
 
-TEST_CASE("what is wrong with an index is said with its line", "[format][fds]") {
+TEST_CASE("mistakes in an index are reported with their line", "[format][fds]") {
   const SmallCase small;
   const std::string whole =
       index_of_meshes({small.mesh}) + slice_entry(1, true, small.mesh, "a.sf", extinction_label);
@@ -470,7 +472,7 @@ TEST_CASE("what is wrong with an index is said with its line", "[format][fds]") 
   }
 }
 
-TEST_CASE("results that are damaged, of another mesh or of another folder are refused",
+TEST_CASE("results that are damaged, of another mesh or in another folder are rejected",
           "[format][fds]") {
   const SmallCase small;
   const std::string whole =
@@ -515,7 +517,7 @@ TEST_CASE("results that are damaged, of another mesh or of another folder are re
   CHECK(says(refusal(small.read()), "not in the folder"));
 }
 
-TEST_CASE("Smoke3D that does not unpack to its mesh is refused", "[format][fds]") {
+TEST_CASE("Smoke3D that does not unpack to its mesh is rejected", "[format][fds]") {
   TemporaryFolder folder;
   const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {3, 3, 3});
   folder.write("case.smv", index_of_meshes({mesh}) + smoke_entry(1, "a.s3d", "SOOT DENSITY"));
@@ -554,7 +556,7 @@ TEST_CASE("Smoke3D that does not unpack to its mesh is refused", "[format][fds]"
   CHECK(good_fire(read_fire(folder / "case.smv", options)).frames == 1);
 }
 
-TEST_CASE("what is not read of a case is named where there is nothing else", "[format][fds]") {
+TEST_CASE("the unread content of a case is named if there is nothing else", "[format][fds]") {
   const TemporaryFolder folder;
   const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
   folder.write("fire.smv",
@@ -568,7 +570,7 @@ TEST_CASE("what is not read of a case is named where there is nothing else", "[f
                  Catch::Contains("add &SLCF XB=..., QUANTITY='EXTINCTION COEFFICIENT'"));
 }
 
-TEST_CASE("a slice of a part of a mesh is no source", "[format][fds]") {
+TEST_CASE("a slice of part of a mesh is not a source", "[format][fds]") {
   SmallCase small;
   small.folder.write(
       "case.smv",

@@ -24,7 +24,7 @@ FireVisibility at_time(const TemporaryFolder& folder, double time_s) {
 
 }  // namespace
 
-TEST_CASE("a flat slice of visibility has values near its plane, at times that it has",
+TEST_CASE("a flat slice of visibility has values near its plane, at times with frames",
           "[fds][visibility]") {
   const TemporaryFolder folder;
   // 4 x 2 x 3 m; a slice at 2 m that rises by 1 m a metre along x, and by 10 m along y.
@@ -49,7 +49,7 @@ TEST_CASE("a flat slice of visibility has values near its plane, at times that i
   CHECK_FALSE(between.value());
 }
 
-TEST_CASE("of slices of cells each place has the value of its cell, of the nearest slice",
+TEST_CASE("in slices of cells a place has the value of its cell, of the nearest slice",
           "[fds][visibility]") {
   const TemporaryFolder folder;
   const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {3, 2, 2});
@@ -76,7 +76,7 @@ TEST_CASE("of slices of cells each place has the value of its cell, of the neare
   CHECK_FALSE(v.at({1, 1, 0.5}));
 }
 
-TEST_CASE("a case without slices of visibility has none, and damaged ones are refused",
+TEST_CASE("a case without slices of visibility has none, and damaged ones are rejected",
           "[fds][visibility]") {
   const TemporaryFolder folder;
   const SmallMesh mesh = even_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
@@ -124,8 +124,8 @@ TEST_CASE("FDS's slices of visibility are those of its extinction", "[fds][visib
   const auto v = read_visibility(index, frame.time_s);
   REQUIRE(v.ok());
   REQUIRE(v.value());
-  // Node values are means over cells, so that 3 / K of means is not the mean of 3 / K, but at most
-  // it; where the cap of 30 m is far.
+  // Node values are means over cells; 3 / K of a mean is at most the mean of 3 / K, where the cap
+  // of 30 m is not reached.
   const fds::Mesh& mesh = fire->meshes[0];
   const glm::ivec3 n = mesh.node_counts();
   std::vector<double> ratios;

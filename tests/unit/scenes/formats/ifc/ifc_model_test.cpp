@@ -1,4 +1,4 @@
-// What a model says of a building: units, places, storeys, types, properties, volumes.
+// The content of a model: units, placements, storeys, types, properties, volumes.
 #include "scenes/formats/ifc/ifc_model.hpp"
 
 #include <catch2/catch.hpp>
@@ -33,7 +33,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
 
 }  // namespace
 
-TEST_CASE("places are in metres, in any unit and however far", "[ifc]") {
+TEST_CASE("placements are in metres, in any unit and however far from the origin", "[ifc]") {
   for (const bool feet : {false, true}) {
     SmallIfc small;
     small.feet = feet;
@@ -80,7 +80,7 @@ TEST_CASE("products know their storey, type, materials and properties", "[ifc]")
   CHECK(north.volume_m3 == std::optional<double>(3.24));
 }
 
-TEST_CASE("material lists that hold themselves many times are gone through once", "[ifc]") {
+TEST_CASE("material lists that contain themselves many times are visited once", "[ifc]") {
   SmallIfc small;
   const std::string text = small.text(), material = "IFCMATERIAL('Brick',$,$)";
   const size_t at = text.find(material), line = text.rfind('#', at);
@@ -92,7 +92,7 @@ TEST_CASE("material lists that hold themselves many times are gone through once"
   for (const IfcProduct& product : model.products) CHECK(product.materials.empty());
 }
 
-TEST_CASE("a volume counts in the model's unit of volume", "[ifc]") {
+TEST_CASE("a volume is converted from the model's unit of volume", "[ifc]") {
   SmallIfc small;
   small.wall_volume_m3 = 3.24;
   const std::string litres = with(small.text(), "IFCSIUNIT(*,.VOLUMEUNIT.,$,.CUBIC_METRE.)",
@@ -100,14 +100,14 @@ TEST_CASE("a volume counts in the model's unit of volume", "[ifc]") {
   CHECK(*named(model_of(litres), small.north_guid).volume_m3 == Approx(0.00324));
 }
 
-TEST_CASE("a model without a unit of length is refused", "[ifc]") {
+TEST_CASE("a model without a unit of length is rejected", "[ifc]") {
   SmallIfc small;
   const auto model = ifc_model_of(with(small.text(), ".LENGTHUNIT.", ".MASSUNIT."), "small.ifc");
   REQUIRE_FALSE(model.ok());
   CHECK(model.problem().what.find("no unit of length") != std::string::npos);
 }
 
-TEST_CASE("placements that turn in circles or lead nowhere are told by their number", "[ifc]") {
+TEST_CASE("circular placements, and those that refer to nothing, are reported by number", "[ifc]") {
   SmallIfc small;
   const std::string text = small.text();
   // The storey's placement becomes one within itself.
@@ -123,7 +123,7 @@ TEST_CASE("placements that turn in circles or lead nowhere are told by their num
   CHECK(model.faults[0].what.find("has a placement that leads nowhere") != std::string::npos);
 }
 
-TEST_CASE("models of others say what their authors meant", "[ifc]") {
+TEST_CASE("models of other programs have the content that their authors meant", "[ifc]") {
   const std::filesystem::path folder = std::filesystem::path(LUX_SHARED_DATA) / "ifc";
   if (!std::filesystem::is_directory(folder)) {
     WARN("skipped: the models are not there (" << folder.string() << ")");

@@ -1,5 +1,5 @@
-// Exchange files of ISO 10303-21: values, texts, and what becomes of damaged ones. The seed is
-// LUXODUS_SEED, or 1; LUXODUS_MUTATIONS says how many models are harmed.
+// Exchange files of ISO 10303-21: values, texts, and damaged files. The seed is LUXODUS_SEED, or 1;
+// LUXODUS_MUTATIONS sets how many models are mutated.
 #include "scenes/formats/ifc/step_file.hpp"
 
 #include <catch2/catch.hpp>
@@ -35,7 +35,7 @@ uint64_t said_number(const char* name, uint64_t otherwise) {
 
 }  // namespace
 
-TEST_CASE("parameters of every kind are told apart", "[ifc]") {
+TEST_CASE("parameters of every kind are recognised", "[ifc]") {
   const auto all = values("$,*,-1.5E2,7,'it''s',.MILLI.,#12,(1,(2.,'a')),IFCLABEL('b'),\"0F\"");
   REQUIRE(all.size() == 10);
   CHECK(all[0].kind == StepValue::Kind::omitted);
@@ -51,7 +51,7 @@ TEST_CASE("parameters of every kind are told apart", "[ifc]") {
   CHECK(all[9].kind == StepValue::Kind::derived);
 }
 
-TEST_CASE("texts are UTF-8, however they were written", "[ifc]") {
+TEST_CASE("texts are decoded to UTF-8 from every encoding of the format", "[ifc]") {
   CHECK(step_text("T\\X2\\00FC\\X0\\r") == "T\xc3\xbcr");
   CHECK(step_text("T\\X\\FCr") == "T\xc3\xbcr");
   CHECK(step_text("T\\S\\|r") == "T\xc3\xbcr");
@@ -62,7 +62,7 @@ TEST_CASE("texts are UTF-8, however they were written", "[ifc]") {
   CHECK(step_text("\\X2\\00FC") == "\xc3\xbc");  // never ended
 }
 
-TEST_CASE("comments, line ends and semicolons within texts end no statement", "[ifc]") {
+TEST_CASE("comments, line ends and semicolons within texts do not end a statement", "[ifc]") {
   const StepFile file =
       step_of("/* #9=IFCX(); */ #1 = IFCX ( 'a;b' ,\n #2 ) ;#2=IFCY('/* '' */');");
   REQUIRE(file.instances().size() == 2);
@@ -73,7 +73,7 @@ TEST_CASE("comments, line ends and semicolons within texts end no statement", "[
   CHECK(file.find(9) == nullptr);
 }
 
-TEST_CASE("what is damaged is a fault with its line, and reading goes on", "[ifc]") {
+TEST_CASE("damage is a fault with its line, and reading goes on", "[ifc]") {
   const StepFile file = step_of("#1=IFCX(1);\n#x=IFCX(2);\n#3=IFCX;\n#1=IFCX(4);\n#5=IFCX(5);");
   CHECK(file.instances().size() == 2);
   REQUIRE(file.faults().size() == 3);
@@ -85,7 +85,7 @@ TEST_CASE("what is damaged is a fault with its line, and reading goes on", "[ifc
   CHECK(values(std::string(1000, '(')).empty());
 }
 
-TEST_CASE("what is no exchange file is refused in words", "[ifc]") {
+TEST_CASE("a file that is not an exchange file is rejected with a message", "[ifc]") {
   const auto refusal = [](const std::string& bytes) {
     const auto file = StepFile::of(bytes, "x.ifc");
     return file ? std::string("read") : file.problem().text();
@@ -95,7 +95,7 @@ TEST_CASE("what is no exchange file is refused in words", "[ifc]") {
   CHECK(refusal("ISO-10303-21;DATA;ENDSEC;").find("nothing in this model") != std::string::npos);
 }
 
-TEST_CASE("harmed models are read or refused with one sentence", "[ifc]") {
+TEST_CASE("mutated models are read or rejected with one sentence", "[ifc]") {
   const uint64_t seed = said_number("LUXODUS_SEED", 1);
   const uint64_t tries = said_number("LUXODUS_MUTATIONS", in_full() ? 100'000 : 3'000);
   INFO("seed " << seed);

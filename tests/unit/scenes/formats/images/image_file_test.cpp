@@ -116,7 +116,7 @@ TEST_CASE("RGB and RGBA keep their order, and alpha is linear and not multiplied
   CHECK(grey_alpha.texels[3] == Approx(0.2));
 }
 
-TEST_CASE("a palette is looked up, with its transparency where it has any", "[format][image]") {
+TEST_CASE("a palette is resolved, with its transparency if it has any", "[format][image]") {
   const TemporaryFolder folder;
   Picture picture{4, 1, 2, PNG_COLOR_TYPE_PALETTE, {0b00011011}};
   picture.palette = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}};
@@ -140,7 +140,7 @@ TEST_CASE("an interlaced PNG reads like a plain one", "[format][image]") {
   CHECK(read_ok(folder.write("b.png", encode(picture))).texels == plain.texels);
 }
 
-TEST_CASE("a PNG that states another gamma is decoded by it, and sRGB and 1/2.2 mean sRGB",
+TEST_CASE("a PNG with another gamma is decoded by it, and sRGB and 1/2.2 mean sRGB",
           "[format][image]") {
   const TemporaryFolder folder;
   Picture picture{1, 1, 8, PNG_COLOR_TYPE_GRAY, {51}};
@@ -154,7 +154,7 @@ TEST_CASE("a PNG that states another gamma is decoded by it, and sRGB and 1/2.2 
   CHECK(read_ok(folder.write("d.png", encode(picture))).texels[0] == Approx(linear_from_srgb(0.2)));
 }
 
-TEST_CASE("a damaged PNG is refused at every length and with every byte of its head changed",
+TEST_CASE("a damaged PNG is rejected at every length and with every byte of its head changed",
           "[format][image]") {
   const TemporaryFolder folder;
   Picture picture{16, 16, 8, PNG_COLOR_TYPE_RGB, {}};
@@ -171,8 +171,9 @@ TEST_CASE("a damaged PNG is refused at every length and with every byte of its h
   }
 }
 
-TEST_CASE("a PNG that claims far more pixels than it can hold is refused before memory is taken",
-          "[format][image]") {
+TEST_CASE(
+    "a PNG that declares far more pixels than it can hold is rejected before memory is allocated",
+    "[format][image]") {
   const TemporaryFolder folder;
   // Signature and a header with a right checksum, then nothing.
   std::string claims = encode({1, 1, 8, PNG_COLOR_TYPE_GRAY, {0}});
@@ -202,7 +203,7 @@ TEST_CASE("a PNG that claims far more pixels than it can hold is refused before 
   CHECK_FALSE(read_png(folder.write("c.png", with_size(1, 2'000'000'000))).ok());
 }
 
-TEST_CASE("what is no PNG, or not there, is refused by name", "[format][image]") {
+TEST_CASE("a file that is not a PNG, or is missing, is rejected by name", "[format][image]") {
   const TemporaryFolder folder;
   const auto absent = read_png(folder / "absent.png");
   REQUIRE_FALSE(absent.ok());

@@ -74,8 +74,7 @@ std::string chunk(const std::vector<std::byte>& bytes, const std::string& type) 
 
 }  // namespace
 
-TEST_CASE("float channels come back from EXR bit by bit, with everything said about them",
-          "[format][image]") {
+TEST_CASE("float channels come back from EXR bit by bit, with all attributes", "[format][image]") {
   const test::TemporaryFolder folder;
   ExrImage image = exr_example(37, 23);
   image.channels[1].values[5] = std::nanf("");
@@ -104,7 +103,7 @@ TEST_CASE("float channels come back from EXR bit by bit, with everything said ab
   CHECK(back.find("A") == nullptr);
 }
 
-TEST_CASE("half channels keep three digits and refuse what they cannot hold", "[format][image]") {
+TEST_CASE("half channels keep three digits and reject values out of range", "[format][image]") {
   const test::TemporaryFolder folder;
   ExrImage image = exr_example(16, 9);
   image.half = true;
@@ -132,7 +131,7 @@ TEST_CASE("equal pictures give equal bytes", "[format][image]") {
         read_whole_file(folder / "b.exr", 1 << 20).value());
 }
 
-TEST_CASE("an EXR picture whose parts do not fit together is refused", "[format][image]") {
+TEST_CASE("an EXR picture with contradictory parts is rejected", "[format][image]") {
   const test::TemporaryFolder folder;
   const auto refusal = [&](auto change) {
     ExrImage image = exr_example(4, 3);
@@ -160,7 +159,7 @@ TEST_CASE("an EXR picture whose parts do not fit together is refused", "[format]
              Contains("none/a.exr") && Contains("No such file"));
 }
 
-TEST_CASE("channels and texts may have odd names", "[format][image]") {
+TEST_CASE("channels and texts may have unusual names", "[format][image]") {
   const test::TemporaryFolder folder;
   ExrImage image = exr_example(2, 2);
   image.channels.resize(2);
@@ -198,7 +197,7 @@ TEST_CASE("PNG pixels come back exactly, marked as sRGB", "[format][image]") {
              Contains("No such file"));
 }
 
-TEST_CASE("a PNG picture whose parts do not fit together is refused", "[format][image]") {
+TEST_CASE("a PNG picture with contradictory parts is rejected", "[format][image]") {
   PngImage image{2, 2, std::vector<uint8_t>(12), {}};
   CHECK(encode_png(image, place).ok());
   image.rgb.pop_back();

@@ -1,5 +1,5 @@
-// A room with a picture on its wall, smoke from a data set and a fire from another, some of it
-// clear: a scene of all kinds of scene parts, made as files in a folder.
+// A scene with all kinds of scene parts, made as files in a folder: a room with a picture on its
+// wall, smoke from one data set and a fire from another, partly clear.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -86,7 +86,7 @@ name = "aired"
 smoke_factor = 0
 )";
 
-/// Of each cell, by its place in cells.
+/// Value of each cell, by its indices.
 using Field = std::function<double(int x, int y, int z)>;
 
 inline std::string data_array(const std::string& name, int nx, int ny, int nz, const Field& value) {
@@ -110,8 +110,8 @@ inline std::string vti(int nx, int ny, int nz, const std::string& spacing,
 
 }  // namespace gallery
 
-/// 3 x 2 tiles of a picture; 3 x 2 x 2 bricks of smoke, of which three are clear; 2 x 1 x 2 bricks
-/// of fire.
+/// The picture has 3 x 2 tiles; the smoke 3 x 2 x 2 bricks, of which three are clear; the fire 2 x
+/// 1 x 2 bricks.
 inline std::filesystem::path write_gallery(const std::filesystem::path& folder) {
   using namespace gallery;
   const auto smoke = [](int x, int y, int z) {

@@ -1,6 +1,6 @@
-// Packs that somebody has changed on purpose: all hashes are right again, and a value is not. Each
-// is refused with a sentence, or checked, compiled and traced like any other; none ends the
-// program. The seed is LUXODUS_SEED, or 1; LUXODUS_FORGERIES packs are forged, or 1500.
+// Forged packs: all hashes are correct, but a value is not. Each is rejected with a sentence, or
+// checked, compiled and traced like any other; none crashes the program. The seed is LUXODUS_SEED,
+// or 1; LUXODUS_FORGERIES packs are forged, or 1500.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -24,7 +24,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// Lamps of all shapes, a sign of two faces, smoke of all kinds, something to measure of all kinds.
+/// Lamps of all shapes, a sign with two faces, smoke of all kinds, measurements of all kinds.
 constexpr const char* crowded_text = R"(
 [run]
 batch_particles = 512
@@ -173,11 +173,11 @@ void put_at(Bytes& bytes, size_t at, T value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
-// Places in the head, as scene_pack.cpp has them.
+// Offsets in the head, as in scene_pack.cpp.
 constexpr size_t head_bytes = 128, file_bytes_at = 16, skeleton_at = 24, skeleton_bytes_at = 32,
                  skeleton_hash_at = 40, head_hash_at = 120;
 
-/// Makes the hashes of head and skeleton right.
+/// Recomputes the hashes of head and skeleton.
 void sign_anew(Bytes& bytes) {
   const auto skeleton = value_at<uint64_t>(bytes, skeleton_at);
   const std::span<const std::byte> all(bytes);
@@ -187,7 +187,7 @@ void sign_anew(Bytes& bytes) {
   put_at<uint64_t>(bytes, head_hash_at, object_id_of(all.first(head_hash_at)).value);
 }
 
-/// Writes a value that somebody who means harm would try, or any bits.
+/// Writes a value that an attacker would try, or random bits.
 void harm(Bytes& bytes, size_t at, Random& random) {
   constexpr uint32_t words[] = {0,          1,          2,          0x7fffffff,
                                 0x80000000, 0xffffffff, 0xfffffffe, 0x00010000};
@@ -235,7 +235,8 @@ Sample sample_of(const std::shared_ptr<const SceneDescription>& description, con
   return out;
 }
 
-/// One or a few values of the skeleton, or of an object, whose name is then put right as well.
+/// Changes one or a few values of the skeleton, or of an object, whose name is then recomputed,
+/// too.
 Bytes forged(const Sample& sample, Random& random) {
   Bytes bytes = sample.bytes;
   const auto skeleton = value_at<uint64_t>(bytes, skeleton_at);
@@ -259,7 +260,7 @@ Bytes forged(const Sample& sample, Random& random) {
   return bytes;
 }
 
-/// What `check` and a short `run` do. True: it went all the way.
+/// Does what `check` and a short `run` do. True: it completed.
 bool used(const fs::path& file) {
   const auto told = [](const Problem& problem) {
     CHECK_FALSE(problem.what.empty());
@@ -273,7 +274,7 @@ bool used(const fs::path& file) {
   if (!scenario.ok()) return told(scenario.problem());
   auto scene = compile_scene(read.value(), scenario.value(), {1});
   if (!scene.ok()) return told(scene.problem());
-  // Made larger by a forger, it takes minutes and gigabytes, as a scene file of that size does.
+  // If forged to be larger, it takes minutes and gigabytes, like a scene file of that size.
   if (scene.value()->layout.scores() > 2'000'000) return false;
   if (scene.value()->groups.empty()) return false;
   for (const auto loaded : {load_bricks(*scene.value()).ok(), load_images(*scene.value()).ok()})
@@ -290,7 +291,7 @@ bool used(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("a forged pack is refused or traced, and ends no program", "[pack][hostile]") {
+TEST_CASE("a forged pack is rejected or traced, and never crashes the program", "[pack][hostile]") {
   const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "x.luxpack";
   std::vector<Sample> samples;
@@ -315,7 +316,7 @@ TEST_CASE("a forged pack is refused or traced, and ends no program", "[pack][hos
   CHECK(traced < wanted);
 }
 
-TEST_CASE("a forged value is named for what it is", "[pack][hostile]") {
+TEST_CASE("a forged value is reported by its meaning", "[pack][hostile]") {
   const test::TemporaryFolder folder;
   const auto description = gallery_in(folder.path());
   auto scene = compile_scene(description, find_scenario(*description, "smoky").value(), {2});

@@ -1,4 +1,4 @@
-// A scene that went through a pack is the same scene, to the bit; a pack that is damaged says so.
+// A scene read from a pack is the same scene, bit for bit; a damaged pack is rejected.
 #include "scenes/formats/pack/scene_pack.hpp"
 
 #include <catch2/catch.hpp>
@@ -62,7 +62,7 @@ void check_same_bits(const Totals& a, const Totals& b) {
   }
 }
 
-/// What reading says of a file with these bytes.
+/// The message for a file with these bytes.
 std::string refusal(const fs::path& file, const std::vector<std::byte>& bytes) {
   REQUIRE(write_file_atomically(file, bytes).ok());
   const auto read = read_pack(file);
@@ -75,7 +75,7 @@ std::vector<std::byte> bytes_of(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("a packed scene is the scene that was packed, and is traced to the same bits", "[pack]") {
+TEST_CASE("a packed scene equals its source, and is traced to the same bits", "[pack]") {
   const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "x.luxpack";
   struct Case {
@@ -103,7 +103,7 @@ TEST_CASE("a packed scene is the scene that was packed, and is traced to the sam
   }
 }
 
-TEST_CASE("the open sides of a scene go through a pack", "[pack]") {
+TEST_CASE("a pack keeps the open sides of a scene", "[pack]") {
   const test::TemporaryFolder folder;
   auto scene = std::make_shared<SceneDescription>(*described("empty_room.toml"));
   scene->open_sides = {Side::top, Side::west};
@@ -111,7 +111,7 @@ TEST_CASE("the open sides of a scene go through a pack", "[pack]") {
   CHECK(opened(folder / "open.luxpack")->open_sides == scene->open_sides);
 }
 
-TEST_CASE("the time, the meshes and the missing flames of a fire simulation go through a pack",
+TEST_CASE("a pack keeps the time, the meshes and the missing flames of a fire simulation",
           "[pack][fds]") {
   const test::TemporaryFolder folder;
   auto scene = std::make_shared<SceneDescription>(*gallery_in(folder.path()));
@@ -134,8 +134,7 @@ TEST_CASE("the time, the meshes and the missing flames of a fire simulation go t
   CHECK(read->meshes[0].high == glm::dvec3(1, 2, 3));
 }
 
-TEST_CASE("smoke data and pictures go through a pack as objects, and not in its skeleton",
-          "[pack]") {
+TEST_CASE("smoke data and pictures are in a pack as objects, and not in its skeleton", "[pack]") {
   const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "x.luxpack";
   const auto description = gallery_in(folder.path());
@@ -161,7 +160,7 @@ TEST_CASE("smoke data and pictures go through a pack as objects, and not in its 
   }
 }
 
-TEST_CASE("a skeleton alone compiles a scene of smoke data, whose numbers are those of the pack",
+TEST_CASE("a skeleton alone compiles a scene of smoke data, with the numbers of the pack",
           "[pack]") {
   const test::TemporaryFolder folder;
   const fs::path whole = folder.path() / "x.luxpack", skeleton = folder.path() / "s.luxpack";
@@ -183,7 +182,7 @@ TEST_CASE("a skeleton alone compiles a scene of smoke data, whose numbers are th
   CHECK_FALSE(load_images(*bare).ok());
 }
 
-TEST_CASE("a pack whose brick or tile is damaged is refused where it is read", "[pack]") {
+TEST_CASE("a pack with a damaged brick or tile is rejected where it is read", "[pack]") {
   const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "x.luxpack";
   REQUIRE(write_pack(file, *compiled(gallery_in(folder.path()), "smoky", 1), 1).ok());
@@ -206,7 +205,7 @@ TEST_CASE("a pack whose brick or tile is damaged is refused where it is read", "
   CHECK(all.problem().text().find(broken.string() + ": scene part 1 of this pack is damaged") == 0);
 }
 
-TEST_CASE("a pack serves every scenario that leaves its doors alone, and refuses the others",
+TEST_CASE("a pack serves every scenario that leaves its doors unchanged, and rejects the others",
           "[pack]") {
   const test::TemporaryFolder folder;
   const std::string text = R"(
@@ -270,7 +269,7 @@ TEST_CASE("a skeleton alone compiles, and says that it holds no triangles", "[pa
   CHECK(cell.problem().what.find("holds no objects") != std::string::npos);
 }
 
-TEST_CASE("a damaged pack is refused, wherever the damage is", "[pack]") {
+TEST_CASE("a damaged pack is rejected, wherever the damage is", "[pack]") {
   const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "x.luxpack", broken = folder.path() / "broken.luxpack";
   const auto description = described("empty_room.toml");
@@ -281,7 +280,7 @@ TEST_CASE("a damaged pack is refused, wherever the damage is", "[pack]") {
   auto cut = bytes;
   cut.resize(cut.size() - 1);
   CHECK(refusal(broken, cut).find("should have") != std::string::npos);
-  // Any bit of the head or the skeleton; what lies between are objects, checked when they are used.
+  // Any bit of the head or the skeleton; objects lie between them, and are checked when used.
   const size_t objects_end = bytes.size() - (bytes.size() / 8);
   for (size_t at = 0; at < bytes.size(); at += at < 128 || at >= objects_end ? 1 : 997) {
     auto flipped = bytes;
@@ -296,7 +295,7 @@ TEST_CASE("a damaged pack is refused, wherever the damage is", "[pack]") {
     REQUIRE(at >= 128);
     const auto scene = compiled(read.value(), "", 1);
     const auto whole = for_each_cell(*scene, [](const GeometryCell&) {});
-    // Padding between objects carries nothing.
+    // Padding between objects holds nothing.
     if (!whole.ok()) CHECK(whole.problem().what.find("damaged") != std::string::npos);
   }
   auto other_version = bytes;
@@ -304,7 +303,7 @@ TEST_CASE("a damaged pack is refused, wherever the damage is", "[pack]") {
   CHECK(refusal(broken, other_version).find("pack the scene again") != std::string::npos);
 }
 
-TEST_CASE("no bytes of a skeleton harm whoever reads them", "[pack]") {
+TEST_CASE("no bytes of a skeleton crash its reader", "[pack]") {
   const test::TemporaryFolder folder;
   const auto description = gallery_in(folder.path());
   const auto scene = compiled(description, "", 2);

@@ -1,5 +1,5 @@
-// GLDF containers: which flux a luminaire gives in which operation, what is refused, and harmed
-// files. The seed is LUXODUS_SEED, or 1; LUXODUS_MUTATIONS says how many files are harmed.
+// GLDF containers: fluxes by operation, rejected files, and mutated files. The seed is
+// LUXODUS_SEED, or 1; LUXODUS_MUTATIONS sets how many files are mutated.
 #include "scenes/formats/photometry/gldf.hpp"
 
 #include <catch2/catch.hpp>
@@ -23,7 +23,7 @@ const std::string gldf_lamp =
     "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 -1 1 3 1 1 2 -0.2 -0.2 0\n1 1 10\n0 45 90\n0\n"
     "300 200 0\n";
 
-/// A product of one variant "v" with the emitter "e": what the tests vary.
+/// A product with one variant "v" and the emitter "e", with the properties that tests vary.
 struct Product {
   std::string version = R"(<FormatVersion major="1" minor="0" pre-release="3"/>)";
   std::string file = R"(<File id="f" contentType="ldc/ies" type="localFileName">lamp.ies</File>)";
@@ -60,7 +60,7 @@ struct Product {
   }
 };
 
-/// All that a luminaire is made of.
+/// All properties of a luminaire, as text.
 std::string words_of(const GldfProduct& product, const GldfVariant& variant,
                      const GldfLight& light) {
   const auto number = [](const std::optional<double>& v) { return v ? std::to_string(*v) : "-"; };
@@ -79,7 +79,7 @@ std::string gldf_refusal(const std::string& bytes) {
   return product ? "read" : product.problem().what;
 }
 
-/// Why the one luminaire of a container cannot be had.
+/// Why the only luminaire of a container is not available.
 std::string missing(const Product& product) {
   const auto read = gldf_of(product.container(), "test.gldf");
   if (!read) return read.problem().what;
@@ -100,13 +100,13 @@ const std::string durations =
 
 }  // namespace
 
-TEST_CASE("a container says the product, its rated flux and its housing", "[photometry][gldf]") {
+TEST_CASE("a container gives the product, its rated flux and its housing", "[photometry][gldf]") {
   const GldfLuminaire luminaire = Product{}.luminaire();
   CHECK(luminaire.photometry.luminaire == "Lamp, N-7");
   CHECK(luminaire.photometry.manufacturer == "Maker");
   CHECK(luminaire.rated_lm == 1000);
   CHECK(luminaire.photometry.web->flux_lm() == Approx(1000).epsilon(1e-12));
-  // The shape stays that of the file.
+  // The photometric file determines the distribution.
   const auto& web = *luminaire.photometry.web;
   CHECK(web.intensity(toward(0, 45)) / web.intensity(toward(0, 0)) == Approx(200.0 / 300));
   const auto product = gldf_of(Product{}.container(), "test.gldf");
@@ -117,8 +117,8 @@ TEST_CASE("a container says the product, its rated flux and its housing", "[phot
 }
 
 TEST_CASE(
-    "the emergency flux is rated, or by the ballast, or the rated flux of what is for "
-    "emergencies only; else it is not known",
+    "the emergency flux is rated, or by the ballast, or the rated flux of an emergency-only "
+    "emitter, else unknown",
     "[photometry][gldf]") {
   const std::string rated = "<RatedLuminousFlux>1000</RatedLuminousFlux>";
   Product product;
@@ -137,7 +137,7 @@ TEST_CASE(
   CHECK(product.luminaire().emergency_only);
 }
 
-TEST_CASE("a stated duration takes its row of the table, and no other", "[photometry][gldf]") {
+TEST_CASE("a stated duration selects its row of the table, and no other", "[photometry][gldf]") {
   Product product;
   product.attributes = durations;
   CHECK(product.luminaire(1).emergency_lm.value() == 250);
@@ -147,7 +147,7 @@ TEST_CASE("a stated duration takes its row of the table, and no other", "[photom
   says(other.emergency_lm.problem().what, "\"1\", \"3\" h");
 }
 
-TEST_CASE("a lamp that can be changed counts with the luminaire's light output ratio",
+TEST_CASE("the flux of a changeable lamp is multiplied by the luminaire's light output ratio",
           "[photometry][gldf]") {
   std::string xml = Product{}.xml();
   const auto swap = [&](const std::string& from, const std::string& to) {
@@ -174,7 +174,7 @@ TEST_CASE("a lamp that can be changed counts with the luminaire's light output r
   CHECK(luminaire->emergency_lm.value() == Approx(luminaire->rated_lm / 10));
 }
 
-TEST_CASE("what the container does not hold is said, and nothing is fetched",
+TEST_CASE("what the container does not hold is reported, and nothing is downloaded",
           "[photometry][gldf]") {
   Product product;
   product.file = R"(<File id="f" contentType="ldc/ies" type="url">https://a.example/x</File>)";
@@ -187,7 +187,7 @@ TEST_CASE("what the container does not hold is said, and nothing is fetched",
   says(missing(product), "is not in the container");
 }
 
-TEST_CASE("a file whose name the packer spelled otherwise is found where it is the only one",
+TEST_CASE("a file whose name the packer encoded differently is found if it is the only one",
           "[photometry][gldf]") {
   Product product;
   product.file = R"(<File id="f" contentType="ldc/ies" type="localFileName">LAMP.IES</File>)";
@@ -197,7 +197,7 @@ TEST_CASE("a file whose name the packer spelled otherwise is found where it is t
   CHECK(missing(product) == "there");
 }
 
-TEST_CASE("a variant and an emitter are named where there are several", "[photometry][gldf]") {
+TEST_CASE("a variant and an emitter must be named if there are several", "[photometry][gldf]") {
   std::string xml = Product{}.xml();
   const std::string end = "</Variant>";
   const std::string second =
@@ -212,7 +212,8 @@ TEST_CASE("a variant and an emitter are named where there are several", "[photom
   CHECK(luminaire_of(product.value(), "w", "", {}).ok());
 }
 
-TEST_CASE("no container, another version and hidden entities are refused", "[photometry][gldf]") {
+TEST_CASE("a file that is not a container, another version and hidden entities are rejected",
+          "[photometry][gldf]") {
   says(gldf_refusal("hello"), "no GLDF container");
   says(gldf_refusal(zip_of({{"ldc/lamp.ies", gldf_lamp}})), "no 'product.xml'");
   says(gldf_refusal(zip_of({{"product.xml", "<Root"}})), "is no XML");
@@ -225,7 +226,7 @@ TEST_CASE("no container, another version and hidden entities are refused", "[pho
   says(gldf_refusal(product.container()), "DOCTYPE");
 }
 
-TEST_CASE("names that lead out of the archive, and entries that swell, are refused",
+TEST_CASE("names that lead out of the archive, and entries that expand too far, are rejected",
           "[photometry][gldf]") {
   const std::string xml = Product{}.xml();
   for (const char* name : {"../evil.ldt", "ldc/../../evil.ldt", "/etc/evil", "c:/evil", "a\\b"})
@@ -243,8 +244,7 @@ TEST_CASE("names that lead out of the archive, and entries that swell, are refus
   says(gldf_refusal(zip_of(many)), "the most are 4096");
 }
 
-TEST_CASE("who waits for a container hears after each file of it how much is taken out",
-          "[photometry][gldf]") {
+TEST_CASE("progress of a container is reported after each unpacked file", "[photometry][gldf]") {
   // Two more emitters in the variant's geometry, each with a file of its own.
   std::string xml = Product{}.xml(), lights;
   for (const std::string id : {"g", "h"}) {
@@ -299,7 +299,8 @@ TEST_CASE("another process reads a container from the disk with the same result"
   says(read_gldf(folder / "absent.gldf").problem().text(), "absent.gldf");
 }
 
-TEST_CASE("containers of others are read or refused in words", "[photometry][gldf]") {
+TEST_CASE("containers of other programs are read or rejected with a message",
+          "[photometry][gldf]") {
   if (!data_is_there("gldf")) return;
   const auto folder = shared_data / "gldf";
   const auto own = read_gldf(folder / "emergency_own.gldf");
@@ -323,7 +324,7 @@ TEST_CASE("containers of others are read or refused in words", "[photometry][gld
   says(read_gldf(folder / "GldfWithMissingProduct.gldf").problem().what, "no 'product.xml'");
 }
 
-TEST_CASE("harmed containers are read or refused with one sentence", "[photometry][gldf]") {
+TEST_CASE("mutated containers are read or rejected with one sentence", "[photometry][gldf]") {
   const char* seed_text = std::getenv("LUXODUS_SEED");
   const uint64_t seed = seed_text != nullptr ? std::strtoull(seed_text, nullptr, 0) : 1;
   const char* count_text = std::getenv("LUXODUS_MUTATIONS");
@@ -344,7 +345,7 @@ TEST_CASE("harmed containers are read or refused with one sentence", "[photometr
   int read = 0;
   std::set<std::string> made;  // luminaires: making one takes longer than reading a container
   for (int i = 0; i < tries; ++i) {
-    // The container itself, or its text within a sound container.
+    // The container itself, or its XML within a sound container.
     const bool packed = random.bits() % 2 == 0;
     const std::string harmed = text_of(mutated(packed ? whole : xml, packed ? xml : whole, random));
     const std::string container =
@@ -364,6 +365,6 @@ TEST_CASE("harmed containers are read or refused with one sentence", "[photometr
         if (luminaire) REQUIRE(luminaire->photometry.web->flux_lm() > 0);
       }
   }
-  CHECK(read > tries / 50);  // harm that reaches deep
+  CHECK(read > tries / 50);  // mutations that reach deep
   CHECK(read < tries);
 }

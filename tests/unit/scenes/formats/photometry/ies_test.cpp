@@ -1,5 +1,5 @@
-// IES LM-63: what real files and our own say, the editions and their habits, and a table of what is
-// refused.
+// IES LM-63: real files and our own, the editions and their variations, and a table of rejected
+// files.
 #include "scenes/formats/photometry/ies.hpp"
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ using namespace luxodus::test;
 
 namespace {
 
-/// The parts of an IES file that the tests vary; even light of 100 cd unless told otherwise.
+/// The parts of an IES file that the tests vary; uniform light of 100 cd by default.
 struct Ies {
   std::string head = "IESNA:LM-63-2002\r\n[TEST] 1\r\n[MANUFAC] Maker\r\n[LUMINAIRE] Lamp\r\n";
   std::string tilt = "TILT=NONE\r\n";
@@ -73,7 +73,7 @@ TEST_CASE("a measured IES file adds up to its known flux", "[format][ies]") {
   CHECK(file->web->intensity(toward(45, 20)) == Approx(file->web->intensity(toward(225, 20))));
 }
 
-TEST_CASE("every odd IES file of the collection is read with its opening", "[format][ies]") {
+TEST_CASE("every unusual IES file of the collection is read with its opening", "[format][ies]") {
   if (!data_is_there("edge/ies95")) return;
   using Shape = LuminousOpening::Shape;
   struct Expected {
@@ -107,12 +107,12 @@ TEST_CASE("every odd IES file of the collection is read with its opening", "[for
     CHECK(file->web->peak_cd() ==
           Approx(std::string(e.file).ends_with("multiplier") ? 3300 : 2200));
     CHECK(file->absolute == (std::string(e.file) != "relative_photometry"));
-    CHECK(file->luminaire.starts_with("Dummy IES file. Can be used"));  // [MORE] carries on
+    CHECK(file->luminaire.starts_with("Dummy IES file. Can be used"));  // [MORE] continues
     CHECK(file->down_share == Approx(1).margin(1e-6));
   }
 }
 
-TEST_CASE("our own wall light keeps its flux and throws to the front", "[format][ies]") {
+TEST_CASE("our own wall light keeps its flux and is directed to the front", "[format][ies]") {
   const auto file = read_photometric_file(luminaires / "wall_bulkhead.ies");
   REQUIRE(file.ok());
   CHECK(file->flux_lm == Approx(400).epsilon(1e-4));
@@ -142,7 +142,7 @@ TEST_CASE("candela are scaled by multiplier and ballast, and by the lamp factor 
   CHECK(newest.warnings.empty());
 }
 
-TEST_CASE("each edition is known by its first line", "[format][ies]") {
+TEST_CASE("each edition is recognised by its first line", "[format][ies]") {
   const std::vector<std::pair<std::string, std::string>> heads = {
       {"Some maker\nSome lamp\n", "IES LM-63-1986"},
       {"", "IES LM-63-1986"},
@@ -184,7 +184,7 @@ TEST_CASE("keywords name maker, luminaire and colour, and Latin-1 becomes UTF-8"
   CHECK(file.cri.value() == 90);
 }
 
-TEST_CASE("each horizontal range of type C puts its planes where they belong", "[format][ies]") {
+TEST_CASE("each horizontal range of type C gives the correct planes", "[format][ies]") {
   struct Case {
     const char* horizontals;
     const char* count;
@@ -275,7 +275,7 @@ TEST_CASE("values may wrap over lines and be separated by commas", "[format][ies
   CHECK(read(ies).flux_lm == Approx(4 * pi * 100));
 }
 
-TEST_CASE("a tilt table is kept, and the level luminaire's factor is used", "[format][ies]") {
+TEST_CASE("a tilt table is kept, and the level luminaire's factor is applied", "[format][ies]") {
   Ies ies;
   ies.tilt = "TILT=INCLUDE\n1\n3\n-10 10 90\n0.8 1.0 0.6\n";
   const PhotometricFile inside = read(ies);
@@ -339,7 +339,7 @@ TEST_CASE("signs of width, length and height give the opening of their edition",
   CHECK(read(feet).opening.size_m.x == Approx(0.6096));
 }
 
-TEST_CASE("what looks odd in an IES file is read and said", "[format][ies]") {
+TEST_CASE("odd values in an IES file are read with a warning", "[format][ies]") {
   Ies ies;
   ies.lamps = "1 1000 1";
   CHECK(warns(read(ies), "more than the lamps'"));
@@ -407,9 +407,9 @@ TEST_CASE("a broken IES file is one problem that names the line", "[format][ies]
   }
 }
 
-TEST_CASE("every cut of an IES file is refused, none is half read", "[format][ies]") {
+TEST_CASE("every truncated IES file is rejected", "[format][ies]") {
   const std::string whole = Ies{}.text();
-  // The last value is "100": any cut that leaves a digit of it still holds a number.
+  // The last value is "100": a cut that leaves one of its digits is still a number.
   for (size_t size = 0; size + 5 < whole.size(); ++size) {
     const auto file = read_ies(std::string_view(whole).substr(0, size), "test.ies", ".");
     INFO("first " << size << " bytes");

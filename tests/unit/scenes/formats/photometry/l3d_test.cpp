@@ -1,5 +1,5 @@
-// Models of luminaires: where parts stand, what is refused, and harmed files. The seed is
-// LUXODUS_SEED, or 1; LUXODUS_MUTATIONS says how many files are harmed.
+// Models of luminaires: placement of parts, rejected and mutated files. The seed is LUXODUS_SEED,
+// or 1; LUXODUS_MUTATIONS sets how many files are mutated.
 #include "scenes/formats/photometry/l3d.hpp"
 
 #include <catch2/catch.hpp>
@@ -37,7 +37,7 @@ void check_point(const glm::dvec3& is, const glm::dvec3& wanted) {
   CHECK(glm::length(is - wanted) < 1e-12);
 }
 
-/// A container of one product whose variant is shaped by `model`, and by a box besides.
+/// A container with one product whose variant has the geometry `model`, and a box.
 std::string container_with(const std::string& model, const std::string& kind = "geo/l3d",
                            const std::string& type = "localFileName") {
   const std::string xml =
@@ -59,7 +59,7 @@ std::string container_with(const std::string& model, const std::string& kind = "
 
 }  // namespace
 
-TEST_CASE("a part stands where its model places it, in its unit", "[photometry][l3d]") {
+TEST_CASE("a part is placed as its model states, in its unit", "[photometry][l3d]") {
   const L3dModel model = read_model({});
   REQUIRE(model.shapes.size() == 1);
   CHECK(model.shapes[0].obj == box_obj);
@@ -76,17 +76,17 @@ TEST_CASE("a part turns about its own axes, z first, then x, then y", "[photomet
   SmallL3d small;
   small.position = R"(<Position x="0" y="0" z="0"/>)";
   small.rotation = R"(<Rotation x="90" y="0" z="90"/>)";
-  // About x, y goes up; about z then, up stays and x becomes y.
+  // Rotated about x, y points up; then about z, up stays and x becomes y.
   const L3dModel two = read_model(small);
   check_point(two.parts[0].place.point({0, 1, 0}), {0, 0, 1});
   check_point(two.parts[0].place.point({1, 0, 0}), {0, 1, 0});
-  // The part's y, of which the turn about it knows nothing, goes as x and z turn it.
+  // The part's y axis, about which the rotation does not matter, follows those about x and z.
   small.rotation = R"(<Rotation x="30" y="77" z="0"/>)";
   const double half = 0.5, rest = std::sqrt(0.75);
   check_point(read_model(small).parts[0].place.point({0, 1, 0}), {0, rest, half});
 }
 
-TEST_CASE("a part below a joint stands as the joint does", "[photometry][l3d]") {
+TEST_CASE("a part below a joint is placed as the joint is", "[photometry][l3d]") {
   SmallL3d small;
   small.joints = joint_with("");
   const L3dModel model = read_model(small);
@@ -97,7 +97,7 @@ TEST_CASE("a part below a joint stands as the joint does", "[photometry][l3d]") 
   check_point(model.parts[1].place.point({0, 0, 0}), {-0.1, 0.95, 0.6});
 }
 
-TEST_CASE("a model without what places its parts is refused", "[photometry][l3d]") {
+TEST_CASE("a model without placement of its parts is rejected", "[photometry][l3d]") {
   SmallL3d small;
   small.units = "km";
   CHECK_THAT(l3d_refusal(small.bytes()), Contains("the unit \"km\"; m, dm, cm, mm, yard"));
@@ -120,7 +120,7 @@ TEST_CASE("a model without what places its parts is refused", "[photometry][l3d]
   CHECK_THAT(l3d_refusal(zip_of({{"structure.xml", "<Luminaire/>"}})), Contains("places no part"));
 }
 
-TEST_CASE("models that swell, lead out, hide entities or have too many parts are refused",
+TEST_CASE("models that expand too far, lead out, hide entities or have too many parts are rejected",
           "[photometry][l3d]") {
   CHECK_THAT(l3d_refusal("hello"), Contains("no L3D model"));
   CHECK_THAT(l3d_refusal(zip_of({{"a.obj", box_obj}})), Contains("no 'structure.xml'"));
@@ -151,8 +151,9 @@ TEST_CASE("models that swell, lead out, hide entities or have too many parts are
   CHECK_THAT(l3d_refusal(small.bytes()), Contains("more than 1000 parts"));
 }
 
-TEST_CASE("a container gives its model where it is asked for, and a fault of it harms no light",
-          "[photometry][l3d]") {
+TEST_CASE(
+    "a container gives its model on request, and a fault of the model does not affect the light",
+    "[photometry][l3d]") {
   const TemporaryFolder folder;
   const auto path = folder.write("a.gldf", container_with(SmallL3d{}.bytes()));
   const auto left = read_gldf(path);
@@ -182,7 +183,7 @@ TEST_CASE("a container gives its model where it is asked for, and a fault of it 
   CHECK_THAT(fault(container_with("", "geo/l3d", "url")), Contains("nothing is fetched"));
 }
 
-TEST_CASE("a container of too many models is refused", "[photometry][l3d]") {
+TEST_CASE("a container with too many models is rejected", "[photometry][l3d]") {
   std::string files, geometries, variants;
   for (size_t i = 0; i <= limits::gldf_models; ++i) {
     const std::string n = std::to_string(i);
@@ -205,7 +206,7 @@ TEST_CASE("a container of too many models is refused", "[photometry][l3d]") {
   CHECK_THAT(many.problem().what, Contains("more than 1024 models"));
 }
 
-TEST_CASE("a model of others is read", "[photometry][l3d]") {
+TEST_CASE("a model of another program is read", "[photometry][l3d]") {
   if (!data_is_there("gldf")) return;
   const auto read =
       read_gldf(shared_data / "gldf" / "GldfWithFilesComplete.gldf", GldfModels::read);
@@ -222,8 +223,7 @@ TEST_CASE("a model of others is read", "[photometry][l3d]") {
   CHECK(model.shape.shapes.at(0).metres_per_unit == 0.001);
 }
 
-TEST_CASE("of a material library names and diffuse colours are kept, and nothing else",
-          "[photometry][l3d]") {
+TEST_CASE("only names and diffuse colours of a material library are kept", "[photometry][l3d]") {
   SmallL3d small;
   small.obj = coloured_box_obj("paint box.mtl");
   small.library =
@@ -236,7 +236,7 @@ TEST_CASE("of a material library names and diffuse colours are kept, and nothing
   CHECK(model.shapes[0].obj == coloured_box_obj(l3d_library));
 }
 
-TEST_CASE("a library without a colour is none", "[photometry][l3d]") {
+TEST_CASE("a library without a colour is dropped", "[photometry][l3d]") {
   SmallL3d small;
   small.obj = coloured_box_obj("paint box.mtl");
   small.library = "newmtl red\nmap_Kd red.png\nnewmtl odd\nKd 2 0 0\n";
@@ -245,7 +245,7 @@ TEST_CASE("a library without a colour is none", "[photometry][l3d]") {
   CHECK(model.shapes[0].obj == small.obj);
 }
 
-TEST_CASE("a library that is not there, lies elsewhere or is too large leaves its colours out",
+TEST_CASE("a library that is missing, lies elsewhere or is too large is left out",
           "[photometry][l3d]") {
   SmallL3d small;
   small.library = "newmtl red\nKd 1 0.1 0.05\n";
@@ -260,7 +260,7 @@ TEST_CASE("a library that is not there, lies elsewhere or is too large leaves it
   CHECK(read_model(small).shapes[0].colours.empty());
 }
 
-TEST_CASE("harmed models are read or refused with one sentence", "[photometry][l3d]") {
+TEST_CASE("mutated models are read or rejected with one sentence", "[photometry][l3d]") {
   const char* seed_text = std::getenv("LUXODUS_SEED");
   const uint64_t seed = seed_text != nullptr ? std::strtoull(seed_text, nullptr, 0) : 1;
   const char* count_text = std::getenv("LUXODUS_MUTATIONS");
@@ -279,7 +279,7 @@ TEST_CASE("harmed models are read or refused with one sentence", "[photometry][l
   const Bytes whole = bytes_of(small.bytes()), xml = bytes_of(small.xml());
   int read = 0;
   for (int i = 0; i < tries; ++i) {
-    // The model itself, or its text within a sound model.
+    // The model itself, or its XML within a sound model.
     const bool packed = random.bits() % 2 == 0;
     const Bytes bytes = mutated(packed ? whole : xml, packed ? xml : whole, random);
     const std::string harmed(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -297,6 +297,6 @@ TEST_CASE("harmed models are read or refused with one sentence", "[photometry][l
     }
     for (const L3dOpening& opening : model->openings) REQUIRE(is_finite(opening.centre_m));
   }
-  CHECK(read > tries / 50);  // harm that reaches deep
+  CHECK(read > tries / 50);  // mutations that reach deep
   CHECK(read < tries);
 }

@@ -1,5 +1,4 @@
-// EULUMDAT: what real files and our own say, the file's habits one by one, and a table of what is
-// refused.
+// EULUMDAT: real files and our own, the variations one by one, and a table of rejected files.
 #include "scenes/formats/photometry/ldt.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,8 +13,7 @@ using namespace luxodus::test;
 
 namespace {
 
-/// The parts of an EULUMDAT file that the tests vary; even light of 100 cd/klm unless told
-/// otherwise.
+/// The parts of an EULUMDAT file that the tests vary; uniform light of 100 cd/klm by default.
 struct Ldt {
   std::string end = "\r\n";
   std::string manufacturer = "Maker";
@@ -89,11 +87,11 @@ TEST_CASE("measured EULUMDAT files add up to their stated flux", "[format][ldt]"
   }
 }
 
-TEST_CASE("a measured file's head says what it is and how large", "[format][ldt]") {
+TEST_CASE("a measured file's head gives the luminaire and its size", "[format][ldt]") {
   if (!data_is_there("ldt")) return;
   const auto file = read_photometric_file(shared_data / "ldt/sample5.ldt");
   REQUIRE(file.ok());
-  CHECK(file->manufacturer == "ERCO GmbH");  // behind a UTF-8 mark
+  CHECK(file->manufacturer == "ERCO GmbH");  // after a byte order mark
   CHECK(file->luminaire == "Iku Surface-mounted downlight");
   CHECK(file->cct_k.value() == 4000);
   CHECK(file->cri.value() == 82);
@@ -102,7 +100,7 @@ TEST_CASE("a measured file's head says what it is and how large", "[format][ldt]
   CHECK(file->opening.size_m == glm::dvec3(0.076, 0.076, 0));
 }
 
-TEST_CASE("every odd EULUMDAT file of the collection is read", "[format][ldt]") {
+TEST_CASE("every unusual EULUMDAT file of the collection is read", "[format][ldt]") {
   if (!data_is_there("edge/ldt")) return;
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(shared_data / "edge/ldt")) {
@@ -138,7 +136,7 @@ TEST_CASE("our own luminaires keep the flux their header states", "[format][ldt]
   }
 }
 
-TEST_CASE("the emergency corridor light throws along C0 and stays below the glare limit",
+TEST_CASE("the emergency corridor light is directed along C0 and stays below the glare limit",
           "[format][ldt]") {
   const auto file = read_photometric_file(luminaires / "emergency_corridor.ldt");
   REQUIRE(file.ok());
@@ -160,8 +158,8 @@ TEST_CASE("cd/klm become candela by the lamps' flux and the conversion factor", 
   CHECK(file.warnings.empty());
 }
 
-TEST_CASE("each symmetry puts the listed planes where they belong", "[format][ldt]") {
-  // Eight planes; the value of a plane is its own C, where the file lists it.
+TEST_CASE("each symmetry gives the correct planes", "[format][ldt]") {
+  // Eight planes; the value of a listed plane is its own C.
   Ldt ldt;
   ldt.c = {"0", "45", "90", "135", "180", "225", "270", "315"};
   ldt.c_step = "45";
@@ -217,7 +215,7 @@ TEST_CASE("a file that stops at the horizon is dark above it", "[format][ldt]") 
   CHECK(file.web->intensity(toward(0, 90.01)) == 0);
 }
 
-TEST_CASE("lamp sets burn together, and the reader says so", "[format][ldt]") {
+TEST_CASE("lamp sets are taken as burning together, with a warning", "[format][ldt]") {
   Ldt ldt;
   ldt.lamps = {{"1", "direct", "1500", "3000", "90", "12"}, {"2", "indirect", "500", "", "", "4"}};
   const PhotometricFile file = read_ldt_text(ldt);
@@ -229,7 +227,7 @@ TEST_CASE("lamp sets burn together, and the reader says so", "[format][ldt]") {
   CHECK(warns(file, "burning together"));
 }
 
-TEST_CASE("fluxes of one lamp of several, openings in another unit and odd colours are told",
+TEST_CASE("fluxes of one lamp of several, openings in another unit and odd colours give warnings",
           "[photometry]") {
   const auto warned = [](const Ldt& ldt, const std::string& words) {
     size_t count = 0;
@@ -287,7 +285,7 @@ TEST_CASE("commas, quotes, encodings, line ends and padding do not change the lu
   ldt.manufacturer =
       "\xEF\xBB\xBF"
       "B\xC3\xBC"
-      "ro";  // UTF-8 with its mark
+      "ro";  // UTF-8 with a byte order mark
   CHECK(read_ldt_text(ldt).manufacturer ==
         "B\xC3\xBC"
         "ro");
@@ -311,7 +309,7 @@ TEST_CASE("the opening lies with its length along C90 and its width along C0", "
   CHECK(read_ldt_text(ldt).opening.shape == Shape::point);
 }
 
-TEST_CASE("what looks odd is read and said with its line", "[format][ldt]") {
+TEST_CASE("odd values are read with a warning and their line", "[format][ldt]") {
   Ldt ldt;
   ldt.lorl = "80";
   PhotometricFile file = read_ldt_text(ldt);
@@ -410,7 +408,7 @@ TEST_CASE("a broken EULUMDAT file is one problem that names the line", "[format]
             .find("UTF-16") != std::string::npos);
 }
 
-TEST_CASE("every cut of an EULUMDAT file is refused, none is half read", "[format][ldt]") {
+TEST_CASE("every truncated EULUMDAT file is rejected", "[format][ldt]") {
   const std::string whole = Ldt{}.text();
   for (size_t size = 0; size + 5 < whole.size(); ++size) {
     const auto file = read_ldt(std::string_view(whole).substr(0, size), "test.ldt");
@@ -419,7 +417,7 @@ TEST_CASE("every cut of an EULUMDAT file is refused, none is half read", "[forma
   }
 }
 
-TEST_CASE("a path that leads to no file is a problem with that path", "[format][ldt]") {
+TEST_CASE("a path to a missing file is a problem with that path", "[format][ldt]") {
   const auto file = read_photometric_file("nowhere/lamp.ldt");
   REQUIRE_FALSE(file.ok());
   CHECK(file.problem().where.file == "nowhere/lamp.ldt");

@@ -1,4 +1,4 @@
-// [[backdrop]]: drawings that lie under plans.
+// [[backdrop]]: drawings under plans.
 #include <catch2/catch.hpp>
 
 #include "scenes/formats/images/page_picture.hpp"
@@ -22,7 +22,7 @@ std::string plan_png(int width, int height) {
   return std::string(reinterpret_cast<const char*>(png->data()), png->size());
 }
 
-/// A floor of 5 m x 4 m, and a backdrop that is told by `keys`.
+/// A floor of 5 m x 4 m, and a backdrop with `keys`.
 struct BackdropScene {
   test::TemporaryFolder folder;
 
@@ -73,7 +73,7 @@ TEST_CASE("a drawing under plans has its lines in metres", "[format][backdrop]")
   double length = 0;
   for (const auto& [a, b] : drawing.lines) length += glm::length(b - a);
   CHECK(length == Approx(18));
-  // In inches the same numbers are 25.4 times as long, and beside the building where it is said.
+  // In inches the same numbers are 25.4 times as long, and a far origin gives a warning.
   const ReadScene far = scene.read("file = \"plan.dxf\"\nunits = \"in\"\norigin = [1000, 0]\n");
   REQUIRE(far.scene);
   CHECK(far.scene->backdrops.front().lines.front().second.x == Approx(1127));
@@ -81,7 +81,7 @@ TEST_CASE("a drawing under plans has its lines in metres", "[format][backdrop]")
   CHECK_THAT(far.scene->warnings.front().text(), Contains("beside the building"));
 }
 
-TEST_CASE("all backdrops of a scene have a limit together, told where it is passed",
+TEST_CASE("all backdrops of a scene have a common limit, reported where it is exceeded",
           "[format][backdrop]") {
   BackdropScene scene;
   // Noise does not compress: three bytes a pixel.
@@ -108,7 +108,7 @@ TEST_CASE("all backdrops of a scene have a limit together, told where it is pass
   CHECK(std::count(refused.begin(), refused.end(), '\n') == 1);  // once, not of each that follows
 }
 
-TEST_CASE("a backdrop without a measure, of another kind or too large is refused",
+TEST_CASE("a backdrop without a scale, of another kind or too large is rejected",
           "[format][backdrop]") {
   BackdropScene scene;
   scene.folder.write("plan.png", plan_png(10, 10));

@@ -1,4 +1,4 @@
-// Which files a scene knows to be read from, and what it says where they are others.
+// The files that a scene was read from, and detection of changes.
 #include "scenes/light/world/files_as_read.hpp"
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ const std::string scene_of_files =
 
 }  // namespace
 
-TEST_CASE("a scene tells which of its files has changed on disk, whatever kind it is",
+TEST_CASE("a scene detects which of its files has changed on disk, whatever its kind",
           "[format][scene]") {
   for (const std::string changed :
        {"scene.toml", "more.toml", "lamp.ies", "cube.obj", "cube.mtl"}) {

@@ -1,4 +1,4 @@
-// Buildings of fire simulations as scenes: closed but for their openings, each obstruction once.
+// Buildings of fire simulations as scenes: closed except for openings, each obstruction once.
 #include <catch2/catch.hpp>
 
 #include "scenes/formats/fields/fds_building.hpp"
@@ -10,7 +10,7 @@ namespace luxodus {
 
 namespace {
 
-/// Its objects and materials, as an import writes them into two files, and a clock.
+/// Its objects and materials, in the two files of an import, and a clock.
 std::string whole_text(const FireBuilding& building, const std::string& at = "60") {
   std::string out = "[time]\nfrom = " + at + "\nto = 100\nstep = 10\n";
   for (const FireMaterial& material : building.tables.materials())
@@ -20,7 +20,7 @@ std::string whole_text(const FireBuilding& building, const std::string& at = "60
 
 }  // namespace
 
-TEST_CASE("the building of a simulation is read as a scene: closed but for its openings",
+TEST_CASE("the building of a simulation is read as a scene, closed except for its openings",
           "[format][scene][fds]") {
   using namespace test;
   SceneFolder folder;
@@ -64,18 +64,18 @@ TEST_CASE("the building of a simulation is read as a scene: closed but for its o
       plate += area(o.mesh);
     }
   }
-  // 10 m2 of a closed box, less the door (0.5 m2), less what the block covers (floor and south).
+  // 10 m2 of a closed box, minus the door (0.5 m2) and what the block covers (floor and south).
   CHECK(walls == Approx(10 - 0.5 - 2 * 0.25));
   CHECK(block == Approx(6 * 0.25));
   CHECK(plate == Approx(0.25));
-  // Before it vanishes the wall is there, and nothing else is another.
+  // Before it vanishes the wall is present, and nothing else differs.
   CHECK(read_fire_building(folder.path() / "fire.smv", 0)->absent.empty());
   const auto before = good(folder, whole_text(building.value(), "29"));
   CHECK(before.objects.size() == scene.objects.size() + 1);
   CHECK(good(folder, whole_text(building.value(), "30")).objects.size() == scene.objects.size());
 }
 
-TEST_CASE("plates of one place are one, unless their times differ", "[format][scene][fds]") {
+TEST_CASE("plates at one place are merged, unless their times differ", "[format][scene][fds]") {
   using namespace test;
   SceneFolder folder;
   SmallMesh mesh = even_mesh({0, 0, 0}, {0.5, 0.5, 0.5}, {2, 2, 2});
@@ -93,7 +93,7 @@ TEST_CASE("plates of one place are one, unless their times differ", "[format][sc
   CHECK(objects_at("60") == objects_at("40") + 1);
 }
 
-TEST_CASE("changes of a simulation that no scene can state are read as what they do",
+TEST_CASE("contradictory changes of a simulation are read by their effect",
           "[format][scene][fds]") {
   using namespace test;
   SceneFolder folder;
@@ -101,10 +101,10 @@ TEST_CASE("changes of a simulation that no scene can state are read as what they
   mesh.obstructions = {
       {0, 1, 0, 1, 0, 1}, {1, 2, 0, 1, 0, 1}, {0, 1, 1, 2, 0, 1}, {1, 2, 1, 2, 0, 1}};
   folder.put("fire.smv", index_of_meshes({mesh}) +
-                             "HIDE_OBST 1\n 1 1e10\n"                    // never goes
-                             "SHOW_OBST 1\n 2 1e10\n"                    // never comes
-                             "SHOW_OBST 1\n 3 30\nHIDE_OBST 1\n 3 30\n"  // never comes
-                             "HIDE_OBST 1\n 4 30\nSHOW_OBST 1\n 4 30\n"  // never goes
+                             "HIDE_OBST 1\n 1 1e10\n"                    // never vanishes
+                             "SHOW_OBST 1\n 2 1e10\n"                    // never appears
+                             "SHOW_OBST 1\n 3 30\nHIDE_OBST 1\n 3 30\n"  // never appears
+                             "HIDE_OBST 1\n 4 30\nSHOW_OBST 1\n 4 30\n"  // never vanishes
                              "HIDE_OBST 1\n 4 50\n");                    // but at 50 s
   const auto building = read_fire_building(folder.path() / "fire.smv", 0);
   REQUIRE(building.ok());
@@ -119,7 +119,7 @@ TEST_CASE("changes of a simulation that no scene can state are read as what they
   CHECK(solids_at("60") == 1);
 }
 
-TEST_CASE("names of a simulation cannot leave their quotes in a scene", "[format][scene][fds]") {
+TEST_CASE("names of a simulation are quoted safely in a scene", "[format][scene][fds]") {
   using namespace test;
   SceneFolder folder;
   SmallMesh mesh = even_mesh({0, 0, 0}, {0.5, 0.5, 0.5}, {2, 2, 2});

@@ -1,4 +1,4 @@
-// [project]: what reports say of the project, and its logo.
+// [project]: data for reports, and the logo.
 #include <catch2/catch.hpp>
 
 #include "scenes/formats/images/logo.hpp"
@@ -29,7 +29,7 @@ std::string problems_of(const ReadScene& read) {
 
 }  // namespace
 
-TEST_CASE("a project's table is read, each key of the including file first", "[format][project]") {
+TEST_CASE("a project's table is read, and keys of the including file win", "[format][project]") {
   const test::TemporaryFolder folder;
   folder.write("logo.png", bytes_of_png(20, 10));
   folder.write("base.toml",
@@ -47,7 +47,7 @@ TEST_CASE("a project's table is read, each key of the including file first", "[f
   CHECK(p.logo == folder / "logo.png");
 }
 
-TEST_CASE("a logo is its pixels alone, and no drawing", "[format][project]") {
+TEST_CASE("a logo keeps only its pixels, and must not be a drawing", "[format][project]") {
   const test::TemporaryFolder folder;
   const auto logo = read_logo(folder.write("logo.png", bytes_of_png(20, 10)));
   REQUIRE(logo.ok());
@@ -67,7 +67,7 @@ TEST_CASE("a logo is its pixels alone, and no drawing", "[format][project]") {
   }
 }
 
-TEST_CASE("texts of a project are short", "[format][project]") {
+TEST_CASE("texts of a project have a length limit", "[format][project]") {
   const test::TemporaryFolder folder;
   const auto read = read_scene(
       folder.write("scene.toml", "[project]\nclient = \"" + std::string(500, 'x') + "\"\n"));

@@ -51,14 +51,14 @@ facing = [0, -2, 0]
   CHECK(*s.emphasis[0].facing == glm::dvec3(0, -1, 0));
 }
 
-TEST_CASE("what is not said of people has its default", "[format][scene]") {
+TEST_CASE("unstated assumptions about people have their defaults", "[format][scene]") {
   SceneFolder f;
   const auto s = good(f, "title = \"nothing\"\n");
   CHECK(s.assessment.age_years == 65);
   CHECK(s.assessment.eye_heights_m == std::vector<double>{1.65, 1.2, 0.6});
 }
 
-TEST_CASE("rule sets and deviations are read, and unknown ones told with all there are",
+TEST_CASE("rule sets and deviations are read, and unknown ones are reported with a list",
           "[format][scene]") {
   SceneFolder f;
   const auto s = good(f,
@@ -76,8 +76,7 @@ TEST_CASE("rule sets and deviations are read, and unknown ones told with all the
   }
 }
 
-TEST_CASE("what one file of a scene leaves out of its assessment another may say",
-          "[format][scene]") {
+TEST_CASE("each file of a scene may state a part of its assessment", "[format][scene]") {
   SceneFolder f;
   f.put("people.toml", "[assessment]\nage_years = 70\nspacing_m = 3\nirritant_smoke = true\n");
   const auto s = good(f, "include = [\"people.toml\"]\n[assessment]\nspacing_m = 1\n");
@@ -105,7 +104,7 @@ TEST_CASE("a luminaire keeps the factors that its fluxes contain", "[format][sce
   }
 }
 
-TEST_CASE("mistakes in routes and areas are told with their lines", "[format][scene]") {
+TEST_CASE("mistakes in routes and areas are reported with their lines", "[format][scene]") {
   SceneFolder f;
   const auto told = [&](const std::string& text) {
     const auto read = f.read(text);
@@ -127,7 +126,7 @@ TEST_CASE("mistakes in routes and areas are told with their lines", "[format][sc
         std::string::npos);
 }
 
-TEST_CASE("a change wants something that is there", "[format][scene]") {
+TEST_CASE("a change must name an existing thing", "[format][scene]") {
   SceneFolder f;
   const auto read = f.read("[[change]]\nkind = \"sign\"\nof = \"exit\"\nfactor = 2\n");
   REQUIRE_FALSE(read.problems.empty());
@@ -199,7 +198,7 @@ TEST_CASE("a change adds a copy under another name, and leaves the original", "[
   CHECK(s.emitters[1].frame.origin == glm::dvec3(2, 2, 2));
 }
 
-TEST_CASE("a copy that cannot be is told once, with its line", "[format][scene]") {
+TEST_CASE("an impossible copy is reported once, with its line", "[format][scene]") {
   SceneFolder f;
   const auto told = [&](const std::string& text, const std::string& what) {
     const auto read = f.read(lamp_and_sign + text);

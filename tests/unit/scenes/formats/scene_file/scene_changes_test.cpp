@@ -1,4 +1,4 @@
-// Changes that stand in no file: those of a program that varies a scene.
+// Changes that are in no file: those of a program that varies a scene.
 #include <catch2/catch.hpp>
 
 #include "scenes/formats/scene_file/scene_file.hpp"
@@ -33,7 +33,7 @@ TEST_CASE("changes of a scene are read as those of a file that includes it", "[s
   CHECK(changed.scene->content_hash != plain.scene->content_hash);
 }
 
-TEST_CASE("a wrong change that stands in no file is told with its line", "[scene]") {
+TEST_CASE("a wrong change that is in no file is reported with its line", "[scene]") {
   const test::TemporaryFolder folder;
   const auto file = folder.write("lamp.toml", lamp_to_change);
   const auto told = [&](const std::string& changes) {

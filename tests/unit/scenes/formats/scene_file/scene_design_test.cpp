@@ -26,7 +26,7 @@ std::string problems_of(SceneFolder& folder, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a scene without types places what it has, and a generic luminaire where it has none",
+TEST_CASE("a scene without types places its own luminaires, or a generic one if it has none",
           "[format][scene][design]") {
   SceneFolder folder;
   const SceneDescription own = good(folder, lamp + lamp_named("second"));
@@ -40,7 +40,8 @@ TEST_CASE("a scene without types places what it has, and a generic luminaire whe
   CHECK(none.design->types[0].emitter.emergency_flux == near(200 * 0.8 * 0.7));
 }
 
-TEST_CASE("spots of other beams are types of their own", "[format][scene][design]") {
+TEST_CASE("luminaires of one file with other beams are types of their own",
+          "[format][scene][design]") {
   const auto spot = [](const char* name, double inner, double outer) {
     return fmt::format(R"(
 [[emitter]]
@@ -67,7 +68,7 @@ end_of_duration_factor = 1
   CHECK(types(spot("a", 20, 30) + spot("b", 10, 30)) == 2);
 }
 
-TEST_CASE("a variant places types of the design, and takes luminaires away",
+TEST_CASE("a variant places types of the design, and removes luminaires",
           "[format][scene][design]") {
   SceneFolder folder;
   folder.put("base.toml", lamp + "[[design.type]]\nname = \"new type\"\nlike = \"old\"\n");
@@ -93,7 +94,7 @@ rotation_deg = 90
   CHECK(same(e.frame.axes[2], {0, 0, 1}));
 }
 
-TEST_CASE("contradictory designs are refused with their line", "[format][scene][design]") {
+TEST_CASE("contradictory designs are rejected with their line", "[format][scene][design]") {
   SceneFolder folder;
   const auto refused = [&](const std::string& text, const std::string& words) {
     const std::string told = problems_of(folder, lamp + text);

@@ -1,4 +1,4 @@
-// A good scene is read field by field, with the conversions that its words ask for.
+// A correct scene is read field by field, with the conversions of its keys.
 #include "scenes/formats/scene_file/scene_file.hpp"
 
 #include <xxhash.h>
@@ -13,7 +13,7 @@
 
 namespace luxodus {
 
-TEST_CASE("a scene's head and run settings are read, and what is not said has its default",
+TEST_CASE("a scene's head and run settings are read, and unstated ones have their defaults",
           "[format][scene]") {
   SceneFolder f;
   const auto s = good(f, R"(
@@ -59,7 +59,7 @@ TEST_CASE("a scene with former names of keys is the same scene, by its hash, wit
   SceneFolder f;
   const SceneDescription before = good(f, old), now = good(f, renamed);
   CHECK(before.content_hash == now.content_hash);
-  CHECK(before.content_hash == XXH3_64bits(old.data(), old.size()));  // as it always was
+  CHECK(before.content_hash == XXH3_64bits(old.data(), old.size()));  // as in earlier releases
   CHECK(before.run.max_bands == 3);
   CHECK(before.run.eye_path_factor == 0.5);
   CHECK(before.objects[0].mesh.triangles.size() == now.objects[0].mesh.triangles.size());
@@ -276,7 +276,8 @@ material = "grey20"
 }
 
 TEST_CASE(
-    "all meshes are expected before the first is read, and a simulation's bytes are not known",
+    "progress announces all meshes before the first is read, and does not know a simulation's "
+    "bytes",
     "[scene]") {
   SceneFolder f;
   const auto import = [](const std::string& name, const std::string& units) {
@@ -292,7 +293,8 @@ TEST_CASE(
   CHECK(read.problems.empty());
   CHECK(both.share() == std::optional(1.0));
   CHECK(both.all_known());
-  // The second of the two is not read, for its wrong unit: the first alone is half of the bytes.
+  // The second of the two is not read, because of its wrong unit: the first alone is half of the
+  // bytes.
   ReadingShare half;
   CHECK_FALSE(told(import("a", "m") + import("b", "parsec"), half).problems.empty());
   CHECK(half.share() == std::optional(0.5));
@@ -345,7 +347,7 @@ part = [{ match = "frame", omit = true }]
   CHECK(coloured.materials.at(0).reflectance.at(500) == Approx(0.5).margin(0.01));
 }
 
-TEST_CASE("a file that is imported again is as it is in its own units and directions",
+TEST_CASE("a file imported twice keeps the units and directions of each import",
           "[format][scene]") {
   SceneFolder f;
   const auto placed = [](const char* name, const char* units, const char* up, const char* at) {
@@ -367,7 +369,7 @@ TEST_CASE("a file that is imported again is as it is in its own units and direct
         named(s.objects, "first.leaf").mesh.triangles);
 }
 
-TEST_CASE("a colour that the file does not have is asked for, unless a table names the material",
+TEST_CASE("a material is required where the file has no colour, unless a table gives it",
           "[format][scene]") {
   SceneFolder f;
   const std::string house =
@@ -500,7 +502,7 @@ doors_open = ["leaf"]
   CHECK(fails.doors_open == std::vector<std::string>{"leaf"});
 }
 
-TEST_CASE("including files share a building, and paths follow the file that says them",
+TEST_CASE("including files share a building, and paths are relative to the file that states them",
           "[format][scene]") {
   SceneFolder f;
   std::filesystem::create_directory(f.path() / "parts");
@@ -537,8 +539,7 @@ material = "m"
   CHECK(s.emitters.at(0).place.file.find("building.toml") != std::string::npos);
 }
 
-TEST_CASE("the content hash follows every byte of every file, and nothing else",
-          "[format][scene]") {
+TEST_CASE("the content hash covers every byte of every file, and nothing else", "[format][scene]") {
   SceneFolder f;
   const std::string text =
       "[[luminaire]]\nname = \"l\"\nfile = \"lamp.ies\"\nposition = [0, 0, 2]\n"

@@ -1,4 +1,4 @@
-// Fire simulations in scene files: what the keys mean, what a scene is told, what is refused.
+// Fire simulations in scene files: the keys, the notes in a scene, and rejected simulations.
 #include <catch2/catch.hpp>
 
 #include "scenes/light/optics/flame_spectrum.hpp"
@@ -9,8 +9,8 @@
 namespace luxodus {
 namespace {
 
-/// A folder with a fire in two meshes of different cells, 1 /m and 2 /m at 10 s, clear at 0 s; 200
-/// kW burn in the first.
+/// A folder with a fire in two meshes with different cells, 1 /m and 2 /m at 10 s, clear at 0 s;
+/// 200 kW burn in the first.
 struct FireFolder : SceneFolder {
   FireFolder() {
     using namespace test;
@@ -60,7 +60,7 @@ std::string refused(SceneFolder& folder, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a fire simulation is a data set for each of its grids, with the name of the medium",
+TEST_CASE("a fire simulation becomes a data set for each of its grids, with the name of the medium",
           "[format][scene][fds]") {
   FireFolder folder;
   const auto scene = good(folder, fire_table + "position = [10, 0, 0]\nrotate_deg = [0, 0, 90]\n");
@@ -105,8 +105,7 @@ TEST_CASE("flames of a simulation radiate their share of the heat at the time",
   CHECK_FALSE(notes_say(scene, "FLAME GLARE"));
 }
 
-TEST_CASE("a time from outside takes the place of the one that a simulation states",
-          "[format][scene][fds]") {
+TEST_CASE("a requested time replaces the one that a simulation states", "[format][scene][fds]") {
   FireFolder folder;
   const auto path = folder.put("scene.toml", fire_table);
   const ReadScene at_10 = read_scene(path), at_0 = read_scene(path, 0.04);
@@ -119,12 +118,12 @@ TEST_CASE("a time from outside takes the place of the one that a simulation stat
   CHECK(all_problems(none).find("nothing in this scene changes in time") != std::string::npos);
 }
 
-TEST_CASE("the hash of a scene follows the smoke that it takes and nothing else of the results",
+TEST_CASE("the hash of a scene covers the smoke that is used and nothing else of the results",
           "[format][scene][fds]") {
   FireFolder folder;
   const auto before = good(folder, fire_table).content_hash;
   CHECK(good(folder, fire_table).content_hash == before);
-  // HRRPUV is not taken without flames.
+  // Without flames HRRPUV is not used.
   folder.put("b.s3d", "");
   CHECK(good(folder, fire_table).content_hash == before);
   const auto mesh = test::even_mesh({2, 0, 0}, {0.4, 0.4, 0.4}, {5, 5, 5});
@@ -134,7 +133,7 @@ TEST_CASE("the hash of a scene follows the smoke that it takes and nothing else 
   CHECK(good(folder, fire_table).content_hash != before);
 }
 
-TEST_CASE("what FDS does not know must be said", "[format][scene][fds]") {
+TEST_CASE("properties that FDS does not know must be stated", "[format][scene][fds]") {
   FireFolder folder;
   for (const std::string key : {"albedo = 0.2\n", "g = 0.6\n", "angstrom = 1\n", "at_s = 10\n"}) {
     const std::string name = key.substr(0, key.find(' '));
@@ -145,8 +144,7 @@ TEST_CASE("what FDS does not know must be said", "[format][scene][fds]") {
             .find("'soot_temperature_k' is missing") != std::string::npos);
 }
 
-TEST_CASE("what is wrong with a simulation is said where the scene names it",
-          "[format][scene][fds]") {
+TEST_CASE("faults of a simulation are reported where the scene names it", "[format][scene][fds]") {
   FireFolder folder;
   const std::string no_file = refused(folder, test::replaced(fire_table, "fire.smv", "none.smv"));
   CHECK(no_file.find("scene.toml:4") != std::string::npos);
@@ -159,7 +157,7 @@ TEST_CASE("what is wrong with a simulation is said where the scene names it",
             .find("'emission'") != std::string::npos);
 }
 
-TEST_CASE("flames of an odd temperature or fraction are warned of", "[format][scene][fds]") {
+TEST_CASE("flames of an unusual temperature or fraction give a warning", "[format][scene][fds]") {
   FireFolder folder;
   const auto scene =
       good(folder,
@@ -170,7 +168,7 @@ TEST_CASE("flames of an odd temperature or fraction are warned of", "[format][sc
   CHECK(all.find("'radiant_fraction' is 0.9") != std::string::npos);
 }
 
-TEST_CASE("light is of smoke between two frames, verdicts are of the nearer one",
+TEST_CASE("light uses smoke between two frames, verdicts use the nearer frame",
           "[format][scene][fds]") {
   FireFolder folder;
   const auto path = folder.put("scene.toml", fire_table);
@@ -190,7 +188,7 @@ TEST_CASE("light is of smoke between two frames, verdicts are of the nearer one"
   CHECK(at(4.9, FireFrames::nearest).media[0].simulation->time_s == 0);
 }
 
-TEST_CASE("a variant thickens all grids of a simulation by one factor", "[format][scene][fds]") {
+TEST_CASE("a variant scales all grids of a simulation by one factor", "[format][scene][fds]") {
   FireFolder folder;
   folder.put("base.toml", fire_table);
   const auto scene = good(folder,

@@ -1,4 +1,4 @@
-// A folder for scene files of tests, gone afterwards, and tiny verbs to write and read them.
+// A temporary folder for scene files of tests, and short functions to write and read them.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -31,8 +31,8 @@ class SceneFolder {
   static constexpr const char* lamp =
       "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 -1 1 3 1 1 2 -0.2 -0.2 0\n1 1 10\n0 45 90\n0\n"
       "300 200 0\n";
-  /// Two separate triangles: parts "leaf" of paint and "frame" of steel; units are whatever is
-  /// said.
+  /// Two separate triangles: parts "leaf" of paint and "frame" of steel; in whatever units the
+  /// import states.
   static constexpr const char* cube =
       "mtllib cube.mtl\no leaf\nv 0 0 0\nv 100 0 0\nv 0 200 0\nusemtl paint\nf 1 2 3\no frame\n"
       "v 0 0 50\nv 100 0 50\nv 0 200 50\nusemtl steel\nf 4 5 6\n";

@@ -1,4 +1,4 @@
-// Luminaires of GLDF containers, as scenes name them.
+// Luminaires of GLDF containers in scenes.
 #include <catch2/catch.hpp>
 
 #include "tests/kit/zip_kit.hpp"
@@ -48,7 +48,8 @@ TEST_CASE("a luminaire takes both fluxes from its container", "[format][gldf]") 
   CHECK(stated.emitters[0].emergency_flux == near(80 * 0.5 * 0.9));
 }
 
-TEST_CASE("an emergency flux that a container does not say is asked for", "[format][gldf]") {
+TEST_CASE("an emergency flux that a container does not state must be stated in the scene",
+          "[format][gldf]") {
   SceneFolder folder;
   folder.put("a.gldf", container(false));
   const std::string problems = all_problems(folder.read(contained + lit_in_emergencies));
@@ -58,7 +59,7 @@ TEST_CASE("an emergency flux that a container does not say is asked for", "[form
   CHECK(good(folder, contained).emitters[0].mains_flux == near(1000));
 }
 
-TEST_CASE("keys of containers belong to containers", "[format][gldf]") {
+TEST_CASE("keys for containers are rejected for other files", "[format][gldf]") {
   SceneFolder folder;
   const std::string problems = all_problems(folder.read(
       "[[luminaire]]\nname = \"a\"\nposition = [0, 0, 2]\nfile = \"lamp.ies\"\nvariant = \"v\"\n"));

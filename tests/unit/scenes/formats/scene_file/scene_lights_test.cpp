@@ -1,5 +1,4 @@
-// Luminaires, emitters and signs are read field by field, with the conversions that their words ask
-// for.
+// Luminaires, emitters and signs are read field by field, with the conversions of their keys.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -115,7 +114,7 @@ TEST_CASE("emitters of every shape have their size, distribution and flux", "[fo
   CHECK(named(s.emitters, "c").cosine_power == 4);
 }
 
-TEST_CASE("signs have a face, luminances in both states, and a detail to be seen",
+TEST_CASE("signs have a face, luminances in both states, and a smallest detail",
           "[format][scene]") {
   SceneFolder f;
   const auto s = good(f, R"(

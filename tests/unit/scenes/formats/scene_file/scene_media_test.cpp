@@ -1,4 +1,4 @@
-// Media of a good scene, read field by field, with the conversions of extinction.
+// Media of a correct scene, read field by field, with the conversions of extinction.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>

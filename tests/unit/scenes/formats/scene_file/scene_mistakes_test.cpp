@@ -1,4 +1,4 @@
-// Every mistake in a scene file gives one problem, with its line, in words that say what to do.
+// Every mistake in a scene file gives one problem, with its line and a remedy.
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
@@ -35,7 +35,7 @@ const std::string cone =
 const std::string import =
     "[[import]]\nname = \"i\"\nfile = \"cube.obj\"\nunits = \"m\"\nup = \"z\"\n";
 
-/// Each text must give exactly the one problem that stands beside it.
+/// Each text must give exactly the one problem beside it.
 void check(const std::vector<Mistake>& mistakes) {
   SceneFolder folder;
   for (const Mistake& m : mistakes) {
@@ -55,8 +55,7 @@ void check(const std::vector<Mistake>& mistakes) {
 
 }  // namespace
 
-TEST_CASE("a scene file that nests without measure is one problem, not the end of the program",
-          "[format][scene]") {
+TEST_CASE("a scene file with excessive nesting is one problem, not a crash", "[format][scene]") {
   std::string key;
   for (int i = 0; i < 100'000; ++i) key += "a.";
   const std::string list(100'000, '[');
@@ -67,8 +66,7 @@ TEST_CASE("a scene file that nests without measure is one problem, not the end o
   });
 }
 
-TEST_CASE("a slip of the pen is one problem that names the word that was meant",
-          "[format][scene]") {
+TEST_CASE("a misspelt word is one problem that names the intended one", "[format][scene]") {
   check({
       {"titel = \"x\"\n", 1, "unknown key 'titel'; did you mean 'title'?"},
       {"\n[[materail]]\nname = \"m\"\nreflectance = 0.5\n", 2, "did you mean 'material'?"},
@@ -90,7 +88,7 @@ TEST_CASE("a slip of the pen is one problem that names the word that was meant",
   });
 }
 
-TEST_CASE("a value of a wrong type, range or form is one problem with what is right",
+TEST_CASE("a value of a wrong type, range or form is one problem that says what is right",
           "[format][scene]") {
   const std::string m = "[[material]]\nname = \"m\"\n";
   check({
@@ -123,7 +121,7 @@ TEST_CASE("a value of a wrong type, range or form is one problem with what is ri
   });
 }
 
-TEST_CASE("objects and imports that cannot be are refused where they are said", "[format][scene]") {
+TEST_CASE("impossible objects and imports are rejected where they are stated", "[format][scene]") {
   const std::string name = "[[object]]\nname = \"o\"\nmaterial = \"grey50\"\n";
   check({
       {quad, 1, "the key 'material' is missing"},
@@ -172,7 +170,7 @@ TEST_CASE("objects and imports that cannot be are refused where they are said", 
   });
 }
 
-TEST_CASE("lights that cannot be, or that leave emergency values to guessing, are refused",
+TEST_CASE("impossible lights, and lights without emergency values, are rejected",
           "[format][scene]") {
   check({
       {point, 1, "one of the keys 'flux_lm', 'flux_w', 'luminance_cd_m2' is needed"},
@@ -220,7 +218,7 @@ TEST_CASE("lights that cannot be, or that leave emergency values to guessing, ar
   });
 }
 
-TEST_CASE("signs that say too little or too much are refused", "[format][scene]") {
+TEST_CASE("signs with missing or contradictory keys are rejected", "[format][scene]") {
   const std::string plain = "plain = \"white\"\nsmallest_detail = 0.1\n";
   check({
       {sign + lit, 1, "one of the keys 'file', 'text', 'plain' is needed"},
@@ -246,8 +244,9 @@ TEST_CASE("signs that say too little or too much are refused", "[format][scene]"
   });
 }
 
-TEST_CASE("a length of a sign beyond its face is refused with value, bound and what mm are in m",
-          "[format][scene]") {
+TEST_CASE(
+    "a length of a sign beyond its face is rejected with value, limit and the value of mm in m",
+    "[format][scene]") {
   const std::string metres = "10 mm is 0.01";
   check({
       {sign + lit + "plain = \"white\"\nsmallest_detail = 10\n", 12, metres},
@@ -265,7 +264,7 @@ TEST_CASE("a length of a sign beyond its face is refused with value, bound and w
   good(folder, sign + lit + "plain = \"white\"\nsmallest_detail = 0.3\nthickness = 0.1\n");
 }
 
-TEST_CASE("media that contradict themselves or physics are refused", "[format][scene]") {
+TEST_CASE("media that contradict themselves or physics are rejected", "[format][scene]") {
   const std::string layer = "[[medium.layer]]\nextinction = 1\nalbedo = 0\n";
   const std::string layered = "[[medium]]\nname = \"s\"\nkind = \"layered\"\n";
   check({
@@ -309,7 +308,7 @@ TEST_CASE("media that contradict themselves or physics are refused", "[format][s
   });
 }
 
-TEST_CASE("measurements and scenarios may name only what there is", "[format][scene]") {
+TEST_CASE("measurements and scenarios may only name existing things", "[format][scene]") {
   const std::string plane = "[[plane]]\nname = \"p\"\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\n";
   const std::string scenario = "[[scenario]]\nname = \"s\"\n";
   check({
@@ -343,8 +342,7 @@ TEST_CASE("measurements and scenarios may name only what there is", "[format][sc
   });
 }
 
-TEST_CASE("all mistakes of all files are told at once, file by file and line by line",
-          "[format][scene]") {
+TEST_CASE("all mistakes of all files are reported at once, by file and line", "[format][scene]") {
   SceneFolder f;
   f.put("base.toml", "[[material]]\nname = \"m\"\nreflectance = 2\n");
   const ReadScene read = f.read("include = [\"base.toml\"]\n[run]\nseed = -1\nvoxels = 3\n" +
@@ -358,7 +356,7 @@ TEST_CASE("all mistakes of all files are told at once, file by file and line by 
   CHECK(read.problems.list()[4].text().find("base.toml:3: ") != std::string::npos);
 }
 
-TEST_CASE("a broken included file hides its names without blaming those who use them",
+TEST_CASE("a broken included file hides its names, and references to them are not blamed",
           "[format][scene]") {
   SceneFolder f;
   f.put("base.toml", "[[material]\nname = \"m\"\n");
@@ -368,7 +366,7 @@ TEST_CASE("a broken included file hides its names without blaming those who use 
   CHECK(read.problems.list()[0].text().find("base.toml:1: this is not TOML") != std::string::npos);
 }
 
-TEST_CASE("a file that cannot be a scene is refused by name", "[format][scene]") {
+TEST_CASE("a file that cannot be a scene is rejected by name", "[format][scene]") {
   SceneFolder f;
   CHECK(read_scene(f.path() / "none.toml").problems.list().at(0).what ==
         "there is no such scene file");
@@ -382,8 +380,9 @@ TEST_CASE("a file that cannot be a scene is refused by name", "[format][scene]")
   CHECK(f.read("title = " + std::string(100'000, '[')).problems.list().size() == 1);
 }
 
-TEST_CASE("a photometric file's own fault is told with its line, and who named it",
-          "[format][scene]") {
+TEST_CASE(
+    "a photometric file's own fault is reported with its line, and the place that names the file",
+    "[format][scene]") {
   SceneFolder f;
   f.put("bad.ies",
         "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 10\n0 45 90\n0\n1 x 3\n");

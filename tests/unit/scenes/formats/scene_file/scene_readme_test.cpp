@@ -1,5 +1,5 @@
-// The README of the scene format says what the reader does: its tables are the schema's, its
-// example reads.
+// The README of the scene format agrees with the reader: its tables are the schema's, its example
+// can be read.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
@@ -22,7 +22,7 @@ std::string readme() {
   return text.str();
 }
 
-/// Lines of the text that begin so.
+/// Lines of the text that begin with `start`.
 std::multiset<std::string> lines(const std::string& text, const std::string& start) {
   std::multiset<std::string> out;
   std::istringstream in(text);
@@ -52,7 +52,7 @@ TEST_CASE("the README lists every key of the reader and no other, with the same 
       CHECK(meant.count(line) > 0);
     }
   }
-  // And in the same order, so that a key stands in its own table.
+  // The order agrees as well, so that a key stands in its own table.
   CHECK(tables.find(schema.substr(0, schema.size() - 1)) != std::string::npos);
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("the example of the README is a good scene", "[format][scene]") {
   CHECK(read.scene->scenarios.size() == 2);
 }
 
-TEST_CASE("however the example is damaged, it is a scene or has problems, never both or neither",
+TEST_CASE("a damaged example is either a scene or has problems, never both or neither",
           "[format][scene]") {
   const std::string text = readme();
   const size_t begin = text.find("```toml\n") + 8;
@@ -113,7 +113,7 @@ TEST_CASE("however the example is damaged, it is a scene or has problems, never 
     const size_t equals = rows[i].find(" = ");
     std::vector<std::string> damaged = {"", rows[i] + rows[i], rows[i] + "\n" + rows[i]};
     if (equals != std::string::npos) {
-      // Five of the values, others on the next line: the whole square would take a minute.
+      // Five of the values, others on the next line: all pairs would take a minute.
       for (size_t k = 0; k < 5; ++k) {
         damaged.push_back(rows[i].substr(0, equals + 3) + values[(i * 5 + k) % values.size()]);
       }

@@ -1,4 +1,4 @@
-// Copies in rows.
+// Rows of copies.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/scenes/formats/scene_file/scene_fixture.hpp"
@@ -32,7 +32,7 @@ std::string only_problem(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("rows of copies multiply, and stand where their steps lead", "[format][scene]") {
+TEST_CASE("rows of copies multiply, and each copy is offset by its steps", "[format][scene]") {
   SceneFolder folder;
   const SceneDescription scene =
       good(folder,
@@ -58,7 +58,7 @@ TEST_CASE("copies of a luminaire are emitters of their own, with numbered names"
   CHECK(scene.emitters[2].mains_flux == scene.emitters[0].mains_flux);
 }
 
-TEST_CASE("repeats that cannot be are told with their line", "[format][scene]") {
+TEST_CASE("impossible repeats are reported with their line", "[format][scene]") {
   CHECK(only_problem(box("repeat = [{ count = 0, step = [1, 0, 0] }]\n") + repeated_lamp)
             .find("count") != std::string::npos);
   CHECK(only_problem(box("repeat = [{ count = 1000, step = [1, 0, 0] }, { count = 1000, step = "

@@ -3,7 +3,7 @@
 
 namespace luxodus {
 
-TEST_CASE("open sides are read by their words, each once, in the order they are named",
+TEST_CASE("open sides are read by name, each once, in the order they are listed",
           "[format][scene]") {
   SceneFolder folder;
   const auto read = folder.read("open_sides = [\"top\", \"west\", \"top\"]\n");
@@ -13,7 +13,7 @@ TEST_CASE("open sides are read by their words, each once, in the order they are 
   CHECK(folder.read("title = \"closed\"\n").scene->open_sides.empty());
 }
 
-TEST_CASE("a side that is none is refused with the words there are", "[format][scene]") {
+TEST_CASE("an unknown side is rejected with a list of the known ones", "[format][scene]") {
   SceneFolder folder;
   const auto read = folder.read("title = \"x\"\nopen_sides = [\"roof\"]\n");
   CHECK_FALSE(read.scene);

@@ -1,5 +1,5 @@
-// Scenes that change in time: values as rows [seconds, value], the clock of [time], doors, supplies
-// that are exhausted.
+// Scenes that change in time: values as rows [seconds, value], the clock of [time], doors,
+// exhausted supplies.
 #include <catch2/catch.hpp>
 
 #include "scenes/light/signs/onset.hpp"
@@ -58,7 +58,7 @@ TEST_CASE("a layer of a design fire sinks and thickens linearly between its rows
   CHECK(good_at(f, sinking, 75).content_hash == at_75.content_hash);
 }
 
-TEST_CASE("what has not begun to burn is not there, and scenarios and changes may name it",
+TEST_CASE("a fire that has not begun is absent, and scenarios and changes may name it",
           "[format][scene][time]") {
   SceneFolder f;
   const std::string named =
@@ -71,7 +71,7 @@ TEST_CASE("what has not begun to burn is not there, and scenarios and changes ma
   CHECK(later.media.at(1).emission->power_w == near(1e5));
 }
 
-TEST_CASE("values over time that cannot be are refused with their line", "[format][scene][time]") {
+TEST_CASE("impossible values over time are rejected with their line", "[format][scene][time]") {
   SceneFolder f;
   const auto with = [](const std::string& rows) {
     std::string text = sinking;
@@ -94,7 +94,8 @@ TEST_CASE("values over time that cannot be are refused with their line", "[forma
         std::string::npos);
 }
 
-TEST_CASE("a clock says the time of a scene, and its mistakes are told", "[format][scene][time]") {
+TEST_CASE("a clock sets the time of a scene, and its mistakes are reported",
+          "[format][scene][time]") {
   SceneFolder f;
   const SceneDescription first = good(f, clock + sinking + emergency);
   CHECK(first.at_s == 0);
@@ -111,7 +112,7 @@ TEST_CASE("a clock says the time of a scene, and its mistakes are told", "[forma
             .find("follows from 'mains_fail_at'") != std::string::npos);
 }
 
-TEST_CASE("a supply lasts where nothing is said of it, and none does without emergency operation",
+TEST_CASE("a supply without a duration lasts, and none does without emergency operation",
           "[format][scene][time]") {
   CHECK_FALSE(is_exhausted(std::nullopt, 1e9));
   CHECK_FALSE(is_exhausted(10, 9.9));
@@ -175,7 +176,7 @@ TEST_CASE("an object comes and goes at its times, and its name is known in betwe
              Catch::Contains("appears and vanishes at 40 s"));
 }
 
-TEST_CASE("a sign says which routes it leads to, and they exist", "[format][scene][time]") {
+TEST_CASE("the routes that a sign leads to must exist", "[format][scene][time]") {
   SceneFolder f;
   const std::string way = "[[sign.leads_to]]\nroute = \"corridor\"\narrow = \"left\"\n";
   const std::string route =

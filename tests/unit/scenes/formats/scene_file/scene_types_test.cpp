@@ -1,4 +1,4 @@
-// What several luminaires or signs have in common, named by `type`.
+// Keys shared by several luminaires or signs, referenced by `type`.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/scenes/formats/scene_file/scene_fixture.hpp"
@@ -11,7 +11,7 @@ const std::string typed_lamp =
 
 }  // namespace
 
-TEST_CASE("a luminaire has the keys of its type, and its own win", "[format][types]") {
+TEST_CASE("a luminaire has the keys of its type, and its own keys win", "[format][types]") {
   SceneFolder folder;
   const SceneDescription scene =
       good(folder, typed_lamp +
@@ -25,7 +25,7 @@ TEST_CASE("a luminaire has the keys of its type, and its own win", "[format][typ
   CHECK(scene.emitters[0].mains_flux == near(2 * scene.emitters[1].mains_flux));
 }
 
-TEST_CASE("a type's file is looked for beside the file that says the type", "[format][types]") {
+TEST_CASE("a type's file is relative to the file that states the type", "[format][types]") {
   SceneFolder folder;
   std::filesystem::create_directories(folder.path() / "types");
   folder.put("types/inner.ies",
@@ -48,7 +48,8 @@ TEST_CASE("a sign has the keys of its type", "[format][types]") {
   CHECK(scene.signs[0].emergency.white_cd_m2 == 40);
 }
 
-TEST_CASE("a type that is not there, or says what types do not, is told", "[format][types]") {
+TEST_CASE("an unknown type, or one with keys that types must not have, is reported",
+          "[format][types]") {
   SceneFolder folder;
   const std::string absent = all_problems(folder.read(typed_lamp));
   CHECK(absent.find("'round'") != std::string::npos);

@@ -1,4 +1,4 @@
-// Small OpenVDB files for tests, written by OpenVDB itself.
+// Small OpenVDB files for tests, written with OpenVDB.
 #pragma once
 
 #include <openvdb/openvdb.h>

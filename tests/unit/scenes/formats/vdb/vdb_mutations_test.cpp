@@ -1,7 +1,7 @@
-// Harmed OpenVDB files: whatever the library makes of them, they are read or refused with one
-// sentence, in bounded time and memory. Each is read in a process of its own, a copy of this one,
-// so that hundreds are read in a second. The seed is LUXODUS_SEED, or 1; LUXODUS_MUTATIONS says how
-// many files are harmed, and has their ends counted on standard error.
+// Mutated OpenVDB files: whatever the library does, they are read or rejected with one sentence, in
+// bounded time and memory. Each is read in a process of its own, a copy of this one, so that
+// hundreds are read in a second. The seed is LUXODUS_SEED, or 1; LUXODUS_MUTATIONS sets how many
+// files are mutated, and prints a count of the outcomes on standard error.
 #include <tbb/global_control.h>
 
 #include <catch2/catch.hpp>
@@ -35,8 +35,8 @@ Bytes bytes_of(const std::filesystem::path& file) {
   return {from, from + text.size()};
 }
 
-/// Files of every way to store cells: packed by each library or not, as halves, blocks of one
-/// value, other grids beside them, and one of another program where it is there.
+/// Files with every storage of cells: packed by each library or not, as halves, blocks of one
+/// value, several grids, and one file of another program if available.
 std::vector<Bytes> whole_files(const TemporaryFolder& folder) {
   namespace io = openvdb::io;
   std::vector<Bytes> out;
@@ -62,7 +62,7 @@ std::vector<Bytes> whole_files(const TemporaryFolder& folder) {
   return out;
 }
 
-/// The first words of a sentence, which tell what kind of end it is.
+/// The first words of a message, which identify the kind of outcome.
 std::string kind_of_end(const std::string& sentence) {
   size_t end = 0;
   for (int words = 0; words < 7 && end != std::string::npos; ++words)
@@ -72,17 +72,17 @@ std::string kind_of_end(const std::string& sentence) {
 
 }  // namespace
 
-TEST_CASE("harmed OpenVDB files are read or refused with one sentence", "[vdb][fuzz]") {
+TEST_CASE("mutated OpenVDB files are read or rejected with one sentence", "[vdb][fuzz]") {
   const uint64_t seed = said_number("LUXODUS_SEED", 1);
   const uint64_t tries = said_number("LUXODUS_MUTATIONS", 300);
   INFO("seed " << seed);
   Random random(seed, RandomStream::test);
   random.start(2);
-  // Also while files are written: a copy of this process has no thread but its own.
+  // Also while files are written: a copy of this process has only its own thread.
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const TemporaryFolder folder;
   const std::vector<Bytes> whole = whole_files(folder);
-  // Little, so that files that claim gigabytes take no time to fill them.
+  // A small limit, so that files that declare gigabytes fill it quickly.
   const VdbProgram program{LUX_VDB_PROGRAM, {}, 1, uint64_t{128} << 20};
   const ForkedJobs here;
   std::map<std::string, uint64_t> ends;

@@ -1,4 +1,4 @@
-// Grids of OpenVDB files, written here by OpenVDB itself, as even cells.
+// Grids of OpenVDB files, written here with OpenVDB, as even cells.
 #include "scenes/formats/vdb/vdb.hpp"
 
 #include <openvdb/openvdb.h>
@@ -34,7 +34,7 @@ void check_near(const glm::dvec3& is, const glm::dvec3& wanted) {
 
 }  // namespace
 
-TEST_CASE("a grid becomes cells where the file has them, and an index is the middle of a cell",
+TEST_CASE("a grid becomes cells at their places in the file, and an index is the centre of a cell",
           "[vdb]") {
   const TemporaryFolder folder;
   const auto smoke = read_vdb(written_grids(folder, {fog()}), "density", UpAxis::z, vdb_program);
@@ -47,7 +47,7 @@ TEST_CASE("a grid becomes cells where the file has them, and an index is the mid
   CHECK(std::count(smoke->values.begin(), smoke->values.end(), 0.0F) == 24);
 }
 
-TEST_CASE("where y is up, (x, y, z) of the file is (x, -z, y) of the scene", "[vdb]") {
+TEST_CASE("a grid whose y is up is rotated to the z axis of the scene", "[vdb]") {
   const TemporaryFolder folder;
   const auto path = written_grids(folder, {fog()});
   const auto lying = read_vdb(path, "density", UpAxis::z, vdb_program);
@@ -65,7 +65,7 @@ TEST_CASE("where y is up, (x, y, z) of the file is (x, -z, y) of the scene", "[v
   }
 }
 
-TEST_CASE("cells of a block that is stored as one value are all there", "[vdb]") {
+TEST_CASE("blocks stored as one value become cells", "[vdb]") {
   auto grid = fog();
   grid->clear();
   grid->fill(openvdb::CoordBBox(Coord(0), Coord(15)), 0.5F);
@@ -75,7 +75,7 @@ TEST_CASE("cells of a block that is stored as one value are all there", "[vdb]")
   CHECK(smoke->values == std::vector<float>(4096, 0.5F));
 }
 
-TEST_CASE("who waits for a grid hears how far reading it is, up to its end", "[vdb]") {
+TEST_CASE("reading a grid reports its progress, up to the end", "[vdb]") {
   auto grid = fog();
   grid->fill(openvdb::CoordBBox(Coord(0), Coord(7, 7, 200)), 0.5F);
   const TemporaryFolder folder;
@@ -106,7 +106,7 @@ TEST_CASE("the grids of a file are listed, with those that cannot be read and wh
   }
 }
 
-TEST_CASE("what is no smoke in even cells is refused, and says what to do", "[vdb]") {
+TEST_CASE("a grid that is not smoke in even cells is rejected with a remedy", "[vdb]") {
   CHECK_THAT(vdb_refusal({fog()}, "smoke"),
              Contains("no grid \"smoke\" in it; there are \"density\""));
   auto grid = fog();
@@ -141,7 +141,8 @@ TEST_CASE("what is no smoke in even cells is refused, and says what to do", "[vd
   }
 }
 
-TEST_CASE("no file, another file and no program are errors that name the file", "[vdb]") {
+TEST_CASE("a missing file, another file and a missing program are errors that name the file",
+          "[vdb]") {
   const TemporaryFolder folder;
   const auto other = list_vdb(folder.write("a.vdb", "hello, this is no such file"), vdb_program);
   REQUIRE_FALSE(other.ok());
@@ -152,7 +153,7 @@ TEST_CASE("no file, another file and no program are errors that name the file", 
   CHECK_THAT(none.problem().what, Contains("apt-get install libopenvdb-dev"));
 }
 
-TEST_CASE("a file of others is read", "[vdb]") {
+TEST_CASE("a file of another program is read", "[vdb]") {
   const std::filesystem::path file =
       std::filesystem::path(LUX_SHARED_DATA) / "vdb/smoke_layer_own.vdb";
   if (!std::filesystem::is_regular_file(file)) {

@@ -13,7 +13,7 @@ using Outline = std::vector<glm::dvec2>;
 namespace {
 
 const Outline l_shape = {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
-// Points on straight edges, and a corner that reaches in.
+// Outlines with points on straight edges and with a concave corner.
 const Outline awkward = {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 1}, {0, 2}, {0, 1}};
 const Outline comb = {{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {5, 1}, {5, 3}, {4, 3},
                       {4, 1}, {3, 1}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
@@ -115,11 +115,11 @@ TEST_CASE("openings that do not fit are refused by number", "[geometry][parts]")
   CHECK(refused({{1, 0, 0, 2}}, "width"));
   CHECK(refused({{0, 0, 4, 2.5}}, "nothing"));
   CHECK(refused(std::vector<shapes::WallOpening>(65, {1, 1, 0.1, 0.1}), "64"));
-  // 0.1 + 0.2 rounds past 0.3: at the end, not outside.
+  // 0.1 + 0.2 rounds to more than 0.3: the opening counts as ending there, not as outside.
   CHECK(shapes::wall(0.3, 1, 0.1, {{shapes::WallOpening{0.1, 0.2, 0.2, 0.5}}}).ok());
 }
 
-TEST_CASE("open stairs are treads that face up and risers that face who climbs",
+TEST_CASE("open stairs are treads that face up and risers that face a person climbing",
           "[geometry][parts]") {
   const int steps = 7;
   const Mesh mesh = shapes::stairs(steps, 0.17, 0.29, 1.2).value().mesh;
@@ -151,10 +151,10 @@ TEST_CASE("closed stairs are closed and have the volume of their steps", "[geome
   }
 }
 
-TEST_CASE(
-    "a flight whose corners are in a line but for rounding is cut into triangles all the same",
-    "[geometry][parts]") {
-  // 0.17 m and 0.28 m have no exact double: the inner corners leave their line in the last digit.
+TEST_CASE("a flight whose corners are collinear but for rounding is still triangulated",
+          "[geometry][parts]") {
+  // 0.17 m and 0.28 m are not exact in double: the inner corners are collinear up to the last
+  // digit.
   const double rise = 0.17, going = 0.28, width = 1.2;
   for (int n = 2; n <= 40; ++n) {
     const auto flight = shapes::stairs(n, rise, going, width, shapes::StairUnderside::soffit);

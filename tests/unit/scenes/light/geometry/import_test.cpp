@@ -26,7 +26,8 @@ std::string triangle_buffer() {
   return bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}) + bytes_of<uint16_t>({0, 1, 2});
 }
 
-/// Triangle (0,0,0) (1,0,0) (0,2,0), y up, under nodes written by the caller; an embedded buffer.
+/// Triangle (0,0,0) (1,0,0) (0,2,0), y up, under nodes given by the caller; with an embedded
+/// buffer.
 std::string gltf(
     const std::string& nodes, const std::string& roots,
     const std::string& material =
@@ -83,7 +84,7 @@ TEST_CASE("an OBJ gives its objects with names, materials and colours, in order"
   CHECK(fs::path(files[1]).filename() == "house.mtl");
 }
 
-TEST_CASE("a material of which no library says a colour has none, and it is said why and where",
+TEST_CASE("a material that no library describes has no colour, and the message says why and where",
           "[geometry][import]") {
   const TemporaryFolder folder;
   const std::string shape = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
@@ -134,7 +135,7 @@ TEST_CASE("a material of which no library says a colour has none, and it is said
     CHECK(bare.no_colour->what.find(row.says) != std::string::npos);
     CHECK(bare.no_colour->what.find("'dark wood'") != std::string::npos);
   }
-  // White in a glTF stands for nothing but the picture that it dims.
+  // White in a glTF may only stand for the texture that it tints.
   const std::string tiled =
       R"({"name":"tiles","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
       R"("textures":[{"source":0}],"images":[{"uri":"tiles.png"})";
@@ -256,7 +257,7 @@ TEST_CASE("files that hold no usable mesh are refused with a sentence that names
     const char* says;
   };
   const std::string good_gltf = gltf(R"({"name":"n","mesh":0})", "0");
-  // The same with other coordinates of its second vertex.
+  // That file with other coordinates of the second vertex.
   const auto gltf_at = [&](float x, float y) {
     const std::string good = base64(triangle_buffer());
     const std::string other =
@@ -304,7 +305,7 @@ TEST_CASE("files that hold no usable mesh are refused with a sentence that names
   }
 }
 
-TEST_CASE("a missing file, a folder and a unit of nothing are refused", "[geometry][import]") {
+TEST_CASE("a missing file, a folder and a unit of size 0 are refused", "[geometry][import]") {
   const TemporaryFolder folder;
   CHECK_FALSE(import_mesh(folder / "absent.obj", 1, UpAxis::z).ok());
   fs::create_directories(folder / "folder.obj");
@@ -318,7 +319,7 @@ TEST_CASE("a missing file, a folder and a unit of nothing are refused", "[geomet
 
 namespace {
 
-/// Fails, with the file at fault and a sentence that has these words.
+/// Checks that the import fails, naming the file at fault with a message that contains these words.
 void refuses(const std::string& path, const std::string& at_fault, int line,
              const std::string& says) {
   const auto result = import_mesh(path, 1, UpAxis::z);
@@ -331,7 +332,7 @@ void refuses(const std::string& path, const std::string& at_fault, int line,
 
 }  // namespace
 
-TEST_CASE("a material library that gives maps to no material is refused, not followed",
+TEST_CASE("a material library that assigns maps before any material is refused",
           "[geometry][import][hostile]") {
   const TemporaryFolder folder;
   const std::string obj =
@@ -344,7 +345,7 @@ TEST_CASE("a material library that gives maps to no material is refused, not fol
   CHECK(import_mesh(obj, 1, UpAxis::z).ok());
 }
 
-TEST_CASE("glTF that nests or chains too deep, or names nodes twice, is refused",
+TEST_CASE("a glTF that nests or chains too deep, or references nodes twice, is refused",
           "[geometry][import][hostile]") {
   const TemporaryFolder folder;
   const auto repeat = [](const std::string& text, int times) {
@@ -364,7 +365,7 @@ TEST_CASE("glTF that nests or chains too deep, or names nodes twice, is refused"
       folder.write("chain.gltf", gltf(chain + R"({"name":"end","mesh":0})", "0"));
   refuses(chained, chained, 0, "more than 1000 deep");
 
-  // Each names the next ten times: 10^12 nodes, once they are copied.
+  // Each node references the next one ten times: 10^12 nodes once copied.
   std::string bomb;
   for (int i = 1; i < 13; ++i) {
     const std::string next = std::to_string(i);
@@ -381,7 +382,7 @@ TEST_CASE("glTF that nests or chains too deep, or names nodes twice, is refused"
   refuses(odd, odd, 0, "a child that there is not");
 }
 
-TEST_CASE("an OBJ with texture coordinates that are no numbers, or endless objects, is refused",
+TEST_CASE("an OBJ with non-numeric texture coordinates or too many objects is refused",
           "[geometry][import][hostile]") {
   const TemporaryFolder folder;
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -400,7 +401,7 @@ TEST_CASE("an OBJ with texture coordinates that are no numbers, or endless objec
   refuses(many, many, static_cast<int>(4 + 2 * limits::obj_groups), "join some");
 }
 
-TEST_CASE("what the importer says of a file does not quote it", "[geometry][import][hostile]") {
+TEST_CASE("the importer's messages do not quote the file", "[geometry][import][hostile]") {
   const TemporaryFolder folder;
   for (const char* name : {"a.obj", "a.gltf", "a.glb"}) {
     const auto result = import_mesh(folder.write(name, "v root:secret:0:0 1 2\n"), 1, UpAxis::z);

@@ -1,4 +1,4 @@
-// What tests ask of meshes, found by brute force.
+// Brute-force checks of meshes for tests. Pure functions; any thread.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ inline Point key(const glm::dvec3& p) {
   return {p.x + 0.0, p.y + 0.0, p.z + 0.0};
 }
 
-/// Every directed edge, by the exact bits of its ends, is met by one that runs the other way:
-/// closed, all fronts on one side, no T-junction. `max_pairs` allows edges where bodies touch
-/// along a line.
+/// Whether every directed edge, by the exact bits of its ends, is matched by one in the opposite
+/// direction: the mesh is closed, consistently oriented and free of T-junctions. `max_pairs` allows
+/// edges at which bodies touch along a line.
 inline bool is_closed(const Mesh& mesh, int max_pairs = 1) {
   std::map<std::pair<Point, Point>, int> edges;
   for (const glm::uvec3& t : mesh.triangles) {

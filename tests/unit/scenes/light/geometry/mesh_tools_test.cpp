@@ -13,8 +13,8 @@ TEST_CASE("degenerate triangles are dropped and counted, slivers stay", "[geomet
   mesh.triangles = {
       {0, 1, 2},  // stays
       {0, 0, 2},  // repeats an index
-      {0, 1, 3},  // three points of a line
-      {0, 1, 4},  // a sliver of 1 nm: thin, but real
+      {0, 1, 3},  // three collinear points
+      {0, 1, 4},  // a sliver of 1 nm: thin, but valid
       {0, 1, 5},  // repeats a position
       {2, 1, 0},  // stays
   };
@@ -24,14 +24,14 @@ TEST_CASE("degenerate triangles are dropped and counted, slivers stay", "[geomet
   CHECK(clean_mesh(mesh) == 0);
 }
 
-TEST_CASE("flatness is judged by shape: size and place do not matter", "[geometry][mesh]") {
+TEST_CASE("flatness is judged by shape, not by size or place", "[geometry][mesh]") {
   for (const double scale : {1e-160, 1e-3, 1.0, 1e7, 1e160}) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {scale, 0, 0}, {0, scale, 0}, {2 * scale, 0, 0}};
     mesh.triangles = {{0, 1, 2}, {0, 1, 3}};
     CHECK(clean_mesh(mesh) == 1);
   }
-  // Collinear in no axis' direction, where products round.
+  // Collinear but not along an axis, so that products round.
   Mesh slanted;
   slanted.positions = {
       {0.1, 0.2, 0.3}, {0.1 + 1.1, 0.2 + 0.7, 0.3 + 0.13}, {0.1 + 2.2, 0.2 + 1.4, 0.3 + 0.26}};

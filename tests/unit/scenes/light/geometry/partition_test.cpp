@@ -33,7 +33,7 @@ bool each_once(const Cells& cells, size_t count) {
 
 }  // namespace
 
-TEST_CASE("there are as many cells as asked or triangles, none empty, each triangle in one",
+TEST_CASE("there are as many cells as requested or as triangles, none empty, each triangle in one",
           "[geometry][partition]") {
   for (const size_t count : {1u, 2u, 7u, 100u, 1000u}) {
     const auto points = random_points(count, 3);
@@ -72,7 +72,7 @@ TEST_CASE("ties go by index, lower first", "[geometry][partition]") {
   CHECK(parts == Cells{{0, 1, 2}, {3, 4, 5}, {6, 7, 8, 9}});
 }
 
-TEST_CASE("cells are neighbours: together they fill far less than chance would",
+TEST_CASE("cells are compact: together their boxes fill far less than those of random cells",
           "[geometry][partition]") {
   const auto points = random_points(4096, 8);
   double volume = 0;
@@ -83,7 +83,7 @@ TEST_CASE("cells are neighbours: together they fill far less than chance would",
     const glm::dvec3 side = bounds.high - bounds.low;
     volume += side.x * side.y * side.z;
   }
-  // Boxes of disjoint cells cannot exceed the whole; random cells would give almost 64 wholes.
+  // Boxes of disjoint cells cannot exceed the whole; random cells would fill it almost 64 times.
   CHECK(volume < 10 * 2.5 * 1.0);
 }
 

@@ -113,7 +113,7 @@ TEST_CASE("points on the edges and a little beyond get an index of the triangle"
   }
 }
 
-TEST_CASE("subdivision keeps patch edges within the wish, and rounding adds none",
+TEST_CASE("subdivision keeps patch edges within the requested length, and rounding adds none",
           "[geometry][patches]") {
   CHECK(subdivision_for(5, 0) == 1);
   CHECK(subdivision_for(5, -1) == 1);

@@ -1,4 +1,4 @@
-// Which outlines are simple.
+// Which outlines are simple, and which segments meet.
 #include "scenes/light/geometry/polygon.hpp"
 
 #include <catch2/catch.hpp>
@@ -33,7 +33,7 @@ std::string refusal_of(const std::vector<glm::dvec2>& outline) {
 
 }  // namespace
 
-TEST_CASE("an outline may have many points on one wall, whichever way it slants", "[geometry]") {
+TEST_CASE("an outline may have many points on one wall at any slope", "[geometry]") {
   for (int degrees = 0; degrees < 180; ++degrees) {
     INFO(degrees << " degrees");
     const auto outline = turned(corridor(), degrees * std::numbers::pi / 180);
@@ -42,7 +42,8 @@ TEST_CASE("an outline may have many points on one wall, whichever way it slants"
   }
 }
 
-TEST_CASE("an outline that crosses or touches itself is refused with both edges", "[geometry]") {
+TEST_CASE("an outline that crosses or touches itself is refused, with both edges named",
+          "[geometry]") {
   CHECK(refusal_of({{0, 0}, {2, 2}, {2, 0}, {0, 2}}) ==
         "edges 1 and 3 of the outline touch or cross: outlines must be simple");
   // A corner on the middle of another edge.
@@ -55,7 +56,7 @@ TEST_CASE("an outline that crosses or touches itself is refused with both edges"
   }
 }
 
-TEST_CASE("segments meet where they share a point, also an end", "[geometry]") {
+TEST_CASE("segments meet if they share a point, also an end point", "[geometry]") {
   CHECK(segments_meet({0, 0}, {2, 0}, {1, -1}, {1, 1}));
   CHECK(segments_meet({0, 0}, {2, 0}, {2, 0}, {3, 5}));
   CHECK(segments_meet({0, 0}, {2, 0}, {1, 0}, {4, 0}));

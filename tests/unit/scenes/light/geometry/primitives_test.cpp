@@ -14,8 +14,8 @@ using std::numbers::pi;
 
 namespace {
 
-/// Distance of p from a triangle that it sees from the outside of a convex body: dense sampling of
-/// the triangle, so an upper bound close to it.
+/// Distance of p, outside a convex body, from its nearest triangle by dense sampling: a tight upper
+/// bound.
 double distance_to(const Mesh& mesh, const glm::dvec3& p) {
   double best = 1e300;
   const int n = 24;
@@ -58,7 +58,7 @@ TEST_CASE("a quad's texture runs from its corner along u and v", "[geometry][pri
 }
 
 TEST_CASE("a box is closed, looks outward, and has its volume", "[geometry][primitives]") {
-  // Sizes whose halves and sums round: closedness is of bits, not of nearness.
+  // Sizes whose halves and sums round: closed means equal bits, not nearly equal positions.
   const glm::dvec3 size(0.1, 0.7, 12.3);
   for (const auto at : {shapes::BoxAt::centre, shapes::BoxAt::corner}) {
     const Mesh mesh = shapes::box(size, at).value().mesh;
@@ -76,7 +76,7 @@ TEST_CASE("a picture stands upright on the sides of a box", "[geometry][primitiv
   for (size_t i = 0; i < 16; ++i) {
     CHECK(static_cast<double>(mesh.texture_uv[i].y) == mesh.positions[i].z);
   }
-  // Who looks along +y at the front side has +x at the right.
+  // Looking along +y at the front side, +x is to the right.
   for (size_t i = 8; i < 12; ++i) {
     CHECK(mesh.positions[i].y == 0);
     CHECK(static_cast<double>(mesh.texture_uv[i].x) == mesh.positions[i].x);
@@ -100,7 +100,7 @@ TEST_CASE("a room is closed, looks inward, and gives each face by itself",
   CHECK(area_of(room.floor) == Approx(12));
 }
 
-TEST_CASE("a cylinder is closed and off the true one by the sagitta it states",
+TEST_CASE("a cylinder is closed and deviates from the true one by the sagitta it states",
           "[geometry][primitives]") {
   const double radius = 0.7, height = 2;
   for (const int n : {3, 4, 16, 101}) {
@@ -138,7 +138,7 @@ TEST_CASE("a tube is closed and encloses the metal, not the bore", "[geometry][p
   CHECK(signed_volume_of(shape.mesh) == Approx(ring * 3));
 }
 
-TEST_CASE("the segments chosen for a bound keep it, and one fewer does not",
+TEST_CASE("the segments chosen for a bound satisfy it, and one fewer does not",
           "[geometry][primitives]") {
   for (const double radius : {0.01, 1.0, 250.0}) {
     for (const double ratio : {0.3, 0.01, 1e-4, 1e-6}) {
@@ -152,7 +152,7 @@ TEST_CASE("the segments chosen for a bound keep it, and one fewer does not",
   CHECK_FALSE(shapes::segments_within(1, 1e-9).ok());
 }
 
-TEST_CASE("a sphere is closed, its vertices lie on it, and it keeps the bound asked for",
+TEST_CASE("a sphere is closed, its vertices lie on it, and it keeps within the requested bound",
           "[geometry][primitives]") {
   const double radius = 1.5;
   double last_bound = 10;
@@ -174,7 +174,7 @@ TEST_CASE("a sphere is closed, its vertices lie on it, and it keeps the bound as
 }
 
 TEST_CASE(
-    "a sphere's stated bound is the distance of the farthest point, neither less nor far more",
+    "a sphere's stated bound is the distance of its farthest point, not less and not much more",
     "[geometry][primitives]") {
   const Shape shape = shapes::sphere(1, 0.05).value();
   double worst = 0;
@@ -183,7 +183,7 @@ TEST_CASE(
     const double d = distance_to(shape.mesh, normal_of(shape.mesh, i));
     worst = std::max(worst, d);
   }
-  CHECK(worst <= shape.discretisation_bound_m + 2e-3);  // distance_to samples: a little too far
+  CHECK(worst <= shape.discretisation_bound_m + 2e-3);  // distance_to is slightly too large
   CHECK(worst >= 0.95 * shape.discretisation_bound_m);
 }
 

@@ -41,7 +41,7 @@ TEST_CASE("a rotation is right-handed and exact at quarter turns", "[geometry][t
   check_near(rotation({1, 1, 1}, 120).value().point({1, 0, 0}), {0, 1, 0});
 }
 
-TEST_CASE("a rotation's axis may have any length but none", "[geometry][transform]") {
+TEST_CASE("a rotation's axis may have any length above zero", "[geometry][transform]") {
   for (const double scale : {1e-200, 1e-3, 1.0, 1e200}) {
     check_near(rotation(scale * glm::dvec3(0, 0, 1), 90).value().point({1, 0, 0}), {0, 1, 0});
   }
@@ -50,7 +50,7 @@ TEST_CASE("a rotation's axis may have any length but none", "[geometry][transfor
   CHECK_FALSE(rotation({0, 0, 1}, nan_value).ok());
 }
 
-TEST_CASE("a product of transforms does the right one first", "[geometry][transform]") {
+TEST_CASE("a product of transforms applies the right one first", "[geometry][transform]") {
   const Transform turn = rotation({0, 0, 1}, 90).value();
   const Transform move = translation({5, 0, 0});
   CHECK((turn * move).point({0, 0, 0}) == glm::dvec3(0, 5, 0));
@@ -66,8 +66,7 @@ TEST_CASE("a mirrored mesh keeps its fronts outward", "[geometry][transform]") {
   }
 }
 
-TEST_CASE("a transform that flattens or is not finite is known as unusable",
-          "[geometry][transform]") {
+TEST_CASE("a transform that flattens or is not finite is unusable", "[geometry][transform]") {
   CHECK(Transform{}.usable());
   CHECK(scaling({1e-3, 1e-3, 1e-3}).usable());
   CHECK_FALSE(scaling({1, 0, 1}).usable());
@@ -93,13 +92,13 @@ TEST_CASE("y up becomes z up without a mirror", "[geometry][transform]") {
   CHECK_FALSE(up_axis_named("x").ok());
 }
 
-TEST_CASE("a facing frame has z along its direction and y as near up as can be",
+TEST_CASE("a facing frame has z along its direction and y as near to up as possible",
           "[geometry][transform]") {
   const Frame sign = frame_facing({1, 2, 3}, {0, -4, 0}).value();
   CHECK(is_rigid(sign));
   check_near(sign.axes[2], {0, -1, 0});
   check_near(sign.axes[1], {0, 0, 1});
-  check_near(sign.axes[0], {1, 0, 0});  // the reader, who looks along +y, has +x at the right
+  check_near(sign.axes[0], {1, 0, 0});  // the reader, looking along +y, has +x to the right
   const Frame tilted = frame_facing({0, 0, 0}, {1, 1, 0.5}).value();
   CHECK(is_rigid(tilted));
   CHECK(tilted.axes[1].z > 0);

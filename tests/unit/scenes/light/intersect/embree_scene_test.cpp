@@ -23,8 +23,8 @@ void add_triangle(GeometryCell& cell, const glm::vec3& a, const glm::vec3& b, co
   cell.triangles.push_back(r);
 }
 
-/// A closed box of side 2 about the origin, turned askew, each face n x n squares of two triangles:
-/// shared edges nowhere run along an axis.
+/// A closed box of side 2 about the origin, rotated so that no shared edge runs along an axis; each
+/// face has n x n squares of two triangles.
 GeometryCell closed_box(int n) {
   GeometryCell cell;
   const glm::vec3 x = glm::normalize(glm::vec3(1, 0.3f, 0.2f));
@@ -65,7 +65,7 @@ glm::vec3 any_point(Random& random, float reach) {
   return reach * (2.0f * glm::vec3(x, y, z) - 1.0f);
 }
 
-/// The cell cut in parts, and all search structures over them.
+/// The cell cut into parts, with the search structures over them.
 struct Partition {
   std::vector<GeometryCell> cells;
   std::vector<std::unique_ptr<CellScene>> scenes;
@@ -102,7 +102,7 @@ struct Partition {
 
 }  // namespace
 
-TEST_CASE("the nearest triangle is found from both of its sides, at its distance and place",
+TEST_CASE("the nearest triangle is found from both of its sides, at the right distance and place",
           "[intersect]") {
   GeometryCell cell;
   add_triangle(cell, {0, 0, 1}, {4, 0, 1}, {0, 4, 1});
@@ -124,7 +124,7 @@ TEST_CASE("the nearest triangle is found from both of its sides, at its distance
   CHECK_FALSE(scene.nearest({{3, 3, 0}, {0, 0, 1}}).found());
 }
 
-TEST_CASE("a ray sees nothing beyond its length", "[intersect]") {
+TEST_CASE("a ray hits nothing beyond its length", "[intersect]") {
   GeometryCell cell;
   add_triangle(cell, {0, 0, 1}, {4, 0, 1}, {0, 4, 1});
   const EmbreeDevice device;
@@ -137,7 +137,7 @@ TEST_CASE("a ray sees nothing beyond its length", "[intersect]") {
   CHECK(scene.occluded(longer));
 }
 
-TEST_CASE("a cell without triangles is hit by nothing", "[intersect]") {
+TEST_CASE("nothing hits a cell without triangles", "[intersect]") {
   const GeometryCell cell;
   const EmbreeDevice device;
   const CellScene scene(device, cell);
@@ -162,7 +162,7 @@ TEST_CASE("a closed box lets none of a million rays out through its shared edges
     const glm::vec3 origin = any_point(random, 0.5f);
     glm::vec3 direction = any_direction(random);
     if (i % 2 == 0) {
-      // Aimed at the middle of an edge, where neighbours meet, or a hundredth of a millimetre past
+      // Aimed at the middle of an edge shared by two triangles, or a hundredth of a millimetre past
       // a corner.
       const TriangleRecord& t = cell.triangles[random.bits() % cell.triangles.size()];
       const uint32_t k = random.bits() % 3;
@@ -176,8 +176,9 @@ TEST_CASE("a closed box lets none of a million rays out through its shared edges
   CHECK(escaped == 0);
 }
 
-TEST_CASE("a partitioned scene answers as the merged one but for ties on shared edges",
-          "[intersect]") {
+TEST_CASE(
+    "a partitioned scene gives the same hits as the merged one, except for ties on shared edges",
+    "[intersect]") {
   const GeometryCell whole = closed_box(12);
   const EmbreeDevice device;
   const CellScene merged(device, whole);
@@ -191,7 +192,7 @@ TEST_CASE("a partitioned scene answers as the merged one but for ties on shared 
     constexpr int rays = 100'000;
     for (uint64_t i = 0; i < rays; ++i) {
       random.start(i);
-      const glm::vec3 origin = any_point(random, 2);  // some outside
+      const glm::vec3 origin = any_point(random, 2);  // some origins are outside
       const Ray ray{origin, any_direction(random)};
       const Hit a = merged.nearest(ray);
       const Hit b = partition.nearest(ray, scratch);
@@ -205,7 +206,8 @@ TEST_CASE("a partitioned scene answers as the merged one but for ties on shared 
   }
 }
 
-TEST_CASE("of triangles at one distance in two cells the smaller number wins", "[intersect]") {
+TEST_CASE("at equal distance in two cells, the triangle with the smaller number wins",
+          "[intersect]") {
   GeometryCell low, high;
   add_triangle(low, {0, 0, 1}, {4, 0, 1}, {0, 4, 1});
   add_triangle(high, {0, 0, 1}, {4, 0, 1}, {0, 4, 1});
@@ -226,7 +228,7 @@ TEST_CASE("of triangles at one distance in two cells the smaller number wins", "
   }
 }
 
-TEST_CASE("the device counts the bytes that scenes hold, and gets them back", "[intersect]") {
+TEST_CASE("the device counts the bytes that scenes hold, and their release", "[intersect]") {
   const EmbreeDevice device;
   const int64_t before = device.bytes();
   const GeometryCell cell = closed_box(40);
@@ -237,7 +239,7 @@ TEST_CASE("the device counts the bytes that scenes hold, and gets them back", "[
   CHECK(device.bytes() == before);
 }
 
-TEST_CASE("replayed rays hit the same triangles as asked one by one", "[intersect]") {
+TEST_CASE("replayed rays hit the same triangles as rays cast one by one", "[intersect]") {
   const GeometryCell cell = closed_box(5);
   const EmbreeDevice device;
   const CellScene scene(device, cell);

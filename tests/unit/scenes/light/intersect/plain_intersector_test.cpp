@@ -24,7 +24,7 @@ TriangleRecord triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3&
   return r;
 }
 
-/// A closed ball of 2 n n triangles about the origin, whose corners lie at odd places.
+/// A closed ball of 2 n n triangles about the origin, with irregularly placed corners.
 std::vector<TriangleRecord> ball(int n) {
   const auto at = [n](int i, int j) {
     const double polar = std::numbers::pi * i / n;
@@ -81,7 +81,7 @@ TEMPLATE_TEST_CASE("a triangle is met from both sides at its distance and place,
   CHECK(plain_nearest<TestType>(two, ray<TestType>({1, 1, 0}, {0, 1, 0})).index == no_triangle);
 }
 
-TEST_CASE("a plain ray sees nothing beyond its length, and nothing where it starts",
+TEST_CASE("a plain ray hits nothing beyond its length, and nothing at its start",
           "[intersect][plain]") {
   const std::vector<TriangleRecord> one = {triangle({0, 0, 1}, {4, 0, 1}, {0, 4, 1})};
   PlainRay<double> at = ray<double>({1, 1, 0}, {0, 0, 1});
@@ -96,7 +96,7 @@ TEST_CASE("a plain ray sees nothing beyond its length, and nothing where it star
   CHECK(plain_nearest<double>(one, ray<double>({1, 1, 1}, {0, 0, 1})).index == no_triangle);
 }
 
-TEST_CASE("of triangles at one distance the smaller number is the nearest, in whatever order",
+TEST_CASE("at equal distance the triangle with the smaller number wins, in any order",
           "[intersect][plain]") {
   const auto with = [](uint32_t first, uint32_t second) {
     return std::vector<TriangleRecord>{triangle({0, 0, 1}, {4, 0, 1}, {0, 4, 1}, first),
@@ -161,7 +161,8 @@ TEMPLATE_TEST_CASE("boxes of groups change no hit, whether rays run along axes o
   CHECK(hits > 5000);
 }
 
-TEST_CASE("the double intersector agrees with Embree but for its rounding", "[intersect][plain]") {
+TEST_CASE("the double-precision intersector agrees with Embree within rounding",
+          "[intersect][plain]") {
   GeometryCell cell;
   cell.triangles = ball(16);
   const EmbreeDevice device;
@@ -171,11 +172,11 @@ TEST_CASE("the double intersector agrees with Embree but for its rounding", "[in
   double farthest = 0, farthest_place = 0;
   for (uint64_t i = 0; i < 50'000; ++i) {
     random.start(i);
-    const glm::vec3 origin(plain_point(random, 1.5));  // some outside
+    const glm::vec3 origin(plain_point(random, 1.5));  // some origins are outside
     const glm::vec3 direction(plain_direction(random));
     const auto exact = plain_nearest<double>(cell.triangles, {origin, direction});
     const Hit hit = scene.nearest({origin, direction});
-    if (hit.found() != (exact.index != no_triangle)) {  // past a silhouette
+    if (hit.found() != (exact.index != no_triangle)) {  // the ray just passes a silhouette
       ++other_triangle;
       continue;
     }

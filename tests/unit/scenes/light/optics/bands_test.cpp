@@ -1,4 +1,4 @@
-// Bands: what they must add up to, and where they must and must not split.
+// Bands: sums that they must preserve, and where they must and must not split.
 #include "scenes/light/optics/bands.hpp"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ TEST_CASE("the light of the scene summed over bands is its spectral flux", "[opt
       z += w * bands[b].z_per_w;
     }
     CHECK(watts == Approx(1).epsilon(1e-12));
-    // Edges off the grid cut a polyline of products: equal to rounding in the sum over all bands.
+    // Edges off the grid cut the polylines, but the sum over all bands is exact to rounding.
     CHECK(lumens == Approx(683 * e.integral_with(cie_y())).epsilon(1e-12));
     CHECK(scotopic == Approx(1700.05 * e.integral_with(cie_scotopic())).epsilon(1e-12));
     CHECK(x == Approx(683 * e.integral_with(cie_x())).epsilon(1e-12));
@@ -56,9 +56,9 @@ TEST_CASE("the light of the scene summed over bands is its spectral flux", "[opt
   }
 }
 
-TEST_CASE("light of any shape has its lumens and its colour in the bands of other light",
+TEST_CASE("light of any shape keeps its lumens and its colour in bands weighted by other light",
           "[optics][bands]") {
-  // Six bands as coarse as scenes have them, weighted by lamps.
+  // Six bands as coarse as those of real scenes, weighted by lamps.
   const Bands bands({380, 455, 500, 550, 600, 650, 780}, white_led_shape(4000));
   const Spectrum green = emission_shape_from_linear_srgb(0.0168, 0.2122, 0.0843);
   for (const Spectrum& e : {green, illuminant_a_shape(), illuminant_d65_shape(),
@@ -83,7 +83,7 @@ TEST_CASE("the scene's own light keeps its spectrum, and two bands keep the lume
           "[optics][bands]") {
   const Spectrum lamp = white_led_shape(4000);
   const Bands own({380, 455, 500, 550, 600, 650, 780}, lamp);
-  const double lumens = efficacy_lm_per_w(lamp);  // of a watt
+  const double lumens = efficacy_lm_per_w(lamp);  // of one watt
   const std::vector<double> watts = own.powers(lamp, lumens);
   for (int b = 0; b < own.count(); ++b)
     CHECK(watts[static_cast<size_t>(b)] == Approx(own.power(lamp, b)).epsilon(1e-9));
@@ -94,7 +94,7 @@ TEST_CASE("the scene's own light keeps its spectrum, and two bands keep the lume
   CHECK(scaled[0] / scaled[1] == Approx(two.power(flame, 0) / two.power(flame, 1)));
 }
 
-TEST_CASE("light of deep red bands alone, which have one colour, keeps its lumens",
+TEST_CASE("light in deep red bands alone, which have one colour, keeps its lumens",
           "[optics][bands]") {
   const Bands bands({380, 600, 700, 720, 740, 780}, white_led_shape(4000));
   for (const double from : {605.0, 700.0}) {
@@ -112,9 +112,9 @@ TEST_CASE("light of deep red bands alone, which have one colour, keeps its lumen
   }
 }
 
-TEST_CASE("a colour that bands cannot give is approached, and no band goes out",
+TEST_CASE("a colour that the bands cannot represent is approximated, and no band becomes dark",
           "[optics][bands]") {
-  // A laser in bands of 4000 K lamps: its own band alone has its light.
+  // A laser in bands of 4000 K lamps: only its own band holds its light.
   const Bands bands({380, 455, 500, 550, 600, 650, 780}, white_led_shape(4000));
   const Spectrum laser = made([](double w) { return std::abs(w - 532) < 6 ? 1.0 : 1e-4; });
   const std::vector<double> watts = bands.powers(laser, 100);
@@ -128,7 +128,7 @@ TEST_CASE("a colour that bands cannot give is approached, and no band goes out",
   CHECK(lumens == Approx(100).epsilon(1e-9));
 }
 
-TEST_CASE("light of another shape keeps its watts, and its lumens nearly, in narrow bands",
+TEST_CASE("in narrow bands, light of another shape keeps its watts, and nearly its lumens",
           "[optics][bands]") {
   std::vector<double> edges;
   for (double w = 380; w <= 780; w += 20) edges.push_back(w);
@@ -152,7 +152,7 @@ TEST_CASE("the average of a constant is that constant in every band, lit or dark
     CHECK(bands.average(Spectrum::constant(0.37), b) == Approx(0.37).epsilon(1e-14));
 }
 
-TEST_CASE("a band in which nothing shines is weighted by equal energy", "[optics][bands]") {
+TEST_CASE("a band without emission is weighted by equal energy", "[optics][bands]") {
   Spectrum red_only;
   for (size_t i = 60; i < 70; ++i) red_only.value[i] = 1;
   const Bands dark({380, 560, 580, 780}, red_only);
@@ -163,8 +163,7 @@ TEST_CASE("a band in which nothing shines is weighted by equal energy", "[optics
   CHECK(nothing[0].lm_per_w == Approx(efficacy_lm_per_w(equal_energy_shape())));
 }
 
-TEST_CASE("an average follows what is seen: luminance reflected by a coloured wall",
-          "[optics][bands]") {
+TEST_CASE("an average gives the luminance reflected by a coloured wall", "[optics][bands]") {
   const Spectrum e = illuminant_d65_shape();
   const Spectrum r = reflectance_from_linear_srgb(0.4, 0.25, 0.1);
   const Bands bands(one_band, e);
@@ -202,8 +201,8 @@ TEST_CASE("emissions of two shapes split even in a grey room", "[optics][bands]"
 TEST_CASE("a step in a reflectance puts an edge at the step", "[optics][bands]") {
   const auto edges = told_apart({step_at_580()}, {equal_energy_shape()}, 0.02, 8);
   CHECK(std::count(edges.begin(), edges.end(), 580.0) == 1);
-  // The polyline climbs from 575 to 580 nm, so one bin before the step may stand alone; no other
-  // does.
+  // The polyline climbs from 575 to 580 nm, so one bin before the step may stand alone, but no
+  // other.
   CHECK(edges.size() <= 4);
   CHECK(told_apart({step_at_580()}, {equal_energy_shape()}, 0.02, 2) ==
         std::vector<double>{380, 580, 780});
@@ -232,7 +231,7 @@ TEST_CASE("bands merged by tolerance differ by more than the tolerance", "[optic
           tolerance);
 }
 
-TEST_CASE("colours in the dark part of the spectrum are not told apart", "[optics][bands]") {
+TEST_CASE("colours in the dark part of the spectrum are not distinguished", "[optics][bands]") {
   Spectrum blue_only;
   for (size_t i = 0; i < 24; ++i) blue_only.value[i] = 1;  // 380..495 nm
   CHECK(told_apart({step_at_580()}, {blue_only}, 0.02, 8) == one_band);

@@ -6,7 +6,7 @@ using namespace luxodus;
 
 namespace {
 
-/// Lines that pass a point near and far, before, beside and behind it.
+/// Lines near to and far from a point: the point lies before, beside and behind them.
 const std::vector<EquiangularLine>& lines() {
   const glm::dvec3 way(0.6, 0, 0.8);
   static const std::vector<EquiangularLine> all = {
@@ -15,16 +15,16 @@ const std::vector<EquiangularLine>& lines() {
       {{0, 0, 0}, way, 10, {3, 0, 4}},      // on it
       {{0, 0, 0}, way, 10, {-3, 0.1, -4}},  // before its origin
       {{0, 0, 0}, way, 10, {30, 0.1, 40}},  // behind its end
-      {{0, 0, 0}, way, 1e-3, {3, 5, 4}},    // far from a short one
+      {{0, 0, 0}, way, 1e-3, {3, 5, 4}},    // far from a short line
   };
   return all;
 }
 
 }  // namespace
 
-TEST_CASE("places drawn on a line as a point sees it follow their density", "[optics]") {
+TEST_CASE("points sampled by equiangular sampling follow their density", "[optics]") {
   for (const EquiangularLine& line : lines()) {
-    // The distribution function, from u = 0 to each place, is u itself.
+    // The distribution function up to the point drawn with u is u itself.
     const double end = line.sample(1 - 1e-15);
     for (const double u : {0.01, 0.25, 0.5, 0.75, 0.99}) {
       const double t = line.sample(u);
@@ -37,8 +37,9 @@ TEST_CASE("places drawn on a line as a point sees it follow their density", "[op
   }
 }
 
-TEST_CASE("what falls off with the square of the distance from a point is the same at every place",
-          "[optics]") {
+TEST_CASE(
+    "an inverse-square contribution divided by its density is the same everywhere on the line",
+    "[optics]") {
   const glm::dvec3 way(0.6, 0, 0.8), point(3, 1e-3, 4);
   const EquiangularLine line({0, 0, 0}, way, 10, point);
   const auto ratio = [&](double t) {
@@ -49,7 +50,7 @@ TEST_CASE("what falls off with the square of the distance from a point is the sa
     CHECK(ratio(t) == Approx(ratio(5)).epsilon(1e-6));
 }
 
-TEST_CASE("beyond a line nothing is drawn", "[optics]") {
+TEST_CASE("nothing is sampled beyond a line's ends", "[optics]") {
   for (const EquiangularLine& line : lines()) {
     CHECK(line.density(-1e-9) == 0);
     CHECK(line.density(10.001) == 0);

@@ -37,7 +37,7 @@ TEST_CASE("the volumes of the named bodies are their closed forms", "[optics][me
   CHECK(volume(cone(1, 1)).error_m3 == 0);
 }
 
-TEST_CASE("the volume of a body that has no closed form errs by no more than it says",
+TEST_CASE("the volume of a body without a closed form errs by no more than it states",
           "[optics][media]") {
   QuadricShape half = ellipsoid({1, 1, 1});
   half.quadric.clips.push_back({glm::normalize(glm::dvec3(1, 1, 1)), 0.0});
@@ -45,7 +45,7 @@ TEST_CASE("the volume of a body that has no closed form errs by no more than it 
   CHECK(cut.error_m3 > 0);
   CHECK(cut.error_m3 < 1e-3 * cut.m3);
   CHECK(std::abs(cut.m3 - 2 * pi / 3) < 3 * cut.error_m3 + 1e-4);
-  // A box that cuts the body is part of it.
+  // A box that clips the body bounds its volume, too.
   QuadricShape boxed = ellipsoid({1, 1, 1});
   boxed.bounds.high.x = 0;
   const QuadricBody::Volume sliced = made_bodies(boxed)->volume();
@@ -59,7 +59,7 @@ TEST_CASE("the volume of a body that has no closed form errs by no more than it 
   CHECK(made_bodies(waist)->volume().m3 == Approx(pi * 8 / 3).epsilon(1e-12));
 }
 
-TEST_CASE("chords of a sphere are 2 sqrt(r^2 - b^2) from any distance", "[optics][media]") {
+TEST_CASE("chords of a sphere have their closed form from any distance", "[optics][media]") {
   Frame frame;
   frame.axes = turned(0.7);
   frame.origin = {1, 2, 3};
@@ -89,16 +89,16 @@ TEST_CASE("rays along an axis or a side, where the quadratic degenerates, are ex
   const auto bowl = made_bodies(paraboloid(1, 1));
   CHECK(chord(*bowl.operator->(), {0.5, 0, -1}, {0, 0, 1}) == Approx(0.75).epsilon(1e-14));
   CHECK(chord(*bowl.operator->(), {0.5, 0, 5}, {0, 0, -1}) == Approx(0.75).epsilon(1e-14));
-  // Parallel to a side of the cone (45 degrees): one root has gone to infinity.
+  // Parallel to a side of the cone (45 degrees): one root is at infinity.
   const auto hat = made_bodies(cone(1, 1));
   const double s = std::sqrt(0.5);
   CHECK(chord(*hat.operator->(), {0, 0, 0}, {s, 0, -s}) == 0);
   CHECK(chord(*hat.operator->(), {-0.5, 0, 0}, {s, 0, s}) == Approx(0.75 / s).epsilon(1e-12));
-  // Through the apex: a double root, which a rounding of 1e-16 moves by its square root.
+  // Through the apex: a double root, which a rounding error of 1e-16 moves by its square root.
   CHECK(chord(*hat.operator->(), {0, 0, -1}, {0, 0, 1}) == Approx(1).epsilon(1e-7));
 }
 
-TEST_CASE("the roots of a quadratic are right where the textbook form loses all digits",
+TEST_CASE("the roots of a quadratic are exact where the textbook formula loses all digits",
           "[optics][media]") {
   RayInterval r[2];
   REQUIRE(below_zero(1, -1e8, 1, r) == 1);  // roots 1e8 and 1e-8
@@ -112,13 +112,13 @@ TEST_CASE("the roots of a quadratic are right where the textbook form loses all 
   CHECK(below_zero(1, 0, 1, r) == 0);
   CHECK(below_zero(0, 0, 1, r) == 0);
   CHECK(below_zero(0, 0, 0, r) == 1);
-  // Roots 1 and 1 + 2^-24, coefficients exact: the discriminant 2^-48 is a difference of equal
-  // products.
+  // Roots 1 and 1 + 2^-24, exact coefficients: the discriminant 2^-48 is a difference of nearly
+  // equal products.
   REQUIRE(below_zero(1, -(2 + 0x1p-24), 1 + 0x1p-24, r) == 1);
   CHECK(r[0].t1 - r[0].t0 == Approx(0x1p-24).epsilon(1e-7));
 }
 
-TEST_CASE("a ray has two stretches in a hyperboloid of two sheets", "[optics][media]") {
+TEST_CASE("a ray has two segments in a hyperboloid of two sheets", "[optics][media]") {
   QuadricShape sheets;  // x^2 + y^2 - z^2 + 1 <= 0
   sheets.quadric.a[0][0] = sheets.quadric.a[1][1] = 1;
   sheets.quadric.a[2][2] = -1;
@@ -133,7 +133,7 @@ TEST_CASE("a ray has two stretches in a hyperboloid of two sheets", "[optics][me
 }
 
 TEST_CASE("the mean chord of a convex body is 4 V / S", "[optics][media]") {
-  // Lines of uniform density: a direction, and a point on a disc that covers the body.
+  // Lines of uniform density: a random direction, and a point on a disc that covers the body.
   const auto mean = [](const QuadricBody& b, double radius, uint64_t seed, double& error) {
     Draws draw(seed);
     double n = 0;
@@ -196,7 +196,8 @@ TEST_CASE("points drawn in a body are uniform", "[optics][media]") {
   CHECK(set.emission_density(0, glm::vec3(0), bricks) == 0);
 }
 
-TEST_CASE("a concave footprint is passed arm by arm, in either orientation", "[optics][media]") {
+TEST_CASE("a ray crosses each arm of a concave footprint, in either orientation",
+          "[optics][media]") {
   // A comb of three teeth, open to the north.
   std::vector<glm::dvec2> comb = {{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1},
                                   {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
@@ -212,7 +213,7 @@ TEST_CASE("a concave footprint is passed arm by arm, in either orientation", "[o
     CHECK(extinction(set, {0.5F, 2, 1}) == 1);
     CHECK(extinction(set, {1.5F, 2, 1}) == 0);
     CHECK(extinction(set, {0.5F, 2, 2.5F}) == 0);
-    // Through corners, and along walls: in or out, never half and never without end.
+    // Through corners and along walls: fully in or fully out, never half and never without end.
     const double along = depth(set, {-1, 3, 1}, {1, 0, 0}, 10);
     CHECK((along == Approx(0).margin(1e-12) || along == Approx(3)));
     CHECK(depth(set, {-1, -1, 1}, glm::normalize(glm::vec3(1, 1, 0)), 1.4F) == 0);

@@ -1,5 +1,5 @@
-// Data sets: bricks, cells crossed by integer steps, resolvers that lose bricks, and flames drawn
-// by strength.
+// Data sets: bricks, cells crossed by integer steps, resolvers that evict bricks, and flames
+// sampled by strength.
 #include <map>
 #include <memory>
 
@@ -17,7 +17,7 @@ Frame placed(const glm::dvec3& at, double angle) {
   return f;
 }
 
-/// A grid of several bricks, some of them clear, with every quantity by cell.
+/// A grid of several bricks, some of them clear, with every quantity varying by cell.
 Medium cloud(int nx, int ny, int nz, uint64_t seed, const Frame& frame) {
   Medium m = grid(nx, ny, nz, {0.1 * nx, 0.08 * ny, 0.12 * nz}, smoke(1, 0.5), frame);
   Draws draw(seed);
@@ -34,8 +34,7 @@ Medium cloud(int nx, int ny, int nz, uint64_t seed, const Frame& frame) {
   return m;
 }
 
-/// Keeps at most one brick, in a place that is overwritten at the next call, as a small cache
-/// would.
+/// Keeps at most one brick, in memory that the next call overwrites, like a small cache.
 class ForgetfulBricks {
  public:
   explicit ForgetfulBricks(const MediaSet& set) : set_(&set) {}
@@ -83,7 +82,7 @@ TEST_CASE("rays along a grid's axes meet its cells one by one", "[optics][media]
   CHECK(depth(set, {41, 0.5F, 0.5F}, {-1, 0, 0}, 100) == Approx(80));
   CHECK(depth(set, {3.5F, 0.5F, 0.5F}, {1, 0, 0}, 2) == Approx(1.5 + 4));
   CHECK(depth(set, {7.5F, 0.5F, -1}, {0, 0, 1}, 10) == Approx(2));
-  // On a face: the upper cell. On the grid's last face: outside.
+  // On a face, the upper cell counts. On the grid's last face the ray is outside.
   CHECK(depth(set, {7, 0.5F, -1}, {0, 0, 1}, 10) == Approx(2));
   CHECK(depth(set, {8, 0, -1}, {0, 0, 1}, 10) == Approx(3));
   CHECK(depth(set, {8.5F, 1, -1}, {0, 0, 1}, 10) == 0);
@@ -91,12 +90,12 @@ TEST_CASE("rays along a grid's axes meet its cells one by one", "[optics][media]
   CHECK_FALSE(fly(set, {-1, 0.5F, 0.5F}, {1, 0, 0}, 100, 80.0001).collided);
 }
 
-TEST_CASE("a grid of one value is that homogeneous box at any turn", "[optics][media]") {
+TEST_CASE("a grid of one value equals a homogeneous box in any orientation", "[optics][media]") {
   const Frame frame = placed({1, 2, 3}, 0.9);
   Medium even = grid(33, 20, 18, {2, 3, 4}, smoke(7), frame);
   even.data.extinction.assign(33 * 20 * 18, 0.75F);
   const Medium constant = grid(3, 5, 7, {2, 3, 4}, smoke(0.75), frame);
-  QuadricShape box;  // no quadric at all: what lies in the bounds
+  QuadricShape box;  // without a quadric: everything within the bounds
   box.bounds = {glm::dvec3(0), glm::dvec3(2, 3, 4)};
   const MediaSet a = compiled({even});
   const MediaSet b = compiled({constant});
@@ -129,7 +128,7 @@ TEST_CASE("a grid's extinction follows its medium's wavelength law", "[optics][m
   CHECK(extinction(by_table.value(), glm::vec3(0.5F)) == Approx(6));
 }
 
-TEST_CASE("bricks that are lost and fetched again give the same bits", "[optics][media]") {
+TEST_CASE("bricks that are evicted and fetched again give the same bits", "[optics][media]") {
   Medium first = cloud(40, 35, 20, 33, placed({0, 0, 0}, 0.3));
   first.data.interpolate_emission = true;
   glow(first);
@@ -171,7 +170,7 @@ TEST_CASE("bricks that are lost and fetched again give the same bits", "[optics]
   CHECK(forgetful.calls > 0);
 }
 
-TEST_CASE("clear bricks are passed without being asked for", "[optics][media]") {
+TEST_CASE("clear bricks are crossed without being fetched", "[optics][media]") {
   Medium m = grid(64, 16, 16, {64, 16, 16}, smoke(1));
   m.data.extinction.assign(64 * 16 * 16, 0.0F);
   for (int i = 0; i < 16 * 16; ++i) {
@@ -182,7 +181,7 @@ TEST_CASE("clear bricks are passed without being asked for", "[optics][media]") 
   const glm::vec3 d = glm::normalize(glm::vec3(1, 0.1F, 0.05F));
   const FreeFlight f =
       free_flight<MediaNeed::general>(set, 0, {-1, 2, 3}, d, 100, 0.5, 0.5, bricks);
-  CHECK(bricks.calls <= 2);  // one on the way, one for the albedo
+  CHECK(bricks.calls <= 2);  // one for the optical depth, one for the albedo
   CHECK(f.collided);
   CHECK(f.t == Approx(51 / static_cast<double>(d.x) + 0.25));
 }
@@ -224,7 +223,7 @@ TEST_CASE("emission points follow the strength of cells, constant within a cell"
     chi += (hits[i] - expected) * (hits[i] - expected) / expected;
     ++cells;
   }
-  // A coordinate may round up onto the next cell's face: some 1e-6 of all.
+  // A coordinate may round up onto the next cell's face: some 1e-6 of all points.
   CHECK(dark_hits <= 5);
   CHECK(std::abs(chi - cells) < 4 * std::sqrt(2.0 * cells));
   for (int k = 0; k < 3; ++k) CHECK(std::abs(within[k] / n - 0.5) < 4 * std::sqrt(1 / 12.0 / n));
@@ -232,7 +231,8 @@ TEST_CASE("emission points follow the strength of cells, constant within a cell"
         Approx(static_cast<double>(m.data.emission[(1 * 18 + 4) * 20 + 3]) / total));
 }
 
-TEST_CASE("interpolated emission is drawn with the very density it states", "[optics][media]") {
+TEST_CASE("interpolated emission is sampled with exactly the density it states",
+          "[optics][media]") {
   Medium m = grid(3, 2, 1, {1.5, 1, 2}, smoke(0), placed({1, 0, 0}, 0.4));
   m.data.emission = {1, 0, 4, 2, 3, 0};
   m.data.interpolate_emission = true;
@@ -310,7 +310,7 @@ TEST_CASE("segments carry the exact mean of a flame's emission", "[optics][media
           marched[medium] += set.emission_density(medium, p, bricks) * 4.0 / steps;
         }
       }
-      // Marching errs by some steps at faces; densities are of order 1.
+      // Ray marching errs by some steps at faces; densities are of order 1.
       CHECK(sums[0] == Approx(marched[0]).epsilon(2e-3).margin(2e-3));
       CHECK(sums[1] == Approx(marched[1]).epsilon(1e-2).margin(1e-2));
     }

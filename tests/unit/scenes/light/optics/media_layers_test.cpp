@@ -1,4 +1,4 @@
-// Stacks of slabs: Beer-Lambert, boundaries, hard numbers, choice among media, and what is refused.
+// Stacks of slabs: Beer-Lambert, boundaries, extreme numbers, choice among media, and errors.
 #include "tests/unit/scenes/light/optics/media_test_tools.hpp"
 
 using namespace luxodus;
@@ -21,7 +21,7 @@ double depth_with(const MediaSet& set, const glm::vec3& o, const glm::vec3& d, f
 
 }  // namespace
 
-TEST_CASE("what kernels a scene needs follows from its media", "[optics][media]") {
+TEST_CASE("a scene's media determine which kernel it needs", "[optics][media]") {
   CHECK(compiled({}).need() == MediaNeed::none);
   CHECK(MediaSet().need() == MediaNeed::none);
   CHECK(compiled({everywhere(smoke(0))}).need() == MediaNeed::none);
@@ -39,7 +39,7 @@ TEST_CASE("what kernels a scene needs follows from its media", "[optics][media]"
   CHECK(compiled({grid(2, 2, 2, {1, 1, 1}, smoke(1))}).need() == MediaNeed::general);
 }
 
-TEST_CASE("a factor scales extinction, and 0 takes a medium away", "[optics][media]") {
+TEST_CASE("a factor scales extinction, and 0 removes a medium", "[optics][media]") {
   const Medium a = everywhere(smoke(0.5));
   const Medium b = everywhere(smoke(2));
   const std::vector<MediumInput> inputs = {{&a, 3.0}, {&b, 0.0}};
@@ -59,7 +59,7 @@ TEST_CASE("extinction follows Angstrom's law from its own wavelength", "[optics]
   }
   const Extinction table{2.0, 633, 1, flat(0.7)};
   CHECK(table.spectrum().value[40] == 0.7);
-  // Bands see their own value: here band b is the spectrum's sample b.
+  // Each band has its own value: here band b is the spectrum's sample b.
   const Medium m = everywhere({e, flat(0), {}});
   const std::vector<MediumInput> inputs = {{&m, 1.0}};
   const auto set = MediaSet::compile(
@@ -86,11 +86,12 @@ TEST_CASE("layers obey Beer-Lambert: depth is the sum of extinction times slant 
   CHECK(depth(set, {0, 0, 5}, upwards, infinite) == 0);
 }
 
-TEST_CASE("free flight collides where the depth is used up and passes empty layers untouched",
+TEST_CASE("free flight collides where the optical depth is reached, and skips empty layers",
           "[optics][media]") {
   const MediaSet set = compiled({three_layers(0.5, 0, 4)});
   CHECK(fly(set, {0, 0, 0}, upwards, 10, 0.25).t == Approx(0.5F));
-  // The depth of the first layer is 0.5: any more is reached in the third, never in the empty one.
+  // The optical depth of the first layer is 0.5: any more is reached in the third, never in the
+  // empty one.
   CHECK(fly(set, {0, 0, 0}, upwards, 10, 0.5).t == 2.0F);
   CHECK(fly(set, {0, 0, 0}, upwards, 10, 0.5 + 1e-12).t == Approx(2.0F));
   CHECK(fly(set, {0, 0, 0}, upwards, 10, 0.5 - 1e-12).t == Approx(1.0F));
@@ -99,7 +100,7 @@ TEST_CASE("free flight collides where the depth is used up and passes empty laye
   CHECK_FALSE(through.collided);
   CHECK(through.t == 10.0F);
   CHECK_FALSE(fly(set, {0, 0, 0}, upwards, 1.5F, 0.6).collided);
-  // tau = 0 collides where smoke begins.
+  // tau = 0 collides where the smoke begins.
   CHECK(fly(set, {0, 0, 1.25F}, upwards, 10, 0).t == Approx(0.75F));
   CHECK_FALSE(fly(set, {0, 0, 7}, upwards, infinite, 0).collided);
   CHECK_FALSE(fly(set, {0, 0, 1.5F}, {1, 0, 0}, infinite, 0).collided);
@@ -119,14 +120,15 @@ TEST_CASE("a ray along a boundary belongs to the layer above it, however little 
     CHECK(fly(set, {0, 0, 1}, {1, 0, rise}, 5, 20).t == 2.0F);
     CHECK(fly(set, {0, 0, 1}, {1, 0, -rise}, 5, 2).t == 2.0F);
   }
-  // Half of the way just below the boundary at 0, half just above it: the boundary is passed by
+  // Half of the ray is just below the boundary at 0, half just above it: the boundary is passed by
   // distance.
   const MediaSet ground = compiled({layers({{-1, 0, smoke(1)}, {0, 1, smoke(3)}})});
   CHECK(depth(ground, {0, 0, -1e-30F}, {1, 0, 1e-30F}, 2) == Approx(4.0).epsilon(1e-6));
   CHECK(fly(ground, {0, 0, -1e-30F}, {1, 0, 1e-30F}, 2, 2.5).t == Approx(1.5F));
 }
 
-TEST_CASE("tall stacks, where slabs are skipped, equal the plain sum", "[optics][media]") {
+TEST_CASE("tall stacks, where slabs are skipped, equal the plain sum over slabs",
+          "[optics][media]") {
   Draws draw(11);
   INFO("seed " << draw.seed());
   std::vector<Layer> many;
@@ -193,7 +195,7 @@ TEST_CASE("free flight inverts optical depth from 1 mm to 10 km and tau from 1e-
   }
 }
 
-TEST_CASE("coordinates of a million metres lose nothing after the move to the local origin",
+TEST_CASE("coordinates of a million metres lose no precision after the move to the local origin",
           "[optics][media]") {
   const glm::dvec3 far(1e6, 2e6, 1e6);
   Medium m = layers({{1e6, 1e6 + 1, smoke(1)}, {1e6 + 1, 1e6 + 2, smoke(5)}});
@@ -241,7 +243,8 @@ TEST_CASE("the last medium is chosen at the very end of the unit interval", "[op
   CHECK(fly(set, {0, 0, 0}, upwards, 100, 1, last).medium == 2);
 }
 
-TEST_CASE("the albedo of nearly conservative smoke keeps its distance from 1", "[optics][media]") {
+TEST_CASE("the albedo of nearly conservative smoke keeps the precision of 1 - albedo",
+          "[optics][media]") {
   const MediaSet set = compiled({everywhere(smoke(1, 1 - 1e-6))});
   CHECK(1 - fly(set, {0, 0, 0}, upwards, 100, 1).albedo == Approx(1e-6).epsilon(1e-9));
 }
@@ -260,7 +263,7 @@ TEST_CASE("flights through smoke are exponential", "[optics][media]") {
   CHECK(std::abs(passed / static_cast<double>(n) - expected) < 4 * error);
 }
 
-TEST_CASE("media that make no sense are refused by name and place", "[optics][media]") {
+TEST_CASE("invalid media are refused by name and place", "[optics][media]") {
   const auto says = [](const Medium& m, const std::string& word) {
     const auto set = try_compile({m});
     if (set.ok()) return false;

@@ -1,5 +1,5 @@
-// Mixtures of everything against a reference that only asks "what is at this point?", and equal
-// descriptions of one smoke against each other.
+// Random mixtures of media compared with a reference that only evaluates single points, and equal
+// descriptions of one smoke compared with each other.
 #include "tests/unit/scenes/light/optics/media_test_tools.hpp"
 
 using namespace luxodus;
@@ -22,7 +22,7 @@ bool in_footprint(const Footprint& f, const glm::dvec3& p) {
   return f.polygon.empty() || in_polygon(f.polygon, glm::dvec2(p));
 }
 
-/// Extinction of one medium at a point, straight from its description.
+/// Extinction of one medium at a point, directly from its description.
 double plain_extinction(const Medium& m, const glm::dvec3& p) {
   const glm::dvec3 local = glm::transpose(m.frame.axes) * (p - m.frame.origin);
   switch (m.kind) {
@@ -128,7 +128,7 @@ double marched(const std::vector<Medium>& media, const glm::dvec3& o, const glm:
 
 }  // namespace
 
-TEST_CASE("optical depth of random mixtures equals a march over what is at each point",
+TEST_CASE("optical depth of random mixtures equals a march that evaluates single points",
           "[optics][media]") {
   Draws draw(41);
   INFO("seed " << draw.seed());
@@ -155,8 +155,7 @@ TEST_CASE("optical depth of random mixtures equals a march over what is at each 
   CHECK(worst > 0);
 }
 
-TEST_CASE("in random mixtures free flight, segments and depth tell the same story",
-          "[optics][media]") {
+TEST_CASE("in random mixtures free flight, segments and optical depth agree", "[optics][media]") {
   Draws draw(42);
   INFO("seed " << draw.seed());
   int collided = 0;
@@ -195,8 +194,9 @@ TEST_CASE("in random mixtures free flight, segments and depth tell the same stor
   CHECK(collided > 1000);
 }
 
-TEST_CASE("the medium that collides is there, and the sum at a point is that of all media",
-          "[optics][media]") {
+TEST_CASE(
+    "the colliding medium is present at the collision, and the sum at a point is that of all media",
+    "[optics][media]") {
   Draws draw(43);
   INFO("seed " << draw.seed());
   int off = 0;
@@ -219,14 +219,14 @@ TEST_CASE("the medium that collides is there, and the sum at a point is that of 
       if (!(plain_extinction(media[static_cast<size_t>(f.medium)], place) > 0)) ++off;
     }
   }
-  // Only a place within a float step (1e-6 m) of a face may look like the other side.
+  // Only a point within a float step (1e-6 m) of a face may count as the other side.
   CHECK(collided > 500);
   CHECK(off <= 2);
 }
 
-TEST_CASE("one smoke said in six ways is one smoke", "[optics][media]") {
+TEST_CASE("one smoke described in six ways gives equal results", "[optics][media]") {
   const double s = 0.8;
-  // A ray inside [0, 6]^3 sees the same everywhere, whatever the description reaches beyond.
+  // A ray inside [0, 6]^3 meets the same smoke however far the description extends beyond.
   std::vector<std::vector<Medium>> ways;
   ways.push_back({everywhere(smoke(s))});
   ways.push_back({layers({{-20, 20, smoke(s)}})});
@@ -272,7 +272,7 @@ TEST_CASE("one smoke said in six ways is one smoke", "[optics][media]") {
   }
 }
 
-TEST_CASE("a flight without an end, of no length, or of any rise comes back", "[optics][media]") {
+TEST_CASE("a flight of infinite or zero length, or of any slope, terminates", "[optics][media]") {
   Draws draw(45);
   INFO("seed " << draw.seed());
   std::vector<Medium> media;

@@ -1,4 +1,5 @@
-// What the tests of media share: short makers of media, uniform numbers, and a way to ask a set.
+// Shared by the tests of media: short makers of media, uniform numbers, and queries of a set. Each
+// object belongs to one thread.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -97,7 +98,7 @@ inline void glow(Medium& m) {
   m.emission = MediumEmission{1, 1, flat(1.0 / 400), "", ""};
 }
 
-/// Axes turned about a slanted line.
+/// Axes rotated about an oblique line.
 inline glm::dmat3 turned(double angle) {
   const glm::dvec3 k = glm::normalize(glm::dvec3(1, 2, 3));
   const auto turn = [&](const glm::dvec3& v) {

@@ -15,7 +15,7 @@ namespace {
 struct Triangle {
   std::array<glm::vec3, 3> corner;
 
-  /// The exact normal of the float corners, to double.
+  /// The exact normal of the float corners, in double.
   glm::dvec3 normal() const {
     const glm::dvec3 a(corner[0]), b(corner[1]), c(corner[2]);
     return glm::normalize(glm::cross(b - a, c - a));
@@ -28,9 +28,9 @@ struct Triangle {
   }
 };
 
-/// A triangle about `size` large at `distance` from the origin. Every other one is tilted against a
-/// coordinate plane by anything from 1e-5 to 1, and every fifth has a coordinate close to zero: the
-/// hard cases for an offset by coordinates.
+/// A triangle of about `size` at `distance` from the origin. Every other one is tilted against a
+/// coordinate plane by 1e-5 to 1, and every fifth has a coordinate close to zero: the hard cases
+/// for an offset by coordinates.
 Triangle any_triangle(Uniform& next, double distance, double size, int i) {
   const auto direction = [&] {
     const float u = next();
@@ -60,7 +60,7 @@ Triangle any_triangle(Uniform& next, double distance, double size, int i) {
   return out;
 }
 
-/// A ray against a triangle in float (edges, determinant): does it meet it at a positive distance?
+/// Whether a ray hits a triangle at a positive distance, computed in float (edges, determinant).
 bool meets(const Triangle& t, const glm::vec3& origin, const glm::vec3& direction) {
   const glm::vec3 e1 = t.corner[1] - t.corner[0];
   const glm::vec3 e2 = t.corner[2] - t.corner[0];
@@ -76,7 +76,7 @@ bool meets(const Triangle& t, const glm::vec3& origin, const glm::vec3& directio
 
 }  // namespace
 
-TEST_CASE("a ray offset from a triangle never meets it again, in scenes of 2e-3 to 2e5 m",
+TEST_CASE("a ray offset from a triangle never hits it again, in scenes of 2e-3 to 2e5 m",
           "[optics][offset]") {
   const uint32_t seed = seed_or(31);
   INFO("seed " << seed);
@@ -146,7 +146,7 @@ TEST_CASE("an offset moves only along the normal's coordinates and stays under 1
   }
 }
 
-TEST_CASE("a coordinate a few steps from zero crosses it instead of wrapping round",
+TEST_CASE("a coordinate a few steps from zero crosses it instead of wrapping around",
           "[optics][offset]") {
   for (const float x : {0x1p-149F, 0x1p-140F, -0x1p-149F, -0x1p-143F}) {
     for (const float n : {1.0F, -1.0F, 0.01F, -0.01F}) {
@@ -158,7 +158,7 @@ TEST_CASE("a coordinate a few steps from zero crosses it instead of wrapping rou
   }
 }
 
-TEST_CASE("an offset in double is as wide as in float, whatever the position's further digits",
+TEST_CASE("an offset in double is as large as in float, whatever the position's further digits",
           "[optics][offset]") {
   Random random(5, RandomStream::test);
   for (uint64_t i = 0; i < 20'000; ++i) {

@@ -32,7 +32,7 @@ std::string fault_of(const Phase& phase) {
   return made.ok() ? "none" : made.problem().text();
 }
 
-/// 1 - cos and 1 + cos of Henyey-Greenstein in double, by its forms without cancellation, for g >=
+/// 1 - cos and 1 + cos of Henyey-Greenstein in double, by formulas without cancellation, for g >=
 /// 0.
 struct Parts {
   double minus, plus;
@@ -44,7 +44,7 @@ Parts exact_henyey_greenstein(double g, double u) {
           (1 + g) * (1 + g) * (1 + s) * (2 - g * (1 - s)) / d};
 }
 
-/// Integral over the sphere, in 1 - cos = 2 s^3, which resolves a forward peak.
+/// Integral over the sphere, substituting 1 - cos = 2 s^3, which resolves a forward peak.
 double over_sphere(const PhaseFunction& phase) {
   constexpr int cells = 400000;
   double sum = 0;
@@ -57,8 +57,8 @@ double over_sphere(const PhaseFunction& phase) {
   return sum;
 }
 
-/// Deviations of the sampled cosines from a distribution function, and of the azimuths from
-/// uniform.
+/// Deviations of the sampled cosines from a distribution function, and of the azimuths from a
+/// uniform one.
 struct Fit {
   double cosine, azimuth;
 };
@@ -103,7 +103,7 @@ TEST_CASE("Henyey-Greenstein has mean cosine g and cosines from -1 to 1 for ever
     }
     CHECK(in_range);
     CHECK(worst_length < 3e-7);
-    // Variance of the cosine: (1 + 2 g^2) / 3 - g^2. Rounding may add its own 1e-8.
+    // Variance of the cosine: (1 + 2 g^2) / 3 - g^2. Rounding may add 1e-8.
     const double standard_error = std::sqrt((1 - g * g) / 3 / 1e6);
     CHECK(std::fabs(cosine.value() - g) < allowed * standard_error + 1e-8);
     for (int k = 0; k < 3; ++k) {
@@ -165,7 +165,8 @@ TEST_CASE("Henyey-Greenstein samples follow its distribution and its density int
   }
 }
 
-TEST_CASE("g = 1 goes straight on, g = -1 straight back, for every number", "[optics][phase]") {
+TEST_CASE("g = 1 scatters straight forward and g = -1 straight back for every random number",
+          "[optics][phase]") {
   const glm::vec3 before = glm::normalize(glm::vec3(-0.2F, 0.4F, 0.7F));
   for (const float u : {0.0F, 0x1p-24F, 0.5F, phase_last_unit}) {
     CHECK(glm::length(sample(henyey_greenstein(1), before, u, 0.3F) - before) < 3e-7F);
@@ -222,7 +223,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a tabulated phase function is normalised, sampled as it evaluates, with its own mean cosine",
+    "a tabulated phase function is normalised, sampled by its density, with its own mean cosine",
     "[optics][phase]") {
   struct Table {
     std::vector<double> cosines, values;
@@ -272,7 +273,8 @@ TEST_CASE(
     CAPTURE(worst);
     CHECK(cosine.distance(phase.mean_cosine()) < allowed);
     CHECK_FALSE(where_none);
-    // Table 5 rises so steeply that half an ulp of a cosine near 1 is 3e-6 of its distribution.
+    // Table 5 rises so steeply that half an ulp of a cosine near 1 is 3e-6 of its distribution
+    // function.
     CHECK(worst < (t == 5 ? 4e-6 : 1e-6));
   }
   const PhaseFunction ramp = tabulated({-1, 1}, {0, 1});
@@ -284,8 +286,7 @@ TEST_CASE(
     CHECK(length_error(sample(ramp, {0, 1, 0}, u, 0)) < 3e-7);
 }
 
-TEST_CASE("a phase function that cannot be is refused with its place and what to do",
-          "[optics][phase]") {
+TEST_CASE("an invalid phase function is refused with its place and the remedy", "[optics][phase]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto table = [](std::vector<double> c, std::vector<double> f) {
     return Phase{PhaseKind::tabulated, 0, std::move(c), std::move(f)};
@@ -305,7 +306,7 @@ TEST_CASE("a phase function that cannot be is refused with its place and what to
   CHECK_THAT(fault_of(table({-1, 1}, {0, 0})), Catch::Contains("above 0"));
 }
 
-TEST_CASE("a beam is scattered as the phase function says, and even light evenly", "[phase]") {
+TEST_CASE("a beam scatters by the phase function, and isotropic light stays isotropic", "[phase]") {
   constexpr double even = 1 / (4 * std::numbers::pi);
   for (const PhaseFunction& phase : {PhaseFunction(), rayleigh(), henyey_greenstein(0.7),
                                      henyey_greenstein(-0.4), tabulated({-1, 0, 1}, {1, 0, 3})}) {
@@ -320,8 +321,9 @@ TEST_CASE("a beam is scattered as the phase function says, and even light evenly
   }
 }
 
-TEST_CASE("light spread by Henyey and Greenstein's law stays so when it is scattered by it",
-          "[phase]") {
+TEST_CASE(
+    "light spread by Henyey and Greenstein's law keeps such a spread when scattered by that law",
+    "[phase]") {
   const PhaseFunction product = henyey_greenstein(0.6 * 0.5);
   for (const float cosine : {-1.0f, -0.2f, 0.5f, 1.0f}) {
     const auto exact = static_cast<double>(evaluate(product, cosine));
@@ -332,14 +334,15 @@ TEST_CASE("light spread by Henyey and Greenstein's law stays so when it is scatt
   }
 }
 
-TEST_CASE("two beams that meet are told from even light by their second moment", "[phase]") {
-  // Rayleigh's function has no moments beyond the second, and is the same to both sides.
+TEST_CASE("two crossing beams are distinguished from isotropic light by their second moment",
+          "[phase]") {
+  // Rayleigh's function has no moments beyond the second, and is symmetric.
   for (const float cosine : {-0.9f, 0.0f, 0.4f}) {
     const float second = 1.5f * cosine * cosine - 0.5f;
     CHECK(evaluate_spread(rayleigh(), cosine, 0, second) ==
           Approx(static_cast<double>(evaluate(rayleigh(), cosine))).epsilon(1e-5));
   }
-  // A table of 3 (1 + cos^2) / 8, nearly.
+  // A table close to 3 (1 + cos^2) / 8.
   std::vector<double> cosines, values;
   for (int i = -100; i <= 100; ++i) {
     cosines.push_back(i / 100.0);

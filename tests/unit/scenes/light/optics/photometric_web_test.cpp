@@ -1,4 +1,4 @@
-// The web against closed forms: flux, interpolation, and the sampler against the density it claims.
+// The web compared with closed forms: flux, interpolation, and the sampler with its stated density.
 #include "scenes/light/optics/photometric_web.hpp"
 
 #include <catch2/catch.hpp>
@@ -35,7 +35,7 @@ PhotometricWeb web_of(std::vector<double> azimuth, std::vector<double> polar, co
   return std::move(web).value();
 }
 
-/// Uneven in both angles, with a dark sector and a dark cap.
+/// Irregular in both angles, with a dark sector and a dark cap.
 PhotometricWeb lopsided(const glm::dmat3& axes = upright) {
   return web_of(
       {0, 10, 35, 90, 180, 200, 300, 360}, {0, 5, 30, 60, 61, 90, 130, 180},
@@ -54,7 +54,7 @@ std::string refusal(std::vector<double> azimuth, std::vector<double> polar,
 
 }  // namespace
 
-TEST_CASE("the flux of an even web is 4 pi times its intensity, whatever its angles",
+TEST_CASE("the flux of a constant web is 4 pi times its intensity for any angles of the table",
           "[optics][web]") {
   const auto even = [](double, double) { return 7.0; };
   CHECK(web_of({0, 360}, {0, 180}, even).flux_lm() == Approx(4 * pi * 7).epsilon(1e-14));
@@ -65,7 +65,7 @@ TEST_CASE("the flux of an even web is 4 pi times its intensity, whatever its ang
 TEST_CASE("the flux of a cosine web tends to pi times its peak as the steps shrink",
           "[optics][web]") {
   const auto cosine = [](double, double p) { return std::max(0.0, std::cos(p * pi / 180)); };
-  // Linear interpolation lies below the concave cosine by h^2 / 12 of it, to leading order.
+  // Linear interpolation is below the concave cosine by a share of h^2 / 12, to leading order.
   const double h = 2.5 * pi / 180;
   const double flux = web_of({0, 360}, steps(0, 180, 2.5), cosine).flux_lm();
   CHECK(flux == Approx(pi).epsilon(1e-3));
@@ -78,7 +78,8 @@ TEST_CASE("the flux of a single ramp over the sphere is its closed form", "[opti
         Approx(2 * pi).epsilon(1e-14));
 }
 
-TEST_CASE("intensity meets the table at its angles and is bilinear between them", "[optics][web]") {
+TEST_CASE("intensity equals the table at its angles and is bilinear between them",
+          "[optics][web]") {
   const PhotometricWeb web = lopsided();
   const auto toward = [](double azimuth, double polar) {
     const double a = azimuth * pi / 180;
@@ -95,7 +96,7 @@ TEST_CASE("intensity meets the table at its angles and is bilinear between them"
   CHECK(web.peak_cd() == *std::max_element(web.candela().begin(), web.candela().end()));
 }
 
-TEST_CASE("the frame of the table carries it into the luminaire", "[optics][web]") {
+TEST_CASE("the table's frame maps it into the luminaire's", "[optics][web]") {
   const PhotometricWeb web = web_of(
       steps(0, 360, 90), {0, 90, 180},
       [](double a, double p) { return p == 90 ? (a == 90 ? 5.0 : 1.0) : (p == 0 ? 3.0 : 0.0); },
@@ -117,8 +118,8 @@ TEST_CASE("a sample's density is the intensity over the flux, and its direction 
     for (int i = 0; i < 20000; ++i) {
       const auto sample = web.sample(uniform(random), uniform(random));
       REQUIRE(sample.pdf > 0);
-      // The 60-61 degree cell is 1 degree wide: a rounding of 1e-14 degrees moves the density by
-      // 1e-12.
+      // The 60-61 degree cell is 1 degree wide: a rounding error of 1e-14 degrees changes the
+      // density by 1e-12.
       worst = std::max(worst, std::abs(web.pdf(sample.direction) / sample.pdf - 1));
       longest = std::max(longest, std::abs(glm::length(sample.direction) - 1));
     }
@@ -127,8 +128,7 @@ TEST_CASE("a sample's density is the intensity over the flux, and its direction 
   }
 }
 
-TEST_CASE("the corners of the unit square give finite directions out of lit cells",
-          "[optics][web]") {
+TEST_CASE("the corners of the unit square give finite directions in lit cells", "[optics][web]") {
   const PhotometricWeb web = lopsided();
   for (double u : {0.0, 1e-300, 0.5, 1 - 0x1p-53}) {
     for (double v : {0.0, 1e-300, 0.5, 1 - 0x1p-53}) {
@@ -140,7 +140,7 @@ TEST_CASE("the corners of the unit square give finite directions out of lit cell
   }
 }
 
-TEST_CASE("samples fill the table's cells, and halves of them, as their flux says",
+TEST_CASE("samples fill the table's cells, and halves of them, in proportion to flux",
           "[optics][web]") {
   const PhotometricWeb web = lopsided();
   const auto& azimuth = web.azimuth_deg();
@@ -227,7 +227,7 @@ TEST_CASE("the sampler inverts the polar density of a single ramp exactly", "[op
   }
 }
 
-TEST_CASE("tables that are no web are refused with the reason", "[optics][web]") {
+TEST_CASE("invalid tables are refused with the reason", "[optics][web]") {
   CHECK(refusal({0, 360}, {0, 180}, {1, 1, 1, 1}).empty());
   CHECK(refusal({0, 350}, {0, 180}, {1, 1, 1, 1}).find("0 to 360") != std::string::npos);
   CHECK(refusal({0, 360}, {0, 90}, {1, 1, 1, 1}).find("0 to 180") != std::string::npos);

@@ -1,5 +1,5 @@
-// Helpers of the sampler tests: seeded uniform numbers as the tracer makes them, means with
-// standard errors, and chi-square against expected shares. Tests only.
+// Helpers of the sampler tests: seeded uniform numbers as in the tracer, means with standard
+// errors, and chi-square against expected shares. Tests only; each object belongs to one thread.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@
 
 namespace luxodus::checks {
 
-/// The fixed seed of a test, or LUXODUS_SEED where it is set.
+/// The fixed seed of a test, or LUXODUS_SEED if it is set.
 inline uint32_t seed_or(uint32_t fixed) {
   const char* text = std::getenv("LUXODUS_SEED");
   return text != nullptr ? static_cast<uint32_t>(std::strtoul(text, nullptr, 10)) : fixed;
@@ -30,7 +30,7 @@ class Uniform {
   std::mt19937 engine_;
 };
 
-/// Mean and its standard error.
+/// Accumulates a mean and its standard error.
 class Mean {
  public:
   void add(double x) {
@@ -52,8 +52,8 @@ class Mean {
   double squares_ = 0;
 };
 
-/// (chi^2 - degrees) / sqrt(2 degrees): about normal with deviation 1 if the counts have these
-/// shares. Bins that expect fewer than 5 are put together.
+/// (chi^2 - degrees) / sqrt(2 degrees): about standard normal if the counts have these shares. Bins
+/// that expect fewer than 5 are merged.
 inline double chi_square_deviations(const std::vector<double>& counts,
                                     const std::vector<double>& shares) {
   double total = 0;
@@ -73,13 +73,13 @@ inline double chi_square_deviations(const std::vector<double>& counts,
     chi += (rest_count - rest_expected) * (rest_count - rest_expected) / rest_expected;
     ++bins;
   } else if (rest_count > rest_expected + 20) {
-    return 1e9;  // many where none belong
+    return 1e9;  // counts in bins that expect none
   }
   const double degrees = bins - 1;
   return (chi - degrees) / std::sqrt(2 * degrees);
 }
 
-/// Counts of values that should be uniform in [0, 1], here and there a rounding outside.
+/// Counts of values that should be uniform in [0, 1]; rounding may put a few outside.
 class Histogram {
  public:
   explicit Histogram(int bins) : counts_(static_cast<std::size_t>(bins), 0.0) {}
@@ -106,7 +106,7 @@ inline double length_error(const glm::vec3& d) {
   return std::fabs(glm::length(glm::dvec3(d)) - 1.0);
 }
 
-/// Standard errors a statistic may be off: with fixed seeds a failure is a change, not chance.
+/// Allowed deviation in standard errors: with fixed seeds a failure means a change, not chance.
 inline constexpr double allowed = 4.0;
 
 }  // namespace luxodus::checks

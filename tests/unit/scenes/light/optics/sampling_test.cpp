@@ -149,7 +149,7 @@ TEST_CASE("triangle samples are uniform in area and never outside", "[optics][sa
     const glm::vec3 b = uniform_triangle(u, v);
     inside = inside && b.x >= 0 && b.y >= 0 && b.z >= 0 && std::fabs(b.x + b.y + b.z - 1) < 2e-7F;
     for (int c = 0; c < 3; ++c) {
-      // The part of the area nearer to the corner than b is (1 - b)^2 of the triangle.
+      // The part of the triangle whose barycentric exceeds b is (1 - b)^2 of its area.
       towards_corner[c].add(std::pow(1.0 - static_cast<double>(b[c]), 2));
     }
     along_edge.add(b.x / std::max(1e-12, 1.0 - static_cast<double>(b.z)));
@@ -161,7 +161,7 @@ TEST_CASE("triangle samples are uniform in area and never outside", "[optics][sa
   CHECK(product.distance(1.0 / 12) < allowed);
 }
 
-TEST_CASE("cosine-power samples follow (n+1) cos^n / 2 pi for every n, also as narrow as n = 1e6",
+TEST_CASE("cosine-power samples follow their density for every n, also as narrow as n = 1e6",
           "[optics][sampling]") {
   for (const double n : {0.0, 1.0, 2.5, 80.0, 1e6}) {
     const uint32_t seed = seed_or(16);
@@ -185,7 +185,7 @@ TEST_CASE("cosine-power samples follow (n+1) cos^n / 2 pi for every n, also as n
     CHECK(sin_square_mean.distance(2 / (n + 3)) < allowed);
     double worst = 0;
     for (int i = 1; i <= 1000; ++i) {
-      // Even in the logarithm, from 1 down to where a cosine itself keeps nothing of it.
+      // Evenly spaced in the logarithm, from 1 down to where a cosine itself keeps no digit of it.
       const float x = std::pow(10.0F, -10 * static_cast<float>(i) / 1000.0F);
       const double exact =
           (n + 1) / (2 * std::numbers::pi) * std::exp(n * std::log1p(-static_cast<double>(x)));
@@ -273,7 +273,7 @@ TEST_CASE("a basis is orthonormal and right-handed about any unit vector, the po
   CHECK(worst < 1e-6);
 }
 
-TEST_CASE("every sampler is finite and unit at the ends of its numbers", "[optics][sampling]") {
+TEST_CASE("every sampler is finite and unit at the ends of its range", "[optics][sampling]") {
   for (const float u : {0.0F, 0x1p-24F, 0.5F, last_unit}) {
     for (const float v : {0.0F, 0x1p-24F, 0.125F, 0.5F, last_unit}) {
       CAPTURE(u, v);
@@ -288,7 +288,7 @@ TEST_CASE("every sampler is finite and unit at the ends of its numbers", "[optic
   }
 }
 
-TEST_CASE("a direction turned a million times stays unit", "[optics][sampling]") {
+TEST_CASE("a direction rotated a million times stays unit", "[optics][sampling]") {
   Uniform next(19);
   glm::vec3 d(0, 0, 1);
   double worst = 0;
@@ -302,7 +302,7 @@ TEST_CASE("a direction turned a million times stays unit", "[optics][sampling]")
   CHECK(worst < 3e-7);
 }
 
-TEST_CASE("elementary functions in double are those of float but for float's stated errors",
+TEST_CASE("elementary functions in double equal those in float within float's stated errors",
           "[optics][sampling]") {
   double worst = 0;
   for (int i = 0; i < (1 << 16); ++i) {

@@ -1,5 +1,5 @@
-// The CIE's tables against what the standards state about them, illuminants, black bodies, and
-// colours made into spectra.
+// The CIE's tables compared with what the standards state, illuminants, black bodies, and spectra
+// made from colours.
 #include "scenes/light/optics/spectrum.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ double scotopic_over_photopic(const Spectrum& s) {
          (luminous_efficacy_lm_per_w * s.integral_with(cie_y()));
 }
 
-// Linear sRGB of a surface under equal energy, seen by an eye adapted to it.
+// Linear sRGB of a surface under equal energy, for an observer adapted to it.
 std::array<double, 3> colour_of_reflectance(const Spectrum& r) {
   const Spectrum light = equal_energy_shape();
   const double white_y = light.integral_with(cie_y());
@@ -59,10 +59,10 @@ TEST_CASE("the colour-matching tables have the sums the CIE states for 5 nm",
   CHECK(cie_x().at(440) == 0.34828);
 }
 
-TEST_CASE("photopic and scotopic efficiency meet at the definition of the candela",
+TEST_CASE("photopic and scotopic efficiency agree at the definition of the candela",
           "[optics][spectrum]") {
   // At 540 THz (555.016 nm) both systems give 683 lm/W: 1700.05 * V'(555.016) = 683. Linear
-  // interpolation between rows costs a little.
+  // interpolation between rows adds a small error.
   CHECK(luminous_efficacy_lm_per_w * cie_y().at(555.016) == Approx(683).epsilon(1e-4));
   CHECK(scotopic_efficacy_lm_per_w * cie_scotopic().at(555.016) == Approx(683).epsilon(1e-3));
   CHECK(cie_scotopic().at(505) == 0.998);
@@ -123,13 +123,13 @@ TEST_CASE("a black body of 1400 K gives 0.035 lm/W and one of 2856 K 16 to 17 lm
   const auto blackbody_efficacy_lm_per_w = [](double kelvin) {
     return test::visible_share_of_black_body(kelvin) * efficacy_lm_per_w(blackbody_shape(kelvin));
   };
-  // The literature of light in smoke quotes 0.034 for 1400 K, which is the value of 1396 K.
+  // Publications on light in smoke quote 0.034 for 1400 K, which is the value of 1396 K.
   CHECK(blackbody_efficacy_lm_per_w(1400) == Approx(0.03516).epsilon(1e-3));
   CHECK(blackbody_efficacy_lm_per_w(1400) == Approx(0.034).epsilon(0.04));
   CHECK(blackbody_efficacy_lm_per_w(2000) == Approx(1.606).epsilon(1e-3));
   CHECK(blackbody_efficacy_lm_per_w(2856) > 16);
   CHECK(blackbody_efficacy_lm_per_w(2856) < 17);
-  // The best black body: about 95 lm/W near 6600 K.
+  // The most efficacious black body: about 95 lm/W near 6600 K.
   CHECK(blackbody_efficacy_lm_per_w(6600) == Approx(95).margin(1));
   CHECK(blackbody_efficacy_lm_per_w(6600) > blackbody_efficacy_lm_per_w(5000));
   CHECK(blackbody_efficacy_lm_per_w(6600) > blackbody_efficacy_lm_per_w(9000));
@@ -171,7 +171,7 @@ TEST_CASE("linear sRGB white is the D65 white and the two matrices are inverse",
   for (double v : white) CHECK(v == Approx(1).margin(1e-4));
   for (const std::array<double, 3>& rgb : {std::array{1.0, 0.0, 0.0}, std::array{0.2, 0.5, 0.9}})
     CHECK(largest_difference(linear_srgb_from_xyz(xyz_from_linear_srgb(rgb)), rgb) < 1e-9);
-  // Adapting a white gives the other white, and going back returns the colour.
+  // Adapting a white gives the other white, and adapting back restores the colour.
   const Xyz there = adapt_white(d65_white, d65_white, equal_energy_white);
   for (size_t i = 0; i < 3; ++i) CHECK(there[i] == Approx(1).epsilon(1e-9));
   const Xyz back = adapt_white(adapt_white({0.3, 0.2, 0.1}, d65_white, equal_energy_white),
@@ -211,7 +211,7 @@ TEST_CASE("a reflectance made from a colour is smooth", "[optics][spectrum]") {
   const Spectrum green = reflectance_from_linear_srgb(0.017, 0.212, 0.084);  // sign green, #237F52
   for (size_t i = 0; i + 1 < green.value.size(); ++i)
     CHECK(std::abs(green.value[i + 1] - green.value[i]) < 0.03);
-  // Nearly grey is nearly constant: no jump beside the exact greys.
+  // Near grey is nearly constant: no jump next to exact greys.
   const Spectrum near_grey = reflectance_from_linear_srgb(0.5, 0.5, 0.500001);
   for (double v : near_grey.value) CHECK(v == Approx(0.5).margin(1e-5));
 }

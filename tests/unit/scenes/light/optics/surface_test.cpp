@@ -44,7 +44,7 @@ glm::vec3 towards(double theta, double phi = 0) {
 struct Power {
   double reflected, transmitted;
 };
-/// The pane in double, straight from the sums over its internal reflections.
+/// The pane in double, directly from the sums over its internal reflections.
 Power exact_pane(double n, double internal, double theta) {
   const double c = std::cos(theta), b = std::sqrt(1 - std::pow(std::sin(theta) / n, 2));
   const double t = std::pow(internal, 1 / b);
@@ -58,7 +58,7 @@ Power exact_pane(double n, double internal, double theta) {
   return sum;
 }
 
-/// GGX seen from cos_o: density of microfacet normals, and the masking of wo alone, in double.
+/// GGX seen from cos_o: density of microfacet normals, and masking of wo alone, in double.
 double ggx_density(double cos_m, double alpha) {
   const double spread = cos_m * cos_m * (alpha * alpha - 1) + 1;
   return alpha * alpha / (std::numbers::pi * spread * spread);
@@ -76,8 +76,8 @@ std::size_t bin_of(const glm::dvec3& d) {
   return static_cast<std::size_t>(height * height_bins) * turn_bins +
          static_cast<std::size_t>(turn * turn_bins);
 }
-/// Integrals of f over the bins (equal steps of cos^2 and azimuth), f per solid angle: midpoints in
-/// the cosine and azimuth, `fine` of each to a bin.
+/// Integrals of f, given per solid angle, over the bins (equal steps of cos^2 and azimuth):
+/// midpoint rule in cosine and azimuth with `fine` points of each per bin.
 template <class F>
 std::vector<double> integrals(int fine, F f) {
   std::vector<double> out(height_bins * turn_bins, 0.0);
@@ -102,7 +102,7 @@ Real fresnel_reflectance(Real cos_theta, Real ior) {
   return 0.5_r * (terms.s.r + terms.p.r);
 }
 
-/// Share reflected of light that arrives at this angle from the front.
+/// Reflected share of light that arrives at this angle from the front.
 double directional_reflectance(const SurfaceModel& model, Real cos_theta) {
   switch (model.kind) {
     case SurfaceKind::lambertian:
@@ -135,12 +135,12 @@ double directional_reflectance(const SurfaceModel& model, Real cos_theta) {
   return static_cast<double>(model.reflectance) + sum / (cells * cells);
 }
 
-/// Reflectance for perfectly diffuse incident light from the front, by the sampler of the tracer on
-/// a fixed grid: good to 1e-3.
+/// Reflectance for diffuse incident light from the front, by the tracer's sampler on a fixed grid:
+/// accurate to 1e-3.
 double mean_hemispherical_reflectance(const SurfaceModel& model) {
   if (model.kind == SurfaceKind::lambertian) return model.reflectance;
   // Midpoints in cos^2 theta have equal shares of the cosine-weighted hemisphere; Fresnel's steep
-  // end is resolved by many of them.
+  // end needs many of them.
   const int rings = model.kind == SurfaceKind::glossy ? 64 : 4096;
   double sum = 0;
   for (int i = 0; i < rings; ++i) {
@@ -178,7 +178,7 @@ TEST_CASE("a Lambertian surface sends its reflectance out in proportion to the c
   CHECK(evaluate_surface(model, normal, normal, normal) == Approx(0.7 / std::numbers::pi));
 }
 
-TEST_CASE("microfacet normals are sampled as they are seen: G1 max(0, wo.m) D / cos",
+TEST_CASE("microfacet normals are sampled by their visibility, G1 max of 0 and wo.m times D / cos",
           "[optics][surface]") {
   for (const double alpha : {0.3, 1.0}) {
     for (const double degrees : {0.0, 40.0, 80.0}) {
@@ -244,7 +244,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("every surface that evaluates is reciprocal to the bit, and dark below its horizon",
+TEST_CASE("every surface that evaluates is reciprocal to the last bit, and 0 below its horizon",
           "[optics][surface]") {
   const uint32_t seed = seed_or(44);
   INFO("seed " << seed);
@@ -276,7 +276,7 @@ TEST_CASE("every surface that evaluates is reciprocal to the bit, and dark below
   }
 }
 
-TEST_CASE("a boundary reflects alike from both sides of the same path: Fresnel is reciprocal",
+TEST_CASE("a boundary reflects equally from both sides of a path, so Fresnel is reciprocal",
           "[optics][surface]") {
   for (const double n : {1.33, 1.52, 2.4}) {
     for (double degrees = 0; degrees < 90; degrees += 4.5) {
@@ -290,7 +290,7 @@ TEST_CASE("a boundary reflects alike from both sides of the same path: Fresnel i
   }
 }
 
-TEST_CASE("no surface gives back more than arrives, at any angle and roughness",
+TEST_CASE("no surface returns more light than arrives, at any angle and roughness",
           "[optics][surface]") {
   for (const double alpha : {1e-3, 0.03, 0.1, 0.3, 0.5, 0.8, 1.0}) {
     for (const double degrees : {0.0, 20.0, 45.0, 60.0, 75.0, 85.0, 89.0, 89.99}) {
@@ -324,13 +324,12 @@ TEST_CASE("no surface gives back more than arrives, at any angle and roughness",
       CHECK(std::fabs(albedo - weight.value()) < allowed * weight.standard_error() + 1e-3);
     }
   }
-  const SurfaceModel over = glossy(0.9, 0.3, 0.2);  // brought to a sum of 1
+  const SurfaceModel over = glossy(0.9, 0.3, 0.2);  // scaled to a sum of 1
   CHECK(over.reflectance + over.specular <= 1.0F);
   CHECK(over.reflectance == Approx(0.75));
 }
 
-TEST_CASE("directions that a surface sends light into have the density that it says",
-          "[optics][surface]") {
+TEST_CASE("sampled directions of a surface have the density that it states", "[optics][surface]") {
   const uint32_t seed = seed_or(43);
   INFO("seed " << seed);
   Uniform next(seed);
@@ -361,9 +360,8 @@ TEST_CASE("directions that a surface sends light into have the density that it s
   CHECK(surface_pdf(lambertian(1), up, -up, up) == 0.0F);
 }
 
-TEST_CASE(
-    "every surface answers every angle and number with a unit direction and a weight in [0, 1]",
-    "[optics][surface]") {
+TEST_CASE("at every angle and random number a sample is a unit direction with a weight in 0 to 1",
+          "[optics][surface]") {
   const glm::vec3 normals[] = {up, -up, glm::normalize(glm::vec3(1, 2, 3)), glm::vec3(1, 0, 0)};
   for (const SurfaceModel& model :
        {lambertian(1), glossy(0.4, 0.6, 0.001), glossy(0.5, 0.5, 1), glossy(0, 0, 0.3), mirror(1),
@@ -405,7 +403,7 @@ TEST_CASE("a mirror reflects into the mirrored direction with its reflectivity",
   CHECK_FALSE(out.transmitted);
 }
 
-TEST_CASE("a clear pane of n = 1.52 transmits (1 - r) / (1 + r), averaged over polarisations",
+TEST_CASE("a clear pane of n = 1.52 transmits the closed form averaged over polarisations",
           "[optics][surface]") {
   const double expected[][2] = {{0, .918318},  {30, .915957}, {45, .902528},
                                 {60, .843471}, {70, .724713}, {80, .456043}};
@@ -441,7 +439,7 @@ TEST_CASE("an absorbing pane equals the sum of its internal reflections along th
   CHECK(pane_transmittance(pane(1.0, 0.5), 1.0F) == Approx(0.5));
 }
 
-TEST_CASE("a pane splits the light between straight on and mirrored as its shares say",
+TEST_CASE("a pane divides light between transmission and reflection by its shares",
           "[optics][surface]") {
   const uint32_t seed = seed_or(46);
   INFO("seed " << seed);
@@ -502,7 +500,7 @@ TEST_CASE(
   CHECK(reflected.distance(0.5 * (rs * rs + rp * rp)) < allowed);
 }
 
-TEST_CASE("an open surface lets everything pass unchanged", "[optics][surface]") {
+TEST_CASE("an open surface transmits everything unchanged", "[optics][surface]") {
   const glm::vec3 incoming = -towards(1.0, 0.3);
   const SurfaceSample out = sample_surface(open_surface(), incoming, up, true, 0.1F, 0.2F, 0.3F);
   CHECK(out.direction == incoming);
@@ -510,7 +508,7 @@ TEST_CASE("an open surface lets everything pass unchanged", "[optics][surface]")
   CHECK(out.transmitted);
 }
 
-TEST_CASE("mean hemispherical reflectance equals the closed forms where there are any",
+TEST_CASE("mean hemispherical reflectance equals the closed forms if there are any",
           "[optics][surface]") {
   CHECK(mean_hemispherical_reflectance(lambertian(0.6)) == Approx(0.6));
   CHECK(mean_hemispherical_reflectance(mirror(0.9)) == Approx(0.9));
@@ -519,7 +517,7 @@ TEST_CASE("mean hemispherical reflectance equals the closed forms where there ar
   const double rough = mean_hemispherical_reflectance(glossy(0.4, 0.5, 1));
   CHECK(rough < 0.9);
   CHECK(rough > 0.6);
-  // Walsh's closed form for Fresnel under diffuse light (1926), from the thin side.
+  // Walsh's closed form for Fresnel under diffuse light (1926), from the optically thinner side.
   for (const double n : {1.33, 1.5, 1.52}) {
     CAPTURE(n);
     const double s = n * n;
@@ -532,7 +530,7 @@ TEST_CASE("mean hemispherical reflectance equals the closed forms where there ar
   }
 }
 
-TEST_CASE("a surface is compiled inside its limits whatever it is given", "[optics][surface]") {
+TEST_CASE("a surface is compiled within its limits for any input", "[optics][surface]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const SurfaceModel model = make_surface(SurfaceKind::glossy, nan, 2, nan, nan, nan);
   CHECK(model.reflectance == 0.0F);

@@ -17,7 +17,7 @@ std::string refusal(std::string_view text, const LetterSize& size = nfpa_letters
 
 }  // namespace
 
-TEST_CASE("every letter and digit but I and 1 is at least a third of its height wide",
+TEST_CASE("every letter and digit except I and 1 is at least a third of its height wide",
           "[emergency][letters]") {
   for (char c : alphabet) {
     const auto lettering = lay_out_text(std::string(1, c), nfpa_letters);
@@ -32,7 +32,7 @@ TEST_CASE("every letter and digit but I and 1 is at least a third of its height 
   }
 }
 
-TEST_CASE("centre lines leave half a stroke to the letter's box, or run out of it to be cut",
+TEST_CASE("centre lines stay half a stroke inside the letter's box, or run out of it to be clipped",
           "[emergency][letters]") {
   for (char c : alphabet) {
     const auto lettering = lay_out_text(std::string(1, c), nfpa_letters);
@@ -57,7 +57,7 @@ TEST_CASE("centre lines leave half a stroke to the letter's box, or run out of i
   }
 }
 
-TEST_CASE("letters stand apart by the spacing, and the legend is as wide as its letters",
+TEST_CASE("letters are separated by the spacing, and the legend is as wide as its letters",
           "[emergency][letters]") {
   const auto lettering = lay_out_text("EXIT", nfpa_letters);
   REQUIRE(lettering.ok());
@@ -71,7 +71,7 @@ TEST_CASE("letters stand apart by the spacing, and the legend is as wide as its 
   CHECK(lettering->narrowest_letter_m == Approx(0.48 * nfpa_letters.height_m));
 }
 
-TEST_CASE("a space parts words and is no letter", "[emergency][letters]") {
+TEST_CASE("a space separates words and is not a letter", "[emergency][letters]") {
   const auto joined = lay_out_text("NOEXIT", nfpa_letters);
   const auto parted = lay_out_text("NO EXIT", nfpa_letters);
   REQUIRE(joined.ok());
@@ -84,7 +84,7 @@ TEST_CASE("every mark that the message names is drawn", "[emergency][letters]") 
   CHECK(refusal("-+/.:!'<>").empty());
 }
 
-TEST_CASE("what cannot be lettered is refused by name", "[emergency][letters]") {
+TEST_CASE("text that cannot be drawn is refused by name", "[emergency][letters]") {
   CHECK(refusal("EXiT").find("'i'") != std::string::npos);
   CHECK(refusal("SALIDA \xc3\x91").find("byte 195") != std::string::npos);
   CHECK(refusal("").find("empty") != std::string::npos);

@@ -4,7 +4,8 @@
 
 using namespace luxodus;
 
-TEST_CASE("light comes on linearly between the rows, and without rows at once", "[emergency]") {
+TEST_CASE("light rises linearly between the rows of an onset, and at once without rows",
+          "[emergency]") {
   const std::vector<glm::dvec2> onset{{0, 0.1}, {0.5, 0.5}, {5, 1}};
   CHECK(onset_share(onset, -1) == 0.1);
   CHECK(onset_share(onset, 0) == 0.1);

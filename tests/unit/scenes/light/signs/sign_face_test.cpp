@@ -44,7 +44,7 @@ std::string problem_of(const Result<SignFace>& face) {
   return face ? "" : face.problem().text();
 }
 
-/// White where the other is green, in mirrored places.
+/// Counts texels that are white in one and green in the other at mirrored positions.
 size_t mirror_differences(const SignFace& a, const SignFace& b) {
   size_t differences = 0;
   const auto width = static_cast<size_t>(a.width);
@@ -72,7 +72,7 @@ TEST_CASE("CIE Lab of the sRGB primaries and of white is as published", "[emerge
   CHECK(lab_red[2] == Approx(67.20).margin(0.1));
 }
 
-TEST_CASE("sign colours are told from others by eye's distance", "[emergency][face]") {
+TEST_CASE("sign colours are distinguished from others by colour difference", "[emergency][face]") {
   CHECK(classify_colour({0xec, 0xec, 0xe7, 255}) == white);
   CHECK(classify_colour({255, 255, 255, 255}) == white);
   CHECK(classify_colour({0x23, 0x7f, 0x52, 255}) == green);
@@ -84,7 +84,7 @@ TEST_CASE("sign colours are told from others by eye's distance", "[emergency][fa
   CHECK(classify_colour({0xec, 0xec, 0xe7, 100}) == other);  // transparent
 }
 
-TEST_CASE("a drawing fills the face: its colours lie where and as large as drawn",
+TEST_CASE("a drawing fills the face, and its colours have the drawn places and sizes",
           "[emergency][face]") {
   const test::TemporaryFolder scratch;
   const auto file = scratch.write("a.svg", svg(left_green));
@@ -119,8 +119,9 @@ TEST_CASE("a drawing scales by its size as well as by its viewBox", "[emergency]
   }
 }
 
-TEST_CASE("the area of a round shape is right to a part in a thousand, with no seam at its edge",
-          "[emergency][face]") {
+TEST_CASE(
+    "the area of a round shape is exact to one part in a thousand, without a seam at its edge",
+    "[emergency][face]") {
   const test::TemporaryFolder scratch;
   const auto file = scratch.write("a.svg", svg("<rect width='200' height='100' fill='#237F52'/>"
                                                "<circle cx='100' cy='50' r='40' fill='#ECECE7'/>"));
@@ -129,7 +130,8 @@ TEST_CASE("the area of a round shape is right to a part in a thousand, with no s
   CHECK(colour_share(face, other) == 0);
 }
 
-TEST_CASE("what is neither white nor green, or not painted, is other", "[emergency][face]") {
+TEST_CASE("areas that are neither white nor green, or not painted, are other",
+          "[emergency][face]") {
   const test::TemporaryFolder scratch;
   const auto file = scratch.write("a.svg", svg("<rect width='50' height='100' fill='#237F52'/>"
                                                "<rect x='50' width='50' height='100' fill='#fff'/>"
@@ -140,7 +142,7 @@ TEST_CASE("what is neither white nor green, or not painted, is other", "[emergen
   CHECK(colour_share(face, other) == 0.5);
 }
 
-TEST_CASE("a drawing that cannot be a sign is refused with its file and the reason",
+TEST_CASE("a drawing unfit for a sign is refused with its file and the reason",
           "[emergency][face]") {
   const test::TemporaryFolder scratch;
   const auto refusal = [&](const std::string& bytes) {
@@ -205,7 +207,7 @@ TEST_CASE("a picture becomes the same face as the drawing of the same sign", "[e
           face_of(face_from_svg(drawing, 0.4, 0.2, texels)).colour);
 }
 
-TEST_CASE("a picture that is absent, damaged, or no sign is refused with its file",
+TEST_CASE("a picture that is missing, damaged or unfit for a sign is refused with its file",
           "[emergency][face]") {
   const test::TemporaryFolder scratch;
   CHECK(problem_of(face_from_png(scratch / "none.png", 0.4, 0.2, 100)).find("no such file") !=
@@ -240,8 +242,8 @@ TEST_CASE("an I is a bar of one stroke by the letter height, in the middle of th
 }
 
 TEST_CASE("straight letters cover the area of their strokes", "[emergency][face]") {
-  // Closed forms with height h, width w and stroke s: E is a stem and three bars, of which the
-  // middle one reaches s/2 beyond 0.85 of the inset width; L a stem and a bar; T likewise; H a bar
+  // Closed forms with height h, width w and stroke s: E is a stem and three bars, the middle one
+  // extending s/2 beyond 0.85 of the inset width; L is a stem and a bar; T likewise; H is a bar
   // between two stems.
   const double h = 0.15, s = 0.02, wide = 0.4, high = 0.2;
   const auto area = [&](const char* letter) {
@@ -255,7 +257,7 @@ TEST_CASE("straight letters cover the area of their strokes", "[emergency][face]
   CHECK(area("H") == Approx(2 * s * h + s * (t - 2 * s)).epsilon(0.01));
 }
 
-TEST_CASE("letters that differ are drawn differently, and dots and bows are there",
+TEST_CASE("different letters are drawn differently, and dots and bows are drawn",
           "[emergency][face]") {
   const std::string all = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-+/.:!'<>";
   std::vector<std::vector<SignColour>> faces;
@@ -276,7 +278,7 @@ TEST_CASE("a symmetric word is drawn symmetrically", "[emergency][face]") {
         0.005 * static_cast<double>(face.colour.size()));
 }
 
-TEST_CASE("a legend that the face cannot hold is refused with both sizes", "[emergency][face]") {
+TEST_CASE("a legend too large for the face is refused with both sizes", "[emergency][face]") {
   const auto refusal = [](double width_m, double height_m, int texels, SignColour legend) {
     return problem_of(face_from_text("EXIT", width_m, height_m, 0.15, 0.02, 0.01, legend, texels));
   };
@@ -311,7 +313,7 @@ TEST_CASE("a luminance map keeps its pattern and has a mean of 1 within each col
       }
     CHECK(sum / count == Approx(1).epsilon(1e-5));
   }
-  // Within white the ratio of two texels is the map's own: columns 7 and 2.
+  // Within white the ratio of two texels is that of the map: columns 7 and 2.
   CHECK(face.relative_luminance[texel_index(face, 0.95, 0.5)] /
             face.relative_luminance[texel_index(face, 0.3, 0.5)] ==
         Approx(0.24 / 0.14).epsilon(1e-5));
@@ -339,7 +341,7 @@ TEST_CASE("a luminance map that is broken or dark is refused", "[emergency][face
   CHECK(problem_of(with_luminance_map(plain, {1, 1, 1, {0}})).find("black") != std::string::npos);
 }
 
-TEST_CASE("the signs that ship are wholly green and white, and left mirrors right",
+TEST_CASE("the shipped signs are entirely green and white, and left mirrors right",
           "[emergency][face]") {
   const fs::path folder = fs::path(LUX_SOURCE_DIR) / "scenes/library/signs";
   const SignFace left = face_of(face_from_svg(folder / "exit_left.svg", 0.4, 0.2, 400));
@@ -351,7 +353,7 @@ TEST_CASE("the signs that ship are wholly green and white, and left mirrors righ
     CHECK(colour_share(*face, white) > 0.2);
     CHECK(face->legend == white);
   }
-  // A texel that an edge halves may fall either way: fewer than one in a thousand.
+  // A texel halved by an edge may get either colour: fewer than one in a thousand.
   CHECK(mirror_differences(left, right) < 80);
   CHECK(face_at(right, 0.87, 0.5) == white);    // the arrow's head
   CHECK(face_at(right, 0.33, 0.225) == green);  // the runner's head, within the white door
@@ -359,7 +361,7 @@ TEST_CASE("the signs that ship are wholly green and white, and left mirrors righ
   CHECK(right.colour != straight.colour);
 }
 
-TEST_CASE("drawings of ISO 7010 signs by others become green and white faces",
+TEST_CASE("drawings of ISO 7010 signs from other sources become green and white faces",
           "[emergency][face]") {
   const fs::path folder = fs::path(LUX_SHARED_DATA) / "iso7010";
   if (!fs::exists(folder)) {
@@ -377,7 +379,7 @@ TEST_CASE("drawings of ISO 7010 signs by others become green and white faces",
         std::string::npos);
 }
 
-TEST_CASE("a drawing that would draw for minutes is refused before it does",
+TEST_CASE("a drawing that would take minutes to draw is refused first",
           "[emergency][sign_face][hostile]") {
   const test::TemporaryFolder scratch;
   const auto refusal = [&](const std::string& body) {
@@ -394,7 +396,7 @@ TEST_CASE("a drawing that would draw for minutes is refused before it does",
   CHECK(refusal(circles).find("elements; simplify") != std::string::npos);
 }
 
-TEST_CASE("a drawing may speak of filters where it uses none", "[emergency][sign_face]") {
+TEST_CASE("a drawing may mention filters that it does not use", "[emergency][sign_face]") {
   const test::TemporaryFolder scratch;
   const auto file = scratch.write(
       "a.svg", svg(left_green + std::string("<!-- no filter --><g style='filter:none'/>")));

@@ -8,14 +8,14 @@
 
 using namespace luxodus;
 
-TEST_CASE("a split has the expectation of the fraction and never makes weight", "[tally]") {
+TEST_CASE("a split has the expectation of the fraction and never creates weight", "[tally]") {
   Random random(7, RandomStream::test);
   random.start(0);
   for (const Weight weight : {Weight{1}, Weight{5}, unit_weight / 8 + 1, unit_weight}) {
     for (const double share : {1e-9, 0.25, 0.5, 0.999, 1 - 1e-9}) {
       const Fraction fraction = to_fraction(share);
-      // The result is one of two neighbours, so a run's mean errs by at most half a unit over
-      // sqrt(n).
+      // The result is one of two neighbouring integers, so a run's mean errs by at most half a unit
+      // over sqrt(n).
       constexpr int n = 20'000;
       const double expected = static_cast<double>(weight) * from_fraction(fraction);
       double sum = 0;
@@ -30,7 +30,7 @@ TEST_CASE("a split has the expectation of the fraction and never makes weight", 
   }
 }
 
-TEST_CASE("a split by all or nothing is exact whatever the draw", "[tally]") {
+TEST_CASE("a split by 0 or 1 is exact for any random bits", "[tally]") {
   for (const uint32_t r : {0u, 1u, 0x80000000u, 0xFFFFFFFFu}) {
     CHECK(split(unit_weight, unit_weight, r) == unit_weight);
     CHECK(split(12345, unit_weight, r) == 12345);
@@ -38,7 +38,7 @@ TEST_CASE("a split by all or nothing is exact whatever the draw", "[tally]") {
   }
 }
 
-TEST_CASE("a fraction outside 0 to 1 is cut to it, and what is no number is nothing", "[tally]") {
+TEST_CASE("a fraction outside 0 to 1 is clamped, and NaN becomes 0", "[tally]") {
   CHECK(to_fraction(1.0) == unit_weight);
   CHECK(to_fraction(1.5) == unit_weight);
   CHECK(to_fraction(-0.1) == 0);
@@ -46,7 +46,8 @@ TEST_CASE("a fraction outside 0 to 1 is cut to it, and what is no number is noth
   CHECK(from_fraction(to_fraction(0.375)) == 0.375);
 }
 
-TEST_CASE("a ledger closes when every unit went somewhere, and tells when one did not", "[tally]") {
+TEST_CASE("a balance closes if all weight is accounted for, and not if a unit is missing",
+          "[tally]") {
   EnergyBalance one;
   one.emitted = 100;
   one.roulette_gain = 7;

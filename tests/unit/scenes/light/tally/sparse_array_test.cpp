@@ -26,7 +26,7 @@ Runs touched(const Array& array) {
 
 }  // namespace
 
-TEST_CASE("an array that nobody has written is zero and takes no memory", "[tally][sparse]") {
+TEST_CASE("an array that was never written is zero and takes no memory", "[tally][sparse]") {
   const Array array(1000 * page);
   CHECK(array.bytes() == 0);
   CHECK(touched(array).empty());
@@ -35,7 +35,8 @@ TEST_CASE("an array that nobody has written is zero and takes no memory", "[tall
   CHECK(touched(Array()).empty());
 }
 
-TEST_CASE("what is touched is walked page by page, within what is asked for", "[tally][sparse]") {
+TEST_CASE("touched elements are visited page by page, within the requested range",
+          "[tally][sparse]") {
   Array array(10 * page + 5);
   *array.touch(2 * page + 7) = 1;
   *array.touch(3 * page) = 2;
@@ -60,7 +61,7 @@ TEST_CASE("a run of elements on several pages touches all of them", "[tally][spa
   CHECK(touched(array) == Runs{{0, 2 * page}, {3 * page, 7 * page}});
 }
 
-TEST_CASE("what is written without a word is found, unless it was given back", "[tally][sparse]") {
+TEST_CASE("unmarked writes are found, unless their memory was released", "[tally][sparse]") {
   if (!ZeroedMemory::use_is_told()) {
     WARN("this system does not tell which pages are in use: all count as touched");
     return;
@@ -78,12 +79,12 @@ TEST_CASE("what is written without a word is found, unless it was given back", "
   CHECK(touched(array) == Runs{{599 * page, 600 * page}});
 }
 
-TEST_CASE("what is cleared is zero, and its memory is kept or given back as asked",
+TEST_CASE("cleared elements are zero, and their memory is kept or released as requested",
           "[tally][sparse]") {
   for (const Cleared cleared : {Cleared::kept, Cleared::given_back}) {
     Array array(4 * page, cleared);
     for (const int64_t i : {int64_t{0}, page, 2 * page, 3 * page + 1}) *array.touch(i) = 9;
-    array.clear(1, 3 * page);  // the first page lies in it only in part
+    array.clear(1, 3 * page);  // the first page lies only partly in it
     CHECK(touched(array) == Runs{{0, page}, {3 * page, 4 * page}});
     CHECK(array[0] == 9);
     CHECK(array[page] == 0);
@@ -97,7 +98,7 @@ TEST_CASE("what is cleared is zero, and its memory is kept or given back as aske
   }
 }
 
-TEST_CASE("a copy is equal, takes what is touched, and lives its own life", "[tally][sparse]") {
+TEST_CASE("a copy is equal, holds the touched pages, and is independent", "[tally][sparse]") {
   Array array(100 * page);
   *array.touch(50 * page) = 4;
   *array.touch(7) = 5;
@@ -112,7 +113,7 @@ TEST_CASE("a copy is equal, takes what is touched, and lives its own life", "[ta
   CHECK(array[50 * page] == 4);
 }
 
-TEST_CASE("an array holds what a plain one does, whatever is written and cleared",
+TEST_CASE("an array holds the values of a plain one after any writes and clears",
           "[tally][sparse]") {
   constexpr int64_t size = 20 * page + 100;
   Random random(5, RandomStream::test);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int64_t unit = int64_t{1} << 32;
 
-/// Patches (in, out), a surface that is bins 1 to 3 of them (in, out, stayed), and a value without
-/// bands.
+/// Patches (in, out), a surface that is the sum of bins 1 to 3 of them (in, out, absorbed), and a
+/// value without bands.
 struct Layout {
   TallyLayout layout;
   uint32_t patches, surface, value;
@@ -33,7 +33,7 @@ struct Layout {
               uint32_t quantity) const {
     return scores.scores.data()[layout.score_index(block, bin, band, quantity)];
   }
-  /// Every score a number of its own, different in every batch.
+  /// A batch with a different number for every score, different in every batch.
   BatchScores random_batch(uint64_t number) const {
     BatchScores scores = batch();
     Random random(3, RandomStream::test);
@@ -63,7 +63,7 @@ void check_equal(const Totals& a, const Totals& b) {
 
 }  // namespace
 
-TEST_CASE("no two scores share a place, and together they fill the array", "[tally]") {
+TEST_CASE("no two scores share an index, and together they fill the array", "[tally]") {
   const Layout l(3);
   std::vector<int> scores(static_cast<size_t>(l.layout.scores()));
   std::vector<int> totals(static_cast<size_t>(l.layout.totals()));
@@ -84,8 +84,7 @@ TEST_CASE("no two scores share a place, and together they fill the array", "[tal
   CHECK(std::all_of(totals.begin(), totals.end(), [](int n) { return n == 1; }));
 }
 
-TEST_CASE("totals are the same for any order of batches and from any number of threads",
-          "[tally]") {
+TEST_CASE("totals are equal for any order of batches and any number of threads", "[tally]") {
   const Layout l(2);
   constexpr uint64_t batches = 40;
   Totals forward(l.layout, 1, ones(1, 2));
@@ -128,7 +127,7 @@ TEST_CASE("the standard error is that of the batches' mean", "[tally]") {
   CHECK(never.standard_error == 0);
 }
 
-TEST_CASE("negative scores, as of a vector flux, have honest means and errors", "[tally]") {
+TEST_CASE("negative scores, as of a vector flux, have correct means and errors", "[tally]") {
   const Layout l(1);
   Totals totals(l.layout, 1, ones(1, 1));
   for (const int64_t s : {-3 * unit, unit, -unit, 3 * unit, -5 * unit, -7 * unit}) {
@@ -141,12 +140,11 @@ TEST_CASE("negative scores, as of a vector flux, have honest means and errors", 
   CHECK(m.standard_error / unit == Approx(std::sqrt((94.0 - 6 * 4) / 5 / 6)));
 }
 
-TEST_CASE("an aggregate is the sum of its bins in every batch, and what stayed is in minus out",
+TEST_CASE("an aggregate is the sum of its bins in every batch, and absorbed is in minus out",
           "[tally]") {
   const Layout l(2);
   Totals totals(l.layout, 1, ones(1, 2));
-  // Bins that rise and fall against one another: their sum does not vary, whatever each of them
-  // does.
+  // Bins that vary in opposite directions: their sum is constant although each of them varies.
   for (int i = 0; i < 10; ++i) {
     BatchScores b = l.batch();
     const int64_t swing = i % 2 == 0 ? unit : -unit;
@@ -154,7 +152,7 @@ TEST_CASE("an aggregate is the sum of its bins in every batch, and what stayed i
       l.at(b, l.patches, 1, band, 0) = 10 * unit + swing;
       l.at(b, l.patches, 3, band, 0) = 20 * unit - swing;
       l.at(b, l.patches, 2, band, 1) = 12 * unit;
-      l.at(b, l.patches, 0, band, 0) = 1000 * unit;  // not of this surface
+      l.at(b, l.patches, 0, band, 0) = 1000 * unit;  // not part of this surface
       l.at(b, l.patches, 4, band, 1) = 1000 * unit;
     }
     totals.merge(b, 0);
@@ -170,10 +168,10 @@ TEST_CASE("an aggregate is the sum of its bins in every batch, and what stayed i
   CHECK(totals.mean(0, l.layout.total_index(l.patches, 1, 0, 0)).standard_error / unit > 0.3);
 }
 
-TEST_CASE("the photopic channel weighs the bands within each batch", "[tally]") {
+TEST_CASE("the photopic channel weights the bands within each batch", "[tally]") {
   const Layout l(2);
   Totals totals(l.layout, 2, {{1 << 24, 1 << 22}, {0, 1 << 24}});
-  // Band 1 makes up for band 0, so that the weighted sum of group 0 is 3 units in every batch.
+  // Band 1 compensates band 0, so that the weighted sum of group 0 is 3 units in every batch.
   for (int i = 0; i < 6; ++i) {
     for (int group = 0; group < 2; ++group) {
       BatchScores b = l.batch();
@@ -210,7 +208,7 @@ TEST_CASE("a value is averaged over the batches of all groups alike", "[tally]")
   CHECK(m.standard_error / unit == Approx(std::sqrt(4.0 / 3)));
 }
 
-TEST_CASE("a batch that is merged in steps has the totals of one merged at once", "[tally]") {
+TEST_CASE("a batch merged in steps has the totals of one merged at once", "[tally]") {
   constexpr uint32_t bins = 200'000;
   TallyLayout layout(1);
   const uint32_t patches = layout.add_block({"patches", bins, 2, ScoreUnit::weight});
@@ -232,7 +230,7 @@ TEST_CASE("a batch that is merged in steps has the totals of one merged at once"
   check_equal(at_once, in_steps);
 }
 
-TEST_CASE("batches that touch few pages have the totals of a walk over all bins",
+TEST_CASE("batches that touch few pages have the totals of a merge over all bins",
           "[tally][sparse]") {
   constexpr int bands = 3;
   constexpr uint32_t bins = 6000;

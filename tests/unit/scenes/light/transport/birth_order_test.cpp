@@ -1,4 +1,4 @@
-// Particles by the emitters they come from, before they are traced.
+// Ordering particles by their emitters before they are traced.
 #include "scenes/light/transport/birth_order.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using namespace luxodus;
 
 namespace {
 
-/// Four black rooms far apart, each with a lamp of its own strength and colour.
+/// Four black rooms far apart, each with a lamp of different power and colour.
 std::shared_ptr<const CompiledScene> four_rooms() {
   auto scene = std::make_shared<SceneDescription>();
   scene->materials.emplace_back().reflectance = Spectrum::constant(0);
@@ -37,7 +37,7 @@ std::shared_ptr<const CompiledScene> four_rooms() {
   return compiled.value();
 }
 
-/// The object that a particle reaches: here, all that its lamp can light.
+/// The object that a particle reaches: here it shows which lamp sent it.
 size_t lit_by(const CompiledScene& scene, BatchTracer& tracer, uint64_t particle) {
   BatchScores scores;
   scores.reset(scene.layout);
@@ -57,8 +57,7 @@ size_t lit_by(const CompiledScene& scene, BatchTracer& tracer, uint64_t particle
 
 }  // namespace
 
-TEST_CASE("the emitter that is foretold is the one that the particle comes from",
-          "[transport][birth]") {
+TEST_CASE("the predicted emitter is the one that the particle comes from", "[transport][birth]") {
   const auto scene = four_rooms();
   REQUIRE(scene->bands.count() == 3);
   const EmbreeDevice device;
@@ -73,7 +72,7 @@ TEST_CASE("the emitter that is foretold is the one that the particle comes from"
   CHECK(seen.size() == 4);
 }
 
-TEST_CASE("an order by emitters names every particle once, neighbours together",
+TEST_CASE("an order by emitters has every particle once, neighbours together",
           "[transport][birth]") {
   const auto scene = four_rooms();
   const auto places = places_of_emitters(*scene);

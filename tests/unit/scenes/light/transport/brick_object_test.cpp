@@ -10,7 +10,7 @@ using namespace luxodus;
 
 namespace {
 
-/// 20 x 17 x 3 cells with every quantity: bricks at its end are part zeros.
+/// 20 x 17 x 3 cells with every quantity: bricks at its ends are partly zeros.
 DataSet some_data() {
   DataSet d;
   d.nx = 20;
@@ -33,7 +33,7 @@ void set(std::vector<std::byte>& bytes, size_t at, float value) {
 
 }  // namespace
 
-TEST_CASE("a brick comes back from its bytes, to the bit", "[transport][brick]") {
+TEST_CASE("a brick is restored from its bytes, to the bit", "[transport][brick]") {
   DataSet data = some_data();
   const auto check_all = [&] {
     const BrickTable table = brick_table(data);
@@ -55,8 +55,7 @@ TEST_CASE("a brick comes back from its bytes, to the bit", "[transport][brick]")
   check_all();
 }
 
-TEST_CASE("a brick of other quantities, of another length or place is refused",
-          "[transport][brick]") {
+TEST_CASE("a brick of other quantities, length or place is refused", "[transport][brick]") {
   const DataSet data = some_data();
   const BrickTable table = brick_table(data);
   const auto bytes = encode_brick(cut_brick(data, 0));
@@ -66,7 +65,7 @@ TEST_CASE("a brick of other quantities, of another length or place is refused",
   auto longer = bytes;
   longer.resize(longer.size() + 4);
   CHECK_FALSE(decode_brick(longer, table, 0).ok());
-  CHECK_FALSE(decode_brick(bytes, table, 1).ok());  // of which the table says another sum
+  CHECK_FALSE(decode_brick(bytes, table, 1).ok());  // the table has another sum for this brick
   BrickTable other = table;
   other.has_albedo = false;
   CHECK_FALSE(decode_brick(bytes, other, 0).ok());
@@ -75,7 +74,7 @@ TEST_CASE("a brick of other quantities, of another length or place is refused",
   CHECK_FALSE(decode_brick(foreign, table, 0).ok());
 }
 
-TEST_CASE("values that no smoke has are refused in a brick", "[transport][brick]") {
+TEST_CASE("impossible values of smoke are refused in a brick", "[transport][brick]") {
   const DataSet data = some_data();
   const BrickTable table = brick_table(data);
   const auto bytes = encode_brick(cut_brick(data, 0));

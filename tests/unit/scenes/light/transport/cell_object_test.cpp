@@ -32,7 +32,7 @@ GeometryCell some_cell() {
 
 }  // namespace
 
-TEST_CASE("a geometry cell comes back from its bytes, to the bit", "[transport][cell]") {
+TEST_CASE("a geometry cell is restored from its bytes, to the bit", "[transport][cell]") {
   const auto bytes = encode_cell(some_cell());
   const auto back = decode_cell(bytes, limits_of_scene);
   REQUIRE(back.ok());
@@ -42,8 +42,7 @@ TEST_CASE("a geometry cell comes back from its bytes, to the bit", "[transport][
   CHECK(empty.value().triangles.empty());
 }
 
-TEST_CASE("a geometry cell that is cut short or speaks of another scene is refused",
-          "[transport][cell]") {
+TEST_CASE("a geometry cell that is truncated or of another scene is refused", "[transport][cell]") {
   const auto bytes = encode_cell(some_cell());
   for (size_t n = 0; n < bytes.size(); n += 13)
     CHECK_FALSE(decode_cell(std::span(bytes).first(n), limits_of_scene).ok());
@@ -57,7 +56,7 @@ TEST_CASE("a geometry cell that is cut short or speaks of another scene is refus
   CHECK_FALSE(decode_cell(encode_cell(cell), limits_of_scene).ok());
 }
 
-TEST_CASE("harmed bytes of a geometry cell never refer beyond the scene", "[transport][cell]") {
+TEST_CASE("damaged bytes of a geometry cell never refer beyond the scene", "[transport][cell]") {
   const auto bytes = encode_cell(some_cell());
   Random random(10, RandomStream::test);
   random.start(0);

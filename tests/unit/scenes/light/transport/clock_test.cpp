@@ -1,4 +1,4 @@
-// What shines at which time: the mains until they fail, then emergency light until its supply ends.
+// Light over time: the mains until they fail, then emergency light until its supply ends.
 #include <catch2/catch.hpp>
 
 #include "scenes/light/transport/compile_light.hpp"
@@ -24,7 +24,7 @@ SceneDescription good_at(SceneFolder& folder, const std::string& text, double at
   return *read.scene;
 }
 
-/// Lit luminaires' light, of the first scenario [lm].
+/// Light of lit luminaires in the first scenario [lm].
 double lamp_lm(const SceneDescription& scene) {
   double sum = 0;
   for (const ActiveSource& source : active_sources(scene, scene.scenarios.front()))
@@ -34,7 +34,7 @@ double lamp_lm(const SceneDescription& scene) {
 
 }  // namespace
 
-TEST_CASE("lights are those of the mains until they fail, then come on, and end with their supply",
+TEST_CASE("lights run on the mains until they fail, then run up, and end with their supply",
           "[format][scene][time]") {
   SceneFolder f;
   const std::string text =

@@ -1,4 +1,4 @@
-// Emitters whose extent single precision cannot hold: refused, or without what is too small.
+// Emitters too small for single precision are refused, or emit without their smallest triangles.
 #include <catch2/catch.hpp>
 
 #include "scenes/formats/scene_file/scene_file.hpp"
@@ -47,7 +47,7 @@ Result<std::shared_ptr<const CompiledScene>> with_mesh(const std::vector<double>
 
 }  // namespace
 
-TEST_CASE("an emitter of triangles that are points is refused by its name and place",
+TEST_CASE("an emitter whose triangles are all points is refused by its name and place",
           "[transport][compile][failure]") {
   const auto compiled = with_mesh({1e-7, 3e-7});
   REQUIRE_FALSE(compiled.ok());
@@ -55,7 +55,7 @@ TEST_CASE("an emitter of triangles that are points is refused by its name and pl
   CHECK(compiled.problem().where.line > 0);
 }
 
-TEST_CASE("triangles that are points emit nothing beside others", "[transport][compile]") {
+TEST_CASE("triangles that are points emit nothing beside valid ones", "[transport][compile]") {
   const auto compiled = with_mesh({1e-7, 0.1, 1e-7});
   REQUIRE(compiled.ok());
   const CompiledEmitter& chip = compiled.value()->emitters.front();

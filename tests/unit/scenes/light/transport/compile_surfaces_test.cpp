@@ -1,4 +1,4 @@
-// What compiling makes of surfaces, seen where it must refuse.
+// Compiled surfaces: limits, patches and cells.
 #include "scenes/light/transport/compile_surfaces.hpp"
 
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@ using namespace luxodus;
 
 namespace {
 
-/// A scene of equal squares, one object each, in one place.
+/// A scene of equal squares at one place, one object each.
 CompiledScene squares(int count, double edge_m, double patch_edge_m, bool one_patch = false) {
   auto description = std::make_shared<SceneDescription>();
   description->materials.resize(1);
@@ -36,7 +36,7 @@ CompiledScene squares(int count, double edge_m, double patch_edge_m, bool one_pa
 
 TEST_CASE("patches are counted without wrapping, and too many are refused with the surface",
           "[transport][compile]") {
-  // Finest cut: 2^31 patches a triangle, so that a square has 2^32, which is 0 in 32 bits.
+  // Finest subdivision: 2^31 patches per triangle, so a square has 2^32, which is 0 in 32 bits.
   CompiledScene wraps = squares(1, 1e7, 1e-4);
   const auto refused = compile_triangles(wraps, 1);
   REQUIRE_FALSE(refused.ok());
@@ -45,9 +45,8 @@ TEST_CASE("patches are counted without wrapping, and too many are refused with t
   CHECK(refused.problem().what.find("patch_edge_m larger") != std::string::npos);
 }
 
-TEST_CASE("the surface that breaks the limit of patches is the one that is named",
-          "[transport][compile]") {
-  // sqrt(2) / 2.5e-4 is cut in 5657: 128 million patches a square, so the second is one too many.
+TEST_CASE("the surface that exceeds the limit of patches is named", "[transport][compile]") {
+  // sqrt(2) / 2.5e-4 is cut in 5657: 128 million patches per square, so the second is one too many.
   CompiledScene fits = squares(1, 1, 2.5e-4);
   REQUIRE(compile_triangles(fits, 1).ok());
   CHECK(fits.patch_count == 4u * 5657 * 5657);
@@ -78,7 +77,7 @@ TEST_CASE("an object of one patch has two bins and its whole area", "[transport]
 
 namespace {
 
-/// A flame in the open, and nothing else.
+/// A scene with a flame and no solids.
 SceneDescription flame() {
   SceneDescription scene;
   Medium m;
@@ -99,7 +98,7 @@ auto compiled(SceneDescription scene, int cells) {
 
 }  // namespace
 
-TEST_CASE("a scene without triangles is traced in however many cells it is asked for",
+TEST_CASE("a scene without triangles can be traced with any number of cells",
           "[transport][compile]") {
   SceneDescription lamp;
   lamp.run.batch_particles = 8;
@@ -115,7 +114,7 @@ TEST_CASE("a scene without triangles is traced in however many cells it is asked
   CHECK(scores.balance.escaped == scores.balance.emitted);
 }
 
-TEST_CASE("a scene of nothing but media has no size and is refused", "[transport][compile]") {
+TEST_CASE("a scene that has only media has no size and is refused", "[transport][compile]") {
   const auto refused = compiled(flame(), 1);
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.problem().what.find("nothing but media") != std::string::npos);
@@ -124,7 +123,7 @@ TEST_CASE("a scene of nothing but media has no size and is refused", "[transport
   CHECK(compiled(seen, 1).ok());
 }
 
-TEST_CASE("lengths are counted in a unit that a voxel does not exceed", "[transport][compile]") {
+TEST_CASE("the unit of lengths is at least the edge of a voxel", "[transport][compile]") {
   SceneDescription seen = flame();
   seen.media[0].optics.extinction.sigma_t = 1;
   seen.observers.resize(1);

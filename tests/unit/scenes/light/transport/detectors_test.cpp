@@ -41,7 +41,7 @@ double clipped(const glm::dvec3& low, const glm::dvec3& high, const FlightPiece&
   return std::max(0.0, last - first);
 }
 
-/// Mean length that points give to each voxel, over `starts` evenly spaced chances.
+/// Mean length that sample points give to each voxel, over `starts` evenly spaced offsets.
 std::map<uint32_t, double> mean_lengths(const VoxelGrid& grid, FlightPiece piece, int starts) {
   std::map<uint32_t, double> out;
   for (int i = 0; i < starts; ++i) {
@@ -56,7 +56,7 @@ std::map<uint32_t, double> mean_lengths(const VoxelGrid& grid, FlightPiece piece
   return out;
 }
 
-/// Each end of a stretch is known to half a spacing over the number of starts, and to rounding.
+/// The ends of a segment are resolved to half a spacing over the number of starts, plus rounding.
 void check_against_clipping(const VoxelGrid& grid, const FlightPiece& piece) {
   constexpr int starts = 64;
   auto lengths = mean_lengths(grid, piece, starts);
@@ -71,7 +71,7 @@ void check_against_clipping(const VoxelGrid& grid, const FlightPiece& piece) {
 
 }  // namespace
 
-TEST_CASE("over all starts of its points every voxel gets the length of the flight in it",
+TEST_CASE("averaged over the offset of its points, every voxel gets the flight's length in it",
           "[transport][detectors]") {
   const VoxelGrid grid = small_grid();
   Random random(5, RandomStream::test);
@@ -98,7 +98,7 @@ TEST_CASE("a flight along an axis stays in its row of voxels, and in a face in t
   }
 }
 
-TEST_CASE("points of a flight from far outside are only made where the voxels are",
+TEST_CASE("points of a flight from far outside are placed only where the voxels are",
           "[transport][detectors]") {
   const VoxelGrid grid = small_grid();
   const VoxelPoints points = points_in_grid(grid, piece_of({-1e3f, -1, 1}, {1, 0, 0}, 2e3f));
@@ -107,7 +107,7 @@ TEST_CASE("points of a flight from far outside are only made where the voxels ar
   CHECK(points_in_grid(grid, piece_of({-1e6f, -1, 5}, {1, 0, 0}, 2e6f)).count == 0);
 }
 
-TEST_CASE("a flight much shorter than a voxel is one point that counts all of it",
+TEST_CASE("a flight much shorter than a voxel is one point that counts its whole length",
           "[transport][detectors]") {
   const VoxelGrid grid = small_grid();
   const VoxelPoints points = points_in_grid(grid, piece_of({0.1f, 0.1f, 1.1f}, {0, 1, 0}, 1e-3f));
@@ -115,8 +115,7 @@ TEST_CASE("a flight much shorter than a voxel is one point that counts all of it
   CHECK(points.length == Approx(1e-3f));
 }
 
-TEST_CASE("layers that touch share a flight between them without gap or overlap",
-          "[transport][detectors]") {
+TEST_CASE("adjacent layers divide a flight without gap or overlap", "[transport][detectors]") {
   CompiledVolumeGroup below, above;
   below.low = {-1e30f, -1e30f, 0};
   below.high = above.low = glm::vec3(1e30f, 1e30f, 1);
@@ -132,7 +131,7 @@ TEST_CASE("layers that touch share a flight between them without gap or overlap"
   CHECK(lengths(piece_of({5, 6, 2}, {0, 1, 0}, 3)) == glm::vec2(0, 0));
 }
 
-TEST_CASE("a flight without end along a layer leaves room for those of a whole batch",
+TEST_CASE("an endless flight along a layer leaves room for those of a whole batch",
           "[transport][detectors]") {
   CompiledScene scene;
   CompiledVolumeGroup& layer = scene.volume_groups.emplace_back();
@@ -147,14 +146,12 @@ TEST_CASE("a flight without end along a layer leaves room for those of a whole b
     return batch.scores[0];
   };
   CHECK(score_of(1000) == 1000 * static_cast<int64_t>(unit_weight));
-  constexpr int64_t largest_batch = 1'000'000;  // that a scene file may ask for
+  constexpr int64_t largest_batch = 1'000'000;  // the most that a scene file may request
   CHECK(score_of(1e9f) > 0);
   CHECK(score_of(1e9f) < std::numeric_limits<int64_t>::max() / largest_batch);
 }
 
-TEST_CASE(
-    "a plane's cell is scored by flights that cross it, not by those that stop short or pass by",
-    "[transport][detectors]") {
+TEST_CASE("a plane's cell is scored only by flights that cross it", "[transport][detectors]") {
   CompiledPlane plane;  // the unit square in z = 0, in 4 x 2 cells from bin 10
   plane.cells_u = 4;
   plane.cells_v = 2;

@@ -1,4 +1,4 @@
-// Which emitters paths of pictures choose, by what cells of space have learned of them.
+// The light sampler of pictures, with what cells of space have learned about emitters.
 #include "scenes/light/transport/emitter_choice.hpp"
 
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@ using namespace luxodus;
 
 namespace {
 
-/// Two rooms side by side, a lamp in the first, and a far brighter one behind the wall between.
+/// Two adjacent rooms, a lamp in the first, and a far brighter one behind the wall between them.
 const std::string two_rooms = R"(
 [[object]]
 name = "lit room"
@@ -58,7 +58,7 @@ const Vec3 in_the_air(0), up(0, 0, 1);
 
 }  // namespace
 
-TEST_CASE("a lamp in sight is chosen before a brighter one behind a wall", "[transport]") {
+TEST_CASE("a visible lamp is chosen before a brighter one behind a wall", "[transport]") {
   TwoRooms rooms;
   EmitterChoice choice(*rooms.scene);
   const Vec3 place = rooms.at(8.5, 5, 1);
@@ -67,12 +67,11 @@ TEST_CASE("a lamp in sight is chosen before a brighter one behind a wall", "[tra
   const CellSight& seen = rooms.sight.at(place, in_the_air, rooms.resolver);
   REQUIRE(choice.weigh_at(place, in_the_air, all_bands, &seen));
   CHECK(choice.probability_at(lamp) > choice.probability_at(hidden_lamp));
-  // What a few rays have not seen may still be there.
+  // An emitter that a few rays have not reached may still be visible.
   CHECK(choice.probability_at(hidden_lamp) > 0.01);
 }
 
-TEST_CASE("emitters are drawn as often as their probabilities say, which sum to one",
-          "[transport]") {
+TEST_CASE("emitters are sampled with their stated probabilities, which sum to one", "[transport]") {
   TwoRooms rooms;
   EmitterChoice choice(*rooms.scene);
   for (const Vec3& normal : {in_the_air, up, -up}) {
@@ -94,13 +93,13 @@ TEST_CASE("emitters are drawn as often as their probabilities say, which sum to 
   }
 }
 
-TEST_CASE("of the emitters that are near a line those are drawn that light it", "[transport]") {
+TEST_CASE("near a line, the light sampler chooses the emitters that light it", "[transport]") {
   TwoRooms rooms;
   EmitterChoice choice(*rooms.scene);
   const auto seen_at = [&](const Vec3& place) -> const CellSight& {
     return rooms.sight.at(place, in_the_air, rooms.resolver);
   };
-  // Past both lamps of the lit room, and along the wall that hides the third.
+  // Passes both lamps of the lit room, and runs along the wall that hides the third.
   const Vec3 from = rooms.at(1, 7, 2.5), to = rooms.at(9.5, 0.5, 2.5);
   const Real length = glm::distance(from, to);
   REQUIRE(choice.weigh_near({from, (to - from) / length}, length, all_bands, seen_at));
@@ -123,7 +122,7 @@ TEST_CASE("of the emitters that are near a line those are drawn that light it", 
   CHECK(std::abs(lamps / double{draws} - of_lamp) < 4 * error);
 }
 
-TEST_CASE("a line that passes no emitter closely asks none for a place on it", "[transport]") {
+TEST_CASE("a line far from all emitters samples no point near one", "[transport]") {
   TwoRooms rooms;
   EmitterChoice choice(*rooms.scene);
   const Ray along_the_floor{rooms.at(0.5, 9.5, 0.1), Vec3(1, 0, 0)};
@@ -133,7 +132,7 @@ TEST_CASE("a line that passes no emitter closely asks none for a place on it", "
       }));
 }
 
-TEST_CASE("a surface does not ask for what shines on its back", "[transport]") {
+TEST_CASE("a surface does not sample emitters behind it", "[transport]") {
   TwoRooms rooms;
   EmitterChoice choice(*rooms.scene);
   const Vec3 place = rooms.at(6, 4, 1);
@@ -147,7 +146,7 @@ TEST_CASE("a surface does not ask for what shines on its back", "[transport]") {
   CHECK(chance_of_lamp(Vec3(1, 0, 0)) > 0);
 }
 
-TEST_CASE("cells learn the same in whichever order they are asked", "[transport]") {
+TEST_CASE("cells learn the same in any order of use", "[transport]") {
   TwoRooms first, second;
   std::vector<Vec3> places;
   for (int i = 0; i < 40; ++i)
@@ -167,7 +166,8 @@ TEST_CASE("cells learn the same in whichever order they are asked", "[transport]
   }
 }
 
-TEST_CASE("a picture of more emitters than cells ask chooses any of them", "[transport]") {
+TEST_CASE("in a scene with more emitters than cells test, any of them can be chosen",
+          "[transport]") {
   std::string text = two_rooms;
   for (size_t i = 0; i < limits::asked_emitters; ++i)
     text += "[[emitter]]\nname = \"lamp " + std::to_string(i) +

@@ -1,4 +1,4 @@
-// What cells of space learn of emitters: on which side of a wall, and in mirrors.
+// Cells of space learn which emitters light them: on either side of a wall, and in mirrors.
 #include "scenes/light/transport/emitter_sight.hpp"
 
 #include <catch2/catch.hpp>
@@ -23,8 +23,8 @@ std::string point_lamp(const std::string& name, const std::string& position) {
          "\nflux_lm = 100\n";
 }
 
-/// A lamp that a screen hides from the floor, so that its light comes there by a mirror on the wall
-/// x = 0, in thin smoke.
+/// A lamp that a screen hides from the floor: its light arrives only by a mirror on the wall x = 0,
+/// in thin smoke.
 const std::string mirror_room = R"(
 [[material]]
 name = "silver"
@@ -63,7 +63,7 @@ const Vec3 in_air(0), upward(0, 0, 1), east(1, 0, 0);
 
 }  // namespace
 
-TEST_CASE("sides of a cell are told by the axis that a normal is nearest to", "[transport]") {
+TEST_CASE("the side of a cell is the axis nearest to the normal", "[transport]") {
   CHECK(cell_side(in_air) == 0);
   CHECK(cell_side(east) == 1);
   CHECK(cell_side(-east) == 2);
@@ -73,7 +73,7 @@ TEST_CASE("sides of a cell are told by the axis that a normal is nearest to", "[
   CHECK(cell_side(-upward) < cell_sides);
 }
 
-TEST_CASE("places of a side are on surfaces that face it, some of them in the air", "[transport]") {
+TEST_CASE("places of a side are on surfaces that face it, and some in the air", "[transport]") {
   test::SeenScene s(room("room", "[0, 0, 0]", "[4, 4, 3]") + point_lamp("a", "[1, 1, 2]") +
                     point_lamp("b", "[2, 1, 2]"));
   const CellGrid grid(*s.scene, limits::learned_cells);
@@ -95,7 +95,7 @@ TEST_CASE("places of a side are on surfaces that face it, some of them in the ai
     CHECK_FALSE(place.faces(-upward));
   }
   CHECK(on_floor == limits::surface_places);
-  // No surface there faces east: all are in the air, and count alike.
+  // No surface there faces east: all places are in the air, with equal weight.
   for (const SightPlace& place :
        sight_places(*s.scene, grid, cell, cell_side(east), random, s.resolver)) {
     CHECK(place.normal == in_air);
@@ -103,7 +103,7 @@ TEST_CASE("places of a side are on surfaces that face it, some of them in the ai
   }
 }
 
-TEST_CASE("the two sides of a wall see the lamps of their own rooms", "[transport]") {
+TEST_CASE("each side of a wall sees the lamps of its own room", "[transport]") {
   test::SeenScene s(room("west", "[0, 0, 0]", "[5.1, 5, 3]") +
                     room("east", "[5.2, 0, 0]", "[10, 5, 3]") +
                     point_lamp("west lamp", "[3, 2, 2]") + point_lamp("east lamp", "[7.1, 2, 2]"));
@@ -117,7 +117,7 @@ TEST_CASE("the two sides of a wall see the lamps of their own rooms", "[transpor
   CHECK(from_east.arriving_of(east_lamp) > 5 * from_east.arriving_of(west_lamp));
 }
 
-TEST_CASE("a lamp is known where a mirror shows it", "[transport]") {
+TEST_CASE("a lamp is known at its mirror image", "[transport]") {
   test::SeenScene s(mirror_room + point_lamp("far", "[3.9, 3.9, 2.9]"));
   const Vec3 below = s.at(1.5, 2, 0.001);
   const CellSight& seen = s.sight.at(below, upward, s.resolver);
@@ -125,15 +125,15 @@ TEST_CASE("a lamp is known where a mirror shows it", "[transport]") {
   const Vec3 shown = s.at(-1.98, 2, 1.9);
   CHECK(glm::distance(seen.images[0].centre, shown) < 1e-3f);
   CHECK(seen.images[0].radius == Approx(0.05).epsilon(0.01));
-  // Of an even lamp each watt sends 1 / (4 pi) to the steradian; smoke takes a third on the way.
+  // An isotropic lamp sends 1 / (4 pi) per watt and steradian; smoke absorbs a third on the way.
   const double sent = power_seen(*s.scene, s.scene->emitters[0]) / (4 * 3.14159265) * 0.9;
   CHECK(seen.images[0].worth < sent);
   CHECK(seen.images[0].worth > 0.4 * sent);
-  // Level with the mirror's back nothing is shown.
+  // Behind the mirror's plane there is no image.
   CHECK(s.sight.at(s.at(0.001, 0.2, 1), east, s.resolver).images.empty());
 }
 
-TEST_CASE("mirrors are not looked for where no turn is aimed", "[transport]") {
+TEST_CASE("mirrors are not searched for if no direction is guided", "[transport]") {
   std::string clear = mirror_room;
   clear.erase(clear.find("[[medium]]"),
               clear.find("[[object]]\nname = \"room\"") - clear.find("[[medium]]"));
@@ -141,7 +141,7 @@ TEST_CASE("mirrors are not looked for where no turn is aimed", "[transport]") {
   CHECK(s.sight.at(s.at(1.5, 2, 0.001), upward, s.resolver).images.empty());
 }
 
-TEST_CASE("glow is seen where an emitter sends nothing", "[transport]") {
+TEST_CASE("glow is visible where an emitter sends no direct light", "[transport]") {
   const std::string lit = R"(
 [[emitter]]
 name = "downlight"
@@ -159,7 +159,7 @@ extinction = 1
 albedo = 0.9
 )" + room("room", "[0, 0, 0]", "[4, 4, 3]");
   test::SeenScene s(lit + point_lamp("weak", "[0.1, 0.1, 0.1]"));
-  // High on the wall, level with the smoke beneath the downlight.
+  // High on the wall, level with the smoke below the downlight.
   const CellSight& seen = s.sight.at(s.at(3.999, 2, 2.6), -east, s.resolver);
   const auto downlight = std::find_if(seen.bright.begin(), seen.bright.end(),
                                       [](const CellSight::Bright& b) { return b.emitter == 0; });
@@ -168,8 +168,7 @@ albedo = 0.9
   CHECK(downlight->glowing < limits::glow_arriving);
 }
 
-TEST_CASE("paths that turn to a lamp in a mirror find the same light with less noise",
-          "[transport]") {
+TEST_CASE("paths guided to a lamp in a mirror find equal light with less noise", "[transport]") {
   test::SeenScene s(mirror_room + point_lamp("far", "[3.9, 3.9, 2.9]"));
   struct Spread {
     double mean = 0, error = 0;

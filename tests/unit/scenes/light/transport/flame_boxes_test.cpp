@@ -1,4 +1,4 @@
-// Boxes around flames, which lines that miss them need not look into.
+// Bounding boxes of flames, which let lines skip the media.
 #include "scenes/light/transport/flame_boxes.hpp"
 
 #include <catch2/catch.hpp>
@@ -47,7 +47,7 @@ albedo = 0.2
 emission = { power_w = 1000, temperature_k = 1400 }
 )";
 
-/// With a third flame: cells of a fire, turned about two axes, away from the origin.
+/// Adds a third flame: cells of a fire, rotated about two axes, away from the origin.
 std::shared_ptr<const SceneDescription> three_flames() {
   auto out = std::make_shared<SceneDescription>(*test::described_text(two_flames));
   Medium cells = out->media.front();
@@ -67,7 +67,7 @@ std::shared_ptr<const SceneDescription> three_flames() {
 
 }  // namespace
 
-TEST_CASE("no line that meets a flame misses its box", "[transport]") {
+TEST_CASE("every line that meets a flame meets its box", "[transport]") {
   const auto d = three_flames();
   const auto scene = compile_scene(d, find_scenario(*d, "").value(), {}).value();
   EmbreeDevice device;

@@ -1,4 +1,4 @@
-// Turns that are aimed at the glow around emitters.
+// Path guiding towards the glow around emitters.
 #include "scenes/light/transport/glow_guide.hpp"
 
 #include <catch2/catch.hpp>
@@ -19,14 +19,14 @@ std::vector<Glow> three_glows() {
           {Vec3(0.2f, 0.1f, 0), 1, 5, 0.5}};
 }
 
-/// Of turns that are isotropic by themselves.
+/// Density of isotropic scattering.
 constexpr double isotropic = 1 / (4 * std::numbers::pi);
 
 }  // namespace
 
-TEST_CASE("turns that are partly aimed have a density of one in all", "[transport]") {
+TEST_CASE("partly guided directions have a density that integrates to one", "[transport]") {
   GlowGuide guide(three_glows());
-  // Outside of all spheres, and inside of one.
+  // Outside all spheres, and inside one.
   for (const Vec3& place : {Vec3(2, 1, 1), Vec3(0.1f, 0.1f, 0.2f)}) {
     guide.stand_at(place, nullptr, Known::nothing);
     CHECK(guide.aimed() > 0);
@@ -43,13 +43,13 @@ TEST_CASE("turns that are partly aimed have a density of one in all", "[transpor
   }
 }
 
-TEST_CASE("directions are aimed as densely as the guide says", "[transport]") {
+TEST_CASE("directions are sampled with the density that the guide states", "[transport]") {
   GlowGuide guide(three_glows());
   guide.stand_at(Vec3(2, 1, 1), nullptr, Known::nothing);
   Random random(2, RandomStream::test);
   random.start(0);
-  // The mean of 1/density over drawn directions is the whole sphere, whatever is drawn; over those
-  // of a half of it, that half.
+  // The mean of 1/density over sampled directions is the whole sphere; over those of a hemisphere,
+  // that hemisphere.
   double whole = 0, upper = 0;
   constexpr int turns = 400'000;
   for (int i = 0; i < turns; ++i) {
@@ -65,7 +65,7 @@ TEST_CASE("directions are aimed as densely as the guide says", "[transport]") {
   CHECK(upper == Approx(2 * std::numbers::pi).epsilon(0.005));
 }
 
-TEST_CASE("an emitter is aimed at from within its glow, more densely the nearer a line passes it",
+TEST_CASE("within a glow, lines are guided more densely the nearer they pass the emitter",
           "[transport]") {
   const Vec3 emitter(1, 2, 3);
   GlowGuide guide({{emitter, 0.5f, 10, 0.8, 0, 0.008f}});
@@ -79,14 +79,14 @@ TEST_CASE("an emitter is aimed at from within its glow, more densely the nearer 
     CHECK(aimed_at(0.01f) > 5 * isotropic);
     CHECK(aimed_at(0.001f) == Approx(10 * aimed_at(0.01f)).epsilon(0.01));
   }
-  // On it there is nowhere to aim at.
+  // At the emitter itself no direction leads to it.
   for (const Vec3& aside : {Vec3(0), Vec3(0, 0.007f, 0)}) {
     guide.stand_at(emitter + aside, nullptr, Known::nothing);
     CHECK(guide.aimed() == 0);
   }
 }
 
-TEST_CASE("where scattered light is known, turns are aimed at what surfaces reflect alone",
+TEST_CASE("if scattered light is cached, paths are guided to surface reflections alone",
           "[transport]") {
   const Vec3 smoky(0, 0, 3), beside_a_wall(4, 0, 3);
   GlowGuide guide({{smoky, 0.5f, 10, 0.8, 0, 0.01f}, {beside_a_wall, 0.5f, 10, 0.5, 0.4, 0.01f}});
@@ -101,7 +101,7 @@ TEST_CASE("where scattered light is known, turns are aimed at what surfaces refl
   CHECK(aimed_at(beside_a_wall) > 0);
 }
 
-TEST_CASE("a guide without glows leaves every density as it is", "[transport]") {
+TEST_CASE("a guide without glows leaves every density unchanged", "[transport]") {
   GlowGuide guide;
   CHECK(guide.empty());
   guide.stand_at(Vec3(1, 2, 3), nullptr, Known::nothing);
@@ -109,8 +109,7 @@ TEST_CASE("a guide without glows leaves every density as it is", "[transport]") 
   CHECK(guide.density(Vec3(0, 0, 1), 0.37) == 0.37);
 }
 
-TEST_CASE("only the brightest glows are aimed at where nothing is known of emitters",
-          "[transport]") {
+TEST_CASE("without knowledge of emitters only the brightest glows are guided to", "[transport]") {
   std::vector<Glow> glows(limits::glows + 10);
   for (size_t i = 0; i < glows.size(); ++i) {
     const auto x = static_cast<float>(10 * i);
@@ -127,7 +126,7 @@ TEST_CASE("only the brightest glows are aimed at where nothing is known of emitt
   CHECK(aims_at(limits::glows + 9));
 }
 
-TEST_CASE("a glow is aimed at by what arrives of its emitter's light", "[transport]") {
+TEST_CASE("a glow is guided to by the light that arrives from its emitter", "[transport]") {
   GlowGuide guide(three_glows());
   const Vec3 place(2, 1, 1);
   const Vec3 first = glm::normalize(Vec3(-2.02f, -1, 2)), second = glm::normalize(Vec3(2, -1, 2));
@@ -139,12 +138,12 @@ TEST_CASE("a glow is aimed at by what arrives of its emitter's light", "[transpo
   guide.stand_at(place, &seen, Known::nothing);
   CHECK(above_isotropic(first) > 1);
   CHECK(above_isotropic(second) > 1);
-  // What a wall hides is not aimed at, nor what no ray of the cell has met.
+  // Emitters behind a wall, or reached by no ray of the cell, are not guided to.
   seen.bright = {{0, 0.5, 0.5}, {1, 1e-4, 1e-4}};
   guide.stand_at(place, &seen, Known::nothing);
   CHECK(above_isotropic(first) > 1);
   CHECK(above_isotropic(second) == Approx(0).margin(1e-9));
-  // A lamp that does not glow leaves the less for those that do.
+  // A lamp without glow leaves a smaller share for those with glow.
   const double before = guide.aimed();
   std::vector<Glow> glows = three_glows();
   glows[2].share = 0;

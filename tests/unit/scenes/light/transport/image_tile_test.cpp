@@ -23,7 +23,7 @@ Image outline_of(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("tiles hold every texel of a picture once, and it comes back from their bytes",
+TEST_CASE("tiles hold every texel of a picture once and are restored from their bytes",
           "[transport][tile]") {
   for (const auto& [width, height, channels] :
        {std::array{1, 1, 1}, std::array{64, 64, 3}, std::array{65, 63, 3}, std::array{200, 130, 4},
@@ -50,7 +50,7 @@ TEST_CASE("tiles hold every texel of a picture once, and it comes back from thei
   }
 }
 
-TEST_CASE("a tile of another picture, of another length or with impossible texels is refused",
+TEST_CASE("a tile of another picture or length, or with impossible texels, is refused",
           "[transport][tile]") {
   const Image image = some_image(100, 70, 3);
   const auto bytes = encode_tile(cut_tile(image, 0));

@@ -1,4 +1,4 @@
-// Cells of space that pictures learn of: their number and their memory, whatever a scene's size.
+// Cells that pictures learn from: their number and their memory, for any size of scene.
 #include "scenes/light/transport/learned_cells.hpp"
 
 #include <catch2/catch.hpp>
@@ -29,7 +29,7 @@ std::shared_ptr<const CompiledScene> compiled_text(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a scene of no size is one cell of a metre", "[transport]") {
+TEST_CASE("a scene without extent is one cell of a metre", "[transport]") {
   const auto scene = compiled_text(lamp_at("a", "[1, 2, 3]") + lamp_at("b", "[1, 2, 3]"));
   REQUIRE(scene->diagonal_m == 0);
   const CellGrid grid(*scene, limits::learned_cells);
@@ -38,21 +38,20 @@ TEST_CASE("a scene of no size is one cell of a metre", "[transport]") {
   CHECK(grid.cell_of(Vec3(5, -7, 0)) == 0);
 }
 
-TEST_CASE("a scene as large as coordinates go has no more cells than are asked for",
-          "[transport]") {
+TEST_CASE("a scene as large as coordinates allow has no more cells than requested", "[transport]") {
   const auto scene = compiled_text(lamp_at("a", "[-1e7, -1e7, -1e7]") +
                                    lamp_at("b", "[1e7, 1e7, 1e7]") + lamp_at("c", "[0, 0, 0]"));
   for (const int64_t most : {limits::learned_cells, int64_t{1000}, int64_t{1}}) {
     const CellGrid grid(*scene, most);
     CHECK(static_cast<int64_t>(grid.count()) <= most);
-    // By a quarter more an edge, at most: half as many.
+    // The edge is at most a quarter longer than needed: half as many cells.
     CHECK(static_cast<double>(grid.count()) > 0.4 * static_cast<double>(most));
     CHECK(grid.cell_of(scene->local_low) == 0);
     CHECK(grid.cell_of(scene->local_high) == grid.count() - 1);
   }
 }
 
-TEST_CASE("a place is in the cell that it is found in", "[transport]") {
+TEST_CASE("a place is in the cell found for it", "[transport]") {
   const auto scene = compiled_text(lamp_at("a", "[0, 0, 0]") + lamp_at("b", "[7, 3, 2.5]"));
   const CellGrid grid(*scene, limits::learned_cells);
   for (size_t cell = 0; cell < grid.count(); ++cell) {
@@ -61,7 +60,7 @@ TEST_CASE("a place is in the cell that it is found in", "[transport]") {
   }
 }
 
-TEST_CASE("what is known of emitters takes no more memory than is allowed for it", "[transport]") {
+TEST_CASE("knowledge of emitters takes no more memory than allowed", "[transport]") {
   std::string many;
   for (size_t i = 0; i < limits::asked_emitters + 50; ++i)
     many += lamp_at("lamp " + std::to_string(i), "[" + std::to_string(4 * i) + ", 600, 100]");
@@ -74,7 +73,7 @@ TEST_CASE("what is known of emitters takes no more memory than is allowed for it
   CHECK(emitter_sight_bytes(*compiled_text(lamp_at("alone", "[0, 0, 0]"))) == 0);
 }
 
-TEST_CASE("a learned cell takes no more memory than is counted for it", "[transport]") {
+TEST_CASE("a learned cell takes no more memory than was counted for it", "[transport]") {
   std::string lamps;
   for (size_t i = 0; i < 200; ++i)
     lamps += lamp_at("lamp " + std::to_string(i),

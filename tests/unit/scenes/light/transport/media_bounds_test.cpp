@@ -49,12 +49,12 @@ Medium ball(const glm::dvec3& centre, double radius) {
 
 }  // namespace
 
-TEST_CASE("a medium without bounds is all of the scene") {
+TEST_CASE("a medium without bounds has the bounds of the scene") {
   check_box(bounds_of({everywhere()}), scene_bounds.low, scene_bounds.high);
   check_box(bounds_of({ball({5, 4, 1}, 1), everywhere()}), scene_bounds.low, scene_bounds.high);
 }
 
-TEST_CASE("layers are where they have extinction, within their footprint and the scene") {
+TEST_CASE("layers are bounded by their extinction, their footprint and the scene") {
   const Medium smoke = layers({{0, 1, 0}, {1.5, 2, 0.3}, {2, 5, 1}});
   check_box(bounds_of({smoke}), {0, 0, 1.5}, {10, 8, 3});
   Medium in_a_room = smoke;
@@ -62,18 +62,18 @@ TEST_CASE("layers are where they have extinction, within their footprint and the
   check_box(bounds_of({in_a_room}), {2, 0, 1.5}, {6, 5, 3});
 }
 
-TEST_CASE("a body and a data set are where their boxes stand, turned and together") {
+TEST_CASE("a body and a data set have the bounds of their boxes, turned and together") {
   check_box(bounds_of({ball({5, 4, 1}, 1.5)}), {3.5, 2.5, 0}, {6.5, 5.5, 2.5});
   Medium data;
   data.kind = MediumKind::data_set;
   data.data.extent = {2, 1, 1};
   data.frame.origin = {9, 1, 0.5};
-  data.frame.axes = glm::dmat3({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});  // a quarter turn about z
+  data.frame.axes = glm::dmat3({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});  // rotated by 90 degrees about z
   check_box(bounds_of({data}), {8, 1, 0.5}, {9, 3, 1.5});
   check_box(bounds_of({data, ball({5, 4, 1}, 0.5)}), {4.5, 1, 0.5}, {9, 4.5, 1.5});
 }
 
-TEST_CASE("media outside the scene, or none, are nowhere") {
+TEST_CASE("media outside the scene, or none, have empty bounds") {
   CHECK(bounds_of({}).empty());
   CHECK(bounds_of({ball({50, 4, 1}, 1)}).empty());
   CHECK(bounds_of({layers({{4, 5, 1}})}).empty());

@@ -1,4 +1,4 @@
-// Photometric files near by: who is told of, and how far.
+// Places in the near field of photometric files: which are reported, and with what distances.
 #include "scenes/light/transport/near_field.hpp"
 
 #include <catch2/catch.hpp>
@@ -42,7 +42,7 @@ std::vector<NearPlace> near_in(const std::string& text, const SeesPlace& sees = 
 
 }  // namespace
 
-TEST_CASE("a plane nearer than five luminous openings is told with luminaire and distance",
+TEST_CASE("a plane nearer than five luminous openings is reported with luminaire and distance",
           "[transport][near_field]") {
   const std::string plane =
       "[[plane]]\nname = \"floor\"\ncorner = [0, 0, 0]\nedge_u = [10, 0, 0]\n"
@@ -56,8 +56,9 @@ TEST_CASE("a plane nearer than five luminous openings is told with luminaire and
   CHECK(near_in(plane, [](const glm::dvec3&, const glm::dvec3&) { return false; }).empty());
 }
 
-TEST_CASE("probes, routes and signs are told of and what is far, dark or behind a luminaire is not",
-          "[transport][near_field]") {
+TEST_CASE(
+    "probes, routes and signs are reported, but not far or dark luminaires or those behind them",
+    "[transport][near_field]") {
   CHECK(near_in("[[probe]]\nname = \"p\"\nposition = [5, 5.2, 0.2]\n").size() == 1);
   CHECK(near_in("[[probe]]\nname = \"far\"\nposition = [8, 8, 1.8]\n").empty());
   CHECK(near_in("[[probe]]\nname = \"behind\"\nposition = [5, 5, 1.2]\n").empty());
@@ -68,7 +69,7 @@ TEST_CASE("probes, routes and signs are told of and what is far, dark or behind 
   const auto emergency = near_in(way + "[[scenario]]\nname = \"e\"\noperation = \"emergency\"\n");
   REQUIRE(emergency.size() == 1);
   CHECK(emergency[0].judged);
-  // A sign lit from outside is judged where people walk, with no observer to look at it.
+  // A sign lit from outside is judged from where people walk, even without an observer.
   const std::string sign =
       "[[sign]]\nname = \"outer\"\nposition = [5, 5.3, 0.4]\nfacing = [0, -1, 0]\nwidth = 0.3\n"
       "height = 0.15\nplain = \"green\"\nsmallest_detail = 0.01\nlighting = \"external\"\n";

@@ -1,4 +1,4 @@
-// What bounds one batch, and where rays start that leave a surface beside an edge.
+// The limit of rays in one batch, and the origins of rays that leave a surface beside an edge.
 #include "scenes/light/transport/particle.hpp"
 
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ using namespace luxodus;
 
 namespace {
 
-/// A lamp that nothing surrounds.
+/// A lamp without surroundings.
 std::shared_ptr<const CompiledScene> lamp() {
   SceneDescription scene;
   scene.run.batch_particles = 8;
@@ -43,8 +43,10 @@ TriangleRecord compiled_triangle(const glm::dvec3& place, double edge_m, double 
 
 }  // namespace
 
-TEST_CASE("what is born after as many rays as 64 bits can count is lost, and the ledger closes",
-          "[transport]") {
+TEST_CASE(
+    "particles born after the limit of rays that 64 bits can count are lost, and the balance "
+    "closes",
+    "[transport]") {
   const auto scene = lamp();
   const EmbreeDevice device(BuildThreads::calling);
   const SceneIndex index(device, *scene);
@@ -59,8 +61,7 @@ TEST_CASE("what is born after as many rays as 64 bits can count is lost, and the
   CHECK(scores.balance.closes());
 }
 
-TEST_CASE("hits keep farther from edges than the rays that leave them start from the surface",
-          "[transport]") {
+TEST_CASE("hits keep farther from edges than the offset of rays from the surface", "[transport]") {
   for (const double far : {0.0, 1.0, 30.0, 1000.0}) {
     for (const double edge : {0.5, 5.0}) {
       INFO(far << " m out, " << edge << " m");
@@ -68,7 +69,7 @@ TEST_CASE("hits keep farther from edges than the rays that leave them start from
       const Vec3 hit = t.at(0, 0);
       const Vec3 start = offset_ray(hit, t.unit_normal(), min_offset(40));
       const double off = glm::distance(glm::dvec3(start), glm::dvec3(hit));
-      // Along both legs the hit has moved at least as far as from the edge of the other.
+      // Along both legs the hit has moved at least that far from the edge of the other leg.
       const double from_edge = glm::dot(glm::dvec3(hit) - glm::dvec3(t.corner[0]),
                                         glm::normalize(glm::dvec3(t.corner[1] - t.corner[0])));
       const bool as_far_as_may_be = t.edge_margin == TriangleRecord::max_edge_margin;

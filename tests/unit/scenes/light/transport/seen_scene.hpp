@@ -1,4 +1,4 @@
-// A scene whose cells learn of emitters, for tests.
+// A scene whose cells learn about emitters, for tests. One thread.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ struct SeenScene {
         resolver(*scene, index),
         sight(*scene) {}
 
-  /// Local coordinates.
+  /// Converts to local coordinates.
   Vec3 at(double x, double y, double z) const {
     return Vec3(glm::dvec3(x, y, z) - scene->local_origin);
   }

@@ -1,4 +1,4 @@
-// Spheres near a line, against each sphere by itself.
+// Spheres near a line, compared with a test of each sphere by itself.
 #include "scenes/light/transport/sphere_set.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace luxodus {
 
 namespace {
 
-/// Of the nearest place of the first `end` of the ray, in double.
+/// Distance of the centre from the first `end` of the ray, in double.
 double distance_to(const Vec3& centre, const Ray& ray, double end) {
   const glm::dvec3 o(ray.origin), d(ray.direction), c(centre);
   const double t = std::clamp(glm::dot(c - o, d), 0.0, end);
@@ -21,7 +21,7 @@ double distance_to(const Vec3& centre, const Ray& ray, double end) {
 
 }  // namespace
 
-TEST_CASE("spheres near a line are found in order, whatever their number", "[transport]") {
+TEST_CASE("spheres near a line are found in order, for any number of them", "[transport]") {
   const size_t count = GENERATE(0u, 1u, 63u, 64u, 65u, 200u);
   const auto end = GENERATE(2.0f, std::numeric_limits<float>::infinity());
   std::mt19937 numbers(static_cast<uint32_t>(count));
@@ -43,7 +43,7 @@ TEST_CASE("spheres near a line are found in order, whatever their number", "[tra
       CHECK(glm::dot(centres[i] - there, centres[i] - there) == Approx(square).margin(1e-4));
       CHECK(std::sqrt(square) == Approx(distance_to(centres[i], ray, double{end})).margin(1e-4));
     });
-    bool sure = true;  // that rounding decides nothing
+    bool sure = true;  // whether the result is beyond rounding
     for (uint32_t i = 0; i < count; ++i) {
       const double off = distance_to(centres[i], ray, double{end}) - double{reach + set.radius(i)};
       sure &= std::abs(off) > 1e-4;

@@ -1,4 +1,4 @@
-// Uniform numbers of the parts that a path is split into.
+// Uniform numbers for the parts that a path is split into.
 #include "scenes/light/transport/turn_numbers.hpp"
 
 #include <catch2/catch.hpp>
@@ -8,7 +8,7 @@
 
 using namespace luxodus;
 
-TEST_CASE("flights of a path's parts lie evenly over the unit interval", "[transport]") {
+TEST_CASE("flights of a path's parts are evenly spaced in the unit interval", "[transport]") {
   for (const int parts : {1, 2, 3, 4}) {
     for (const uint32_t bits : {0u, 5u, 0xFFFFFFFFu}) {
       CHECK(bits_of_part(bits, 0, parts) == bits);
@@ -20,7 +20,7 @@ TEST_CASE("flights of a path's parts lie evenly over the unit interval", "[trans
   }
 }
 
-TEST_CASE("numbers of any part of a path are uniform and below one", "[transport]") {
+TEST_CASE("numbers of every part of a path are uniform and below one", "[transport]") {
   Random random(1, RandomStream::test);
   random.start(0);
   constexpr int draws = 100'000;
@@ -47,7 +47,7 @@ TEST_CASE("numbers of any part of a path are uniform and below one", "[transport
   }
 }
 
-TEST_CASE("a turn that is not aimed is aimed in no part of the path", "[transport]") {
+TEST_CASE("a direction that is not guided is guided in no part of the path", "[transport]") {
   const TurnNumbers numbers;
   CHECK(numbers.of_part(0).choice == 1);
   CHECK(numbers.of_part(1).choice == 1);

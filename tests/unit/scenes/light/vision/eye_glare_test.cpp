@@ -13,7 +13,7 @@ using namespace luxodus;
 
 namespace {
 
-/// Dark, with one lit pixel.
+/// A dark picture with one lit pixel.
 XyzPicture lone_light(int edge, int x, int y, float cd_m2) {
   XyzPicture p{edge, edge, std::vector<float>(3 * static_cast<size_t>(edge * edge)), {}};
   for (const size_t c : {size_t{0}, size_t{1}, size_t{2}})
@@ -25,7 +25,7 @@ double luminance_at(const XyzPicture& p, int x, int y) {
   return static_cast<double>(p.xyz[3 * static_cast<size_t>(y * p.width + x) + 1]);
 }
 
-/// Of pixels of one degree in the middle.
+/// Direction of a pixel, with pixels of one degree in the middle.
 std::array<double, 3> line_of_sight(int edge, int x, int y) {
   const double pixel = std::numbers::pi / 180;
   const std::array<double, 3> d{(x + 0.5 - 0.5 * edge) * pixel, (y + 0.5 - 0.5 * edge) * pixel, 1};
@@ -35,7 +35,7 @@ std::array<double, 3> line_of_sight(int edge, int x, int y) {
 
 }  // namespace
 
-TEST_CASE("an even field is not veiled, in any of its channels", "[vision][glare]") {
+TEST_CASE("a uniform field is not veiled, in any of its channels", "[vision][glare]") {
   for (const double degrees : {0.02, 0.3, 1.0}) {
     XyzPicture p{160, 90, {}, {}};
     for (size_t i = 0; i < p.pixels(); ++i) {
@@ -67,7 +67,7 @@ TEST_CASE("a light veils each place by the cosine over the squared angle", "[vis
       for (int column = 0; column < edge; ++column) {
         if (row == y && column == x) continue;
         const auto there = line_of_sight(edge, column, row);
-        // Pixels of a flat picture are smaller off its middle.
+        // Pixels of a flat picture subtend less off its middle.
         const double w = weight(here, there) * std::pow(there[2], 3);
         all += w;
         if (column == at_x && row == at_y) of_light = w;
@@ -81,17 +81,17 @@ TEST_CASE("the veil falls with the angle and grows with the light", "[vision][gl
   const XyzPicture once = with_eye_glare(lone_light(48, 24, 24, 1000), 1);
   const XyzPicture thrice = with_eye_glare(lone_light(48, 24, 24, 3000), 1);
   double before = luminance_at(once, 25, 24);
-  // Near an edge of the picture fewer places share in the mean, and the veil rises.
+  // Near an edge of the picture fewer places share in the mean, so the veil rises there.
   for (int x = 26; x < 42; ++x) {
     CHECK(luminance_at(once, x, 24) < before);
     before = luminance_at(once, x, 24);
     CHECK(luminance_at(thrice, x, 24) == Approx(3 * before).epsilon(1e-5));
   }
-  // Half as far away some four times as much, but for the edges of the picture.
+  // About four times as much at half the distance, except for the effect of the picture's edges.
   CHECK(luminance_at(once, 28, 24) / luminance_at(once, 32, 24) == Approx(4).margin(0.6));
 }
 
-TEST_CASE("a view of more degrees than are veiled one by one keeps its even field and its veil",
+TEST_CASE("a view with more degrees than separate cells keeps a uniform field and its veil",
           "[vision][glare]") {
   XyzPicture wide{240, 240, std::vector<float>(3 * 240 * 240, 7.0f), {}};
   const XyzPicture even = with_eye_glare(wide, 0.5);
@@ -99,24 +99,23 @@ TEST_CASE("a view of more degrees than are veiled one by one keeps its even fiel
     CHECK(even.xyz[3 * i + 1] == Approx(7).epsilon(1e-4));
   const auto far_veil = [](double degrees, int edge) {
     XyzPicture p{edge, edge, std::vector<float>(3 * static_cast<size_t>(edge * edge)), {}};
-    // A tenth of the view lit, at the left.
+    // A tenth of the view is lit, at the left.
     for (int y = 0; y < edge; ++y)
       for (int x = 0; x < edge / 10; ++x)
         for (const size_t c : {size_t{0}, size_t{1}, size_t{2}})
           p.xyz[3 * static_cast<size_t>(y * edge + x) + c] = 100;
     return luminance_at(with_eye_glare(p, degrees), edge - edge / 5, edge / 2);
   };
-  // The same view, in 100 x 100 pixels of one degree, which are more than are veiled one by one, so
-  // that cells are of two; and in 50 x 50 pixels of two degrees, whose middles lie half a degree
-  // farther.
+  // One view in 100 x 100 pixels of one degree, which exceed the cells' limit so that cells are of
+  // two degrees; and in 50 x 50 pixels of two degrees, whose centres lie half a degree farther.
   const double coarse = far_veil(1, 100);
   CHECK(coarse == Approx(far_veil(2, 50)).epsilon(0.05));
-  // Light within a cell is left out of its mean, and far light has the larger share of a mean from
-  // two degrees on: ln(50 / 1) / ln(50 / 2) = 1.2, in a field of some 50 degrees around.
+  // The mean excludes light within a cell, so far light gets a larger share with cells of two
+  // degrees: ln(50 / 1) / ln(50 / 2) = 1.2, in a field of some 50 degrees around.
   CHECK(coarse / far_veil(100.0 / 90, 90) == Approx(1.2).margin(0.1));
 }
 
-TEST_CASE("a pixel that is no light veils nothing and stays as it is", "[vision][glare]") {
+TEST_CASE("an invalid pixel veils nothing and stays as it is", "[vision][glare]") {
   XyzPicture p{32, 32, std::vector<float>(3 * 32 * 32, 1.0f), {}};
   p.xyz[3 * 40 + 1] = std::nanf("");
   p.xyz[3 * 41] = INFINITY;
@@ -128,8 +127,8 @@ TEST_CASE("a pixel that is no light veils nothing and stays as it is", "[vision]
   CHECK(with_eye_glare(XyzPicture{}, 1).xyz.empty());
 }
 
-TEST_CASE("a lamp beside a dim sign takes contrast from it in a human view", "[vision][glare]") {
-  // Bars of 0.5 and 1.5 cd/m2 of three degrees; above them a lamp of 20 000 cd/m2.
+TEST_CASE("a lamp beside a dim sign reduces its contrast in a human view", "[vision][glare]") {
+  // Bars of 0.5 and 1.5 cd/m2, three degrees wide; above them a lamp of 20 000 cd/m2.
   const auto bars = [](float lamp) {
     XyzPicture p{48, 48, {}, {}};
     for (int y = 0; y < 48; ++y)

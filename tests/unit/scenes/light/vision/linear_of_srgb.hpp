@@ -1,4 +1,4 @@
-// The way back from the bytes of a picture. For the tests of this folder.
+// Decodes the bytes of a picture, for the tests of this folder. Pure; any thread.
 #pragma once
 
 #include <cmath>

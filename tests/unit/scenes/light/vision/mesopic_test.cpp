@@ -29,7 +29,7 @@ TEST_CASE("bright light is photopic and very dim light scotopic", "[vision][meso
   CHECK(mesopic_luminance(0.001, 0.0025).adaptation == 0);
 }
 
-TEST_CASE("mesopic luminance satisfies its own equation and grows with the light",
+TEST_CASE("mesopic luminance satisfies its defining equation and grows with the light",
           "[vision][mesopic]") {
   for (double ratio : {0.3, 0.65, 1.4, 2.05, 3.5, 8.0}) {
     double before = 0;
@@ -43,13 +43,13 @@ TEST_CASE("mesopic luminance satisfies its own equation and grows with the light
   }
 }
 
-TEST_CASE("darkness and nonsense are dark", "[vision][mesopic]") {
+TEST_CASE("darkness and invalid values give 0", "[vision][mesopic]") {
   CHECK(mesopic_luminance(0, 0).cd_m2 == 0);
   CHECK(mesopic_luminance(-1, -1).cd_m2 == 0);
   CHECK(mesopic_luminance(std::nan(""), 0).cd_m2 == 0);
 }
 
-TEST_CASE("scotopic luminance estimated from XYZ is near the spectral one for lamps",
+TEST_CASE("scotopic luminance estimated from XYZ is close to the spectral one for lamps",
           "[vision][mesopic]") {
   for (const Spectrum& s : {illuminant_d65_shape(), illuminant_a_shape(), equal_energy_shape(),
                             white_led_shape(4000)}) {

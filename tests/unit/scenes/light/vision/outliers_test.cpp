@@ -1,4 +1,4 @@
-// Light of single bright paths goes to pixels that are like theirs, and none of it is lost.
+// Light of single bright paths is moved to similar pixels, and its sum is preserved.
 #include "scenes/light/vision/outliers.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,8 +14,8 @@ size_t pixel(int x, int y) {
   return static_cast<size_t>(y * across + x);
 }
 
-/// Light of 1 whose halves differ by a tenth, with the feature 0 left of the middle and 3 to the
-/// right of it, where the light is as said.
+/// Light of 1 whose halves differ by a tenth; the feature is 0 left of the middle and 3 right of
+/// it, where the light is `right`.
 NoisyPicture two_sides(float right) {
   NoisyPicture out;
   out.width = across;
@@ -48,7 +48,7 @@ float luminance(const NoisyPicture& picture, size_t half, size_t i) {
 
 }  // namespace
 
-TEST_CASE("a single bright path is spread over pixels like its own, and its light stays",
+TEST_CASE("a single bright path is spread over similar pixels, and its light is preserved",
           "[filter]") {
   NoisyPicture picture = two_sides(1);
   const size_t bright = pixel(30, 30);
@@ -64,13 +64,13 @@ TEST_CASE("a single bright path is spread over pixels like its own, and its ligh
   for (size_t c = 0; c < light_channels; ++c)
     CHECK(sum(picture, 1, c) == Approx(sum(before, 1, c)).epsilon(1e-5));
   CHECK(picture.half[0].light == before.half[0].light);
-  // Beside it a little more; in another place that looks alike the same; across the edge nothing.
+  // A little more next to it; as much at another similar place; nothing across the edge.
   CHECK(luminance(picture, 1, pixel(32, 30)) > luminance(before, 1, pixel(32, 30)));
   CHECK(luminance(picture, 1, pixel(32, 30)) < 1.1f * luminance(before, 1, pixel(32, 30)));
   CHECK(luminance(picture, 1, pixel(45, 30)) == luminance(before, 1, pixel(45, 30)));
 }
 
-TEST_CASE("darker pixels take less of a bright path, in proportion to their light", "[filter]") {
+TEST_CASE("darker pixels receive less of a bright path, in proportion to their light", "[filter]") {
   NoisyPicture picture = two_sides(0.01f);
   std::fill(picture.features.begin(), picture.features.end(), 0.0f);
   picture.half[0].light[light_channels * pixel(38, 20) + 1] = 60;
@@ -82,10 +82,10 @@ TEST_CASE("darker pixels take less of a bright path, in proportion to their ligh
   CHECK(gain(pixel(42, 20)) < 1.1f);
 }
 
-TEST_CASE("what both halves show is no outlier, and neither is ordinary chance", "[filter]") {
+TEST_CASE("a value in both halves is not an outlier, nor is ordinary noise", "[filter]") {
   NoisyPicture picture = two_sides(1);
   for (HalfPicture& half : picture.half) half.light[light_channels * pixel(10, 10) + 1] = 500;
-  // Four times as far from one another as around them.
+  // The halves differ four times as much as those around them.
   picture.half[0].light[light_channels * pixel(60, 10) + 1] = 1.2f;
   picture.half[1].light[light_channels * pixel(60, 10) + 1] = 0.8f;
   const NoisyPicture before = picture;
@@ -94,7 +94,7 @@ TEST_CASE("what both halves show is no outlier, and neither is ordinary chance",
   CHECK(picture.half[1].light == before.half[1].light);
 }
 
-TEST_CASE("bright paths everywhere, and pictures of a pixel, stay finite and not negative",
+TEST_CASE("many bright paths, and pictures of one pixel, stay finite and not negative",
           "[filter]") {
   NoisyPicture wild = two_sides(1);
   for (size_t h : {size_t{0}, size_t{1}})

@@ -1,4 +1,4 @@
-// A filter may take chance away, and nothing else.
+// The filter removes noise and nothing else.
 #include "scenes/light/vision/regression_filter.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ void in_order(int64_t count, const std::function<void(int64_t)>& work) {
   for (int64_t i = 0; i < count; ++i) work(i);
 }
 
-/// Light of which each half has `noise` of its own [cd/m2], with one feature.
+/// Light with independent `noise` [cd/m2] in each half, and one feature.
 NoisyPicture noisy_picture(int width, int height, const LightAt& light, const LightAt& feature,
                            double noise) {
   NoisyPicture out;
@@ -38,7 +38,7 @@ NoisyPicture noisy_picture(int width, int height, const LightAt& light, const Li
   return out;
 }
 
-/// Noise in proportion to light, as much of it as `relative`.
+/// Adds noise in proportion to light, of share `relative`.
 void make_noisy(NoisyPicture& picture, double relative) {
   std::mt19937 random(5);
   std::normal_distribution<double> chance(0, relative);
@@ -59,7 +59,7 @@ double luminance(const FilteredPicture& picture, size_t pixel) {
   return static_cast<double>(picture.light[light_channels * pixel + 1]);
 }
 
-/// Root of the mean square of what is left of the chance [cd/m2].
+/// Root mean square of the remaining noise [cd/m2].
 double rms_error(const FilteredPicture& picture, const NoisyPicture& of, const LightAt& light) {
   double squares = 0;
   for (int y = 0; y < of.height; ++y)
@@ -76,11 +76,11 @@ constexpr double no_feature(int, int) {
 
 }  // namespace
 
-TEST_CASE("chance is taken from even light, which keeps its mean", "[filter]") {
+TEST_CASE("noise is removed from uniform light, which keeps its mean", "[filter]") {
   const LightAt even = [](int, int) { return 10.0; };
   const NoisyPicture noisy = noisy_picture(64, 48, even, no_feature, 4);
   const FilteredPicture filtered = filter_picture(noisy, {}, in_order);
-  // Of the mean of both halves the chance is 4 / sqrt(2).
+  // The mean of both halves has noise of 4 / sqrt(2).
   CHECK(rms_error(filtered, noisy, even) < 0.25 * 4 / std::sqrt(2));
   double raw = 0, mean = 0;
   for (size_t i = 0; i < noisy.pixels(); ++i) {
@@ -92,7 +92,7 @@ TEST_CASE("chance is taken from even light, which keeps its mean", "[filter]") {
   CHECK(mean / raw == Approx(1).epsilon(1e-5));
 }
 
-TEST_CASE("the filter knows about how large its own error is", "[filter]") {
+TEST_CASE("the filter estimates the size of its own error", "[filter]") {
   const LightAt even = [](int, int) { return 10.0; };
   const NoisyPicture noisy = noisy_picture(96, 64, even, no_feature, 3);
   const FilteredPicture filtered = filter_picture(noisy, {}, in_order);
@@ -104,10 +104,10 @@ TEST_CASE("the filter knows about how large its own error is", "[filter]") {
   CHECK(said < 2 * is);
 }
 
-TEST_CASE("a pixel counts in a filter as much as it has paths", "[filter]") {
+TEST_CASE("the filter weights a pixel by its number of paths", "[filter]") {
   const LightAt even = [](int, int) { return 10.0; };
   const NoisyPicture noisy = noisy_picture(64, 48, even, no_feature, 4);
-  NoisyPicture known = noisy;  // every second column by sixteen times the paths
+  NoisyPicture known = noisy;  // sixteen times the paths in every second column
   for (HalfPicture& half : known.half)
     for (size_t i = 0; i < known.pixels(); ++i) {
       const bool often = i % 2 == 0;
@@ -124,7 +124,7 @@ TEST_CASE("a pixel counts in a filter as much as it has paths", "[filter]") {
   CHECK(is < 0.8 * rms_error(filter_picture(alike, {}, in_order), noisy, even));
 }
 
-TEST_CASE("an edge that a feature knows stays sharp under noise", "[filter]") {
+TEST_CASE("an edge in a feature stays sharp under noise", "[filter]") {
   const LightAt albedo = [](int x, int) { return x < 32 ? 0.2 : 0.8; };
   const LightAt light = [&](int x, int y) { return 50 * albedo(x, y); };
   const NoisyPicture noisy = noisy_picture(64, 48, light, albedo, 8);
@@ -138,8 +138,9 @@ TEST_CASE("an edge that a feature knows stays sharp under noise", "[filter]") {
   CHECK(bright == Approx(40).margin(1.5));
 }
 
-TEST_CASE("pixels that an edge crosses lose their noise as others do", "[filter]") {
-  // Of a slanted edge every pixel has a share of its own: large surroundings are like few others.
+TEST_CASE("pixels on an edge lose their noise as others do", "[filter]") {
+  // Every pixel of a slanted edge has a share of its own: few large patches are similar to its
+  // patch.
   const double slant = GENERATE(0.05, 0.3, 1.3);
   CAPTURE(slant);
   const LightAt share = [&](int x, int y) {
@@ -164,11 +165,11 @@ TEST_CASE("pixels that an edge crosses lose their noise as others do", "[filter]
   };
   const double closely = error_of_edge({});
   CHECK(closely < 0.6 * noise / std::sqrt(2));
-  // Of the edge that is almost upright fewest pixels are alike.
+  // The almost vertical edge has the fewest similar pixels.
   if (slant < 0.1) CHECK(error_of_edge({.closely = false}) > 1.2 * closely);
 }
 
-TEST_CASE("a legend that the light resolves is kept, though no feature knows it", "[filter]") {
+TEST_CASE("a legend resolved in the light is kept, though no feature shows it", "[filter]") {
   const LightAt strokes = [](int x, int y) {
     const bool legend = x > 20 && x < 44 && y > 16 && y < 32;
     return legend && (x / 2) % 2 == 0 ? 40.0 : 10.0;
@@ -190,7 +191,7 @@ TEST_CASE("a legend that the light resolves is kept, though no feature knows it"
   }
 }
 
-TEST_CASE("a single bright path leaves no spot", "[filter]") {
+TEST_CASE("a single bright path leaves no visible spot", "[filter]") {
   NoisyPicture noisy = noisy_picture(
       96, 64, [](int, int) { return 10.0; }, no_feature, 1);
   const size_t bright = 32 * 96 + 48;
@@ -201,7 +202,7 @@ TEST_CASE("a single bright path leaves no spot", "[filter]") {
   for (size_t i = 0; i < noisy.pixels(); ++i) CHECK(luminance(filtered, i) < 12);
 }
 
-TEST_CASE("a dark spot stays dark beside bright noise", "[filter]") {
+TEST_CASE("a dark spot stays dark next to bright noise", "[filter]") {
   const LightAt spot = [](int x, int y) {
     return x >= 40 && x < 50 && y >= 25 && y < 35 ? 0.1 : 10.0;
   };
@@ -212,7 +213,7 @@ TEST_CASE("a dark spot stays dark beside bright noise", "[filter]") {
     for (int x = 40; x < 50; ++x) CHECK(luminance(filtered, static_cast<size_t>(96 * y + x)) < 0.2);
 }
 
-TEST_CASE("a filtered picture has the same bits in whatever order it is made", "[filter]") {
+TEST_CASE("a filtered picture has the same bits in any order of work", "[filter]") {
   const LightAt slope = [](int x, int y) { return 1.0 + x + 0.5 * y; };
   const NoisyPicture noisy = noisy_picture(50, 110, slope, slope, 5);
   const FilteredPicture forward = filter_picture(noisy, {}, in_order);
@@ -224,7 +225,7 @@ TEST_CASE("a filtered picture has the same bits in whatever order it is made", "
   CHECK(forward.standard_error_y == backward.standard_error_y);
 }
 
-TEST_CASE("pictures smaller than a window are filtered, and no light is negative", "[filter]") {
+TEST_CASE("pictures smaller than a window are filtered, and light is never negative", "[filter]") {
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 7}, {7, 1}, {5, 4}}) {
     CAPTURE(width, height);
     const NoisyPicture noisy = noisy_picture(
@@ -238,9 +239,9 @@ TEST_CASE("pictures smaller than a window are filtered, and no light is negative
   }
 }
 
-TEST_CASE("light that has all channels everywhere keeps them in every pixel", "[filter]") {
-  // Rare bright paths of unlike colours, and features that chance seems to follow: fits fall below
-  // nothing in some channels of some pixels, and a pixel of one channel has a glaring colour.
+TEST_CASE("light with all channels everywhere keeps them in every pixel", "[filter]") {
+  // Rare bright paths of different colours, and features that noise seems to follow: fits become
+  // negative in some channels of some pixels, and a pixel with one channel has a glaring colour.
   NoisyPicture noisy = noisy_picture(
       60, 40, [](int, int) { return 0.0; }, [](int x, int y) { return (x * x + 3 * y) % 7 / 7.0; },
       0);

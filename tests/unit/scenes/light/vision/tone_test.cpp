@@ -11,7 +11,7 @@ using namespace luxodus;
 
 namespace {
 
-// A picture of these luminances in one row, all of one linear sRGB colour.
+// A picture with these luminances in one row, all of one linear sRGB colour.
 XyzPicture row(const std::vector<double>& luminances,
                const std::array<double, 3>& colour = {1, 1, 1}) {
   const Xyz c = xyz_from_linear_srgb(colour);
@@ -48,7 +48,7 @@ PlainTone white_at(double cd_m2) {
   return t;
 }
 
-// Luminances evenly spread in logarithm.
+// Luminances evenly spaced in the logarithm.
 std::vector<double> even_logs(double low, double high, int n) {
   std::vector<double> out;
   for (int i = 0; i < n; ++i) out.push_back(low * std::pow(high / low, i / (n - 1.0)));
@@ -57,13 +57,13 @@ std::vector<double> even_logs(double low, double high, int n) {
 
 }  // namespace
 
-TEST_CASE("sRGB bytes survive the way through linear light", "[vision][picture]") {
+TEST_CASE("sRGB bytes survive conversion to linear light and back", "[vision][picture]") {
   for (int i = 0; i < 256; ++i)
     CHECK(srgb_byte(test::linear_of_srgb_byte(static_cast<uint8_t>(i))) == i);
   CHECK(srgb_byte(-1) == 0);
   CHECK(srgb_byte(2) == 255);
   CHECK(srgb_byte(std::nan("")) == 0);
-  CHECK(srgb_byte(0.2140) == 127);  // half grey
+  CHECK(srgb_byte(0.2140) == 127);  // half of the linear scale
 }
 
 TEST_CASE("with a fixed white the picture is linear up to it and white above", "[vision][tone]") {
@@ -75,7 +75,7 @@ TEST_CASE("with a fixed white the picture is linear up to it and white above", "
   CHECK(at(p, 4) == Rgb8{255, 255, 255});
 }
 
-TEST_CASE("without a white the log-average becomes middle grey at any level of light",
+TEST_CASE("without a white, the log-average becomes middle grey at any light level",
           "[vision][tone]") {
   for (const double level : {1e-3, 1.0, 1e4}) {
     const SrgbPicture p = tone_plain(row({level / 2, level, level * 2}), {});
@@ -83,7 +83,7 @@ TEST_CASE("without a white the log-average becomes middle grey at any level of l
   }
 }
 
-TEST_CASE("the shoulder is monotone, smooth at the knee and ends at white", "[vision][tone]") {
+TEST_CASE("the shoulder is monotone, smooth at the knee, and ends at white", "[vision][tone]") {
   for (const double white : {1.0, 2.0, 50.0}) {
     double before = 0;
     for (double x = 0.01; x < white; x += 0.01) {
@@ -102,7 +102,7 @@ TEST_CASE("the shoulder is monotone, smooth at the knee and ends at white", "[vi
 
 TEST_CASE("colours more saturated than the monitor keep their luminance and leading channel",
           "[vision][tone]") {
-  // Monochromatic 520 nm: far outside sRGB.
+  // Monochromatic 520 nm, far outside sRGB.
   XyzPicture p;
   p.width = p.height = 1;
   const double k = 30 / cie_y().at(520);
@@ -113,7 +113,7 @@ TEST_CASE("colours more saturated than the monitor keep their luminance and lead
   CHECK(c.g > c.b);
 }
 
-TEST_CASE("the colour of a light is the same at every exposure, also far beyond white",
+TEST_CASE("the colour of a light is the same at every exposure, even far beyond white",
           "[vision][tone]") {
   // The green of a sign, the orange of a flame, a blue lamp; all but the darkest are overexposed.
   for (const std::array<double, 3>& colour :
@@ -149,7 +149,7 @@ TEST_CASE("a flame far beyond a picture's white turns yellow, and the wall behin
   CHECK(green(core) > green(wall) + 0.2);
   CHECK(green(core) > green(edge) + 0.05);
   CHECK(core.b < core.g);
-  // A sign keeps its green, however far beyond white it is.
+  // A sign keeps its green however far beyond white it is.
   XyzPicture signs = row(std::vector<double>(990, 1));
   const std::array<double, 3> sign_green{0.05, 1, 0.4};
   const XyzPicture sign = row(std::vector<double>(10, 1000), sign_green);
@@ -171,7 +171,7 @@ TEST_CASE("in a human view a flame is yellow, the wall beside it orange, and a s
   }
   p.width = 1000;
   HumanTone eye;
-  eye.glare = false;  // a row of pixels has no picture beside it
+  eye.glare = false;  // a row of pixels has no surroundings
   const SrgbPicture out = tone_human(p, eye);
   const auto green = [](const Rgb8& c) {
     return test::linear_of_srgb_byte(c.g) / test::linear_of_srgb_byte(c.r);
@@ -201,7 +201,7 @@ TEST_CASE("the white legend of an overexposed sign is readable on its green", "[
   }
 }
 
-TEST_CASE("pixels that are no light are black and disturb nothing", "[vision][tone]") {
+TEST_CASE("invalid pixels are black and do not affect others", "[vision][tone]") {
   XyzPicture p = row({10, 10, 10, 10});
   p.xyz[0] = std::nanf("");
   p.xyz[4] = -1.0f;
@@ -250,7 +250,7 @@ TEST_CASE("the human curve rises from the display's black to its white", "[visio
   CHECK(curve.display(0) == 0);
 }
 
-TEST_CASE("the human curve never shows a contrast that the eye could not see in the scene",
+TEST_CASE("the human curve never shows a contrast that an eye could not see in the scene",
           "[vision][tone]") {
   // A corridor: most of the view between 0.05 and 0.2 cd/m2, a few degrees of sign and lamp.
   std::vector<double> scene = even_logs(0.05, 0.2, 1500);
@@ -258,7 +258,7 @@ TEST_CASE("the human curve never shows a contrast that the eye could not see in 
   const ToneCurve curve = human_curve(scene, {});
   REQUIRE_FALSE(curve.linear);
   // dL_d / dL_w <= dL_t(L_d) / dL_t(L_w); the trimming stops within a tolerance and works on bins,
-  // which is allowed for by a tenth.
+  // which the factor of a tenth allows for.
   for (size_t k = 1; k < curve.log_world.size(); ++k) {
     const double w = std::exp(0.5 * (curve.log_world[k] + curve.log_world[k - 1]));
     const double d = std::exp(0.5 * (curve.log_display[k] + curve.log_display[k - 1]));
@@ -267,7 +267,8 @@ TEST_CASE("the human curve never shows a contrast that the eye could not see in 
     const double allowed = threshold_difference_cd_m2(d) / threshold_difference_cd_m2(w);
     CHECK(slope <= 1.1 * allowed);
   }
-  // The crowded dark part is not stretched to fill the display, as plain equalisation would.
+  // The crowded dark part is not stretched to fill the display, as plain histogram equalisation
+  // would.
   CHECK(curve.display(0.2) < 100);
 }
 
@@ -285,17 +286,17 @@ TEST_CASE("a night scene loses its colour and a day scene keeps it", "[vision][t
   CHECK(spread(kept) > spread(dusk));
 }
 
-TEST_CASE("a scotopic channel takes the place of the estimate", "[vision][tone]") {
+TEST_CASE("a scotopic channel replaces the estimate", "[vision][tone]") {
   XyzPicture p = row({0.001, 0.002, 0.004});
   p.scotopic = {0.001f, 0.010f, 0.004f};
   const SrgbPicture out = tone_human(p, {});
-  // The middle pixel is the brightest to the rods, though the last is to a photometer.
+  // The middle pixel is the brightest for rods, although the last has the highest luminance.
   CHECK(at(out, 1).g > at(out, 2).g);
 }
 
-TEST_CASE("adaptation is taken over a degree of view", "[vision][tone]") {
-  // A pixel-fine checkerboard of 0.001 and 20 cd/m2: over a degree the eye is photopic everywhere,
-  // so the dark pixels keep their colour's adaptation; pixel by pixel they would be scotopic.
+TEST_CASE("adaptation is taken over one degree of view", "[vision][tone]") {
+  // A pixel-fine checkerboard of 0.001 and 20 cd/m2: averaged over a degree, the eye is photopic
+  // everywhere, so the dark pixels keep their colour; taken per pixel they would be scotopic.
   std::vector<double> lights;
   for (int i = 0; i < 64 * 64; ++i) lights.push_back((i + i / 64) % 2 == 0 ? 0.001 : 20);
   XyzPicture p = row(lights, {0.2, 1, 0.2});
@@ -306,12 +307,11 @@ TEST_CASE("adaptation is taken over a degree of view", "[vision][tone]") {
   CHECK(spread(lit) > 60);
 }
 
-// ---- the published operator, on test patterns
-// ----------------------------------------------------
+// ---- the published operator, on test patterns --------------------------------------------------
 
 namespace {
 
-// Adaptation luminances of views that an operator meets.
+// Adaptation luminances of typical views.
 std::vector<std::vector<double>> test_patterns() {
   std::vector<std::vector<double>> patterns;
   patterns.push_back(even_logs(1e-4, 1e4, 2000));  // a ramp over eight decades
@@ -329,7 +329,7 @@ std::vector<std::vector<double>> test_patterns() {
 const std::array<DisplayModel, 3> displays{DisplayModel{100, 0.5}, DisplayModel{200, 1},
                                            DisplayModel{1000, 0.01}};
 
-// A grating of bars two pixels wide, with its upper half of the picture blank at the same mean.
+// A grating of bars two pixels wide; the upper half of the picture is blank at the same mean.
 XyzPicture grating(double mean_cd_m2) {
   std::vector<double> lights;
   for (int y = 0; y < 48; ++y)
@@ -340,7 +340,7 @@ XyzPicture grating(double mean_cd_m2) {
   return p;
 }
 
-// Michelson contrast of the grating as it is shown, far from edges.
+// Michelson contrast of the grating as shown, far from edges.
 double shown_contrast(const SrgbPicture& p) {
   double low = 1, high = 0;
   for (size_t x = 16; x < 32; ++x) {
@@ -371,7 +371,7 @@ TEST_CASE("on every monitor the human curve is monotone, and ends at its black a
     }
 }
 
-TEST_CASE("on no monitor a pattern is shown with more contrast than an eye sees in it",
+TEST_CASE("no monitor shows a pattern with more contrast than an eye sees in it",
           "[vision][tone]") {
   for (const DisplayModel& display : displays)
     for (const std::vector<double>& pattern : test_patterns()) {
@@ -398,7 +398,7 @@ TEST_CASE("a grey ramp is shown as a ramp", "[vision][tone]") {
   for (const DisplayModel& display : displays) {
     HumanTone tone;
     tone.display = display;
-    tone.glare = false;  // seven decades in 25 degrees dazzle: the dark end would be all veil
+    tone.glare = false;  // seven decades in 25 degrees dazzle: only veil at the dark end
     const SrgbPicture out = tone_human(p, tone);
     for (size_t x = 1; x < 256; ++x) CHECK(at(out, 4 * 256 + x).g >= at(out, 4 * 256 + x - 1).g);
     CHECK(at(out, 4 * 256 + 255).g > at(out, 4 * 256).g + 100);
@@ -407,7 +407,7 @@ TEST_CASE("a grey ramp is shown as a ramp", "[vision][tone]") {
 
 TEST_CASE("acuity is 50 cycles a degree in daylight and falls to a few in the dark",
           "[vision][tone]") {
-  // S. Shlaer 1937, as Ward Larson et al. 1997 plot it.
+  // S. Shlaer 1937, as plotted by Ward Larson et al. 1997.
   CHECK(visual_acuity_cycles_per_degree(1000) == Approx(49).margin(2));
   CHECK(visual_acuity_cycles_per_degree(1) == Approx(31.5).margin(2));
   CHECK(visual_acuity_cycles_per_degree(0.001) == Approx(3).margin(1));
@@ -420,7 +420,7 @@ TEST_CASE("acuity is 50 cycles a degree in daylight and falls to a few in the da
   }
 }
 
-TEST_CASE("a grating that the eye resolves in the light fades in the dark", "[vision][tone]") {
+TEST_CASE("a grating that an eye resolves in the light fades in the dark", "[vision][tone]") {
   // Bars of 0.06 degrees: 8.3 cycles a degree.
   HumanTone eye;
   eye.degrees_per_pixel = 0.03;
@@ -439,7 +439,7 @@ TEST_CASE("a grating that the eye resolves in the light fades in the dark", "[vi
   CHECK(darkest < 0.5 * night);
 }
 
-TEST_CASE("what an eye does not resolve keeps its mean, and an even field stays as it is",
+TEST_CASE("unresolved detail keeps its mean, and a uniform field stays as it is",
           "[vision][tone]") {
   HumanTone eye;
   eye.degrees_per_pixel = 0.03;
@@ -456,7 +456,7 @@ TEST_CASE("what an eye does not resolve keeps its mean, and an even field stays 
   CHECK(sum == Approx(luminance(at(out, 48 * 10 + 24))).epsilon(0.1));
 }
 
-TEST_CASE("colours fade steadily as cones give way to rods", "[vision][tone]") {
+TEST_CASE("colours fade gradually as vision changes from cones to rods", "[vision][tone]") {
   HumanTone sharp;
   sharp.lose_acuity = false;
   double before = 1;

@@ -1,5 +1,5 @@
-// How faces that shine by themselves are drawn, signs and lamps: added to the surface that they lie
-// on, just before it.
+// Draws self-luminous faces of signs and lamps: added to the surface that they lie on, slightly
+// before it.
 import * as THREE from 'three';
 
 export const addedLight = {

@@ -1,4 +1,4 @@
-// Drawings of others, faintly under the plan: lines and pictures. They are no light, and are drawn
+// Imported drawings, faintly under the plan: lines and pictures. They are not light, and are drawn
 // before the marks.
 import * as THREE from 'three';
 import { under } from '../protocol/decode_backdrops.js';
@@ -54,7 +54,7 @@ export class Backdrops {
     this.all = [];
   }
 
-  /** Takes over what `decodeBackdrops` gives; `drawn`: something can be seen. */
+  /** Takes the result of `decodeBackdrops`; `drawn`: something became visible. */
   build(backdrops, drawn) {
     this.group.clear();
     this.all = backdrops.map((one) => {
@@ -68,7 +68,7 @@ export class Backdrops {
     drawn();
   }
 
-  /** Shows what lies under the plan that is cut at a height. */
+  /** Shows the drawings under a plan that is cut at a height. */
   cutAt(cut) {
     this.cut = cut;
     const shown = cut === undefined ? [] : under(this.all, cut);

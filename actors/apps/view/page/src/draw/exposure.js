@@ -1,17 +1,18 @@
-// How bright the picture is shown. Pure: what the meter reads goes in, a scale comes out.
+// Exposure of the picture. Pure: takes meter readings, returns a scale.
 export const renditions = { camera: 0, eye: 1, luminance: 2 };
 
-/** Mid grey of a camera; and the least luminance that automatic exposure brings up to it. */
+/** Mid grey of a camera; and the smallest luminance that automatic exposure raises to it. */
 const key = 0.18;
 const darkest_cd_m2 = 1e-4;
-/** White point: so many times the luminance that is shown as half of full white. */
+/** White point: this multiple of the luminance that is shown as half of full white. */
 export const whitePoint = 6;
-/** A usual monitor, for the eye's rendition [cd/m2]. */
+/** A typical monitor, for the eye's rendition [cd/m2]. */
 const displayMost_cd_m2 = 250;
 const seconds = { camera: 0.35, eye: 1.2 };
 /**
- * Of eyes, in the logarithm of luminance: nerves follow more light at once, and in the dark the
- * pigment of cones grows again with a time constant of two minutes (Rushton and Henry 1968).
+ * Speeds of the eye's adaptation, in the logarithm of luminance: nerves adapt to more light at
+ * once; in the dark the pigment of cones regenerates with a time constant of two minutes (Rushton
+ * and Henry 1968).
  */
 const eyeSeconds = { brighter: 1, darker: 120 };
 
@@ -26,7 +27,9 @@ export function readMeter(cells) {
   return count > 0 ? Math.max(darkest_cd_m2, 2 ** (log / count)) : darkest_cd_m2;
 }
 
-/** Ward 1994: equal contrasts at threshold for the viewer of the screen and of the building. */
+/**
+ * Ward 1994: equal contrast thresholds for the viewer of the screen and a person in the building.
+ */
 export function eyeScale(adapted) {
   const screen = 1.219 + (displayMost_cd_m2 / 2) ** 0.4;
   return (screen / (1.219 + adapted ** 0.4)) ** 2.5 / displayMost_cd_m2;
@@ -36,7 +39,7 @@ export class Exposure {
   constructor() {
     this.rendition = 'camera';
     this.automatic = true;
-    /** Whether it follows the light only as fast as eyes adapt. */
+    /** Whether it adapts only as fast as eyes do. */
     this.slow = false;
     this.fixed_cd_m2 = 10;
     this.adapted = null;
@@ -47,7 +50,7 @@ export class Exposure {
     this.target = readMeter(cells);
   }
 
-  /** Adapts for a while, or `atOnce`; true when the picture is to be shown anew. */
+  /** Adapts for a while, or `atOnce`; returns true if the picture must be shown again. */
   adapt(elapsed, atOnce = false) {
     if (this.target === null || !this.moves) return false;
     const first = this.adapted === null;

@@ -1,12 +1,12 @@
-// Flames as one 3D texture of where they glow, one above another with dark between them.
+// Flames as one 3D texture of their glow, stacked with dark layers in between.
 import * as THREE from 'three';
 
-/** So many the shader takes. */
+/** Limit of the shader. */
 export const flamesMost = 8;
 
 const vectors = () => Array.from({ length: flamesMost }, () => new THREE.Vector3());
 
-/** Which part of the texture each flame has, and its bytes. Pure. */
+/** The part of the texture of each flame, and its bytes. Pure. */
 export function atlasOf(flames) {
   const most = (axis) => Math.max(1, ...flames.map(({ count }) => count[axis]));
   const size = [most(0), most(1), flames.reduce((sum, { count }) => sum + count[2] + 2, 0) || 1];
@@ -63,7 +63,7 @@ export class Flames {
     });
   }
 
-  /** `weight(name)` is what a group gives of its light. */
+  /** `weight(name)` is the factor of a group's light. */
   shine(weight) {
     this.flames.forEach(({ group, colour }, i) => this.uniforms.flameColour.value[i]
       .fromArray(colour).multiplyScalar(weight(group)));

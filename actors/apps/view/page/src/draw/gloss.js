@@ -1,23 +1,23 @@
-// Glossy floors: the picture of the eye behind a floor, and the floor that shows it. One height at
-// a time, that which fills most of the view; all light of others stays spread evenly, as on plans.
+// Glossy floors: the picture from behind a floor, and the floor that shows it. Only one height at a
+// time, the one that fills most of the view; other floors spread all light evenly, as on plans.
 import * as THREE from 'three';
 import { behindFragment, glossFragment, glossVertex } from './gloss_glsl.js';
 import { isSameGloss, levelIn, levelsOf, mirrored } from './levels.js';
 import { smokePaces } from './smoke.js';
 import { drawnAfter } from './surfaces.js';
 
-/** Samples of the lobe in one picture; while the eye is still many pictures are added up. */
+/** Samples of the lobe in one picture; while the camera is still, many pictures are accumulated. */
 const samples = { moving: 3, still: 8 };
-/** The floor's own triangles lie so far below what is seen in it [m]. */
+/** The floor's own triangles lie this far below everything that it mirrors [m]. */
 const aboveFloor_m = 1e-3;
-/** A lobe this wide shows nothing that half the raster does not. */
+/** A lobe this wide shows nothing that half the resolution does not. */
 const rough = 0.05;
-/** How much wider than the view the mirrored one is: lobes reach beyond its edges. */
+/** How much wider than the view the mirrored view is, because lobes extend beyond its edges. */
 const wider = 1.25;
 export const nothingBelow = -1e9;
 
 export class Gloss {
-  /** `shared`: uniforms of all that is drawn; `target` and `screenPass` make what it draws by. */
+  /** `shared`: uniforms of everything drawn; `target` and `screenPass` make targets and passes. */
   constructor(shared, { target, screenPass }) {
     this.shared = shared;
     this.object = new THREE.Group();
@@ -49,7 +49,7 @@ export class Gloss {
     };
   }
 
-  /** Which sides of which surfaces are glossy. Moved lamps and dimmed ones leave them as they are. */
+  /** Sets which sides of which surfaces are glossy. Moved and dimmed lamps do not change them. */
   kinds(gloss) {
     const same = isSameGloss(gloss, this.all);
     this.all = gloss;
@@ -74,7 +74,7 @@ export class Gloss {
     this.choose();
   }
 
-  /** What the floor spreads evenly stays of what is there, and what it mirrors comes to it. */
+  /** The floor keeps the light that it spreads evenly, and its mirror image is added. */
   add(level, { mirrored: share, spread, roughness }, corners) {
     const material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
@@ -100,7 +100,7 @@ export class Gloss {
     this.object.add(mesh);
   }
 
-  /** Takes the level that a view shows; null for plans, which are cut. */
+  /** Selects the level that a view shows; null for plans, which are cut. */
   look(view, aspect) {
     Object.assign(this, { view, aspect });
     this.choose();
@@ -127,8 +127,8 @@ export class Gloss {
   }
 
   /**
-   * Draws the picture behind the floor of the present level, and has the floor show it. `eye`: the
-   * camera whose surfaces are drawn already. False where there is no such floor.
+   * Draws the picture behind the floor of the present level, and makes the floor show it. `eye`:
+   * the camera whose surfaces are already drawn. False if there is no such floor.
    */
   draw(picture, eye, n, moving) {
     const { level, shared, targets } = this;

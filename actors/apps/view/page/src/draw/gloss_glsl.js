@@ -11,9 +11,9 @@ void main() {
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 
-// A table has the density of light by direction [1/sr] by the cosine to its axis: flux by area
-// times that is luminance. Of what is curved and shines as a luminaire it has the density alone,
-// and each point has its own cosine. Faces are made of too few triangles to tell small ones.
+// A table has the density of light by direction [1/sr] divided by the cosine to its axis: times
+// flux by area, that is luminance. For curved faces that shine like a luminaire it has the density
+// alone, and each point uses its own cosine. Faces have too few triangles to resolve small cosines.
 export const lampFragment = `${common}
 in vec3 place, axis;
 uniform sampler2D table;
@@ -34,9 +34,9 @@ void main() {
   colour = vec4(clamp(light * value, 0.0, ${brightest}), 1.0);
 }`;
 
-// The picture behind the mirror, with the smoke between the mirror and what is seen in it. Where
-// the eye does not see the mirror, because a wall stands before it, the picture has no weight (its
-// fourth channel): what is behind the wall must not shine into its blurred neighbourhood.
+// The picture behind the mirror, with the smoke between the mirror and what is seen in it. Where a
+// wall hides the mirror from the eye, the picture has weight 0 (its fourth channel): light from
+// behind the wall must not leak into its blurred neighbourhood.
 export const behindFragment = `${common}${depthTools}${smokeTools}
 in vec2 at;
 uniform sampler2D surfaces, eyeDepth;
@@ -70,11 +70,10 @@ void main() {
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 
-// A lobe of GGX as the tracer has it (scenes/light/optics/surface.hpp): its visible normals sampled
-// after Heitz 2018, masked after Heitz 2014. Each sample follows its ray until it is behind what
-// the mirrored eye sees there: so no light comes from behind a wall. It reads the picture as
-// blurred as the solid angle that it stands for (Krivanek and Colbert 2008, filtered importance
-// sampling).
+// The tracer's GGX lobe (scenes/light/optics/surface.hpp): visible normals sampled after Heitz
+// 2018, masked after Heitz 2014. Each sample follows its ray until it is behind what the mirrored
+// eye sees there, so that no light comes from behind a wall. It reads the picture blurred by the
+// solid angle of the sample (Krivanek and Colbert 2008, filtered importance sampling).
 export const glossFragment = `${common}
 in vec3 place;
 uniform sampler2D behind, mirrorDepth;

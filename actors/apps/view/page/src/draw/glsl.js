@@ -12,7 +12,7 @@ precision highp sampler3D;
 float luminance(vec3 c) { return dot(c, vec3(${wr}, ${wg}, ${wb})); }
 `;
 
-/** A half has no room for more; nothing on a screen needs it. */
+/** The largest half float; nothing on a screen needs more. */
 export const brightest = '60000.0';
 
 export const surfaceVertex = `${common}
@@ -55,7 +55,7 @@ void main() {
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 
-// The texture holds which share of a texel is white and which is green: far away it is a mean.
+// The texture holds the shares of white and green in a texel: seen from afar, it gives their mean.
 export const signFragment = `${common}
 in vec2 at;
 in float height;
@@ -86,11 +86,11 @@ vec3 world(vec2 at, float d) {
 }
 `;
 
-// The law within a step of even smoke: what it sends is j (1 - exp(-s t)) / s, attenuated by all
-// before it. Steps begin at a place that differs from pixel to pixel and picture to picture, so
-// that pictures added up know no layers. Of the light that a voxel scatters, as much as its net
-// flux goes one way, and is turned by the law of Henyey and Greenstein; the rest comes from
-// everywhere. Pictures of the program end in voxels by the same two moments.
+// Exact within a step of uniform smoke: it emits j (1 - exp(-s t)) / s, attenuated by all steps
+// before it. Steps start at an offset that varies by pixel and picture, so that accumulated
+// pictures show no layers. Of the light that a voxel scatters, the part in the direction of its net
+// flux is scattered by the law of Henyey and Greenstein; the rest comes from all directions. Traced
+// pictures use the same two moments.
 export const smokeFragment = `${common}${depthTools}
 in vec2 at;
 uniform sampler3D glow, beam;
@@ -191,8 +191,8 @@ void main() {
   colour = vec4(min(sent, ${brightest}), through);
 }`;
 
-// Smoke is marched on a coarser raster; of its four neighbours those count that lie as deep as
-// this pixel does, so that no fog hangs over edges. Comes after `depthTools`.
+// Smoke is marched at a lower resolution; of its four neighbours only those at this pixel's depth
+// count, so that no fog spills over edges. Comes after `depthTools`.
 export const smokeTools = `
 uniform sampler2D smoke;
 uniform vec4 unproject;
@@ -255,8 +255,8 @@ void main() {
   colour = vec4(sum, 0.0, 1.0);
 }`;
 
-// CIE 191 (MES2) with scotopic luminance estimated from three colours (Larson, Rushmeier and
-// Piatko 1997); brightness by Ward's contrast-based scale factor (1994), which comes as `scale`.
+// CIE 191 (MES2) with scotopic luminance estimated from three colours (Larson, Rushmeier and Piatko
+// 1997); brightness by Ward's contrast-based scale factor (1994), passed as `scale`.
 const eye = `
 vec3 toXyz(vec3 c) {
   return mat3(0.4124, 0.2126, 0.0193, 0.3576, 0.7152, 0.1192, 0.1805, 0.0722, 0.9505) * c;
@@ -331,8 +331,8 @@ void main() {
   gl_PointSize = size * (kind > 2.5 ? 1.8 : 1.0);
 }`;
 
-// Rings for luminaires, drops for flames, squares for signs, a disc for who walks; what stands
-// behind a wall is faint.
+// Rings for luminaires, drops for flames, squares for signs, a disc for the walker; marks behind a
+// wall are faint.
 export const markFragment = `${common}
 in vec3 ink;
 in float shape;

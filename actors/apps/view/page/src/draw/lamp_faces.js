@@ -8,7 +8,7 @@ class Faces {
   positions = [];
   normals = [];
 
-  /** Corners against the clock, seen from outside. */
+  /** Corners counter-clockwise, seen from outside. */
   triangle(corners, normals) {
     this.positions.push(...corners.flat());
     this.normals.push(...normals.flat());
@@ -23,7 +23,7 @@ class Faces {
 const turn = (i) => (2 * Math.PI * i) / around;
 const same = (normal, count) => Array(count).fill(normal);
 
-/** A point by its shares along the axes. */
+/** A point given by its shares along the axes. */
 const placed = ({ position, axes }, x, y, z) =>
   add(add(position, scale(axes[0], x)), add(scale(axes[1], y), scale(axes[2], z)));
 const directed = ({ axes }, x, y, z) =>
@@ -75,10 +75,10 @@ const shapes = {
   },
 };
 
-/** Flat faces may shine to both sides: their table says so. */
+/** Flat faces may shine to both sides, as their table states. */
 export const isFlat = ({ shape }) => shape === 'rectangle' || shape === 'disc';
 
-/** `positions` and `normals`, nine numbers a triangle each. */
+/** `positions` and `normals`, nine numbers per triangle. */
 export function facesOf(lamp) {
   const faces = new Faces();
   shapes[lamp.shape](lamp, faces);

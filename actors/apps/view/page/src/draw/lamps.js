@@ -1,5 +1,5 @@
-// The luminous faces of lamps, each as bright as its photometric data say of the direction to the
-// eye. They are added to what lies behind them, as those of signs are.
+// The luminous faces of lamps, each as bright as its photometric data give for the direction to the
+// eye. They are added to what lies behind them, like those of signs.
 import * as THREE from 'three';
 import { toHalf } from '../protocol/half.js';
 import { addedLight } from './added_light.js';
@@ -61,7 +61,7 @@ export class Lamps {
     this.object.add(mesh);
   }
 
-  /** `factorOf(group)`: what a group is dimmed to. */
+  /** `factorOf(group)`: the dimming factor of a group. */
   shine(factorOf) {
     for (const { material, userData } of this.object.children)
       material.uniforms.light.value.fromArray(userData.lamp.colour)

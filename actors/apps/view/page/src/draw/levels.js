@@ -1,12 +1,12 @@
-// Level glossy floors: where they are, and the eye behind one of them. Pure.
+// Finds level glossy floors, and the view from behind one of them. Pure.
 import { add, dot, length, subtract, unit } from '../walk/vectors.js';
 
-/** A floor is level where its normal is off the vertical by less than this. */
+/** A floor is level if its normal deviates from the vertical by less than this. */
 const levelMost = 1e-3;
 const perMetre = 1000;
-/** Nearer patches count as if they lay so far away. */
+/** Nearer patches are treated as this far away. */
 const nearest_m = 0.5;
-/** What is looked for over a floor: from its own rounding up to the height of any room [m]. */
+/** Height range searched above a floor: from its own rounding up to the height of any room [m]. */
 const leastOver_m = 1e-3;
 const highest_m = 100;
 
@@ -17,13 +17,13 @@ function doubleArea(c, k) {
   return [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
 }
 
-/** Whether a floor's back, seen from above, is inside a body: then a back is over it, too. */
+/** Whether a floor's back, seen from above, is inside a body: then another back is above it. */
 function isInside(middle, building) {
   const over = building.ahead(add(middle, [0, 0, leastOver_m]), [0, 0, 1], highest_m);
   return over !== null && building.normal(over.triangle)[2] > 0;
 }
 
-/** Whether two lists of glossy sides say the same. */
+/** Whether two lists of glossy sides are equal. */
 export function isSameGloss(one, other) {
   const sameSide = (a, b) => a.surface === b.surface && a.back === b.back &&
     a.spread === b.spread && a.roughness === b.roughness &&
@@ -32,8 +32,8 @@ export function isSameGloss(one, other) {
 }
 
 /**
- * The glossy floors of a building by their height: `parts`, the corners of each kind of gloss;
- * `patches`, a middle and an area for each triangle.
+ * The glossy floors of a building by height: `parts`, the corners of each kind of gloss; `patches`,
+ * a centre and an area for each triangle.
  */
 export function levelsOf(building, surfaces, gloss) {
   if (!gloss.length) return [];
@@ -60,7 +60,7 @@ export function levelsOf(building, surfaces, gloss) {
   return [...levels.values()];
 }
 
-/** About the solid angle that a level fills in a view, walls left out of account. */
+/** Approximate solid angle of a level in a view, ignoring walls. */
 export function seenOf({ height, patches }, { eye, target, fov }, aspect) {
   if (eye[2] <= height) return 0;
   const ahead = unit(subtract(target, eye));
@@ -70,7 +70,7 @@ export function seenOf({ height, patches }, { eye, target, fov }, aspect) {
   for (const { middle, area } of patches) {
     const to = subtract(middle, eye);
     const far = length(to);
-    // A patch whose middle is outside may reach into the view.
+    // A patch may extend into the view even if its centre is outside.
     if (dot(to, ahead) < least * far - Math.sqrt(area)) continue;
     sum += (area * (eye[2] - height)) / Math.max(far, nearest_m) ** 3;
   }
@@ -88,7 +88,7 @@ export function levelIn(levels, view, aspect) {
   return best;
 }
 
-/** The view of the eye behind a level mirror. Its picture has left and right exchanged. */
+/** The view from behind a level mirror. Left and right are swapped in its picture. */
 export function mirrored({ eye, target, up, fov }, height) {
   const below = ([x, y, z]) => [x, y, 2 * height - z];
   return { eye: below(eye), target: below(target), up: [up[0], up[1], -up[2]], fov };

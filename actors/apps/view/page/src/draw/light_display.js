@@ -1,10 +1,12 @@
-// Light on its way to the screen: when what the program has sent, and what hands have dimmed, is
-// summed and drawn.
+// Brings light to the screen: decides when received light and the viewer's dimming are summed and
+// drawn.
 import { weightOf } from '../state.js';
 
-/** After the last dimming the sums are made afresh [ms]. */
+/** Delay after the last dimming until the sums are recomputed [ms]. */
 const settle_ms = 400;
-/** Refined light comes group by group, many times: so often is it brought to the screen [ms]. */
+/**
+ * Refined light arrives group by group, many times: the screen is updated at this interval [ms].
+ */
 const gather_ms = 250;
 
 export class LightDisplay {
@@ -15,12 +17,12 @@ export class LightDisplay {
     this.settleAt = Infinity;
   }
 
-  /** All of it is to be drawn with the next picture. */
+  /** Everything is to be drawn with the next picture. */
   changed() {
     this.awaited.now = true;
   }
 
-  /** New light of one group is one of many: it waits a little for the others. */
+  /** New light of one group waits a little for that of the others. */
   arrived(group) {
     if (group === null) this.changed();
     else this.awaited.soon = true;
@@ -40,7 +42,7 @@ export class LightDisplay {
     this.changed();
   }
 
-  /** Whether the light shown is that of before a change. */
+  /** Whether the shown light is from before a change. */
   fading(now) {
     this.picture.fade.wanted = now ? 1 : 0;
   }

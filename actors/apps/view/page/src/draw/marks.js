@@ -1,6 +1,6 @@
-// Marks over the finished picture: luminaires, flames, in plan also signs, observers and who
-// walks; the plan's cut walls; the outline of what is being moved. They are no light: nothing
-// here is measured or exposed.
+// Marks over the finished picture: luminaires, flames, in plan also signs, observers and the
+// walker; the plan's cut walls; the outline of what is being moved. They are not light, so neither
+// metered nor exposed.
 import * as THREE from 'three';
 import { Backdrops } from './backdrops.js';
 import { lineFragment, lineVertex, markFragment, markVertex } from './glsl.js';
@@ -15,7 +15,7 @@ const inks = {
   suggested: [0.4, 1, 0.95],
 };
 
-/** Of places where a luminaire would help: from blue for little to red for most. */
+/** Places where a luminaire would help: from blue for little to red for most. */
 const heat = (share) => [0.25 + 0.75 * share, 0.35 + 0.3 * share * (1 - share), 1 - 0.9 * share];
 
 function lines(ink) {
@@ -65,7 +65,7 @@ export class Marks {
     this.suggestion = null;
   }
 
-  /** Marks of a scene: fixed places, and with `plan` also what one sees from above only. */
+  /** Marks of a scene: fixed places, and with `plan` also those shown only from above. */
   place(scene, plan, walker) {
     const marks = [];
     const put = (kind, position, ink = kind) => marks.push({ kind, position, ink });
@@ -94,7 +94,7 @@ export class Marks {
     setLines(this.walls, positions);
   }
 
-  /** A closed line through corners, or nothing. */
+  /** A closed line through corners; none without corners. */
   setOutline(corners) {
     const around = corners.flatMap((c, i) => [...c, ...corners[(i + 1) % corners.length]]);
     setLines(this.outline, new Float32Array(around));

@@ -1,5 +1,5 @@
-// The picture: surfaces and signs, then smoke, then several such pictures added up while the eye
-// is still (which also smooths edges), then exposure and the screen.
+// The picture: surfaces and signs, then smoke, then accumulation of several such pictures while the
+// camera is still (which also smooths edges), then exposure and the screen.
 import * as THREE from 'three';
 import { scaleTexels } from '../light/colours.js';
 import { halfValues } from '../protocol/half.js';
@@ -12,14 +12,14 @@ import { Signs } from './signs.js';
 import { Smoke, smokePaces } from './smoke.js';
 import { Surfaces } from './surfaces.js';
 
-/** So many pictures are added up before the page rests; on a slow machine fewer. */
+/** This many pictures are accumulated before the page rests; fewer on a slow machine. */
 const pictures = { least: 6, most: 24, seconds: 4 };
 const meterCells = 32;
 const nothingCut = 1e9;
 const ratioMost = 2;
 /** Size of marks on the screen [px]. */
 const markAcross = 13;
-/** The raster becomes coarser until a picture takes no longer than this. */
+/** The resolution is lowered until a picture takes no longer than this. */
 const slowest_ms = { moving: 45, still: 300 };
 const coarsest = { moving: 0.2, still: 0.4 };
 
@@ -44,7 +44,7 @@ function screenPass(fragmentShader, uniforms) {
   });
 }
 
-/** The sequence of van der Corput: places in a pixel, and starts of steps, that fill evenly. */
+/** The van der Corput sequence: fills positions in a pixel, and starts of steps, evenly. */
 function radicalInverse(i, base) {
   let value = 0;
   for (let share = 1 / base; i > 0; i = Math.floor(i / base), share /= base)
@@ -145,8 +145,8 @@ export class Picture {
   }
 
   /**
-   * A coarse raster is that of the canvas, too, which the browser enlarges: without a graphics card
-   * it takes longer to bring a fine canvas to the screen than to draw the picture.
+   * A low resolution applies to the canvas, too, which the browser enlarges: without a graphics
+   * card, showing a fine canvas takes longer than drawing the picture.
    */
   layTargets() {
     const { renderer, targets, share } = this;
@@ -157,7 +157,7 @@ export class Picture {
     this.again();
   }
 
-  /** What was added up is of another light or place. */
+  /** The accumulated pictures show another light or place. */
   again() {
     this.added = 0;
     this.since = performance.now();
@@ -187,7 +187,7 @@ export class Picture {
     this.again();
   }
 
-  /** Draws what is needed; true when the picture on the screen is another than before. */
+  /** Draws what is needed; returns true if the picture on the screen has changed. */
   draw(elapsed, moving) {
     if (!this.camera) return false;
     this.choose(elapsed, moving ? 'moving' : 'still');
@@ -206,7 +206,7 @@ export class Picture {
     return this.added >= (late ? pictures.least : pictures.most);
   }
 
-  /** Learns from the pictures before how fine a raster this machine can do at each pace. */
+  /** Adapts the resolution, from the time of previous pictures, for moving and still views. */
   choose(elapsed, pace) {
     if (pace !== this.pace) this.changePace(pace);
     else if (this.learns && this.wasAdding) this.learn(Math.min(1000, 1000 * elapsed));
@@ -215,7 +215,7 @@ export class Picture {
     this.layTargets();
   }
 
-  /** A raster that was quick all along may be finer the next time: a hiccup is no verdict. */
+  /** A resolution that was always fast may be raised next time: a single delay does not decide. */
   changePace(pace) {
     const { samples = 0, ms } = this.slow ?? {};
     if (samples > 4 && ms < slowest_ms[this.pace] / 4)
@@ -251,7 +251,7 @@ export class Picture {
     if (n === 0 || n === pictures.least - 1) this.meter();
   }
 
-  /** Passes over the screen know the camera that has drawn what they read. */
+  /** Screen passes use the camera that has drawn their input. */
   aim(camera) {
     const { clipToWorld, unproject } = this.shared;
     clipToWorld.value.copy(camera.matrixWorld).multiply(camera.projectionMatrixInverse);
@@ -266,13 +266,13 @@ export class Picture {
     this.renderer.render(this.world, camera);
   }
 
-  /** What glossy floors mirror, and the faces of signs and lamps: they are added to surfaces. */
+  /** Adds reflections of glossy floors, and the faces of signs and lamps, to surfaces. */
   drawShining(camera, to) {
     this.renderer.setRenderTarget(to);
     this.renderer.render(this.shining, camera);
   }
 
-  /** Smoke before what was drawn last, on a raster that is coarser than the picture's. */
+  /** Smoke in front of what was drawn last, at a lower resolution than the picture. */
   drawSmoke(to, { steps, coarser }, n) {
     if (!this.smoke.present) return;
     to.setSize(Math.ceil(this.width / coarser), Math.ceil(this.height / coarser));
@@ -282,13 +282,13 @@ export class Picture {
     this.pass(this.smoke.material, to);
   }
 
-  /** A machine that needs a coarse raster is spared steps and pixels of smoke, too. */
+  /** A machine that needs a low resolution also gets fewer steps and pixels of smoke. */
   smokePace(moving) {
     if (!moving) return smokePaces.still;
     return this.share > 0.5 ? smokePaces.moving : smokePaces.hurried;
   }
 
-  /** Nothing is left to add up or to adapt to. */
+  /** Nothing is left to accumulate or to adapt to. */
   get complete() {
     return this.pace === 'still' && this.rested && !this.metering && !this.changing;
   }
@@ -303,7 +303,7 @@ export class Picture {
     this.renderer.render(this.sheet, this.flat);
   }
 
-  /** Asks for the exposure without waiting for the graphics card. */
+  /** Requests the exposure without waiting for the graphics card. */
   async meter() {
     if (this.metering) return;
     this.metering = true;
@@ -342,7 +342,7 @@ export class Picture {
     this.renderer.render(this.marks.scene, this.camera);
   }
 
-  /** The picture's luminances [cd/m2] within a window of its raster. */
+  /** The picture's luminances [cd/m2] within a window of its pixels. */
   luminances(x, y, width, height) {
     const halves = new Uint16Array(4 * width * height);
     this.renderer.readRenderTargetPixels(this.finished, x, y, width, height, halves);

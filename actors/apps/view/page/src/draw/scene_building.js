@@ -1,5 +1,5 @@
-// From what the program has told of the building to what is drawn of it and walked through:
-// triangles, signs, voxels of smoke, marks and outlines. Light is the business of light_display.js.
+// Turns the program's messages about the building into what is drawn and walked through: triangles,
+// signs, voxels of smoke, marks and outlines. Light belongs to light_display.js.
 import { toast } from '../panel/toasts.js';
 import { Building } from '../walk/building.js';
 
@@ -35,7 +35,7 @@ export class SceneBuilding {
     this.placeMarks();
   }
 
-  /** Marks of suggested luminaires, and of places by how much one would help there. */
+  /** Marks of suggested luminaires, and of places coloured by how much one would help there. */
   showSuggestion(answer) {
     this.picture.marks.suggestion = answer;
     this.placeMarks();
@@ -47,7 +47,7 @@ export class SceneBuilding {
     this.picture.untoned = true;
   }
 
-  /** Drawings that lie under plans. */
+  /** Drawings under plans. */
   backdrops(drawings) {
     this.picture.marks.backdrops.build(drawings, () => (this.picture.untoned = true));
   }

@@ -1,5 +1,5 @@
-// The faces of signs: their own luminance on a quad just before the wall, added to the light that
-// the wall's triangles already send back.
+// The faces of signs: their own luminance on a quad slightly before the wall, added to the light
+// that the wall's triangles reflect.
 import * as THREE from 'three';
 import { add, cross, scale, unit } from '../walk/vectors.js';
 import { addedLight } from './added_light.js';
@@ -49,7 +49,7 @@ function quadOf(corners) {
 }
 
 export class Signs {
-  /** `cut` and `above`: heights that bound what is drawn. */
+  /** `cut` and `above`: heights between which is drawn. */
   constructor({ cut, above }) {
     this.shared = { cut, above };
     this.object = new THREE.Group();
@@ -87,7 +87,7 @@ export class Signs {
     }
   }
 
-  /** `factorOf(group)`: what a group is dimmed to. */
+  /** `factorOf(group)`: the dimming factor of a group. */
   shine(factorOf) {
     for (const { material, userData } of this.object.children) {
       const factor = factorOf(userData.sign.group);
@@ -96,7 +96,7 @@ export class Signs {
     }
   }
 
-  /** The sign that a ray meets before `reach` metres, or null. */
+  /** The sign that a ray hits within `reach` metres, or null. */
   pointedAt(origin, direction, reach) {
     const ray = new THREE.Raycaster(
       new THREE.Vector3(...origin), new THREE.Vector3(...direction), 0, reach + 0.05);

@@ -1,13 +1,13 @@
-// Smoke as two 3D textures: what it sends out on the mean over directions, and how much it takes
-// away; along which way the light goes that it scatters, and how much it scatters onwards.
+// Smoke as two 3D textures: its emitted light as the mean over directions, and its extinction; the
+// direction of the light that it scatters, and how much it scatters forwards.
 import * as THREE from 'three';
 import { halfValues, toHalf } from '../protocol/half.js';
 import { Flames } from './flames.js';
 import { screenVertex, smokeFragment } from './glsl.js';
 
 /**
- * Steps of one picture, and so many times coarser than the picture its smoke is; while the eye is
- * still many pictures are added up.
+ * Steps in one picture, and the factor by which smoke is coarser than the picture; while the camera
+ * is still, many pictures are accumulated.
  */
 export const smokePaces = {
   hurried: { steps: 8, coarser: 3 },
@@ -15,7 +15,7 @@ export const smokePaces = {
   still: { steps: 32, coarser: 2 },
 };
 
-/** Up to so many voxels, textures are of floats: they take twice the memory. */
+/** Up to this many voxels, textures are of floats, which take twice the memory. */
 const floatsMost = 1 << 20;
 
 function volume([nx, ny, nz], data) {
@@ -61,8 +61,8 @@ export class Smoke {
   }
 
   /**
-   * `smoke` has extinction and mean cosine of each voxel, as halves. Says whether the graphics card
-   * can hold so many voxels a side.
+   * `smoke` has extinction and mean cosine of each voxel, as half floats. Returns whether the
+   * graphics card supports this many voxels per side.
    */
   build(voxels, smoke, most) {
     this.present = Boolean(voxels && smoke && Math.max(...voxels.count) <= most);
@@ -83,7 +83,7 @@ export class Smoke {
     return true;
   }
 
-  /** `light` is a LightSum of two texels a voxel, or null. */
+  /** `light` is a LightSum of two texels per voxel, or null. */
   shine(light) {
     if (!this.present) return;
     const { glow, beam } = this.texels;

@@ -1,12 +1,12 @@
-// The building's triangles. Their light lies in a texture, two texels (front, back) for each
-// triangle or, drawn smoothly, for each welded point; dimming writes the texture and nothing else.
+// The building's triangles. Their light is a texture, two texels (front, back) for each triangle
+// or, drawn smoothly, for each welded point; dimming only rewrites the texture.
 import * as THREE from 'three';
 import { placesOf, smooth, weld } from '../light/weld.js';
 import { surfaceFragment, surfaceVertex } from './glsl.js';
 
 const texelsAcross = 2048;
 
-/** Order in which three.js draws: floors that mirror before what shines by itself is added. */
+/** Drawing order in three.js: mirroring floors before self-luminous faces are added. */
 export const drawnAfter = { surfaces: 1, floors: 2 };
 
 function lightTexture(cells) {
@@ -16,7 +16,7 @@ function lightTexture(cells) {
 }
 
 export class Surfaces {
-  /** `cut` and `above`: heights that bound what is drawn. */
+  /** `cut` and `above`: heights between which is drawn. */
   constructor({ cut, above }) {
     this.material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3,
@@ -49,7 +49,7 @@ export class Surfaces {
     const set = (name, values, size) =>
       geometry.setAttribute(name, new THREE.BufferAttribute(values, size));
     if (this.smooth) {
-      // Six triangles share most points, so most work on vertices is done once.
+      // Most points are shared by six triangles, so most work on vertices is done once.
       set('position', placesOf(this.welded, corners), 3);
       set('texel', Uint32Array.from({ length: points }, (_, i) => i), 1);
       geometry.setIndex(new THREE.BufferAttribute(pointOf, 1));
@@ -63,7 +63,7 @@ export class Surfaces {
     this.material.uniforms.light.value = lightTexture(cells);
   }
 
-  /** `light` is a LightSum of eight numbers a triangle, or null for darkness. */
+  /** `light` is a LightSum of eight numbers per triangle, or null for darkness. */
   shine(light) {
     const texture = this.material.uniforms.light.value;
     const data = texture.image.data;

@@ -1,11 +1,11 @@
-// Moving a sign or a luminaire: an outline goes ahead, the program is told when hands let go.
+// Moves a sign or a luminaire: an outline follows the pointer; the program is told on release.
 import { faceOf } from '../draw/signs.js';
 import { add, cross, dot, scale, subtract, unit } from '../walk/vectors.js';
 
-/** After the last press of a handle [ms]. */
+/** Delay after the last press of a handle [ms]. */
 const patience = 600;
 const mark_m = 0.12;
-/** How far beside the original a copy stands at first; of wide signs, the gap between the two. */
+/** Initial distance of a copy from the original; for wide signs, the gap between the two. */
 const beside_m = 0.5;
 const gap_m = 0.05;
 
@@ -30,7 +30,7 @@ export class Mover {
     this.outline([]);
   }
 
-  /** Right, up and out of the wall; a luminaire's are the building's own. */
+  /** Right, up and out of the wall; for a luminaire, the building's axes. */
   get axes() {
     const { facing, up } = this.thing;
     if (!facing) return { right: [1, 0, 0], up: [0, 1, 0], out: [0, 0, -1] };
@@ -49,7 +49,7 @@ export class Mover {
     this.timer = setTimeout(() => this.send(), patience);
   }
 
-  /** Takes hold along a ray; `plan`: in the level plane instead of the wall's. */
+  /** Starts dragging along a ray; `plan`: in the horizontal plane instead of the wall's. */
   grab(origin, direction, plan) {
     this.normal = plan || !this.thing.facing ? [0, 0, 1] : this.axes.out;
     const point = this.onPlane(origin, direction);
@@ -76,7 +76,7 @@ export class Mover {
     this.draw();
   }
 
-  /** Asks for a copy beside what is held: of a sign along its width. */
+  /** Requests a copy beside the held thing: for a sign, along its width. */
   copy() {
     if (this.pending) this.send();
     const { name, position, facing, width = 0 } = this.thing;

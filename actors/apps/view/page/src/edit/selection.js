@@ -1,5 +1,5 @@
-// What is selected on the picture: a surface, a sign or a luminaire; how it is found under a
-// finger, held for moving, and found again in the next generation.
+// The selection in the picture: a surface, a sign or a luminaire; how it is picked, dragged, and
+// found again in the next generation.
 import { byId } from '../panel/dom.js';
 import { add, cross, scale, unit } from '../walk/vectors.js';
 import { Mover } from './mover.js';
@@ -8,7 +8,7 @@ const markReach_px = 14;
 const probe_m = 0.05;
 const farthest_m = 1e3;
 
-/** A small mark that lies on a surface. */
+/** A small mark on a surface. */
 function diamond(point, normal) {
   const side = unit(cross(normal, Math.abs(normal[2]) > 0.9 ? [1, 0, 0] : [0, 0, 1]));
   const other = cross(normal, side);
@@ -21,7 +21,7 @@ export class Selection {
     this.inspect = panels.inspect;
     this.say = (message, key) => edits.say(message, key);
     this.probes = 0;
-    /** A copy that was asked for here is selected when it is there. */
+    /** A copy requested here is selected when it arrives. */
     this.awaited = null;
     this.mover = new Mover({
       say: this.say,
@@ -53,7 +53,7 @@ export class Selection {
     return this.panels.marks.checked ? this.markAt(x, y, this.live.scene.luminaires) : null;
   }
 
-  /** The thing whose mark on the picture is nearest, if it is near. */
+  /** The thing with the nearest mark in the picture, if it is near. */
   markAt(x, y, things) {
     const box = byId('picture').getBoundingClientRect();
     let best = { apart: markReach_px, thing: null };
@@ -78,7 +78,7 @@ export class Selection {
     this.reveal();
   }
 
-  /** Asks for the light at a point of a surface. */
+  /** Requests the light at a point of a surface. */
   probe({ triangle, front, point, normal }, seen) {
     const id = ++this.probes;
     this.mover.release();
@@ -101,7 +101,7 @@ export class Selection {
     this.inspect.clear();
   }
 
-  /** A new generation may have moved what is selected, or judged it anew. */
+  /** A new generation may have moved or reassessed the selection. */
   keep(scene) {
     if (this.mover.pending) return;
     const lists = { sign: scene.signs, luminaire: scene.luminaires };
@@ -114,7 +114,7 @@ export class Selection {
     else if (lists[kind]) this.clear();
   }
 
-  /** Takes hold of what is selected, if the finger is on it; says whether it did. */
+  /** Starts dragging the selection if the pointer is on it; returns whether it did. */
   grab(x, y) {
     const { thing, kind } = this.mover;
     if (!thing || !this.panels.editor) return false;

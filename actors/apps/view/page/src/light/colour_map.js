@@ -1,5 +1,5 @@
 // The colour map of actors/results/formats/light_colours.hpp for the live view's page. A test of
-// that room compares it, and says how to write it anew.
+// that room compares the two, and says how to regenerate this one.
 
 /** Ends of the scale of luminance [cd/m2]. */
 export const scaleLow = 0.001;

@@ -1,4 +1,4 @@
-// Luminances: their place on the scale of false colours, and words for numbers.
+// Luminances: their place on the scale of false colours, and text for numbers.
 import { scaleColours, scaleHigh, scaleLow } from './colour_map.js';
 
 /** Linear sRGB weights of luminance. */
@@ -14,7 +14,7 @@ export function scaleColour(t) {
   return [rgb >> 16, (rgb >> 8) & 255, rgb & 255];
 }
 
-/** Where a luminance lies on the scale. */
+/** The position of a luminance on the scale. */
 export const scalePlace = (luminance) =>
   Math.log10(Math.max(luminance, 1e-12) / scaleLow) / Math.log10(scaleHigh / scaleLow);
 
@@ -34,17 +34,17 @@ const significant = (value, digits) => {
 const grouped = (digits) =>
   digits.length > 4 ? digits.replace(/\B(?=(\d{3})+$)/g, '\u202f') : digits;
 
-/** How many: all digits of a whole number. */
+/** A count: all digits of a whole number. */
 export const count = (n) => grouped(Math.round(n).toFixed(0));
 
-/** A number in words, e.g. 0.0123, 1.23, 12 300; three digits unless told. */
+/** A number as text, e.g. 0.0123, 1.23, 12 300; three digits by default. */
 export function words(value, digits = 3) {
   if (value === null || !Number.isFinite(value)) return '–';
   const [head, tail] = significant(value, digits).split('.');
   return tail ? `${grouped(head)}.${tail}` : grouped(head);
 }
 
-/** Value and standard error: the error with two digits, the value with as many places. */
+/** Value and standard error: the error with two digits, the value with as many decimals. */
 export function wordsWithError(value, error) {
   if (value === null) return '–';
   if (!(error > 0)) return words(value);

@@ -1,13 +1,13 @@
-// Light kept by group: what is shown is the sum over groups of factor x light, on surfaces and in
-// smoke alike. A changed factor adds (new - old) of that group alone; since rounding of what was
-// bright stays behind when it is dimmed to nothing, the sum is made afresh once hands are still.
+// Sums light by group: shown is the sum over groups of factor x light, on surfaces and in smoke. A
+// changed factor adds (new - old) of that group only; since rounding errors of bright light remain
+// when it is dimmed to nothing, the sum is recomputed once the sliders are still.
 import { halfValues } from '../protocol/half.js';
 
-/** `triples` of numbers in each cell; the sum has a fourth number each, as textures have. */
+/** `triples` of numbers in each cell; the sum adds a fourth number each, for textures. */
 export class LightSum {
   constructor(cells, triples) {
     this.cells = cells;
-    /** The length that a group's light has to have. */
+    /** The required length of a group's light. */
     this.length = 3 * triples * cells;
     this.sum = new Float32Array(4 * triples * cells);
     this.groups = new Map();
@@ -22,7 +22,7 @@ export class LightSum {
     this.afresh = null;
   }
 
-  /** True when the sum has changed. */
+  /** Returns true if the sum has changed. */
   dim(group, factor) {
     const entry = this.groups.get(group);
     if (!entry || entry.factor === factor) return false;
@@ -33,8 +33,8 @@ export class LightSum {
   }
 
   /**
-   * Goes on making the sum without what rounding left in it, by at most so many groups; true when
-   * there is nothing more to do. Light that changes meanwhile makes it begin again.
+   * Continues to recompute the sum without rounding errors, by at most this many groups; true when
+   * it is complete. Light that changes meanwhile restarts it.
    */
   settle(most = Infinity) {
     if (!this.rounded) return true;

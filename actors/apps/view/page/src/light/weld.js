@@ -1,10 +1,10 @@
-// Which corners of triangles are one point of one flat piece of surface. Light is collected per
+// Welds corners of triangles that are one point of one flat piece of surface. Light is stored per
 // triangle; drawn from point to point it shows no facets, and edges of the building stay sharp.
 
 const perMetre = 1000;
 const normalSteps = 16;
 
-/** A small number for the direction that a triangle faces; its area goes into `area`. */
+/** A small number for the facing of a triangle; its area goes into `area`. */
 function facing(corners, at, area, t) {
   const ux = corners[at + 3] - corners[at];
   const uy = corners[at + 4] - corners[at + 1];
@@ -23,7 +23,7 @@ function facing(corners, at, area, t) {
   return key | 0;
 }
 
-/** Points by number: an open table of five whole numbers a point, no garbage. */
+/** Points by number: an open-addressed table of five integers per point, without garbage. */
 class PointTable {
   constructor(most) {
     let size = 16;
@@ -54,7 +54,7 @@ class PointTable {
   }
 }
 
-/** `pointOf` each of the 3 n corners, the number of points, and each triangle's area. */
+/** `pointOf` for each of the 3 n corners, the number of points, and each triangle's area. */
 export function weld({ triangles, corners, surfaces }) {
   const table = new PointTable(3 * triangles);
   const pointOf = new Uint32Array(3 * triangles);
@@ -69,14 +69,14 @@ export function weld({ triangles, corners, surfaces }) {
   return { pointOf, area, points: table.count, weight: weights(pointOf, area, table.count) };
 }
 
-/** One over the area that a point answers for. */
+/** One over the area that belongs to a point. */
 function weights(pointOf, area, points) {
   const weight = new Float32Array(points);
   for (let i = 0; i < pointOf.length; ++i) weight[pointOf[i]] += area[(i / 3) | 0];
   return weight.map((sum) => (sum > 0 ? 1 / sum : 0));
 }
 
-/** Where points are, three numbers each: as exactly as the last of the corners there says. */
+/** Coordinates of points, three numbers each: those of the last corner there. */
 export function placesOf({ pointOf, points }, corners) {
   const places = new Float32Array(3 * points);
   for (let i = 0; i < pointOf.length; ++i)
@@ -84,7 +84,7 @@ export function placesOf({ pointOf, points }, corners) {
   return places;
 }
 
-/** Light of points from light of triangles, by area; both eight numbers each. */
+/** Light of points from light of triangles, weighted by area; both eight numbers each. */
 export function smooth(sum, { pointOf, area, points, weight }, out) {
   out.fill(0, 0, 8 * points);
   for (let i = 0; i < pointOf.length; ++i) {

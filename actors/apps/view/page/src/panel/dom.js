@@ -1,6 +1,6 @@
-// Elements from words. Text from outside becomes text nodes only, never markup.
+// Makes elements. Text from outside becomes text nodes only, never markup.
 
-/** `properties` go to the element itself; `on` holds listeners, `aria` and `data` attributes. */
+/** `properties` are set on the element; `on` holds listeners, `aria` and `data` attributes. */
 export function el(tag, { on = {}, aria = {}, data = {}, ...properties } = {}, ...children) {
   const element = Object.assign(document.createElement(tag), properties);
   for (const [name, listener] of Object.entries(on)) element.addEventListener(name, listener);

@@ -1,4 +1,4 @@
-// What shines, and how much of it: a switch and a slider for each group.
+// Light sources and their dimming: a switch and a slider for each group.
 import { button, el, section } from './dom.js';
 
 const titles = { luminaire: 'Luminaires', sign: 'Signs', flame: 'Flames' };

@@ -1,5 +1,5 @@
-// What was clicked: the light on a surface, a sign's verdicts, a luminaire's place; and handles
-// to move what can be moved.
+// Details of what was clicked: the light on a surface, a sign's verdicts, a luminaire's place; and
+// handles to move it.
 import { words, wordsWithError } from '../light/colours.js';
 import { button, el, section } from './dom.js';
 
@@ -31,7 +31,7 @@ export class Inspect {
       'Click a surface for its light, a sign for its verdicts, a luminaire to move it.' }));
   }
 
-  /** A surface: first what the picture itself knows, then what the program answers. */
+  /** A surface: first what the picture knows, then the program's answer. */
   surface({ id, point, seen }) {
     this.subject = { kind: 'surface', id };
     this.seen = ['Arrives at the eye', `${words(seen)} cd/m²`];
@@ -79,7 +79,7 @@ export class Inspect {
     this.put(luminaire.name, this.handles(luminaire), this.place);
   }
 
-  /** What is of the scene file stays; what was added here may go again. */
+  /** Things of the scene file stay; those added here may be removed. */
   handles({ added }) {
     const step = el('select', { aria: { label: 'Step' } });
     for (const metres of [0.05, 0.25, 1]) step.append(new Option(`${metres} m`, metres));

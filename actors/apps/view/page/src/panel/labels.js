@@ -23,7 +23,7 @@ export class Labels {
     this.parent.replaceChildren(...this.things.map((t) => t.element));
   }
 
-  /** Place of a point on the picture from -1 to 1, and whether it lies ahead. */
+  /** Position of a point in the picture from -1 to 1, and whether it is in front of the camera. */
   project(position, camera) {
     this.point.set(...position).project(camera);
     return [this.point.x, this.point.y, this.point.z > -1 && this.point.z < 1];

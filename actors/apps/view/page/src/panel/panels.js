@@ -1,4 +1,4 @@
-// Everything in words around the picture: makes the panels, and tells all of them what all need.
+// All panels around the picture: makes them, and passes on what all need.
 import { byId } from './dom.js';
 import { Groups } from './groups.js';
 import { Inspect } from './inspect.js';
@@ -11,7 +11,7 @@ import { Traced } from './traced.js';
 import { Views } from './views.js';
 
 export class Panels {
-  /** `wants`: what to do with what people ask for, by panel. */
+  /** `wants`: the handlers of each panel's actions. */
   constructor(picture, wants) {
     this.top = new Top({ edit: (wanted) => wants.say({ type: 'edit', wanted }) });
     this.state = new StatePanel({ say: wants.say });

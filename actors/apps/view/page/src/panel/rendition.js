@@ -1,4 +1,4 @@
-// How luminances become a picture, and the legend that says so.
+// How luminances become a picture, and the legend for it.
 import { scaleHigh, scaleLow } from '../light/colour_map.js';
 import { scaleColour, words } from '../light/colours.js';
 import { byId, choice, el, section } from './dom.js';
@@ -43,7 +43,7 @@ export class Rendition {
     this.set(exposure.rendition);
   }
 
-  /** One more box to tick. */
+  /** Another check box. */
   check(label, checked, ticked) {
     const box = el('input', { type: 'checkbox', checked,
       on: { change: () => ticked(box.checked) } });

@@ -1,4 +1,4 @@
-// Which state of the building: scenario, density of smoke; and a file for it.
+// The state of the building: scenario, density of smoke; and saving it to a file.
 import { words } from '../light/colours.js';
 import { button, choice, el, section } from './dom.js';
 
@@ -13,11 +13,11 @@ const secondsWords = (seconds) => `${Number(seconds.toPrecision(6))} s`;
 /** From the first state to the last. */
 const stepsOf = ({ from, to, step }) => Math.ceil((to - from) / step - 1e-9);
 
-/** A name that lines break behind its underscores. */
+/** A name with line breaks allowed after its underscores. */
 const breakable = (name) => el('span', {},
   ...name.split(/(?<=_)/).flatMap((part, i) => (i > 0 ? [el('wbr'), part] : [part])));
 
-/** When EN 1838 asks for light: half of it by 5 s, all of it by 60 s. */
+/** The times by which EN 1838 requires light: half of it by 5 s, all of it by 60 s. */
 const times = [[0, '0 s'], [5, '5 s'], [60, '60 s'], [null, 'full']];
 
 export class StatePanel {
@@ -44,7 +44,7 @@ export class StatePanel {
     return Number(densityOf(Number(this.slider.value)).toPrecision(3));
   }
 
-  /** Time of a scene that changes: the fire, doors, mains and supplies go by it. */
+  /** Time of a scene that changes: the clock of fire, doors, mains and supplies. */
   makeClock() {
     this.clockValue = el('output', { textContent: '–' });
     this.clock = el('input', {
@@ -59,7 +59,7 @@ export class StatePanel {
     return this.clockLine;
   }
 
-  /** The state that the slider stands at: the last one is where the clock ends. */
+  /** The state at the slider's position: the last one is where the clock ends. */
   get stateTime() {
     const { from, to, step } = this.states;
     return Math.min(to, from + step * Number(this.clock.value));
@@ -75,7 +75,7 @@ export class StatePanel {
     this.clockValue.textContent = secondsWords(at);
   }
 
-  /** Time since the mains failed: how far what comes on or fades has done so. */
+  /** Time since the mains failure, which determines onsets and decays. */
   makeTime() {
     const ask = (seconds) => this.say({ type: 'time', seconds }, 'time');
     this.times = choice('Seconds after the mains have failed', times, ask);

@@ -1,11 +1,11 @@
-// Where further luminaires would go: asks the program, shows its answer as marks and words, and
-// adds what it suggests.
+// Suggests places for further luminaires: asks the program, shows its answer as marks and text, and
+// adds the suggestions.
 import { button, el, section } from './dom.js';
 
 const percent = (share) => `${(100 * share).toFixed(1)} %`;
 
 export class Suggest {
-  /** `say` sends a message, `show` draws an answer or, given null, takes it away. */
+  /** `say` sends a message, `show` draws an answer or, given null, removes it. */
   constructor({ say, show }) {
     Object.assign(this, { say, show });
     this.answer = null;
@@ -28,7 +28,7 @@ export class Suggest {
     this.say({ type: 'suggest', free: this.free.checked ? this.added : [] }, 'suggest');
   }
 
-  /** An answer of the program; null: there is none any more. */
+  /** An answer of the program; null: it is no longer valid. */
   suggested(answer) {
     this.answer = answer;
     const some = answer !== null && answer.luminaires.length > 0;

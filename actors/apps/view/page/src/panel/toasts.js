@@ -1,4 +1,4 @@
-// Short words about what went wrong, or right; they leave by themselves.
+// Short messages about failures and successes; they disappear by themselves.
 import { button, byId, el } from './dom.js';
 
 const stays_ms = 8000;

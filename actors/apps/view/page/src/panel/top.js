@@ -1,8 +1,8 @@
-// The upper edge: which building, whether the program is there, who edits; and the progress.
+// The upper edge: the building's name, the connection, who edits; and the progress.
 import { count, words } from '../light/colours.js';
 import { byId, el } from './dom.js';
 
-/** The bar is full at this relative error; work may go on beyond it. */
+/** The bar is full at this relative error; tracing may go on beyond it. */
 const good = 0.01;
 
 export class Top {

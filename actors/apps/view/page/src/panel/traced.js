@@ -1,18 +1,18 @@
-// A traced picture of what one looks at, over the page's own: how far it is, and a file of it.
+// A traced picture of the current view, over the page's own: its progress, and saving it.
 import { count, words } from '../light/colours.js';
 import { button, byId, el } from './dom.js';
 
-/** Most pixels that the program traces (PROTOCOL.md), and the least edge. */
+/** Limit on pixels that the program traces (PROTOCOL.md), and the smallest edge. */
 const pixelsMost = 1 << 19;
 const edgeLeast = 16;
 
-/** As large as the picture on the screen, or as may be; of the same shape. */
+/** As large as the picture on the screen, up to the limit; with the same aspect ratio. */
 export function sizeOf(width, height) {
   const scale = Math.min(1, Math.sqrt(pixelsMost / (width * height)));
   return [width, height].map((n) => Math.max(edgeLeast, Math.floor(scale * n)));
 }
 
-/** How far a picture is, in words. */
+/** The progress of a picture, as text. */
 export function stateOf({ particles, paths, relativeError, seconds, done }) {
   const flux = particles >= 1e6 ? `${words(particles / 1e6)} M` : count(particles);
   return [
@@ -25,7 +25,7 @@ export function stateOf({ particles, paths, relativeError, seconds, done }) {
 }
 
 export class Traced {
-  /** `say(message)` to the program. */
+  /** `say(message)` sends to the program. */
   constructor(say) {
     this.say = say;
     this.id = 0;
@@ -68,7 +68,7 @@ export class Traced {
     this.stop.hidden = true;
   }
 
-  /** No more comes of it; what is there stays. */
+  /** No more passes will come; the present one stays. */
   end(words_) {
     if (!this.growing) return;
     this.rest();
@@ -76,12 +76,12 @@ export class Traced {
     this.state.textContent += ` · ${words_}`;
   }
 
-  /** The program refuses a picture, which may be one of before. */
+  /** The program refuses a picture, possibly an earlier one. */
   refused(id) {
     if (id === this.id) this.fail();
   }
 
-  /** The program has refused it, or is gone. */
+  /** The program has refused it, or is disconnected. */
   fail() {
     if (!this.growing) return;
     this.rest();

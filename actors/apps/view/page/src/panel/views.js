@@ -1,4 +1,4 @@
-// From where one looks: walking, orbit, plan; eye height; and places to jump to.
+// Points of view: walking, orbit, plan; eye height; and places to jump to.
 import { eyeHeights } from '../walk/motion.js';
 import { button, byId, choice, el } from './dom.js';
 

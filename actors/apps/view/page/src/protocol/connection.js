@@ -1,4 +1,4 @@
-// The WebSocket to the program, opened again when it is lost.
+// The WebSocket to the program, which is reopened when it is lost.
 import { decodeBackdrops } from './decode_backdrops.js';
 import { decodeFrame, ProtocolError } from './decode_frame.js';
 import { decodeMessage } from './decode_message.js';
@@ -6,10 +6,10 @@ import { Outbox } from './outbox.js';
 
 const firstPauseMs = 500;
 const longestPauseMs = 8000;
-/** A program that speaks nonsense this often is another program, or another version. */
+/** A program that sends this many malformed messages is another program, or another version. */
 const faultsMost = 20;
 
-/** On the page's own host; of the page's address only the token is passed on. */
+/** On the page's own host; only the token of the page's address is passed on. */
 function beside(page, name) {
   const url = new URL(name, page);
   const token = new URL(page).searchParams.get('token');
@@ -25,7 +25,7 @@ export function liveAddress(page) {
   return url.href;
 }
 
-/** The drawings that lie under plans. They do not change while the program serves. */
+/** The drawings under plans. They do not change while the program serves. */
 export async function backdropsOf(page, ask = fetch) {
   const answer = await ask(beside(page, 'backdrops.json').href);
   if (!answer.ok) throw new Error(`the program answers ${answer.status}`);
@@ -72,7 +72,7 @@ export class Connection {
     this.pauseMs = Math.min(longestPauseMs, 2 * this.pauseMs);
   }
 
-  /** Sends when there is somebody to send to; says whether it was taken. */
+  /** Sends if connected; returns whether the message was accepted. */
   say(message, key) {
     if (this.socket.readyState !== WebSocket.OPEN) return false;
     this.outbox.put(message, key);

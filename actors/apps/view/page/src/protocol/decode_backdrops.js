@@ -1,5 +1,5 @@
-// backdrops.json: drawings that lie under plans. What leaves here has the fields, types and sizes
-// that the rest of the page relies on, and nothing else.
+// Decodes backdrops.json: drawings under plans. The result has the fields, types and sizes that the
+// rest of the page relies on, and nothing else.
 import { ProtocolError } from './decode_frame.js';
 
 export const limits = {
@@ -50,14 +50,14 @@ export function decodeBackdrops(value) {
   });
 }
 
-/** A plan is cut at most so far above its floor [m]. */
+/** A plan is cut at most this far above its floor [m]. */
 const cutAboveFloor = 2.2;
-/** Floors of a drawing that names none begin lower. */
+/** The lowest floor of a drawing that states none: below any other. */
 const anyFloor = -1e6;
 
 /**
- * Those of the highest storey whose floor may be under the height at which a plan is cut, and those
- * of all storeys.
+ * The drawings of the highest storey whose floor may be under the height at which a plan is cut,
+ * and those of all storeys.
  */
 export function under(backdrops, cut) {
   const here = backdrops.filter(({ floors: [low, high] }) => {

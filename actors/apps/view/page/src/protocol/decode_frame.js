@@ -1,5 +1,5 @@
-// Binary frames: a header of 16 bytes, then what the kind says. Every length is checked against
-// the counts that announce it before anything is read.
+// Decodes binary frames: a header of 16 bytes, then content by kind. Every length is checked
+// against the counts that announce it before anything is read.
 import { allFinite } from './half.js';
 
 export const kinds = { geometry: 1, surfaceLight: 2, smoke: 3, smokeLight: 4 };
@@ -30,7 +30,7 @@ function halvesOf(buffer) {
   return halves;
 }
 
-/** Checks and opens a frame; throws ProtocolError. The result points into the buffer. */
+/** Checks and decodes a frame; throws ProtocolError. The result refers to the buffer. */
 export function decodeFrame(buffer) {
   demand(buffer.byteLength >= headerBytes, 'a frame without a header');
   const [kind, generation, a] = new Uint32Array(buffer, 0, 4);

@@ -1,4 +1,4 @@
-// Text frames: JSON, taken apart field by field. What leaves here has the fields, types and sizes
+// Decodes text frames: JSON, checked field by field. The result has the fields, types and sizes
 // that the rest of the page relies on, and nothing else.
 import { limits as frameLimits, ProtocolError } from './decode_frame.js';
 
@@ -75,7 +75,7 @@ function texelsOf(value, path, columns, rows) {
   return Uint8Array.from(bytes, (c) => c.charCodeAt(0));
 }
 
-/** Base64 of a PNG file, as it begins: the eight bytes of its signature. */
+/** The Base64 of every PNG file begins so: the eight bytes of its signature. */
 function pngOf(value, path) {
   if (value === null || value === undefined) return null;
   if (typeof value !== 'string' || value.length > limits.pngCharacters ||
@@ -116,7 +116,7 @@ function voxelsOf(value, path) {
   return { low, edge: number(value.edge, `${path}.edge`, 1e-3, 1e3), count, total };
 }
 
-/** Where a flame glows within its box: a byte for each cell, x fastest. */
+/** The glow of a flame within its box: a byte for each cell, x fastest. */
 function flame(value, path) {
   const f = record(value, path);
   const count = triple(f.count, `${path}.count`, 1, limits.flameCells).map(Math.round);
@@ -173,7 +173,7 @@ const lamp = (l, path) => ({
   ofLuminaire: l.of_luminaire === true,
 });
 
-/** Lamps, each with a table that is there. */
+/** Lamps, each with an existing table. */
 function lamps(value, path, tables) {
   const all = list(value, path, lamp);
   all.forEach(({ table }, i) => table < tables || fail(`${path}[${i}].table`, 'no such table'));
@@ -233,7 +233,7 @@ const scenario = (s, path) => ({
   operation: oneOf(s.operation, `${path}.operation`, ['mains', 'emergency', 'dark']),
 });
 
-/** The times that a scene with a clock has; null where it has none. */
+/** The times of a scene with a clock; null without one. */
 function statesOf(s, path) {
   if (s === null || s === undefined) return null;
   const from = number(s.from, `${path}.from`, -1e6, 1e6);
@@ -336,7 +336,7 @@ const readers = {
   editor: (m) => ({ editor: m.editor === true }),
 };
 
-/** Checks and opens a text frame; throws ProtocolError. */
+/** Checks and decodes a text frame; throws ProtocolError. */
 export function decodeMessage(json) {
   if (json.length > limits.textBytes) throw new ProtocolError('a text frame too long to be read');
   let message;

@@ -1,5 +1,5 @@
-// IEEE half numbers. Light arrives as halves and stays so in memory; a table of all 65 536 values
-// makes a decoding one look-up, which is what keeps dimming under a tenth of a second.
+// IEEE half floats. Light arrives as halves and stays so in memory; a table of all 65 536 values
+// makes decoding one look-up, which keeps dimming below a tenth of a second.
 
 function valueOf(bits) {
   const sign = bits & 0x8000 ? -1 : 1;
@@ -20,7 +20,10 @@ export function allFinite(halves) {
 const asFloat = new Float32Array(1);
 const asBits = new Uint32Array(asFloat.buffer);
 
-/** The nearest half; what is too large becomes the largest, since a picture needs no infinities. */
+/**
+ * The nearest half; a value that is too large becomes the largest, since a picture needs no
+ * infinities.
+ */
 export function toHalf(value) {
   asFloat[0] = value;
   const bits = asBits[0];

@@ -1,11 +1,11 @@
-// What the page wants to say, slowly enough: the program takes 50 messages a second of a viewer.
-// A message with a key replaces the one of the same key that still waits, so that a slider pulled
-// from end to end sends its last value and few between.
+// Limits the rate of outgoing messages: the program accepts 50 messages a second from a viewer. A
+// message replaces a waiting one with the same key, so that a dragged slider sends its last value
+// and few in between.
 
 export const intervalMs = 40;
 
 export class Outbox {
-  /** `send(text)`; `later(f, ms)` calls f after a while (setTimeout, or a test's own clock). */
+  /** `send(text)`; `later(f, ms)` calls f after a delay (setTimeout, or a test's own clock). */
   constructor(send, later = (f, ms) => setTimeout(f, ms)) {
     this.send = send;
     this.later = later;

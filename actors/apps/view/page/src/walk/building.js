@@ -1,11 +1,11 @@
-// The building to bump into and to point at: rays against its triangles. Short rays of feet and
-// shoulders look into a grid seen from above; the rare long ray of a click tries every triangle.
+// Collisions with the building, and picking: rays against its triangles. Short rays of feet and
+// shoulders use a grid seen from above; the rare long ray of a click tests every triangle.
 import { add, cross, dot, length, scale, subtract, unit } from './vectors.js';
 
 const cellsAcrossMost = 256;
 const cellLeast_m = 0.5;
 const bodyRadius_m = 0.25;
-/** Heights above the floor at which a body meets things; what is lower is stepped over. */
+/** Heights above the floor at which a body collides; lower things are stepped over. */
 const bodyHeights_m = [0.45, 0.95];
 const stepMost_m = 0.45;
 
@@ -39,7 +39,7 @@ export class Building {
     return distance > 1e-6 ? distance : Infinity;
   }
 
-  /** The nearest triangle along a ray, not counting what lies above `cut`; or null. */
+  /** The nearest triangle along a ray, ignoring what lies above `cut`; or null. */
   nearest(origin, direction, cut = Infinity) {
     let best = { distance: Infinity, triangle: -1 };
     for (let t = 0; t < this.triangles; ++t) {
@@ -94,7 +94,7 @@ export class Building {
     return Math.min(this.count[axis] - 1, Math.max(0, cell));
   }
 
-  /** Calls `visit(cell, t)` for the cells of a level rectangle. */
+  /** Calls `visit(cell, t)` for the cells of a horizontal rectangle. */
   eachCell(lowX, lowY, highX, highY, visit, t) {
     const x0 = this.column(lowX, 0);
     const x1 = this.column(highX, 0);
@@ -118,13 +118,13 @@ export class Building {
     return best.triangle < 0 ? null : best;
   }
 
-  /** Height of the floor under a point, or null where there is none within ten metres. */
+  /** Height of the floor under a point, or null if there is none within ten metres. */
   floorUnder(point) {
     const hit = this.ahead(point, [0, 0, -1], 10);
     return hit && point[2] - hit.distance;
   }
 
-  /** Where the eye comes to rest after a step: it slides along walls and follows the floor. */
+  /** The eye's position after a step: it slides along walls and follows the floor. */
   walk(eye, height, step, solid = true) {
     const allowed = solid ? this.slide(eye, height, step) : step;
     const moved = add(eye, allowed);
@@ -149,7 +149,7 @@ export class Building {
     return [0, 0, 0];
   }
 
-  /** The level normal of what the body would touch, or null. */
+  /** The horizontal normal of what the body would touch, or null. */
   wallBefore(eye, levels, direction, size) {
     for (const z of levels) {
       const hit = this.ahead([eye[0], eye[1], z], direction, size + 3 * bodyRadius_m);
@@ -163,7 +163,7 @@ export class Building {
     return null;
   }
 
-  /** Line segments where the building is cut at a height: the walls of a plan. */
+  /** Line segments at which a height cuts the building: the walls of a plan. */
   section(height) {
     const lines = [];
     const c = this.corners;

@@ -1,10 +1,10 @@
-// The walk of the camera: where it stands, how steps, turns and jumps move it, and the rays through
-// its picture. Knows the building's walls and floors, and no lights.
+// Moves the camera: its position, how steps, turns and jumps change it, and the rays through its
+// picture. Uses the building's walls and floors, but no light.
 import { pan, rayThrough, speeds, stand, startMotion, stride, turn, viewOf, zoom }
   from './motion.js';
 import { add, length } from './vectors.js';
 
-/** So long after the last move the picture is drawn finely [ms]. */
+/** Time after the last move until the picture is drawn finely [ms]. */
 const still_ms = 160;
 
 export class CameraWalk {
@@ -12,7 +12,7 @@ export class CameraWalk {
   constructor(picture, { moved, stood }) {
     Object.assign(this, { picture, moved, stood });
     this.motion = startMotion([0, 0, 0], [10, 10, 3]);
-    /** Whether walls stop the walk. */
+    /** Whether walls stop the walker. */
     this.solid = true;
     this.building = null;
     this.movedAt = 0;
@@ -20,7 +20,7 @@ export class CameraWalk {
     this.shown = true;
   }
 
-  /** The first scene says where to stand; later ones leave the camera where it is. */
+  /** The first scene places the camera; later ones leave it where it is. */
   start({ low, high, cameras, observers }) {
     if (this.started) return;
     this.started = true;
@@ -44,12 +44,12 @@ export class CameraWalk {
     this.shown = false;
   }
 
-  /** A move that is not shown yet counts, however long the picture before it took. */
+  /** A move that is not shown yet counts, however long the previous picture took. */
   get moving() {
     return !this.shown || performance.now() - this.movedAt < still_ms;
   }
 
-  /** `shift` in plan, where there is nothing to turn. */
+  /** Turns the view; in plan, where nothing can be turned, calls `shift` instead. */
   look(dx, dy, shift) {
     if (this.motion.mode === 'plan') shift?.();
     else this.change(() => turn(this.motion, this.motion.mode === 'orbit' ? -dx : dx, dy));
@@ -63,7 +63,7 @@ export class CameraWalk {
     this.change(() => zoom(this.motion, factor));
   }
 
-  /** Some metres; `shift` where nobody walks. */
+  /** Walks some metres; in other modes, calls `shift` instead. */
   step(forward, side, shift) {
     if (this.motion.mode !== 'walk') return shift();
     const asked = Math.hypot(forward, side);
@@ -81,7 +81,7 @@ export class CameraWalk {
     });
   }
 
-  /** What held keys ask for, as long as a picture took. */
+  /** Moves by the held keys, for the duration of a picture. */
   goOn(held, seconds) {
     const { motion } = this;
     if (held.turn || held.tilt)
@@ -104,7 +104,7 @@ export class CameraWalk {
     this.go([0, 0, 0]);
   }
 
-  /** The height above which plan and orbit show nothing. */
+  /** Plan and orbit show nothing above this height. */
   setCut(height) {
     this.motion.plan.cut = height;
     if (this.building) this.picture.marks.setWalls(this.building.section(height));
@@ -112,7 +112,7 @@ export class CameraWalk {
     this.change();
   }
 
-  /** To an observer, who looks along `gaze`, or a camera, which looks at `target`. */
+  /** Jumps to an observer, who looks along `gaze`, or a camera, which looks at `target`. */
   jump({ eye, gaze, target, fov }) {
     const floor = this.building?.floorUnder(eye) ?? null;
     this.change(() => stand(this.motion, eye, target ?? add(eye, gaze), fov, floor));
@@ -123,7 +123,7 @@ export class CameraWalk {
     return this.picture.width / this.picture.height;
   }
 
-  /** Through a place of the picture, each from -1 to 1, right and up. */
+  /** The ray through a position in the picture, each from -1 to 1, right and up. */
   ray(x, y) {
     return rayThrough(viewOf(this.motion), this.aspect, x, y);
   }

@@ -1,4 +1,4 @@
-// Keyboard, mouse and fingers, told as what they want.
+// Turns keyboard, mouse and touch input into actions.
 
 const turnPerPixel = 0.0032;
 const clickPixels = 5;
@@ -14,8 +14,8 @@ const walkKeys = new Set(['KeyW', 'KeyA', 'KeyS', 'KeyD', 'KeyQ', 'KeyE', 'Arrow
 export class Hands {
   /**
    * `wants`: look(dx, dy) in radians, shift(right, up) in shares of the height, zoom(factor),
-   * click(x, y) and grab(x, y), drag(x, y), drop() in places of the picture from -1 to 1,
-   * step(forward, side) in metres, key(code). `grab` says whether something was taken hold of.
+   * click(x, y) and grab(x, y), drag(x, y), drop() in picture positions from -1 to 1, step(forward,
+   * side) in metres, key(code). `grab` returns whether something is dragged.
    */
   constructor(canvas, wants) {
     Object.assign(this, { canvas, wants });
@@ -32,7 +32,7 @@ export class Hands {
     addEventListener('blur', () => this.keys.clear());
   }
 
-  /** What the held keys ask for: each from -1 to 1. */
+  /** The directions of the held keys: each from -1 to 1. */
   get held() {
     const axis = (plus, minus) => Number(plus.some((k) => this.keys.has(k))) -
       Number(minus.some((k) => this.keys.has(k)));
@@ -96,7 +96,7 @@ export class Hands {
     this.wants.shift(-dx / height, dy / height);
   }
 
-  /** Two fingers: together they walk, apart and closer they zoom. */
+  /** Two fingers: moving together they walk, pinching they zoom. */
   two(id, dx, dy) {
     const ends = [...this.fingers.entries()];
     const moved = ends.find(([key]) => key === id)[1];

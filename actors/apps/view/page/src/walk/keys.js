@@ -1,9 +1,9 @@
-// What single keys do, as the help of the page lists them. Keys that are held down to walk are in
+// Actions of single keys, as listed in the page's help. Keys that are held down to walk are in
 // hands.js.
 import { byId } from '../panel/dom.js';
 import { eyeHeights } from './motion.js';
 
-/** Actions by the code of the key. */
+/** Actions by key code. */
 export function keyActions(page) {
   const { walk, panels, selection } = page;
   const nearer = () => walk.zoom(0.9);

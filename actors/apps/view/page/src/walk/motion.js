@@ -1,4 +1,4 @@
-// Where the eye is and how it moves: walking, around a point, and the plan from above. Pure
+// Position and movement of the eye: walking, orbiting a point, and the plan from above. Pure
 // functions on one plain object; z is up, yaw turns from +x towards +y, angles in radians.
 import { add, clamp, cross, length, scale, subtract, unit } from './vectors.js';
 
@@ -7,7 +7,7 @@ export const speeds = { walk: 1.4, fast: 4, turn: 1.6 };
 const steepest = 1.5;
 const fovs = { low: 15, high: 110, usual: 65 };
 
-/** `aspect`: of the picture, for plan and orbit to show all of the building. */
+/** `aspect`: of the picture, so that plan and orbit can show all of the building. */
 export function startMotion(low, high, aspect = 1.6) {
   const centre = scale(add(low, high), 0.5);
   const size = subtract(high, low);
@@ -36,7 +36,7 @@ const direction = (yaw, pitch) => [
 
 export const gazeOf = (motion) => direction(motion.yaw, motion.pitch);
 
-/** The step that keys ask for in `seconds`; forward and side from -1 to 1. Level, as feet are. */
+/** The step of the held keys in `seconds`; forward and side from -1 to 1. It is horizontal. */
 export function stride(motion, { forward, side, fast }, seconds) {
   const asked = Math.hypot(forward, side);
   if (asked === 0) return [0, 0, 0];
@@ -52,7 +52,10 @@ export function turn(motion, byYaw, byPitch) {
   target.pitch = clamp(target.pitch + byPitch, low, steepest);
 }
 
-/** Nearer (factor below 1) or farther: the span in plan, the distance in orbit, else the lens. */
+/**
+ * Nearer (factor below 1) or farther: changes the span in plan, the distance in orbit, else the
+ * angle of view.
+ */
 export function zoom(motion, factor) {
   if (motion.mode === 'plan') motion.plan.span = clamp(motion.plan.span * factor, 1, 2000);
   else if (motion.mode === 'orbit')
@@ -60,7 +63,7 @@ export function zoom(motion, factor) {
   else motion.fov = clamp(motion.fov * factor, fovs.low, fovs.high);
 }
 
-/** Shifts what is looked at by shares of the picture's height, in plan and in orbit. */
+/** Shifts the view by shares of the picture's height, in plan and in orbit. */
 export function pan(motion, right, up) {
   if (motion.mode === 'plan') {
     motion.plan.centre[0] += right * motion.plan.span;
@@ -73,7 +76,7 @@ export function pan(motion, right, up) {
   }
 }
 
-/** Stands at a place and looks at another; heights of cameras are kept as they are. */
+/** Stands at a place and looks at another; keeps the height of cameras. */
 export function stand(motion, eye, target, fov = fovs.usual, floor = null) {
   const gaze = unit(subtract(target, eye), [1, 0, 0]);
   motion.mode = 'walk';
