@@ -26,9 +26,9 @@ namespace toml {
 /// no memory. It does not say that the text is TOML.
 std::optional<Problem> too_deep(std::string_view text, const std::string& file);
 
-/// The text with every bare key by its oldest name, so that a hash of it stays the same where a
-/// file takes up a new name. A word counts as a key in whichever table it stands.
-std::string with_oldest_names(std::string_view text, const Schema& schema);
+/// The text with every bare key by its earlier name (`hashed_as`), so that a hash of it is that
+/// from before the key was renamed. A word counts as a key in whichever table it stands.
+std::string with_earlier_names(std::string_view text, const Schema& schema);
 
 }  // namespace toml
 }  // namespace luxodus

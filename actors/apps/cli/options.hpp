@@ -35,7 +35,6 @@ struct OptionTraits {
   std::optional<Range> range = {};
   std::vector<std::string> choices = {};  // words that may be written, in small letters
   const char* group = "Options";          // heading in the help
-  const char* old_name = nullptr;         // of one release ago: taken with a warning
   const char* needs = nullptr;            // another option, without which this is refused
   const char* excludes = nullptr;         // another option, with which this is refused
   bool required = false;
