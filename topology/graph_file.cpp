@@ -103,8 +103,7 @@ class GraphParser {
   void read_keys() {
     for (skip_blanks(); !fault_ && at_ < text_.size(); skip_blanks()) {
       const int line = line_;
-      std::string_view name = word();
-      if (name == "links_most") name = "max_links";  // the name in files of earlier releases
+      const std::string_view name = word();
       size_t key = 0;
       while (key < keys && key_names[key] != name) ++key;
       if (key == keys) return fail(fmt::format("there is no key \"{}\" in a graph", excerpt(name)));

@@ -122,8 +122,7 @@ std::vector<TableSpec> node_tables() {
             "cells that a ray enters next, asked for ahead of the one that is waited for"},
            {"stack_kb", "integer", "KiB", "64", "[48, 1024]", "stack of one fiber"},
            {"max_maps", "integer", "", "0", "[0, 1e7]",
-            "memory maps for guards between stacks; 0: its part of the system's limit",
-            "maps_most"},
+            "memory maps for guards between stacks; 0: its part of the system's limit"},
        }},
   };
 }
@@ -148,8 +147,7 @@ TableSpec link_table() {
            "messages of a kind made by a node that wait for the network"},
           {"assemblies", "integer", "", "64", "[1, 65536]",
            "messages in several pieces that come in at once"},
-          {"max_message_bytes", "size", "B", "\"64 MiB\"", "[65536, 1e9]", "longest message",
-           "message_most"},
+          {"max_message_bytes", "size", "B", "\"64 MiB\"", "[65536, 1e9]", "longest message"},
           {"beat_ms", "integer", "ms", "250", "[10, 60000]", "between signs of life"},
           {"suspect_after", "integer", "", "3", "[1, 100]", "missed beats"},
           {"down_after", "integer", "", "8", "[2, 1000]",

@@ -16,14 +16,6 @@ void Findings::problem(SourcePlace where, std::string what) {
                                                      " are shown"});
 }
 
-void Findings::renamed(SourcePlace where, std::string_view old_name, std::string_view name) {
-  std::string both = std::string(old_name) + ", " + std::string(name);
-  if (!renamed_.insert(std::move(both)).second) return;
-  warnings_.push_back({std::move(where), "'" + std::string(old_name) + "' is now '" +
-                                             std::string(name) +
-                                             "'; the next release no longer reads the old name"});
-}
-
 void Findings::warning(SourcePlace where, std::string what) {
   Problem p{std::move(where), std::move(what)};
   if (warned_.size() < limits::toml_problems && warned_.insert(p.text()).second)

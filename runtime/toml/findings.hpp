@@ -22,9 +22,6 @@ class Findings {
  public:
   /// Keeps a problem, unless one with the same place and words is there.
   void problem(SourcePlace where, std::string what);
-  /// Reports a key under a former name: one warning for each such name.
-  void renamed(SourcePlace where, std::string_view old_name, std::string_view name);
-
   /// Kept once for each place and text.
   void warning(SourcePlace where, std::string what);
 
@@ -38,8 +35,7 @@ class Findings {
   std::vector<Problem> problems_;
   std::vector<Problem> warnings_;
   std::set<std::string> said_;      // "file:line: what" of every problem
-  std::set<std::string> warned_;    // likewise for warnings, except those about former names
-  std::set<std::string> renamed_;   // "old name, name" of every warning
+  std::set<std::string> warned_;    // likewise for warnings
   std::vector<std::string> files_;  // in the order of their first problem
 };
 

@@ -36,7 +36,6 @@ std::string row_of(const KeySpec& key) {
   for (const auto cell : {key.type, key.unit, key.fallback, key.range})
     row += std::string(cell) + " | ";
   row += key.meaning;
-  for (const auto old : words_of(key.formerly)) row += " (formerly `" + std::string(old) + "`)";
   return row + " |\n";
 }
 

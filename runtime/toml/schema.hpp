@@ -1,5 +1,5 @@
-// The tables and keys of a kind of file, declared once as data: type, unit, default, range, meaning
-// and former names of every key, as text. The reader takes defaults and ranges from here, a README
+// The tables and keys of a kind of file, declared once as data: type, unit, default, range and
+// meaning of every key, as text. The reader takes defaults and ranges from here, a README
 // repeats the same rows (schema_markdown), and a test compares the two. Constant data; any thread.
 #pragma once
 
@@ -18,7 +18,7 @@ struct KeySpec {
   std::string_view fallback;  // TOML text; "required"; or "" where absence has a meaning
   std::string_view range;     // "[0, 1]", "(0, 10]", the words of a choice, or "" for any value
   std::string_view meaning;
-  std::string_view formerly = {};  // earlier names, oldest first, that are read with a warning
+  std::string_view hashed_as = {};  // an earlier name, by which hashes of texts know the key
 };
 
 /// A table, or the further keys of one of its kinds ("material.glossy").
@@ -60,7 +60,7 @@ struct Interval {
 };
 /// Parses "[low, high]", where ( or ) exclude an end; nothing for any other text.
 std::optional<Interval> interval_of(std::string_view range);
-/// The comma-separated words of a choice, or the former names of a key.
+/// The comma-separated words of a choice.
 std::vector<std::string_view> words_of(std::string_view range);
 
 /// A schema as a README shows it: a heading and a table of keys for each table.

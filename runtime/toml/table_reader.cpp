@@ -65,32 +65,17 @@ TableReader::TableReader(const Table& table, SourcePlace place, const Schema& sc
     if (const KeySpec* key = known(entry.key)) values_.emplace(key->name, &entry.value);
   }
   for (const Entry& entry : table.entries()) {
-    if (!known(entry.key)) take(entry);
+    if (!known(entry.key)) take_unknown(entry);
   }
 }
 
-/// Handles a key that is no current name in the schema: a former name, or a misspelt one.
-void TableReader::take(const Entry& entry) {
+/// An entry whose key is not in the schema: a misspelt one is read as the key that was meant.
+void TableReader::take_unknown(const Entry& entry) {
   const SourcePlace at{entry.value.place().file, entry.line};
-  std::vector<std::string_view> names;  // present and former ones
-  std::map<std::string_view, const KeySpec*> by_former;
-  for (const KeySpec* key : specs_) {
-    names.push_back(key->name);
-    for (const auto old : words_of(key->formerly)) {
-      names.push_back(old);
-      by_former.emplace(old, key);
-    }
-  }
-  if (const auto old = by_former.find(entry.key); old != by_former.end()) {
-    const std::string_view name = old->second->name;
-    findings_.renamed(at, old->first, name);
-    if (!values_.emplace(name, &entry.value).second)
-      report(at, fmt::format("'{}' and '{}' are the same key; keep '{}'", old->first, name, name));
-    return;
-  }
+  std::vector<std::string_view> names;
+  for (const KeySpec* key : specs_) names.push_back(key->name);
   std::string what = fmt::format("unknown key '{}'", excerpt(entry.key));
-  if (auto near = nearest_word(entry.key, names)) {
-    if (const auto old = by_former.find(*near); old != by_former.end()) near = old->second->name;
+  if (const auto near = nearest_word(entry.key, names)) {
     what += fmt::format("; did you mean '{}'?", *near);
     values_.emplace(*near, &entry.value);  // no effect if the correct key is there, too
   } else {

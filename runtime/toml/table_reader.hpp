@@ -1,9 +1,8 @@
 // Reads the keys of one table by its specs: checks type, range and finiteness, fills in defaults,
 // and reports each mistake once, with its line. A misspelt key is reported and then read as the key
-// that was meant, so that one slip does not become three problems; a former name is read with a
-// warning. After a mistake the methods return some valid value, so that reading goes on and finds
-// the rest. It opens no file. Holds references to the document, the schema and the findings.
-// Single-threaded.
+// that was meant, so that one slip does not become three problems. After a mistake the methods
+// return some valid value, so that reading goes on and finds the rest. It opens no file. Holds
+// references to the document, the schema and the findings. Single-threaded.
 #pragma once
 
 #include <array>
@@ -130,7 +129,7 @@ class TableReader {
  private:
   TableReader(const Table& table, SourcePlace place, const Schema& schema,
               const std::vector<std::string>& specs, Findings& findings);
-  void take(const Entry& entry);
+  void take_unknown(const Entry& entry);
   void report(SourcePlace where, std::string what);
   const Value* find(std::string_view key) const;
   const KeySpec* known(std::string_view key) const;

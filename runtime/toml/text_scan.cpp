@@ -115,14 +115,11 @@ std::optional<Problem> too_deep(std::string_view text, const std::string& file) 
   return std::nullopt;
 }
 
-std::string with_oldest_names(std::string_view text, const Schema& schema) {
-  std::map<std::string_view, std::string_view> oldest;
+std::string with_earlier_names(std::string_view text, const Schema& schema) {
+  std::map<std::string_view, std::string_view> earlier;
   for (const TableSpec& table : schema.tables) {
     for (const KeySpec& key : table.keys) {
-      const auto names = words_of(key.formerly);
-      if (names.empty()) continue;
-      oldest[key.name] = names.front();
-      for (const auto name : names) oldest[name] = names.front();
+      if (!key.hashed_as.empty()) earlier[key.name] = key.hashed_as;
     }
   }
   std::string out;
@@ -132,8 +129,8 @@ std::string with_oldest_names(std::string_view text, const Schema& schema) {
     if (behind == at) behind = after_word(text, at);
     if (behind == at) ++behind;
     const std::string_view part = text.substr(at, behind - at);
-    const auto renamed = oldest.find(part);
-    out += renamed == oldest.end() ? part : renamed->second;
+    const auto renamed = earlier.find(part);
+    out += renamed == earlier.end() ? part : renamed->second;
     at = behind;
   }
   return out;

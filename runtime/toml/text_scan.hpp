@@ -26,9 +26,9 @@ namespace toml {
 /// that the text is TOML.
 std::optional<Problem> too_deep(std::string_view text, const std::string& file);
 
-/// The text with every bare key replaced by its oldest name, so that its hash stays the same when a
-/// file adopts a new name. A word counts as a key in any table.
-std::string with_oldest_names(std::string_view text, const Schema& schema);
+/// The text with every bare key replaced by its earlier name (`hashed_as`), so that its hash stays
+/// the same when a key is renamed. A word counts as a key in any table.
+std::string with_earlier_names(std::string_view text, const Schema& schema);
 
 }  // namespace toml
 }  // namespace luxodus

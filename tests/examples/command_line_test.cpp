@@ -132,25 +132,6 @@ TEST_CASE("keys of files are explained by the schemas that read them", "[program
   CHECK_THAT(wrong.err, Contains("did you mean luminaire?"));
 }
 
-TEST_CASE("an option's old name does what the new one does, with a warning", "[program][help]") {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "room.toml") << room;
-  const std::string run = "run " + (folder / "room.toml").string() + " --cells 4 --nodes 2 ";
-  const Outcome old = run_luxodus(folder, run + "--plan --object-mib 64");
-  const Outcome now = run_luxodus(folder, run + "--plan --part-cache-mib 64");
-  INFO(old.err);
-  CHECK(old.code == 0);
-  CHECK(old.out == now.out);
-  CHECK_THAT(old.err, Contains("--object-mib is now --part-cache-mib"));
-  CHECK(now.err.find("is now") == std::string::npos);
-  const Outcome adaptive = run_luxodus(folder, run + "--plan --by-need");
-  CHECK(adaptive.code == 2);
-  CHECK_THAT(adaptive.err, Contains("--by-need is now --adaptive") &&
-                               Contains("--adaptive excludes --part-cache-mib and --plan"));
-  CHECK(run_luxodus(folder, run + "--object-mib 1 --part-cache-mib 2").code == 2);
-  CHECK(run_luxodus(folder, "run --help").out.find("--object-mib") == std::string::npos);
-}
-
 TEST_CASE("an invalid command line is rejected in a sentence", "[program][help]") {
   const TemporaryFolder folder;
   std::ofstream(folder / "room.toml") << room;

@@ -47,7 +47,6 @@ std::string described_key(const toml::KeySpec& key) {
     more.emplace_back(key.fallback);
   else if (!key.fallback.empty())
     more.push_back("default: " + std::string(key.fallback));
-  if (!key.formerly.empty()) more.push_back("formerly " + std::string(key.formerly));
   return without_backquotes(key.meaning) + " (" + joined(more, "; ") + ")";
 }
 

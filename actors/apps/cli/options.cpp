@@ -84,38 +84,29 @@ void store(const Option& option, const std::vector<std::string>& texts) {
   std::visit(put, option.value);
 }
 
-/// Registers one name of an option with the parser: its own, or the old one.
-void add_name(CLI::App& app, const Option& option, const std::string& name) {
-  const bool is_old = name != option.name;
-  const auto take = [&option, name, is_old](const std::vector<std::string>& texts) {
-    if (is_old)
-      warn(problem(name + " is now " + option.long_name() +
-                   "; the old name goes with the next release"));
+/// Makes an option known to the parser.
+void add_option(CLI::App& app, const Option& option) {
+  const auto take = [&option](const std::vector<std::string>& texts) {
     try {
       store(option, texts);
     } catch (const Refused& refused) {
-      throw CLI::ValidationError(is_old || option.is_argument() ? name : option.long_name(),
+      throw CLI::ValidationError(option.is_argument() ? option.name : option.long_name(),
                                  refused.why);
     }
     return true;
   };
   if (option.is_flag()) {
-    app.add_flag_callback(name, [take] { take({}); });
+    app.add_flag_callback(option.name, [take] { take({}); });
     return;
   }
-  CLI::Option* added = app.add_option(name, take);
+  CLI::Option* added = app.add_option(option.name, take);
   if (option.is_list()) added->expected(CLI::detail::expected_max_vector_size);
   if (option.traits.comma_separated) added->delimiter(',');
   if (option.traits.required) added->required();
 }
 
 void add_options(CLI::App& app, const Command& command) {
-  for (const Option& option : command.options) {
-    add_name(app, option, option.name);
-    if (option.traits.old_name == nullptr) continue;
-    add_name(app, option, option.traits.old_name);
-    app.get_option(option.long_name())->excludes(app.get_option(option.traits.old_name));
-  }
+  for (const Option& option : command.options) add_option(app, option);
   for (const Option& option : command.options) {
     CLI::Option* added = app.get_option(option.long_name());
     if (option.traits.needs) added->needs(app.get_option(option.traits.needs));

@@ -35,7 +35,6 @@ struct OptionTraits {
   std::optional<Range> range = {};
   std::vector<std::string> choices = {};  // allowed words, in lower case
   const char* group = "Options";          // heading in the help
-  const char* old_name = nullptr;         // name of one release ago: accepted with a warning
   const char* needs = nullptr;            // another option that this one requires
   const char* excludes = nullptr;         // another option that excludes this one
   bool required = false;

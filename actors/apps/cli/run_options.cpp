@@ -53,12 +53,10 @@ std::vector<Option> stop_options(RunOptions& o) {
            "NAME\", \"probe NAME\", \"sign NAME\"",
            {.otherwise = "error_of of the scene, or planes, probes and signs"}},
           {"--time", &o.time, "Time to trace for, e.g. 60s, 5m", {.form = Form::duration}},
-          {"--adaptive",
-           &o.adaptive,
+          {"--adaptive", &o.adaptive,
            "Adaptive allocation of particles to source groups ([run] groups: circuit or emitter), "
            "as planes, cells, surfaces or patches of --error-of need them, by a first round that "
-           "is not kept",
-           {.old_name = "--by-need"}}};
+           "is not kept"}};
 }
 
 std::vector<Option> node_options(RunOptions& o) {
@@ -74,7 +72,7 @@ std::vector<Option> node_options(RunOptions& o) {
        &o.part_cache_mib,
        "Budget of a node for geometry cells, bricks of smoke data and tiles of pictures [MiB]; "
        "what does not fit is fetched from other nodes; 0: everything is resident",
-       {.range = Range{0, 1048576}, .old_name = "--object-mib"}},
+       {.range = Range{0, 1048576}}},
       {"--prefetch",
        &o.prefetch,
        "With --part-cache-mib: number of cells that a ray enters next, requested ahead of the "

@@ -112,7 +112,7 @@ class Loader {
 
   std::unique_ptr<SceneText> parse_as(std::string_view text, const std::string& name,
                                       toml::Quoting quoting) {
-    reading_.hash_bytes(toml::with_oldest_names(text, scene_schema()));
+    reading_.hash_bytes(toml::with_earlier_names(text, scene_schema()));
     auto document = toml::parse(text, name, scene_limits::file_bytes, quoting);
     if (document) return std::make_unique<SceneText>(std::move(document).value(), reading_);
     const Problem& problem = document.problem();

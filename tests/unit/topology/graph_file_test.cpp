@@ -64,15 +64,6 @@ TEST_CASE("spacing and comments in a graph's text are free", "[topology][file]")
   CHECK(problem_of(text + hash_line).empty());
 }
 
-TEST_CASE("a graph file of an earlier release is read, with the former name of a key",
-          "[topology][file]") {
-  const std::string text = graph_text(test::graph(3, 2, {{0, 1}, {1, 2}}));
-  std::string old = text;
-  old.replace(old.find("max_links"), std::string("max_links").size(), "links_most");
-  CHECK(problem_of(old).empty());
-  CHECK(parse_graph(old, "g.toml")->hash() == parse_graph(text, "g.toml")->hash());
-}
-
 TEST_CASE("each mistake in a graph's text is reported with its line", "[topology][file]") {
   CHECK(problem_of("") == "g.toml:1: a graph begins with format = \"luxodus graph 1\"");
   CHECK(problem_of("nodes = 3\n") == "g.toml:1: a graph begins with format = \"luxodus graph 1\"");

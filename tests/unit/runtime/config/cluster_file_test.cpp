@@ -248,24 +248,6 @@ TEST_CASE("all mistakes in a file are reported at once, by line", "[runtime][con
   CHECK(lines == std::vector<int>{2, 3, 4, 7, 7, 10});  // the misspelt key, and its value
 }
 
-TEST_CASE("former names of keys are read as the present ones, with one warning each",
-          "[runtime][config]") {
-  const ReadCluster read =
-      parse_cluster(small_cluster + "[node.budget]\nmaps_most = 9\n[budget]\nmaps_most = 5\n" +
-                        "[links]\nmessage_most = 70000\n",
-                    "c.toml");
-  INFO(all_problems(read));
-  REQUIRE(read.cluster.has_value());
-  CHECK(read.cluster->nodes[0].budget.max_maps == 9);
-  CHECK(read.cluster->nodes[1].budget.max_maps == 5);
-  CHECK(read.cluster->links.max_message_bytes == 70000);
-  REQUIRE(read.warnings.size() == 2);
-  CHECK(read.warnings[0].what.starts_with("'maps_most' is now 'max_maps';"));
-  CHECK(read.warnings[1].what.starts_with("'message_most' is now 'max_message_bytes';"));
-  CHECK(parse_cluster(small_cluster + "[links]\nmax_message_bytes = 70000\n", "c.toml")
-            .warnings.empty());
-}
-
 TEST_CASE("a file that is too long, missing, or a folder is rejected with a reason",
           "[runtime][config]") {
   CHECK(only_problem(std::string(limits::cluster_file_bytes + 1, '\n')).what.find("longer than") !=

@@ -10,13 +10,13 @@ TEST_CASE("a schema is printed as a heading and a table of keys for each table",
           "[runtime][toml]") {
   const Schema schema{{{"a",
                         "`[a]`",
-                        {{"x", "number", "m", "1", "[0, 2]", "a width", "w, wide"},
+                        {{"x", "number", "m", "1", "[0, 2]", "a width"},
                          {"y", "choice", "", "\"u\"", "u, v", "a word"}}},
                        {"b", "`[b]`", {}}}};
   CHECK(schema_markdown(schema) ==
         "### `[a]`\n\n"
         "| key | type | unit | default | range | meaning |\n|---|---|---|---|---|---|\n"
-        "| `x` | number | m | 1 | [0, 2] | a width (formerly `w`) (formerly `wide`) |\n"
+        "| `x` | number | m | 1 | [0, 2] | a width |\n"
         "| `y` | choice |  | \"u\" | u, v | a word |\n\n"
         "### `[b]`\n\nNo further keys.\n\n");
   CHECK(schema.key("a", "y").fallback == "\"u\"");

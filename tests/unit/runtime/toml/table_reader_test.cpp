@@ -82,8 +82,8 @@ TEST_CASE("a mistake in a key or a single value gives one message that says what
   check({
       {"heigth_m = 1", [](TableReader& keys) { keys.number("height_m"); },
        "1: unknown key 'heigth_m'; did you mean 'height_m'?"},
-      {"tube_most = 1", [](TableReader& keys) { keys.integer("max_tubes"); },
-       "1: unknown key 'tube_most'; did you mean 'max_tubes'?"},
+      {"max_tube = 1", [](TableReader& keys) { keys.integer("max_tubes"); },
+       "1: unknown key 'max_tube'; did you mean 'max_tubes'?"},
       {"\nheight_m = 99", [](TableReader& keys) { CHECK(keys.number("height_m") == 2.5); },
        "2: 'height_m' is 99 but must lie in (0, 10] m; metres? 99 mm is 0.099"},
       {"height_m = inf", [](TableReader& keys) { keys.number("height_m"); },
@@ -157,29 +157,6 @@ TEST_CASE("an unknown key unlike any in the schema is reported with the known on
   REQUIRE(found.size() == 1);
   CHECK(found[0].starts_with(
       "dir/lamp.toml:1: unknown key 'zzzzzzzzz'; known here: title name height_m max_tubes"));
-}
-
-TEST_CASE("a former name of a key is read with one warning, however often it occurs",
-          "[runtime][toml]") {
-  const Document document = parsed("tubes_most = 3\nhigh = 4\n[[part]]\ntubes_most = 5\n");
-  Findings findings;
-  TableReader keys(document.top, lamp_schema(), {"lamp"}, findings);
-  CHECK(keys.integer("max_tubes") == 3);
-  CHECK(keys.number("height_m") == 4);
-  CHECK(keys.place("max_tubes").line == 1);
-  TableReader part(*keys.tables("part").at(0), lamp_schema(), {"lamp"}, findings);
-  CHECK(part.integer("max_tubes") == 5);
-  CHECK(keys.clean());
-  const std::vector<Problem> warnings = findings.take_warnings();
-  REQUIRE(warnings.size() == 2);
-  CHECK(warnings[0].text() ==
-        "dir/lamp.toml:2: 'high' is now 'height_m'; the next release no longer reads the old name");
-  CHECK(warnings[1].text() ==
-        "dir/lamp.toml:1: 'tubes_most' is now 'max_tubes'; the next release no longer reads the "
-        "old name");
-  CHECK(problems_of("tubes_most = 3\nmax_tubes = 4\n", [](TableReader&) {}) ==
-        Sentences{"dir/lamp.toml:1: 'tubes_most' and 'max_tubes' are the same key; keep "
-                  "'max_tubes'"});
 }
 
 TEST_CASE("a common angle in radians given as degrees is read with a warning", "[runtime][toml]") {

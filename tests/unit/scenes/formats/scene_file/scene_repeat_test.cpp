@@ -65,10 +65,11 @@ TEST_CASE("impossible repeats are reported with their line", "[format][scene]") 
                          "[0, 1, 0] }]\n") +
                      repeated_lamp)
             .find("100000 copies") != std::string::npos);
-  CHECK(only_problem("[[object]]\nname = \"ball\"\nshape = \"sphere\"\nradius = 1\nbound_m = "
-                     "0.0001\nmaterial = \"grey50\"\nrepeat = [{ count = 100000, step = [3, 0, 0] "
-                     "}]\n" +
-                     repeated_lamp)
+  CHECK(only_problem(
+            "[[object]]\nname = \"ball\"\nshape = \"sphere\"\nradius = 1\nmesh_tolerance_m = "
+            "0.0001\nmaterial = \"grey50\"\nrepeat = [{ count = 100000, step = [3, 0, 0] "
+            "}]\n" +
+            repeated_lamp)
             .find("more than a scene may have") != std::string::npos);
   CHECK(only_problem(box("door = { hinge = [0, 0, 0] }\nrepeat = [{ count = 2, step = [3, 0, 0] "
                          "}]\n") +
