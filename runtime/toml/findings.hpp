@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runtime/core/result.hpp"
@@ -21,7 +22,10 @@ namespace toml {
 class Findings {
  public:
   /// Keeps a problem, except a second one with the same place and words.
-  void problem(SourcePlace where, std::string what);
+  void problem(SourcePlace where, std::string what) {
+    problem(problem_in(std::move(where), std::move(what)));
+  }
+  void problem(Problem p);
   /// A key stands under a former name: one warning for each such name.
   void renamed(SourcePlace where, std::string_view old_name, std::string_view name);
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,7 +23,7 @@ namespace toml {
 /// keeps nested tables as nested objects and takes them apart by recursion, so that without this
 /// a file of a few kilobytes, a.a.a.a ... = 1, could end the program for want of stack. One pass,
 /// no memory. It does not say that the text is TOML.
-std::optional<Problem> too_deep(std::string_view text, const std::string& file);
+Result<void> check_nesting(std::string_view text, const std::string& file);
 
 /// The text with every bare key by its oldest name, so that a hash of it stays the same where a
 /// file takes up a new name. A word counts as a key in whichever table it stands.

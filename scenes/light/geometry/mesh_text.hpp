@@ -5,7 +5,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,8 +28,8 @@ class ObjMaterials {
   void uses(std::string_view rest, int line);
   /// Reads an MTL that is there.
   void add_library(const std::string& path);
-  /// Why they give no colour of this material, and where; nothing where they do.
-  std::optional<Problem> no_colour(const std::string& material) const;
+  /// Whether they give the colour of this material. Errors: why they do not, and where.
+  Result<void> has_colour(const std::string& material) const;
 
  private:
   struct Declared {
@@ -50,13 +49,13 @@ class ObjMaterials {
 /// over such a line, and every face after it would mean other vertices than the file does, or takes
 /// 0 for it); more objects and groups than limits::obj_groups. `materials` gets what it says of
 /// them.
-std::optional<Problem> fault_of_obj(const std::string& path, ObjMaterials& materials);
+Result<void> check_obj(const std::string& path, ObjMaterials& materials);
 
 /// An MTL: anything before the first `newmtl`, where Assimp writes to a material that there is not.
-std::optional<Problem> fault_of_mtl(const std::string& path);
+Result<void> check_mtl(const std::string& path);
 
 /// A glTF, text or binary: no JSON, JSON nested too deep, nodes that form no tree or one too deep.
 /// Assimp follows both by recursion, and copies a node each time that it is named.
-std::optional<Problem> fault_of_gltf(const std::string& path);
+Result<void> check_gltf(const std::string& path);
 
 }  // namespace luxodus

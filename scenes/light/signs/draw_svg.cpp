@@ -86,7 +86,7 @@ const IsolatedJob draw_job("draw", answer);
 
 /// What makes a drawing none of a sign, seen without parsing it. A drawing in another encoding than
 /// UTF-8 passes unseen: the limits of the job hold for it.
-std::optional<Problem> unfit(std::string_view bytes) {
+Result<void> check_drawing(std::string_view bytes) {
   // librsvg would inflate it without a bound.
   if (bytes.starts_with("\x1f\x8b"))
     return problem("the drawing is compressed; unpack it to plain SVG");
@@ -101,13 +101,13 @@ std::optional<Problem> unfit(std::string_view bytes) {
           "the drawing has filters, which a sign's two colours need none of; draw it "
           "without");
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
 
 Result<DrawnSvg> draw_svg(const std::string& bytes, int across, int down) {
-  if (auto bad = unfit(bytes)) return *bad;
+  if (auto ok = check_drawing(bytes); !ok) return ok.problem();
   auto in = draw_job.run(
       [&](PlainWriter& question) {
         question.put(bytes);
