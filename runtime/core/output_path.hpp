@@ -3,15 +3,15 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
+
+#include "runtime/core/result.hpp"
 
 struct stat;
 
 namespace luxodus {
 
-/// Why what stands at a file's place cannot be replaced; nothing where it is a regular file.
-std::optional<std::string> fault_of_target(const struct stat& about);
+/// Whether what stands at a file's place can be replaced: only a regular file can.
+Result<void> can_be_replaced(const struct stat& about);
 
 /// The same file by a folder without symbolic links, for a file that a person has named: behind a
 /// link of his own is where he wants it. What has no folder stays as it is.

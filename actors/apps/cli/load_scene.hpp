@@ -16,13 +16,17 @@ namespace luxodus::cli {
 /// Who tells the warnings of reading: load_scene, or the inspection, whose findings they are, too.
 enum class ReadingWarnings { told, left_to_inspection };
 
-/// The scene of a scene file or a pack, or null after every problem was told. `at_s`: time of its
-/// fire simulations instead of the one that it states; a pack has one time. `frames`: what
-/// simulations have between two of theirs.
-std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
-                                                   ReadingWarnings warnings = ReadingWarnings::told,
-                                                   std::optional<double> at_s = std::nullopt,
-                                                   FireFrames frames = FireFrames::between);
+/// A scene, or null after every problem was told.
+struct LoadedScene {
+  std::shared_ptr<const SceneDescription> scene;
+  ProblemKind told = ProblemKind::bad_input;  // of the problems together
+};
+
+/// The scene of a scene file or a pack. `at_s`: time of its fire simulations instead of the one
+/// that it states; a pack has one time. `frames`: what simulations have between two of theirs.
+LoadedScene load_scene(const std::string& file, ReadingWarnings warnings = ReadingWarnings::told,
+                       std::optional<double> at_s = std::nullopt,
+                       FireFrames frames = FireFrames::between);
 
 /// Reads a scene file at other times, where the scene has a clock; empty elsewhere, and of a pack.
 SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene,

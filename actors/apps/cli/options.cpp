@@ -55,8 +55,8 @@ std::string read_text(const Option& option, std::string text) {
     if (std::find(choices.begin(), choices.end(), text) == choices.end())
       throw Refused{"\"" + text + "\" is none of " + option.value_word()};
   }
-  if (option.traits.fault)
-    if (const std::string fault = option.traits.fault(text); !fault.empty()) throw Refused{fault};
+  if (option.traits.check)
+    if (auto ok = option.traits.check(text); !ok) throw Refused{ok.problem().what};
   return option.traits.form == Form::scene ? find_scene(text) : text;
 }
 
@@ -162,15 +162,15 @@ std::string guess(const std::string& word, const std::vector<std::string>& known
   return nearest.empty() ? "; " : ": did you mean " + nearest + "? ";
 }
 
-/// A first word that is no command, with the command that was likely meant; nothing where all is
-/// well or the parser says it better.
-std::optional<std::string> unknown_command(const Command& program, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return std::nullopt;
+/// Errors: a first word that is no command, with the command that was likely meant; but for what
+/// the parser says better.
+Result<void> check_command_word(const Command& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
   std::vector<std::string> names;
   for (const Command& command : program.commands) names.push_back(command.name);
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return std::nullopt;
-  return "there is no command \"" + std::string(argv[1]) + "\"" + guess(argv[1], names) +
-         program.name + " --help lists all commands";
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return {};
+  return problem("there is no command \"" + std::string(argv[1]) + "\"" + guess(argv[1], names) +
+                 program.name + " --help lists all commands");
 }
 
 /// The command that was called, and its words.
@@ -209,10 +209,7 @@ std::string sentence(const CLI::ParseError& error, const CLI::App& app, const Co
 }  // namespace
 
 int run_command_line(const Command& program, const std::string& version, int argc, char** argv) {
-  if (const auto unknown = unknown_command(program, argc, argv)) {
-    tell({{}, *unknown});
-    return ExitCode::bad_input;
-  }
+  if (auto ok = check_command_word(program, argc, argv); !ok) return exit_code_of(ok);
   CLI::App app(program.summary, program.name);
   app.set_version_flag("--version", version);
   add_command(app, program, program.name);
@@ -225,8 +222,7 @@ int run_command_line(const Command& program, const std::string& version, int arg
     std::fprintf(stdout, "%s\n", asked.what());
     return ExitCode::success;
   } catch (const CLI::ParseError& error) {
-    tell({{}, sentence(error, app, program)});
-    return ExitCode::bad_input;
+    return exit_code_of(problem(sentence(error, app, program)));
   }
   return called(app, program).first->run();
 }

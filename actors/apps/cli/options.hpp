@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "runtime/core/result.hpp"
+
 namespace luxodus::cli {
 
 /// Where a value goes. Its type says what may be written; a bool is a flag, which takes no value; a
@@ -40,8 +42,8 @@ struct OptionTraits {
   const char* excludes = nullptr;         // another option, with which this is refused
   bool required = false;
   bool comma_separated = false;  // a list
-  /// Why a text is refused, for people; "" where it is not.
-  std::function<std::string(const std::string&)> fault = {};
+  /// Whether a text is taken.
+  std::function<Result<void>(const std::string&)> check = {};
 };
 
 /// An option ("--out", "-o,--out"), or an argument by its place ("scene").

@@ -8,10 +8,10 @@
 namespace luxodus::cli {
 
 /// Prints where the page is. Beyond this machine it makes a token, which the page then demands.
-/// `fault`: what has befallen whoever traces, which ends the view. Errors: that; a pack; an address
-/// that is none, a port that is taken; a folder that nothing can be saved in.
+/// `goes_on`: an error where whoever traces cannot, which ends the view. Errors: that; a pack; an
+/// address that is none, a port that is taken; a folder that nothing can be saved in.
 Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, HttpAddress server,
                         const HubOptions& options,
-                        const std::function<std::optional<Problem>()>& fault = {});
+                        const std::function<Result<void>()>& goes_on = {});
 
 }  // namespace luxodus::cli

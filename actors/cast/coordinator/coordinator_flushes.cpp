@@ -37,10 +37,10 @@ void Coordinator::on(CountFlush&& count) {
   while (holds_back(count.letter.body.leases.size()))
     if (scheduler().fibers().wait(held_back_, "totals") == Wake::cancelled) return;
   counting_ = true;
-  const std::string why = count_flush(count.letter);
+  const Result<void> counted = count_flush(count.letter);
   counting_ = false;
   if (scheduler().fibers().cancelled()) return;  // its worker asks whoever comes after this node
-  answer_flush(count.letter, why);
+  answer_flush(count.letter, counted);
   std::erase(uncounted_, count.letter.id);
   sender().take_back(std::move(count.letter.body.leases));
   look_soon();
@@ -55,24 +55,24 @@ void Coordinator::look_soon() {
                            }));
 }
 
-/// `why` it is refused; "" where it was counted.
-void Coordinator::answer_flush(const Letter<Flush>& letter, const std::string& why) {
+/// `counted`: or why it is refused.
+void Coordinator::answer_flush(const Letter<Flush>& letter, const Result<void>& counted) {
   const NodeId worker = letter.from.node;
   Answered& last = last_flush_[worker];
   last.question = letter.id;
-  if (why.empty()) {
+  if (counted) {
     ++counters_.flushes_taken;
     last.answer = FlushTaken{};
     log_debug("flush=taken node={} leases={}", worker.value, letter.body.leases.size());
   } else {
     ++counters_.flushes_refused;
-    last.answer = FlushRefused{{}, why};
+    last.answer = FlushRefused{{}, counted.problem().what};
     refused(letter.id);
-    log_warning("flush=refused node={} text=\"{}\"", worker.value, why);
+    log_warning("flush=refused node={} text=\"{}\"", worker.value, counted.problem().what);
   }
   counters_.flush_bytes += letter.payload.bytes().size();
   answer(letter, last.answer);
-  if (!why.empty()) fence(book_.fence_leases(worker, letter.body.leases), "its flush was refused");
+  if (!counted) fence(book_.fence_leases(worker, letter.body.leases), "its flush was refused");
 }
 
 /// Lets others have their turn. A node that is to end goes on: what is begun is whole in the end.
@@ -82,12 +82,12 @@ bool Coordinator::take_turns() {
 }
 
 /// Takes a flush whole, or says why not.
-std::string Coordinator::count_flush(const Letter<Flush>& letter) {
+Result<void> Coordinator::count_flush(const Letter<Flush>& letter) {
   const NodeId worker = letter.from.node;
   const std::vector<uint64_t>& leases = letter.body.leases;
   const char* const fenced = "a lease was fenced";
-  if (!book_.stand(worker, leases)) return fenced;
-  if (std::string why = objection(letter); !why.empty()) return why;
+  if (!book_.stand(worker, leases)) return problem(fenced);
+  if (auto ok = may_count(letter); !ok) return ok.problem();
   payload_hash_.reset();
   for (std::span<const std::byte> left = letter.payload.bytes(); !left.empty(); take_turns()) {
     const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
@@ -95,21 +95,21 @@ std::string Coordinator::count_flush(const Letter<Flush>& letter) {
     left = left.subspan(piece.size());
   }
   if (payload_hash_.value() != letter.body.payload_hash)
-    return "the payload is not what its hash says";
+    return problem("the payload is not what its hash says");
   // Others had turns: without leases that stand there may be nothing left to count into.
-  if (!book_.stand(worker, leases)) return fenced;
+  if (!book_.stand(worker, leases)) return problem(fenced);
   const auto rest = [this] { return take_turns(); };
   auto gain = reader_.read(letter.payload.bytes(), totals().groups(), bins(), rest);
-  if (!gain) return gain.problem().what;
+  if (!gain) return gain.problem();
   if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->balance().closes())
-    return "its batches or its ledger do not add up";
-  if (over_) return "the run has ended";
-  if (!book_.stand(worker, leases)) return fenced;
+    return problem("its batches or its ledger do not add up");
+  if (over_) return problem("the run has ended");
+  if (!book_.stand(worker, leases)) return problem(fenced);
   // From here on no lease of it can be fenced, though others have turns.
   const std::span<const int64_t> batches = book_.batches_of(leases);
   book_.hold(leases);
   adding_ = true;
-  if (!keep(letter)) return "this node ends";
+  if (!keep(letter)) return problem("this node ends");
   book_.commit(leases, clock_.now());
   // Of who coordinates others, one batch may be late there while the others come.
   if (levels_below(worker) > 0) book_.renew(worker, clock_.now() + span_of(worker));
@@ -118,7 +118,7 @@ std::string Coordinator::count_flush(const Letter<Flush>& letter) {
   note_book();
   adding_ = false;
   counted(letter, batches);
-  return "";
+  return {};
 }
 
 }  // namespace luxodus

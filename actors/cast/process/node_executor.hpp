@@ -12,6 +12,7 @@
 #include "actors/cast/coordinator/state_coordinator.hpp"
 #include "actors/cast/node/node_setup.hpp"
 #include "actors/results/run/executor.hpp"
+#include "runtime/core/result.hpp"
 
 namespace luxodus {
 
@@ -32,8 +33,8 @@ class NodeExecutor final : public Executor {
   /// Waits for workers where none is there; see Executor.
   void trace(Work& work) override;
 
-  /// Why none of its workers will ever come: they work for another run.
-  std::optional<Problem> fault() const;
+  /// Errors: none of its workers will ever come, since they work for another run.
+  Result<void> goes_on() const;
 
   struct Counters {
     uint64_t leases = 0;
@@ -48,7 +49,7 @@ class NodeExecutor final : public Executor {
   class Door;
   NodeExecutor(const RunSetup& run, const NodeSetup& node) : run_(run), node_(node) {}
   void work(const Machine& machine);
-  void begun(std::optional<Problem> fault);
+  void begun(Result<void> outcome);
   void ask_node();
   void do_what_is_wished();
   void note(const StateCoordinator& coordinator);
@@ -65,7 +66,7 @@ class NodeExecutor final : public Executor {
   bool ends_ = false;
   bool started_ = false;
   Counters counters_;
-  std::optional<Problem> fault_;
+  Result<void> state_;
   // Of the node's thread.
   NodeShell* shell_ = nullptr;
   StateCoordinator* coordinator_ = nullptr;

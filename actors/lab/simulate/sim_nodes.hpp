@@ -2,11 +2,10 @@
 // links are the world's and whose tracing takes virtual time. Thread rule: the simulation's thread.
 #pragma once
 
-#include <string>
-
 #include "actors/cast/node/controller_node.hpp"
 #include "actors/cast/node/worker.hpp"
 #include "actors/lab/simulate/charging.hpp"
+#include "runtime/core/result.hpp"
 #include "runtime/sim/sim_world.hpp"
 
 namespace luxodus {
@@ -14,18 +13,18 @@ namespace luxodus {
 /// A node that also tells what is wrong with it.
 class CheckedNode : public SimNode {
  public:
-  /// The first of its invariants that does not hold, for people; "" where all do. Cheap.
-  virtual std::string fault() const = 0;
-  /// Why it has left without having done its part, for people; "" where it has done it.
-  virtual std::string regret() const = 0;
+  /// Errors: the first of its invariants that does not hold. Cheap.
+  virtual Result<void> check() const = 0;
+  /// Errors: it has left without having done its part.
+  virtual Result<void> outcome() const = 0;
   /// For how long it takes those whom it leads to know of the end that have said so.
   virtual Nanoseconds word_is_fresh() const { return 0; }
 };
 
 /// Has all fibers return, as they do when they are cancelled.
 void end_fibers(Fibers& fibers);
-/// What is wrong with the fibers of a node; "" where nothing is.
-std::string fault_of(const NodeShell& shell, const Fibers& fibers);
+/// Errors: what is wrong with the fibers of a node.
+Result<void> check_fibers(const NodeShell& shell, const Fibers& fibers);
 
 /// A node's place in the world, where work is real and takes what it costs.
 NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs,
@@ -46,8 +45,8 @@ class SimWorker final : public CheckedNode {
   Nanoseconds turn() override;
   bool finished() const override { return worker_.shell().finished(); }
   void die() override;
-  std::string fault() const override;
-  std::string regret() const override;
+  Result<void> check() const override;
+  Result<void> outcome() const override;
   Nanoseconds word_is_fresh() const override {
     return worker_.coordinator() == nullptr ? 0 : worker_.coordinator()->word_is_fresh();
   }
@@ -74,8 +73,8 @@ class SimController final : public CheckedNode {
   Nanoseconds turn() override;
   bool finished() const override { return node_.shell().finished(); }
   void die() override;
-  std::string fault() const override;
-  std::string regret() const override;
+  Result<void> check() const override;
+  Result<void> outcome() const override;
   Nanoseconds word_is_fresh() const override { return coordinator().word_is_fresh(); }
   const RunCoordinator& coordinator() const { return node_.coordinator(); }
   /// Of its loop [ns], of what was charged.
