@@ -118,12 +118,15 @@ Result<LoadedDataSet> assembled(const std::string& path, Grid grid, const DataSe
   data.extent = grid.spacing * glm::dvec3(data.nx, data.ny, data.nz);
   for (Field& field : grid.fields) {
     const bool soot = field.name == "soot_density";
-    if (soot) {
+    if (soot && options.mass_extinction_m2_per_kg) {
       // Before the check, so that an overflow is found by it too.
-      const auto factor = static_cast<float>(options.mass_extinction_m2_per_kg);
+      const auto factor = static_cast<float>(*options.mass_extinction_m2_per_kg);
       for (float& v : field.value) v *= factor;
     }
     if (auto ok = check_values(path, grid, field); !ok) return ok.problem();
+    if (soot && !options.mass_extinction_m2_per_kg)
+      out.lacks_mass_extinction = std::any_of(field.value.begin(), field.value.end(),
+                                              [](float density) { return density > 0; });
     std::vector<float>& to = soot || field.name == "extinction" ? data.extinction
                              : field.name == "albedo"           ? data.albedo
                                                                 : data.emission;
@@ -141,11 +144,10 @@ Result<LoadedDataSet> assembled(const std::string& path, Grid grid, const DataSe
 }  // namespace
 
 Result<LoadedDataSet> read_data_set(const std::string& path, const DataSetOptions& options) {
-  if (!(options.mass_extinction_m2_per_kg > 0) ||
-      !std::isfinite(options.mass_extinction_m2_per_kg)) {
-    return problem_in(path, fmt::format("a mass extinction of {} m2/kg: give a value above 0",
-                                        options.mass_extinction_m2_per_kg));
-  }
+  if (const auto mass = options.mass_extinction_m2_per_kg;
+      mass && !(*mass > 0 && std::isfinite(*mass)))
+    return problem_in(path,
+                      fmt::format("a mass extinction of {} m2/kg: give a value above 0", *mass));
   const std::string ending = ending_of(path);
   const bool nrrd = ending == ".nrrd" || ending == ".nhdr";
   if (!nrrd && ending != ".vti") {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,8 @@ inline constexpr uint64_t vti_file_bytes = 16ull << 30;
 
 struct DataSetOptions {
   /// Turns soot density into extinction; 8700 m2/kg at 633 nm for flaming fires (Mulholland and
-  /// Croarkin 2000), smouldering must state its own.
-  double mass_extinction_m2_per_kg = 8700;
+  /// Croarkin 2000), smouldering must state its own. None: nobody has stated it.
+  std::optional<double> mass_extinction_m2_per_kg = 8700;
   /// What the array of a 3-D NRRD is, unless the file says `field:=name`.
   std::string field = "extinction";
 };
@@ -42,6 +43,9 @@ struct LoadedDataSet {
   glm::dvec3 origin{0};                 // low corner of the box, in the file's coordinates [m]
   glm::dvec3 spacing{0};                // edges of a cell [m]
   std::vector<std::string> files_read;  // for a hash of the scene
+  /// The file has soot, and no mass extinction was stated: what `data` has as extinction is its
+  /// density.
+  bool lacks_mass_extinction = false;
 };
 
 /// Reads by the file's ending. NRRD also gives several fields in one file: four dimensions, the
