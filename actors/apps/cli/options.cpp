@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "actors/apps/cli/command.hpp"
 #include "actors/apps/cli/library.hpp"
 #include "actors/apps/cli/words.hpp"
+#include "runtime/toml/words.hpp"
 
 namespace luxodus::cli {
 
@@ -134,32 +134,11 @@ void add_command(CLI::App& app, const Command& command, const std::string& path)
   if (!command.commands.empty() && !command.run) app.require_subcommand(1);
 }
 
-/// Changes of one character that make one word of the other.
-size_t distance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
 /// ": did you mean run? " of the nearest word, or "; ".
 std::string guess(const std::string& word, const std::vector<std::string>& known) {
-  std::string nearest;
-  size_t least = word.size() / 3 + 2;  // farther is another word
-  for (const std::string& name : known)
-    if (const size_t d = distance(word, name); d < least) {
-      least = d;
-      nearest = name;
-    }
-  return nearest.empty() ? "; " : ": did you mean " + nearest + "? ";
+  // One step more than in a file: commands and options are short, and few.
+  const auto nearest = toml::nearest_word(word, {known.begin(), known.end()}, word.size() / 3 + 1);
+  return nearest ? ": did you mean " + std::string(*nearest) + "? " : "; ";
 }
 
 /// Errors: a first word that is no command, with the command that was likely meant; but for what
