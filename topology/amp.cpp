@@ -34,27 +34,27 @@ constexpr uint32_t compared_at_bound = 24;
 
 constexpr uint64_t moves_between_questions = 4096;
 
-std::optional<std::string> refusal(const AmpRequest& request) {
+Result<void> check_request(const AmpRequest& request) {
   const uint64_t nodes = request.nodes;
   const uint64_t links = request.links;
   const uint64_t controller = request.controller_links;
-  if (nodes == 0) return "a graph has at least one node; ask for --nodes 1 or more";
+  if (nodes == 0) return problem("a graph has at least one node; ask for --nodes 1 or more");
   if (nodes + (controller > 0 ? 1 : 0) > limits::graph_vertices)
-    return fmt::format("{} nodes are more than {}, controller included", nodes,
-                       limits::graph_vertices);
+    return problem(fmt::format("{} nodes are more than {}, controller included", nodes,
+                               limits::graph_vertices));
   if (links > limits::vertex_links || controller > limits::vertex_links)
-    return fmt::format("a vertex has at most {} links", limits::vertex_links);
+    return problem(fmt::format("a vertex has at most {} links", limits::vertex_links));
   if (controller > nodes)
-    return fmt::format("a controller with {} links needs as many nodes", controller);
+    return problem(fmt::format("a controller with {} links needs as many nodes", controller));
   // A node has n - 1 partners among the nodes; only the controller can use further links.
   const uint64_t ends = nodes * std::min(links, nodes - 1 + (controller > 0 ? 1 : 0));
   const uint64_t needed = 2 * (nodes - 1) + controller;
   if (ends < needed)
-    return fmt::format(
+    return problem(fmt::format(
         "{} nodes with {} links each have {} ends of links, and {} are needed to connect all{}; "
         "give each node more links",
-        nodes, links, ends, needed, controller > 0 ? " without the controller's help" : "");
-  return std::nullopt;
+        nodes, links, ends, needed, controller > 0 ? " without the controller's help" : ""));
+  return {};
 }
 
 /// Decompositions of the nodes into rotated copies of base vertices; runs take them in turn.
@@ -248,7 +248,7 @@ Graph with_role(const Graph& graph, ControllerRole role) {
 }  // namespace
 
 Result<AmpFound> find_amp(const AmpRequest& request, const std::function<bool()>& stop) {
-  if (const auto why_not = refusal(request)) return problem(*why_not);
+  if (auto ok = check_request(request); !ok) return ok.problem();
   std::optional<Graph> found = complete_graph(request);
   AmpSearch search(request, stop);
   if (!found) found = search.run();

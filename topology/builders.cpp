@@ -12,8 +12,8 @@
 namespace luxodus {
 namespace {
 
-std::optional<Problem> size_problem(uint32_t nodes) {
-  if (nodes >= 1 && nodes <= limits::graph_vertices) return std::nullopt;
+Result<void> check_size(uint32_t nodes) {
+  if (nodes >= 1 && nodes <= limits::graph_vertices) return {};
   return problem(fmt::format("{} nodes: a graph has from 1 to {}", nodes, limits::graph_vertices));
 }
 
@@ -65,24 +65,24 @@ std::vector<GraphLink> grid(uint32_t rows, uint32_t columns, bool joined) {
 }  // namespace
 
 Result<Graph> make_ring(uint32_t nodes) {
-  if (auto problem = size_problem(nodes)) return *problem;
+  if (auto ok = check_size(nodes); !ok) return ok.problem();
   return graph_of(nodes, nodes, circulant(nodes, {1}));
 }
 
 Result<Graph> make_mesh(uint32_t nodes) {
-  if (auto problem = size_problem(nodes)) return *problem;
+  if (auto ok = check_size(nodes); !ok) return ok.problem();
   const uint32_t rows = rows_of(nodes);
   return graph_of(nodes, 1, grid(rows, nodes / rows, false));
 }
 
 Result<Graph> make_torus(uint32_t nodes) {
-  if (auto problem = size_problem(nodes)) return *problem;
+  if (auto ok = check_size(nodes); !ok) return ok.problem();
   const uint32_t rows = rows_of(nodes);
   return graph_of(nodes, rows, grid(rows, nodes / rows, true));
 }
 
 Result<Graph> make_hypercube(uint32_t nodes) {
-  if (auto problem = size_problem(nodes)) return *problem;
+  if (auto ok = check_size(nodes); !ok) return ok.problem();
   if (!std::has_single_bit(nodes)) {
     return problem(fmt::format("{} is no power of two, and a hypercube is one", nodes));
   }
@@ -97,14 +97,14 @@ Result<Graph> make_hypercube(uint32_t nodes) {
 }
 
 Result<Graph> make_ternary_tree(uint32_t nodes) {
-  if (auto problem = size_problem(nodes)) return *problem;
+  if (auto ok = check_size(nodes); !ok) return ok.problem();
   std::vector<GraphLink> links;
   for (Vertex v = 1; v < nodes; ++v) links.push_back({(v - 1) / 3, v});
   return graph_of(nodes, 1, std::move(links));
 }
 
 Result<Graph> make_chordal_ring(uint32_t nodes) {
-  if (auto problem = size_problem(nodes)) return *problem;
+  if (auto ok = check_size(nodes); !ok) return ok.problem();
   uint64_t fewest = UINT64_MAX;
   std::vector<GraphLink> best = circulant(nodes, {1});
   for (uint32_t chord = 2; chord <= nodes / 2; ++chord) {
@@ -122,7 +122,7 @@ Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed)
   constexpr uint64_t exchanges_per_link = 50;
   // A random graph of 3 or more links per node is disconnected once in many thousand times.
   constexpr uint64_t max_attempts = 100;
-  if (auto problem = size_problem(nodes)) return *problem;
+  if (auto ok = check_size(nodes); !ok) return ok.problem();
   if (links >= nodes || links > limits::vertex_links || uint64_t{nodes} * links % 2 == 1) {
     return problem(fmt::format("no graph of {} nodes has {} links at each", nodes, links));
   }
@@ -159,7 +159,7 @@ Result<Graph> make_random_regular(uint32_t nodes, uint32_t links, uint64_t seed)
 Result<Graph> with_controller(const Graph& graph, uint32_t links) {
   const uint32_t workers = graph.workers();
   if (graph.has_controller()) return problem("this graph has a controller already");
-  if (auto problem = size_problem(workers + 1)) return *problem;
+  if (auto ok = check_size(workers + 1); !ok) return ok.problem();
   std::vector<GraphLink> all = graph.links();
   const uint32_t own = std::min(links, workers);
   for (uint32_t i = 0; i < own; ++i) all.push_back({i * workers / own, workers});

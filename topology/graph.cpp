@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runtime/core/hash.hpp"
+#include "runtime/core/result.hpp"
 
 namespace luxodus {
 
@@ -47,20 +48,21 @@ bool connected(const Adjacency& graph) {
   return found == graph.vertices();
 }
 
-std::optional<std::string> fault_of_sizes(const GraphPlan& plan, uint32_t vertices) {
-  if (plan.workers == 0) return "a graph has at least one node";
+Result<void> check_sizes(const GraphPlan& plan, uint32_t vertices) {
+  if (plan.workers == 0) return problem("a graph has at least one node");
   if (plan.workers > limits::graph_vertices || vertices > limits::graph_vertices) {
-    return fmt::format("{} vertices are more than {}, the most there may be", vertices,
-                       limits::graph_vertices);
+    return problem(fmt::format("{} vertices are more than {}, the most there may be", vertices,
+                               limits::graph_vertices));
   }
   if (plan.max_links > limits::vertex_links) {
-    return fmt::format("{} links of a node are more than {}, the most there may be", plan.max_links,
-                       limits::vertex_links);
+    return problem(fmt::format("{} links of a node are more than {}, the most there may be",
+                               plan.max_links, limits::vertex_links));
   }
   if (plan.rotation == 0 || plan.workers % plan.rotation != 0) {
-    return fmt::format("rotation {} does not divide {} nodes", plan.rotation, plan.workers);
+    return problem(
+        fmt::format("rotation {} does not divide {} nodes", plan.rotation, plan.workers));
   }
-  return std::nullopt;
+  return {};
 }
 
 /// The first link that is out of range, a loop, a duplicate, or beyond its vertex's limit.
@@ -101,7 +103,8 @@ std::vector<GraphLink> ordered(std::vector<GraphLink> links) {
 std::optional<GraphFault> fault_of(const GraphPlan& plan) {
   const bool controller = plan.controller != ControllerRole::none;
   const uint32_t vertices = plan.workers + (controller ? 1 : 0);
-  if (auto sizes = fault_of_sizes(plan, vertices)) return GraphFault{*sizes, std::nullopt};
+  if (auto ok = check_sizes(plan, vertices); !ok)
+    return GraphFault{ok.problem().what, std::nullopt};
   if (auto link = fault_of_links(plan, vertices)) return link;
 
   if (!connected(Adjacency(vertices, plan.links))) {

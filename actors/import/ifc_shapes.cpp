@@ -198,7 +198,9 @@ Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, doub
                                 "), and the building would stand elsewhere: import it again, and "
                                 "install the program anew if that does not help");
   auto parts = import_mesh(glb.string(), 1, UpAxis::y);
-  if (!parts) return problem_in(file, "its shapes cannot be read: " + parts.problem().what);
+  if (!parts)
+    return problem_in(file, "its shapes cannot be read: " + parts.problem().what,
+                      parts.problem().kind);
   const glm::dvec3 offset = to_z_up(UpAxis::y).vector(*said.offset);
   for (ImportedPart& part : parts.value())
     for (glm::dvec3& p : part.mesh.positions) p += offset;

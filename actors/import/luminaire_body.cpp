@@ -34,15 +34,16 @@ Result<LuminaireBody> shape_body(const L3dShape& shape, const fs::path& folder,
   const fs::path file = folder / "shape.obj";
   std::error_code failed;
   if (!fs::create_directory(folder, failed))
-    return problem(who + "no folder can be made: " + failed.message());
+    return system_problem({}, who + "no folder can be made", failed.value());
   if (auto ok = write_file_atomically(file, std::string_view(shape.obj)); !ok) return ok.problem();
   if (!shape.colours.empty())
     if (auto ok = write_file_atomically(folder / l3d_library, std::string_view(shape.colours)); !ok)
       return ok.problem();
   const auto parts = import_mesh(file.string(), shape.metres_per_unit, UpAxis::z, nullptr, reading);
   if (!parts)
-    return problem(who + parts.problem().what);  // the file is temporary, so its name is
-                                                 // omitted
+    return problem(who + parts.problem().what,
+                   parts.problem().kind);  // the file is temporary, so its name is
+                                           // omitted
   LuminaireBody body;
   for (ImportedPart part : parts.value()) {
     part.mesh.texture_uv.clear();

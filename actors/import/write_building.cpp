@@ -78,17 +78,17 @@ std::optional<fs::path> photometry_of(const std::map<std::string, fs::path>& fil
   return std::nullopt;
 }
 
-/// Why a file alone is not a luminaire: it is damaged, or a container from which one must be
-/// chosen.
-std::optional<Problem> fault_of_photometry(const fs::path& file) {
+/// Whether a file says one luminaire by itself. Errors: it is damaged, or a container in which one
+/// is chosen.
+Result<void> says_one_luminaire(const fs::path& file) {
   if (letters_and_digits(file.extension().string()) != "gldf") {
     const auto read = read_photometric_file(file);
-    return read ? std::nullopt : std::optional(read.problem());
+    return read ? Result<void>() : read.problem();
   }
   const auto product = read_gldf(file);
   if (!product) return product.problem();
   const auto luminaire = luminaire_of(product.value(), "", "", std::nullopt);
-  return luminaire ? std::nullopt : std::optional(luminaire.problem());
+  return luminaire ? Result<void>() : luminaire.problem();
 }
 
 std::string says_text(const BuildingFixture& fixture) {
@@ -144,10 +144,11 @@ Result<void> add_types(const FixtureTypes& types, const std::map<std::string, fs
     const BuildingFixture& one = *fixtures.front();
     auto found = is_sign ? std::nullopt : photometry_of(files, fixtures);
     std::string why = one.document.empty() ? "" : ": the model names " + one.document;
-    if (const auto fault = found ? fault_of_photometry(*found) : std::nullopt) {
-      why = ": " + fault->text();
-      found.reset();
-    }
+    if (found)
+      if (auto ok = says_one_luminaire(*found); !ok) {
+        why = ": " + ok.problem().text();
+        found.reset();
+      }
     if (!found)
       written.asked.push_back(fmt::format("{} \"{}\" ({}){}", is_sign ? "sign" : "luminaire", type,
                                           fixtures.size(), why));
@@ -350,7 +351,7 @@ Result<std::map<std::string, fs::path>> photometry_by_name(const std::string& fo
                                             limits::photometric_files));
     files.push_back(at->path());
   }
-  if (failed) return problem_in(folder, "the folder cannot be read: " + failed.message());
+  if (failed) return system_problem(folder, "the folder cannot be read", failed.value());
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
     const std::string ending = letters_and_digits(file.extension().string());

@@ -50,7 +50,7 @@ std::optional<NodeId> find_node(const ClusterConfig& cluster, std::string_view n
   return std::nullopt;
 }
 
-std::string name_fault(std::string_view name) {
+Result<void> check_name(std::string_view name) {
   const auto good = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
            c == '_' || c == '.';
@@ -58,10 +58,10 @@ std::string name_fault(std::string_view name) {
   const bool edges_good = !name.empty() && name.front() != '-' && name.front() != '.';
   if (edges_good && name.size() <= limits::cluster_name_chars &&
       std::all_of(name.begin(), name.end(), good))
-    return "";
-  return fmt::format(
+    return {};
+  return problem(fmt::format(
       "a name has 1 to {} letters, digits, '-', '_' or '.', the first no '-' and no '.'",
-      limits::cluster_name_chars);
+      limits::cluster_name_chars));
 }
 
 bool is_ipv4(const std::string& address) {
@@ -69,7 +69,7 @@ bool is_ipv4(const std::string& address) {
   return ::inet_pton(AF_INET, address.c_str(), &binary) == 1;
 }
 
-std::string address_fault(const std::string& address) {
+Result<void> check_address(const std::string& address) {
   constexpr size_t dns_name_chars = 253;  // RFC 1035
   const auto good = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-'; };
   const bool numeric = address.find_first_not_of("0123456789.") == std::string::npos;
@@ -78,7 +78,8 @@ std::string address_fault(const std::string& address) {
     const bool begins = i == 0 || address[i - 1] == '.';
     name = good(address[i]) ? !(begins && address[i] == '-') : address[i] == '.' && !begins;
   }
-  return name || is_ipv4(address) ? "" : "this is neither an IPv4 address nor a host's name";
+  if (name || is_ipv4(address)) return {};
+  return problem("this is neither an IPv4 address nor a host's name");
 }
 
 NetConfig net_config(const ClusterConfig& cluster, NodeId self) {

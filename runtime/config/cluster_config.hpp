@@ -16,6 +16,7 @@
 
 #include "runtime/core/clock.hpp"
 #include "runtime/core/faults.hpp"
+#include "runtime/core/result.hpp"
 #include "runtime/net/net_config.hpp"
 #include "runtime/net/zmq_transport.hpp"
 
@@ -207,11 +208,11 @@ inline std::string tracer_of(const std::string& controller) {
 /// The node of this name.
 std::optional<NodeId> find_node(const ClusterConfig& cluster, std::string_view name);
 
-/// Why this is no valid name of a run, host, node or process; "" if it is one. Names become parts
-/// of file, unit and socket names.
-std::string name_fault(std::string_view name);
-/// Why this is neither an IPv4 address nor a host name; "" if it is one.
-std::string address_fault(const std::string& address);
+/// Whether this can be the name of a run, host, node or process. Names become parts of files',
+/// units' and sockets' names.
+Result<void> check_name(std::string_view name);
+/// Whether this is an IPv4 address or a host's name.
+Result<void> check_address(const std::string& address);
 bool is_ipv4(const std::string& address);
 
 /// A node's network configuration without what the start adds: incarnation, edges, hash of the

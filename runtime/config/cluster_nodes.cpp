@@ -85,8 +85,9 @@ void read_node(const toml::Table& table, const NodeBudget& usual, ClusterReading
     draft.node.name = count == 1 ? name : name + std::to_string(i);
     if (port) draft.port = *port + 2 * i;
     drafts.push_back(draft);
-    if (const auto fault = name_fault(draft.node.name); !name.empty() && !fault.empty()) {
-      keys.problem("name", fmt::format("\"{}\" is no name: {}", draft.node.name, fault));
+    if (auto ok = check_name(draft.node.name); !name.empty() && !ok) {
+      keys.problem("name",
+                   fmt::format("\"{}\" is no name: {}", draft.node.name, ok.problem().what));
       return;
     }
   }
@@ -104,9 +105,9 @@ void add_tracer(std::vector<Draft>& drafts, ClusterReading& reading) {
   tracer.port.reset();
   if (controller->process.empty()) controller->process = controller->node.name;
   tracer.process = controller->process;
-  if (const auto fault = name_fault(tracer.node.name); !fault.empty())
+  if (auto ok = check_name(tracer.node.name); !ok)
     reading.findings.problem(tracer.place, fmt::format("\"{}\", by which it traces, is no name: {}",
-                                                       tracer.node.name, fault));
+                                                       tracer.node.name, ok.problem().what));
   drafts.push_back(tracer);
 }
 

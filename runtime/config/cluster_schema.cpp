@@ -355,10 +355,10 @@ bool is_plain(std::string_view text) {
                       [](char c) { return static_cast<unsigned char>(c) < 0x20; });
 }
 bool is_name(std::string_view text) {
-  return name_fault(text).empty();
+  return check_name(text).ok();
 }
 bool is_address(std::string_view text) {
-  return address_fault(std::string(text)).empty();
+  return check_address(std::string(text)).ok();
 }
 
 }  // namespace

@@ -17,7 +17,6 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <system_error>
 
@@ -107,7 +106,7 @@ Result<Target> find_target(const std::filesystem::path& path) {
     if (errno == ENOENT) return target;
     return write_problem(path, errno);
   }
-  if (auto fault = fault_of_target(about)) return problem_in(path, *fault);
+  if (auto ok = can_be_replaced(about); !ok) return problem_in(path, ok.problem());
   target.mode = about.st_mode & 0777;
   target.exists = true;
   return target;
@@ -176,13 +175,14 @@ int name_file(int fd, int folder, std::string& name) {
 
 }  // namespace
 
-std::optional<std::string> fault_of_target(const struct stat& about) {
-  if (S_ISREG(about.st_mode)) return std::nullopt;
+Result<void> can_be_replaced(const struct stat& about) {
+  if (S_ISREG(about.st_mode)) return {};
   if (S_ISLNK(about.st_mode))
-    return "this is a symbolic link, and links are not followed; remove it, or name the file that "
-           "it leads to";
-  if (S_ISDIR(about.st_mode)) return "this is a folder; name a file in it";
-  return "this is a device or a pipe; only regular files are written";
+    return problem(
+        "this is a symbolic link, and links are not followed; remove it, or name the file that "
+        "it leads to");
+  if (S_ISDIR(about.st_mode)) return problem("this is a folder; name a file in it");
+  return problem("this is a device or a pipe; only regular files are written");
 }
 
 /// Everything that is open while a file is being written.

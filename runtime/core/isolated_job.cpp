@@ -22,7 +22,6 @@
 #include <cstring>
 #include <exception>
 #include <new>
-#include <system_error>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define LUX_UNDER_SANITIZERS 1
@@ -49,10 +48,6 @@ constexpr uint32_t slower = 1;
 
 /// All jobs, the newest first; constant-initialised, so that the order of globals does not matter.
 constinit const IsolatedJob* first_job = nullptr;
-
-std::string of_system(int error) {
-  return std::generic_category().message(error);
-}
 
 // ---- in the other process ----------------------------------------------------------------------
 
@@ -204,9 +199,9 @@ int begin_process(pid_t& process, int question, int answer, const std::vector<st
   return process < 0 ? errno : 0;
 }
 
-/// How the other process failed; nothing if it succeeded.
-std::optional<Problem> end_of(int status, const IsolatedLimits& most) {
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
+/// Whether the other process ended well.
+Result<void> ended_well(int status, const IsolatedLimits& most) {
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   if (WIFEXITED(status) && WEXITSTATUS(status) == out_of_memory)
     return problem("reading it takes more than " + told(most.memory_bytes) +
                    ": it is damaged, or too large for what it holds");
@@ -222,18 +217,20 @@ std::optional<Problem> end_of(int status, const IsolatedLimits& most) {
   return problem("reading it failed without a reason: it is damaged; write it anew");
 }
 
-/// What to tell the user when the other program could not do the job.
-std::optional<Problem> fault_of_program(int status, const OtherProgram& other) {
+/// Whether the program of another file, begun instead of this one, is the right one.
+Result<void> began_well(int status, const OtherProgram& other) {
   const std::string name = other.path.substr(other.path.rfind('/') + 1);
   if (WIFEXITED(status) && WEXITSTATUS(status) == not_begun)
-    return problem_in(other.path, name +
-                                      " cannot be begun: its libraries are missing (apt-get "
-                                      "install " +
-                                      other.packages + ")");
-  if (WIFEXITED(status) && WEXITSTATUS(status) == no_such_job)
     return problem_in(other.path,
-                      name + " is of another build than this program: " + other.renewal);
-  return std::nullopt;
+                      name +
+                          " cannot be begun: its libraries are missing (apt-get "
+                          "install " +
+                          other.packages + ")",
+                      ProblemKind::system);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == no_such_job)
+    return problem_in(other.path, name + " is of another build than this program: " + other.renewal,
+                      ProblemKind::system);
+  return {};
 }
 
 /// `words` start the program that does the job; `other` is set if that is another program.
@@ -244,7 +241,7 @@ Result<PlainReader> ask_process(const std::vector<std::string>& words, const cha
                                 const OtherProgram* other = nullptr) {
   FileDescriptor question = memory_file(), answer = memory_file();
   if (!question.valid() || !answer.valid())
-    return problem("no process can be begun to read it: " + of_system(errno));
+    return system_problem({}, "no process can be begun to read it", errno);
   PlainWriter writer(question.number());
   writer.put(most);
   ask(writer);
@@ -252,25 +249,27 @@ Result<PlainReader> ask_process(const std::vector<std::string>& words, const cha
   const off_t share_place = ::lseek(question.number(), 0, SEEK_END);
   put_share(question.number(), share_place, 0);
   if (!asked || ::lseek(question.number(), 0, SEEK_SET) != 0)
-    return problem("no process can be begun to read it: " + of_system(errno));
+    return system_problem({}, "no process can be begun to read it", errno);
   pid_t process = 0;
   if (const int error = begin_process(process, question.number(), answer.number(), words, job);
       error)
-    return problem("no process can be begun to read it: " + of_system(error));
+    return system_problem({}, "no process can be begun to read it", error);
   if (told_share) wait_and_tell(process, question.number(), share_place, told_share);
   int status = 0;
   while (::waitpid(process, &status, 0) < 0)
-    if (errno != EINTR) return problem("the process that reads it was lost: " + of_system(errno));
+    if (errno != EINTR) return system_problem({}, "the process that reads it was lost", errno);
   if (other != nullptr)
-    if (auto bad = fault_of_program(status, *other)) return *bad;
-  if (auto bad = end_of(status, most)) return *bad;
+    if (auto ok = began_well(status, *other); !ok) return ok.problem();
+  if (auto ok = ended_well(status, most); !ok) return ok.problem();
   if (const auto share = share_at(question.number(), share_place); told_share && share)
     told_share(*share);
   PlainReader reader(std::move(answer));
   uint64_t first = 0;
   if (!reader.get(first) || first != mark) {
-    if (other != nullptr) return problem_in(other->path, "gives no answer: " + other->renewal);
-    return problem("this program reads such files in a process of its own, and cannot begin one");
+    if (other != nullptr)
+      return problem_in(other->path, "gives no answer: " + other->renewal, ProblemKind::system);
+    return problem("this program reads such files in a process of its own, and cannot begin one",
+                   ProblemKind::system);
   }
   return reader;
 }

@@ -34,15 +34,16 @@ uint64_t MemoryPlan::total_bytes() const {
   return sum;
 }
 
-std::optional<Problem> MemoryPlan::against(uint64_t budget_bytes) const {
+Result<void> MemoryPlan::fits(uint64_t budget_bytes) const {
   const uint64_t total = total_bytes();
-  if (total <= budget_bytes) return std::nullopt;
+  if (total <= budget_bytes) return {};
   const Term largest = largest_first(terms_).front();
   return problem(
       fmt::format("the memory plan needs {:.1f} MiB, {:.1f} more than the budget of {:.1f} MiB; "
                   "the largest part is {}, {:.1f} MiB ({})",
                   mebibytes(total), mebibytes(total - budget_bytes), mebibytes(budget_bytes),
-                  largest.name, mebibytes(largest.bytes), largest.derivation));
+                  largest.name, mebibytes(largest.bytes), largest.derivation),
+      ProblemKind::no_room);
 }
 
 std::string MemoryPlan::rows() const {

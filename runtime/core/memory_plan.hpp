@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +28,8 @@ class MemoryPlan {
   const std::vector<Term>& terms() const { return terms_; }
   uint64_t total_bytes() const;
 
-  /// The problem if the sum exceeds the budget: by how much, and the largest term.
-  std::optional<Problem> against(uint64_t budget_bytes) const;
+  /// Errors: the sum passes the budget; by how much, and the largest term.
+  Result<void> fits(uint64_t budget_bytes) const;
 
   /// One line per term, the largest first, then the sum.
   std::string table() const;

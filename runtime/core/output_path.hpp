@@ -3,15 +3,15 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
+
+#include "runtime/core/result.hpp"
 
 struct stat;
 
 namespace luxodus {
 
-/// Why an existing target cannot be replaced; nothing if it is a regular file.
-std::optional<std::string> fault_of_target(const struct stat& about);
+/// Whether what stands at a file's place can be replaced: only a regular file can.
+Result<void> can_be_replaced(const struct stat& about);
 
 /// Resolves symbolic links in the folder of a path that the user named: he may place his results
 /// behind a link of his own. A path without a folder is returned unchanged.

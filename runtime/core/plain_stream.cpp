@@ -27,6 +27,13 @@ void PlainWriter::add(std::span<const std::byte> bytes) {
   }
 }
 
+void PlainWriter::put(const Problem& problem) {
+  put(problem.where.file);
+  put(problem.where.line);
+  put(problem.what);
+  put(static_cast<uint8_t>(problem.kind));
+}
+
 bool PlainWriter::flush() {
   size_t done = 0;
   while (done < held_.size() && !failed_) {
@@ -45,6 +52,15 @@ PlainReader::PlainReader(FileDescriptor file) : file_(std::move(file)) {
   struct stat about {};
   if (file_.valid() && ::fstat(file_.number(), &about) == 0)
     left_ = static_cast<uint64_t>(std::max<off_t>(about.st_size, 0));
+}
+
+bool PlainReader::get(Problem& problem) {
+  uint8_t kind = 0;
+  if (!get(problem.where.file) || !get(problem.where.line) || !get(problem.what) || !get(kind))
+    return false;
+  if (kind > static_cast<uint8_t>(ProblemKind::bug)) return fail();
+  problem.kind = static_cast<ProblemKind>(kind);
+  return true;
 }
 
 bool PlainReader::get(std::string& text) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "runtime/core/file_descriptor.hpp"
+#include "runtime/core/result.hpp"
 
 namespace luxodus {
 
@@ -34,7 +35,8 @@ class PlainWriter {
     put(static_cast<uint64_t>(text.size()));
     add(std::as_bytes(std::span(text.data(), text.size())));
   }
-  /// Writes the buffer. False if any write failed, now or before.
+  void put(const Problem& problem);
+  /// Writes what is still held back. False: not all could be written, now or before.
   bool flush();
 
  private:
@@ -65,6 +67,7 @@ class PlainReader {
     return true;
   }
   [[nodiscard]] bool get(std::string& text);
+  [[nodiscard]] bool get(Problem& problem);
   uint64_t left() const { return left_; }
 
  private:

@@ -1,6 +1,6 @@
-// Errors as values. A Problem is one sentence for people with a place in a file; a Result is a
-// value or a Problem; Problems collects many, so that a reader can report all of them at once.
-// Plain values; any thread.
+// Errors as values. A Problem is one sentence for people with the place it speaks of, and a kind
+// for programs; a Result is a value or a Problem; Problems collects many, so that a reader can
+// report all of them at once. Thread rule: plain values, no sharing.
 #pragma once
 
 #include <optional>
@@ -17,10 +17,22 @@ struct SourcePlace {
   int line = 0;
 };
 
+/// What kind of a failure a problem is. The exit code of a command follows from it.
+enum class ProblemKind {
+  bad_input,  // a file, an option or a value is wrong, or what is asked for cannot be
+  not_found,  // a file that was named is not there
+  refused,    // the system or another process does not allow it: permissions, a port in use
+  no_room,    // a disk, the memory or another limit of the machine is exhausted
+  lost_peer,  // another process or node does not answer, or has ended
+  system,     // any other failure of the system, or of a program that was started
+  bug,        // what cannot be unless this program is wrong
+};
+
 /// What is wrong, where, and what to do about it.
 struct Problem {
   SourcePlace where;
   std::string what;
+  ProblemKind kind = ProblemKind::bad_input;
 
   /// "file:line: what" in one line, the form editors understand. Control characters, which names
   /// and contents of files may carry and a terminal would obey, become \xNN.
@@ -29,26 +41,43 @@ struct Problem {
 
 /// A problem with a text, a value or a request that is in no file. These functions take the text by
 /// value: GCC 12 falsely warns of uninitialised members where it may throw within the braces.
-inline Problem problem(std::string what) {
-  return {{}, std::move(what)};
+inline Problem problem(std::string what, ProblemKind kind = ProblemKind::bad_input) {
+  return {{}, std::move(what), kind};
 }
 
 /// A problem with a whole file or one of its lines. A path converts to its text.
-inline Problem problem_in(std::string file, std::string what) {
-  return {{std::move(file), 0}, std::move(what)};
+inline Problem problem_in(std::string file, std::string what,
+                          ProblemKind kind = ProblemKind::bad_input) {
+  return {{std::move(file), 0}, std::move(what), kind};
 }
-inline Problem problem_in(std::string file, int line, std::string what) {
-  return {{std::move(file), line}, std::move(what)};
+inline Problem problem_in(std::string file, int line, std::string what,
+                          ProblemKind kind = ProblemKind::bad_input) {
+  return {{std::move(file), line}, std::move(what), kind};
 }
-inline Problem problem_in(SourcePlace where, std::string what) {
-  return {std::move(where), std::move(what)};
+inline Problem problem_in(SourcePlace where, std::string what,
+                          ProblemKind kind = ProblemKind::bad_input) {
+  return {std::move(where), std::move(what), kind};
 }
 
-/// A failed system call on a file, with its reason: "what: Permission denied".
+/// A problem that was found without its place, now with it. What and kind stay.
+inline Problem problem_in(std::string file, Problem found) {
+  return {{std::move(file), 0}, std::move(found.what), found.kind};
+}
+inline Problem problem_in(std::string file, int line, Problem found) {
+  return {{std::move(file), line}, std::move(found.what), found.kind};
+}
+inline Problem problem_in(SourcePlace where, Problem found) {
+  return {std::move(where), std::move(found.what), found.kind};
+}
+
+/// What the system did not do with a file, and its reason: "what: Permission denied". The kind
+/// follows from `error`, an errno.
 Problem system_problem(std::string file, std::string what, int error);
+ProblemKind kind_of_errno(int error);
 
-/// A value, or the problem that prevented it. A function passes a problem on by `if (!x) return
-/// x.problem();`.
+/// A value, or the problem that kept us from having it. A function passes a problem on by
+/// `if (!x) return x.problem();`, and where there is no value, `if (auto ok = f(); !ok) return
+/// ok.problem();`.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -98,6 +127,9 @@ class Problems {
   void add(Problem problem) { list_.push_back(std::move(problem)); }
   bool empty() const { return list_.empty(); }
   const std::vector<Problem>& list() const { return list_; }
+  /// That of all together: what a person has to mend comes before what the system refuses.
+  /// Requires: there is one.
+  ProblemKind kind() const;
 
  private:
   std::vector<Problem> list_;

@@ -120,7 +120,7 @@ Result<HttpUrl> parse_http_url(const std::string& text) {
 Result<std::string> http_get(const HttpUrl& url, Nanoseconds patience) {
   Exchange exchange(url);
   const auto refused = [&](const std::string& why) {
-    return problem(fmt::format("{}: {}", url.text(), why));
+    return problem(fmt::format("{}: {}", url.text(), why), ProblemKind::lost_peer);
   };
   if (const auto failed = exchange.run(patience)) return refused(reason_of(failed));
   const auto& answer = exchange.answer();

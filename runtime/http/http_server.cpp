@@ -303,8 +303,9 @@ class HttpServer::Implementation {
     if (!failed) acceptor_.bind(at, failed);
     if (!failed) acceptor_.listen(asio::socket_base::max_listen_connections, failed);
     if (failed)
-      return problem("cannot listen on " + http_address(wanted.address, wanted.port) + ": " +
-                     failed.message());
+      return problem(
+          "cannot listen on " + http_address(wanted.address, wanted.port) + ": " + failed.message(),
+          kind_of_errno(failed.value()));
     accept();
     return {};
   }

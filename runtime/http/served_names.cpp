@@ -67,9 +67,9 @@ std::string http_address(const std::string& address, uint16_t port) {
   return "http://" + named_place(address, port);
 }
 
-std::string allowed_host_fault(const std::string& text) {
-  if (named_place_of(text) && text.find_first_of("/*@ ") == std::string::npos) return "";
-  return "\"" + text + "\" is no name of a host: write view.example.org or localhost:9000";
+Result<void> check_allowed_host(const std::string& text) {
+  if (named_place_of(text) && text.find_first_of("/*@ ") == std::string::npos) return {};
+  return problem("\"" + text + "\" is no name of a host: write view.example.org or localhost:9000");
 }
 
 }  // namespace luxodus

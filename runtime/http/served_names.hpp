@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/core/result.hpp"
+
 namespace luxodus {
 
 /// A name or an address with a port, as in a Host header or a URL.
@@ -42,7 +44,7 @@ bool is_own_page(std::string_view origin, std::string_view host);
 /// "http://host:port", with brackets around an IPv6 address.
 std::string http_address(const std::string& address, uint16_t port);
 
-/// Why a text cannot be an allowed name, for people; "" if it can.
-std::string allowed_host_fault(const std::string& text);
+/// Whether a text can be allowed as a name.
+Result<void> check_allowed_host(const std::string& text);
 
 }  // namespace luxodus

@@ -94,7 +94,7 @@ Result<KeyPair> read_keys(const fs::path& path) {
   auto secret = read_key(path, true);
   if (!secret) return secret.problem();
   auto open = public_key_of(secret.value());
-  if (!open) return problem_in(path, open.problem().what);
+  if (!open) return problem_in(path, open.problem());
   return KeyPair{std::move(open).value(), std::move(secret).value()};
 }
 

@@ -160,7 +160,8 @@ Result<Endpoints> ZmqTransport::listen(const Endpoints& where) {
       sockets.router.bind(*endpoint);
       *endpoint = sockets.router.get(zmq::sockopt::last_endpoint);
     } catch (const zmq::error_t& e) {
-      return problem_in(*endpoint, std::string("cannot listen there: ") + e.what());
+      return problem_in(*endpoint, std::string("cannot listen there: ") + e.what(),
+                        kind_of_errno(e.num()));
     }
   }
   return bound;
@@ -180,7 +181,8 @@ Result<Endpoints> ZmqTransport::connect(NodeId neighbour, const Endpoints& where
         sockets.router.set(zmq::sockopt::connect_routing_id, routing_id(neighbour));
       sockets.router.connect(*endpoint);
     } catch (const zmq::error_t& e) {
-      return problem_in(*endpoint, std::string("cannot connect there: ") + e.what());
+      return problem_in(*endpoint, std::string("cannot connect there: ") + e.what(),
+                        kind_of_errno(e.num()));
     }
   }
   connected_[neighbour] = {where, server_key};

@@ -24,7 +24,7 @@ class FaultyStore final : public AppendStore {
   Result<void> append(std::span<const std::byte> bytes) override {
     if (!full()) return below_->append(bytes);
     (void)below_->append(bytes.first(bytes.size() / 2));
-    return problem("no space is left (a fault on purpose)");
+    return problem("no space is left (a fault on purpose)", ProblemKind::no_room);
   }
   Result<void> truncate(uint64_t size) override { return below_->truncate(size); }
 

@@ -36,7 +36,8 @@ Result<std::unique_ptr<FileStore>> FileStore::open(const std::filesystem::path& 
   }
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     ::close(descriptor);
-    return problem_in(path, "another process has this file open: is the run still going on?");
+    return problem_in(path, "another process has this file open: is the run still going on?",
+                      ProblemKind::refused);
   }
   std::unique_ptr<FileStore> store(
       new FileStore(path, descriptor, static_cast<uint64_t>(about.st_size)));

@@ -17,9 +17,10 @@ Result<void> RoomReserve::take(const std::filesystem::path& folder, uint64_t byt
   release();
   if (error != ENOSPC && error != EDQUOT) return {};
   constexpr uint64_t mebibyte = 1 << 20;
-  return problem_in(folder, "the results may take " +
-                                std::to_string((bytes + mebibyte - 1) / mebibyte) +
-                                " MiB, and this disk has less room: free some space");
+  return problem_in(folder,
+                    "the results may take " + std::to_string((bytes + mebibyte - 1) / mebibyte) +
+                        " MiB, and this disk has less room: free some space",
+                    ProblemKind::no_room);
 }
 
 void RoomReserve::release() {

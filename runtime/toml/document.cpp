@@ -64,7 +64,7 @@ Result<Document> parse(std::string_view text, const std::string& file, size_t ma
   if (text.size() > max_bytes)
     return problem_in(file, "this file is longer than " + std::to_string(max_bytes) +
                                 " bytes, the most that is read");
-  if (auto deep = too_deep(text, file)) return std::move(*deep);
+  if (auto ok = check_nesting(text, file); !ok) return ok.problem();
   try {
     Document document{std::make_shared<const std::string>(file), {}};
     document.top = table_of(::toml::parse(text, file), {document.file.get(), 1});

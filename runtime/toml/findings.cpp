@@ -4,8 +4,7 @@
 
 namespace luxodus::toml {
 
-void Findings::problem(SourcePlace where, std::string what) {
-  Problem p{std::move(where), std::move(what)};
+void Findings::problem(Problem p) {
   if (problems_.size() >= limits::toml_problems || !said_.insert(p.text()).second) return;
   if (std::find(files_.begin(), files_.end(), p.where.file) == files_.end())
     files_.push_back(p.where.file);

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runtime/core/result.hpp"
@@ -21,7 +22,10 @@ namespace toml {
 class Findings {
  public:
   /// Keeps a problem, unless one with the same place and words is there.
-  void problem(SourcePlace where, std::string what);
+  void problem(SourcePlace where, std::string what) {
+    problem(problem_in(std::move(where), std::move(what)));
+  }
+  void problem(Problem p);
   /// Kept once for each place and text.
   void warning(SourcePlace where, std::string what);
 

@@ -97,7 +97,7 @@ class Nesting {
 
 }  // namespace
 
-std::optional<Problem> too_deep(std::string_view text, const std::string& file) {
+Result<void> check_nesting(std::string_view text, const std::string& file) {
   Nesting nesting;
   for (size_t at = 0; at < text.size();) {
     if (const size_t behind = after_quiet(text, at); behind > at) {
@@ -112,7 +112,7 @@ std::optional<Problem> too_deep(std::string_view text, const std::string& file) 
               " dots, or as many brackets one in another: tables do not nest so deep");
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 std::string with_earlier_names(std::string_view text, const Schema& schema) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,7 +23,7 @@ namespace toml {
 /// builds nested tables as nested objects and destroys them by recursion, so a file of a few
 /// kilobytes, a.a.a.a ... = 1, could overflow its stack. One pass, no allocation. It does not check
 /// that the text is TOML.
-std::optional<Problem> too_deep(std::string_view text, const std::string& file);
+Result<void> check_nesting(std::string_view text, const std::string& file);
 
 /// The text with every bare key replaced by its earlier name (`hashed_as`), so that its hash stays
 /// the same when a key is renamed. A word counts as a key in any table.

@@ -34,10 +34,11 @@ size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::optional<std::string_view> nearest_word(std::string_view word,
-                                             const std::vector<std::string_view>& known) {
+                                             const std::vector<std::string_view>& known,
+                                             std::optional<size_t> max_steps) {
   if (word.size() > max_misspelt_chars) return std::nullopt;
   std::optional<std::string_view> nearest;
-  size_t too_far = word.size() / 3 + 1;
+  size_t too_far = max_steps.value_or(word.size() / 3) + 1;
   for (const auto candidate : known) {
     const size_t steps = distance(word, candidate);
     // A word with nothing in common was not meant.

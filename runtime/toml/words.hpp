@@ -8,10 +8,12 @@
 
 namespace luxodus::toml {
 
-/// The known word at the smallest edit distance (insert, remove, replace, swap neighbours), or
-/// nothing if more than a third of the word is wrong.
+/// The nearest of these words, or nothing where none is near enough to be what was meant. Near are
+/// few steps: insert, remove, replace, swap neighbours. `max_steps`: else a third of the word may
+/// be wrong.
 std::optional<std::string_view> nearest_word(std::string_view word,
-                                             const std::vector<std::string_view>& known);
+                                             const std::vector<std::string_view>& known,
+                                             std::optional<size_t> max_steps = std::nullopt);
 
 /// "4096", "512 MiB", "1.5 GB" -> bytes; nothing for other texts.
 std::optional<double> bytes_in(std::string_view text);

@@ -100,6 +100,31 @@ TEST_CASE("every long command first checks where it will write", "[program][keep
   }
 }
 
+TEST_CASE("a disk without room or without the right to write is a failure, not wrong input",
+          "[program][keep]") {
+  const LostRoom place;
+  fs::create_directories(place.out);
+  const auto on_disk = [&](const std::string& how) {
+    const std::string mount = "mount -t tmpfs -o " + how + " none " + place.out.string();
+    return shell(place.folder, "unshare -rm sh -c '" + mount + " && " + LUX_PROGRAM + " run " +
+                                   place.scene + " --particles 20k --no-views --out " +
+                                   place.out.string() + "'");
+  };
+  const std::string trial = "mount -t tmpfs -o size=64k none " + place.out.string();
+  if (std::system(("unshare -rm " + trial + " 2>/dev/null").c_str()) != 0) {
+    WARN("skipped: no file system of a few KiB can be mounted here");
+    return;
+  }
+  const Outcome full = on_disk("size=8k");
+  INFO(full.err);
+  CHECK(full.code == 1);
+  CHECK_THAT(full.err, Contains("less room") || Contains("No space left"));
+  const Outcome closed = on_disk("ro");
+  INFO(closed.err);
+  CHECK(closed.code == 1);
+  CHECK_THAT(closed.err, Contains("Read-only file system"));
+}
+
 TEST_CASE("pictures never leave the folder of their run through a link", "[program][keep]") {
   const LostRoom place;
   REQUIRE(place.run("--particles 20k --no-views").code == 0);

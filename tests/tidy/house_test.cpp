@@ -2,6 +2,7 @@
 // which breaks it. It reads the source tree only; it builds and runs nothing but `bash -n`.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -448,6 +449,30 @@ TEST_CASE("chance comes from the counter-based generator and time from nowhere",
         if ((ban.within.empty() || source.in(ban.within)) && source.path != ban.but &&
             source.lines[i].find(ban.word) != std::string::npos)
           bad.push_back(source.at(i) + ": " + ban.word + ": " + ban.reason);
+  }
+  CHECK_NONE(bad);
+}
+
+TEST_CASE("what a function gives where it may fail is a Result", "[tidy]") {
+  // Of an optional problem, none is success: the opposite of every other test. A reference to one
+  // that is kept (the fault of a node) is data.
+  constexpr std::string_view kind = "std::optional<Problem>";
+  const auto is_letter = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == ':';
+  };
+  Findings bad;
+  for (const Source& source : sources()) {
+    if (names_the_banned(source)) continue;
+    for (size_t i = 0; i < source.lines.size(); ++i) {
+      const std::string& line = source.lines[i];
+      for (size_t at = line.find(kind); at != std::string::npos; at = line.find(kind, at + 1)) {
+        std::string_view rest = std::string_view(line).substr(at + kind.size());
+        const bool before_body = rest.starts_with(" {");
+        while (rest.starts_with(" ")) rest.remove_prefix(1);
+        while (!rest.empty() && is_letter(rest.front())) rest.remove_prefix(1);
+        if (before_body || rest.starts_with("(")) bad.push_back(source.at(i) + ": " + line);
+      }
+    }
   }
   CHECK_NONE(bad);
 }

@@ -112,12 +112,12 @@ class Estimate {
 
 Result<ExitCode> assess_scene(const AssessCommandOptions& options) {
   const auto states = assessed_states(options.scene, times_asked(options.at));
-  if (!states) return ExitCode::bad_input;
-  const auto& scene = states->last;
+  const auto& scene = states.last;
+  if (!scene) return exit_code_of(states.told);
   AssessmentJob job;
   job.scene = scene;
   job.scene_file = options.scene;
-  job.times = states->times;
+  job.times = states.times;
   job.folder = options.out.empty() ? fs::path("out") / file_name_of(scene->name + "-assessed")
                                    : fs::path(options.out);
   job.options = options.assess;
@@ -146,18 +146,21 @@ Result<ExitCode> compare_folders(const std::string& before, const std::string& a
 
 }  // namespace
 
-std::optional<AssessedStates> assessed_states(const std::string& file, std::vector<double> times) {
+AssessedStates assessed_states(const std::string& file, std::vector<double> times) {
   AssessedStates out{std::move(times), nullptr};
-  const auto at = [&](std::optional<double> time) {
-    return load_scene(file, ReadingWarnings::left_to_inspection, time, FireFrames::nearest);
+  const auto load = [&](std::optional<double> time) {
+    const LoadedScene loaded =
+        load_scene(file, ReadingWarnings::left_to_inspection, time, FireFrames::nearest);
+    out.last = loaded.scene;
+    out.told = loaded.told;
   };
   if (out.times.empty()) {
-    out.last = at(std::nullopt);
+    load(std::nullopt);
     if (out.last && out.last->time) out.times = times_of(*out.last->time);
-    if (out.times.size() < 2) return out.last ? std::optional(out) : std::nullopt;
+    if (out.times.size() < 2) return out;
   }
-  out.last = at(out.times.back());
-  return out.last ? std::optional(out) : std::nullopt;
+  load(out.times.back());
+  return out;
 }
 
 Result<ExitCode> assess_into(const AssessmentJob& job) {
@@ -182,10 +185,7 @@ Result<ExitCode> assess_into(const AssessmentJob& job) {
                  share >= 1, share);
       });
   if (!assessed) {
-    if (!interrupt_flag()) {
-      tell(assessed.problem());
-      return ExitCode::bad_input;
-    }
+    if (!interrupt_flag()) return assessed.problem();
     log_warning("interrupted; nothing was written");
     return ExitCode::interrupted;
   }

@@ -3,24 +3,25 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "actors/apps/cli/command.hpp"
 #include "actors/apps/cli/report_options.hpp"
 #include "actors/judge/assess/assessment.hpp"
+#include "runtime/core/result.hpp"
 
 namespace luxodus::cli {
 
 /// The times of the assessed states, and the scene at the last of them.
 struct AssessedStates {
-  std::vector<double> times;  // empty: the scene does not change in time
-  std::shared_ptr<const SceneDescription> last;
+  std::vector<double> times;                     // none: the scene does not change in time
+  std::shared_ptr<const SceneDescription> last;  // null after every problem was told
+  ProblemKind told = ProblemKind::bad_input;     // of the problems together
 };
 
-/// Without `times`, those that the scene states. None after every problem was reported.
-std::optional<AssessedStates> assessed_states(const std::string& file, std::vector<double> times);
+/// Without times those that the scene says.
+AssessedStates assessed_states(const std::string& file, std::vector<double> times);
 
 struct AssessmentJob {
   std::shared_ptr<const SceneDescription> scene;  // with several states, the last

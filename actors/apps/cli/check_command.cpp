@@ -152,15 +152,12 @@ void add_refusals(const SceneDescription& scene, std::vector<Finding>& out) {
   if (auto said = irritation_is_said(scene, scenario.value()); !said) add(said.problem());
 }
 
-int check(const CheckOptions& options) {
-  const auto description =
+Result<ExitCode> check(const CheckOptions& options) {
+  const auto [description, told] =
       load_scene(options.scene, ReadingWarnings::left_to_inspection, time_asked(options.at));
-  if (!description) return ExitCode::bad_input;
+  if (!description) return exit_code_of(told);
   auto scenarios = chosen_scenarios(*description, options.scenario);
-  if (!scenarios) {
-    tell(scenarios.problem());
-    return ExitCode::bad_input;
-  }
+  if (!scenarios) return scenarios.problem();
   std::vector<Finding> findings;
   Json all = Json::array();
   for (const Scenario& scenario : scenarios.value()) {
@@ -211,7 +208,7 @@ Command check_command() {
           "Findings are errors, warnings or notes, each with its file and line; exit code "
           "2 if there is an error. All that run, assess, render, pack and view refuse is "
           "found here.",
-      .run = [o] { return check(*o); }};
+      .run = [o] { return exit_code_of(check(*o)); }};
 }
 
 }  // namespace luxodus::cli

@@ -63,7 +63,7 @@ class Children {
     const int failed =
         ::posix_spawn(&pid, "/proc/self/exe", nullptr, &apart, arguments.data(), environ);
     ::posix_spawnattr_destroy(&apart);
-    if (failed != 0) return problem_in(process.name, "cannot be started");
+    if (failed != 0) return problem_in(process.name, "cannot be started", kind_of_errno(failed));
     living_.push_back({pid, process.name});
     return {};
   }
@@ -120,19 +120,18 @@ class Children {
   int shown_ = 0;  // exit code of the display
 };
 
-int cluster_up(const ClusterOptions& options) {
-  const std::optional<ClusterConfig> read = load_cluster(options.config);
-  if (!read) return ExitCode::bad_input;
+Result<ExitCode> cluster_up(const ClusterOptions& options) {
+  const auto [read, told] = load_cluster(options.config);
+  if (!read) return exit_code_of(told);
   const ClusterConfig& cluster = *read;
   const auto host = std::find_if(
       cluster.hosts.begin(), cluster.hosts.end(),
       [&](const ClusterHost& h) { return options.host.empty() || h.name == options.host; });
-  if (host == cluster.hosts.end() || (options.host.empty() && cluster.hosts.size() > 1)) {
-    tell({{options.config, 0},
-          options.host.empty() ? "the cluster has several hosts: say which is this, --host"
-                               : "there is no host \"" + options.host + "\""});
-    return ExitCode::bad_input;
-  }
+  if (host == cluster.hosts.end() || (options.host.empty() && cluster.hosts.size() > 1))
+    return problem_in(options.config,
+                      options.host.empty()
+                          ? "the cluster has several hosts: say which is this, --host"
+                          : "there is no host \"" + options.host + "\"");
   Children children;
   std::string controller, display;
   for (const ClusterProcess& process : cluster.processes) {
@@ -141,12 +140,9 @@ int cluster_up(const ClusterOptions& options) {
     const auto& nodes = process.nodes;
     if (cluster.is_run() && std::count(nodes.begin(), nodes.end(), cluster.display.node) > 0)
       display = process.name;
-    if (auto ok = children.start(cluster, process); !ok) {
-      tell(ok.problem());
-      return ExitCode::failure;
-    }
+    if (auto ok = children.start(cluster, process); !ok) return ok.problem();
   }
-  return children.wait(controller, display);
+  return static_cast<ExitCode>(children.wait(controller, display));
 }
 
 }  // namespace
@@ -167,7 +163,7 @@ Command cluster_command() {
           "fails or Ctrl-C is pressed; a worker that fails is reported, and the run "
           "goes on without it.\n"
           "  luxodus cluster up actors/apps/cli/examples/one_host.toml",
-      .run = [o] { return cluster_up(*o); }};
+      .run = [o] { return exit_code_of(cluster_up(*o)); }};
   return {.name = "cluster",
           .summary = "Start the nodes of a cluster",
           .heading = "Cluster",

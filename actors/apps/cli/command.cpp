@@ -12,14 +12,32 @@ void warn(const Problem& warning) {
   tell({warning.where, "warning: " + warning.what});
 }
 
+ExitCode exit_code_of(ProblemKind kind) {
+  switch (kind) {
+    case ProblemKind::bad_input:
+    case ProblemKind::not_found:
+      return ExitCode::bad_input;
+    case ProblemKind::refused:
+    case ProblemKind::no_room:
+    case ProblemKind::lost_peer:
+    case ProblemKind::system:
+    case ProblemKind::bug:
+      break;
+  }
+  return ExitCode::failure;
+}
+
+int exit_code_of(const Problem& problem) {
+  tell(problem);
+  return exit_code_of(problem.kind);
+}
+
 int exit_code_of(const Result<ExitCode>& result) {
-  if (result) return result.value();
-  tell(result.problem());
-  return ExitCode::bad_input;
+  return result ? result.value() : exit_code_of(result.problem());
 }
 
 int exit_code_of(const Result<void>& result) {
-  return exit_code_of(result ? Result(ExitCode::success) : Result<ExitCode>(result.problem()));
+  return result ? ExitCode::success : exit_code_of(result.problem());
 }
 
 }  // namespace luxodus::cli

@@ -158,8 +158,8 @@ void print_points(const std::vector<Point>& points, bool json, const fs::path& o
 Result<ExitCode> converge(const ConvergeOptions& options) {
   auto most = parse_count(options.particles);
   if (!most) return most.problem();
-  const auto description = load_scene(options.scene);
-  if (!description) return problem_in(options.scene, "the scene has problems, told above");
+  const auto [description, told] = load_scene(options.scene);
+  if (!description) return problem_in(options.scene, "the scene has problems, told above", told);
   auto scenario = find_scenario(*description, options.scenario);
   if (!scenario) return scenario.problem();
   auto scene = compile_scene(description, scenario.value(), {1, options.error_of});

@@ -61,26 +61,22 @@ Result<void> write_file(const fs::path& path, const DeployFile& file) {
   if (!written || !file.executable) return written;
   fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                   fs::perm_options::add, failed);
-  if (failed) return problem_in(path, "cannot be made executable: " + failed.message());
+  if (failed) return system_problem(path, "cannot be made executable", failed.value());
   return written;
 }
 
 /// A user's name is written into units unquoted.
 bool is_user_name(const std::string& name) {
-  return name_fault(name).empty() && name.find('.') == std::string::npos;
+  return check_name(name) && name.find('.') == std::string::npos;
 }
 
-int deploy(const DeployChoice& choice) {
-  const std::optional<ClusterConfig> read = load_cluster(choice.cluster);
-  if (!read) return ExitCode::bad_input;
-  if (!is_user_name(choice.user)) {
-    tell({{}, fmt::format("\"{}\" is no user's name", choice.user)});
-    return ExitCode::bad_input;
-  }
-  if (choice.means == "kubernetes" && choice.image.empty()) {
-    tell({{}, "say --image: of containers that have the program and the scene at their paths"});
-    return ExitCode::bad_input;
-  }
+Result<ExitCode> deploy(const DeployChoice& choice) {
+  const auto [read, told] = load_cluster(choice.cluster);
+  if (!read) return exit_code_of(told);
+  if (!is_user_name(choice.user))
+    return problem(fmt::format("\"{}\" is no user's name", choice.user));
+  if (choice.means == "kubernetes" && choice.image.empty())
+    return problem("say --image: of containers that have the program and the scene at their paths");
   ClusterConfig cluster = *read;
   if (!cluster.keys.folder.empty())
     cluster.keys.folder = fs::absolute(cluster.keys.folder).lexically_normal();
@@ -93,16 +89,10 @@ int deploy(const DeployChoice& choice) {
   for (const Means& means : all_means) {
     if (choice.means != means.name) continue;
     const Result<Files> files = means.files(cluster, options);
-    if (!files) {
-      tell(files.problem());
-      return ExitCode::bad_input;
-    }
+    if (!files) return files.problem();
     for (const DeployFile& file : files.value()) {
       const fs::path path = choice.out / file.path;
-      if (const auto written = write_file(path, file); !written) {
-        tell(written.problem());
-        return ExitCode::failure;
-      }
+      if (auto ok = write_file(path, file); !ok) return ok.problem();
       fmt::print("{}\n", path.string());
     }
     fmt::print(stderr, "Next: {}.\n", means.next_step);
@@ -141,7 +131,7 @@ Command deploy_command() {
           "  luxodus deploy cluster.toml --for slurm && sbatch deploy/RUN.sbatch\n"
           "  luxodus deploy cluster.toml --for ssh && deploy/RUN.sh\n"
           "  luxodus deploy cluster.toml --for kubernetes --image registry/luxodus:1",
-      .run = [o] { return deploy(*o); }};
+      .run = [o] { return exit_code_of(deploy(*o)); }};
 }
 
 }  // namespace luxodus::cli

@@ -149,8 +149,9 @@ Result<ExitCode> design_scene(DesignCommandOptions o) {
     if (!gap) return gap.problem();
     o.design.gap = gap.value();
   }
-  const auto scene = load_scene(o.scene, ReadingWarnings::told, std::nullopt, FireFrames::nearest);
-  if (!scene) return ExitCode::bad_input;
+  const auto [scene, told] =
+      load_scene(o.scene, ReadingWarnings::told, std::nullopt, FireFrames::nearest);
+  if (!scene) return exit_code_of(told);
   o.design.scene_at = reader_of_times(o.scene, *scene, FireFrames::nearest);
   const fs::path folder =
       o.out.empty() ? fs::path("out") / file_name_of(scene->name + "-designed") : fs::path(o.out);

@@ -39,15 +39,17 @@ Json findings_json(const std::vector<Finding>& findings) {
   return out;
 }
 
-bool passes_inspection(const std::shared_ptr<const SceneDescription>& scene,
-                       const std::vector<Scenario>& scenarios, int threads) {
+std::optional<ProblemKind> refused_by_inspection(
+    const std::shared_ptr<const SceneDescription>& scene, const std::vector<Scenario>& scenarios,
+    int threads) {
   const auto found = inspect(scene, scenarios, threads);
   if (!found) {
     tell(found.problem());
-    return false;
+    return found.problem().kind;
   }
   tell_findings(found.value());
-  return !has_error(found.value());
+  if (!has_error(found.value())) return std::nullopt;
+  return found->front().problem.kind;  // errors come first
 }
 
 }  // namespace luxodus::cli

@@ -1,8 +1,11 @@
 // Prints the findings of a scene's inspection. One thread.
 #pragma once
 
+#include <optional>
+
 #include "actors/judge/inspect/inspect.hpp"
 #include "actors/results/formats/json_out.hpp"
+#include "runtime/core/result.hpp"
 
 namespace luxodus::cli {
 
@@ -15,9 +18,10 @@ std::string count_text(const std::vector<Finding>& findings);
 /// [{"severity": "error", "kind": "inside", "file": "a.toml", "line": 3, "what": "..."}]
 Json findings_json(const std::vector<Finding>& findings);
 
-/// Inspects a scene before it is used, and prints the findings on standard error. Returns whether
-/// to go on: false if there is an error.
-bool passes_inspection(const std::shared_ptr<const SceneDescription>& scene,
-                       const std::vector<Scenario>& scenarios, int threads);
+/// Inspects a scene before something is made of it, and tells what was found on standard error. An
+/// error refuses, told as the others are: then the kind of the problem; none where it may go on.
+std::optional<ProblemKind> refused_by_inspection(
+    const std::shared_ptr<const SceneDescription>& scene, const std::vector<Scenario>& scenarios,
+    int threads);
 
 }  // namespace luxodus::cli

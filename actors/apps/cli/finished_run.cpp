@@ -71,9 +71,10 @@ Result<FinishedRun> read_finished_run(const fs::path& folder) {
 }
 
 Result<SceneOfRun> scene_of_run(const FinishedRun& run) {
-  const auto description =
+  const auto [description, told] =
       load_scene(run.scene_file, ReadingWarnings::left_to_inspection, run.at_s);
-  if (!description) return problem_in(run.scene_file, "the run's scene cannot be read any more");
+  if (!description)
+    return problem_in(run.scene_file, "the run's scene cannot be read any more", told);
   const std::string name = description->scenarios.empty() ? "" : run.scenario;
   auto scenario = find_scenario(*description, name);
   if (!scenario) return scenario.problem();

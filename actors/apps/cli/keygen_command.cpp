@@ -21,39 +21,36 @@ struct KeygenOptions {
   bool force = false;
 };
 
-/// Takes names and folder from the cluster's file, if one is given. False: the problem was printed.
-bool take_cluster(KeygenOptions& options) {
-  if (options.cluster.empty()) return true;
-  const std::optional<ClusterConfig> read = load_cluster(options.cluster);
-  if (!read) return false;
-  if (options.out.empty()) options.out = read->keys.folder.string();
+/// Takes names and folder from the cluster's file.
+Result<void> take_cluster(const ClusterConfig& cluster, KeygenOptions& options) {
+  if (options.out.empty()) options.out = cluster.keys.folder.string();
   if (options.names.empty()) {
-    for (const ClusterNode& node : read->nodes) options.names.push_back(node.name);
-    return true;
+    for (const ClusterNode& node : cluster.nodes) options.names.push_back(node.name);
+    return {};
   }
-  for (const std::string& name : options.names) {
-    if (find_node(*read, name)) continue;
-    tell({{options.cluster, 0}, fmt::format("there is no node \"{}\"", name)});
-    return false;
-  }
-  return true;
+  for (const std::string& name : options.names)
+    if (!find_node(cluster, name))
+      return problem_in(options.cluster, fmt::format("there is no node \"{}\"", name));
+  return {};
 }
 
 /// Makes the folder with access for its owner only: others could replace keys in it.
-std::optional<Problem> make_folder(const fs::path& folder) {
+Result<void> make_folder(const fs::path& folder) {
   std::error_code failed;
-  if (fs::create_directories(folder, failed)) fs::permissions(folder, fs::perms::owner_all, failed);
+  const bool is_new = fs::create_directories(folder, failed);
+  const int made = failed.value();
+  if (is_new) fs::permissions(folder, fs::perms::owner_all, failed);
   const fs::file_status status = fs::status(folder, failed);
   if (!fs::is_directory(status))
-    return problem_in(folder, "is no folder, and none can be made there");
+    return problem_in(folder, "is no folder, and none can be made there", kind_of_errno(made));
   if ((status.permissions() & (fs::perms::group_write | fs::perms::others_write)) !=
       fs::perms::none)
     return problem_in(folder, "others may write here, and replace keys: chmod go-w it");
-  return std::nullopt;
+  return {};
 }
 
-/// Errors that can be found before a single key is written.
-std::optional<Problem> refusal(const KeygenOptions& options) {
+/// Asked before a single key is written.
+Result<void> can_begin(const KeygenOptions& options) {
   if (options.out.empty())
     return problem_in(
         options.cluster,
@@ -61,28 +58,28 @@ std::optional<Problem> refusal(const KeygenOptions& options) {
   if (options.names.empty()) return problem("name nodes, or a cluster: --cluster FILE");
   std::string there;
   for (const std::string& name : options.names) {
-    if (const auto fault = name_fault(name); !fault.empty())
-      return problem(fmt::format("\"{}\" is no node's name: {}", name, fault));
+    if (auto ok = check_name(name); !ok)
+      return problem(fmt::format("\"{}\" is no node's name: {}", name, ok.problem().what));
     for (const fs::path& path : {key_path(options.out, name), public_key_path(options.out, name)}) {
       std::error_code failed;
       if (fs::exists(fs::symlink_status(path, failed))) there += " " + path.filename().string();
     }
   }
-  if (there.empty() || options.force) return std::nullopt;
+  if (there.empty() || options.force) return {};
   return problem_in(options.out,
                     fmt::format("there already:{}; nodes may depend on these keys. Name the nodes "
                                 "that lack one, or replace keys by --force",
                                 there));
 }
 
-int keygen(KeygenOptions options) {
-  const auto refuse = [](const Problem& problem) {
-    tell(problem);
-    return ExitCode::bad_input;
-  };
-  if (!take_cluster(options)) return ExitCode::bad_input;
-  if (const auto problem = refusal(options)) return refuse(*problem);
-  if (const auto problem = make_folder(options.out)) return refuse(*problem);
+Result<ExitCode> keygen(KeygenOptions options) {
+  if (!options.cluster.empty()) {
+    const auto [cluster, told] = load_cluster(options.cluster);
+    if (!cluster) return exit_code_of(told);
+    if (auto ok = take_cluster(*cluster, options); !ok) return ok.problem();
+  }
+  if (auto ok = can_begin(options); !ok) return ok.problem();
+  if (auto ok = make_folder(options.out); !ok) return ok.problem();
   for (const std::string& name : options.names) {
     const fs::path path = key_path(options.out, name);
     if (options.force) {
@@ -91,7 +88,7 @@ int keygen(KeygenOptions options) {
       fs::remove(public_key_path(options.out, name), failed);
     }
     const auto written = write_keys(make_keypair(), path);
-    if (!written) return refuse(written.problem());
+    if (!written) return written.problem();
     fmt::print("{}  {}\n", written->public_key, name);
   }
   return ExitCode::success;
@@ -122,7 +119,7 @@ Command keygen_command() {
               "NAME.key.pub, which all nodes need; prints the public keys.\n"
               "  luxodus keygen --cluster cluster.toml\n"
               "  luxodus keygen --out keys n0 n1 controller",
-          .run = [o] { return keygen(*o); }};
+          .run = [o] { return exit_code_of(keygen(*o)); }};
 }
 
 }  // namespace luxodus::cli

@@ -5,11 +5,12 @@
 
 namespace luxodus::cli {
 
-std::optional<ClusterConfig> load_cluster(const std::filesystem::path& file) {
+LoadedCluster load_cluster(const std::filesystem::path& file) {
   ReadCluster read = read_cluster(file);
   for (const Problem& problem : read.problems.list()) tell(problem);
   for (const Problem& warning : read.warnings) warn(warning);
-  return std::move(read.cluster);
+  if (!read.cluster) return {std::nullopt, read.problems.kind()};
+  return {std::move(read.cluster)};
 }
 
 }  // namespace luxodus::cli

@@ -5,10 +5,17 @@
 #include <optional>
 
 #include "runtime/config/cluster_config.hpp"
+#include "runtime/core/result.hpp"
 
 namespace luxodus::cli {
 
-/// The cluster of a file, or nothing after every problem was printed. Warnings are logged.
-std::optional<ClusterConfig> load_cluster(const std::filesystem::path& file);
+/// A cluster, or none after every problem was told.
+struct LoadedCluster {
+  std::optional<ClusterConfig> cluster;
+  ProblemKind told = ProblemKind::bad_input;  // of the problems together
+};
+
+/// The cluster of a file. Warnings are logged.
+LoadedCluster load_cluster(const std::filesystem::path& file);
 
 }  // namespace luxodus::cli

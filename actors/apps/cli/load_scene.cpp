@@ -9,9 +9,8 @@
 
 namespace luxodus::cli {
 
-std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
-                                                   ReadingWarnings warnings,
-                                                   std::optional<double> at_s, FireFrames frames) {
+LoadedScene load_scene(const std::string& file, ReadingWarnings warnings,
+                       std::optional<double> at_s, FireFrames frames) {
   const OpenedScene opened = [&] {
     ReadingShare share;
     const WaitingLine waiting("reading " + file, &share);
@@ -21,7 +20,8 @@ std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
   // A pack's warnings were printed when it was written.
   if (opened.scene && !opened.scene->packed && warnings == ReadingWarnings::told)
     for (const Problem& w : opened.scene->warnings) warn(w);
-  return opened.scene;
+  if (!opened.scene) return {nullptr, opened.problems.kind()};
+  return {opened.scene};
 }
 
 SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene,
@@ -38,7 +38,7 @@ Option times_option(std::vector<std::string>& at) {
           {.form = Form::duration,
            .otherwise = "all states of [time], else the scene's own",
            .comma_separated = true,
-           .fault = fault_of_time}};
+           .check = check_time}};
 }
 
 std::vector<double> times_asked(const std::vector<std::string>& at) {
@@ -53,7 +53,7 @@ Option at_option(std::string& at) {
   return {"--at",
           &at,
           "Time of the state of a scene that changes in time, e.g. 60s, instead of its own",
-          {.form = Form::duration, .fault = fault_of_time}};
+          {.form = Form::duration, .check = check_time}};
 }
 
 std::optional<double> time_asked(const std::string& at) {

@@ -16,13 +16,17 @@ namespace luxodus::cli {
 /// Who prints the warnings of reading: load_scene, or the inspection, whose findings include them.
 enum class ReadingWarnings { told, left_to_inspection };
 
-/// The scene of a scene file or a pack, or null after every problem was printed. `at_s`: time for
-/// its fire simulations, replacing the stated one; a pack has one time. `frames`: the state of
-/// simulations between two frames.
-std::shared_ptr<const SceneDescription> load_scene(const std::string& file,
-                                                   ReadingWarnings warnings = ReadingWarnings::told,
-                                                   std::optional<double> at_s = std::nullopt,
-                                                   FireFrames frames = FireFrames::between);
+/// A scene, or null after every problem was told.
+struct LoadedScene {
+  std::shared_ptr<const SceneDescription> scene;
+  ProblemKind told = ProblemKind::bad_input;  // of the problems together
+};
+
+/// The scene of a scene file or a pack. `at_s`: time of its fire simulations instead of the one
+/// that it states; a pack has one time. `frames`: what simulations have between two of theirs.
+LoadedScene load_scene(const std::string& file, ReadingWarnings warnings = ReadingWarnings::told,
+                       std::optional<double> at_s = std::nullopt,
+                       FireFrames frames = FireFrames::between);
 
 /// Reads a scene file at other times, if the scene has a clock; otherwise, and for a pack, empty.
 SceneAtTime reader_of_times(const std::string& file, const SceneDescription& scene,

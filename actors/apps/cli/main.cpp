@@ -117,8 +117,8 @@ int main(int argc, char** argv) {
     const std::string version = std::string("luxodus ") + build.version + " (" + build.commit + ")";
     exit_code = run_command_line(luxodus_command(), version, argc, argv);
   } catch (const std::exception& e) {
-    luxodus::cli::tell(luxodus::problem(e.what()));  // printed even if logging is off
-    exit_code = ExitCode::failure;
+    // Told whatever is logged.
+    exit_code = exit_code_of(luxodus::problem(e.what(), luxodus::ProblemKind::system));
   }
   return when_printed(exit_code);
 }

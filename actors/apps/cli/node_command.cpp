@@ -125,22 +125,22 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
     hub.first.scenario = cluster.run.scenario;
     HttpAddress server{cluster.view.address, cluster.view.port, ""};
     if (!cluster.view.allow_host.empty()) server.allowed_hosts = {cluster.view.allow_host};
-    const auto served = serve_view(scene, server, hub, [&] { return executor->fault(); });
+    const auto served = serve_view(scene, server, hub, [&] { return executor->goes_on(); });
     if (!served) return served.problem();
     return StopReason::interrupted;
   };
   return process.run(interrupt_flag(), work);
 }
 
-/// Decides when workers will no longer come. Any thread.
+/// Whether anybody will still trace for whoever waits for workers. Any thread.
 class WorkerWatch {
  public:
   WorkerWatch(const ClusterConfig& cluster, const NodeExecutor& executor)
       : cluster_(cluster), executor_(executor), without_since_(clock_.now()) {}
 
-  std::optional<Problem> fault() {
+  Result<void> goes_on() {
     // The executor asks while it holds its own lock, so it is asked before this lock is taken.
-    if (auto refused = executor_.fault()) return refused;
+    if (auto ok = executor_.goes_on(); !ok) return ok.problem();
     const NodeExecutor::Counters counters = executor_.counters();
     const std::lock_guard lock(mutex_);
     const Nanoseconds now = clock_.now();
@@ -152,17 +152,19 @@ class WorkerWatch {
     else if (now - *stuck_since_ > patience.start)  // a capable worker may take this long to come
       return problem_in(cluster_.file,
                         "no worker can trace what is asked for; their logs say why: raise what "
-                        "they lack, and start anew");
+                        "they lack, and start anew",
+                        ProblemKind::no_room);
     if (counters.workers > 0) {
       any_ = true;
       without_since_.reset();
-      return std::nullopt;
+      return {};
     }
     if (!without_since_) without_since_ = now;  // there may have been no question for a while
-    if (now - *without_since_ <= (any_ ? patience.lost : patience.start)) return std::nullopt;
+    if (now - *without_since_ <= (any_ ? patience.lost : patience.start)) return {};
     return problem_in(cluster_.file,
                       any_ ? "all workers were lost: see to them and start anew"
-                           : "no worker has come within 'start_s' of [timeouts]: start them");
+                           : "no worker has come within 'start_s' of [timeouts]: start them",
+                      ProblemKind::lost_peer);
   }
 
  private:
@@ -174,17 +176,17 @@ class WorkerWatch {
   bool any_ = false;
 };
 
-/// The assessment that the table [assess] of a cluster's file asks for. None after every problem
-/// was printed.
-std::optional<AssessmentJob> assessment_of(const ClusterConfig& cluster, const LocalRun& base) {
+/// What a cluster's file asks for in its table [assess]. Without a scene after every problem was
+/// told: `told` is their kind.
+AssessmentJob assessment_of(const ClusterConfig& cluster, const LocalRun& base, ProblemKind& told) {
   std::vector<double> times;
   if (cluster.run.at_s) times.push_back(*cluster.run.at_s);
-  const auto states = assessed_states(cluster.run.scene.string(), times);
-  if (!states) return std::nullopt;
+  const AssessedStates states = assessed_states(cluster.run.scene.string(), times);
+  told = states.told;
   AssessmentJob job;
-  job.scene = states->last;
+  job.scene = states.last;
   job.scene_file = cluster.run.scene.string();
-  job.times = states->times;
+  job.times = states.times;
   job.folder = cluster.run.out;
   job.options.scenario = cluster.run.scenario;
   job.options.rules = cluster.assess.rules;
@@ -205,20 +207,22 @@ Result<ExitCode> assess_on_nodes(const ClusterConfig& cluster, ClusterProcessRun
   NodeWork work = work_of_states(states);
   work.controller = [&](const RunSetup& run, const Machine& machine,
                         const NodeSetup& node) -> Result<StopReason> {
-    auto job = assessment_of(cluster, process.local_run());
-    if (!job) {
-      code = ExitCode::bad_input;
+    ProblemKind told = ProblemKind::bad_input;
+    AssessmentJob job = assessment_of(cluster, process.local_run(), told);
+    if (!job.scene) {
+      code = exit_code_of(told);
       return StopReason::interrupted;
     }
     auto started = NodeExecutor::start(run, machine, node);
     if (!started) return started.problem();
     NodeExecutor& executor = *started.value();
     WorkerWatch watch(cluster, executor);
-    RunInPieces pieces(executor, [&] { return watch.fault(); });
-    job->options.executor = &pieces;
-    const auto assessed = assess_into(*job);
+    RunInPieces pieces(executor, [&] { return watch.goes_on(); });
+    job.options.executor = &pieces;
+    const auto assessed = assess_into(job);
     if (!assessed) return assessed.problem();
-    code = watch.fault() ? ExitCode::failure : assessed.value();
+    const auto ok = watch.goes_on();
+    code = ok ? assessed.value() : exit_code_of(ok.problem().kind);
     return StopReason::particles;
   };
   const auto ended = process.run(interrupt_flag(), work);
@@ -252,8 +256,9 @@ Result<ExitCode> render_on_nodes(const ClusterConfig& cluster, ClusterProcessRun
                         const NodeSetup& node) -> Result<StopReason> {
     const auto scenario = find_scenario(scene, cluster.run.scenario);
     if (!scenario) return scenario.problem();
-    if (!passes_inspection(base.scene().description, {scenario.value()}, default_threads()))
-      return problem_in(scene.file, "the scene has errors, told above");
+    if (const auto refused =
+            refused_by_inspection(base.scene().description, {scenario.value()}, default_threads()))
+      return problem_in(scene.file, "the scene has errors, told above", *refused);
     const auto out = OutputFolder::claim(cluster.run.out, plan_of_views(scene));
     if (!out) return out.problem();
     LocalRun finished(base.shared_scene(), base.seed(), default_threads());
@@ -262,10 +267,10 @@ Result<ExitCode> render_on_nodes(const ClusterConfig& cluster, ClusterProcessRun
     if (!started) return started.problem();
     WorkerWatch watch(cluster, *started.value());
     picture.executor = started.value().get();
-    picture.gives_up = [&] { return watch.fault().has_value(); };
+    picture.gives_up = [&] { return !watch.goes_on(); };
     const auto rendered = render_aloud(out->path(), finished, cluster.render.view, picture);
     if (!rendered) return rendered.problem();
-    if (auto fault = watch.fault()) return *fault;
+    if (auto ok = watch.goes_on(); !ok) return ok.problem();
     code = rendered.value();
     return StopReason::particles;
   };
@@ -274,56 +279,34 @@ Result<ExitCode> render_on_nodes(const ClusterConfig& cluster, ClusterProcessRun
   return code;
 }
 
-int run_nodes(const NodeOptions& options) {
+Result<ExitCode> run_nodes(const NodeOptions& options) {
   tell_the_time();
-  const std::optional<ClusterConfig> read = load_cluster(options.config);
-  if (!read) return ExitCode::bad_input;
+  const auto [read, told] = load_cluster(options.config);
+  if (!read) return exit_code_of(told);
   const ClusterConfig& cluster = *read;
   spdlog::set_level(spdlog::level::from_str(cluster.observe.log_level));
   std::vector<NodeId> nodes;
   for (const std::string& name : options.names) {
     const auto node = find_node(cluster, name);
-    if (!node) {
-      tell({{options.config, 0}, "there is no node \"" + name + "\""});
-      return ExitCode::bad_input;
-    }
-    if (!nodes.empty() && cluster.node(*node).process != cluster.node(nodes.front()).process) {
-      tell({{options.config, 0},
-            "\"" + name + "\" belongs to another process than \"" + options.names.front() + "\""});
-      return ExitCode::bad_input;
-    }
+    if (!node) return problem_in(options.config, "there is no node \"" + name + "\"");
+    if (!nodes.empty() && cluster.node(*node).process != cluster.node(nodes.front()).process)
+      return problem_in(options.config, "\"" + name + "\" belongs to another process than \"" +
+                                            options.names.front() + "\"");
     nodes.push_back(*node);
   }
   add_tracer(cluster, nodes);
   auto process = ClusterProcessRun::prepare(cluster, nodes);
-  if (!process) {
-    tell(process.problem());
-    return ExitCode::bad_input;
-  }
+  if (!process) return process.problem();
   const auto out = claim_results(cluster, *process.value());
-  if (!out) {
-    tell(out.problem());
-    return ExitCode::bad_input;
-  }
+  if (!out) return out.problem();
   install_interrupt_handler();
   if (cluster.view.live) {
     const auto viewed = view_on_nodes(cluster, *process.value());
-    if (viewed) return ExitCode::success;
-    tell(viewed.problem());
-    return ExitCode::failure;
+    if (!viewed) return viewed.problem();
+    return ExitCode::success;
   }
-  if (cluster.assess.asked) {
-    const auto assessed = assess_on_nodes(cluster, *process.value());
-    if (assessed) return assessed.value();
-    tell(assessed.problem());
-    return ExitCode::failure;
-  }
-  if (cluster.render.asked) {
-    const auto rendered = render_on_nodes(cluster, *process.value());
-    if (rendered) return rendered.value();
-    tell(rendered.problem());
-    return ExitCode::failure;
-  }
+  if (cluster.assess.asked) return assess_on_nodes(cluster, *process.value());
+  if (cluster.render.asked) return render_on_nodes(cluster, *process.value());
   std::optional<RunOutputFiles> display;
   if (process.value()->shows()) {
     install_preview_handler();
@@ -333,32 +316,29 @@ int run_nodes(const NodeOptions& options) {
   ProgressLine line(cluster.run.name);
   auto ended = process.value()->run(
       interrupt_flag(), [&](const Progress& p) { line.show(p); }, display ? &*display : nullptr);
-  if (!ended) {
-    tell(ended.problem());
-    return ExitCode::failure;
-  }
+  if (!ended) return ended.problem();
   for (const std::string& text : process.value()->residency_lines()) log_info("{}", text);
   if (display && !display->result().is_null())
     std::printf("%s in %s\n%s", cluster.run.name.c_str(), out.value()->path().string().c_str(),
                 summary_text(display->result()).c_str());
   if (!ended.value()) return ExitCode::success;
   process.value()->forget_journal();
-  if (*ended.value() == StopReason::workers_lost) {
-    tell({{options.config, 0},
-          "all workers were lost; what they had counted was written: go on with "
-          "luxodus run --resume, or see to the workers and start anew"});
-    return ExitCode::failure;
-  }
+  if (*ended.value() == StopReason::workers_lost)
+    return problem_in(options.config,
+                      "all workers were lost; what they had counted was written: go on with "
+                      "luxodus run --resume, or see to the workers and start anew",
+                      ProblemKind::lost_peer);
   if (*ended.value() == StopReason::objects_lost) {
     const LocalRun& run = process.value()->local_run();
     const auto lost = static_cast<int64_t>(run.missing().size());
-    tell({{options.config, 0},
-          fmt::format("{} particles are lost: {} batches need scene parts that no node "
-                      "who is left has, and the results, which were written, lean away from what "
-                      "these would have met; start anew with nodes that store the scene, or go on "
-                      "with luxodus run --resume",
-                      lost * run.scene().batch_particles, lost)});
-    return ExitCode::failure;
+    return problem_in(
+        options.config,
+        fmt::format("{} particles are lost: {} batches need scene parts that no node "
+                    "who is left has, and the results, which were written, lean away from what "
+                    "these would have met; start anew with nodes that store the scene, or go on "
+                    "with luxodus run --resume",
+                    lost * run.scene().batch_particles, lost),
+        ProblemKind::lost_peer);
   }
   return *ended.value() == StopReason::interrupted ? ExitCode::interrupted : ExitCode::success;
 }
@@ -384,7 +364,7 @@ Command node_command() {
           "The process of the display, by default the controller's, writes the results. `luxodus "
           "cluster up` starts all "
           "that belong to this machine, `luxodus deploy` writes what starts them on many.",
-      .run = [o] { return run_nodes(*o); }};
+      .run = [o] { return exit_code_of(run_nodes(*o)); }};
 }
 
 }  // namespace luxodus::cli

@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "actors/apps/cli/command.hpp"
 #include "actors/apps/cli/library.hpp"
 #include "actors/apps/cli/words.hpp"
+#include "runtime/toml/words.hpp"
 
 namespace luxodus::cli {
 
@@ -55,8 +55,8 @@ std::string read_text(const Option& option, std::string text) {
     if (std::find(choices.begin(), choices.end(), text) == choices.end())
       throw Refused{"\"" + text + "\" is none of " + option.value_word()};
   }
-  if (option.traits.fault)
-    if (const std::string fault = option.traits.fault(text); !fault.empty()) throw Refused{fault};
+  if (option.traits.check)
+    if (auto ok = option.traits.check(text); !ok) throw Refused{ok.problem().what};
   return option.traits.form == Form::scene ? find_scene(text) : text;
 }
 
@@ -125,43 +125,22 @@ void add_command(CLI::App& app, const Command& command, const std::string& path)
   if (!command.commands.empty() && !command.run) app.require_subcommand(1);
 }
 
-/// Edit distance of two words.
-size_t distance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
-/// ": did you mean run? " for the nearest word, or "; ".
+/// ": did you mean run? " of the nearest word, or "; ".
 std::string guess(const std::string& word, const std::vector<std::string>& known) {
-  std::string nearest;
-  size_t least = word.size() / 3 + 2;  // a larger distance is another word
-  for (const std::string& name : known)
-    if (const size_t d = distance(word, name); d < least) {
-      least = d;
-      nearest = name;
-    }
-  return nearest.empty() ? "; " : ": did you mean " + nearest + "? ";
+  // One step more than in a file: commands and options are short, and few.
+  const auto nearest = toml::nearest_word(word, {known.begin(), known.end()}, word.size() / 3 + 1);
+  return nearest ? ": did you mean " + std::string(*nearest) + "? " : "; ";
 }
 
-/// Reports a first word that is not a command, with the command probably meant; nothing if it is
-/// one, or if the parser's message is better.
-std::optional<std::string> unknown_command(const Command& program, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return std::nullopt;
+/// Errors: a first word that is no command, with the command that was likely meant; but for what
+/// the parser says better.
+Result<void> check_command_word(const Command& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
   std::vector<std::string> names;
   for (const Command& command : program.commands) names.push_back(command.name);
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return std::nullopt;
-  return "there is no command \"" + std::string(argv[1]) + "\"" + guess(argv[1], names) +
-         program.name + " --help lists all commands";
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return {};
+  return problem("there is no command \"" + std::string(argv[1]) + "\"" + guess(argv[1], names) +
+                 program.name + " --help lists all commands");
 }
 
 /// The called command, and its words.
@@ -200,10 +179,7 @@ std::string sentence(const CLI::ParseError& error, const CLI::App& app, const Co
 }  // namespace
 
 int run_command_line(const Command& program, const std::string& version, int argc, char** argv) {
-  if (const auto unknown = unknown_command(program, argc, argv)) {
-    tell({{}, *unknown});
-    return ExitCode::bad_input;
-  }
+  if (auto ok = check_command_word(program, argc, argv); !ok) return exit_code_of(ok);
   CLI::App app(program.summary, program.name);
   app.set_version_flag("--version", version);
   add_command(app, program, program.name);
@@ -216,8 +192,7 @@ int run_command_line(const Command& program, const std::string& version, int arg
     std::fprintf(stdout, "%s\n", asked.what());
     return ExitCode::success;
   } catch (const CLI::ParseError& error) {
-    tell({{}, sentence(error, app, program)});
-    return ExitCode::bad_input;
+    return exit_code_of(problem(sentence(error, app, program)));
   }
   return called(app, program).first->run();
 }

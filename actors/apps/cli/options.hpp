@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "runtime/core/result.hpp"
+
 namespace luxodus::cli {
 
 /// Where a value is stored. The type defines the syntax: a bool is a flag without a value; a list
@@ -39,8 +41,8 @@ struct OptionTraits {
   const char* excludes = nullptr;         // another option that excludes this one
   bool required = false;
   bool comma_separated = false;  // a list
-  /// Why a text is rejected; "" if it is valid.
-  std::function<std::string(const std::string&)> fault = {};
+  /// Whether a text is taken.
+  std::function<Result<void>(const std::string&)> check = {};
 };
 
 /// An option ("--out", "-o,--out"), or a positional argument ("scene").

@@ -48,14 +48,15 @@ Result<PackReport> pack_scene(const PackOptions& options) {
         "--skeleton-only copies from a pack, so that both are of the same cells: pack "
         "the scene first");
   }
-  const auto description =
+  const auto [description, told] =
       load_scene(options.scene, ReadingWarnings::left_to_inspection, time_asked(options.at));
-  if (!description) return problem_in(options.scene, "the scene has problems, told above");
+  if (!description) return problem_in(options.scene, "the scene has problems, told above", told);
   if (auto ok = check_output_file(options.out); !ok) return ok.problem();
   auto scenario = find_scenario(*description, options.scenario);
   if (!scenario) return scenario.problem();
-  if (!passes_inspection(description, {scenario.value()}, default_threads()))
-    return problem_in(options.scene, "the scene has errors, told above");
+  if (const auto refused =
+          refused_by_inspection(description, {scenario.value()}, default_threads()))
+    return problem_in(options.scene, "the scene has errors, told above", *refused);
   // Only compiling gives the number of triangles, from which the number of cells follows.
   auto scene = compile_scene(description, scenario.value(), {});
   if (!scene) return scene.problem();
@@ -70,13 +71,14 @@ Result<PackReport> pack_scene(const PackOptions& options) {
   });
 }
 
-int pack(PackOptions options) {
+Result<ExitCode> pack(PackOptions options) {
   if (options.out.empty())
     options.out = file_name_of(fs::path(options.scene).stem().string()) + ".luxpack";
   const auto report = pack_scene(options);
   if (!report) {
+    if (!interrupt_flag()) return report.problem();
     tell(report.problem());
-    return interrupt_flag() ? ExitCode::interrupted : ExitCode::bad_input;
+    return ExitCode::interrupted;
   }
   if (options.json) {
     std::fputs(json_text({{"file", options.out},
@@ -139,7 +141,7 @@ Command pack_command() {
           "needed are read, so a scene may be larger than a machine's memory. All scenarios that "
           "leave the doors as the packed one does can be run from it. Machines that get all scene "
           "parts from others need the skeleton only.",
-      .run = [o] { return pack(*o); }};
+      .run = [o] { return exit_code_of(pack(*o)); }};
 }
 
 }  // namespace luxodus::cli

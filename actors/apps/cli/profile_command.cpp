@@ -19,37 +19,24 @@ struct ProfileOptions {
   std::string share = "1%";
 };
 
-int make_profile(const ProfileOptions& options) {
-  std::optional<ClusterConfig> read = load_cluster(options.config);
-  if (!read) return ExitCode::bad_input;
+Result<ExitCode> make_profile(const ProfileOptions& options) {
+  auto [read, told] = load_cluster(options.config);
+  if (!read) return exit_code_of(told);
   ClusterConfig& cluster = *read;
   const std::filesystem::path out =
       options.out.empty() ? cluster.run.profile : std::filesystem::path(options.out);
-  if (out.empty()) {
-    tell({{options.config, 0},
-          "say where the profile goes: profile = \"FILE\" in [run], which nodes read, or --out"});
-    return ExitCode::bad_input;
-  }
+  if (out.empty())
+    return problem_in(
+        options.config,
+        "say where the profile goes: profile = \"FILE\" in [run], which nodes read, or --out");
   auto share = parse_share(options.share);
-  if (!share) {
-    tell(share.problem());
-    return ExitCode::bad_input;
-  }
+  if (!share) return share.problem();
   cluster.keys.folder.clear();  // no connections are made
   auto process = ClusterProcessRun::prepare(cluster, {});
-  if (!process) {
-    tell(process.problem());
-    return ExitCode::bad_input;
-  }
+  if (!process) return process.problem();
   auto profile = process.value()->profile(share.value());
-  if (!profile) {
-    tell(profile.problem());
-    return ExitCode::bad_input;
-  }
-  if (auto ok = write_profile(out, profile.value()); !ok) {
-    tell(ok.problem());
-    return ExitCode::failure;
-  }
+  if (!profile) return profile.problem();
+  if (auto ok = write_profile(out, profile.value()); !ok) return ok.problem();
   int64_t particles = 0;
   for (const ReferenceCounts& group : profile.value().groups) particles += group.units;
   std::printf("%zu scene parts, %zu source groups, %lld particles: %s\n", profile.value().objects(),
@@ -81,7 +68,7 @@ Command profile_command() {
           "with and without.\n"
           "  luxodus profile cluster.toml\n"
           "  luxodus profile cluster.toml --share 5% --out cluster.profile",
-      .run = [o] { return make_profile(*o); }};
+      .run = [o] { return exit_code_of(make_profile(*o)); }};
 }
 
 }  // namespace luxodus::cli

@@ -75,9 +75,9 @@ Result<double> parse_time(const std::string& text) {
   return value;
 }
 
-std::string fault_of_time(const std::string& text) {
+Result<void> check_time(const std::string& text) {
   const auto seconds = parse_time(text);
-  return seconds ? std::string() : seconds.problem().what;
+  return seconds ? Result<void>() : seconds.problem();
 }
 
 Result<double> parse_seconds(const std::string& text) {

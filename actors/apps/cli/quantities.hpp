@@ -15,8 +15,8 @@ Result<double> parse_share(const std::string& text);
 Result<double> parse_seconds(const std::string& text);
 /// Parses a point in time, which may be zero or negative.
 Result<double> parse_time(const std::string& text);
-/// Why a text is not a time, as options report it; "" if it is one.
-std::string fault_of_time(const std::string& text);
+/// Whether a text is a time, as options ask it.
+Result<void> check_time(const std::string& text);
 
 /// "1.23 M", "45.6 k".
 std::string short_number(double v);

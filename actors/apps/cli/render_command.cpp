@@ -207,7 +207,7 @@ Result<ExitCode> render_frames(const fs::path& folder, const LocalRun& run, cons
   const size_t count = film.cameras.size();
   std::error_code failed;
   fs::remove(file, failed);  // of an earlier film with other frames
-  if (failed) return problem_in(file, "cannot remove an earlier film: " + failed.message());
+  if (failed) return system_problem(file, "cannot remove an earlier film", failed.value());
   std::optional<ProgressLine> line("film");
   double done = 0;
   const auto show = [&](const std::string& more) {
@@ -265,8 +265,8 @@ Result<ExitCode> render(const RenderOptions& options) {
   const std::optional<NamedFilm>& filmed = film.value();
   if (!filmed && description->cameras.empty())
     return problem_in(finished->scene_file, "the scene has no [[camera]] to render");
-  if (!passes_inspection(description, {scenario}, options.threads))
-    return problem_in(finished->scene_file, "the scene has errors, told above");
+  if (const auto refused = refused_by_inspection(description, {scenario}, options.threads))
+    return problem_in(finished->scene_file, "the scene has errors, told above", *refused);
   const auto out = OutputFolder::claim(
       folder, filmed ? plan_of_film(filmed->name) : plan_of_views(*description));
   if (!out) return out.problem();
@@ -345,7 +345,7 @@ std::vector<Option> render_options(RenderOptions& o) {
         .otherwise = "the run's state stands",
         .group = "Film",
         .excludes = "--nodes",
-        .fault = fault_of_time}},
+        .check = check_time}},
       {"--clock",
        &o.clock,
        "Seconds of the scene's clock in a second of the film",
@@ -356,9 +356,9 @@ std::vector<Option> render_options(RenderOptions& o) {
        {.form = Form::duration,
         .group = "Film",
         .needs = "--from",
-        .fault = [](const std::string& text) {
+        .check = [](const std::string& text) {
           const auto step = parse_seconds(text);
-          return step ? std::string() : step.problem().what;
+          return step ? Result<void>() : step.problem();
         }}}};
   all.insert(all.end(), film.begin(), film.end());
   return all;

@@ -294,22 +294,15 @@ Result<std::vector<PreparedScenario>> prepare_scenarios(
   return all;
 }
 
-/// Runs the scenarios one after another, and appends their results to `results`; returns an exit
-/// code.
-int run_scenarios(const std::shared_ptr<const SceneDescription>& description,
-                  const std::vector<Scenario>& scenarios, const RunOptions& options,
-                  const StopRule& rule, Json& results) {
+/// The scenarios one after another, their results appended to `results`.
+Result<ExitCode> run_scenarios(const std::shared_ptr<const SceneDescription>& description,
+                               const std::vector<Scenario>& scenarios, const RunOptions& options,
+                               const StopRule& rule, Json& results) {
   auto prepared = prepare_scenarios(description, scenarios, options, rule);
-  if (!prepared) {
-    tell(prepared.problem());
-    return ExitCode::bad_input;
-  }
+  if (!prepared) return prepared.problem();
   for (PreparedScenario& one : prepared.value()) {
     auto traced = run_scenario(description, one, options, rule);
-    if (!traced) {
-      tell(traced.problem());
-      return ExitCode::bad_input;
-    }
+    if (!traced) return traced.problem();
     one.folder.reset();
     if (!traced->result.is_null()) results.push_back(std::move(traced.value().result));
     if (traced.value().reason == StopReason::interrupted) {
@@ -320,32 +313,26 @@ int run_scenarios(const std::shared_ptr<const SceneDescription>& description,
   return ExitCode::success;
 }
 
-int run_scene(const RunOptions& options) {
-  if (auto ok = fit_together(options); !ok) return exit_code_of(ok);
+Result<ExitCode> run_scene(const RunOptions& options) {
+  if (auto ok = fit_together(options); !ok) return ok.problem();
   auto rule = stop_rule(options);
-  if (!rule) {
-    tell(rule.problem());
-    return ExitCode::bad_input;
-  }
-  const auto description =
+  if (!rule) return rule.problem();
+  const auto [description, told] =
       load_scene(options.scene, ReadingWarnings::left_to_inspection, time_asked(options.at));
-  if (!description) return ExitCode::bad_input;
+  if (!description) return exit_code_of(told);
   auto scenarios = chosen_scenarios(*description, options.scenario);
-  if (!scenarios) {
-    tell(scenarios.problem());
-    return ExitCode::bad_input;
-  }
-  if (!passes_inspection(description, scenarios.value(), options.threads))
-    return ExitCode::bad_input;
+  if (!scenarios) return scenarios.problem();
+  if (const auto refused = refused_by_inspection(description, scenarios.value(), options.threads))
+    return exit_code_of(*refused);
   install_interrupt_handler();
   Json results = Json::array();
-  const int code = run_scenarios(description, scenarios.value(), options, rule.value(), results);
-  if (options.plan) return code;
+  auto ended = run_scenarios(description, scenarios.value(), options, rule.value(), results);
+  if (options.plan) return ended;
   if (options.json && options.scenario == "all")
     std::fputs(json_text(results).c_str(), stdout);
   else if (options.json && !results.empty())
     std::fputs(json_text(results.front()).c_str(), stdout);
-  return code;
+  return ended;
 }
 
 }  // namespace
@@ -357,7 +344,7 @@ Command run_command() {
           .heading = "Results",
           .options = options_of(*o),
           .notes = run_notes(),
-          .run = [o] { return run_scene(*o); }};
+          .run = [o] { return exit_code_of(run_scene(*o)); }};
 }
 
 }  // namespace luxodus::cli

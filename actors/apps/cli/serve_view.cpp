@@ -34,10 +34,13 @@ std::string new_token() {
 Result<void> can_save_in(const std::filesystem::path& folder) {
   std::string name = (folder / ".luxodus-view-XXXXXX").string();
   const int file = ::mkstemp(name.data());
-  if (file < 0)
-    return problem_in(folder, std::string("variants cannot be saved in this folder: ") +
-                                  std::strerror(errno) +
-                                  "; make it, or name another (--save-folder)");
+  if (file < 0) {
+    const int failed = errno;
+    return problem_in(folder,
+                      std::string("variants cannot be saved in this folder: ") +
+                          std::strerror(failed) + "; make it, or name another (--save-folder)",
+                      kind_of_errno(failed));
+  }
   ::close(file);
   ::unlink(name.c_str());
   return {};
@@ -46,8 +49,7 @@ Result<void> can_save_in(const std::filesystem::path& folder) {
 }  // namespace
 
 Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, HttpAddress server,
-                        const HubOptions& options,
-                        const std::function<std::optional<Problem>()>& fault) {
+                        const HubOptions& options, const std::function<Result<void>()>& goes_on) {
   if (scene->packed)
     return problem_in(scene->file, "a pack cannot be changed live: view its scene file");
   if (auto ok = can_save_in(options.save_folder); !ok) return ok.problem();
@@ -60,13 +62,12 @@ Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, HttpAddre
   std::printf("%s/%s%s\nCtrl-C ends it.\n", http_address(server.address, serving.port()).c_str(),
               server.token.empty() ? "" : "?token=", server.token.c_str());
   std::fflush(stdout);
-  std::optional<Problem> broken;
+  Result<void> outcome;
   serving.run(hub, [&] {
-    if (fault) broken = fault();
-    return broken || interrupt_flag();
+    if (goes_on) outcome = goes_on();
+    return !outcome || interrupt_flag();
   });
-  if (broken) return *broken;
-  return {};
+  return outcome;
 }
 
 }  // namespace luxodus::cli

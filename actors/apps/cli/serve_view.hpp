@@ -7,11 +7,11 @@
 
 namespace luxodus::cli {
 
-/// Prints the address of the page. Unless it is local, a token is made, which the page then
-/// requires. `fault`: the failure of tracing, which ends the view. Errors: that failure; a pack; an
-/// invalid address, a port in use; a folder that cannot be written.
+/// Prints where the page is. Beyond this machine it makes a token, which the page then demands.
+/// `goes_on`: an error where whoever traces cannot, which ends the view. Errors: that; a pack; an
+/// address that is none, a port that is taken; a folder that nothing can be saved in.
 Result<void> serve_view(std::shared_ptr<const SceneDescription> scene, HttpAddress server,
                         const HubOptions& options,
-                        const std::function<std::optional<Problem>()>& fault = {});
+                        const std::function<Result<void>()>& goes_on = {});
 
 }  // namespace luxodus::cli

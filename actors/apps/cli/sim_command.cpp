@@ -73,7 +73,8 @@ Result<FaultPlan> fault_plan_in(const SimCommandOptions& options) {
   names.push_back("controller");
   ReadFaults read = read_fault_file(options.faults, names);
   for (const Problem& problem : read.problems.list()) tell(problem);
-  if (!read.plan) return problem_in(options.faults, "the faults have problems, told above");
+  if (!read.plan)
+    return problem_in(options.faults, "the faults have problems, told above", read.problems.kind());
   return std::move(*read.plan);
 }
 
@@ -113,8 +114,8 @@ struct SimulatedScene {
 Result<SimulatedScene> sim_scene(const SimCommandOptions& options) {
   const auto particles = parse_count(options.particles);
   if (!particles) return particles.problem();
-  const auto loaded = load_scene(options.scene);
-  if (!loaded) return problem_in(options.scene, "the scene has problems, told above");
+  const auto [loaded, told] = load_scene(options.scene);
+  if (!loaded) return problem_in(options.scene, "the scene has problems, told above", told);
   const auto description = std::make_shared<SceneDescription>(*loaded);
   description->run.batch_particles = std::max<int64_t>(1, particles.value() / options.batches);
   const auto scenario = find_scenario(*description, options.scenario);

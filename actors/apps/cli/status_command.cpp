@@ -58,17 +58,13 @@ Result<std::vector<AskedProcess>> processes_from(const StatusOptions& options) {
   return asked;
 }
 
-int show_status(const StatusOptions& options) {
+Result<ExitCode> show_status(const StatusOptions& options) {
   const auto patience = parse_seconds(options.patience);
   const auto processes = processes_from(options);
-  if (!patience || !processes) {
-    tell(patience ? processes.problem() : patience.problem());
-    return ExitCode::bad_input;
-  }
-  if (processes.value().empty()) {
-    tell({{}, "say which cluster, by its file, or where its numbers are served, --url"});
-    return ExitCode::bad_input;
-  }
+  if (!patience) return patience.problem();
+  if (!processes) return processes.problem();
+  if (processes.value().empty())
+    return problem("say which cluster, by its file, or where its numbers are served, --url");
   const auto pages = ask(processes.value(), static_cast<Nanoseconds>(patience.value() * 1e9));
   const std::vector<NodeStatus> rows = status_of(processes.value(), pages);
   if (options.json) {
@@ -105,7 +101,7 @@ Command status_command() {
               "  luxodus status --url 127.0.0.1:9464     a run with --nodes and --metrics 9464\n"
               "State: up; suspect: a neighbour hears nothing of it; starting; down: its process "
               "does not answer. Exit code 1 where any node is down.",
-          .run = [o] { return show_status(*o); }};
+          .run = [o] { return exit_code_of(show_status(*o)); }};
 }
 
 }  // namespace luxodus::cli

@@ -46,23 +46,27 @@ struct Prepared {
   std::shared_ptr<const SceneDescription> scene;
 };
 
-void tell_all(const Problems& problems) {
+ProblemKind tell_all(const Problems& problems) {
   for (const Problem& problem : problems.list()) tell(problem);
+  return problems.empty() ? ProblemKind::bad_input : problems.kind();
 }
 
-std::optional<Prepared> prepare_study(const std::string& file) {
+/// None after every problem was told: `told` is their kind.
+std::optional<Prepared> prepare_study(const std::string& file, ProblemKind& told) {
   ReadStudy read = read_study(file);
-  tell_all(read.problems);
+  told = tell_all(read.problems);
   for (const Problem& warning : read.warnings) warn(warning);
   if (!read.study) return std::nullopt;
   Prepared prepared{std::move(*read.study), {}, nullptr};
   if (!prepared.study.costs.empty()) {
     ReadCosts costs = read_costs(prepared.study.costs);
-    tell_all(costs.problems);
+    told = tell_all(costs.problems);
     if (!costs.measured) return std::nullopt;
     prepared.measured = std::move(*costs.measured);
   }
-  prepared.scene = load_scene(prepared.study.scene.string());
+  const LoadedScene loaded = load_scene(prepared.study.scene.string());
+  told = loaded.told;
+  prepared.scene = loaded.scene;
   if (!prepared.scene) return std::nullopt;
   return prepared;
 }
@@ -181,8 +185,11 @@ void print_outcome(const StudyOutcome& outcome, const fs::path& out) {
 }
 
 Result<ExitCode> study(const StudyCommandOptions& options) {
-  const auto prepared = prepare_study(options.file);
-  if (!prepared) return ExitCode::bad_input;
+  if (options.file.empty())
+    return problem("say which study: luxodus study FILE.toml, or luxodus study calibrate SCENE");
+  ProblemKind told = ProblemKind::bad_input;
+  const auto prepared = prepare_study(options.file, told);
+  if (!prepared) return exit_code_of(told);
   const fs::path folder =
       options.out.empty() ? fs::path("out") / file_name_of(fs::path(options.file).stem().string())
                           : fs::path(options.out);
@@ -203,8 +210,8 @@ Result<ExitCode> study(const StudyCommandOptions& options) {
 
 Result<void> write_costs(const CalibrateOptions& options) {
   if (auto ok = check_output_file(options.out); !ok) return ok.problem();
-  const auto description = load_scene(options.scene);
-  if (!description) return problem_in(options.scene, "the scene has problems, told above");
+  const auto [description, told] = load_scene(options.scene);
+  if (!description) return problem_in(options.scene, "the scene has problems, told above", told);
   Study study;
   study.scenario = options.scenario;
   study.whole_tally = options.whole_tally;
@@ -250,27 +257,22 @@ Command calibrate_command() {
 
 Command study_command() {
   const auto o = std::make_shared<StudyCommandOptions>();
-  return {
-      .name = "study",
-      .summary = "Vary graphs, delays, fibers, caches; write tables, plots and a page",
-      .heading = "Study",
-      .options = {{"file", &o->file, "Study file", {.form = Form::file}},
-                  {"--out",
-                   &o->out,
-                   "Folder of the results",
-                   {.form = Form::folder, .otherwise = "out/NAME"}},
-                  {"--log", &o->log, "Log of the nodes"}},
-      .notes =
-          "A study is a TOML file: a scene, what is varied, what is drawn (its keys: "
-          "`luxodus keys study`). Studies that ship, with their findings: "
-          "tests/studies.\n"
-          "  luxodus study tests/studies/fibers.toml --out out/fibers",
-      .commands = {calibrate_command()},
-      .run = [o]() -> int {
-        if (!o->file.empty()) return exit_code_of(study(*o));
-        tell({{}, "say which study: luxodus study FILE.toml, or luxodus study calibrate SCENE"});
-        return ExitCode::bad_input;
-      }};
+  return {.name = "study",
+          .summary = "Vary graphs, delays, fibers, caches; write tables, plots and a page",
+          .heading = "Study",
+          .options = {{"file", &o->file, "Study file", {.form = Form::file}},
+                      {"--out",
+                       &o->out,
+                       "Folder of the results",
+                       {.form = Form::folder, .otherwise = "out/NAME"}},
+                      {"--log", &o->log, "Log of the nodes"}},
+          .notes =
+              "A study is a TOML file: a scene, what is varied, what is drawn (its keys: "
+              "`luxodus keys study`). Studies that ship, with their findings: "
+              "tests/studies.\n"
+              "  luxodus study tests/studies/fibers.toml --out out/fibers",
+          .commands = {calibrate_command()},
+          .run = [o] { return exit_code_of(study(*o)); }};
 }
 
 }  // namespace luxodus::cli

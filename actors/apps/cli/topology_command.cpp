@@ -31,11 +31,6 @@ struct TopologyOptions {
   bool json = false;
 };
 
-int refuse(const Problem& problem) {
-  tell(problem);
-  return ExitCode::bad_input;
-}
-
 Result<Graph> read_graph(const std::string& file) {
   const auto bytes = read_whole_file(file, limits::graph_file_bytes);
   if (!bytes) return bytes.problem();
@@ -43,11 +38,11 @@ Result<Graph> read_graph(const std::string& file) {
 }
 
 /// Writes the graph, if requested, and prints its measures.
-int save_and_report(const TopologyOptions& options, const Graph& graph) {
+Result<ExitCode> save_and_report(const TopologyOptions& options, const Graph& graph) {
   if (!options.out.empty()) {
     const auto written =
         write_file_atomically(behind_links(options.out), std::string_view(graph_text(graph)));
-    if (!written) return refuse(written.problem());
+    if (!written) return written.problem();
   }
   const Measures measures = measure(graph);
   const std::string report =
@@ -86,9 +81,9 @@ Result<Graph> amp_graph(const TopologyOptions& options) {
   return found->graph;
 }
 
-int amp(const TopologyOptions& options) {
+Result<ExitCode> amp(const TopologyOptions& options) {
   const auto graph = amp_graph(options);
-  if (!graph) return refuse(graph.problem());
+  if (!graph) return graph.problem();
   return save_and_report(options, graph.value());
 }
 
@@ -110,23 +105,23 @@ std::vector<Kind> kinds() {
   };
 }
 
-int build(const TopologyOptions& options) {
+Result<ExitCode> build(const TopologyOptions& options) {
   for (const Kind& kind : kinds()) {
     if (options.kind != kind.name) continue;
     const auto graph = kind.make(options.amp);
-    if (!graph) return refuse(graph.problem());
+    if (!graph) return graph.problem();
     return save_and_report(options, graph.value());
   }
-  return refuse({{}, fmt::format("there is no kind \"{}\"", options.kind)});
+  return problem(fmt::format("there is no kind \"{}\"", options.kind));
 }
 
-int measure_file(const TopologyOptions& options) {
+Result<ExitCode> measure_file(const TopologyOptions& options) {
   const auto graph = read_graph(options.in);
-  if (!graph) return refuse(graph.problem());
+  if (!graph) return graph.problem();
   return save_and_report(options, graph.value());
 }
 
-int compare(const TopologyOptions& options) {
+Result<ExitCode> compare(const TopologyOptions& options) {
   std::vector<Compared> compared;
   const auto add = [&](const std::string& name, const Result<Graph>& graph) {
     if (graph)
@@ -142,9 +137,9 @@ int compare(const TopologyOptions& options) {
   return ExitCode::success;
 }
 
-int draw(const TopologyOptions& options) {
+Result<ExitCode> draw(const TopologyOptions& options) {
   const auto graph = read_graph(options.in);
-  if (!graph) return refuse(graph.problem());
+  if (!graph) return graph.problem();
   const PathLengths paths = path_lengths(graph->all());
   const std::string title = fmt::format("{}: diameter {}, average path {:.6f}",
                                         title_of(graph.value()), paths.diameter, paths.average());
@@ -154,9 +149,10 @@ int draw(const TopologyOptions& options) {
   else if (options.out.ends_with(".dot"))
     drawing = graph_dot(graph.value(), title);
   else
-    return refuse({{options.out, 0}, "a drawing is named *.svg or *.dot"});
+    return problem_in(options.out, "a drawing is named *.svg or *.dot");
   const auto written = write_file_atomically(behind_links(options.out), std::string_view(drawing));
-  return written ? ExitCode::success : refuse(written.problem());
+  if (!written) return written.problem();
+  return ExitCode::success;
 }
 
 using OptionsPtr = std::shared_ptr<TopologyOptions>;
@@ -195,7 +191,7 @@ Command amp_command(const OptionsPtr& o) {
           "  luxodus topology amp --nodes 32 --links 4 -o amp32.toml\n"
           "  luxodus topology amp --nodes 32 --controller 4 -o amp32c.toml\n"
           "  luxodus topology amp --nodes 50 --seconds 60 -o amp50.toml",
-      .run = [o] { return amp(*o); }};
+      .run = [o] { return exit_code_of(amp(*o)); }};
   add(command.options,
       {{"--controller", &o->amp.controller_links,
         "Number of links of a controller, a vertex more, which uses up links of nodes; 0: no "
@@ -219,7 +215,7 @@ Command build_command(const OptionsPtr& o) {
       .summary = "Make a graph of a named kind, to compare with",
       .options = {{"kind", &o->kind, "Kind of the graph", {.choices = names, .required = true}}},
       .notes = "--links and --seed are for random-regular; the others have the links they have.",
-      .run = [o] { return build(*o); }};
+      .run = [o] { return exit_code_of(build(*o)); }};
   add(command.options, sizes(o));
   add(command.options, outputs(o));
   return command;
@@ -234,14 +230,14 @@ Command measure_command(const OptionsPtr& o) {
               "of balanced shortest routes while every node sends one message to every other; "
               "its bound is the mean of all links, rounded up. Failures are all of one link "
               "or one vertex, the worst is shown.",
-          .run = [o] { return measure_file(*o); }};
+          .run = [o] { return exit_code_of(measure_file(*o)); }};
 }
 
 Command compare_graphs_command(const OptionsPtr& o) {
   Command command{.name = "compare",
                   .summary = "Compare a minimum-path graph with the usual ones of as many nodes",
                   .options = sizes(o),
-                  .run = [o] { return compare(*o); }};
+                  .run = [o] { return exit_code_of(compare(*o)); }};
   command.options.push_back(json(o));
   return command;
 }
@@ -257,7 +253,7 @@ Command draw_command(const OptionsPtr& o) {
           .notes =
               "A graph with a rotation is drawn on a circle, links that turn into each other "
               "in one colour; others where distances on paper are nearest to hops.",
-          .run = [o] { return draw(*o); }};
+          .run = [o] { return exit_code_of(draw(*o)); }};
 }
 
 }  // namespace

@@ -43,13 +43,14 @@ Result<SceneState> wanted_state(const ViewOptions& options) {
 Result<ExitCode> view(const ViewOptions& options) {
   auto wanted = wanted_state(options);
   if (!wanted) return wanted.problem();
-  const auto scene =
+  const auto [scene, told] =
       load_scene(wanted->scene_file, ReadingWarnings::left_to_inspection, wanted->at_s);
-  if (!scene) return ExitCode::bad_input;
+  if (!scene) return exit_code_of(told);
   const std::string scenario = scene->scenarios.empty() ? "" : wanted->scenario;
   const auto found = find_scenario(*scene, scenario);
   if (!found) return found.problem();
-  if (!passes_inspection(scene, {found.value()}, options.live.threads)) return ExitCode::bad_input;
+  if (const auto refused = refused_by_inspection(scene, {found.value()}, options.live.threads))
+    return exit_code_of(*refused);
   install_interrupt_handler();
   const SceneAtTime scene_at = reader_of_times(wanted->scene_file, *scene, FireFrames::between);
   LiveStates states(scene, scene_at);
@@ -70,7 +71,7 @@ Result<ExitCode> view(const ViewOptions& options) {
     hub.live.executor = nodes->executor();
   }
   const auto served = serve_view(scene, options.server, hub, [&] {
-    return nodes ? nodes->executor()->fault() : std::optional<Problem>();
+    return nodes ? nodes->executor()->goes_on() : Result<void>();
   });
   if (!served) return served.problem();
   return ExitCode::success;
@@ -100,7 +101,7 @@ Command view_command() {
                 &o->server.allowed_hosts,
                 "Name (HOST or HOST:PORT) under which browsers may ask for the page, as behind a "
                 "proxy; may be repeated",
-                {.otherwise = "the address", .fault = allowed_host_fault}},
+                {.otherwise = "the address", .check = check_allowed_host}},
                {"--save-folder",
                 &o->save_folder,
                 "Folder where variants are saved",
@@ -109,10 +110,10 @@ Command view_command() {
                 &o->particles,
                 "Largest number of particles of each state of the building",
                 {.form = Form::count,
-                 .fault =
+                 .check =
                      [](const std::string& text) {
                        const auto count = parse_count(text);
-                       return count ? "" : count.problem().text();
+                       return count ? Result<void>() : count.problem();
                      }}},
                {"--seed", &o->live.seed, "Seed of the random number generator"},
                {"--threads",

@@ -66,8 +66,8 @@ bool is_label(std::string_view name) {
          std::all_of(name.begin(), name.end(), fits);
 }
 
-/// Why this cluster cannot run as pods; "" if it can.
-std::string pod_fault(const ClusterConfig& cluster) {
+/// Whether pods can be made of this cluster.
+Result<void> check_pods(const ClusterConfig& cluster) {
   std::vector<size_t> processes_on(cluster.hosts.size(), 0);
   std::string wrong;
   for (const ClusterProcess& process : cluster.processes) {
@@ -75,21 +75,21 @@ std::string pod_fault(const ClusterConfig& cluster) {
     const std::string set = set_of(cluster, process);
     // The pod's name has "-0" appended.
     if (!is_label(set + "-0"))
-      return fmt::format(
+      return problem(fmt::format(
           "\"{}\" cannot name a pod: call run and process by lower-case letters, digits and "
           "hyphens, at most 63 in all",
-          set);
+          set));
     if (++processes_on[process.host] > 1)
-      return fmt::format(
+      return problem(fmt::format(
           "host \"{}\" has several processes, and a pod has one: give each process a host of its "
           "own",
-          host.name);
+          host.name));
     if (const std::string address = address_of_pod(cluster, process); host.address != address)
       wrong +=
           fmt::format("{}\"{}\" for host \"{}\"", wrong.empty() ? "" : ", ", address, host.name);
   }
-  if (wrong.empty()) return "";
-  return "pods are found by their names, so say in [[host]] the address " + wrong;
+  if (wrong.empty()) return {};
+  return problem("pods are found by their names, so say in [[host]] the address " + wrong);
 }
 
 constexpr std::string_view shared_manifest = R"(# Run {run} on Kubernetes.
@@ -285,8 +285,7 @@ Result<std::string> secret_of(const ClusterConfig& cluster, const ClusterProcess
 
 Result<std::vector<DeployFile>> kubernetes_files(const ClusterConfig& cluster,
                                                  const DeployOptions& options) {
-  if (const std::string fault = pod_fault(cluster); !fault.empty())
-    return problem_in(cluster.file, fault);
+  if (auto ok = check_pods(cluster); !ok) return problem_in(cluster.file, ok.problem());
   const auto config = read_regular_file(options.config, max_manifest_file_bytes);
   if (!config) return config.problem();
   const std::string keys_file =

@@ -406,8 +406,9 @@ void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {
     return refuse(viewer, "a name is made of letters, digits, spaces, _ and -");
   const auto file = options_.save_folder / (edit.name + ".toml");
   // A variant includes the file in its present state.
-  if (const auto changed = scene_->files ? scene_->files->change_on_disk() : std::nullopt)
-    return refuse(viewer, changed->text());
+  if (scene_->files)
+    if (auto ok = scene_->files->unchanged_on_disk(); !ok)
+      return refuse(viewer, ok.problem().text());
   std::error_code ignored;
   if (std::filesystem::exists(file, ignored))
     return refuse(viewer, file.string() + " is there already: take another name");
@@ -483,8 +484,8 @@ void ViewHub::answer_next() {
 Result<std::shared_ptr<const SceneDescription>> ViewHub::scene_as_opened(
     std::optional<double> at_s) const {
   // If the scene's file was edited meanwhile, the question would be about another scene.
-  const auto changed = scene_->files ? scene_->files->change_on_disk() : std::nullopt;
-  if (changed) return *changed;
+  if (scene_->files)
+    if (auto ok = scene_->files->unchanged_on_disk(); !ok) return ok.problem();
   return trace_->scene_at(at_s);
 }
 

@@ -13,6 +13,7 @@
 #include "actors/cast/coordinator/lease_book.hpp"
 #include "actors/cast/tally/flush_codec.hpp"
 #include "runtime/core/hash.hpp"
+#include "runtime/core/result.hpp"
 #include "runtime/messaging/node_actor.hpp"
 #include "runtime/messaging/retry_timer.hpp"
 #include "runtime/observe/metrics.hpp"
@@ -161,8 +162,8 @@ class Coordinator
   virtual BinRange bins() const { return {0, scene_.layout.totals()}; }
   /// Whether no flush of this many leases may be counted now.
   virtual bool holds_back(size_t leases) = 0;
-  /// Why this flush must not be counted; "" if it may be.
-  virtual std::string objection(const Letter<Flush>&) const { return ""; }
+  /// Whether this flush may be counted.
+  virtual Result<void> may_count(const Letter<Flush>&) const { return {}; }
   /// Called before a flush is counted. False: this node is ending.
   virtual bool keep(const Letter<Flush>&) { return true; }
   /// Called after a flush of these batches was counted.
@@ -232,8 +233,8 @@ class Coordinator
   Nanoseconds span_of(NodeId worker) const;
   uint32_t max_to_lend(NodeId worker) const;
   LeaseGranted grant_of(NodeId worker, const LentBatches& lent) const;
-  void answer_flush(const Letter<Flush>& letter, const std::string& why);
-  std::string count_flush(const Letter<Flush>& letter);
+  void answer_flush(const Letter<Flush>& letter, const Result<void>& counted);
+  Result<void> count_flush(const Letter<Flush>& letter);
   void look();
   void set_timer();
   void tell_untold();

@@ -37,10 +37,10 @@ void Coordinator::on(CountFlush&& count) {
   while (holds_back(count.letter.body.leases.size()))
     if (scheduler().fibers().wait(held_back_, "totals") == Wake::cancelled) return;
   counting_ = true;
-  const std::string why = count_flush(count.letter);
+  const Result<void> counted = count_flush(count.letter);
   counting_ = false;
   if (scheduler().fibers().cancelled()) return;  // its worker asks this node's successor
-  answer_flush(count.letter, why);
+  answer_flush(count.letter, counted);
   std::erase(uncounted_, count.letter.id);
   sender().take_back(std::move(count.letter.body.leases));
   look_soon();
@@ -56,24 +56,24 @@ void Coordinator::look_soon() {
                            }));
 }
 
-/// `why` it is refused; "" if it was counted.
-void Coordinator::answer_flush(const Letter<Flush>& letter, const std::string& why) {
+/// `counted`: or why it is refused.
+void Coordinator::answer_flush(const Letter<Flush>& letter, const Result<void>& counted) {
   const NodeId worker = letter.from.node;
   Answered& last = last_flush_[worker];
   last.question = letter.id;
-  if (why.empty()) {
+  if (counted) {
     ++counters_.flushes_taken;
     last.answer = FlushTaken{};
     log_debug("flush=taken node={} leases={}", worker.value, letter.body.leases.size());
   } else {
     ++counters_.flushes_refused;
-    last.answer = FlushRefused{{}, why};
+    last.answer = FlushRefused{{}, counted.problem().what};
     refused(letter.id);
-    log_warning("flush=refused node={} text=\"{}\"", worker.value, why);
+    log_warning("flush=refused node={} text=\"{}\"", worker.value, counted.problem().what);
   }
   counters_.flush_bytes += letter.payload.bytes().size();
   answer(letter, last.answer);
-  if (!why.empty()) fence(book_.fence_leases(worker, letter.body.leases), "its flush was refused");
+  if (!counted) fence(book_.fence_leases(worker, letter.body.leases), "its flush was refused");
 }
 
 /// Yields. A node that is ending still completes what has begun.
@@ -83,12 +83,12 @@ bool Coordinator::take_turns() {
 }
 
 /// Counts a flush whole, or returns why not.
-std::string Coordinator::count_flush(const Letter<Flush>& letter) {
+Result<void> Coordinator::count_flush(const Letter<Flush>& letter) {
   const NodeId worker = letter.from.node;
   const std::vector<uint64_t>& leases = letter.body.leases;
   const char* const fenced = "a lease was fenced";
-  if (!book_.stand(worker, leases)) return fenced;
-  if (std::string why = objection(letter); !why.empty()) return why;
+  if (!book_.stand(worker, leases)) return problem(fenced);
+  if (auto ok = may_count(letter); !ok) return ok.problem();
   payload_hash_.reset();
   for (std::span<const std::byte> left = letter.payload.bytes(); !left.empty(); take_turns()) {
     const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
@@ -96,21 +96,21 @@ std::string Coordinator::count_flush(const Letter<Flush>& letter) {
     left = left.subspan(piece.size());
   }
   if (payload_hash_.value() != letter.body.payload_hash)
-    return "the payload is not what its hash says";
+    return problem("the payload is not what its hash says");
   // Other fibers ran: the leases may have been fenced, and the totals replaced.
-  if (!book_.stand(worker, leases)) return fenced;
+  if (!book_.stand(worker, leases)) return problem(fenced);
   const auto rest = [this] { return take_turns(); };
   auto gain = reader_.read(letter.payload.bytes(), totals().groups(), bins(), rest);
-  if (!gain) return gain.problem().what;
+  if (!gain) return gain.problem();
   if (gain->batches() != static_cast<int64_t>(leases.size()) || !gain->balance().closes())
-    return "its batches or its ledger do not add up";
-  if (over_) return "the run has ended";
-  if (!book_.stand(worker, leases)) return fenced;
+    return problem("its batches or its ledger do not add up");
+  if (over_) return problem("the run has ended");
+  if (!book_.stand(worker, leases)) return problem(fenced);
   // From here on none of its leases can be fenced, though other fibers run.
   const std::span<const int64_t> batches = book_.batches_of(leases);
   book_.hold(leases);
   adding_ = true;
-  if (!keep(letter)) return "this node ends";
+  if (!keep(letter)) return problem("this node ends");
   book_.commit(leases, clock_.now());
   // In the subtree of a node that coordinates others, one batch may be late while others arrive.
   if (levels_below(worker) > 0) book_.renew(worker, clock_.now() + span_of(worker));
@@ -119,7 +119,7 @@ std::string Coordinator::count_flush(const Letter<Flush>& letter) {
   note_book();
   adding_ = false;
   counted(letter, batches);
-  return "";
+  return {};
 }
 
 }  // namespace luxodus

@@ -73,10 +73,10 @@ void RunCoordinator::begin() {
 void RunCoordinator::await_workers(Nanoseconds now) {
   if (const auto taken = network_.taken_elsewhere()) {
     // The refusal names the other run's results, and the node adds it to this.
-    fault_ =
-        problem(fmt::format("the run did not begin, since its workers are not free: let the "
-                            "run that {} works for end first, or give this one other workers",
-                            name_of(*taken)));
+    fault_ = problem(fmt::format("the run did not begin, since its workers are not free: let the "
+                                 "run that {} works for end first, or give this one other workers",
+                                 name_of(*taken)),
+                     ProblemKind::refused);
     return end_run(StopReason::workers_lost);
   }
   if (interrupt_.load()) {
@@ -90,7 +90,8 @@ void RunCoordinator::await_workers(Nanoseconds now) {
     return;
   }
   fault_ = problem(fmt::format("the run did not begin: after {:g} s (start_s) {}",
-                               seconds_in(config_.start), missing_workers()));
+                               seconds_in(config_.start), missing_workers()),
+                   ProblemKind::lost_peer);
   end_run(StopReason::workers_lost);
 }
 
@@ -140,7 +141,7 @@ void RunCoordinator::lose_shard(NodeId worker, const char* how) {
 
 void RunCoordinator::fail(const std::string& what) {
   if (over_) return;
-  fault_ = problem(what);
+  fault_ = problem(what, ProblemKind::lost_peer);
   log_error("run=failed text=\"{}\"", what);
   end_run(StopReason::workers_lost);
 }
@@ -352,9 +353,9 @@ bool RunCoordinator::holds_back(size_t) {
   return shards_.others() > 0 && !over_ && (run_.pause_is_due() || shows_.wanted());
 }
 
-std::string RunCoordinator::objection(const Letter<Flush>& letter) const {
-  return letter.body.slice_hashes.size() != shards_.others() ? "shards lack their slices of it"
-                                                             : "";
+Result<void> RunCoordinator::may_count(const Letter<Flush>& letter) const {
+  if (letter.body.slice_hashes.size() == shards_.others()) return {};
+  return problem("shards lack their slices of it");
 }
 
 /// Journals a flush before it is acknowledged, so that the run survives this node. If that fails

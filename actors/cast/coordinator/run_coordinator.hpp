@@ -16,6 +16,7 @@
 #include "actors/cast/journal/journal_actor.hpp"
 #include "actors/cast/tally/shard_control.hpp"
 #include "actors/results/run/local_run.hpp"
+#include "runtime/core/result.hpp"
 
 namespace luxodus {
 
@@ -72,7 +73,7 @@ class RunCoordinator final : public Coordinator {
   Totals& totals() override { return run_.totals(); }
   BinRange bins() const override;
   bool holds_back(size_t leases) override;
-  std::string objection(const Letter<Flush>& letter) const override;
+  Result<void> may_count(const Letter<Flush>& letter) const override;
   bool keep(const Letter<Flush>& letter) override;
   void counted(const Letter<Flush>& letter, std::span<const int64_t> batches) override;
   void refused(const MessageId& flush) override { shards_.refuse(flush); }

@@ -73,7 +73,7 @@ void RunCoordinator::lose_display(const std::string& why) {
   if (!over_) return fail(why);
   if (fault_) return;
   lost_display_ = true;
-  fault_ = problem(why);
+  fault_ = problem(why, ProblemKind::lost_peer);
   log_error("run=unwritten text=\"{}\"", why);
   tell_end_anew();
 }

@@ -160,8 +160,9 @@ void StateCoordinator::note_refusal() {
   fault_ = problem(
       "the live view has nobody to trace for it, since its workers are not free: let "
       "the run that " +
-      name_of(*taken) + " works for end first, or give this view other workers; " +
-      network_.refusal_of(*taken));
+          name_of(*taken) + " works for end first, or give this view other workers; " +
+          network_.refusal_of(*taken),
+      ProblemKind::refused);
 }
 
 // ---- the end ------------------------------------------------------------------------------------

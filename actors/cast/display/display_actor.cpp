@@ -74,8 +74,9 @@ void DisplayActor::watch_coordinator() {
   }
   if (!state_.unreachable_since) state_.unreachable_since = clock_.now();
   if (state_.saved || clock_.now() - *state_.unreachable_since < config_.lost) return;
-  end(problem(fmt::format("no way has led to the controller for {:g} s (lost_s)",
-                          seconds_in(config_.lost))));
+  end(problem(
+      fmt::format("no way has led to the controller for {:g} s (lost_s)", seconds_in(config_.lost)),
+      ProblemKind::lost_peer));
 }
 
 /// Requests the current totals, from the first piece on.

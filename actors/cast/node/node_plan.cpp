@@ -246,34 +246,34 @@ MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node) {
   return plan;
 }
 
-std::optional<std::string> budget_fault(const RunSetup& run, const NodeSetup& node) {
+Result<void> check_budget(const RunSetup& run, const NodeSetup& node) {
   const std::string name = run.name_of(node.net.self);
   const uint64_t least = min_tally_bytes(run.scene);
   const uint64_t all = tally_need(run.scene, node.photons.batches_in_work()).all();
   if (all > node.tally_bytes && !ZeroedMemory::use_is_told())
-    return fmt::format(
+    return problem(fmt::format(
         "node {}: its tally needs {}, and tally_bytes is {}; this system does not tell which pages "
         "are in use (/proc/self/pagemap), so it must hold all bins: raise tally_bytes in [budget]",
-        name, mebibytes(all), mebibytes(node.tally_bytes));
+        name, mebibytes(all), mebibytes(node.tally_bytes)));
   if (least > node.tally_bytes && all > node.tally_bytes)
-    return fmt::format(
+    return problem(fmt::format(
         "node {}: its tally needs {} at least, and tally_bytes is {}: raise tally_bytes in "
         "[budget], or ask for fewer patches, voxels, bands or source groups",
-        name, mebibytes(least), mebibytes(node.tally_bytes));
-  if (run.objects == nullptr) return std::nullopt;
+        name, mebibytes(least), mebibytes(node.tally_bytes)));
+  if (run.objects == nullptr) return {};
   const CacheConfig cache = cache_config(*run.objects, node);
   const uint64_t needed = 2 * cache.largest_build_bytes + cache.max_pinned_bytes();
   if (cache.budget_bytes < needed)
-    return fmt::format(
+    return problem(fmt::format(
         "node {}: its cache needs {}, room for the largest scene part and one more being built, "
         "and object_bytes is {}: raise object_bytes in [budget], or cut the scene into more cells",
-        name, mebibytes(needed), mebibytes(cache.budget_bytes));
+        name, mebibytes(needed), mebibytes(cache.budget_bytes)));
   if (run.objects->largest_wire_bytes() > node.fetch.receive_bytes)
-    return fmt::format(
+    return problem(fmt::format(
         "node {}: the largest scene part has {}, and {} are received at once: cut the scene into "
         "more cells",
-        name, mebibytes(run.objects->largest_wire_bytes()), mebibytes(node.fetch.receive_bytes));
-  return std::nullopt;
+        name, mebibytes(run.objects->largest_wire_bytes()), mebibytes(node.fetch.receive_bytes)));
+  return {};
 }
 
 std::string plan_text(const RunSetup& run, const std::vector<NodeSetup>& workers,

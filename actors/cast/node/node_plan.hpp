@@ -10,6 +10,7 @@
 #include "actors/cast/node/node_setup.hpp"
 #include "runtime/actor/scheduler.hpp"
 #include "runtime/core/memory_plan.hpp"
+#include "runtime/core/result.hpp"
 
 namespace luxodus {
 
@@ -33,8 +34,8 @@ MemoryPlan tally_plan(const CompiledScene& scene, const NodeSetup& node);
 MemoryPlan worker_plan(const RunSetup& run, const NodeSetup& node);
 MemoryPlan controller_plan(const RunSetup& run, const NodeSetup& node);
 
-/// Why this worker's budgets are too small: which key, and what it needs. Nothing if they suffice.
-std::optional<std::string> budget_fault(const RunSetup& run, const NodeSetup& node);
+/// Whether the budgets of this worker do. Errors: which key, and what it needs.
+Result<void> check_budget(const RunSetup& run, const NodeSetup& node);
 
 /// Tables for people; nodes with equal plans share one. `workers` may be empty.
 std::string plan_text(const RunSetup& run, const std::vector<NodeSetup>& workers,

@@ -18,7 +18,8 @@ Result<std::unique_ptr<Observation>> Observation::start(const ObserveOptions& op
   };
   auto server = HttpServer::listen(
       {options.address, *options.metrics_port, "", options.allowed_hosts}, std::move(site));
-  if (!server) return problem("no metrics can be served: " + server.problem().what);
+  if (!server)
+    return problem("no metrics can be served: " + server.problem().what, server.problem().kind);
   seen->server_ = std::move(server).value();
   seen->serving_ = std::jthread([&serving = *seen->server_](std::stop_token end) {
     const std::stop_callback at_the_end(std::move(end), [&serving] { serving.stop(); });

@@ -48,7 +48,7 @@ Result<Graph> found_graph(const ClusterConfig& cluster) {
   request.controller_links = std::min(choice.max_controller_links, request.nodes);
   request.controller_forwards = choice.controller == TopologyChoice::Controller::forwards;
   auto graph = minimum_path_graph(request);
-  if (!graph) return problem_in(cluster.file, graph.problem().what);
+  if (!graph) return problem_in(cluster.file, graph.problem());
   return graph;
 }
 
@@ -325,8 +325,8 @@ Result<void> ClusterProcessRun::write_trace(const Observation& seen) const {
   std::error_code failed;
   std::filesystem::create_directories(cluster_.run.out, failed);
   if (failed)
-    return problem_in(cluster_.run.out,
-                      "cannot make this folder for the trace: " + failed.message());
+    return system_problem(cluster_.run.out, "cannot make this folder for the trace",
+                          failed.value());
   const size_t process = cluster_.node(nodes_.front()).process;
   return seen.write_trace(behind_links(
       cluster_.run.out / ("trace-" + file_name_of(cluster_.processes[process].name) + ".json")));
@@ -400,7 +400,7 @@ Result<std::unique_ptr<ClusterProcessRun::Prepared>> ClusterProcessRun::prepare_
       out->workers.push_back(std::move(own).value());
   }
   for (const NodeSetup& node : out->workers)
-    if (auto fault = budget_fault(setup, node)) return problem_in(cluster_.file, *fault);
+    if (auto ok = check_budget(setup, node); !ok) return problem_in(cluster_.file, ok.problem());
   log_info("memory plan\n{}", plan_text(setup, out->workers, out->controller));
   return out;
 }

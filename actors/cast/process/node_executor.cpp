@@ -22,7 +22,7 @@ Result<std::unique_ptr<NodeExecutor>> NodeExecutor::start(const RunSetup& run,
   out->thread_ = std::thread([&self, machine] { self.work(machine); });
   std::unique_lock lock(self.mutex_);
   self.changed_.wait(lock, [&] { return self.started_; });
-  if (self.fault_) return *self.fault_;
+  if (!self.state_) return self.state_.problem();
   lock.unlock();
   return out;
 }
@@ -72,9 +72,9 @@ void NodeExecutor::trace(Work& work) {
   next_ = nullptr;
 }
 
-std::optional<Problem> NodeExecutor::fault() const {
+Result<void> NodeExecutor::goes_on() const {
   const std::lock_guard lock(mutex_);
-  return fault_;
+  return state_;
 }
 
 NodeExecutor::Counters NodeExecutor::counters() const {
@@ -84,10 +84,10 @@ NodeExecutor::Counters NodeExecutor::counters() const {
 
 // ---- the node's thread --------------------------------------------------------------------------
 
-void NodeExecutor::begun(std::optional<Problem> fault) {
+void NodeExecutor::begun(Result<void> outcome) {
   const std::lock_guard lock(mutex_);
   started_ = true;
-  if (fault) fault_ = std::move(fault);
+  if (!outcome) state_ = std::move(outcome);
   changed_.notify_all();
 }
 
@@ -124,13 +124,13 @@ void NodeExecutor::work(const Machine& machine) {
       return begun(joined.problem());
     node.start([this] { do_what_is_wished(); });
     const Door door(*this, node);
-    begun(std::nullopt);
+    begun({});
     node.shell().run();
     const auto& verdict = node.shell().supervisor().verdict();
-    begun(verdict ? std::optional(problem(verdict->text)) : std::nullopt);
+    begun(verdict ? problem(verdict->text, ProblemKind::system) : Result<void>());
   } catch (const std::exception& e) {
     log_error("view=broken text=\"{}\"", e.what());
-    begun(problem(e.what()));
+    begun(problem(e.what(), ProblemKind::system));
   }
 }
 
@@ -151,7 +151,7 @@ void NodeExecutor::note(const StateCoordinator& coordinator) {
   const Coordinator::Counters& c = coordinator.counters();
   counters_ = {c.leases, c.fenced, c.flushes_refused, coordinator.workers_here(),
                coordinator.stuck()};
-  if (!fault_) fault_ = coordinator.fault();
+  if (state_ && coordinator.fault()) state_ = *coordinator.fault();
 }
 
 }  // namespace luxodus

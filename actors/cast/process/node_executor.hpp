@@ -11,6 +11,7 @@
 #include "actors/cast/coordinator/state_coordinator.hpp"
 #include "actors/cast/node/node_setup.hpp"
 #include "actors/results/run/executor.hpp"
+#include "runtime/core/result.hpp"
 
 namespace luxodus {
 
@@ -31,8 +32,8 @@ class NodeExecutor final : public Executor {
   /// Waits for workers if there are none; see Executor.
   void trace(Work& work) override;
 
-  /// Why none of its workers will ever join: they work for another run.
-  std::optional<Problem> fault() const;
+  /// Errors: none of its workers will ever come, since they work for another run.
+  Result<void> goes_on() const;
 
   struct Counters {
     uint64_t leases = 0;
@@ -47,7 +48,7 @@ class NodeExecutor final : public Executor {
   class Door;
   NodeExecutor(const RunSetup& run, const NodeSetup& node) : run_(run), node_(node) {}
   void work(const Machine& machine);
-  void begun(std::optional<Problem> fault);
+  void begun(Result<void> outcome);
   void ask_node();
   void do_what_is_wished();
   void note(const StateCoordinator& coordinator);
@@ -64,7 +65,7 @@ class NodeExecutor final : public Executor {
   bool ends_ = false;
   bool started_ = false;
   Counters counters_;
-  std::optional<Problem> fault_;
+  Result<void> state_;
   // Owned by the node's thread.
   NodeShell* shell_ = nullptr;
   StateCoordinator* coordinator_ = nullptr;

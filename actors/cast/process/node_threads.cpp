@@ -44,7 +44,8 @@ Result<WorkerReport> run_worker_by(const TracerMaker& make_tracer, const RunSetu
     return result;
   }
   return problem(run.name_of(node.net.self) + ": " + result.problem().what +
-                 transport.meeting_trouble(worker.shell().network()));
+                     transport.meeting_trouble(worker.shell().network()),
+                 result.problem().kind);
 }
 
 WorkerThreads::WorkerThreads(const RunSetup& run, const Machine& machine,
@@ -65,12 +66,14 @@ void WorkerThreads::work(const RunSetup& run, const Machine& machine, const Node
     if (done) {
       if (done->failed != ActorName::none && !lost_)
         lost_ = luxodus::problem(run.name_of(node.net.self) + ": the " + spoken_name(done->failed) +
-                                 " has failed, and its node has left; its log says why");
+                                     " has failed, and its node has left; its log says why",
+                                 ProblemKind::lost_peer);
       return reports_.push_back(done.value());
     }
     wrong = done.problem();
   } catch (const std::exception& e) {
-    wrong = {{}, "node " + std::to_string(node.net.self.value) + ": " + e.what()};
+    wrong = luxodus::problem("node " + std::to_string(node.net.self.value) + ": " + e.what(),
+                             ProblemKind::system);
   }
   const std::lock_guard lock(mutex_);
   if (!failed_) problem_ = wrong;
@@ -113,10 +116,11 @@ Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
   run.add_seconds(static_cast<double>(machine.clock.now() - began - controller.over_for()) * 1e-9);
   const Network& network = here.shell().network();
   if (const auto& verdict = here.shell().supervisor().verdict())
-    return problem(setup.name_of(node.net.self) + ": " + verdict->text);
+    return problem(setup.name_of(node.net.self) + ": " + verdict->text, ProblemKind::system);
   if (controller.fault())
     return problem(setup.name_of(node.net.self) + ": " + controller.fault()->what +
-                   transport.meeting_trouble(network));
+                       transport.meeting_trouble(network),
+                   controller.fault()->kind);
   if (here.display() != nullptr && here.display()->fault()) return *here.display()->fault();
   if (counted != nullptr) {
     const Coordinator::Counters& c = controller.counters();

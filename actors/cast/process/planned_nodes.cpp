@@ -13,22 +13,22 @@ namespace {
 
 constexpr uint32_t max_controller_links = 4;
 
-std::optional<std::string> fault_of(const NodesOptions& options, const CompiledScene& scene,
-                                    bool resident) {
+Result<void> check_options(const NodesOptions& options, const CompiledScene& scene, bool resident) {
   if (auto fault = coordination_fault(options.nodes, options.fan_out, options.tally_shards))
-    return std::move(fault->what);
+    return problem(std::move(fault->what));
   if (options.object_bytes == 0) {
-    if (resident) return std::nullopt;
-    return "nodes that do not hold the whole scene need a budget for scene parts";
+    if (resident) return {};
+    return problem("nodes that do not hold the whole scene need a budget for scene parts");
   }
   if (!in_parts(scene))
-    return "nodes with a budget need a partition of the geometry: add --cells, or pack the scene "
-           "with more than one";
+    return problem(
+        "nodes with a budget need a partition of the geometry: add --cells, or pack the scene "
+        "with more than one");
   if (options.replicas < 1 || options.replicas > static_cast<uint32_t>(options.nodes) ||
       options.replicas > limits::holders)
-    return "a scene part can be held by 1 to " + std::to_string(limits::holders) +
-           " nodes, and by no more than there are";
-  return std::nullopt;
+    return problem("a scene part can be held by 1 to " + std::to_string(limits::holders) +
+                   " nodes, and by no more than there are");
+  return {};
 }
 
 /// Every node listens under its own name: in memory, or in a folder.
@@ -114,7 +114,7 @@ Result<Graph> graph_of_process(int nodes, int links) {
 Result<std::unique_ptr<PlannedNodes>> PlannedNodes::make(const LocalRun& run,
                                                          const NodesOptions& options,
                                                          const StopRule& stop, uint64_t run_id) {
-  if (auto fault = fault_of(options, run.scene(), run.resident())) return problem(*fault);
+  if (auto ok = check_options(options, run.scene(), run.resident()); !ok) return ok.problem();
   auto graph = options.graph ? Result<Graph>(*options.graph)
                              : graph_of_process(options.nodes, options.links);
   if (!graph) return graph.problem();
@@ -126,7 +126,7 @@ Result<std::unique_ptr<PlannedNodes>> PlannedNodes::make(const LocalRun& run,
   if (auto planned = made->plan_residency(run, options, stop); !planned) return planned.problem();
   made->set_up(options, run_id);
   for (const NodeSetup& node : made->workers_)
-    if (auto fault = budget_fault(made->setup_, node)) return problem(*fault);
+    if (auto ok = check_budget(made->setup_, node); !ok) return ok.problem();
   return made;
 }
 

@@ -28,8 +28,7 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& con
   // one.
   if (!failed) real.folder = fs::canonical(config.folder, failed);
   if (failed)
-    return problem_in(config.folder,
-                      "cannot make this folder for the journal: " + failed.message());
+    return system_problem(config.folder, "cannot make this folder for the journal", failed.value());
   std::unique_ptr<RunJournal> made(new RunJournal(real, run));
   made->made_folder_ = made_folder;
   const int64_t before = run.traced();
@@ -41,7 +40,7 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunJournalConfig& con
   if (config.faults.any())
     store = std::make_unique<FaultyStore>(std::move(store), config.self, config.faults, clock);
   auto journal = FluxJournal::open(std::move(store), run);
-  if (!journal) return problem_in(made->journal(), journal.problem().what);
+  if (!journal) return problem_in(made->journal(), journal.problem());
   const auto make_snapshot = [path = made->snapshot(), &run]() -> Result<void> {
     return save_flux(path, run);
   };

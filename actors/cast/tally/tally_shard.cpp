@@ -92,31 +92,32 @@ bool TallyShard::take_turns() {
   return true;
 }
 
-/// "" if the slice is valid; it is then held.
-std::string TallyShard::reading_fault(Slice& slice) {
+/// Holds what the slice says where it is right.
+Result<void> TallyShard::take_in(Slice& slice) {
   Hasher hash;
   for (std::span<const std::byte> left = slice.payload.bytes(); !left.empty(); take_turns()) {
     const auto piece = left.first(std::min(left.size(), bytes_of_a_step));
     hash.add(piece.data(), piece.size());
     left = left.subspan(piece.size());
   }
-  if (hash.value() != slice.hash) return "a slice is not what its hash says";
+  if (hash.value() != slice.hash) return problem("a slice is not what its hash says");
   auto gain = reader_.read(slice.payload.bytes(), totals_.groups(), config_.bins,
                            [&] { return take_turns() && !slice.dropped; });
-  if (!gain) return gain.problem().what;
+  if (!gain) return gain.problem();
   // Batches and the energy balance go to the controller, once.
-  if (gain->batches() != 0 || gain->balance().particles != 0) return "a slice counts batches";
+  if (gain->batches() != 0 || gain->balance().particles != 0)
+    return problem("a slice counts batches");
   slice.gain = std::move(gain).value();
-  return "";
+  return {};
 }
 
 void TallyShard::read(Slice& slice) {
-  const std::string wrong = reading_fault(slice);
+  const Result<void> taken = take_in(slice);
   slice.payload = {};
   if (slice.dropped) return;
-  if (wrong.empty()) return hold(slice);
+  if (taken) return hold(slice);
   sender().send(address(), slice.from, slice.flush,
-                FlushRefused{{}, wrong.substr(0, limits::text_bytes)});
+                FlushRefused{{}, taken.problem().what.substr(0, limits::text_bytes)});
   forget(slice);
 }
 

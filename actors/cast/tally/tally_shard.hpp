@@ -26,6 +26,7 @@
 
 #include "actors/cast/tally/flush_codec.hpp"
 #include "actors/cast/tally/shard_plan.hpp"
+#include "runtime/core/result.hpp"
 #include "runtime/messaging/node_actor.hpp"
 
 namespace luxodus {
@@ -84,7 +85,7 @@ class TallyShard final
 
   void hold(Slice& slice);
   void read(Slice& slice);
-  std::string reading_fault(Slice& slice);
+  Result<void> take_in(Slice& slice);
   void add(Slice& slice);
   void forget(Slice& slice);
   bool work_on(const Slice& slice);

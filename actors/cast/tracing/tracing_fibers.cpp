@@ -317,12 +317,14 @@ bool TracingFibers::make_room(OpenBatch& open, size_t more) {
 
 void TracingFibers::outgrown(const OpenBatch& open) {
   const auto mebibytes = [](uint64_t bytes) { return static_cast<double>(bytes) / 0x1p20; };
-  port_.give_up(problem(fmt::format(
-      "batch {} of {} particles takes {:.1f} MiB of tally by itself, and tally_bytes is "
-      "{:.1f} MiB: raise tally_bytes in [budget], or lower batch_particles in the "
-      "scene",
-      open.batch.number, scene_.batch_particles, mebibytes(tally_bytes_),
-      mebibytes(config_.tally_bytes))));
+  port_.give_up(problem(
+      fmt::format(
+          "batch {} of {} particles takes {:.1f} MiB of tally by itself, and tally_bytes is "
+          "{:.1f} MiB: raise tally_bytes in [budget], or lower batch_particles in the "
+          "scene",
+          open.batch.number, scene_.batch_particles, mebibytes(tally_bytes_),
+          mebibytes(config_.tally_bytes)),
+      ProblemKind::no_room));
 }
 
 /// Closes a fully traced batch when the totals have room for it.

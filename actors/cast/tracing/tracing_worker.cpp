@@ -424,7 +424,9 @@ void TracingWorker::on(const Letter<RunEnded>& ended) {
   end_word_ = ended.body;
   rumour_ = !first_hand && !over_ && counters_.leases == 0;
   if (rumour_) return;
-  const auto says = [&] { return problem("the controller says: " + end_word_.text); };
+  const auto says = [&] {
+    return problem("the controller says: " + end_word_.text, ProblemKind::lost_peer);
+  };
   stop_work(end_word_.text.empty() ? std::nullopt : std::optional(says()), false);
   // The coordinator repeats this message: no answer until the workers below know.
   if (work_->end_is_known()) tell(first_hand ? ended.from : coordinator(), RequestLease{0});
@@ -470,7 +472,8 @@ void TracingWorker::watch_coordinator(Nanoseconds now) {
   }
   const auto give_up = [&](const char* what, Nanoseconds after, const char* key) {
     if (rumour_) return end(std::nullopt);
-    end(problem(fmt::format("{} for {:g} s ({})", what, seconds_in(after), key)));
+    end(problem(fmt::format("{} for {:g} s ({})", what, seconds_in(after), key),
+                ProblemKind::lost_peer));
   };
   const Nanoseconds unreachable = unreachable_since_ ? now - *unreachable_since_ : 0;
   const bool lost = unreachable >= config_.lost;

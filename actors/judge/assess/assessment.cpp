@@ -12,7 +12,7 @@ namespace luxodus {
 
 namespace {
 
-std::optional<Problem> cannot_assess(const SceneDescription& scene) {
+Result<void> can_assess(const SceneDescription& scene) {
   if (scene.packed)
     return problem_in(
         scene.file,
@@ -21,7 +21,7 @@ std::optional<Problem> cannot_assess(const SceneDescription& scene) {
       scene.observers.empty())
     return problem_in(scene.file,
                       "there is nothing to assess: add [[route]], [[open_area]] or [[observer]]");
-  return std::nullopt;
+  return {};
 }
 
 /// From how many places each sign is legible.
@@ -39,8 +39,8 @@ void count_sweep(double factor, const std::vector<SightRow>& sights, std::vector
 }
 
 /// Refuses what is wrong with the scene, and keeps what else was found.
-std::optional<Problem> inspected(const std::shared_ptr<const SceneDescription>& scene,
-                                 const Scenario& scenario, int threads, Assessment& out) {
+Result<void> inspected(const std::shared_ptr<const SceneDescription>& scene,
+                       const Scenario& scenario, int threads, Assessment& out) {
   auto found = inspect(scene, {scenario}, threads);
   if (!found) return found.problem();
   const auto errors = std::count_if(found->begin(), found->end(),
@@ -56,7 +56,7 @@ std::optional<Problem> inspected(const std::shared_ptr<const SceneDescription>& 
     if (finding.severity == Severity::warning)
       out.warnings.push_back({finding.problem.where, std::nullopt, finding.problem.what, true});
   out.findings = std::move(found).value();
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ std::optional<Problem> inspected(const std::shared_ptr<const SceneDescription>& 
 Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
                           const AssessOptions& options, const std::atomic<bool>& interrupt,
                           const AssessProgress& progress) {
-  if (auto problem = cannot_assess(*scene)) return *problem;
+  if (auto ok = can_assess(*scene); !ok) return ok.problem();
   auto scenario = judged_scenario(*scene, options.scenario);
   if (!scenario) return scenario.problem();
   const auto codes = judged_codes(*scene, options.rules, options.deviations);
@@ -84,7 +84,7 @@ Result<Assessment> assess(const std::shared_ptr<const SceneDescription>& scene,
   out.seed = options.seed;
   out.scene_hash = scene->content_hash;
   out.levels = plan_levels(*scene, scenario.value());
-  if (auto problem = inspected(scene, scenario.value(), options.threads, out)) return *problem;
+  if (auto ok = inspected(scene, scenario.value(), options.threads, out); !ok) return ok.problem();
   if (auto ok = assess_by_codes(*scene, scenario.value(), options, progress, out); !ok)
     return ok.problem();
   if (options.reality)

@@ -308,35 +308,35 @@ bool is_kind(const Json& value, Kind kind) {
     case Kind::remark_or_null:
     case Kind::remarks:
     case Kind::subject:
-      return false;  // fault_in_words says what is wrong with them
+      return false;  // check_words_of says what is wrong with them
   }
   return false;
 }
 
-using Fault = std::optional<std::string>;
-
-/// What is wrong with a value that sentences are made of.
-Fault fault_in_words(const Json& value, Kind kind, const std::string& where) {
-  const auto fault = [&](const auto& read) -> Fault {
-    if (read) return std::nullopt;
-    return where + ": " + read.problem().what;
+/// What sentences are made of: remarks and subjects.
+Result<void> check_words_of(const Json& value, Kind kind, const std::string& where) {
+  const auto check = [&](const auto& read) -> Result<void> {
+    if (read) return {};
+    return problem(where + ": " + read.problem().what);
   };
-  if (kind == Kind::remark_or_null && value.is_null()) return std::nullopt;
-  if (kind == Kind::remarks) return fault(read_remarks(value));
-  return kind == Kind::subject ? fault(read_subject(value)) : fault(read_remark(value));
+  if (kind == Kind::remark_or_null && value.is_null()) return {};
+  if (kind == Kind::remarks) return check(read_remarks(value));
+  return kind == Kind::subject ? check(read_subject(value)) : check(read_remark(value));
 }
 
-Fault missing(const Json& value, std::string_view path, Kind kind, const std::string& where) {
+Result<void> check_key(const Json& value, std::string_view path, Kind kind,
+                       const std::string& where) {
   if (path.empty() && kind >= Kind::remark) return fault_in_words(value, kind, where);
+  if (path.empty() && kind >= Kind::remark) return check_words_of(value, kind, where);
   if (path.empty())
-    return is_kind(value, kind) ? Fault() : Fault(where + " is not " + type_word(kind));
+    return is_kind(value, kind) ? Result<void>() : problem(where + " is not " + type_word(kind));
   if (path.starts_with("[]")) {
-    if (!value.is_array()) return where + " is not a list";
+    if (!value.is_array()) return problem(where + " is not a list");
     path.remove_prefix(path.starts_with("[].") ? 3 : 2);
     for (size_t i = 0; i < value.size(); ++i)
-      if (Fault fault = missing(value[i], path, kind, fmt::format("{}[{}]", where, i)))
-        return fault;
-    return std::nullopt;
+      if (auto ok = check_key(value[i], path, kind, fmt::format("{}[{}]", where, i)); !ok)
+        return ok.problem();
+    return {};
   }
   const size_t end = std::min(path.find_first_of(".[?"), path.size());
   const std::string key(path.substr(0, end));
@@ -344,36 +344,37 @@ Fault missing(const Json& value, std::string_view path, Kind kind, const std::st
   const bool optional = path.starts_with("?");
   if (optional) path.remove_prefix(1);
   if (path.starts_with(".")) path.remove_prefix(1);
-  if (!value.is_object()) return (where.empty() ? "it" : where) + std::string(" is not a table");
+  if (!value.is_object())
+    return problem((where.empty() ? "it" : where) + std::string(" is not a table"));
   const auto at = value.find(key);
-  if (optional && (at == value.end() || at->is_null())) return std::nullopt;
-  if (at == value.end()) return (where.empty() ? "it" : where) + " has no \"" + key + "\"";
-  return missing(*at, path, kind, where.empty() ? key : where + "." + key);
+  if (optional && (at == value.end() || at->is_null())) return {};
+  if (at == value.end()) return problem((where.empty() ? "it" : where) + " has no \"" + key + "\"");
+  return check_key(*at, path, kind, where.empty() ? key : where + "." + key);
 }
 
 /// Texts, numbers and depth of all there is.
-Fault too_large(const Json& value, const std::string& where, int depth) {
-  if (depth > limits::assessment_depth) return where + " is nested too deep";
+Result<void> check_sizes(const Json& value, const std::string& where, int depth) {
+  if (depth > limits::assessment_depth) return problem(where + " is nested too deep");
   if (value.is_string() && value.text().size() > limits::assessment_text &&
       where != "project.logo_png" && where != "plan.backdrops.png")
-    return where + fmt::format(" has more than {} characters", limits::assessment_text);
+    return problem(where + fmt::format(" has more than {} characters", limits::assessment_text));
   if (value.is_number() && !(std::abs(value.get<double>()) <= limits::assessment_number))
-    return where + " is larger than any number of an assessment";
+    return problem(where + " is larger than any number of an assessment");
   if (value.is_object())
     for (const auto& [key, one] : value.items())
-      if (Fault fault = too_large(one, where.empty() ? key : where + "." + key, depth + 1))
-        return fault;
+      if (auto ok = check_sizes(one, where.empty() ? key : where + "." + key, depth + 1); !ok)
+        return ok.problem();
   if (value.is_array())
     for (size_t i = 0; i < value.size(); ++i)
       if (value[i].is_structured() || value[i].is_string() || value[i].is_number())
-        if (Fault fault = too_large(value[i], where, depth + 1)) return fault;
-  return std::nullopt;
+        if (auto ok = check_sizes(value[i], where, depth + 1); !ok) return ok.problem();
+  return {};
 }
 
 /// Of a report's drawings: what their loops run over, and what they divide by.
-Fault bad_plan(const Json& a) {
+Result<void> check_plan(const Json& a) {
   const Json& levels = a["plan"]["levels"];
-  if (levels.empty()) return "plan.levels is empty";
+  if (levels.empty()) return problem("plan.levels is empty");
   for (const Json& level : levels) {
     const Json& map = level["map"];
     const double columns = map["columns"].get<double>(), rows = map["rows"].get<double>();
@@ -381,55 +382,57 @@ Fault bad_plan(const Json& a) {
                        rows == std::floor(rows) &&
                        columns * rows <= static_cast<double>(limits::assessment_map);
     if (!whole || columns * rows != static_cast<double>(map["lux"].size()))
-      return "plan.levels: a map has not as many values as it has places";
+      return problem("plan.levels: a map has not as many values as it has places");
     if (columns > 0 && !(map["spacing"].get<double>() >= 1e-3 &&
                          map["spacing"].get<double>() <= limits::assessment_metres))
-      return "plan.levels: a map has no spacing";
+      return problem("plan.levels: a map has no spacing");
     if (std::abs(level["floor"].get<double>()) > limits::assessment_metres)
-      return "plan.levels: a floor is farther off than any scene";
+      return problem("plan.levels: a floor is farther off than any scene");
     for (const Json& lux : map["lux"])
-      if (!lux.is_number() && !lux.is_null()) return "plan.levels: a map holds what is no number";
+      if (!lux.is_number() && !lux.is_null())
+        return problem("plan.levels: a map holds what is no number");
   }
   for (const Json& route : a["places"]["routes"])
-    if (route["path"].size() < 2) return "places.routes: a path has less than two points";
+    if (route["path"].size() < 2) return problem("places.routes: a path has less than two points");
   for (const Json& area : a["places"]["areas"])
-    if (area["outline"].size() < 3) return "places.areas: an outline has less than three corners";
-  return std::nullopt;
+    if (area["outline"].size() < 3)
+      return problem("places.areas: an outline has less than three corners");
+  return {};
 }
 
 /// What FDS says of a route is there as a whole, or not at all.
 template <class IsWhole>
-Fault bad_fds(const Json& route, const IsWhole& is_whole) {
+Result<void> check_fds(const Json& route, const IsWhole& is_whole) {
   const auto said = [&](const char* key) {
     const auto at = route.find(key);
     return at != route.end() && !at->is_null();
   };
   if (said("fds") != said("time_by_fds") || said("fds") != said("fds_visibility"))
-    return "over_time.routes: what FDS says is not whole";
-  if (!said("fds")) return std::nullopt;
+    return problem("over_time.routes: what FDS says is not whole");
+  if (!said("fds")) return {};
   for (const char* key : {"until", "lost_by", "lost_at"})
     if (route["time_by_fds"].find(key) == route["time_by_fds"].end())
-      return std::string("over_time.routes: a time_by_fds has no \"") + key + "\"";
+      return problem(std::string("over_time.routes: a time_by_fds has no \"") + key + "\"");
   if (!is_whole("fds") || !is_whole("fds_visibility"))
-    return "over_time.routes: a table has not as many values as states and places";
+    return problem("over_time.routes: a table has not as many values as states and places");
   for (const Json& row : route["fds_visibility"])
     for (const Json& metres : row)
       if (!metres.is_number() && !metres.is_null())
-        return "over_time.routes: a visibility is no number";
-  return std::nullopt;
+        return problem("over_time.routes: a visibility is no number");
+  return {};
 }
 
 /// Tables of states and places that are not as large as these: maps read them by both.
-Fault bad_over_time(const Json& a) {
+Result<void> check_over_time(const Json& a) {
   const auto over = a.find("over_time");
-  if (over == a.end() || over->is_null()) return std::nullopt;
+  if (over == a.end() || over->is_null()) return {};
   const size_t states = (*over)["states"].size();
-  if (states == 0) return "over_time.states is empty";
+  if (states == 0) return problem("over_time.states is empty");
   for (const char* key : {"until", "lost_by", "lost_at"})
     for (const Json& route : (*over)["routes"])
       for (const char* time : {"time", "time_by_jin", "time_by_line_of_sight"})
         if (route[time].find(key) == route[time].end())
-          return std::string("over_time.routes: a ") + time + " has no \"" + key + "\"";
+          return problem(std::string("over_time.routes: a ") + time + " has no \"" + key + "\"");
   for (const Json& route : (*over)["routes"]) {
     const size_t places = route["places"].size();
     const auto is_whole = [&](const char* key) {
@@ -440,15 +443,15 @@ Fault bad_over_time(const Json& a) {
     };
     if (places == 0 || !is_whole("guided") || !is_whole("jin") || !is_whole("line_of_sight") ||
         !is_whole("signs"))
-      return "over_time.routes: a table has not as many values as states and places";
-    if (Fault fault = bad_fds(route, is_whole)) return fault;
+      return problem("over_time.routes: a table has not as many values as states and places");
+    if (auto ok = check_fds(route, is_whole); !ok) return ok.problem();
     for (const Json& row : route["signs"])
       for (const Json& name : row)
-        if (!name.is_string()) return "over_time.routes: a sign is no name";
+        if (!name.is_string()) return problem("over_time.routes: a sign is no name");
     if (!route["walks"].empty() && !(*over)["walking_speed"].is_object())
-      return "over_time: people walk without a speed";
+      return problem("over_time: people walk without a speed");
   }
-  return std::nullopt;
+  return {};
 }
 
 bool is_listed(const Json& state, const char* key, const std::string& id) {
@@ -460,7 +463,7 @@ bool is_listed(const Json& state, const char* key, const std::string& id) {
 
 /// Checks by rules that the judged state does not name, and counts that are not those of the
 /// checks: a verdict made of these would be of something else.
-Fault bad_checks(const Json& a) {
+Result<void> check_checks(const Json& a) {
   const Json& state = a["state"];
   std::map<std::string, double> counts;
   for (size_t i = 0; i < a["checks"].size(); ++i) {
@@ -470,7 +473,8 @@ Fault bad_checks(const Json& a) {
          {std::pair("rule_set", "rules"), std::pair("deviation", "deviations")}) {
       const std::string id = check.value(key, "");
       if (!id.empty() && !is_listed(state, list, id))
-        return fmt::format("checks[{}] is by \"{}\", which is not among state.{}", i, id, list);
+        return problem(
+            fmt::format("checks[{}] is by \"{}\", which is not among state.{}", i, id, list));
     }
   }
   const std::pair<const char*, const char*> words[] = {{"fail", "fail"},
@@ -481,9 +485,9 @@ Fault bad_checks(const Json& a) {
     for (const auto& [key, verdict] : words) {
       const Json said = a[table].value(key, Json());
       if (said.is_number() && said.get<double>() != counts[verdict])
-        return fmt::format("{}.{} is not the number of its checks", table, key);
+        return problem(fmt::format("{}.{} is not the number of its checks", table, key));
     }
-  return std::nullopt;
+  return {};
 }
 
 /// Base64, which a page may hold.
@@ -496,41 +500,42 @@ bool is_picture_text(const std::string& text) {
 }
 
 /// A backdrop is lines, or a picture with its place.
-Fault bad_backdrops(const Json& a) {
+Result<void> check_backdrops(const Json& a) {
   const auto all = a["plan"].find("backdrops");
-  if (all == a["plan"].end() || all->is_null()) return std::nullopt;
+  if (all == a["plan"].end() || all->is_null()) return {};
   for (const Json& one : *all) {
     const auto has = [&](const char* key) {
       return one.find(key) != one.end() && !one[key].is_null();
     };
-    if (has("png") == has("lines")) return "plan.backdrops: one is neither lines nor a picture";
+    if (has("png") == has("lines"))
+      return problem("plan.backdrops: one is neither lines nor a picture");
     if (!has("png")) continue;
     if (!has("corner") || !has("across") || !has("up"))
-      return "plan.backdrops: a picture has no place";
-    if (!is_picture_text(one["png"].text())) return "plan.backdrops: a picture is none";
+      return problem("plan.backdrops: a picture has no place");
+    if (!is_picture_text(one["png"].text())) return problem("plan.backdrops: a picture is none");
   }
-  return std::nullopt;
+  return {};
 }
 
-Fault bad_counts(const Json& a) {
+Result<void> check_counts(const Json& a) {
   for (const auto& [word, count] : a["sight_counts"].items())
-    if (!count.is_number()) return "sight_counts." + word + " is not a number";
+    if (!count.is_number()) return problem("sight_counts." + word + " is not a number");
   const auto logo = a["project"].find("logo_png");
-  if (logo == a["project"].end()) return std::nullopt;
-  return is_picture_text(logo->text()) ? Fault() : Fault("project.logo_png is no picture");
+  if (logo == a["project"].end()) return {};
+  return is_picture_text(logo->text()) ? Result<void>() : problem("project.logo_png is no picture");
 }
 
 }  // namespace
 
-std::optional<std::string> fault_of_assessment(const Json& a) {
-  if (Fault fault = too_large(a, "", 0)) return fault;
+Result<void> check_assessment(const Json& a) {
+  if (auto ok = check_sizes(a, "", 0); !ok) return ok.problem();
   for (const RequiredKey& key : keys)
-    if (Fault fault = missing(a, key.path, key.kind, "")) return fault;
-  if (Fault fault = bad_plan(a)) return fault;
-  if (Fault fault = bad_backdrops(a)) return fault;
-  if (Fault fault = bad_over_time(a)) return fault;
-  if (Fault fault = bad_checks(a)) return fault;
-  return bad_counts(a);
+    if (auto ok = check_key(a, key.path, key.kind, ""); !ok) return ok.problem();
+  if (auto ok = check_plan(a); !ok) return ok.problem();
+  if (auto ok = check_backdrops(a); !ok) return ok.problem();
+  if (auto ok = check_over_time(a); !ok) return ok.problem();
+  if (auto ok = check_checks(a); !ok) return ok.problem();
+  return check_counts(a);
 }
 
 }  // namespace luxodus

@@ -3,10 +3,8 @@
 // reads it without asking again. Pure; any thread.
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "actors/results/formats/json_out.hpp"
+#include "runtime/core/result.hpp"
 
 namespace luxodus {
 
@@ -24,7 +22,7 @@ inline constexpr int assessment_depth = 16;
 inline constexpr size_t assessment_map = 1'000'000;
 }  // namespace limits
 
-/// The first thing that is wrong, by its place in the file: "checks[3] has no \"verdict\"".
-std::optional<std::string> fault_of_assessment(const Json& assessment);
+/// Errors: the first thing that is wrong, by its place in the file: "checks[3] has no \"verdict\"".
+Result<void> check_assessment(const Json& assessment);
 
 }  // namespace luxodus

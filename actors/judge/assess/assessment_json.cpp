@@ -260,7 +260,7 @@ Json assessment_json(const SceneDescription& scene, const Assessment& assessment
 Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
   std::error_code failed;
   fs::create_directories(folder, failed);
-  if (failed) return problem_in(folder, "cannot make this folder: " + failed.message());
+  if (failed) return system_problem(folder, "cannot make this folder", failed.value());
   if (auto ok = write_json(folder / "assessment.json", assessment); !ok) return ok.problem();
   const auto checks =
       csv_of(assessment["checks"], {"rule", "rule_set", "deviation", "edition", "clause", "status",
@@ -322,13 +322,14 @@ Result<Json> read_assessment(const fs::path& folder) {
   const fs::path path = folder / "assessment.json";
   auto text = read_regular_file(path, limits::assessment_bytes);
   if (!text)
-    return problem_in(text.problem().where.file, text.problem().what + "; luxodus assess makes it");
+    return problem_in(text.problem().where.file, text.problem().what + "; luxodus assess makes it",
+                      text.problem().kind);
   Json read = Json::parse(text.value());
   if (!read.is_object() || read.value("format", "") != assessment_format)
     return problem_in(path, std::string("is not a \"") + assessment_format + "\": make it anew");
-  if (const auto fault = fault_of_assessment(read))
+  if (auto ok = check_assessment(read); !ok)
     return problem_in(path,
-                      *fault +
+                      ok.problem().what +
                           ": this assessment is damaged or of another version; make it anew by "
                           "luxodus assess");
   return read;

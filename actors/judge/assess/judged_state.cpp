@@ -304,7 +304,7 @@ Result<std::vector<CodeChoice>> judged_codes(const SceneDescription& scene,
                             deviations.empty() ? said.deviations : deviations);
   if (codes) return codes;
   const bool by_scene = rules.empty() && deviations.empty() && said.place.line > 0;
-  return problem_in(by_scene ? said.place : SourcePlace{scene.file, 0}, codes.problem().what);
+  return problem_in(by_scene ? said.place : SourcePlace{scene.file, 0}, codes.problem());
 }
 
 Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& scenario) {

@@ -456,7 +456,7 @@ void put_in_frame(Emitter& e, const LuminaireCandidate& candidate) {
 }
 
 /// One that may not stay where it is needs a place to go to.
-std::optional<Problem> nowhere_to_go(const DesignSettings& design, const Candidates& candidates) {
+Result<void> all_may_hang_somewhere(const DesignSettings& design, const Candidates& candidates) {
   std::map<uint32_t, std::set<uint32_t>> places;  // of each pool
   for (const LuminaireCandidate& one : candidates.all)
     if (one.pool && !one.barred) places[one.pool->number].insert(one.place);
@@ -466,7 +466,7 @@ std::optional<Problem> nowhere_to_go(const DesignSettings& design, const Candida
                         "the movable luminaire \"" + one.name +
                             "\" glares (E8) or hangs too low (E14) where it is, and there is no "
                             "place to move it to: name it in 'removable', or offer more places");
-  return std::nullopt;
+  return {};
 }
 
 /// Luminaires that are there have bodies, which are no walls: the building is looked at bare.
@@ -505,8 +505,8 @@ const Emitter& some_light(const DesignSettings& design) {
   return (lit == design.types.end() ? design.types.front() : *lit).emitter;
 }
 
-std::optional<Problem> no_light(const DesignSettings& design) {
-  if (std::any_of(design.types.begin(), design.types.end(), gives_light)) return std::nullopt;
+Result<void> gives_any_light(const DesignSettings& design) {
+  if (std::any_of(design.types.begin(), design.types.end(), gives_light)) return {};
   return problem_in(design.place,
                     "no type of luminaire gives light in the judged scenario, whose 'circuits' "
                     "switch them all off: take another scenario, or types on other circuits");
@@ -629,11 +629,11 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
                     "{} are taken: make 'spacing_m' larger",
                     out.all.size(), out.places, limits::design_candidates));
   if (!out.all.empty()) leave_out_forbidden(scene, design, codes, *bare.value(), out);
-  if (auto problem = nowhere_to_go(design, out)) return *problem;
+  if (auto ok = all_may_hang_somewhere(design, out); !ok) return ok.problem();
   if (out.all.size() == existing &&
       std::all_of(out.all.begin(), out.all.end(),
                   [](const LuminaireCandidate& c) { return c.fixed; })) {
-    if (auto problem = no_light(design)) return *problem;
+    if (auto ok = gives_any_light(design); !ok) return ok.problem();
     if (out.unused.size() == design.types.size())
       return problem_in(design.place, "no type of luminaire lasts as long as the rules ask for: " +
                                           unused_words(out.unused.front()));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "actors/judge/inspect/building.hpp"
+#include "runtime/core/result.hpp"
 #include "scenes/emergency/rule_sets.hpp"
 #include "scenes/light/world/design.hpp"
 
@@ -79,7 +80,7 @@ Emitter emitter_of(const SceneDescription& scene, const DesignSettings& design,
 const Emitter& some_light(const DesignSettings& design);
 
 /// Where no type gives light as the judged state leaves its circuit.
-std::optional<Problem> no_light(const DesignSettings& design);
+Result<void> gives_any_light(const DesignSettings& design);
 
 /// Whether a sign hangs nearer to a place than a clearance, seen from above.
 bool near_sign(const SceneDescription& scene, const glm::dvec3& p, double clearance_m);

@@ -41,22 +41,22 @@ std::shared_ptr<const SceneDescription> with_scenario(
   return out;
 }
 
-std::optional<Problem> cannot_design(const SceneDescription& scene) {
+Result<void> can_design(const SceneDescription& scene) {
   if (scene.packed || !scene.design)
     return problem_in(
         scene.file, "a pack has its triangles elsewhere: take the scene file that it was made of");
   if (scene.routes.empty() && scene.open_areas.empty() && scene.task_areas.empty())
     return problem_in(scene.file,
                       "there is nothing to light: add [[route]], [[open_area]] or [[task_area]]");
-  return std::nullopt;
+  return {};
 }
 
-std::optional<Problem> first_error(const std::shared_ptr<const SceneDescription>& scene,
-                                   const Scenario& scenario, int threads) {
+Result<void> check_scene(const std::shared_ptr<const SceneDescription>& scene,
+                         const Scenario& scenario, int threads) {
   const auto found = inspect(scene, {scenario}, threads);
   if (!found) return found.problem();
   if (has_error(found.value())) return found->front().problem;  // errors come first
-  return std::nullopt;
+  return {};
 }
 
 /// The first of "L", "N", "P", ... that no luminaire's name begins with, before a number.
@@ -176,7 +176,7 @@ class Designing {
         began_(clock_.now()) {}
 
   Result<DesignResult> run() {
-    if (auto problem = prepare()) return *problem;
+    if (auto ok = prepare(); !ok) return ok.problem();
     for (out_.verifications = 1;; ++out_.verifications) {
       solve();
       if (out_.answer.layout.empty()) {
@@ -185,7 +185,7 @@ class Designing {
         break;
       }
       keep_bound();
-      if (auto problem = judge()) return *problem;
+      if (auto ok = judge(); !ok) return ok.problem();
       const auto failing = failing_checks(out_, out_.assessment, &out_.others);
       const bool last = out_.verifications == max_verifications || interrupt_;
       if (!failing.empty()) {
@@ -194,7 +194,7 @@ class Designing {
         out_ = *std::move(nearest_);
         break;
       }
-      if (auto problem = find_tolerance()) return *problem;
+      if (auto ok = find_tolerance(); !ok) return ok.problem();
       if (out_.tolerance->holds()) {
         if (!look_between() || last) break;
         nearest_ = out_;
@@ -212,16 +212,16 @@ class Designing {
     out_.tightest = tightest_of(demands_->problem(), out_.answer.layout);
     if (options_.what_binds && !interrupt_) find_what_binds();
     if ((scene_->design->refine || options_.refine) && !interrupt_)
-      if (auto problem = refine()) return *problem;
+      if (auto ok = refine(); !ok) return ok.problem();
     if (!scenarios_in_smoke().empty() && !interrupt_)
-      if (auto problem = judge_alternatives()) return *problem;
+      if (auto ok = judge_alternatives(); !ok) return ok.problem();
     return std::move(out_);
   }
 
  private:
   double seconds() const { return 1e-9 * static_cast<double>(clock_.now() - began_); }
 
-  std::optional<Problem> prepare() {
+  Result<void> prepare() {
     progress_("inspecting the scene", no_objective, 0);
     if (const auto& smoke = scenarios_in_smoke(); !smoke.empty())
       if (auto ok = check_smoke_stage(*scene_, smoke); !ok) return ok.problem();
@@ -231,12 +231,12 @@ class Designing {
     auto codes = judged_codes(*scene_, options_.rules, options_.deviations);
     if (!codes) return codes.problem();
     codes_ = std::move(codes).value();
-    if (auto problem = first_error(scene_, scenario_, options_.threads)) return problem;
+    if (auto ok = check_scene(scene_, scenario_, options_.threads); !ok) return ok.problem();
     switched_ = as_switched(*scene_, scenario_);
     if (emergency_luminaires(switched_).empty())
-      if (auto problem = no_light(*switched_.design)) return *problem;
+      if (auto ok = gives_any_light(*switched_.design); !ok) return ok.problem();
     if (*scene_->design->place_signs && !scene_->routes.empty())
-      if (auto problem = place_signs()) return problem;
+      if (auto ok = place_signs(); !ok) return ok.problem();
     progress_("finding places", no_objective, 0);
     auto candidates =
         find_candidates(switched_, *switched_.design, codes_, scenario_, options_.threads);
@@ -256,11 +256,11 @@ class Designing {
     out_.unlit_flights = demands_->unlit_flights();
     for (const auto& [what, points] : demands_->hidden())
       if (!what.first.empty()) out_.hidden.push_back({what.first, what.second, points});
-    return std::nullopt;
+    return {};
   }
 
   /// From here on the scene has the signs.
-  std::optional<Problem> place_signs() {
+  Result<void> place_signs() {
     SignPlanOptions asked;
     asked.codes = codes_;
     asked.doors = scenario_;
@@ -276,7 +276,7 @@ class Designing {
     scene_ = with_signs(*scene_, plan.value());
     switched_ = as_switched(*scene_, scenario_);
     out_.signs = std::move(plan).value();
-    return std::nullopt;
+    return {};
   }
 
   /// Whether signs that were placed decide a check, which then has to pass.
@@ -306,15 +306,15 @@ class Designing {
   }
 
   /// What is left of the minima with luminaires off their places.
-  std::optional<Problem> find_tolerance() {
+  Result<void> find_tolerance() {
     out_.tolerance.emplace();
-    if (!(scene_->design->place_tolerance_m > 0)) return std::nullopt;
+    if (!(scene_->design->place_tolerance_m > 0)) return {};
     progress_("looking at luminaires off their places", out_.answer.objective, out_.answer.bound);
     auto found = tolerance_of(switched_, *switched_.design, chosen_candidates(), codes_, scenario_,
                               options_.threads);
     if (!found) return found.problem();
     out_.tolerance = std::move(found).value();
-    return std::nullopt;
+    return {};
   }
 
   /// Whether a minimum hides between the points: it is asked for there from now on.
@@ -328,7 +328,7 @@ class Designing {
   }
 
   /// Moves what was placed; what then fails or holds less off its places stays where it was.
-  std::optional<Problem> refine() {
+  Result<void> refine() {
     RefineOptions asked;
     asked.codes = codes_;
     asked.doors = scenario_;
@@ -338,7 +338,7 @@ class Designing {
         switched_, *switched_.design, chosen_candidates(), *demands_, asked, interrupt_,
         [&](double) { progress_("moving luminaires", out_.answer.objective, out_.answer.bound); });
     if (!refined) return refined.problem();
-    if (refined->moved == 0) return std::nullopt;
+    if (refined->moved == 0) return {};
     Candidates moved = candidates_;
     size_t next = 0;
     for (size_t i = 0; i < moved.all.size(); ++i)
@@ -349,13 +349,13 @@ class Designing {
     PlacedLayout layout = placed(*scene_, moved, out_.answer.layout);
     auto assessed = assessed_by_codes(layout.variant);
     if (!assessed) return assessed.problem();
-    if (!failing_checks(layout, assessed.value(), nullptr).empty()) return std::nullopt;
+    if (!failing_checks(layout, assessed.value(), nullptr).empty()) return {};
     PlaceTolerance tolerance;
     if (scene_->design->place_tolerance_m > 0) {
       auto found = tolerance_of(switched_, *switched_.design, refined->luminaires, codes_,
                                 scenario_, options_.threads);
       if (!found) return found.problem();
-      if (!found->holds() && found->least() < out_.tolerance->least()) return std::nullopt;
+      if (!found->holds() && found->least() < out_.tolerance->least()) return {};
       tolerance = std::move(found).value();
     }
     static_cast<PlacedLayout&>(out_) = std::move(layout);
@@ -367,7 +367,7 @@ class Designing {
     if (problem.groups.size() == out_.groups.size())
       out_.tightest = tightest_of(problem, Layout(problem.options.size(), 1));
     out_.refined = Refined{refined->moved, refined->before, refined->after};
-    return std::nullopt;
+    return {};
   }
 
   /// Rows that were raised for one layout may exclude others that pass, or hold off their places,
@@ -443,13 +443,13 @@ class Designing {
     }
   }
 
-  std::optional<Problem> judge() {
+  Result<void> judge() {
     progress_("assessing the layout", out_.answer.objective, out_.answer.bound);
     static_cast<PlacedLayout&>(out_) = placed(*scene_, candidates_, out_.answer.layout);
     auto assessed = assessed_by_codes(out_.variant);
     if (!assessed) return assessed.problem();
     out_.assessment = std::move(assessed).value();
-    return std::nullopt;
+    return {};
   }
 
   /// A layout that was found before an interrupt is assessed all the same: it takes seconds.
@@ -506,7 +506,7 @@ class Designing {
   }
 
   /// The best by the rules, and others that pass them, race in smoke.
-  std::optional<Problem> judge_alternatives() {
+  Result<void> judge_alternatives() {
     const auto tell = [&](const std::string& what) {
       progress_(what, out_.answer.objective, out_.answer.bound);
     };
@@ -539,7 +539,7 @@ class Designing {
     auto stage = judge_in_smoke(std::move(layouts), asked, interrupt_, tell);
     if (!stage) return stage.problem();
     if (!stage->layouts.empty()) out_.smoke = std::move(stage).value();
-    return std::nullopt;
+    return {};
   }
 
   bool ask_for_more(const std::vector<Check>& failing) {
@@ -582,7 +582,7 @@ class Designing {
 Result<DesignResult> design(const std::shared_ptr<const SceneDescription>& scene,
                             const DesignOptions& options, const std::atomic<bool>& interrupt,
                             const SolveProgress& progress) {
-  if (auto problem = cannot_design(*scene)) return *problem;
+  if (auto ok = can_design(*scene); !ok) return ok.problem();
   auto result = Designing(with_scenario(scene), options, interrupt, progress).run();
   if (!result) return result.problem();
   result->added_scenario = scene->scenarios.empty();

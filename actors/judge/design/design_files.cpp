@@ -136,7 +136,7 @@ Json tolerance_json(const PlaceTolerance& tolerance) {
 Result<void> write_plans(const fs::path& folder, const Json& a, Language language) {
   std::error_code failed;
   fs::create_directories(folder, failed);
-  if (failed) return problem_in(folder, "cannot make this folder: " + failed.message());
+  if (failed) return system_problem(folder, "cannot make this folder", failed.value());
   const Schedule schedule(a);
   const Texts texts(language);
   const Plans plans(a, schedule, texts, {});
@@ -165,7 +165,7 @@ Result<void> remove_alternatives(const fs::path& folder) {
   for (const fs::path& layout : layouts)
     if (!failed) fs::remove(layout, failed);
   if (failed)
-    return problem_in(others, "cannot remove layouts of an earlier design: " + failed.message());
+    return system_problem(others, "cannot remove layouts of an earlier design", failed.value());
   fs::remove(others, failed);  // where nothing else is in it
   return {};
 }
@@ -175,8 +175,8 @@ Result<void> remove_page_as_pdf(const fs::path& folder) {
   std::error_code failed;
   fs::remove(folder / "design.pdf", failed);
   if (failed)
-    return problem_in(folder / "design.pdf",
-                      "cannot remove the page of an earlier design: " + failed.message());
+    return system_problem(folder / "design.pdf", "cannot remove the page of an earlier design",
+                          failed.value());
   return {};
 }
 
@@ -190,7 +190,7 @@ Result<void> write_alternatives(const fs::path& folder, const SceneDescription& 
     std::error_code failed;
     fs::create_directories(path.parent_path(), failed);
     if (failed)
-      return problem_in(path.parent_path(), "cannot make this folder: " + failed.message());
+      return system_problem(path.parent_path(), "cannot make this folder", failed.value());
     const std::string text =
         variant_text(scene, result, one.layout, path.parent_path()) + changes_of_signs(one);
     if (auto ok = write_file_atomically(path, text); !ok) return ok.problem();

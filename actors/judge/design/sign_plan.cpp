@@ -104,22 +104,22 @@ class SignPlanning {
     // A scene that has no light yet is compiled with that of a type.
     if (scene_.emitters.empty()) scene_.emitters.push_back(some_light(design_));
     has_furniture_ = std::any_of(scene_.objects.begin(), scene_.objects.end(), is_furniture);
-    if (auto problem = build(false, bare_)) return *problem;
+    if (auto ok = build(false, bare_); !ok) return ok.problem();
     if (has_furniture_)
-      if (auto problem = build(true, furnished_)) return *problem;
+      if (auto ok = build(true, furnished_); !ok) return ok.problem();
     find_places();
-    if (auto problem = hang_all()) return *problem;
+    if (auto ok = hang_all(); !ok) return ok.problem();
     leave_out_forbidden_signs();
     look();
     make_options();
     make_rows();
-    if (auto problem = plan()) return *problem;
+    if (auto ok = plan(); !ok) return ok.problem();
     return std::move(out_);
   }
 
  private:
   /// Until the signs of a plan do not hide each other; places that no plan guides from are told.
-  std::optional<Problem> plan() {
+  Result<void> plan() {
     std::vector<size_t> lost;
     for (int plans = 1;; ++plans) {
       const LayoutAnswer answer = solve(problem_, time_left());
@@ -158,12 +158,12 @@ class SignPlanning {
     scene_.signs.clear();
   }
 
-  std::optional<Problem> build(bool with_furniture, std::unique_ptr<Building>& to) const {
+  Result<void> build(bool with_furniture, std::unique_ptr<Building>& to) const {
     auto made = Building::make(code_scene(scene_, with_furniture),
                                code_scenario(scene_, options_.doors), options_.threads);
     if (!made) return made.problem();
     to = std::move(made).value();
-    return std::nullopt;
+    return {};
   }
 
   void find_places() {
@@ -172,7 +172,7 @@ class SignPlanning {
         asked_.push_back({r, walker, walker.foot + glm::dvec3(0, 0, standing_eye_m), false});
   }
 
-  std::optional<Problem> hang_all() {
+  Result<void> hang_all() {
     progress_("finding places for signs", 0, 0);
     for (const Sign& sign : scene_.signs) {
       Hung one;
@@ -197,7 +197,7 @@ class SignPlanning {
                         fmt::format("there are {} signs of all types at all places, and at most {} "
                                     "are taken: make 'sign_spacing_m' larger",
                                     hung_.size(), limits::sign_candidates));
-    return std::nullopt;
+    return {};
   }
 
   void leave_out_forbidden_signs() {
@@ -502,12 +502,12 @@ class SignPlanning {
   }
 
   /// The plan that stands may guide where an earlier one did not.
-  std::optional<Problem> tell_given_up() {
+  Result<void> tell_given_up() {
     auto lost = lost_places(given_up_);
     if (!lost) return lost.problem();
     for (const size_t place : lost.value())
       if (!asked_[place].bare) tell_unguided(asked_[place], true);  // else it is told already
-    return std::nullopt;
+    return {};
   }
 
   /// Places that the plan does not guide from any more where its signs hide each other.

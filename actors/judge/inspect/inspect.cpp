@@ -133,9 +133,9 @@ Scenario lit_scenario(const Scenario& scenario) {
 }
 
 /// `state`: scenarios with the same doors. Returns the problem that prevents compiling, if any.
-std::optional<Problem> inspect_doors_state(const SceneDescription& scene,
-                                           const std::vector<const Scenario*>& state, int threads,
-                                           Collected& out, Misplaced& misplaced) {
+Result<void> inspect_doors_state(const SceneDescription& scene,
+                                 const std::vector<const Scenario*>& state, int threads,
+                                 Collected& out, Misplaced& misplaced) {
   SceneDescription clear = all_lit(scene);
   clear.media.clear();
   Scenario lit = lit_scenario(*state.front());
@@ -169,12 +169,12 @@ std::optional<Problem> inspect_doors_state(const SceneDescription& scene,
     inspect_near_field(site, *light.front(), near);
     out.add(std::move(near), names_of(light));
   }
-  return std::nullopt;
+  return {};
 }
 
 /// Returns the problem that prevents compiling, if any.
-std::optional<Problem> inspect_media_of(const SceneDescription& scene, const Scenario& scenario,
-                                        int threads, Findings& out, Misplaced& misplaced) {
+Result<void> inspect_media_of(const SceneDescription& scene, const Scenario& scenario, int threads,
+                              Findings& out, Misplaced& misplaced) {
   SceneDescription smoky = all_lit(scene);
   smoky.planes.clear();
   auto building = Building::make(std::move(smoky), lit_scenario(scenario), threads);
@@ -185,7 +185,7 @@ std::optional<Problem> inspect_media_of(const SceneDescription& scene, const Sce
   inspect_smoke(scene, *building.value(), out);
   inspect_columns(scene, *building.value(), out);
   inspect_fire_meshes(scene, *building.value(), out);
-  return std::nullopt;
+  return {};
 }
 
 /// Only the worst scenario: the numbers differ slightly, but the hole is the same.
@@ -258,7 +258,8 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   out.add(std::move(of_scene), names_of(all));
   Misplaced misplaced;
   for (const auto& state : alike(all, doors_of)) {
-    if (auto problem = inspect_doors_state(*scene, state, threads, out, misplaced)) return *problem;
+    if (auto ok = inspect_doors_state(*scene, state, threads, out, misplaced); !ok)
+      return ok.problem();
   }
   const auto media_of = [](const Scenario& s) {
     return std::tuple(listed(s.media), s.smoke_factor, doors_of(s));
@@ -266,8 +267,8 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   if (!scene->media.empty())
     for (const auto& state : alike(all, media_of)) {
       Findings found;
-      if (auto problem = inspect_media_of(*scene, *state.front(), threads, found, misplaced))
-        return *problem;
+      if (auto ok = inspect_media_of(*scene, *state.front(), threads, found, misplaced); !ok)
+        return ok.problem();
       out.add(std::move(found), names_of(state));
     }
   inspect_enclosure(*scene, all, misplaced, threads, out);

@@ -328,7 +328,8 @@ Result<void> write_plan_dxf(const fs::path& path, const Json& a, const Schedule&
   {
     Drawing out(draft);
     if (!out.open())
-      return problem_in(path, "cannot be written: is the folder there and writable?");
+      return problem_in(path, "cannot be written: is the folder there and writable?",
+                        ProblemKind::system);
     out.head(low, high);
     blocks(out, schedule);
     out.section("ENTITIES");

@@ -32,7 +32,7 @@ std::string named(const fs::path& folder, const ReportOptions& options) {
 Result<void> make_folder(const fs::path& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
-  if (failed) return problem_in(folder, "cannot make this folder: " + failed.message());
+  if (failed) return system_problem(folder, "cannot make this folder", failed.value());
   return {};
 }
 

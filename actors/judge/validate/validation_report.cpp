@@ -122,7 +122,7 @@ Result<void> write_suite(const std::filesystem::path& folder,
                          const Verdict& verdict) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) return problem_in(folder, "cannot make this folder: " + error.message());
+  if (error) return system_problem(folder, "cannot make this folder", error.value());
   if (auto ok = write_json(folder / "validate.json", suite_json(results, verdict, record)); !ok)
     return ok.problem();
   const auto page = suite_page(results, verdict, record);

@@ -16,11 +16,13 @@ void end_fibers(Fibers& fibers) {
   }
 }
 
-std::string fault_of(const NodeShell& shell, const Fibers& fibers) {
-  if (fibers.live() > fibers.capacity()) return "more fibers than there are";
+Result<void> check_fibers(const NodeShell& shell, const Fibers& fibers) {
+  if (fibers.live() > fibers.capacity())
+    return problem("more fibers than there are", ProblemKind::bug);
   if (shell.finished() && fibers.live() > 0)
-    return fmt::format("it has left, and has {}", fibers.describe_live());
-  return "";
+    return problem(fmt::format("it has left, and has {}", fibers.describe_live()),
+                   ProblemKind::bug);
+  return {};
 }
 
 namespace {
@@ -91,26 +93,28 @@ void SimWorker::die() {
   end_fibers(worker_.shell().scheduler().fibers());
 }
 
-std::string SimWorker::fault() const {
+Result<void> SimWorker::check() const {
   const Scheduler& scheduler = worker_.shell().scheduler();
-  if (auto fault = fault_of(worker_.shell(), scheduler.fibers()); !fault.empty()) return fault;
+  if (auto ok = check_fibers(worker_.shell(), scheduler.fibers()); !ok) return ok.problem();
   const SubCoordinator* leads = worker_.coordinator();
   if (leads != nullptr && !leads->adding() && !leads->merged().balance().closes())
-    return "the ledger of a coordinator does not close";
-  if (worker_.objects() == nullptr) return "";
+    return problem("the ledger of a coordinator does not close", ProblemKind::bug);
+  if (worker_.objects() == nullptr) return {};
   const ObjectCache::Counters& cache = worker_.objects()->server().cache().counters();
   if (cache.resident_bytes > node_.object_bytes)
-    return fmt::format("{} B are resident, with a budget of {} B", cache.resident_bytes,
-                       node_.object_bytes);
-  if (cache.pinned_bytes > cache.resident_bytes) return "more bytes are pinned than resident";
+    return problem(fmt::format("{} B are resident, with a budget of {} B", cache.resident_bytes,
+                               node_.object_bytes),
+                   ProblemKind::bug);
+  if (cache.pinned_bytes > cache.resident_bytes)
+    return problem("more bytes are pinned than resident", ProblemKind::bug);
   if (cache.builds > worker_.objects()->server().fetcher().counters().fetches)
-    return "an object was built twice for one fetch";
-  return "";
+    return problem("an object was built twice for one fetch", ProblemKind::bug);
+  return {};
 }
 
-std::string SimWorker::regret() const {
+Result<void> SimWorker::outcome() const {
   const auto result = worker_.result();
-  return result ? "" : result.problem().what;
+  return result ? Result<void>() : result.problem();
 }
 
 // ---- the controller ----------------------------------------------------------------------------
@@ -141,18 +145,19 @@ void SimController::die() {
   end_fibers(node_.shell().scheduler().fibers());
 }
 
-std::string SimController::fault() const {
-  if (auto fault = fault_of(node_.shell(), node_.shell().scheduler().fibers()); !fault.empty())
-    return fault;
-  if (went_back_) return "counted batches have become fewer";
+Result<void> SimController::check() const {
+  if (auto ok = check_fibers(node_.shell(), node_.shell().scheduler().fibers()); !ok)
+    return ok.problem();
+  if (went_back_) return problem("counted batches have become fewer", ProblemKind::bug);
   if (!coordinator().adding() && !run_.totals().balance().closes())
-    return "the ledger does not close";
-  return "";
+    return problem("the ledger does not close", ProblemKind::bug);
+  return {};
 }
 
 /// A display that has written the results may be gone when a controller restarts.
-std::string SimController::regret() const {
-  return coordinator().fault() && !coordinator().lost_display() ? coordinator().fault()->what : "";
+Result<void> SimController::outcome() const {
+  if (coordinator().fault() && !coordinator().lost_display()) return *coordinator().fault();
+  return {};
 }
 
 }  // namespace luxodus

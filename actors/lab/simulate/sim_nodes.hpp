@@ -2,11 +2,10 @@
 // whose tracing takes virtual time. Thread rule: the simulation's thread.
 #pragma once
 
-#include <string>
-
 #include "actors/cast/node/controller_node.hpp"
 #include "actors/cast/node/worker.hpp"
 #include "actors/lab/simulate/charging.hpp"
+#include "runtime/core/result.hpp"
 #include "runtime/sim/sim_world.hpp"
 
 namespace luxodus {
@@ -14,18 +13,18 @@ namespace luxodus {
 /// A node whose invariants are checked.
 class CheckedNode : public SimNode {
  public:
-  /// The first invariant that does not hold, for people; "" if all do. Cheap.
-  virtual std::string fault() const = 0;
-  /// Why it has left without having done its part, for people; "" if it has done it.
-  virtual std::string regret() const = 0;
+  /// Errors: the first of its invariants that does not hold. Cheap.
+  virtual Result<void> check() const = 0;
+  /// Errors: it has left without having done its part.
+  virtual Result<void> outcome() const = 0;
   /// How long it trusts its workers' confirmations of the end.
   virtual Nanoseconds word_is_fresh() const { return 0; }
 };
 
 /// Makes all fibers return, as after a cancellation.
 void end_fibers(Fibers& fibers);
-/// A violated invariant of a node's fibers; "" if there is none.
-std::string fault_of(const NodeShell& shell, const Fibers& fibers);
+/// Errors: what is wrong with the fibers of a node.
+Result<void> check_fibers(const NodeShell& shell, const Fibers& fibers);
 
 /// A node's access to the world, in which real work takes the time of its cost.
 NodeSeams charged_seams(SimWorld& world, NodeId self, const SimCosts& costs,
@@ -46,8 +45,8 @@ class SimWorker final : public CheckedNode {
   Nanoseconds turn() override;
   bool finished() const override { return worker_.shell().finished(); }
   void die() override;
-  std::string fault() const override;
-  std::string regret() const override;
+  Result<void> check() const override;
+  Result<void> outcome() const override;
   Nanoseconds word_is_fresh() const override {
     return worker_.coordinator() == nullptr ? 0 : worker_.coordinator()->word_is_fresh();
   }
@@ -74,8 +73,8 @@ class SimController final : public CheckedNode {
   Nanoseconds turn() override;
   bool finished() const override { return node_.shell().finished(); }
   void die() override;
-  std::string fault() const override;
-  std::string regret() const override;
+  Result<void> check() const override;
+  Result<void> outcome() const override;
   Nanoseconds word_is_fresh() const override { return coordinator().word_is_fresh(); }
   const RunCoordinator& coordinator() const { return node_.coordinator(); }
   /// Longest turn of its loop [ns], by charged time.

@@ -30,19 +30,21 @@ std::unique_ptr<LocalRun> SimScene::fresh_run(bool resident) const {
   return std::make_unique<LocalRun>(scene_, seed_, 1, nullptr);
 }
 
-std::string SimScene::difference(const LocalRun& run) const {
+Result<void> SimScene::compare(const LocalRun& run) const {
   const Totals &ours = run.totals(), &theirs = reference_->totals();
   for (int g = 0; g < theirs.groups(); ++g) {
     if (ours.batches(g) != theirs.batches(g))
-      return fmt::format("source group {} has {} batches, the plain loop {}", g, ours.batches(g),
-                         theirs.batches(g));
+      return problem(fmt::format("source group {} has {} batches, the plain loop {}", g,
+                                 ours.batches(g), theirs.batches(g)),
+                     ProblemKind::bug);
     const auto &a = ours.state(g).totals, &b = theirs.state(g).totals;
     if (std::memcmp(a.data(), b.data(), b.size() * sizeof(Total)) != 0)
-      return fmt::format("totals of source group {} differ from the plain loop's", g);
+      return problem(fmt::format("totals of source group {} differ from the plain loop's", g),
+                     ProblemKind::bug);
   }
   if (std::memcmp(&ours.balance(), &theirs.balance(), sizeof(EnergyBalance)) != 0)
-    return "the ledger differs from the plain loop's";
-  return "";
+    return problem("the ledger differs from the plain loop's", ProblemKind::bug);
+  return {};
 }
 
 namespace {
@@ -61,14 +63,15 @@ class SimDisplay final : public RunOutput {
   }
   Result<void> write_results(const LocalRun&, StopReason) override { return {}; }
 
-  /// What is wrong with its flux; "" if it equals that of the plain loop.
-  std::string fault() const {
-    if (!whole_) return "the display was shown a part of a flush";
-    if (!flux_) return "the display has not kept the flux";
+  /// Errors: what it has is not the flux of the plain loop.
+  Result<void> check() const {
+    if (!whole_) return problem("the display was shown a part of a flush", ProblemKind::bug);
+    if (!flux_) return problem("the display has not kept the flux", ProblemKind::bug);
     const auto kept = scene_.fresh_run(false);
-    if (auto ok = take_flux(*flux_, {}, *kept); !ok) return ok.problem().what;
-    const std::string difference = scene_.difference(*kept);
-    return difference.empty() ? "" : "what the display has kept: " + difference;
+    if (auto ok = take_flux(*flux_, {}, *kept); !ok) return ok.problem();
+    if (auto ok = scene_.compare(*kept); !ok)
+      return problem("what the display has kept: " + ok.problem().what, ProblemKind::bug);
+    return {};
   }
 
  private:
@@ -105,7 +108,7 @@ class Simulation {
   void begin_controller(uint32_t life);
   SnapshotJournal::Config drawn_journal() const;
   void go();
-  std::string ended_well() const;
+  Result<void> ended_well() const;
   NodeId controller() const { return setups_.controller(); }
   void note_last(const SimController& controller);
   Nanoseconds longest_word_below();
@@ -239,8 +242,9 @@ Nanoseconds Simulation::longest_word_below() {
 /// shortly before, while confirmations of its earlier life still count.
 void Simulation::note_left(NodeId node, const CheckedNode& left) {
   if (let_go_ != never && begins_[node.value] >= let_go_ - fresh_) return;
-  if (auto why = left.regret(); !why.empty())
-    report_.failure = fmt::format("{} has left with \"{}\"", setup_.name_of(node), why);
+  if (auto ok = left.outcome(); !ok)
+    report_.failure =
+        fmt::format("{} has left with \"{}\"", setup_.name_of(node), ok.problem().what);
 }
 
 void Simulation::go() {
@@ -252,15 +256,16 @@ void Simulation::go() {
     const SimNode* const here = world_->node(last);
     const auto* node = static_cast<const CheckedNode*>(here != nullptr ? here : world_->departed());
     if (node == nullptr) continue;
-    if (auto fault = node->fault(); !fault.empty())
-      report_.failure = fmt::format("{}: {}", setup_.name_of(last), fault);
+    if (auto ok = node->check(); !ok)
+      report_.failure = fmt::format("{}: {}", setup_.name_of(last), ok.problem().what);
     if (here == nullptr && report_.failure.empty()) note_left(last, *node);
     if (last == controller()) note_last(*static_cast<const SimController*>(node));
     if (world_->now() > end)
       report_.failure =
           fmt::format("it has not ended {} s after all was healed", options_.patience / seconds(1));
   }
-  if (report_.failure.empty()) report_.failure = ended_well();
+  if (report_.failure.empty())
+    if (auto ok = ended_well(); !ok) report_.failure = ok.problem().what;
   if (journal_) report_.snapshots += journal_->snapshots();
   report_.virtual_time = world_->now();
   report_.trace_hash = world_->trace_hash();
@@ -269,12 +274,14 @@ void Simulation::go() {
   report_.rare_ways = setups_.rare_ways_taken();
 }
 
-std::string Simulation::ended_well() const {
-  if (!reason_) return "nobody has anything to do, and the run has not ended";
+Result<void> Simulation::ended_well() const {
+  if (!reason_)
+    return problem("nobody has anything to do, and the run has not ended", ProblemKind::bug);
   if (*reason_ != StopReason::particles)
-    return fmt::format("the run ended by {}, not by its particles", name_of(*reason_));
-  const std::string difference = scene_.difference(*run_);
-  return difference.empty() ? display_.fault() : difference;
+    return problem(fmt::format("the run ended by {}, not by its particles", name_of(*reason_)),
+                   ProblemKind::bug);
+  if (auto ok = scene_.compare(*run_); !ok) return ok.problem();
+  return display_.check();
 }
 
 Result<SimReport> Simulation::run(const SimScene& scene, const SimOptions& options) {

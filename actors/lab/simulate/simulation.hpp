@@ -7,6 +7,7 @@
 #include <string>
 
 #include "actors/lab/simulate/sim_options.hpp"
+#include "runtime/core/result.hpp"
 
 namespace luxodus {
 
@@ -22,8 +23,8 @@ class SimScene {
   int64_t particles() const { return particles_; }
   /// A run that has traced nothing. `resident`: with all geometry in memory.
   std::unique_ptr<LocalRun> fresh_run(bool resident) const;
-  /// The difference from the plain loop's result, for people; "" if all bits are equal.
-  std::string difference(const LocalRun& run) const;
+  /// Errors: what differs from the plain loop's result.
+  Result<void> compare(const LocalRun& run) const;
 
  private:
   const std::shared_ptr<const CompiledScene> scene_;

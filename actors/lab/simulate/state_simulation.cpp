@@ -54,8 +54,8 @@ class Viewer {
   void look(StateCoordinator& coordinator, Nanoseconds now);
   /// A work is done, or has ended after stop().
   void work_is_done();
-  /// The difference from the plain loops; "" if all bits are equal.
-  std::string difference() const;
+  /// Errors: what differs from the plain loops.
+  Result<void> compare() const;
 
  private:
   bool is_done(size_t state) const { return runs_[state]->traced() == batches_[state]; }
@@ -139,13 +139,13 @@ void Viewer::work_is_done() {
   leaves_ = never;
 }
 
-std::string Viewer::difference() const {
+Result<void> Viewer::compare() const {
   for (size_t i = 0; i < states_.count(); ++i) {
-    if (!is_done(i)) return fmt::format("state {} is not done", i);
-    if (auto difference = states_.of(i).difference(*runs_[i]); !difference.empty())
-      return fmt::format("state {}: {}", i, difference);
+    if (!is_done(i)) return problem(fmt::format("state {} is not done", i), ProblemKind::bug);
+    if (auto ok = states_.of(i).compare(*runs_[i]); !ok)
+      return problem(fmt::format("state {}: {}", i, ok.problem().what), ProblemKind::bug);
   }
-  return "";
+  return {};
 }
 
 /// The coordinator's node in the simulated world.
@@ -163,10 +163,10 @@ class SimStateNode final : public CheckedNode {
   Nanoseconds turn() override { return node_.shell().turn(); }
   bool finished() const override { return node_.shell().finished(); }
   void die() override { end_fibers(node_.shell().scheduler().fibers()); }
-  std::string fault() const override {
-    return fault_of(node_.shell(), node_.shell().scheduler().fibers());
+  Result<void> check() const override {
+    return check_fibers(node_.shell(), node_.shell().scheduler().fibers());
   }
-  std::string regret() const override { return ""; }
+  Result<void> outcome() const override { return {}; }
   const StateCoordinator& coordinator() const { return node_.coordinator(); }
 
  private:
@@ -183,7 +183,7 @@ class StateSimulation {
   std::unique_ptr<SimNode> make(NodeId node, uint32_t life);
   void look_at_last();
   void note_left(NodeId node, const CheckedNode& left);
-  std::string ended_well() const;
+  Result<void> ended_well() const;
 
   const SimOptions options_;
   RunSetup setup_;
@@ -231,8 +231,9 @@ std::unique_ptr<SimNode> StateSimulation::make(NodeId node, uint32_t life) {
 /// As for a run: a node that restarts after all were released finds none that could tell it.
 void StateSimulation::note_left(NodeId node, const CheckedNode& left) {
   if (let_go_ != never && begins_[node.value] >= let_go_ - fresh_) return;
-  if (auto why = left.regret(); !why.empty())
-    report_.failure = fmt::format("{} has left with \"{}\"", setup_.name_of(node), why);
+  if (auto ok = left.outcome(); !ok)
+    report_.failure =
+        fmt::format("{} has left with \"{}\"", setup_.name_of(node), ok.problem().what);
 }
 
 void StateSimulation::look_at_last() {
@@ -241,8 +242,8 @@ void StateSimulation::look_at_last() {
   const SimNode* const here = world_->node(last);
   const auto* node = static_cast<const CheckedNode*>(here != nullptr ? here : world_->departed());
   if (node == nullptr) return;
-  if (auto fault = node->fault(); !fault.empty())
-    report_.failure = fmt::format("{}: {}", setup_.name_of(last), fault);
+  if (auto ok = node->check(); !ok)
+    report_.failure = fmt::format("{}: {}", setup_.name_of(last), ok.problem().what);
   if (here == nullptr && report_.failure.empty()) note_left(last, *node);
   if (last != setups_.controller()) return;
   const StateCoordinator& coordinator = static_cast<const SimStateNode*>(node)->coordinator();
@@ -265,7 +266,8 @@ SimReport StateSimulation::run() {
       report_.failure =
           fmt::format("it has not ended {} s after all was healed", options_.patience / seconds(1));
   }
-  if (report_.failure.empty()) report_.failure = ended_well();
+  if (report_.failure.empty())
+    if (auto ok = ended_well(); !ok) report_.failure = ok.problem().what;
   report_.virtual_time = world_->now();
   report_.trace_hash = world_->trace_hash();
   report_.world = world_->counters();
@@ -274,9 +276,10 @@ SimReport StateSimulation::run() {
   return std::move(report_);
 }
 
-std::string StateSimulation::ended_well() const {
-  if (!ended_) return "nobody has anything to do, and not all states are traced";
-  return viewer_.difference();
+Result<void> StateSimulation::ended_well() const {
+  if (!ended_)
+    return problem("nobody has anything to do, and not all states are traced", ProblemKind::bug);
+  return viewer_.compare();
 }
 
 }  // namespace

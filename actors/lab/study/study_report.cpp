@@ -215,7 +215,7 @@ OutputPlan study_output(const Study& study) {
 Result<void> write_study(const std::filesystem::path& folder, const StudyOutcome& outcome) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) return problem_in(folder, "cannot make this folder: " + error.message());
+  if (error) return system_problem(folder, "cannot make this folder", error.value());
   if (auto ok = write_csv(folder / "results.csv", study_table(outcome)); !ok) return ok.problem();
   if (auto ok = write_json(folder / "results.json", study_json(outcome)); !ok) return ok.problem();
   for (const StudyPlot& plot : outcome.study.plots) {

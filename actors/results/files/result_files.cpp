@@ -145,8 +145,8 @@ Result<void> remove_old_maps(const fs::path& folder) {
     if (!is_own(file)) continue;
     fs::remove(folder / file, error);
     if (error) {
-      return problem_in(folder / file,
-                        "cannot remove this file of an earlier run: " + error.message());
+      return system_problem(folder / file, "cannot remove this file of an earlier run",
+                            error.value());
     }
   }
   // A folder with other files is not empty and stays.

@@ -469,7 +469,7 @@ Result<void> begin_results(const std::filesystem::path& folder, const LocalRun& 
   if (auto ok = remove_old_maps(folder); !ok) return ok.problem();
   std::error_code error;
   std::filesystem::create_directories(folder / "planes", error);
-  if (error) return problem_in(folder, "cannot make this folder: " + error.message());
+  if (error) return system_problem(folder, "cannot make this folder", error.value());
   // Written first, so that the files to come are recognised as a run's even if this process is
   // killed.
   return write_json(folder / "result.json", begun_json(run, record, run.seconds()));

@@ -74,7 +74,7 @@ Result<void> write_or_remove(const std::filesystem::path& path,
   std::error_code failed;
   std::filesystem::remove(path, failed);
   if (failed)
-    return problem_in(path, "cannot remove what an earlier run has left: " + failed.message());
+    return system_problem(path, "cannot remove what an earlier run has left", failed.value());
   return {};
 }
 

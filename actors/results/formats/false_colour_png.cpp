@@ -537,7 +537,8 @@ Result<PngImage> draw_false_colour(const FalseColourPicture& picture, const Sour
   }
   Painter painter(picture, statistics);
   Canvas& canvas = painter.draw();
-  if (!canvas.good()) return problem_in(place, "cannot draw this picture: " + canvas.failure());
+  if (!canvas.good())
+    return problem_in(place, "cannot draw this picture: " + canvas.failure(), ProblemKind::system);
   PngImage image;
   image.width = cairo_image_surface_get_width(cairo_get_target(canvas.context()));
   image.height = cairo_image_surface_get_height(cairo_get_target(canvas.context()));

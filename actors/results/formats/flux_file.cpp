@@ -70,7 +70,8 @@ Result<void> put_record(std::vector<std::byte>& out, std::string_view name,
   const size_t size =
       ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), compression_level);
   if (ZSTD_isError(size)) {
-    return problem_in(place, "cannot compress " + called(name) + ": " + ZSTD_getErrorName(size));
+    return problem_in(place, "cannot compress " + called(name) + ": " + ZSTD_getErrorName(size),
+                      ProblemKind::system);
   }
   packed.resize(size);
   put(out, static_cast<uint32_t>(name.size()));
@@ -163,13 +164,17 @@ Result<std::vector<std::byte>> RecordReader::unpack(const std::string& what, uin
 Result<void> check_names(const FluxFile& file, const SourcePlace& place) {
   std::set<std::string_view> names;
   for (const Block& block : file.blocks) {
-    if (block.name.empty()) return problem_in(place, "a block of a flux file needs a name");
+    if (block.name.empty())
+      return problem_in(place, "a block of a flux file needs a name", ProblemKind::bug);
     if (block.name.size() > limits::max_flux_name_bytes) {
-      return problem_in(place, called(block.name) + " has too long a name; the most is " +
-                                   std::to_string(limits::max_flux_name_bytes) + " bytes");
+      return problem_in(place,
+                        called(block.name) + " has too long a name; the most is " +
+                            std::to_string(limits::max_flux_name_bytes) + " bytes",
+                        ProblemKind::bug);
     }
     if (!names.insert(block.name).second) {
-      return problem_in(place, called(block.name) + " is there twice; names must differ");
+      return problem_in(place, called(block.name) + " is there twice; names must differ",
+                        ProblemKind::bug);
     }
   }
   return {};

@@ -72,8 +72,8 @@ Result<void> check_subfolder(const fs::path& path) {
 Result<void> check_target(const fs::path& path) {
   struct stat about {};
   if (::lstat(path.c_str(), &about) != 0) return {};
-  const auto fault = fault_of_target(about);
-  return fault ? Result<void>(problem_in(path, *fault)) : Result<void>{};
+  if (auto ok = can_be_replaced(about); !ok) return problem_in(path, ok.problem());
+  return {};
 }
 
 }  // namespace
@@ -103,17 +103,22 @@ struct OutputFolder::State {
     path = fs::canonical(named, error);
     if (!error) handle = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (handle >= 0) return {};
-    const std::string why = reason(error ? error.value() : errno);
-    return problem_in(named, "cannot make this folder: " + why + "; give another one");
+    const int failed = error ? error.value() : errno;
+    return problem_in(named, "cannot make this folder: " + reason(failed) + "; give another one",
+                      kind_of_errno(failed));
   }
 
   Result<void> take_lock() {
     for (int attempt = 0; attempt < max_lock_attempts; ++attempt) {
       lock =
           ::openat(handle, lock_name, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644);
-      if (lock < 0)
-        return problem_in(named, "cannot write into this folder: " + reason(errno) +
-                                     "; give another one, or the right to write here");
+      if (lock < 0) {
+        const int failed = errno;
+        return problem_in(named,
+                          "cannot write into this folder: " + reason(failed) +
+                              "; give another one, or the right to write here",
+                          kind_of_errno(failed));
+      }
       struct stat open_one {
       }, named_one{};
       if (::fstat(lock, &open_one) != 0 || !S_ISREG(open_one.st_mode)) {
@@ -125,9 +130,9 @@ struct OutputFolder::State {
         if (errno != EWOULDBLOCK) return {};
         const std::string holder = holder_of(lock);
         forget_lock();
-        return problem_in(named, holder +
-                                     " writes into this folder: wait for its end, or give "
-                                     "another one");
+        return problem_in(
+            named, holder + " writes into this folder: wait for its end, or give another one",
+            ProblemKind::refused);
       }
       const bool same = ::fstatat(handle, lock_name, &named_one, AT_SYMLINK_NOFOLLOW) == 0 &&
                         named_one.st_ino == open_one.st_ino && named_one.st_dev == open_one.st_dev;
@@ -136,7 +141,8 @@ struct OutputFolder::State {
     }
     return problem_in(named,
                       "other processes begin and end in this folder all the time: give "
-                      "another one");
+                      "another one",
+                      ProblemKind::refused);
   }
 
  private:
@@ -149,8 +155,11 @@ struct OutputFolder::State {
     const std::string who = own_name();
     const ssize_t put = ::ftruncate(lock, 0) == 0 ? ::pwrite(lock, who.data(), who.size(), 0) : -1;
     if (put == static_cast<ssize_t>(who.size())) return {};
-    return problem_in(named, "cannot write into this folder: " + reason(put < 0 ? errno : ENOSPC) +
-                                 "; free some space, or give another one");
+    const int failed = put < 0 ? errno : ENOSPC;
+    return problem_in(named,
+                      "cannot write into this folder: " + reason(failed) +
+                          "; free some space, or give another one",
+                      kind_of_errno(failed));
   }
 };
 

@@ -46,7 +46,7 @@ Result<int> run_program(const std::vector<std::string>& words, const fs::path& s
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0)
     if (errno != EINTR) return system_problem({}, "cannot wait for " + words[0], errno);
-  if (!WIFEXITED(status)) return problem(words[0] + " was ended by a signal");
+  if (!WIFEXITED(status)) return problem(words[0] + " was ended by a signal", ProblemKind::system);
   return WEXITSTATUS(status) == not_found ? -1 : WEXITSTATUS(status);
 }
 

@@ -395,7 +395,7 @@ Result<std::string> svg_plot_text(const SvgPlot& plot, const SourcePlace& place)
     const std::string name = "series '" + clean_utf8(s.name) + "'";
     if (s.y.size() != s.x.size() || (!s.error.empty() && s.error.size() != s.x.size()) ||
         (!s.labels.empty() && s.labels.size() != s.x.size())) {
-      return problem_in(place, name + " has columns of different length");
+      return problem_in(place, name + " has columns of different length", ProblemKind::bug);
     }
     if (s.x.size() > limits::max_plot_points)
       return problem_in(place, name + " has too many points");

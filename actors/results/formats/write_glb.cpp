@@ -6,7 +6,6 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <map>
-#include <optional>
 
 #include "runtime/core/atomic_file.hpp"
 
@@ -22,19 +21,21 @@ constexpr int target_vertices = 34962, target_indices = 34963;
 constexpr uint32_t glb_magic = 0x46546C67, glb_version = 2;
 constexpr uint32_t chunk_json = 0x4E4F534A, chunk_binary = 0x004E4942;
 
-std::optional<std::string> fault_of(const GlbMesh& mesh) {
+Result<void> check_mesh(const GlbMesh& mesh) {
   const auto finite = [](const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   };
   if (!mesh.colours.empty() && mesh.points.size() != mesh.colours.size())
-    return "points and colours differ in number";
-  if (mesh.triangles.empty() || mesh.triangles.size() % 3 != 0) return "it has no whole triangles";
+    return problem("points and colours differ in number", ProblemKind::bug);
+  if (mesh.triangles.empty() || mesh.triangles.size() % 3 != 0)
+    return problem("it has no whole triangles", ProblemKind::bug);
   for (const uint32_t index : mesh.triangles)
-    if (index >= mesh.points.size()) return "a triangle has a corner that there is not";
+    if (index >= mesh.points.size())
+      return problem("a triangle has a corner that there is not", ProblemKind::bug);
   for (size_t i = 0; i < mesh.points.size(); ++i)
     if (!finite(mesh.points[i]) || (!mesh.colours.empty() && !finite(mesh.colours[i])))
-      return "a number is not finite";
-  return std::nullopt;
+      return problem("a number is not finite", ProblemKind::bug);
+  return {};
 }
 
 Json numbers(const glm::dvec3& v) {
@@ -62,8 +63,8 @@ class GlbWriter {
  public:
   Result<std::string> write(const GlbScene& scene) {
     for (const GlbMesh& mesh : scene.meshes) {
-      if (const auto fault = fault_of(mesh))
-        return problem("mesh \"" + mesh.name + "\": " + *fault);
+      if (auto ok = check_mesh(mesh); !ok)
+        return problem("mesh \"" + mesh.name + "\": " + ok.problem().what, ok.problem().kind);
       add(mesh);
     }
     if (scene.meshes.empty()) return problem("there is nothing to write: no triangles");

@@ -71,17 +71,20 @@ Result<void> check_arrays(const std::vector<VtkArray>& arrays, uint64_t cells,
                           const SourcePlace& place) {
   std::set<std::string_view> names;
   for (const VtkArray& array : arrays) {
-    if (array.name.empty()) return problem_in(place, "an array of a VTK file needs a name");
+    if (array.name.empty())
+      return problem_in(place, "an array of a VTK file needs a name", ProblemKind::bug);
     if (!names.insert(array.name).second) {
       return problem_in(place,
-                        "array '" + clean_utf8(array.name) + "' is there twice; names must differ");
+                        "array '" + clean_utf8(array.name) + "' is there twice; names must differ",
+                        ProblemKind::bug);
     }
     const size_t size = std::visit([](const auto& values) { return values.size(); }, array.values);
     if (array.components < 1 || size != cells * static_cast<uint64_t>(array.components)) {
-      return problem_in(place, "array '" + clean_utf8(array.name) + "' has " +
-                                   std::to_string(size) + " values; " + std::to_string(cells) +
-                                   " cells with " + std::to_string(array.components) +
-                                   " components were expected");
+      return problem_in(place,
+                        "array '" + clean_utf8(array.name) + "' has " + std::to_string(size) +
+                            " values; " + std::to_string(cells) + " cells with " +
+                            std::to_string(array.components) + " components were expected",
+                        ProblemKind::bug);
     }
   }
   return {};
@@ -114,11 +117,12 @@ Result<void> check_surface(const VtkSurface& surface, const SourcePlace& place) 
     return problem_in(place, "too many triangles for one VTK file; use larger patches");
   }
   for (const glm::dvec3& point : surface.points) {
-    if (!finite(point)) return problem_in(place, "a point has a coordinate that is not a number");
+    if (!finite(point))
+      return problem_in(place, "a point has a coordinate that is not a number", ProblemKind::bug);
   }
   for (const glm::uvec3& t : surface.triangles) {
     if (std::max({t.x, t.y, t.z}) >= surface.points.size()) {
-      return problem_in(place, "a triangle names a point that is not there");
+      return problem_in(place, "a triangle names a point that is not there", ProblemKind::bug);
     }
   }
   return check_arrays(surface.cell_data, surface.triangles.size(), place);

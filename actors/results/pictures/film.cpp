@@ -48,15 +48,15 @@ bool is_frame(const fs::path& file) {
 Result<void> make_frame_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) return problem_in(folder, "cannot make this folder: " + error.message());
+  if (error) return system_problem(folder, "cannot make this folder", error.value());
   std::vector<fs::path> old;
   for (auto at = fs::directory_iterator(folder, error); !error && at != fs::directory_iterator();
        at.increment(error))
     if (is_frame(at->path())) old.push_back(at->path());
-  if (error) return problem_in(folder, "cannot list this folder: " + error.message());
+  if (error) return system_problem(folder, "cannot list this folder", error.value());
   for (const fs::path& file : old)
     if (!fs::remove(file, error) || error)
-      return problem_in(file, "cannot remove this frame of an earlier film: " + error.message());
+      return system_problem(file, "cannot remove this frame of an earlier film", error.value());
   return {};
 }
 
@@ -284,10 +284,11 @@ Result<bool> write_video(const fs::path& file, const fs::path& folder, size_t fr
     fs::remove(unfinished, error);
     if (!code) return code.problem();
     if (code.value() == -1) return false;
-    return problem_in(file, fmt::format("ffmpeg failed with code {}{}", code.value(), words));
+    return problem_in(file, fmt::format("ffmpeg failed with code {}{}", code.value(), words),
+                      ProblemKind::system);
   }
   fs::rename(unfinished, file, error);
-  if (error) return problem_in(file, "cannot be put into its place: " + error.message());
+  if (error) return system_problem(file, "cannot be put into its place", error.value());
   return true;
 }
 

@@ -397,7 +397,7 @@ Result<RenderedViews> render_views(const std::filesystem::path& folder, const Lo
   }
   std::error_code error;
   std::filesystem::create_directories(folder / "views", error);
-  if (error) return problem_in(folder / "views", "cannot make this folder: " + error.message());
+  if (error) return system_problem(folder / "views", "cannot make this folder", error.value());
   const PictureFlux flux = picture_flux(run, options);
   const std::vector<std::string> names = result_names(scene).views;
   double seconds = options.max_seconds, done = 0;

@@ -35,11 +35,12 @@ ReadState opened_as(const FilesAsRead* files, const std::filesystem::path& file,
   OpenedScene opened = open_scene(file, at_s, changes, frames);
   if (!opened.scene) {
     // If a file was edited, that is reported before the file's own problems.
-    const auto changed = files != nullptr ? files->change_on_disk() : std::nullopt;
-    return changed ? *changed : opened.problems.list().front();
+    if (files != nullptr)
+      if (auto ok = files->unchanged_on_disk(); !ok) return ok.problem();
+    return opened.problems.list().front();
   }
   if (files != nullptr && opened.scene->files)
-    if (const auto changed = files->change_in(*opened.scene->files)) return *changed;
+    if (auto ok = files->unchanged_in(*opened.scene->files); !ok) return ok.problem();
   return std::move(opened.scene);
 }
 

@@ -81,8 +81,7 @@ Result<StopReason> RunInPieces::run(LocalRun& run, const StopRule& stop,
   while (run.batches() < stop.target_batches(batch) || !run.missing().empty()) {
     const int64_t end = stop.next_wait(run.batches(), batch, run.plan()), before = run.traced();
     PiecesOfRun pieces(
-        run, end,
-        [&] { return interrupt.load() || stop.time_is_up(passed_s()) || fault_().has_value(); },
+        run, end, [&] { return interrupt.load() || stop.time_is_up(passed_s()) || !goes_on_(); },
         [&](int64_t merged) {
           if (passed_s() - last_report < report_every_s) return;
           last_report = passed_s();
@@ -90,7 +89,7 @@ Result<StopReason> RunInPieces::run(LocalRun& run, const StopRule& stop,
         });
     executor_.trace(pieces);
     pieces.settle();
-    if (auto fault = fault_()) return *fault;
+    if (auto ok = goes_on_(); !ok) return ok.problem();
     error = Readout(run.scene(), run.totals()).worst_relative_error();
     const RunProgress here{run.batches(), error, interrupt.load(), stop.time_is_up(passed_s())};
     if (const auto ended = stop.reason_to_stop(here, batch)) {

@@ -9,6 +9,7 @@
 
 #include "actors/results/run/executor.hpp"
 #include "actors/results/run/run_executor.hpp"
+#include "runtime/core/result.hpp"
 
 namespace luxodus {
 
@@ -45,20 +46,20 @@ class PiecesOfRun final : public Work {
 
 class RunInPieces final : public RunExecutor {
  public:
-  /// `fault`: why tracing can never be completed; the run then ends with that error.
+  /// `goes_on`: an error where those who trace never will; then a run ends with it.
   /// Requires: `executor` outlives it.
-  RunInPieces(Executor& executor, std::function<std::optional<Problem>()> fault)
-      : executor_(executor), fault_(std::move(fault)) {}
+  RunInPieces(Executor& executor, std::function<Result<void>()> goes_on)
+      : executor_(executor), goes_on_(std::move(goes_on)) {}
 
   void enter(const StateObject& state) override { executor_.enter(state); }
-  /// Requires: the state entered last has the run's scene and seed.
-  /// Errors: `fault`.
+  /// Requires: the state entered last is that of the run's scene and seed.
+  /// Errors: those of `goes_on`.
   Result<StopReason> run(LocalRun& run, const StopRule& stop, const std::atomic<bool>& interrupt,
                          const std::function<void(const Progress&)>& report) override;
 
  private:
   Executor& executor_;
-  const std::function<std::optional<Problem>()> fault_;
+  const std::function<Result<void>()> goes_on_;
 };
 
 }  // namespace luxodus

@@ -171,7 +171,7 @@ void dxf_answer(PlainReader& question, PlainWriter& out) {
   const auto text = read_regular_file(path, limits::dxf_plan_bytes);
   const auto plan = text ? dxf_plan_of(text.value(), path) : text.problem();
   out.put(static_cast<uint8_t>(plan.ok()));
-  if (!plan) return out.put(plan.problem().what);
+  if (!plan) return out.put(plan.problem());
   out.put(plan->metres_per_unit);
   out.put(static_cast<uint64_t>(plan->segments.size()));
   for (const DxfSegment& s : plan->segments) {
@@ -233,12 +233,12 @@ Result<DxfPlan> read_dxf_plan(const fs::path& file, ReadingShare* reading) {
   ReadingPart part(reading, unknown ? 0 : bytes);
   auto in = dxf_job.run([&](PlainWriter& question) { question.put(name); }, dxf_limits,
                         [&](double share) { part.at_share(share); });
-  if (!in) return problem_in(name, in.problem().what);
+  if (!in) return problem_in(name, in.problem());
   const Problem damaged = problem_in(name, "cannot be read: the reader gave no sound answer");
   uint8_t good = 0;
   if (!in->get(good)) return damaged;
   if (good != 1) {
-    std::string why;
+    Problem why;
     return in->get(why) ? problem_in(name, std::move(why)) : damaged;
   }
   DxfPlan plan;

@@ -22,33 +22,34 @@ bool is_known_field(std::string_view name) {
   return name == "extinction" || name == "soot_density" || name == "albedo" || name == "emission";
 }
 
-std::string grid_fault(uint64_t nx, uint64_t ny, uint64_t nz) {
+Result<void> check_grid(uint64_t nx, uint64_t ny, uint64_t nz) {
   for (const uint64_t side : {nx, ny, nz}) {
-    if (side == 0) return "the grid has no cells along one of its axes";
+    if (side == 0) return problem("the grid has no cells along one of its axes");
     if (side > limits::data_set_side) {
-      return fmt::format("the grid has {} cells along one axis, the most are {}", side,
-                         limits::data_set_side);
+      return problem(fmt::format("the grid has {} cells along one axis, the most are {}", side,
+                                 limits::data_set_side));
     }
   }
   // Each side is at most 2^20, so that the product does not overflow.
   if (nx * ny * nz > limits::data_set_cells) {
-    return fmt::format("the grid has {} x {} x {} cells, the most are {}", nx, ny, nz,
-                       limits::data_set_cells);
+    return problem(fmt::format("the grid has {} x {} x {} cells, the most are {}", nx, ny, nz,
+                               limits::data_set_cells));
   }
-  return "";
+  return {};
 }
 
-std::string memory_fault(uint64_t cells, uint64_t fields) {
+Result<void> check_memory(uint64_t cells, uint64_t fields) {
   const auto pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || page_bytes <= 0) return "";
+  if (pages <= 0 || page_bytes <= 0) return {};
   const uint64_t has = static_cast<uint64_t>(pages) * static_cast<uint64_t>(page_bytes);
   const uint64_t takes = cells * fields * sizeof(float);
-  if (takes <= has) return "";
+  if (takes <= has) return {};
   constexpr double gib = 1 << 30;
-  return fmt::format(
-      "its {} cells take {:.1f} GiB of memory, this machine has {:.1f}: make them "
-      "coarser",
-      cells, static_cast<double>(takes) / gib, static_cast<double>(has) / gib);
+  return problem(
+      fmt::format("its {} cells take {:.1f} GiB of memory, this machine has {:.1f}: make them "
+                  "coarser",
+                  cells, static_cast<double>(takes) / gib, static_cast<double>(has) / gib),
+      ProblemKind::no_room);
 }
 
 }  // namespace data_set
@@ -79,7 +80,7 @@ Range range_of(const Field& field) {
 }
 
 /// Checks that every value is within the field's range; names the first cell that is not.
-std::optional<Problem> bad_value(const std::string& path, const Grid& grid, const Field& field) {
+Result<void> check_values(const std::string& path, const Grid& grid, const Field& field) {
   const Range range = range_of(field);
   for (size_t i = 0; i < field.value.size(); ++i) {
     const float v = field.value[i];
@@ -90,10 +91,10 @@ std::optional<Problem> bad_value(const std::string& path, const Grid& grid, cons
     return problem_in(path, fmt::format("{} of cell ({}, {}, {}), index {}, is {}: give {}",
                                         field.name, x, y, z, i, found, range.words));
   }
-  return std::nullopt;
+  return {};
 }
 
-std::optional<Problem> bad_placement(const std::string& path, const Grid& grid) {
+Result<void> check_placement(const std::string& path, const Grid& grid) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(grid.spacing[axis] > 0) || !std::isfinite(grid.spacing[axis])) {
       return problem_in(path, fmt::format("the spacing along {} is {}: give a length above 0",
@@ -101,11 +102,11 @@ std::optional<Problem> bad_placement(const std::string& path, const Grid& grid) 
     }
     if (!std::isfinite(grid.origin[axis])) return problem_in(path, "the origin is not finite");
   }
-  return std::nullopt;
+  return {};
 }
 
 Result<LoadedDataSet> assembled(const std::string& path, Grid grid, const DataSetOptions& options) {
-  if (auto bad = bad_placement(path, grid)) return *bad;
+  if (auto ok = check_placement(path, grid); !ok) return ok.problem();
   LoadedDataSet out;
   out.origin = grid.origin;
   out.spacing = grid.spacing;
@@ -117,12 +118,15 @@ Result<LoadedDataSet> assembled(const std::string& path, Grid grid, const DataSe
   data.extent = grid.spacing * glm::dvec3(data.nx, data.ny, data.nz);
   for (Field& field : grid.fields) {
     const bool soot = field.name == "soot_density";
-    if (soot) {
+    if (soot && options.mass_extinction_m2_per_kg) {
       // Multiplied before the check, so that the check finds an overflow, too.
-      const auto factor = static_cast<float>(options.mass_extinction_m2_per_kg);
+      const auto factor = static_cast<float>(*options.mass_extinction_m2_per_kg);
       for (float& v : field.value) v *= factor;
     }
-    if (auto bad = bad_value(path, grid, field)) return *bad;
+    if (auto ok = check_values(path, grid, field); !ok) return ok.problem();
+    if (soot && !options.mass_extinction_m2_per_kg)
+      out.lacks_mass_extinction = std::any_of(field.value.begin(), field.value.end(),
+                                              [](float density) { return density > 0; });
     std::vector<float>& to = soot || field.name == "extinction" ? data.extinction
                              : field.name == "albedo"           ? data.albedo
                                                                 : data.emission;
@@ -140,11 +144,10 @@ Result<LoadedDataSet> assembled(const std::string& path, Grid grid, const DataSe
 }  // namespace
 
 Result<LoadedDataSet> read_data_set(const std::string& path, const DataSetOptions& options) {
-  if (!(options.mass_extinction_m2_per_kg > 0) ||
-      !std::isfinite(options.mass_extinction_m2_per_kg)) {
-    return problem_in(path, fmt::format("a mass extinction of {} m2/kg: give a value above 0",
-                                        options.mass_extinction_m2_per_kg));
-  }
+  if (const auto mass = options.mass_extinction_m2_per_kg;
+      mass && !(*mass > 0 && std::isfinite(*mass)))
+    return problem_in(path,
+                      fmt::format("a mass extinction of {} m2/kg: give a value above 0", *mass));
   const std::string ending = ending_of(path);
   const bool nrrd = ending == ".nrrd" || ending == ".nhdr";
   if (!nrrd && ending != ".vti") {
@@ -152,13 +155,14 @@ Result<LoadedDataSet> read_data_set(const std::string& path, const DataSetOption
   }
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
-    return problem_in(path, "there is no such file");
+    return problem_in(path, "there is no such file", ProblemKind::not_found);
   try {
     Result<Grid> grid = nrrd ? data_set::read_nrrd(path, options) : data_set::read_vti(path);
     if (!grid) return grid.problem();
     return assembled(path, std::move(grid.value()), options);
   } catch (const std::bad_alloc&) {
-    return problem_in(path, "its cells take more memory than this process gets: make them coarser");
+    return problem_in(path, "its cells take more memory than this process gets: make them coarser",
+                      ProblemKind::no_room);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,9 +32,9 @@ inline constexpr uint64_t vti_file_bytes = 16ull << 30;
 }  // namespace limits
 
 struct DataSetOptions {
-  /// Converts soot density to extinction; 8700 m2/kg at 633 nm for flaming fires (Mulholland and
-  /// Croarkin 2000). Smouldering fires must state their own.
-  double mass_extinction_m2_per_kg = 8700;
+  /// Turns soot density into extinction; 8700 m2/kg at 633 nm for flaming fires (Mulholland and
+  /// Croarkin 2000), smouldering must state its own. None: nobody has stated it.
+  std::optional<double> mass_extinction_m2_per_kg = 8700;
   /// The field in a 3-D NRRD, unless the file says `field:=name`.
   std::string field = "extinction";
 };
@@ -43,6 +44,9 @@ struct LoadedDataSet {
   glm::dvec3 origin{0};                 // low corner of the box, in the file's coordinates [m]
   glm::dvec3 spacing{0};                // edges of a cell [m]
   std::vector<std::string> files_read;  // for a hash of the scene
+  /// The file has soot, and no mass extinction was stated: what `data` has as extinction is its
+  /// density.
+  bool lacks_mass_extinction = false;
 };
 
 /// The file's ending decides the format. NRRD may hold several fields in one file: four dimensions,

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/core/result.hpp"
 #include "scenes/formats/fields/data_set.hpp"
 
 namespace luxodus::data_set {
@@ -33,11 +34,11 @@ Result<Grid> read_vti(const std::string& path);
 
 bool is_known_field(std::string_view name);
 
-/// Why such a grid is rejected, or "". Sides are in cells.
-std::string grid_fault(uint64_t nx, uint64_t ny, uint64_t nz);
-/// Why arrays of this many cells do not fit this machine's memory; "" where they do. Call it before
-/// allocating: a sparse file declares gigabytes with a few disk blocks.
-std::string memory_fault(uint64_t cells, uint64_t fields);
+/// Whether such a grid is taken. Sides are cells.
+Result<void> check_grid(uint64_t nx, uint64_t ny, uint64_t nz);
+/// Whether arrays of so many cells fit the memory of this machine. To be asked before they are
+/// made: a sparse file claims gigabytes in a few blocks of a disk.
+Result<void> check_memory(uint64_t cells, uint64_t fields);
 
 enum class SampleType { uint8, float32, float64 };
 

@@ -61,17 +61,15 @@ class NrrdReader {
       : path_(path), options_(options) {}
 
   Result<Grid> read() {
-    if (auto bad = read_header()) return *bad;
-    if (auto bad = understand_samples()) return *bad;
-    if (auto bad = understand_place()) return *bad;
-    if (auto bad = find_data()) return *bad;
-    if (auto bad = read_samples()) return *bad;
+    if (auto ok = read_header(); !ok) return ok.problem();
+    if (auto ok = understand_samples(); !ok) return ok.problem();
+    if (auto ok = understand_place(); !ok) return ok.problem();
+    if (auto ok = find_data(); !ok) return ok.problem();
+    if (auto ok = read_samples(); !ok) return ok.problem();
     return std::move(grid_);
   }
 
  private:
-  using Fault = std::optional<Problem>;
-
   Problem bad(int line, std::string what) const { return problem_in(path_, line, std::move(what)); }
   Problem bad(std::string_view field, std::string_view rule) const {
     const Entry* entry = find(field);
@@ -92,7 +90,7 @@ class NrrdReader {
 
   // ---- the header ------------------------------------------------------------------------------
 
-  Fault read_header() {
+  Result<void> read_header() {
     if (auto file = open_regular_file(path_); !file) return file.problem();
     std::ifstream in(path_, std::ios::binary);
     std::string text(limits::nrrd_header_bytes, '\0');
@@ -109,22 +107,22 @@ class NrrdReader {
         if (text.size() == limits::nrrd_header_bytes) {
           return bad(line, fmt::format("the header has no end within {} bytes", text.size()));
         }
-        if (auto wrong = read_line(std::string_view(text).substr(at), line)) return wrong;
+        if (auto ok = read_line(std::string_view(text).substr(at), line); !ok) return ok.problem();
         header_.bytes = text.size();
-        return std::nullopt;
+        return {};
       }
       std::string_view content = std::string_view(text).substr(at, end - at);
       at = end + 1;
       if (!content.empty() && content.back() == '\r') content.remove_suffix(1);
       if (content.empty()) break;
-      if (auto wrong = read_line(content, line)) return wrong;
+      if (auto ok = read_line(content, line); !ok) return ok.problem();
     }
     header_.bytes = at;
-    return std::nullopt;
+    return {};
   }
 
-  Fault read_line(std::string_view content, int line) {
-    if (line == 1 || content.empty() || content.front() == '#') return std::nullopt;
+  Result<void> read_line(std::string_view content, int line) {
+    if (line == 1 || content.empty() || content.front() == '#') return {};
     const size_t colon = content.find(':');
     if (colon == std::string_view::npos) {
       return bad(line, "a line of the header must be \"field: value\" or \"key:=value\"");
@@ -148,12 +146,12 @@ class NrrdReader {
     if (!list.try_emplace(name, Entry{text, line}).second) {
       return bad(line, fmt::format("\"{}\" is said twice", excerpt(name)));
     }
-    return std::nullopt;
+    return {};
   }
 
   // ---- what the samples are --------------------------------------------------------------------
 
-  Fault understand_samples() {
+  Result<void> understand_samples() {
     const auto dimension = number_in<int>(value("dimension"));
     if (!dimension || (*dimension != 3 && *dimension != 4)) {
       return bad("dimension", "3, or 4 with several fields along the first axis");
@@ -164,8 +162,8 @@ class NrrdReader {
     grid_.nx = (*sizes)[axes_ - 3];
     grid_.ny = (*sizes)[axes_ - 2];
     grid_.nz = (*sizes)[axes_ - 1];
-    const std::string wrong = grid_fault(grid_.nx, grid_.ny, grid_.nz);
-    if (!wrong.empty()) return bad(find("sizes")->line, wrong);
+    if (auto ok = check_grid(grid_.nx, grid_.ny, grid_.nz); !ok)
+      return bad(find("sizes")->line, ok.problem().what);
 
     const std::string_view type = value("type");
     if (type == "float") {
@@ -181,11 +179,11 @@ class NrrdReader {
     if ((type_ != SampleType::uint8 || find("endian")) && value("endian") != "little") {
       return bad("endian", "little");
     }
-    if (auto wrong_names = name_fields((*sizes)[0])) return wrong_names;
+    if (auto ok = name_fields((*sizes)[0]); !ok) return ok.problem();
     return understand_mapping();
   }
 
-  Fault name_fields(uint64_t first_size) {
+  Result<void> name_fields(uint64_t first_size) {
     const bool several = axes_ == 4;
     const auto said = header_.key.find(several ? "fields" : "field");
     const bool is_said = said != header_.key.end();
@@ -209,12 +207,12 @@ class NrrdReader {
       }
       grid_.fields.push_back({std::string(name), {}});
     }
-    return std::nullopt;
+    return {};
   }
 
   /// Reads "old min" and "old max": the values of the ends of a quantised type.
-  Fault understand_mapping() {
-    if (!find("old min") && !find("old max")) return std::nullopt;
+  Result<void> understand_mapping() {
+    if (!find("old min") && !find("old max")) return {};
     if (type_ != SampleType::uint8 || grid_.fields.size() != 1) {
       return bad("old min", "old min and old max with a single field of type uint8 only");
     }
@@ -224,7 +222,7 @@ class NrrdReader {
     if (!high || !std::isfinite(*high)) return bad("old max", "a finite number");
     offset_ = *low;
     factor_ = (*high - *low) / 255.0;
-    return std::nullopt;
+    return {};
   }
 
   // ---- where the samples are -------------------------------------------------------------------
@@ -239,7 +237,7 @@ class NrrdReader {
     return glm::dvec3((*v)[0], (*v)[1], (*v)[2]);
   }
 
-  Fault understand_place() {
+  Result<void> understand_place() {
     if (const Entry* space = find("space")) {
       constexpr std::string_view taken[] = {"right-anterior-superior", "RAS", "3D-right-handed"};
       if (!contains(taken, space->value)) {
@@ -248,9 +246,8 @@ class NrrdReader {
     }
     if (find("space dimension") && value("space dimension") != "3")
       return bad("space dimension", "3");
-    if (auto wrong = find("space directions") ? understand_directions() : understand_spacings()) {
-      return wrong;
-    }
+    if (auto ok = find("space directions") ? understand_directions() : understand_spacings(); !ok)
+      return ok.problem();
     glm::dvec3 first_sample = 0.5 * grid_.spacing;
     if (find("space origin")) {
       const auto origin = vector_in(value("space origin"));
@@ -262,7 +259,7 @@ class NrrdReader {
     return understand_units();
   }
 
-  Fault understand_directions() {
+  Result<void> understand_directions() {
     auto words = words_of(value("space directions"));
     if (axes_ == 4) {
       if (words.empty() || words.front() != "none") {
@@ -280,10 +277,10 @@ class NrrdReader {
       }
       grid_.spacing[axis] = (*v)[axis];
     }
-    return std::nullopt;
+    return {};
   }
 
-  Fault understand_spacings() {
+  Result<void> understand_spacings() {
     auto words = words_of(value("spacings"));
     if (axes_ == 4 && words.size() == 4) words.erase(words.begin());  // the axis of fields has nan
     if (words.size() != 3) return bad("spacings", "the distance of samples along each axis");
@@ -294,12 +291,12 @@ class NrrdReader {
       }
       grid_.spacing[axis] = *spacing;
     }
-    return std::nullopt;
+    return {};
   }
 
-  Fault understand_units() {
+  Result<void> understand_units() {
     const std::string_view field = find("space units") ? "space units" : "units";
-    if (!find(field)) return std::nullopt;
+    if (!find(field)) return {};
     auto words = words_of(value(field));
     if (axes_ == 4 && words.size() == 4) words.erase(words.begin());
     const bool alike = words.size() == 3 && words[0] == words[1] && words[1] == words[2];
@@ -310,12 +307,12 @@ class NrrdReader {
     if (!metres) return bad(find(field)->line, metres.problem().what);
     grid_.origin *= metres.value();
     grid_.spacing *= metres.value();
-    return std::nullopt;
+    return {};
   }
 
   // ---- the data --------------------------------------------------------------------------------
 
-  Fault find_data() {
+  Result<void> find_data() {
     data_path_ = path_;
     uint64_t first = header_.bytes;
     grid_.files_read = {path_};
@@ -333,7 +330,7 @@ class NrrdReader {
     const uint64_t size = fs::file_size(data_path_, error);
     if (error) return bad("data file", "a file that can be read");
     data_.open(data_path_, std::ios::binary);
-    if (auto wrong = skip_lines(first)) return wrong;
+    if (auto ok = skip_lines(first); !ok) return ok.problem();
     // At most 2^31 cells of 8 fields of 8 bytes: no overflow.
     const uint64_t needed = grid_.nx * grid_.ny * grid_.nz * grid_.fields.size() * bytes_of(type_);
     const auto skip = number_in<int64_t>(find("byte skip") ? value("byte skip") : "0");
@@ -349,11 +346,11 @@ class NrrdReader {
                                                 needed, size - first));
     }
     data_.seekg(static_cast<std::streamoff>(first));
-    return std::nullopt;
+    return {};
   }
 
   /// Moves `first` past the header lines within the data file.
-  Fault skip_lines(uint64_t& first) {
+  Result<void> skip_lines(uint64_t& first) {
     const auto lines = number_in<int>(find("line skip") ? value("line skip") : "0");
     if (!lines || *lines < 0 || *lines > 10'000) return bad("line skip", "a count up to 10000");
     data_.seekg(static_cast<std::streamoff>(first));
@@ -363,15 +360,14 @@ class NrrdReader {
     const auto at = static_cast<std::streamoff>(data_.tellg());
     if (!data_ || at < 0) return bad("line skip", "no more lines than the data file has");
     first = static_cast<uint64_t>(at);
-    return std::nullopt;
+    return {};
   }
 
-  Fault read_samples() {
+  Result<void> read_samples() {
     const uint64_t cells = grid_.nx * grid_.ny * grid_.nz;
     const size_t fields = grid_.fields.size();
     const size_t stride = fields * bytes_of(type_);
-    const std::string too_large = memory_fault(cells, fields);
-    if (!too_large.empty()) return problem_in(path_, too_large);
+    if (auto ok = check_memory(cells, fields); !ok) return problem_in(path_, ok.problem());
     for (Field& field : grid_.fields) field.value.resize(cells);
     std::vector<char> block(std::min(cells, block_samples) * stride);
     for (uint64_t done = 0; done < cells;) {
@@ -391,7 +387,7 @@ class NrrdReader {
         v = static_cast<float>(offset_ + factor_ * static_cast<double>(v));
       }
     }
-    return std::nullopt;
+    return {};
   }
 
   const std::string& path_;

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 #include "runtime/core/printable.hpp"
 #include "runtime/core/regular_file.hpp"
@@ -20,8 +19,6 @@ namespace {
 constexpr size_t deepest = 32;
 constexpr size_t max_attributes = 32;
 constexpr size_t max_arrays = 256;
-
-using Fault = std::optional<Problem>;
 
 struct Tag {
   std::string_view name;
@@ -112,13 +109,13 @@ class VtiReader {
   explicit VtiReader(const std::string& path) : path_(path) {}
 
   Result<Grid> read() {
-    if (auto wrong = load()) return *wrong;
-    if (auto wrong = scan()) return *wrong;
-    if (auto wrong = doubles()) return *wrong;
+    if (auto ok = load(); !ok) return ok.problem();
+    if (auto ok = scan(); !ok) return ok.problem();
+    if (auto ok = doubles(); !ok) return ok.problem();
     if (!seen_image_) return bad(0, "no ImageData element: other kinds of VTK files are not read");
     if (pieces_ != 1) return bad(0, fmt::format("{} pieces: write the grid as one piece", pieces_));
     for (const Array& array : arrays_) {
-      if (auto wrong = take(array)) return *wrong;
+      if (auto ok = take(array); !ok) return ok.problem();
     }
     if (grid_.fields.empty()) {
       return bad(0,
@@ -130,14 +127,14 @@ class VtiReader {
   }
 
  private:
-  Problem bad(size_t at, std::string what) const {
+  Problem bad(size_t at, std::string what, ProblemKind kind = ProblemKind::bad_input) const {
     const auto begin = text_.begin();
     const auto lines =
         std::count(begin, begin + static_cast<ptrdiff_t>(std::min(at, text_.size())), '\n');
-    return problem_in(path_, static_cast<int>(lines) + 1, std::move(what));
+    return problem_in(path_, static_cast<int>(lines) + 1, std::move(what), kind);
   }
 
-  Fault load() {
+  Result<void> load() {
     std::error_code error;
     const uint64_t size = std::filesystem::file_size(path_, error);
     if (error || size > limits::vti_file_bytes) {
@@ -148,7 +145,7 @@ class VtiReader {
     if (!text) return text.problem();
     text_ = std::move(text).value();
     grid_.files_read = {path_};
-    return std::nullopt;
+    return {};
   }
 
   // ---- tags ------------------------------------------------------------------------------------
@@ -168,13 +165,13 @@ class VtiReader {
   }
 
   /// The next tag from `at`, past comments and declarations; its name is "" at the end of the text.
-  Fault next_tag(size_t at, Tag& tag) const {
+  Result<void> next_tag(size_t at, Tag& tag) const {
     for (;;) {
       tag = Tag{};
       tag.first = text_.find('<', at);
       if (tag.first == std::string::npos) {
         tag.first = tag.after = text_.size();
-        return std::nullopt;
+        return {};
       }
       const std::string_view rest = std::string_view(text_).substr(tag.first);
       const bool comment = rest.starts_with("<!--");
@@ -192,7 +189,7 @@ class VtiReader {
     return read_attributes(here + tag.name.size(), tag);
   }
 
-  Fault read_attributes(size_t here, Tag& tag) const {
+  Result<void> read_attributes(size_t here, Tag& tag) const {
     for (;;) {
       here = skip_spaces(here);
       if (here < text_.size() && text_[here] == '>') break;
@@ -220,17 +217,17 @@ class VtiReader {
       here = end + 1;
     }
     tag.after = here + 1;
-    return std::nullopt;
+    return {};
   }
 
   /// Walks all elements; stops at the appended bytes.
-  Fault scan() {
+  Result<void> scan() {
     std::vector<std::string_view> open;
     Tag tag;
     for (size_t at = 0;; at = tag.after) {
-      if (auto wrong = next_tag(at, tag)) return wrong;
+      if (auto ok = next_tag(at, tag); !ok) return ok.problem();
       if (tag.name.empty()) {
-        if (open.empty()) return std::nullopt;
+        if (open.empty()) return {};
         return bad(tag.first, fmt::format("the file ends within \"{}\"", excerpt(open.back())));
       }
       if (tag.closes) {
@@ -242,15 +239,15 @@ class VtiReader {
       }
       const std::string_view parent = open.empty() ? std::string_view() : open.back();
       bool array_done = false;
-      if (auto wrong = enter(tag, parent, array_done)) return wrong;
-      if (tag.name == "AppendedData") return std::nullopt;
+      if (auto ok = enter(tag, parent, array_done); !ok) return ok.problem();
+      if (tag.name == "AppendedData") return {};
       if (tag.is_empty || array_done) continue;
       if (open.size() >= deepest) return bad(tag.first, "elements are nested too deep");
       open.push_back(tag.name);
     }
   }
 
-  Fault enter(Tag& tag, std::string_view parent, bool& array_done) {
+  Result<void> enter(Tag& tag, std::string_view parent, bool& array_done) {
     if (parent.empty() && tag.name != "VTKFile") {
       return bad(tag.first, "the outermost element must be VTKFile");
     }
@@ -262,10 +259,10 @@ class VtiReader {
       array_done = true;
       return enter_array(tag, parent == "PointData");
     }
-    return std::nullopt;
+    return {};
   }
 
-  Fault enter_file(const Tag& tag) {
+  Result<void> enter_file(const Tag& tag) {
     if (tag.attribute("type") != "ImageData") {
       return bad(tag.first, fmt::format("a VTK file of type \"{}\": ImageData is read",
                                         excerpt(tag.attribute("type"))));
@@ -281,10 +278,10 @@ class VtiReader {
       return bad(tag.first, "header_type must be UInt32 or UInt64");
     }
     header_bytes_ = header == "UInt64" ? 8 : 4;
-    return std::nullopt;
+    return {};
   }
 
-  Fault enter_image(const Tag& tag) {
+  Result<void> enter_image(const Tag& tag) {
     if (seen_image_) return bad(tag.first, "a second ImageData element");
     seen_image_ = true;
     extent_text_ = tag.attribute("WholeExtent");
@@ -304,7 +301,7 @@ class VtiReader {
     std::array<uint64_t, 3> cells{};
     for (size_t axis = 0; axis < 3; ++axis) {
       const int64_t low = (*extent)[2 * axis], high = (*extent)[2 * axis + 1];
-      constexpr int64_t most = 1ll << 40;  // differences cannot overflow; grid_fault checks sizes
+      constexpr int64_t most = 1ll << 40;  // differences cannot overflow; check_grid judges sizes
       if (std::abs(low / 2) > most || std::abs(high / 2) > most || high < low) {
         return bad(tag.first, "WholeExtent must ascend along each axis");
       }
@@ -316,22 +313,22 @@ class VtiReader {
     grid_.nx = cells[0];
     grid_.ny = cells[1];
     grid_.nz = cells[2];
-    const std::string wrong = grid_fault(grid_.nx, grid_.ny, grid_.nz);
-    if (!wrong.empty()) return bad(tag.first, wrong);
-    return std::nullopt;
+    if (auto ok = check_grid(grid_.nx, grid_.ny, grid_.nz); !ok)
+      return bad(tag.first, ok.problem().what);
+    return {};
   }
 
-  Fault enter_piece(const Tag& tag) {
+  Result<void> enter_piece(const Tag& tag) {
     ++pieces_;
     if (words_of(tag.attribute("Extent")) != words_of(extent_text_)) {
       return bad(tag.first,
                  "the piece's Extent is not the WholeExtent: write the grid as one piece");
     }
-    return std::nullopt;
+    return {};
   }
 
   /// Takes the text up to the closing tag; inner elements (value ranges and units) are skipped.
-  Fault enter_array(Tag& tag, bool of_points) {
+  Result<void> enter_array(Tag& tag, bool of_points) {
     if (arrays_.size() >= max_arrays) return bad(tag.first, "too many arrays");
     Array array{tag.attribute("Name"),
                 tag.attribute("type"),
@@ -344,7 +341,7 @@ class VtiReader {
     size_t at = tag.after;
     for (int depth = tag.is_empty ? 0 : 1; depth > 0;) {
       Tag inner;
-      if (auto wrong = next_tag(at, inner)) return wrong;
+      if (auto ok = next_tag(at, inner); !ok) return ok.problem();
       if (inner.name.empty()) return bad(array.first, "the array has no closing tag");
       if (depth == 1) {
         const std::string_view piece =
@@ -361,10 +358,10 @@ class VtiReader {
     }
     tag.after = at;
     arrays_.push_back(array);
-    return std::nullopt;
+    return {};
   }
 
-  Fault enter_appended(const Tag& tag) {
+  Result<void> enter_appended(const Tag& tag) {
     appended_encoding_ = tag.attribute("encoding");
     const size_t mark = skip_spaces(tag.after);
     if (mark >= text_.size() || text_[mark] != '_') {
@@ -376,13 +373,13 @@ class VtiReader {
       return bad(tag.first, "the appended data have no closing tag: the file is cut short");
     }
     appended_ = std::string_view(text_).substr(mark + 1, end - mark - 1);
-    return std::nullopt;
+    return {};
   }
 
   // ---- values ----------------------------------------------------------------------------------
 
   /// Checked before decoding: each of 256 arrays may claim the same bytes of the file.
-  Fault doubles() const {
+  Result<void> doubles() const {
     std::vector<std::string_view> names, offsets;
     for (const Array& array : arrays_) {
       if (!is_known_field(array.name)) continue;
@@ -397,13 +394,13 @@ class VtiReader {
                                array.name));
       offsets.push_back(array.offset);
     }
-    return std::nullopt;
+    return {};
   }
 
-  Fault take(const Array& array) {
+  Result<void> take(const Array& array) {
     if (!is_known_field(array.name)) {
       if (others_.size() < 200) others_ += (others_.empty() ? "" : ", ") + excerpt(array.name);
-      return std::nullopt;
+      return {};
     }
     if (!array.components.empty() && array.components != "1") {
       return bad(array.first, fmt::format("\"{}\" must have one component", array.name));
@@ -420,28 +417,28 @@ class VtiReader {
                  fmt::format("\"{}\" is of type \"{}\": Float32, Float64 and UInt8 are read",
                              array.name, excerpt(array.type)));
     }
-    const std::string too_large = memory_fault(grid_.nx * grid_.ny * grid_.nz, 1);
-    if (!too_large.empty()) return bad(array.first, too_large);
+    if (auto ok = check_memory(grid_.nx * grid_.ny * grid_.nz, 1); !ok)
+      return bad(array.first, ok.problem().what, ok.problem().kind);
     const uint64_t one_more = array.of_points ? 1 : 0;
     const uint64_t count = (grid_.nx + one_more) * (grid_.ny + one_more) * (grid_.nz + one_more);
     std::vector<float> values;
-    Fault wrong;
+    Result<void> ok;
     if (array.format == "ascii") {
-      wrong = read_ascii(array, count, values);
+      ok = read_ascii(array, count, values);
     } else if (array.format == "binary") {
-      wrong = read_base64(array, array.text, count, type, true, values);
+      ok = read_base64(array, array.text, count, type, true, values);
     } else if (array.format == "appended") {
-      wrong = read_appended(array, count, type, values);
+      ok = read_appended(array, count, type, values);
     } else {
-      wrong = bad(array.first, fmt::format("unknown format \"{}\"", excerpt(array.format)));
+      ok = bad(array.first, fmt::format("unknown format \"{}\"", excerpt(array.format)));
     }
-    if (wrong) return wrong;
+    if (!ok) return ok.problem();
     if (array.of_points) {
-      if (auto bad_point = check_points(array, values)) return bad_point;
+      if (ok = check_points(array, values); !ok) return ok.problem();
       values = cells_of_points(values);
     }
     grid_.fields.push_back({std::string(array.name), std::move(values)});
-    return std::nullopt;
+    return {};
   }
 
   Problem wrong_count(const Array& array, uint64_t count) const {
@@ -449,7 +446,7 @@ class VtiReader {
                                         array.name, count));
   }
 
-  Fault read_ascii(const Array& array, uint64_t count, std::vector<float>& values) const {
+  Result<void> read_ascii(const Array& array, uint64_t count, std::vector<float>& values) const {
     // A value takes at least a digit and a blank.
     if (count > (array.text.size() + 1) / 2) return wrong_count(array, count);
     values.reserve(count);
@@ -469,7 +466,7 @@ class VtiReader {
       at = end;
     }
     if (values.size() != count) return wrong_count(array, count);
-    return std::nullopt;
+    return {};
   }
 
   uint64_t claimed_bytes(const char* header) const {
@@ -478,8 +475,8 @@ class VtiReader {
     return bytes;
   }
 
-  Fault read_base64(const Array& array, std::string_view text, uint64_t count, SampleType type,
-                    bool whole_text, std::vector<float>& values) const {
+  Result<void> read_base64(const Array& array, std::string_view text, uint64_t count,
+                           SampleType type, bool whole_text, std::vector<float>& values) const {
     const uint64_t needed = count * bytes_of(type);
     if (needed + header_bytes_ > text.size() / 4 * 3 + 3) return wrong_count(array, count);
     Base64 decoder(text);
@@ -496,11 +493,11 @@ class VtiReader {
     if (bytes.size() != needed || (whole_text && !decoder.at_end()))
       return wrong_count(array, count);
     convert(bytes.data(), count, type, values);
-    return std::nullopt;
+    return {};
   }
 
-  Fault read_appended(const Array& array, uint64_t count, SampleType type,
-                      std::vector<float>& values) const {
+  Result<void> read_appended(const Array& array, uint64_t count, SampleType type,
+                             std::vector<float>& values) const {
     if (appended_encoding_.empty()) {
       return bad(array.first,
                  fmt::format("\"{}\" is among appended data, of which there are none", array.name));
@@ -519,7 +516,7 @@ class VtiReader {
       return wrong_count(array, count);
     }
     convert(from.data() + header_bytes_, count, type, values);
-    return std::nullopt;
+    return {};
   }
 
   static void convert(const char* bytes, uint64_t count, SampleType type,
@@ -529,13 +526,13 @@ class VtiReader {
   }
 
   /// Called before means are taken, which would hide a negative value.
-  Fault check_points(const Array& array, const std::vector<float>& points) const {
+  Result<void> check_points(const Array& array, const std::vector<float>& points) const {
     for (size_t i = 0; i < points.size(); ++i) {
       if (points[i] >= 0 && points[i] <= 3e38f) continue;  // NaN fails
       return bad(array.first, fmt::format("{} of point {} is {}: give a finite value of 0 or more",
                                           array.name, i, points[i]));
     }
-    return std::nullopt;
+    return {};
   }
 
   /// Means over the eight corners.

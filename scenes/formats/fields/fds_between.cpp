@@ -114,7 +114,8 @@ Result<LoadedFire> read_fire(const std::filesystem::path& index, const FireOptio
     if (!nearest || !options.between_frames) return nearest;
     return read_between(fire.value(), options, std::move(nearest).value());
   } catch (const std::bad_alloc&) {
-    return problem_in(index.string(), "its cells take more memory than this process gets");
+    return problem_in(index.string(), "its cells take more memory than this process gets",
+                      ProblemKind::no_room);
   }
 }
 

@@ -166,8 +166,8 @@ Result<std::vector<Grid>> plan_grids(const Case& fire) {
   uint64_t all = 0;
   for (const Grid& grid : grids) all += grid.cell_count();
   for (const Mesh& mesh : fire.meshes) all += mesh.cell_count();
-  if (const std::string fault = data_set::memory_fault(all, floats_per_cell); !fault.empty())
-    return problem_in(fire.file, fault);
+  if (auto ok = data_set::check_memory(all, floats_per_cell); !ok)
+    return problem_in(fire.file, ok.problem());
   return grids;
 }
 

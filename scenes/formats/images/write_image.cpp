@@ -72,11 +72,14 @@ Result<uint64_t> pixel_count(int64_t width, int64_t height, const SourcePlace& p
 Result<void> check_exr_name(const std::string& name, std::set<std::string>& names,
                             const SourcePlace& place) {
   if (name.empty() || name.size() > max_exr_name_bytes || name.find('\0') != std::string::npos) {
-    return problem_in(place, "'" + clean_utf8(name) + "' cannot name anything in an EXR picture; " +
-                                 "names have 1 to 255 bytes and no zero byte");
+    return problem_in(place,
+                      "'" + clean_utf8(name) + "' cannot name anything in an EXR picture; " +
+                          "names have 1 to 255 bytes and no zero byte",
+                      ProblemKind::bug);
   }
   if (!names.insert(name).second) {
-    return problem_in(place, "'" + clean_utf8(name) + "' is there twice; names must differ");
+    return problem_in(place, "'" + clean_utf8(name) + "' is there twice; names must differ",
+                      ProblemKind::bug);
   }
   return {};
 }
@@ -86,7 +89,8 @@ Result<void> check_exr(const ExrImage& image, const SourcePlace& place) {
   if (!pixels) return pixels.problem();
   if (image.channels.empty() || image.channels.size() > limits::max_exr_channels) {
     return problem_in(
-        place, "a picture needs 1 to " + std::to_string(limits::max_exr_channels) + " channels");
+        place, "a picture needs 1 to " + std::to_string(limits::max_exr_channels) + " channels",
+        ProblemKind::bug);
   }
   std::set<std::string> channel_names;
   for (const ExrChannel& channel : image.channels) {
@@ -94,13 +98,16 @@ Result<void> check_exr(const ExrImage& image, const SourcePlace& place) {
       return good.problem();
     const std::string name = "channel '" + clean_utf8(channel.name) + "'";
     if (channel.values.size() != pixels.value()) {
-      return problem_in(place, name + " has " + std::to_string(channel.values.size()) +
-                                   " values for " + std::to_string(pixels.value()) + " pixels");
+      return problem_in(place,
+                        name + " has " + std::to_string(channel.values.size()) + " values for " +
+                            std::to_string(pixels.value()) + " pixels",
+                        ProblemKind::bug);
     }
     const auto beyond = [](float v) { return std::isfinite(v) && std::abs(v) > half_largest; };
     if (image.half && std::any_of(channel.values.begin(), channel.values.end(), beyond)) {
-      return problem_in(place, name + " has a value beyond 65504, the largest half float; " +
-                                   "write full floats");
+      return problem_in(
+          place, name + " has a value beyond 65504, the largest half float; " + "write full floats",
+          ProblemKind::bug);
     }
   }
   std::set<std::string> names = {"unit", "chromaticities", "whitePoint", "whiteLuminance"};
@@ -215,8 +222,10 @@ Result<void> check_png(const PngImage& image, const SourcePlace& place) {
   const Result<uint64_t> pixels = pixel_count(image.width, image.height, place);
   if (!pixels) return pixels.problem();
   if (image.rgb.size() != pixels.value() * 3) {
-    return problem_in(place, "a picture of " + std::to_string(pixels.value()) + " pixels has " +
-                                 std::to_string(image.rgb.size()) + " bytes, not three a pixel");
+    return problem_in(place,
+                      "a picture of " + std::to_string(pixels.value()) + " pixels has " +
+                          std::to_string(image.rgb.size()) + " bytes, not three a pixel",
+                      ProblemKind::bug);
   }
   for (const auto& [key, text] : image.text) {
     const bool printable =
@@ -224,7 +233,8 @@ Result<void> check_png(const PngImage& image, const SourcePlace& place) {
     if (key.empty() || key.size() > 79 || !printable || key.front() == ' ' || key.back() == ' ') {
       return problem_in(place,
                         "'" + clean_utf8(key) + "' cannot be the key of a text in a PNG; " +
-                            "keys have 1 to 79 printable ASCII characters, no space at an end");
+                            "keys have 1 to 79 printable ASCII characters, no space at an end",
+                        ProblemKind::bug);
     }
   }
   return {};
@@ -247,7 +257,8 @@ Result<void> write_exr(const std::filesystem::path& path, const ExrImage& image)
     Imf::Header header = exr_header(image);
     write_exr_pixels(image, header, out);
   } catch (const std::exception& error) {
-    return problem_in(place, std::string("cannot make this EXR picture: ") + error.what());
+    return problem_in(place, std::string("cannot make this EXR picture: ") + error.what(),
+                      ProblemKind::system);
   }
   return write_file_atomically(path, std::span<const std::byte>(out.bytes()));
 }
@@ -275,8 +286,10 @@ Result<std::vector<std::byte>> encode_png(const PngImage& image, const SourcePla
                                                     static_cast<int>(texts.size()));
   png_destroy_write_struct(&png, &info);
   if (!written || sink.out_of_memory) {
-    return problem_in(place, "cannot make this PNG picture: " +
-                                 (sink.error.empty() ? std::string("out of memory") : sink.error));
+    return problem_in(place,
+                      "cannot make this PNG picture: " +
+                          (sink.error.empty() ? std::string("out of memory") : sink.error),
+                      sink.error.empty() ? ProblemKind::no_room : ProblemKind::system);
   }
   return std::move(sink.bytes);
 }

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 #include <numeric>
-#include <system_error>
 
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/core/hash.hpp"
@@ -90,9 +89,7 @@ Result<Writer> begin(const std::filesystem::path& path) {
 class MappedPack final : public ObjectFile {
  public:
   static Result<std::shared_ptr<MappedPack>> open(const std::filesystem::path& path) {
-    const auto failed = [&](const char* doing) {
-      return problem_in(path, std::string(doing) + ": " + std::generic_category().message(errno));
-    };
+    const auto failed = [&](const char* doing) { return system_problem(path, doing, errno); };
     auto file = open_regular_file(path);
     if (!file) return file.problem();
     void* at = MAP_FAILED;
@@ -235,7 +232,7 @@ Result<std::shared_ptr<const SceneDescription>> read_pack(const std::filesystem:
   const auto bytes = skeleton_of(*pack.value(), head.value());
   if (!bytes) return bytes.problem();
   auto skeleton = decode_skeleton(bytes.value());
-  if (!skeleton) return problem_in(path, skeleton.problem().what);
+  if (!skeleton) return problem_in(path, skeleton.problem());
   auto packed = std::make_shared<PackedScene>(std::move(skeleton->packed));
   if (head->holds_objects == 1) {
     if (auto placed = pack.value()->place_objects(*packed, head.value()); !placed)

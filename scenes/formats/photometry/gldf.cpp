@@ -297,7 +297,7 @@ void gldf_answer(PlainReader& question, PlainWriter& out) {
   const auto product = bytes ? gldf_of(bytes.value(), path, models, tell_share) : bytes.problem();
   out.put(static_cast<uint8_t>(product.ok()));
   if (product) return put(out, product.value());
-  out.put(product.problem().what);
+  out.put(product.problem());
 }
 
 const IsolatedJob gldf_job("gldf", gldf_answer);
@@ -372,7 +372,7 @@ Result<std::shared_ptr<const PhotometricWeb>> with_flux(const PhotometricWeb& we
   for (double& c : candela) c *= flux_lm / web.flux_lm();
   auto scaled = PhotometricWeb::make(web.azimuth_deg(), web.polar_deg(), std::move(candela),
                                      web.to_luminaire());
-  if (!scaled) return problem_in(file, scaled.problem().what);
+  if (!scaled) return problem_in(file, scaled.problem());
   return std::make_shared<const PhotometricWeb>(std::move(scaled).value());
 }
 
@@ -407,12 +407,12 @@ Result<GldfProduct> read_gldf(const fs::path& path, GldfModels models, ReadingSh
         question.put(models);
       },
       gldf_limits, [&](double share) { part.at_share(share); });
-  if (!in) return problem_in(name, in.problem().what);
+  if (!in) return problem_in(name, in.problem());
   const Problem damaged = problem_in(name, "cannot be read: the reader gave no sound answer");
   uint8_t good = 0;
   if (!in->get(good)) return damaged;
   if (good != 1) {
-    std::string why;
+    Problem why;
     return in->get(why) ? problem_in(name, std::move(why)) : damaged;
   }
   GldfProduct product;

@@ -266,8 +266,8 @@ std::string version_of(xml_node root) {
 
 Result<GldfProduct> gldf_product_of(const std::string& xml, const std::string& file) {
   pugi::xml_document document;
-  if (const auto fault = load_plain_xml(document, xml, "product.xml"))
-    return problem_in(file, *fault);
+  if (auto ok = load_plain_xml(document, xml, "product.xml"); !ok)
+    return problem_in(file, ok.problem());
   const xml_node root = document.child("Root");
   if (!root) return problem_in(file, "'product.xml' in it has no element 'Root'");
   const std::string version = version_of(root);

@@ -276,8 +276,8 @@ Result<L3dModel> l3d_of(std::string_view bytes, const std::string& file, uint64_
   const auto xml = archive->read(static_cast<size_t>(entry - names.begin()), limits::l3d_xml_bytes);
   if (!xml) return xml.problem();
   pugi::xml_document document;
-  if (const auto fault = load_plain_xml(document, xml.value(), "structure.xml"))
-    return problem_in(file, *fault);
+  if (auto ok = load_plain_xml(document, xml.value(), "structure.xml"); !ok)
+    return problem_in(file, ok.problem());
   const auto root = document.child("Luminaire");
   if (!root) return problem_in(file, "'structure.xml' in it has no element 'Luminaire'");
   return L3dReader(archive.value(), file, max_bytes).read(root);

@@ -130,7 +130,7 @@ Result<std::shared_ptr<const PhotometricWeb>> web_of(const PhotometricTable& tab
     candela.insert(candela.end(), column.begin(), column.end());
   }
   auto web = PhotometricWeb::make(table.azimuth_deg, table.polar_deg, std::move(candela), axes);
-  if (!web) return problem_in(where, web.problem().what);
+  if (!web) return problem_in(where, web.problem());
   return std::shared_ptr<const PhotometricWeb>(
       std::make_shared<PhotometricWeb>(std::move(web).value()));
 }

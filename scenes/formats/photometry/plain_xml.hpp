@@ -4,28 +4,29 @@
 
 #include <fmt/format.h>
 
-#include <optional>
 #include <pugixml.hpp>
 #include <string>
 
+#include "runtime/core/result.hpp"
+
 namespace luxodus {
 
-/// Parses `xml`, which the document does not refer to afterwards. Returns the fault: no XML, or a
-/// document type, which could define entities. `name`: of the file within its archive.
-inline std::optional<std::string> load_plain_xml(pugi::xml_document& document,
-                                                 const std::string& xml, const char* name) {
+/// Parses `xml`, which the document does not refer to afterwards. Errors: no XML, or a document
+/// type, with which entities come. `name`: of the file within its archive.
+inline Result<void> load_plain_xml(pugi::xml_document& document, const std::string& xml,
+                                   const char* name) {
   const auto parsed =
       document.load_buffer(xml.data(), xml.size(), pugi::parse_default | pugi::parse_doctype);
   if (!parsed)
-    return fmt::format("'{}' in it is no XML: {} at byte {}", name, parsed.description(),
-                       parsed.offset);
+    return problem(fmt::format("'{}' in it is no XML: {} at byte {}", name, parsed.description(),
+                               parsed.offset));
   for (const pugi::xml_node node : document.children())
     if (node.type() == pugi::node_doctype)
-      return fmt::format(
-          "'{}' in it has a document type (DOCTYPE), which the format has not and "
-          "which may hide entities: it is not read",
-          name);
-  return std::nullopt;
+      return problem(
+          fmt::format("'{}' in it has a document type (DOCTYPE), which the format has not and "
+                      "which may hide entities: it is not read",
+                      name));
+  return {};
 }
 
 }  // namespace luxodus

@@ -1,6 +1,4 @@
 // Reads the bodies and data sets of media.
-#include <algorithm>
-
 #include "scenes/formats/fields/data_set.hpp"
 #include "scenes/formats/scene_file/read_files.hpp"
 #include "scenes/formats/scene_file/read_media.hpp"
@@ -63,8 +61,6 @@ void read_body(KeyReader& keys, const std::string& body, Medium& m) {
 }
 
 void read_data_set(KeyReader& keys, Medium& m) {
-  // Means "not stated": soot times this stays below any real extinction, by which it is recognised.
-  constexpr double no_mass_extinction = 1e-30, min_real_extinction = 1e-20;
   const std::string quantity = keys.choice("quantity");
   const std::string smoke = keys.maybe_choice("smoke").value_or("");
   auto mass = keys.maybe_number("mass_extinction");
@@ -82,7 +78,7 @@ void read_data_set(KeyReader& keys, Medium& m) {
   const auto path = keys.file("file");
   if (!path || !keys.clean() || !take_hash(*path, keys.place("file"), keys.reading())) return;
   DataSetOptions options;
-  options.mass_extinction_m2_per_kg = mass.value_or(no_mass_extinction);
+  options.mass_extinction_m2_per_kg = mass;
   options.field = quantity;
   auto loaded = read_data_set(path->string(), options);
   if (!loaded) return take_problem(loaded.problem(), keys.place("file"), keys.reading());
@@ -90,14 +86,10 @@ void read_data_set(KeyReader& keys, Medium& m) {
   m.data = std::move(loaded->data);
   m.data.interpolate_emission = interpolate;
   m.frame.origin += m.frame.axes * loaded->origin;
-  if (!mass && !m.data.extinction.empty()) {
-    const float most = *std::max_element(m.data.extinction.begin(), m.data.extinction.end());
-    if (most > 0 && most < min_real_extinction) {
-      keys.problem("quantity",
-                   "this file holds soot density; say quantity = \"soot_density\" and its "
-                   "'mass_extinction'");
-    }
-  }
+  if (loaded->lacks_mass_extinction)
+    keys.problem("quantity",
+                 "this file holds soot density; say quantity = \"soot_density\" and its "
+                 "'mass_extinction'");
   if (!albedo && m.data.albedo.empty()) {
     keys.problem("the key 'albedo' is missing: the file has no array of that name");
   }

@@ -28,18 +28,20 @@ bool is_small(const std::vector<ImportedPart>& parts) {
 
 void take_problem(const Problem& problem, const SourcePlace& place, SceneReading& reading) {
   if (problem.where.file.empty()) {
-    reading.problem(place, problem.what);
+    reading.problem(problem_in(place, problem));
   } else {
-    reading.problem(problem.where, problem.what + " (named at " + place.file + ":" +
-                                       std::to_string(place.line) + ")");
+    reading.problem(problem_in(
+        problem.where,
+        problem.what + " (named at " + place.file + ":" + std::to_string(place.line) + ")",
+        problem.kind));
   }
 }
 
 bool take_hash(const std::filesystem::path& path, const SourcePlace& place, SceneReading& reading,
                FileLife life) {
-  const auto failed = reading.hash_file(path, life);
-  if (failed) take_problem(*failed, place, reading);
-  return !failed;
+  const auto hashed = reading.hash_file(path, life);
+  if (!hashed) take_problem(hashed.problem(), place, reading);
+  return hashed.ok();
 }
 
 std::shared_ptr<const Image> read_image(const std::filesystem::path& path, const SourcePlace& place,

@@ -102,8 +102,8 @@ void SceneReading::hash_bytes(std::string_view bytes) {
   scene.content_hash = XXH3_64bits_withSeed(bytes.data(), bytes.size(), scene.content_hash);
 }
 
-std::optional<Problem> SceneReading::hash_file(const std::filesystem::path& path, FileLife life) {
-  if (!hashed_.insert(path.lexically_normal().string()).second) return std::nullopt;
+Result<void> SceneReading::hash_file(const std::filesystem::path& path, FileLife life) {
+  if (!hashed_.insert(path.lexically_normal().string()).second) return {};
   auto file = open_regular_file(path);
   if (!file) return file.problem();
   const FileStamp before = stamp_of(file->descriptor.number());
@@ -117,10 +117,10 @@ std::optional<Problem> SceneReading::hash_file(const std::filesystem::path& path
   while ((n = ::read(file->descriptor.number(), part.data(), part.size())) > 0)
     for (const auto& each : {state.get(), own.get()})
       XXH3_64bits_update(each, part.data(), static_cast<size_t>(n));
-  if (n < 0) return problem_in(path, "this file cannot be read");
+  if (n < 0) return problem_in(path, "this file cannot be read", ProblemKind::system);
   scene.content_hash = XXH3_64bits_digest(state.get());
   if (life == FileLife::settled) files.add(path.string(), XXH3_64bits_digest(own.get()), before);
-  return std::nullopt;
+  return {};
 }
 
 std::optional<double> named_grey(std::string_view name) {

@@ -75,7 +75,7 @@ class SceneReading {
   void problem(SourcePlace where, std::string what) {
     findings.problem(std::move(where), std::move(what));
   }
-  void problem(Problem p) { problem(std::move(p.where), std::move(p.what)); }
+  void problem(Problem p) { findings.problem(std::move(p)); }
   void warning(SourcePlace where, std::string what);
   void note_for_reader(SourcePlace where, std::string what);
 
@@ -106,8 +106,7 @@ class SceneReading {
   /// Adds the file's bytes to the content hash, and lists a settled file among those read (once per
   /// file). Called before the file is read, so that a write in between is detected as a change.
   /// Errors: a file that cannot be read.
-  std::optional<Problem> hash_file(const std::filesystem::path& path,
-                                   FileLife life = FileLife::settled);
+  Result<void> hash_file(const std::filesystem::path& path, FileLife life = FileLife::settled);
   void hash_bytes(std::string_view bytes);
   FilesAsRead files;
 

@@ -58,7 +58,7 @@ Result<PlainReader> asked(const vdb::Question& question, const VdbProgram& progr
       [&](PlainWriter& out) { put(out, question); }, vdb_limits(bytes.value(), program),
       program.told);
   if (!in && !in.problem().where.file.empty()) return in.problem();  // of the program
-  if (!in) return problem_in(question.file, in.problem().what);
+  if (!in) return problem_in(question.file, in.problem());
   uint8_t good = 0;
   std::string why;
   if (!in->get(good) || (good != 1 && !in->get(why))) return unsound(question.file);

@@ -50,7 +50,8 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
       opened_.push_back(file);
       allow_more(import_limits(bytes));
     }
-    if (!obj_.empty() && obj_ != file && !fault_) fault_ = fault_of_mtl(file);
+    if (!obj_.empty() && obj_ != file && !fault_)
+      if (auto ok = check_mtl(file); !ok) fault_ = ok.problem();
     if (fault_) return nullptr;
     return Assimp::DefaultIOSystem::Open(file, mode);
   }
@@ -113,7 +114,7 @@ class Collector {
       open.pop_back();
       const Transform here = above * transform_of(node->mTransformation);
       for (unsigned i = 0; i < node->mNumMeshes; ++i) {
-        if (auto bad = add_part(*node, node->mMeshes[i], here)) return *bad;
+        if (auto ok = add_part(*node, node->mMeshes[i], here); !ok) return ok.problem();
       }
       // Reversed, so that the stack gives children in the file's order.
       for (unsigned i = node->mNumChildren; i-- > 0;) open.push_back({node->mChildren[i], here});
@@ -147,7 +148,7 @@ class Collector {
     return name;
   }
 
-  std::optional<Problem> add_part(const aiNode& node, unsigned index, const Transform& place) {
+  Result<void> add_part(const aiNode& node, unsigned index, const Transform& place) {
     const aiMesh& from = *scene_.mMeshes[index];
     vertices_ += from.mNumVertices;
     triangles_ += from.mNumFaces;
@@ -163,32 +164,32 @@ class Collector {
       return problem(
           fmt::format("part \"{}\": its node is scaled by 0 or not finite", excerpt(part.name)));
     }
-    if (auto bad = copy_triangles(from, part)) return bad;
-    if (part.mesh.triangles.empty()) return std::nullopt;
+    if (auto ok = copy_triangles(from, part); !ok) return ok.problem();
+    if (part.mesh.triangles.empty()) return {};
     apply(place, part.mesh);
     // Finite numbers in the file may overflow when they are transformed.
-    if (auto bad = bad_position(part)) return bad;
+    if (auto ok = check_positions(part); !ok) return ok.problem();
     join_identical_vertices(part.mesh);
     part.degenerate_triangles = clean_mesh(part.mesh);
     if (part.mesh.triangles.empty()) {
       homeless_degenerates_ += part.degenerate_triangles;
-      return std::nullopt;
+      return {};
     }
-    if (auto bad = copy_material(from.mMaterialIndex, part)) return bad;
+    if (auto ok = copy_material(from.mMaterialIndex, part); !ok) return ok.problem();
     part.name = unique_name(part.name);
     parts_.push_back(std::move(part));
-    return std::nullopt;
+    return {};
   }
 
-  std::optional<Problem> copy_triangles(const aiMesh& from, ImportedPart& part) const {
+  Result<void> copy_triangles(const aiMesh& from, ImportedPart& part) const {
     Mesh& mesh = part.mesh;
     mesh.positions.reserve(from.mNumVertices);
     for (unsigned i = 0; i < from.mNumVertices; ++i) {
       const aiVector3D& p = from.mVertices[i];
       mesh.positions.push_back({p.x, p.y, p.z});
     }
-    if (auto bad = bad_position(part)) return bad;
-    if (auto bad = coarse_position(part)) return bad;
+    if (auto ok = check_positions(part); !ok) return ok.problem();
+    if (auto ok = check_precision(part); !ok) return ok.problem();
     if (from.HasTextureCoords(0)) {
       for (unsigned i = 0; i < from.mNumVertices; ++i) {
         const aiVector3D& uv = from.mTextureCoords[0][i];
@@ -211,19 +212,19 @@ class Collector {
       }
       mesh.triangles.push_back(t);
     }
-    return std::nullopt;
+    return {};
   }
 
-  std::optional<Problem> bad_position(const ImportedPart& part) const {
+  Result<void> check_positions(const ImportedPart& part) const {
     for (size_t i = 0; i < part.mesh.positions.size(); ++i) {
       if (is_finite(part.mesh.positions[i])) continue;
       return problem(fmt::format("part \"{}\": the position of vertex {} is not a finite number",
                                  excerpt(part.name), i + 1));
     }
-    return std::nullopt;
+    return {};
   }
 
-  std::optional<Problem> coarse_position(const ImportedPart& part) const {
+  Result<void> check_precision(const ImportedPart& part) const {
     for (const glm::dvec3& p : part.mesh.positions) {
       const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
       const double step_m = float_step(farthest) * metres_per_unit_;
@@ -233,37 +234,39 @@ class Collector {
           "about an origin of its own and move it in the scene",
           excerpt(part.name), farthest, step_m));
     }
-    return std::nullopt;
+    return {};
   }
 
-  /// The reason why a material has no usable colour, e.g. a texture that its base colour only
-  /// tints.
-  std::optional<Problem> no_colour_of(const aiMaterial& material, const std::string& name) const {
-    if (obj_ != nullptr) return obj_->no_colour(name);
+  /// Whether the file gives the colour of a material. Where it is in a picture, its base colour
+  /// alone would be another one.
+  Result<void> has_colour(const aiMaterial& material, const std::string& name) const {
+    if (obj_ != nullptr) return obj_->has_colour(name);
     if (material.GetTextureCount(aiTextureType_BASE_COLOR) == 0 &&
         material.GetTextureCount(aiTextureType_DIFFUSE) == 0)
-      return std::nullopt;
+      return {};
     return problem("the colour of the material '" + excerpt(name) +
                    "' is in a picture (\"baseColorTexture\" or \"diffuseTexture\"), and pictures "
                    "are not read");
   }
 
-  std::optional<Problem> copy_material(unsigned index, ImportedPart& part) const {
-    if (index >= scene_.mNumMaterials) return std::nullopt;
+  Result<void> copy_material(unsigned index, ImportedPart& part) const {
+    if (index >= scene_.mNumMaterials) return {};
     const aiMaterial& material = *scene_.mMaterials[index];
     aiString name;
     if (material.Get(AI_MATKEY_NAME, name) == AI_SUCCESS) part.material_name = text_of(name);
     // The name that Assimp invents if the file has no material.
     if (part.material_name == AI_DEFAULT_MATERIAL_NAME) {
       part.material_name.clear();
-      return std::nullopt;
+      return {};
     }
-    part.no_colour = no_colour_of(material, part.material_name);
-    if (part.no_colour) return std::nullopt;
+    if (auto ok = has_colour(material, part.material_name); !ok) {
+      part.no_colour = ok.problem();
+      return {};
+    }
     aiColor4D colour;
     if (material.Get(AI_MATKEY_BASE_COLOR, colour) != AI_SUCCESS &&
         material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) != AI_SUCCESS) {
-      return std::nullopt;
+      return {};
     }
     for (const float c : {colour.r, colour.g, colour.b}) {
       if (c >= 0 && c <= 1) continue;  // NaN fails
@@ -272,7 +275,7 @@ class Collector {
                       excerpt(part.material_name), c));
     }
     part.base_colour = glm::dvec3(colour.r, colour.g, colour.b);
-    return std::nullopt;
+    return {};
   }
 
   const aiScene& scene_;
@@ -293,7 +296,7 @@ Result<std::vector<ImportedPart>> import_by_assimp(const std::string& path, doub
                                                    std::vector<std::string>& files_read) {
   const bool is_obj = mesh_ending(path) == ".obj";
   ObjMaterials materials(path);
-  if (auto bad = is_obj ? fault_of_obj(path, materials) : fault_of_gltf(path)) return *bad;
+  if (auto ok = is_obj ? check_obj(path, materials) : check_gltf(path); !ok) return ok.problem();
   Assimp::Importer importer;
   auto* files = new GuardedFiles(is_obj ? path : "");  // the importer owns it from here
   importer.SetIOHandler(files);

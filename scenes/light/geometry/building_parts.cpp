@@ -116,17 +116,16 @@ class WallGrid {
   std::map<std::tuple<int, int, bool>, uint32_t> index_;
 };
 
-std::optional<Problem> bad_opening(const WallOpening& o, size_t number, double length,
-                                   double height) {
-  if (auto bad = bad_length({{"an opening's width", o.width}, {"an opening's height", o.height}})) {
-    bad->what = fmt::format("opening {}: {}", number, bad->what);
-    return bad;
+Result<void> check_opening(const WallOpening& o, size_t number, double length, double height) {
+  if (auto ok = check_lengths({{"an opening's width", o.width}, {"an opening's height", o.height}});
+      !ok) {
+    return problem(fmt::format("opening {}: {}", number, ok.problem().what));
   }
   // 0.1 + 0.2 > 0.3: an opening that exceeds the end by rounding alone ends there.
   const double slack = 1e-12;
   const bool inside = o.x >= 0 && o.z >= 0 && o.x + o.width <= length * (1 + slack) &&
                       o.z + o.height <= height * (1 + slack);
-  if (inside) return std::nullopt;
+  if (inside) return {};
   return problem(
       fmt::format("opening {} (x {:g} to {:g} m, z {:g} to {:g} m) reaches outside the wall of "
                   "{:g} m by {:g} m",
@@ -162,7 +161,7 @@ Result<Shape> polygon(std::span<const glm::dvec2> outline) {
 }
 
 Result<Shape> extrude(std::span<const glm::dvec2> outline, double height) {
-  if (auto bad = bad_length({{"the height", height}})) return *bad;
+  if (auto ok = check_lengths({{"the height", height}}); !ok) return ok.problem();
   Result<std::vector<glm::dvec2>> checked = checked_outline(outline);
   if (!checked) return checked.problem();
   Result<Mesh> body = prism(checked.value(), height);
@@ -172,16 +171,16 @@ Result<Shape> extrude(std::span<const glm::dvec2> outline, double height) {
 
 Result<Shape> wall(double length, double height, double thickness,
                    std::span<const WallOpening> openings) {
-  if (auto bad = bad_length(
-          {{"the wall's length", length}, {"its height", height}, {"its thickness", thickness}})) {
-    return *bad;
-  }
+  if (auto ok = check_lengths(
+          {{"the wall's length", length}, {"its height", height}, {"its thickness", thickness}});
+      !ok)
+    return ok.problem();
   if (openings.size() > limits::wall_openings) {
     return problem(fmt::format("a wall may have {} openings, this has {}: make it of several walls",
                                limits::wall_openings, openings.size()));
   }
   for (size_t i = 0; i < openings.size(); ++i) {
-    if (auto bad = bad_opening(openings[i], i + 1, length, height)) return *bad;
+    if (auto ok = check_opening(openings[i], i + 1, length, height); !ok) return ok.problem();
   }
   Mesh mesh = WallGrid(length, height, thickness, openings).build();
   if (mesh.triangles.empty())
@@ -190,11 +189,12 @@ Result<Shape> wall(double length, double height, double thickness,
 }
 
 Result<Shape> stairs(int steps, double rise, double going, double width, StairUnderside underside) {
-  if (auto bad =
-          bad_length({{"the rise of a step", rise}, {"its going", going}, {"the width", width}})) {
-    return *bad;
-  }
-  if (auto bad = bad_count("the number of steps", steps, 1, limits::stair_steps)) return *bad;
+  if (auto ok =
+          check_lengths({{"the rise of a step", rise}, {"its going", going}, {"the width", width}});
+      !ok)
+    return ok.problem();
+  if (auto ok = check_count("the number of steps", steps, 1, limits::stair_steps); !ok)
+    return ok.problem();
   if (underside == StairUnderside::none) return Shape{stair_sheet(steps, rise, going, width), 0};
   std::vector<glm::dvec2> profile = {{0, 0}};
   for (int i = 0; i < steps; ++i) {
@@ -211,10 +211,10 @@ Result<Shape> stairs(int steps, double rise, double going, double width, StairUn
 }
 
 Result<Shape> ramp(double length, double width, double rise, RampUnderside underside) {
-  if (auto bad =
-          bad_length({{"the ramp's length", length}, {"its width", width}, {"its rise", rise}})) {
-    return *bad;
-  }
+  if (auto ok =
+          check_lengths({{"the ramp's length", length}, {"its width", width}, {"its rise", rise}});
+      !ok)
+    return ok.problem();
   if (underside == RampUnderside::none) return quad({0, 0, 0}, {length, 0, rise}, {0, width, 0});
   const std::vector<glm::dvec2> profile = {{0, 0}, {length, 0}, {length, rise}};
   return extrude_profile(profile, width);

@@ -27,12 +27,6 @@ constexpr IsolatedLimits for_all{uint64_t{2} << 30, 30};
 
 // ---- in the other process ----------------------------------------------------------------------
 
-void put(PlainWriter& out, const Problem& problem) {
-  out.put(problem.where.file);
-  out.put(problem.where.line);
-  out.put(problem.what);
-}
-
 void put(PlainWriter& out, const ImportedPart& part) {
   out.put(part.name);
   out.put(part.material_name);
@@ -40,7 +34,7 @@ void put(PlainWriter& out, const ImportedPart& part) {
   out.put(part.mesh.triangles);
   out.put(part.mesh.texture_uv);
   out.put(static_cast<uint8_t>(part.no_colour ? 1 : 0));
-  if (part.no_colour) put(out, *part.no_colour);
+  if (part.no_colour) out.put(*part.no_colour);
   out.put(static_cast<uint8_t>(part.base_colour ? 1 : 0));
   out.put(part.base_colour.value_or(glm::dvec3(0)));
   out.put(part.degenerate_triangles);
@@ -70,7 +64,7 @@ void answer(PlainReader& question, PlainWriter& out) {
   out.put(static_cast<uint64_t>(files.size()));
   for (const std::string& file : files) out.put(file);
   out.put(static_cast<uint8_t>(parts ? 1 : 0));
-  if (!parts) return put(out, parts.problem());
+  if (!parts) return out.put(parts.problem());
   out.put(static_cast<uint64_t>(parts->size()));
   for (const ImportedPart& part : parts.value()) put(out, part);
 }
@@ -96,21 +90,14 @@ bool sound(const Mesh& mesh) {
          all_finite(mesh.positions) && all_finite(mesh.texture_uv);
 }
 
-std::optional<Problem> get_problem(PlainReader& in) {
-  Problem problem;
-  const bool told =
-      in.get(problem.where.file) && in.get(problem.where.line) && in.get(problem.what);
-  return told ? std::optional(std::move(problem)) : std::nullopt;
-}
-
-/// Reads one part of the answer; false if it is malformed.
+/// A part of the answer; false where it is none.
 bool get(PlainReader& in, ImportedPart& part) {
   uint8_t lacks_colour = 0, has_colour = 0;
   glm::dvec3 colour(0);
   if (!in.get(part.name) || !in.get(part.material_name) || !in.get(part.mesh.positions) ||
       !in.get(part.mesh.triangles) || !in.get(part.mesh.texture_uv) || !in.get(lacks_colour))
     return false;
-  if (lacks_colour == 1 && !(part.no_colour = get_problem(in))) return false;
+  if (lacks_colour == 1 && !in.get(part.no_colour.emplace())) return false;
   if (!in.get(has_colour) || !in.get(colour) || !in.get(part.degenerate_triangles)) return false;
   for (glm::length_t i = 0; i < 3; ++i)
     if (!(colour[i] >= 0 && colour[i] <= 1)) return false;
@@ -130,7 +117,7 @@ Result<std::vector<ImportedPart>> parts_of(PlainReader& in, const std::string& p
   }
   uint8_t good = 0;
   if (!in.get(good)) return damaged;
-  if (good != 1) return get_problem(in).value_or(damaged);
+  if (Problem why; good != 1) return in.get(why) ? why : damaged;
   if (!in.get(count) || count == 0 || count > limits::mesh_parts) return damaged;
   std::vector<ImportedPart> parts;
   uint64_t vertices = 0, triangles = 0;
@@ -172,7 +159,7 @@ Result<std::vector<ImportedPart>> import_mesh(const std::string& path, double me
       },
       {for_all.memory_bytes + more.memory_bytes, for_all.processor_s + more.processor_s},
       [&](double share) { part.at_share(share); });
-  if (!in) return problem_in(path, in.problem().what);
+  if (!in) return problem_in(path, in.problem());
   return parts_of(in.value(), path, files_read);
 }
 

@@ -52,15 +52,16 @@ bool is_finite(std::string_view word) {
   return error == std::errc() && std::isfinite(static_cast<float>(value));
 }
 
-/// The fault in the words of a vertex or texture vertex, as a message; "" if there is none.
-std::string fault_of_vertex(std::string_view rest, int numbers, bool must_be_finite) {
+/// Whether the words are those of a vertex or texture vertex.
+Result<void> check_vertex(std::string_view rest, int numbers, bool must_be_finite) {
   for (int i = 0; i < numbers; ++i) {
     const std::string_view word = take_word(rest);
     if (word.empty() || word == "\\") break;  // continues in the next line, or left to Assimp
     if (!starts_like_number(word))
-      return fmt::format("a coordinate of this vertex is no number: give {} numbers", numbers);
+      return problem(
+          fmt::format("a coordinate of this vertex is no number: give {} numbers", numbers));
     if (must_be_finite && !is_finite(word))
-      return "a texture coordinate is not a finite number: give two numbers";
+      return problem("a texture coordinate is not a finite number: give two numbers");
   }
   return {};
 }
@@ -130,9 +131,9 @@ Result<std::vector<int64_t>> parents_of(const nlohmann::json& nodes, const std::
   return parents;
 }
 
-std::optional<Problem> fault_of_nodes(const nlohmann::json& gltf, const std::string& path) {
+Result<void> check_nodes(const nlohmann::json& gltf, const std::string& path) {
   const auto nodes = gltf.find("nodes");
-  if (nodes == gltf.end() || !nodes->is_array()) return std::nullopt;
+  if (nodes == gltf.end() || !nodes->is_array()) return {};
   if (nodes->size() > limits::mesh_parts)
     return problem_in(path, fmt::format("it has {} nodes, the most are {}: simplify or split it",
                                         nodes->size(), limits::mesh_parts));
@@ -158,7 +159,7 @@ std::optional<Problem> fault_of_nodes(const nlohmann::json& gltf, const std::str
                                     "before exporting",
                                     limits::gltf_node_depth));
   }
-  return std::nullopt;
+  return {};
 }
 
 /// Reads a line that ends in LF, CR LF or CR.
@@ -209,7 +210,7 @@ void ObjMaterials::add_library(const std::string& path) {
   }
 }
 
-std::optional<Problem> ObjMaterials::no_colour(const std::string& material) const {
+Result<void> ObjMaterials::has_colour(const std::string& material) const {
   const std::string name = "'" + excerpt(material) + "'";
   const auto known = declared_.find(material);
   if (known != declared_.end()) {
@@ -217,7 +218,7 @@ std::optional<Problem> ObjMaterials::no_colour(const std::string& material) cons
     if (has_picture)
       return problem_in(place, "the colour of the material " + name +
                                    " is in a picture (\"map_Kd\"), and pictures are not read");
-    if (has_colour) return std::nullopt;
+    if (has_colour) return {};
     return problem_in(place, "the material " + name +
                                  " has no colour here: give it \"Kd\" with three numbers from 0 to "
                                  "1");
@@ -237,7 +238,7 @@ std::optional<Problem> ObjMaterials::no_colour(const std::string& material) cons
                                excerpt(material) + "\" is in " + excerpt(read_.front(), 200));
 }
 
-std::optional<Problem> fault_of_obj(const std::string& path, ObjMaterials& materials) {
+Result<void> check_obj(const std::string& path, ObjMaterials& materials) {
   std::ifstream in(path, std::ios::binary);
   std::string line;
   uint64_t groups = 0;
@@ -245,8 +246,8 @@ std::optional<Problem> fault_of_obj(const std::string& path, ObjMaterials& mater
     std::string_view rest = line;
     const std::string_view word = take_word(rest);
     if (word == "v" || word == "vt") {
-      std::string wrong = fault_of_vertex(rest, word == "v" ? 3 : 2, word == "vt");
-      if (!wrong.empty()) return problem_in(path, number, std::move(wrong));
+      if (auto ok = check_vertex(rest, word == "v" ? 3 : 2, word == "vt"); !ok)
+        return problem_in(path, number, ok.problem());
     } else if (word == "o" || word == "g") {
       if (++groups > limits::obj_groups)
         return problem_in(path, number,
@@ -258,24 +259,24 @@ std::optional<Problem> fault_of_obj(const std::string& path, ObjMaterials& mater
       materials.uses(rest, number);
     }
   }
-  return std::nullopt;
+  return {};
 }
 
-std::optional<Problem> fault_of_mtl(const std::string& path) {
+Result<void> check_mtl(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     std::string_view rest = line;
     const std::string_view word = take_word(rest);
-    if (word == "newmtl") return std::nullopt;
+    if (word == "newmtl") return {};
     if (word.empty() || word.front() == '#') continue;
     return problem_in(path, number,
                       "this stands before the first material: begin it with \"newmtl NAME\"");
   }
-  return std::nullopt;
+  return {};
 }
 
-std::optional<Problem> fault_of_gltf(const std::string& path) {
+Result<void> check_gltf(const std::string& path) {
   const Result<std::string> text = json_of(path);
   if (!text) return text.problem();
   if (nests_too_deep(text.value()))
@@ -284,7 +285,7 @@ std::optional<Problem> fault_of_gltf(const std::string& path) {
                           limits::gltf_nesting));
   const auto gltf = nlohmann::json::parse(text.value(), nullptr, false);
   if (!gltf.is_object()) return problem_in(path, "it is no glTF: its JSON is damaged");
-  return fault_of_nodes(gltf, path);
+  return check_nodes(gltf, path);
 }
 
 }  // namespace luxodus

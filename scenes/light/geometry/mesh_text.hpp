@@ -5,7 +5,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,8 +28,8 @@ class ObjMaterials {
   void uses(std::string_view rest, int line);
   /// Reads an existing MTL file.
   void add_library(const std::string& path);
-  /// The reason why the libraries give no colour for this material, and where; nothing if they do.
-  std::optional<Problem> no_colour(const std::string& material) const;
+  /// Whether they give the colour of this material. Errors: why they do not, and where.
+  Result<void> has_colour(const std::string& material) const;
 
  private:
   struct Declared {
@@ -49,15 +48,15 @@ class ObjMaterials {
 /// Checks an OBJ. Faults: a coordinate of a vertex or texture vertex that is a word or not finite
 /// (Assimp skips such a line, which shifts the indices of all later faces, or reads 0); more
 /// objects and groups than limits::obj_groups. `materials` gets what the file says about materials.
-std::optional<Problem> fault_of_obj(const std::string& path, ObjMaterials& materials);
+Result<void> check_obj(const std::string& path, ObjMaterials& materials);
 
 /// Checks an MTL. Fault: anything before the first `newmtl`, which makes Assimp write to a material
 /// that does not exist.
-std::optional<Problem> fault_of_mtl(const std::string& path);
+Result<void> check_mtl(const std::string& path);
 
 /// Checks a glTF, text or binary. Faults: no JSON, JSON nested too deep, nodes that form no tree or
 /// too deep a tree. Assimp processes both recursively, and copies a node each time it is
 /// referenced.
-std::optional<Problem> fault_of_gltf(const std::string& path);
+Result<void> check_gltf(const std::string& path);
 
 }  // namespace luxodus

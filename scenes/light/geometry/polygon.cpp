@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 namespace luxodus {
 namespace {
@@ -27,7 +26,7 @@ bool within_box(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
          p.y <= std::max(a.y, b.y);
 }
 
-std::optional<Problem> bad_points(std::span<const glm::dvec2> outline) {
+Result<void> check_points(std::span<const glm::dvec2> outline) {
   const size_t n = outline.size();
   if (n < 3) return problem(fmt::format("an outline needs 3 points or more, this has {}", n));
   if (n > limits::polygon_points) {
@@ -45,7 +44,7 @@ std::optional<Problem> bad_points(std::span<const glm::dvec2> outline) {
                                  i + 1, (i + 1) % n + 1));
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 /// Share of a triangle's squared size: corners whose doubled area is below it count as collinear.
@@ -99,7 +98,7 @@ double signed_area(std::span<const glm::dvec2> outline) {
 }
 
 Result<std::vector<glm::dvec2>> checked_outline(std::span<const glm::dvec2> outline) {
-  if (auto bad = bad_points(outline)) return *bad;
+  if (auto ok = check_points(outline); !ok) return ok.problem();
   const size_t n = outline.size();
   for (size_t i = 0; i < n; ++i) {
     const glm::dvec2 a = outline[i], b = outline[(i + 1) % n], c = outline[(i + 2) % n];

@@ -191,8 +191,10 @@ Result<Shape> quad(const glm::dvec3& corner, const glm::dvec3& edge_u, const glm
     return problem(
         fmt::format("{} of a quad is not finite or beyond {:g} m", name, limits::shape_length_m));
   }
-  if (auto bad = bad_count("the number of splits along u", nu, 1, limits::quad_splits)) return *bad;
-  if (auto bad = bad_count("the number of splits along v", nv, 1, limits::quad_splits)) return *bad;
+  if (auto ok = check_count("the number of splits along u", nu, 1, limits::quad_splits); !ok)
+    return ok.problem();
+  if (auto ok = check_count("the number of splits along v", nv, 1, limits::quad_splits); !ok)
+    return ok.problem();
   const double lengths = glm::length(edge_u) * glm::length(edge_v);
   if (!(glm::length(glm::cross(edge_u, edge_v)) > 1e-12 * lengths)) {
     return problem("the edges of a quad are parallel or have no length: it has no area");
@@ -217,11 +219,11 @@ Result<Shape> quad(const glm::dvec3& corner, const glm::dvec3& edge_u, const glm
 }
 
 Result<Shape> box(const glm::dvec3& size, BoxAt at) {
-  if (auto bad = bad_length({{"the box's size in x", size.x},
-                             {"the box's size in y", size.y},
-                             {"the box's size in z", size.z}})) {
-    return *bad;
-  }
+  if (auto ok = check_lengths({{"the box's size in x", size.x},
+                               {"the box's size in y", size.y},
+                               {"the box's size in z", size.z}});
+      !ok)
+    return ok.problem();
   const glm::dvec3 low = at == BoxAt::centre ? -0.5 * size : glm::dvec3(0);
   const glm::dvec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
   Shape shape;
@@ -262,8 +264,9 @@ double sagitta(double radius, int segments) {
 }
 
 Result<int> segments_within(double radius, double mesh_tolerance_m) {
-  if (auto bad = bad_length({{"the radius", radius}, {"the allowed distance", mesh_tolerance_m}}))
-    return *bad;
+  if (auto ok = check_lengths({{"the radius", radius}, {"the allowed distance", mesh_tolerance_m}});
+      !ok)
+    return ok.problem();
   const double half_angle =
       2 * std::asin(std::sqrt(std::min(1.0, mesh_tolerance_m / (2 * radius))));
   const double wanted = std::ceil(std::numbers::pi / half_angle * (1 - 1e-12));
@@ -277,10 +280,10 @@ Result<int> segments_within(double radius, double mesh_tolerance_m) {
 }
 
 Result<Shape> cylinder(double radius, double height, int segments, Caps caps) {
-  if (auto bad = bad_length({{"the cylinder's radius", radius}, {"its height", height}}))
-    return *bad;
-  if (auto bad = bad_count("the number of segments", segments, 3, limits::shape_segments))
-    return *bad;
+  if (auto ok = check_lengths({{"the cylinder's radius", radius}, {"its height", height}}); !ok)
+    return ok.problem();
+  if (auto ok = check_count("the number of segments", segments, 3, limits::shape_segments); !ok)
+    return ok.problem();
   const auto n = static_cast<uint32_t>(segments);
   Shape shape{{}, sagitta(radius, segments)};
   const uint32_t low = add_points(shape.mesh, circle(radius, 0, segments));
@@ -294,9 +297,9 @@ Result<Shape> cylinder(double radius, double height, int segments, Caps caps) {
 }
 
 Result<Shape> disc(double radius, int segments) {
-  if (auto bad = bad_length({{"the disc's radius", radius}})) return *bad;
-  if (auto bad = bad_count("the number of segments", segments, 3, limits::shape_segments))
-    return *bad;
+  if (auto ok = check_lengths({{"the disc's radius", radius}}); !ok) return ok.problem();
+  if (auto ok = check_count("the number of segments", segments, 3, limits::shape_segments); !ok)
+    return ok.problem();
   Shape shape{{}, sagitta(radius, segments)};
   const uint32_t ring = add_points(shape.mesh, circle(radius, 0, segments));
   add_fan(shape.mesh, {0, 0, 0}, ring, static_cast<uint32_t>(segments), true);
@@ -307,13 +310,13 @@ Result<Shape> disc(double radius, int segments) {
 }
 
 Result<Shape> tube(double outer_radius, double inner_radius, double length, int segments) {
-  if (auto bad = bad_length({{"the tube's outer radius", outer_radius},
-                             {"its inner radius", inner_radius},
-                             {"its length", length}})) {
-    return *bad;
-  }
-  if (auto bad = bad_count("the number of segments", segments, 3, limits::shape_segments))
-    return *bad;
+  if (auto ok = check_lengths({{"the tube's outer radius", outer_radius},
+                               {"its inner radius", inner_radius},
+                               {"its length", length}});
+      !ok)
+    return ok.problem();
+  if (auto ok = check_count("the number of segments", segments, 3, limits::shape_segments); !ok)
+    return ok.problem();
   if (inner_radius >= outer_radius) {
     return problem(
         fmt::format("the tube's inner radius {:g} m is not below its outer radius {:g} m",
@@ -334,11 +337,11 @@ Result<Shape> tube(double outer_radius, double inner_radius, double length, int 
 }
 
 Result<Shape> sphere(double radius, double mesh_tolerance_m) {
-  if (auto bad = bad_length(
-          {{"the sphere's radius", radius}, {"the allowed distance", mesh_tolerance_m}})) {
-    return *bad;
-  }
-  // The bound falls monotonically with the frequency (about as its square), so bisection finds the
+  if (auto ok = check_lengths(
+          {{"the sphere's radius", radius}, {"the allowed distance", mesh_tolerance_m}});
+      !ok)
+    return ok.problem();
+  // The bound falls with every step of the frequency (about as its square), so bisection finds the
   // least.
   int low = 1, high = limits::sphere_frequency;
   const double wanted = mesh_tolerance_m / radius;

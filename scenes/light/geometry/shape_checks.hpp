@@ -6,27 +6,27 @@
 
 #include <cmath>
 #include <initializer_list>
-#include <optional>
 #include <utility>
 
+#include "runtime/core/result.hpp"
 #include "scenes/light/geometry/primitives.hpp"
 
 namespace luxodus::shapes {
 
 using Measure = std::pair<const char*, double>;
 
-/// The first measure that is not a positive length.
-inline std::optional<Problem> bad_length(std::initializer_list<Measure> measures) {
+/// Errors: the first measure that is not a positive length.
+inline Result<void> check_lengths(std::initializer_list<Measure> measures) {
   for (const auto& [name, value] : measures) {
     if (value > 0 && value <= limits::shape_length_m) continue;
     return problem(fmt::format("{} is {}: give a length above 0 and up to {:g} m", name, value,
                                limits::shape_length_m));
   }
-  return std::nullopt;
+  return {};
 }
 
-inline std::optional<Problem> bad_count(const char* name, int value, int least, int most) {
-  if (value >= least && value <= most) return std::nullopt;
+inline Result<void> check_count(const char* name, int value, int least, int most) {
+  if (value >= least && value <= most) return {};
   return problem(fmt::format("{} is {}: give {} to {}", name, value, least, most));
 }
 

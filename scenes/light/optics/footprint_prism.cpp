@@ -16,32 +16,33 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
 
 }  // namespace
 
-std::string polygon_fault(const std::vector<glm::dvec2>& polygon) {
+Result<void> check_polygon(const std::vector<glm::dvec2>& polygon) {
   const size_t n = polygon.size();
-  if (n < 3) return "has fewer than 3 corners";
+  if (n < 3) return problem("has fewer than 3 corners");
   if (n > static_cast<size_t>(limits::max_footprint_vertices)) {
-    return "has " + std::to_string(n) + " corners; at most " +
-           std::to_string(limits::max_footprint_vertices) + " are allowed";
+    return problem("has " + std::to_string(n) + " corners; at most " +
+                   std::to_string(limits::max_footprint_vertices) + " are allowed");
   }
   double area = 0;
   for (size_t i = 0; i < n; ++i) {
     const glm::dvec2& p = polygon[i];
     const glm::dvec2& q = polygon[(i + 1) % n];
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
-      return "has a corner " + std::to_string(i + 1) + " that is not finite";
+      return problem("has a corner " + std::to_string(i + 1) + " that is not finite");
     }
-    if (p == q) return "names corner " + std::to_string(i + 1) + " twice in a row";
+    if (p == q) return problem("names corner " + std::to_string(i + 1) + " twice in a row");
     area += cross(p - polygon[0], q - polygon[0]) / 2;
   }
   for (size_t i = 0; i < n; ++i) {
     for (size_t j = i + 2; j < n; ++j) {
       if (i == 0 && j == n - 1) continue;  // adjacent edges, across the start of the list
       if (segments_meet(polygon[i], polygon[i + 1], polygon[j], polygon[(j + 1) % n])) {
-        return "crosses itself: edges " + std::to_string(i + 1) + " and " + std::to_string(j + 1);
+        return problem("crosses itself: edges " + std::to_string(i + 1) + " and " +
+                       std::to_string(j + 1));
       }
     }
   }
-  if (area == 0) return "has no area";
+  if (area == 0) return problem("has no area");
   return {};
 }
 

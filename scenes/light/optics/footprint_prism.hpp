@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "runtime/core/result.hpp"
 #include "scenes/light/optics/layer_stack.hpp"
 #include "scenes/light/optics/medium.hpp"
 #include "scenes/light/optics/ray_interval.hpp"
@@ -19,13 +20,13 @@ namespace limits {
 inline constexpr int max_footprint_vertices = 256;
 }  // namespace limits
 
-/// The fault of a polygon as a message; "" if it is simple and has an area.
-std::string polygon_fault(const std::vector<glm::dvec2>& polygon);
+/// Whether a polygon is simple and has an area; what is wrong goes on from its name ("has ...").
+Result<void> check_polygon(const std::vector<glm::dvec2>& polygon);
 
 class FootprintPrism {
  public:
   /// Polygon and parts in coordinates of the tracer (relative to the local origin); parts do not
-  /// overlap. Requires: polygon_fault(polygon) is empty.
+  /// overlap. Requires: check_polygon(polygon).
   FootprintPrism(std::vector<glm::dvec2> polygon, std::vector<LayerStack::Part> parts);
 
   const std::vector<LayerStack::Part>& parts() const { return parts_; }

@@ -63,7 +63,7 @@ class MediaCompiler {
         return problem_in(medium_->place, "medium \"" + medium_->name + "\" " + fault_);
       }
     }
-    if (std::string fault = lay_out(); !fault.empty()) return problem(std::move(fault));
+    if (auto ok = lay_out(); !ok) return ok.problem();
     MediaSet out;
     out.count_ = static_cast<int>(media.size());
     out.bands_ = bands_;
@@ -216,8 +216,8 @@ class MediaCompiler {
       stack_.insert(stack_.end(), parts.begin(), parts.end());
       return;
     }
-    if (const std::string fault = polygon_fault(f.polygon); !fault.empty()) {
-      return fail("has a footprint that " + fault);
+    if (auto ok = check_polygon(f.polygon); !ok) {
+      return fail("has a footprint that " + ok.problem().what);
     }
     if (parts.empty()) return;
     std::vector<glm::dvec2> polygon;
@@ -292,16 +292,17 @@ class MediaCompiler {
 
   // ---- result --------------------------------------------------------------------------------
 
-  std::string lay_out() {
+  Result<void> lay_out() {
     if (stretches_ > limits::max_ray_stretches) {
-      return "the media have together " + std::to_string(stretches_) +
-             " stretches that one ray may cross (footprint corners / 2 + layers, 2 for a body); at "
-             "most " +
-             std::to_string(limits::max_ray_stretches) + " are allowed: simplify footprints";
+      return problem(
+          "the media have together " + std::to_string(stretches_) +
+          " stretches that one ray may cross (footprint corners / 2 + layers, 2 for a body); at "
+          "most " +
+          std::to_string(limits::max_ray_stretches) + " are allowed: simplify footprints");
     }
     if (stack_.size() > static_cast<size_t>(limits::max_layers)) {
-      return "the layered media have together " + std::to_string(stack_.size()) +
-             " layers; at most " + std::to_string(limits::max_layers) + " are allowed";
+      return problem("the layered media have together " + std::to_string(stack_.size()) +
+                     " layers; at most " + std::to_string(limits::max_layers) + " are allowed");
     }
     const size_t n = tables_.components.size();
     for (size_t b = 0; b < static_cast<size_t>(bands_); ++b) {

@@ -9,37 +9,38 @@ namespace luxodus {
 
 namespace {
 
-/// Empty if the table can be compiled, else what is wrong with it and what to do.
-std::string table_fault(const Phase& phase) {
+/// Whether the table can be compiled.
+Result<void> check_table(const Phase& phase) {
   const std::vector<double>& cosines = phase.table_cos;
   const std::vector<double>& values = phase.table_value;
   if (cosines.size() != values.size()) {
-    return "a phase table needs as many values as cosines (" + std::to_string(cosines.size()) +
-           " cosines, " + std::to_string(values.size()) + " values)";
+    return problem("a phase table needs as many values as cosines (" +
+                   std::to_string(cosines.size()) + " cosines, " + std::to_string(values.size()) +
+                   " values)");
   }
   if (cosines.size() < 2 || cosines.size() > phase_limits::max_table_entries) {
-    return "a phase table needs 2 to " + std::to_string(phase_limits::max_table_entries) +
-           " entries, this one has " + std::to_string(cosines.size());
+    return problem("a phase table needs 2 to " + std::to_string(phase_limits::max_table_entries) +
+                   " entries, this one has " + std::to_string(cosines.size()));
   }
   if (cosines.front() != -1.0 || cosines.back() != 1.0) {
-    return "a phase table runs over cosines from -1 to 1; add the missing ends";
+    return problem("a phase table runs over cosines from -1 to 1; add the missing ends");
   }
   double total = 0;
   for (std::size_t i = 0; i < cosines.size(); ++i) {
     if (!(values[i] >= 0) || !std::isfinite(values[i])) {
-      return "phase table entry " + std::to_string(i + 1) +
-             " is negative or not a number; write a density per solid angle, 0 or more";
+      return problem("phase table entry " + std::to_string(i + 1) +
+                     " is negative or not a number; write a density per solid angle, 0 or more");
     }
     if (i == 0) continue;
     // Also false for NaN. Compared in the sampler's precision.
     if (!(static_cast<Real>(1.0 - cosines[i - 1]) > static_cast<Real>(1.0 - cosines[i]))) {
-      return "phase table cosines must ascend by more than rounding; entry " +
-             std::to_string(i + 1) + " does not";
+      return problem("phase table cosines must ascend by more than rounding; entry " +
+                     std::to_string(i + 1) + " does not");
     }
     total += 0.5 * (values[i - 1] + values[i]) * (cosines[i] - cosines[i - 1]);
   }
   if (!(total > 0) || !std::isfinite(total)) {
-    return "a phase table needs at least one value above 0, and a finite sum";
+    return problem("a phase table needs at least one value above 0, and a finite sum");
   }
   return {};
 }
@@ -64,8 +65,7 @@ Result<PhaseFunction> PhaseFunction::make(const Phase& phase, const SourcePlace&
   }
   if (phase.kind == PhaseKind::rayleigh) out.mean_second_ = 0.1_r;
   if (phase.kind == PhaseKind::tabulated) {
-    const std::string fault = table_fault(phase);
-    if (!fault.empty()) return problem_in(where, fault);
+    if (auto ok = check_table(phase); !ok) return problem_in(where, ok.problem());
     out.compile_table(phase);
   }
   return out;

@@ -141,18 +141,18 @@ double bilinear(const double* near_column, const double* far_column, double s, d
   return near + s * (far - near);
 }
 
-/// The fault of a list of angles that must run from 0 to `last`, as a message; empty if valid.
-std::string fault_of_angles(const std::vector<double>& angles, double last, const char* name) {
+/// Whether a list of angles runs from 0 to `last`.
+Result<void> check_angles(const std::vector<double>& angles, double last, const char* name) {
   if (angles.size() < 2 || angles.size() > web_limits::web_angles) {
-    return std::string("a web needs 2 to ") + std::to_string(web_limits::web_angles) + " " + name +
-           " angles, not " + std::to_string(angles.size());
+    return problem(std::string("a web needs 2 to ") + std::to_string(web_limits::web_angles) + " " +
+                   name + " angles, not " + std::to_string(angles.size()));
   }
   if (angles.front() != 0 || angles.back() != last) {
-    return std::string(name) + " angles must run from 0 to " + std::to_string(int(last)) +
-           " degrees";
+    return problem(std::string(name) + " angles must run from 0 to " + std::to_string(int(last)) +
+                   " degrees");
   }
   for (size_t i = 1; i < angles.size(); ++i) {
-    if (!(angles[i] > angles[i - 1])) return std::string(name) + " angles must ascend";
+    if (!(angles[i] > angles[i - 1])) return problem(std::string(name) + " angles must ascend");
   }
   return {};
 }
@@ -173,9 +173,8 @@ Result<PhotometricWeb> PhotometricWeb::make(std::vector<double> azimuth_deg,
                                             std::vector<double> polar_deg,
                                             std::vector<double> candela,
                                             const glm::dmat3& to_luminaire) {
-  std::string fault = fault_of_angles(azimuth_deg, 360, "azimuth");
-  if (fault.empty()) fault = fault_of_angles(polar_deg, 180, "polar");
-  if (!fault.empty()) return problem(std::move(fault));
+  if (auto ok = check_angles(azimuth_deg, 360, "azimuth"); !ok) return ok.problem();
+  if (auto ok = check_angles(polar_deg, 180, "polar"); !ok) return ok.problem();
   const size_t columns = azimuth_deg.size();
   const size_t rows = polar_deg.size();
   if (columns * rows > web_limits::web_values) return problem("the web holds too many values");

@@ -62,17 +62,17 @@ int below_zero(double a, double b, double c, RayInterval out[2]) {
   return 2;
 }
 
-std::string frame_fault(const Frame& frame) {
+Result<void> check_frame(const Frame& frame) {
   for (int k = 0; k < 3; ++k) {
-    if (!finite(frame.axes[k])) return "has axes that are not finite";
+    if (!finite(frame.axes[k])) return problem("has axes that are not finite");
     for (int l = 0; l <= k; ++l) {
       const double expected = k == l ? 1 : 0;
       if (std::abs(glm::dot(frame.axes[k], frame.axes[l]) - expected) > orthonormal_tolerance) {
-        return "has axes that are not of unit length and perpendicular";
+        return problem("has axes that are not of unit length and perpendicular");
       }
     }
   }
-  if (!finite(frame.origin)) return "has a place that is not finite";
+  if (!finite(frame.origin)) return problem("has a place that is not finite");
   return {};
 }
 
@@ -80,7 +80,7 @@ Result<QuadricBody> QuadricBody::make(const Medium& medium, const glm::dvec3& lo
   const auto fault = [&](const std::string& what) {
     return problem_in(medium.place, "medium \"" + medium.name + "\" " + what);
   };
-  if (const std::string f = frame_fault(medium.frame); !f.empty()) return fault(f);
+  if (auto ok = check_frame(medium.frame); !ok) return fault(ok.problem().what);
   const Quadric& q = medium.quadric;
   bool good = finite(q.b) && std::isfinite(q.c);
   for (int k = 0; k < 3; ++k) good = good && finite(q.a[k]);

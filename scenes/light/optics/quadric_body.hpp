@@ -87,7 +87,8 @@ glm::dvec3 QuadricBody::sample(Uniform&& next_uniform) const {
 /// Parameters s with a s^2 + b s + c <= 0, as at most two ascending intervals of the real line.
 int below_zero(double a, double b, double c, RayInterval out[2]);
 
-/// The fault of a frame as a message, or "": axes must be orthonormal, everything finite.
-std::string frame_fault(const Frame& frame);
+/// Whether a frame has orthonormal axes and everything is finite; what is wrong goes on from a
+/// name.
+Result<void> check_frame(const Frame& frame);
 
 }  // namespace luxodus

@@ -12,43 +12,43 @@ namespace luxodus {
 
 namespace {
 
-/// The first value outside [0, most], as a sentence, or "".
-std::string array_fault(const char* name, const std::vector<float>& values, int64_t cells,
-                        float most) {
+/// Errors: the first value outside [0, most].
+Result<void> check_array(const char* name, const std::vector<float>& values, int64_t cells,
+                         float most) {
   if (values.empty()) return {};
   if (static_cast<int64_t>(values.size()) != cells) {
-    return std::string("has ") + std::to_string(values.size()) + " values of " + name + " for " +
-           std::to_string(cells) + " cells";
+    return problem(std::string("has ") + std::to_string(values.size()) + " values of " + name +
+                   " for " + std::to_string(cells) + " cells");
   }
   for (size_t i = 0; i < values.size(); ++i) {
     if (!(values[i] >= 0) || !(values[i] <= most)) {
-      return std::string("has ") + name + " " + std::to_string(values[i]) + " in cell " +
-             std::to_string(i) + "; it must be finite, not negative" +
-             (most <= 1 ? " and at most 1" : "");
+      return problem(std::string("has ") + name + " " + std::to_string(values[i]) + " in cell " +
+                     std::to_string(i) + "; it must be finite, not negative" +
+                     (most <= 1 ? " and at most 1" : ""));
     }
   }
   return {};
 }
 
-std::string data_fault(const DataSet& d) {
+Result<void> check_data(const DataSet& d) {
   int64_t cells = 1;
   for (const int n : {d.nx, d.ny, d.nz}) {
     if (n < 1 || n > limits::max_grid_side) {
-      return "has " + std::to_string(n) + " cells along a side; 1 to " +
-             std::to_string(limits::max_grid_side) + " are allowed";
+      return problem("has " + std::to_string(n) + " cells along a side; 1 to " +
+                     std::to_string(limits::max_grid_side) + " are allowed");
     }
     cells *= n;
   }
-  if (cells > limits::max_grid_cells) return "has more than 2^30 cells";
+  if (cells > limits::max_grid_cells) return problem("has more than 2^30 cells");
   for (int k = 0; k < 3; ++k) {
     if (!(d.extent[k] > 0) || !std::isfinite(d.extent[k])) {
-      return "has a box whose sides are not all positive and finite";
+      return problem("has a box whose sides are not all positive and finite");
     }
   }
   constexpr float any = std::numeric_limits<float>::max();
-  if (auto f = array_fault("extinction", d.extinction, cells, any); !f.empty()) return f;
-  if (auto f = array_fault("albedo", d.albedo, cells, 1); !f.empty()) return f;
-  return array_fault("emission", d.emission, cells, any);
+  if (auto ok = check_array("extinction", d.extinction, cells, any); !ok) return ok.problem();
+  if (auto ok = check_array("albedo", d.albedo, cells, 1); !ok) return ok.problem();
+  return check_array("emission", d.emission, cells, any);
 }
 
 std::vector<float> cut_one(const DataSet& d, const std::vector<float>& values,
@@ -143,9 +143,9 @@ BrickTable brick_table(const DataSet& data) {
 
 Result<SmokeGrid> SmokeGrid::make(const Medium& medium, int medium_index,
                                   const glm::dvec3& local_origin) {
-  std::string fault = frame_fault(medium.frame);
-  if (fault.empty()) fault = data_fault(medium.data);
-  if (!fault.empty()) return problem_in(medium.place, "medium \"" + medium.name + "\" " + fault);
+  Result<void> ok = check_frame(medium.frame);
+  if (ok) ok = check_data(medium.data);
+  if (!ok) return problem_in(medium.place, "medium \"" + medium.name + "\" " + ok.problem().what);
   const DataSet& d = medium.data;
   SmokeGrid out;
   out.medium_ = medium_index;

@@ -86,7 +86,7 @@ const IsolatedJob draw_job("draw", answer);
 
 /// Finds, without parsing, what makes a drawing unfit for a sign. Drawings in other encodings than
 /// UTF-8 are not checked here; the limits of the job hold for them.
-std::optional<Problem> unfit(std::string_view bytes) {
+Result<void> check_drawing(std::string_view bytes) {
   // librsvg would decompress it without a limit.
   if (bytes.starts_with("\x1f\x8b"))
     return problem("the drawing is compressed; unpack it to plain SVG");
@@ -101,13 +101,13 @@ std::optional<Problem> unfit(std::string_view bytes) {
           "the drawing has filters, which a sign's two colours need none of; draw it "
           "without");
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
 
 Result<DrawnSvg> draw_svg(const std::string& bytes, int across, int down) {
-  if (auto bad = unfit(bytes)) return *bad;
+  if (auto ok = check_drawing(bytes); !ok) return ok.problem();
   auto in = draw_job.run(
       [&](PlainWriter& question) {
         question.put(bytes);

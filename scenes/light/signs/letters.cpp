@@ -230,28 +230,28 @@ std::string quoted(char c) {
   return "byte " + std::to_string(byte);
 }
 
-/// The fault of a text and its sizes, as a message; "" if they are valid.
-std::string letters_fault(std::string_view text, const LetterSize& size) {
-  if (text.empty()) return "the legend is empty; give the text that the sign shows";
+/// Whether text and sizes are sound.
+Result<void> check_letters(std::string_view text, const LetterSize& size) {
+  if (text.empty()) return problem("the legend is empty; give the text that the sign shows");
   if (text.size() > limits::max_legend_characters)
-    return "the legend has " + std::to_string(text.size()) + " characters, at most " +
-           std::to_string(limits::max_legend_characters) + " are drawn";
+    return problem("the legend has " + std::to_string(text.size()) + " characters, at most " +
+                   std::to_string(limits::max_legend_characters) + " are drawn");
   const bool sized = std::isfinite(size.height_m) && std::isfinite(size.stroke_m) &&
                      std::isfinite(size.spacing_m) && size.height_m > 0 && size.stroke_m > 0 &&
                      size.spacing_m >= 0;
-  if (!sized) return "letter height and stroke must be positive, and spacing not negative";
+  if (!sized) return problem("letter height and stroke must be positive, and spacing not negative");
   // The tolerance accepts a stroke of exactly a fifth whatever unit it was converted from.
   if (size.stroke_m > limits::max_stroke_share * size.height_m * (1 + 1e-9))
-    return "the stroke is " + std::to_string(size.stroke_m / size.height_m) +
-           " of the letter height; above 0.2 the gaps within E are thinner than the stroke";
+    return problem(
+        "the stroke is " + std::to_string(size.stroke_m / size.height_m) +
+        " of the letter height; above 0.2 the gaps within E are thinner than the stroke");
   return {};
 }
 
 }  // namespace
 
 Result<Lettering> lay_out_text(std::string_view text, const LetterSize& size) {
-  if (std::string wrong = letters_fault(text, size); !wrong.empty())
-    return problem(std::move(wrong));
+  if (auto ok = check_letters(text, size); !ok) return ok.problem();
   // A word space of 0.4 letter heights separates words clearly at any letter spacing.
   constexpr double word_space_share = 0.4;
   Lettering out;

@@ -17,17 +17,18 @@ double luminance_of(const Image& map, size_t pixel) {
   return 0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2];
 }
 
-/// The fault of an image, as a message; "" if it is valid.
-std::string map_fault(const Image& map) {
+/// Whether the image keeps its own rules.
+Result<void> check_map(const Image& map) {
   const bool layout = map.width > 0 && map.height > 0 &&
                       (map.channels == 1 || map.channels == 3 || map.channels == 4) &&
                       map.texels.size() == static_cast<size_t>(map.width) *
                                                static_cast<size_t>(map.height) *
                                                static_cast<size_t>(map.channels);
-  if (!layout) return "the luminance map is empty or incomplete; give a grey or colour picture";
+  if (!layout)
+    return problem("the luminance map is empty or incomplete; give a grey or colour picture");
   for (float value : map.texels)
     if (!(std::isfinite(value) && value >= 0))
-      return "the luminance map has a value that is negative or not a number";
+      return problem("the luminance map has a value that is negative or not a number");
   return {};
 }
 
@@ -58,7 +59,7 @@ double average(const Image& map, const SignFace& face, int column, int row) {
 }  // namespace
 
 Result<SignFace> with_luminance_map(SignFace face, const Image& map) {
-  if (std::string wrong = map_fault(map); !wrong.empty()) return problem(std::move(wrong));
+  if (auto ok = check_map(map); !ok) return ok.problem();
   std::vector<double> luminance;
   luminance.reserve(face.colour.size());
   for (int row = 0; row < face.height; ++row)

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -132,25 +131,24 @@ void vote(SignFace& face, const Pixels& pixels) {
 }
 
 /// A pictogram is read by the contrast between its two colours, so it must have both.
-std::optional<std::string> missing_colour(const SignFace& face) {
+Result<void> check_colours(const SignFace& face) {
   for (auto [colour, name] : {std::pair{SignColour::white, "white (like #ECECE7)"},
                               std::pair{SignColour::green, "green (like #237F52)"}})
     if (colour_share(face, colour) == 0)
-      return std::string("nothing in it is ") + name +
-             "; an exit sign is drawn in ISO 3864 green and white";
-  return std::nullopt;
+      return problem(std::string("nothing in it is ") + name +
+                     "; an exit sign is drawn in ISO 3864 green and white");
+  return {};
 }
 
-std::optional<std::string> wrong_aspect(double width, double height, double width_m,
-                                        double height_m) {
+Result<void> check_aspect(double width, double height, double width_m, double height_m) {
   const double drawn = width / height, stated = width_m / height_m;
-  if (std::abs(drawn / stated - 1) <= limits::face_aspect_tolerance) return std::nullopt;
+  if (std::abs(drawn / stated - 1) <= limits::face_aspect_tolerance) return {};
   const auto two_digits = [](double v) {
     std::string text = std::to_string(v);
     return text.substr(0, text.find('.') + 3);
   };
-  return "it is " + two_digits(drawn) + " times as wide as high, the sign " + two_digits(stated) +
-         " times; give the sign the aspect of its picture";
+  return problem("it is " + two_digits(drawn) + " times as wide as high, the sign " +
+                 two_digits(stated) + " times; give the sign the aspect of its picture");
 }
 
 // ---- cairo, librsvg, libpng --------------------------------------------------------------------
@@ -158,7 +156,8 @@ std::optional<std::string> wrong_aspect(double width, double height, double widt
 Result<std::string> read_drawing(const std::filesystem::path& file) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(file, failed))
-    return problem_in(file, "there is no such file; give the path of the sign's SVG drawing");
+    return problem_in(file, "there is no such file; give the path of the sign's SVG drawing",
+                      ProblemKind::not_found);
   if (std::filesystem::file_size(file, failed) > static_cast<uint64_t>(limits::max_drawing_bytes))
     return problem_in(file, "the drawing is larger than 4 MiB; simplify it");
   auto bytes = read_regular_file(file, static_cast<uint64_t>(limits::max_drawing_bytes));
@@ -219,20 +218,21 @@ void draw_letter(cairo_t* pen, const Letter& letter) {
   cairo_restore(pen);
 }
 
-std::optional<std::string> legend_fault(const Lettering& lettering, double width_m, double height_m,
-                                        int texels_across) {
+Result<void> check_legend(const Lettering& lettering, double width_m, double height_m,
+                          int texels_across) {
   if (lettering.width_m > width_m)
-    return "the legend is " + in_mm(lettering.width_m) + " wide, the face " + in_mm(width_m) +
-           "; widen the sign or lower the letters";
+    return problem("the legend is " + in_mm(lettering.width_m) + " wide, the face " +
+                   in_mm(width_m) + "; widen the sign or lower the letters");
   if (lettering.height_m > height_m)
-    return "the letters are " + in_mm(lettering.height_m) + " high, the face " + in_mm(height_m) +
-           "; raise the sign or lower the letters";
+    return problem("the letters are " + in_mm(lettering.height_m) + " high, the face " +
+                   in_mm(height_m) + "; raise the sign or lower the letters");
   const double texel_m = width_m / texels_across;
   if (lettering.stroke_m < 2 * texel_m)
-    return "the stroke of " + in_mm(lettering.stroke_m) + " has less than two texels; give " +
-           std::to_string(static_cast<int64_t>(std::ceil(2 * width_m / lettering.stroke_m))) +
-           " texels across or more";
-  return std::nullopt;
+    return problem(
+        "the stroke of " + in_mm(lettering.stroke_m) + " has less than two texels; give " +
+        std::to_string(static_cast<int64_t>(std::ceil(2 * width_m / lettering.stroke_m))) +
+        " texels across or more");
+  return {};
 }
 
 }  // namespace
@@ -264,30 +264,30 @@ SignColour classify_colour(const std::array<uint8_t, 4>& rgba) {
 Result<SignFace> face_from_svg(const std::filesystem::path& file, double width_m, double height_m,
                                int texels_across) {
   Result<SignFace> face = blank_face(width_m, height_m, texels_across);
-  if (!face) return problem_in(file, face.problem().what);
+  if (!face) return problem_in(file, face.problem());
   Result<std::string> bytes = read_drawing(file);
   if (!bytes) return bytes.problem();
   const int samples = samples_per_texel(face.value());
   const Result<DrawnSvg> svg =
       draw_svg(bytes.value(), face->width * samples, face->height * samples);
-  if (!svg) return problem_in(file, svg.problem().what);
-  if (auto wrong = wrong_aspect(svg->width, svg->height, width_m, height_m))
-    return problem_in(file, *wrong);
+  if (!svg) return problem_in(file, svg.problem());
+  if (auto ok = check_aspect(svg->width, svg->height, width_m, height_m); !ok)
+    return problem_in(file, ok.problem());
   vote(face.value(), svg->pixels);
-  if (auto missing = missing_colour(face.value())) return problem_in(file, *missing);
+  if (auto ok = check_colours(face.value()); !ok) return problem_in(file, ok.problem());
   return face;
 }
 
 Result<SignFace> face_from_png(const std::filesystem::path& file, double width_m, double height_m,
                                int texels_across) {
   Result<SignFace> face = blank_face(width_m, height_m, texels_across);
-  if (!face) return problem_in(file, face.problem().what);
+  if (!face) return problem_in(file, face.problem());
   Result<Pixels> pixels = read_png(file);
   if (!pixels) return pixels.problem();
-  if (auto wrong = wrong_aspect(pixels->width, pixels->height, width_m, height_m))
-    return problem_in(file, *wrong);
+  if (auto ok = check_aspect(pixels->width, pixels->height, width_m, height_m); !ok)
+    return problem_in(file, ok.problem());
   vote(face.value(), pixels.value());
-  if (auto missing = missing_colour(face.value())) return problem_in(file, *missing);
+  if (auto ok = check_colours(face.value()); !ok) return problem_in(file, ok.problem());
   return face;
 }
 
@@ -300,8 +300,8 @@ Result<SignFace> face_from_text(std::string_view text, double width_m, double he
     return problem("a legend is white or green; the ground takes the other of the two");
   Result<Lettering> lettering = lay_out_text(text, {letter_height_m, stroke_m, spacing_m});
   if (!lettering) return lettering.problem();
-  if (auto wrong = legend_fault(lettering.value(), width_m, height_m, texels_across))
-    return problem(*wrong);
+  if (auto ok = check_legend(lettering.value(), width_m, height_m, texels_across); !ok)
+    return ok.problem();
 
   const int samples = samples_per_texel(face.value());
   const int across = face->width * samples, down = face->height * samples;
@@ -321,7 +321,7 @@ Result<SignFace> face_from_text(std::string_view text, double width_m, double he
   cairo_set_line_join(pen.get(), CAIRO_LINE_JOIN_MITER);
   for (const Letter& letter : lettering->letters) draw_letter(pen.get(), letter);
   if (cairo_status(pen.get()) != CAIRO_STATUS_SUCCESS)
-    return problem("the legend cannot be drawn: out of memory");
+    return problem("the legend cannot be drawn: out of memory", ProblemKind::no_room);
   vote(face.value(), pixels_of(surface.get()));
   face->legend = legend;
   return face;

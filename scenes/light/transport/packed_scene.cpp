@@ -1,7 +1,5 @@
 #include "scenes/light/transport/packed_scene.hpp"
 
-#include <optional>
-
 #include "runtime/core/hash.hpp"
 #include "scenes/light/transport/brick_object.hpp"
 #include "scenes/light/transport/cell_object.hpp"
@@ -31,7 +29,7 @@ Result<Brick> load_brick(const PackedScene& packed, const SceneParts& parts, uin
   const auto bytes = object_bytes(packed, object);
   if (!bytes) return bytes.problem();
   auto decoded = decode_brick(bytes.value(), parts.table(medium), brick);
-  if (!decoded) return problem_in(packed.file->name(), decoded.problem().what);
+  if (!decoded) return problem_in(packed.file->name(), decoded.problem());
   return decoded;
 }
 
@@ -40,7 +38,7 @@ Result<ImageTile> load_tile(const PackedScene& packed, const SceneParts& parts, 
   const auto bytes = object_bytes(packed, parts.of_tile(index, tile));
   if (!bytes) return bytes.problem();
   auto decoded = decode_tile(bytes.value(), image, tile);
-  if (!decoded) return problem_in(packed.file->name(), decoded.problem().what);
+  if (!decoded) return problem_in(packed.file->name(), decoded.problem());
   return decoded;
 }
 
@@ -100,7 +98,7 @@ Result<GeometryCell> load_cell(const CompiledScene& scene, uint32_t cell) {
   if (!bytes) return bytes.problem();
   auto decoded =
       decode_cell(bytes.value(), {static_cast<uint32_t>(scene.surfaces.size()), scene.patch_count});
-  if (!decoded) return problem_in(packed.file->name(), decoded.problem().what);
+  if (!decoded) return problem_in(packed.file->name(), decoded.problem());
   return decoded;
 }
 
@@ -110,18 +108,18 @@ Result<void> check_objects(const CompiledScene& scene) {
   const SceneParts parts(scene);
   for (uint32_t i = 0; i < parts.count(); ++i) {
     const ScenePart part = parts[i];
-    const auto problem_in = [](const auto& read) {
-      return read ? std::nullopt : std::optional(read.problem());
+    const auto checked = [](const auto& read) {
+      return read ? Result<void>() : Result<void>(read.problem());
     };
-    std::optional<Problem> bad;
+    Result<void> ok;
     if (part.kind == ScenePart::Kind::cell) {
-      bad = problem_in(load_cell(scene, part.index));
+      ok = checked(load_cell(scene, part.index));
     } else if (part.kind == ScenePart::Kind::brick) {
-      bad = problem_in(load_brick(packed, parts, part.owner, part.index));
+      ok = checked(load_brick(packed, parts, part.owner, part.index));
     } else {
-      bad = problem_in(load_tile(packed, parts, part.owner, *scene.images[part.owner], part.index));
+      ok = checked(load_tile(packed, parts, part.owner, *scene.images[part.owner], part.index));
     }
-    if (bad) return *bad;
+    if (!ok) return ok.problem();
   }
   return {};
 }

@@ -24,19 +24,19 @@ std::optional<uint64_t> FilesAsRead::hash_of(const std::string& path) const {
   return at == files_.end() ? std::nullopt : std::optional(at->second.hash);
 }
 
-std::optional<Problem> FilesAsRead::change_on_disk() const {
+Result<void> FilesAsRead::unchanged_on_disk() const {
   for (const auto& [path, file] : files_) {
     if (file.stamp.same_as(stamp_at(path))) continue;
     if (const auto now = hash_of_file(path); !now || now.value() != file.hash)
       return changed_since(path);
   }
-  return std::nullopt;
+  return {};
 }
 
-std::optional<Problem> FilesAsRead::change_in(const FilesAsRead& later) const {
+Result<void> FilesAsRead::unchanged_in(const FilesAsRead& later) const {
   for (const auto& [path, file] : files_)
     if (const auto now = later.hash_of(path); now && *now != file.hash) return changed_since(path);
-  return std::nullopt;
+  return {};
 }
 
 Result<uint64_t> hash_of_file(const std::string& path) {

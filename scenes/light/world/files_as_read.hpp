@@ -27,11 +27,11 @@ class FilesAsRead {
   /// The hash of a file that was added; nothing for others.
   std::optional<uint64_t> hash_of(const std::string& path) const;
 
-  /// The first file that no longer exists or has other bytes on disk. Reads only files whose stamps
-  /// have changed.
-  std::optional<Problem> change_on_disk() const;
-  /// The first file that a later reading of the scene found with other bytes.
-  std::optional<Problem> change_in(const FilesAsRead& later) const;
+  /// Errors: the first file that is not on the disk any more, or has other bytes there. Reads those
+  /// whose stamps are others.
+  Result<void> unchanged_on_disk() const;
+  /// Errors: the first file that a later reading of the scene has found with other bytes.
+  Result<void> unchanged_in(const FilesAsRead& later) const;
 
  private:
   struct File {

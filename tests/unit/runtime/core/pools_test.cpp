@@ -143,11 +143,13 @@ TEST_CASE("a memory plan names its terms and compares their sum with the budget"
   plan.add("timers", 1 << 20, "8192 timers x 128 B");
   plan.add("stacks", 9 << 20, "288 fibers x 32 KB");
   CHECK(plan.total_bytes() == 10 << 20);
-  CHECK_FALSE(plan.against(10 << 20).has_value());
-  const auto problem = plan.against(8 << 20);
-  REQUIRE(problem.has_value());
-  CHECK(problem->what.find("2.0 more than the budget of 8.0 MiB") != std::string::npos);
-  CHECK(problem->what.find("stacks, 9.0 MiB (288 fibers x 32 KB)") != std::string::npos);
+  CHECK(plan.fits(10 << 20));
+  const auto fits = plan.fits(8 << 20);
+  REQUIRE_FALSE(fits);
+  CHECK(fits.problem().kind == ProblemKind::no_room);
+  const std::string& what = fits.problem().what;
+  CHECK(what.find("2.0 more than the budget of 8.0 MiB") != std::string::npos);
+  CHECK(what.find("stacks, 9.0 MiB (288 fibers x 32 KB)") != std::string::npos);
   const std::string table = plan.table(8 << 20);
   CHECK(table.find("stacks") < table.find("timers"));
   CHECK(table.find("8192 timers x 128 B") != std::string::npos);

@@ -1,6 +1,7 @@
 #include "runtime/core/result.hpp"
 
 #include <catch2/catch.hpp>
+#include <cerrno>
 
 #include "runtime/core/printable.hpp"
 
@@ -35,6 +36,39 @@ TEST_CASE("a result holds either its value or its problem", "[core]") {
   CHECK(good.value() == 3);
   REQUIRE_FALSE(bad.ok());
   CHECK(bad.problem().what == "no");
+}
+
+TEST_CASE("a problem is of wrong input unless somebody says another kind, and keeps it", "[core]") {
+  CHECK(problem("no").kind == ProblemKind::bad_input);
+  CHECK(problem_in("a.toml", 3, "no").kind == ProblemKind::bad_input);
+  const Problem full = problem("no space", ProblemKind::no_room);
+  CHECK(problem_in("out", full).kind == ProblemKind::no_room);
+  CHECK(problem_in("out", full).text() == "out: no space");
+  CHECK(problem_in("out", 4, full).where.line == 4);
+  CHECK(problem_in(SourcePlace{"out", 4}, full).kind == ProblemKind::no_room);
+}
+
+TEST_CASE("what the system says decides the kind of its problems", "[core]") {
+  const auto kind = [](int error) { return system_problem("f", "cannot", error).kind; };
+  CHECK(kind(ENOENT) == ProblemKind::not_found);
+  CHECK(kind(ENOTDIR) == ProblemKind::not_found);
+  CHECK(kind(EISDIR) == ProblemKind::bad_input);
+  for (const int error : {EACCES, EPERM, EROFS, EADDRINUSE})
+    CHECK(kind(error) == ProblemKind::refused);
+  for (const int error : {ENOSPC, EDQUOT, ENOMEM, EMFILE, EFBIG})
+    CHECK(kind(error) == ProblemKind::no_room);
+  CHECK(kind(ECONNREFUSED) == ProblemKind::lost_peer);
+  CHECK(kind(EIO) == ProblemKind::system);
+  CHECK(system_problem("f", "cannot", EACCES).text() == "f: cannot: Permission denied");
+}
+
+TEST_CASE("problems together are of wrong input where one of them is", "[core]") {
+  Problems found;
+  found.add(problem("no", ProblemKind::refused));
+  found.add(problem("full", ProblemKind::no_room));
+  CHECK(found.kind() == ProblemKind::refused);
+  found.add(problem("it is not there", ProblemKind::not_found));
+  CHECK(found.kind() == ProblemKind::bad_input);
 }
 
 TEST_CASE("an excerpt is short and has only valid characters", "[core]") {

@@ -14,8 +14,8 @@ std::string repeated(const std::string& part, size_t times) {
 
 /// The line that is rejected, 0 if none is.
 int refused_line(const std::string& text) {
-  const auto problem = toml::too_deep(text, "deep.toml");
-  return problem ? problem->where.line : 0;
+  const auto ok = toml::check_nesting(text, "deep.toml");
+  return ok ? 0 : ok.problem().where.line;
 }
 
 /// A key with this many dots.

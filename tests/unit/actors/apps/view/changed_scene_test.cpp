@@ -87,7 +87,7 @@ TEST_CASE(
   folder.write("a.sf", slice_file(mesh, label, {{0, thin}, {10, thin}}));
   // FDS appends events to its index, too.
   folder.write("fire.smv", index + "DEVICE_ACT\n     1    0.50000E+01     1\n");
-  CHECK_FALSE(scene->files->change_on_disk());
+  CHECK(scene->files->unchanged_on_disk());
   CHECK(before->at(std::nullopt).ok());
   const auto after = FrameScenes::of(*scene, file, std::nullopt);
   folder.write("scene.toml", text + "# a word\n");

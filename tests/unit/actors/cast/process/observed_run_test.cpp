@@ -119,13 +119,13 @@ TEST_CASE("a budget that is too small is rejected with the key and the required 
   const uint64_t needed =
       std::min(min_tally_bytes(*scene), tally_need(*scene, node.photons.batches_in_work()).all());
   node.tally_bytes = needed;
-  CHECK_FALSE(budget_fault(run, node).has_value());
+  CHECK(check_budget(run, node));
   CHECK(tally_plan(*scene, node).total_bytes() <= needed);
   node.tally_bytes = needed - 1;
-  const auto fault = budget_fault(run, node);
-  REQUIRE(fault.has_value());
-  CHECK(fault->find("node n1") == 0);
-  CHECK(fault->find("raise tally_bytes") != std::string::npos);
+  const auto fits = check_budget(run, node);
+  REQUIRE_FALSE(fits);
+  CHECK(fits.problem().what.find("node n1") == 0);
+  CHECK(fits.problem().what.find("raise tally_bytes") != std::string::npos);
 
   const auto parts = scene_of("office_floor", "smoke_emergency", 8);
   const SceneObjects objects(*parts, std::array{NodeId{0}, NodeId{1}}, 1);
@@ -133,7 +133,7 @@ TEST_CASE("a budget that is too small is rejected with the key and the required 
   NodeSetup small;
   small.net.self = {0};
   small.object_bytes = objects.largest_wire_bytes();
-  const auto no_room = budget_fault(fetching, small);
-  REQUIRE(no_room.has_value());
-  CHECK(no_room->find("raise object_bytes") != std::string::npos);
+  const auto no_room = check_budget(fetching, small);
+  REQUIRE_FALSE(no_room);
+  CHECK(no_room.problem().what.find("raise object_bytes") != std::string::npos);
 }

@@ -282,7 +282,7 @@ TEST_CASE("guidance over time goes through its JSON, whose faults are named", "[
   Assessment assessment = test::assessed(text, test::codes_alone());
   assessment.over_time = over(text, {0, 20, 40, 60});
   const Json json = assessment_json(*test::described_text(text), assessment, "1");
-  CHECK_FALSE(fault_of_assessment(json).has_value());
+  CHECK(check_assessment(json));
   const Json& route = json["over_time"]["routes"][0];
   CHECK(route["guided"][0].text() == "ggg");
   CHECK(route["time"]["until"]["value"] == 60);
@@ -294,10 +294,14 @@ TEST_CASE("guidance over time goes through its JSON, whose faults are named", "[
   CHECK(guidance_text(json["over_time"]).find("up to the last state, 60 s") != std::string::npos);
   Json cut = json;
   cut["over_time"]["routes"][0]["guided"][0] = "gg";
-  CHECK(fault_of_assessment(cut).value_or("").find("as many values") != std::string::npos);
+  const auto short_of = check_assessment(cut);
+  REQUIRE_FALSE(short_of);
+  CHECK(short_of.problem().what.find("as many values") != std::string::npos);
   Json silent = json;
   silent["over_time"]["states"] = Json::array();
-  CHECK(fault_of_assessment(silent).value_or("") == "over_time.states is empty");
+  const auto empty = check_assessment(silent);
+  REQUIRE_FALSE(empty);
+  CHECK(empty.problem().what == "over_time.states is empty");
 }
 
 }  // namespace luxodus

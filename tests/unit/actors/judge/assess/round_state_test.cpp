@@ -93,8 +93,8 @@ TEST_CASE("nodes that know the scene alone give an assessment the looks of threa
   RoundNodes nodes(scene);
   // As a cluster asks: the executor has a lock of its own, which once was waited for in two orders.
   NodeExecutor& executor = *nodes.nodes->executor();
-  RunInPieces pieces(executor, [&] {
-    return executor.counters().workers > 2 ? problem("there are two") : executor.fault();
+  RunInPieces pieces(executor, [&]() -> Result<void> {
+    return executor.counters().workers > 2 ? problem("there are two") : executor.goes_on();
   });
   AssessOptions options;
   options.rules = {"en1838-2013"};
@@ -122,7 +122,7 @@ TEST_CASE("an assessment that nobody will trace for ends, and says why", "[asses
   const auto scene = described_text(with_smoke(0.3, 0.5));
   RoundNodes nodes(scene);
   RunInPieces pieces(*nodes.nodes->executor(),
-                     [] { return std::optional(problem("they have gone home")); });
+                     [] { return Result<void>(problem("they have gone home")); });
   AssessOptions options;
   options.rules = {"en1838-2013"};
   options.executor = &pieces;
@@ -151,9 +151,9 @@ TEST_CASE("a run in pieces goes on from what an interrupt has left of it", "[run
   std::atomic<bool> interrupt{false};
   std::atomic<int> asked = 0;
   int patience = 4;  // questions until somebody interrupts it
-  RunInPieces pieces(*nodes.nodes->executor(), [&]() -> std::optional<Problem> {
+  RunInPieces pieces(*nodes.nodes->executor(), [&]() -> Result<void> {
     if (++asked >= patience) interrupt = true;
-    return std::nullopt;
+    return {};
   });
   pieces.enter({5, round_text(round)});
   LocalRun run(compiled.value(), 5, 1);

@@ -123,11 +123,12 @@ TEST_CASE("an assessment whose checks are of other rules, or counted wrongly, is
   options.rules = {"en1838-2013"};
   options.deviations = {"de-asr-a3.4-3"};
   const Json good = assessment_json(*described_text(room), assessed(room, options), "1");
-  REQUIRE_FALSE(fault_of_assessment(good));
+  REQUIRE(check_assessment(good));
   const auto refused_for = [](const Json& damaged, const std::string& words) {
-    const auto fault = fault_of_assessment(damaged);
-    INFO(fault.value_or("no fault"));
-    CHECK(fault.value_or("").find(words) != std::string::npos);
+    const auto checked = check_assessment(damaged);
+    REQUIRE_FALSE(checked);
+    INFO(checked.problem().what);
+    CHECK(checked.problem().what.find(words) != std::string::npos);
   };
   Json dangling = good;
   dangling["state"]["deviations"] = Json::array();

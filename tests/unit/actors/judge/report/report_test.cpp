@@ -128,9 +128,9 @@ TEST_CASE("a drawing of others lies faintly under plans of its floors, and nothi
   const auto plan_of = [&](std::vector<Backdrop> backdrops) {
     scene.backdrops = std::move(backdrops);
     const Json a = assessment_json(scene, assessed(room, options), "1.2.3");
-    const auto fault = fault_of_assessment(a);
-    INFO(fault.value_or(""));
-    REQUIRE_FALSE(fault);
+    const auto checked = check_assessment(a);
+    INFO((checked ? "" : checked.problem().what));
+    REQUIRE(checked);
     const Schedule schedule(a);
     const Texts texts(Language::en);
     return Plans(a, schedule, texts, {}).installation(0);
@@ -156,9 +156,9 @@ TEST_CASE("a drawing of others lies faintly under plans of its floors, and nothi
   scene.backdrops = {picture};
   Json a = assessment_json(scene, assessed(room, options), "1.2.3");
   a["plan"]["backdrops"][0]["png"] = "\"><script>";
-  CHECK(fault_of_assessment(a));
+  CHECK_FALSE(check_assessment(a));
   a["plan"]["backdrops"][0].erase("png");
-  CHECK(fault_of_assessment(a));
+  CHECK_FALSE(check_assessment(a));
 }
 
 TEST_CASE("faces of signs keep their letters, and paths break after folders", "[report]") {
@@ -285,7 +285,7 @@ void add_paths(const Json& value, const std::string& path, std::vector<std::stri
 
 TEST_CASE("every key that a report reads is missed by name, and without it nothing ends",
           "[report]") {
-  REQUIRE_FALSE(fault_of_assessment(assessed_json()));
+  REQUIRE(check_assessment(assessed_json()));
   std::vector<std::string> paths;
   for (const auto& [key, value] : assessed_json().items()) add_paths(value, key, paths);
   std::set<std::string> tried;
@@ -301,9 +301,9 @@ TEST_CASE("every key that a report reads is missed by name, and without it nothi
     Json& above = slash == std::string::npos ? cut : *cut.at_path(path.substr(0, slash));
     CHECK(above.erase(key) == 1);
     INFO(path);
-    if (const auto fault = fault_of_assessment(cut)) {
+    if (const auto checked = check_assessment(cut); !checked) {
       ++faults;
-      CHECK(has(*fault, key));
+      CHECK(has(checked.problem().what, key));
     } else {
       CHECK(has(report_html(cut, {}, "x", {}), "</html>"));
     }
@@ -311,16 +311,16 @@ TEST_CASE("every key that a report reads is missed by name, and without it nothi
   CHECK(faults > 60);
   Json wrong = assessed_json();
   wrong["checks"][0]["verdict"] = 3;
-  CHECK(fault_of_assessment(wrong) == "checks[0].verdict is not a text");
+  CHECK(check_assessment(wrong).problem().what == "checks[0].verdict is not a text");
   wrong = assessed_json();
   wrong["signs"][0]["position"][0] = 1e300;
-  CHECK(fault_of_assessment(wrong));
+  CHECK_FALSE(check_assessment(wrong));
   wrong = assessed_json();
   wrong["project"]["logo_png"] = "\"><script>";
-  CHECK(fault_of_assessment(wrong) == "project.logo_png is no picture");
+  CHECK(check_assessment(wrong).problem().what == "project.logo_png is no picture");
   wrong = assessed_json();
   wrong["plan"]["levels"][0]["map"]["columns"] = 1e6;
-  CHECK(fault_of_assessment(wrong));
+  CHECK_FALSE(check_assessment(wrong));
 }
 
 TEST_CASE("a damaged assessment is refused with its file and the missing key", "[report]") {

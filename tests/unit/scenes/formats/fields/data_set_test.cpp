@@ -514,9 +514,11 @@ TEST_CASE("256 arrays that share their bytes are rejected before any is decoded"
 
 TEST_CASE("a sparse file that declares more memory than the machine has is rejected unread",
           "[format][nrrd][hostile]") {
-  CHECK(data_set::memory_fault(1000, 8).empty());
-  const std::string told = data_set::memory_fault(uint64_t{1} << 45, 2);
-  CHECK(told.find("GiB of memory, this machine has") != std::string::npos);
+  CHECK(data_set::check_memory(1000, 8));
+  const auto fits = data_set::check_memory(uint64_t{1} << 45, 2);
+  REQUIRE_FALSE(fits);
+  CHECK(fits.problem().kind == ProblemKind::no_room);
+  CHECK(fits.problem().what.find("GiB of memory, this machine has") != std::string::npos);
 }
 
 TEST_CASE("messages do not show samples of a file that a header names", "[format][nrrd][hostile]") {

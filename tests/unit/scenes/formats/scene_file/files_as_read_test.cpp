@@ -24,19 +24,21 @@ TEST_CASE("a scene detects which of its files has changed on disk, whatever its 
     f.put("more.toml", "title = \"more\"\n");
     const auto files = good(f, scene_of_files).files;
     REQUIRE(files);
-    CHECK_FALSE(files->change_on_disk());
-    CHECK_FALSE(files->change_in(*good(f, scene_of_files).files));
+    CHECK(files->unchanged_on_disk());
+    CHECK(files->unchanged_in(*good(f, scene_of_files).files));
     const auto hash = hash_of_file((f.path() / changed).string());
     REQUIRE(hash.ok());
     CHECK(files->hash_of((f.path() / changed).string()) == hash.value());
     f.put(changed, "another text\n");
-    const auto problem = files->change_on_disk();
-    REQUIRE(problem);
-    CHECK(problem->where.file == (f.path() / changed).string());
-    CHECK(problem->what == "the scene has changed on disk since it was opened: open it again");
+    const auto unchanged = files->unchanged_on_disk();
+    REQUIRE_FALSE(unchanged);
+    CHECK(unchanged.problem().where.file == (f.path() / changed).string());
+    CHECK(unchanged.problem().what ==
+          "the scene has changed on disk since it was opened: open it again");
     std::filesystem::remove(f.path() / changed);
-    REQUIRE(files->change_on_disk());
-    CHECK(files->change_on_disk()->where.file == (f.path() / changed).string());
+    const auto there = files->unchanged_on_disk();
+    REQUIRE_FALSE(there);
+    CHECK(there.problem().where.file == (f.path() / changed).string());
   }
 }
 
@@ -47,9 +49,9 @@ TEST_CASE("two readings of a scene differ in the file that was changed between t
   const auto before = good(f, scene_of_files).files;
   f.put("more.toml", "title = \"other\"\n");
   const auto after = good(f, scene_of_files).files;
-  const auto changed = before->change_in(*after);
-  REQUIRE(changed);
-  CHECK(changed->where.file == (f.path() / "more.toml").string());
+  const auto unchanged = before->unchanged_in(*after);
+  REQUIRE_FALSE(unchanged);
+  CHECK(unchanged.problem().where.file == (f.path() / "more.toml").string());
 }
 
 }  // namespace luxodus
