@@ -326,7 +326,7 @@ Result<void> check_words_of(const Json& value, Kind kind, const std::string& whe
 
 Result<void> check_key(const Json& value, std::string_view path, Kind kind,
                        const std::string& where) {
-  if (path.empty() && kind >= Kind::remark) return fault_in_words(value, kind, where);
+  if (path.empty() && kind >= Kind::remark) return check_words_of(value, kind, where);
   if (path.empty() && kind >= Kind::remark) return check_words_of(value, kind, where);
   if (path.empty())
     return is_kind(value, kind) ? Result<void>() : problem(where + " is not " + type_word(kind));
