@@ -1,8 +1,8 @@
-// The only place that reads or writes Cap'n Proto. Bytes from outside are decoded once, into plain
-// values, with limits set from their own length; what is malformed is a Problem, never an
-// exception, and never more work than its length allows. Misaligned bytes are copied first (the
-// network hands out frames at any address). It allocates for text and lists only; for leases not,
-// where those of earlier messages were given back.
+// Turns values into bytes and back: the only reader and writer of Cap'n Proto. Bytes from outside
+// are decoded once, into plain values, within limits that follow from their length. Malformed bytes
+// are a Problem, never an exception, and never more work than their length allows. Misaligned bytes
+// are copied first, since the network hands out frames at any address. Memory is allocated for text
+// and lists only, and not for lists of leases if earlier ones were given back.
 // Thread rule: a Codec holds scratch memory and belongs to one node.
 #pragma once
 
@@ -30,10 +30,10 @@ struct OpenedMessage {
   std::span<const std::byte> payload;
 };
 
-/// Lists of leases that were read and are done with: the next are read into their memory.
+/// Memory of lists of numbers that are no longer needed. The next lists are read into it.
 class SpareLists {
  public:
-  /// Empty, with room for so many numbers.
+  /// An empty list with room for so many numbers.
   std::vector<uint64_t> take(size_t numbers);
   void give_back(std::vector<uint64_t>&& list);
 
@@ -56,12 +56,13 @@ class Codec {
   /// Errors: longer than `out` or than limits::message_bytes, or a list or text over its limit.
   Result<size_t> encode(const Message& message, std::span<std::byte> out);
 
-  /// Errors: anything but a check of what follows, one envelope within the limits, and any bytes.
+  /// Reads check and envelope. Errors: the check does not hold, or no envelope within the limits
+  /// follows it.
   Result<OpenedFrame> open_frame(std::span<const std::byte> frame);
 
-  /// Errors: anything but one message within the limits, followed by any payload.
+  /// Reads a message; what follows it is its payload. Errors: no message within the limits.
   Result<OpenedMessage> open_message(std::span<const std::byte> bytes);
-  /// Leases of a message that was opened here, or of any other.
+  /// Takes the memory of a message's leases, for messages that are opened later.
   void take_back(std::vector<uint64_t>&& leases) { spare_.give_back(std::move(leases)); }
 
  private:

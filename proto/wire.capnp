@@ -1,33 +1,34 @@
-# The frames of Luxodus. PROTOCOL.md says who sends what, when, and why. Numbers are never reused;
-# new fields come at the end. A frame is one Envelope, one segment long, and behind it a piece of a
-# message: a Message, one segment long, and behind that the payload, which no schema describes.
+# The frames of Luxodus. PROTOCOL.md says who sends what, when, and why; messages.hpp what each field
+# means. Numbers are never reused; new fields come at the end. A frame is one Envelope, one segment
+# long, and behind it a chunk of a message: a Message, one segment long, and behind that the
+# payload, which no schema describes.
 @0xb3c1f5a2d7e84690;
 
 using Cxx = import "/capnp/c++.capnp";
 $Cxx.namespace("luxodus::wire");
 
-# Rewritten by every node that a frame passes.
+# Made anew by every node that a frame passes.
 struct Envelope {
-  from @0 :UInt16;              # the neighbour that sends the frame
-  source @1 :UInt16;            # the node where the message was made
+  from @0 :UInt16;
+  source @1 :UInt16;
   destination @2 :UInt16;
-  kind @3 :UInt8;               # link, control, request, reply, commit
-  hops @4 :UInt8;               # links passed when the frame arrives: its buffer class
+  kind @3 :UInt8;
+  hops @4 :UInt8;
   fromIncarnation @5 :UInt64;
-  toIncarnation @6 :UInt64;     # of the receiver, 0 while unknown
-  idNode @7 :UInt16;            # the id: who asked, in which life, for the how-manieth time
-  grantKind @8 :UInt8;          # one grant rides on every frame; 0 is none
-  grantClass @9 :UInt8;
-  chunk @10 :UInt32;            # which piece of the message follows
+  toIncarnation @6 :UInt64;
+  idNode @7 :UInt16;
+  grantKind @8 :UInt8;
+  grantHopClass @9 :UInt8;
+  chunk @10 :UInt32;
   idIncarnation @11 :UInt64;
   idSequence @12 :UInt64;
-  epoch @13 :UInt64;            # of the links as the source knew them
-  sent @14 :UInt64;             # bytes charged to this kind and class so far, this frame included
+  epoch @13 :UInt64;
+  sent @14 :UInt64;
   grantLimit @15 :UInt64;
-  totalBytes @16 :UInt32;       # of the whole message
-  chunkBytes @17 :UInt32;       # of every piece but the last
-  fromActor @18 :UInt8;         # of the source; 0 is the network itself
-  toActor @19 :UInt8;           # of the destination
+  totalBytes @16 :UInt32;
+  chunkBytes @17 :UInt32;
+  fromActor @18 :UInt8;
+  toActor @19 :UInt8;
 }
 
 struct Message {
@@ -86,7 +87,7 @@ struct Refuse {
 }
 
 struct Beat {
-  viewHash @0 :UInt64;  # of what the sender knows of links
+  viewHash @0 :UInt64;
   pools @1 :List(PoolState);
 }
 
@@ -165,7 +166,7 @@ struct FlushSlice {
 }
 
 struct FlushDecided {
-  node @0 :UInt16;              # the id of the flush
+  node @0 :UInt16;
   taken @1 :Bool;
   incarnation @2 :UInt64;
   sequence @3 :UInt64;

@@ -118,7 +118,7 @@ void Link::beat(uint64_t view_hash) {
       if (lane_of(kind) != lane) continue;
       for (uint8_t hops = 1; hops <= around_.config.hop_limit; ++hops) {
         Pool& pool = at(kind, hops);
-        beat.pools[beat.pool_count++] = {kind, hops, pool.out.sent(), pool.in.announce()};
+        beat.pools.push_back({kind, hops, pool.out.sent(), pool.in.announce()});
       }
     }
     (void)say(Message{beat}, lane);  // the next beat repeats it
@@ -273,8 +273,7 @@ void Link::note_rise(bool was_usable, Nanoseconds now) {
 }
 
 void Link::settle(const Beat& beat, Lane lane) {
-  for (unsigned i = 0; i < beat.pool_count; ++i) {
-    const PoolState& told = beat.pools[i];
+  for (const PoolState& told : beat.pools) {
     if (told.kind == Kind::link || told.hop_class == 0) continue;
     if (told.hop_class > around_.config.hop_limit || lane_of(told.kind) != lane) continue;
     at(told.kind, told.hop_class).in.settle(told.sent);

@@ -1,7 +1,8 @@
-// One of every message with all fields set: the codec must carry them, and mutations start from
-// them. Pure.
+// One of every message, all fields set: what the codec must carry, and what mutations start from.
+// The lists of fields say what there is to set.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -11,68 +12,51 @@
 
 namespace luxodus::test {
 
+/// Sets every field to something of its own: numbers count on from field to field.
+struct Sampler {
+  uint8_t& last;
+
+  template <class Value>
+  void operator()(const char* name, Value& value, const char* = "", AtMost limit = {}) const {
+    if constexpr (Listed<Value>) {
+      Value::fields(*this, value);
+    } else if constexpr (std::is_same_v<Value, bool>) {
+      value = !value;
+    } else if constexpr (std::is_enum_v<Value>) {
+      value = last_value<Value>;
+    } else if constexpr (Number<Value>) {
+      const size_t number = ++last;
+      value = {static_cast<uint8_t>(limit.count == 0 ? number : std::min(number, limit.count))};
+    } else if constexpr (std::is_same_v<Value, std::string>) {
+      value = name + std::string(" ") + std::to_string(++last);
+    } else {
+      for (int i = 0; i < 3; ++i) {
+        ItemOf<Value> item{};
+        if constexpr (Number<decltype(item)>)
+          item = ++last;
+        else
+          for_each_field(*this, item);
+        value.push_back(item);
+      }
+    }
+  }
+};
+
 inline std::vector<Message> sample_messages() {
-  const Identity identity{1, {3}, Level::statistical, 5,      6,
-                          7, 8,   "0.1.0 release",    "avx2", "/results"};
-  Beat beat;
-  beat.view_hash = 9;
-  beat.pool_count = 3;
-  beat.pools[0] = {Kind::control, 1, 100, 200};
-  beat.pools[1] = {Kind::request, 2, ~uint64_t{0}, 0};
-  beat.pools[2] = {Kind::commit, limits::hops, 1, 2};
-  return {
-      Hello{identity},
-      Welcome{identity},
-      Refuse{RefusalReason::scene, "node 1 has scene a, node 2 has scene b"},
-      Bye{},
-      beat,
-      LinkChanges{{{{1}, {2}, 3}, {{4}, {5}, 6}}},
-      FetchObject{{11}, 12, 13},
-      ObjectFound{{14}, {15}},
-      ObjectNotHere{{16}, {17}},
-      RequestLease{18},
-      LeaseGranted{19, 20, 22, 23, 24, {25}},
-      LeasesFenced{{25, 26}},
-      Flush{27, 28, {29, 30, 31}, {39, 40}},
-      FlushTaken{},
-      FlushRefused{{32}, "lease 32 was fenced"},
-      RoundOpened{33, 34, {51}},
-      RunEnded{35, "the error is small enough"},
-      ProfileCounted{36, 37},
-      AskStatus{},
-      StatusAnswered{},
-      EnterPhase{EndPhase::flush_commits, 38},
-      FlushSlice{41},
-      SliceHeld{},
-      FlushDecided{{{42}, {43}, 44}, 45, true},
-      FlushSettled{false},
-      AskTotals{46, 47},
-      TotalsTold{48, 49, 50},
-      AskState{{52}},
-      StateTold{{53}},
-      ShowTotals{58, 59},
-      TotalsShown{60, 61, 62, 63, 64, true, 2, 65, 66, 67, 68},
-      FluxSaved{69, "the disk is full"},
-  };
+  std::vector<Message> out;
+  uint8_t last = 0;
+  for_each_message([&](auto message) {
+    for_each_field(Sampler{last}, message);
+    out.push_back(std::move(message));
+  });
+  return out;
 }
 
 inline Envelope sample_envelope() {
-  Envelope e;
-  e.from = {1};
-  e.from_incarnation = {2};
-  e.to_incarnation = {3};
-  e.source = {4};
-  e.destination = {5};
-  e.kind = Kind::reply;
-  e.hops = 6;
-  e.id = {{7}, {8}, 9};
-  e.epoch = 10;
-  e.chunk = 11;
-  e.chunk_bytes = 12;
-  e.total_bytes = 13;
-  e.sent = 14;
-  e.grant = {Kind::commit, 15, 16};
-  return e;
+  Envelope out;
+  uint8_t last = 0;
+  Envelope::fields(Sampler{last}, out);
+  return out;
 }
 
 /// A whole frame: envelope, message, payload.

@@ -327,7 +327,6 @@ Result<void> check_words_of(const Json& value, Kind kind, const std::string& whe
 Result<void> check_key(const Json& value, std::string_view path, Kind kind,
                        const std::string& where) {
   if (path.empty() && kind >= Kind::remark) return check_words_of(value, kind, where);
-  if (path.empty() && kind >= Kind::remark) return check_words_of(value, kind, where);
   if (path.empty())
     return is_kind(value, kind) ? Result<void>() : problem(where + " is not " + type_word(kind));
   if (path.starts_with("[]")) {
