@@ -114,9 +114,8 @@ TEST_CASE("half of the workers may be killed at once, or all but one, with the s
   end_with_same_bits(folder, nodes, row);
 }
 
-TEST_CASE(
-    "a node that leads others may be killed, and these work for the next one, with the same bits",
-    "[cluster][faults][levels]") {
+TEST_CASE("when a sub-coordinator is killed, its workers join another one, with the same bits",
+          "[cluster][faults][levels]") {
   const TemporaryFolder folder;
   const Running nodes = start(write_cluster(folder, over_tcp(of_two_levels())), 9);
   const size_t leader = leader_among(nodes);

@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
     const std::string version = std::string("luxodus ") + build.version + " (" + build.commit + ")";
     exit_code = run_command_line(luxodus_command(), version, argc, argv);
   } catch (const std::exception& e) {
-    // Told whatever is logged.
+    // Printed at every level of logging.
     exit_code = exit_code_of(luxodus::problem(e.what(), luxodus::ProblemKind::system));
   }
   return when_printed(exit_code);

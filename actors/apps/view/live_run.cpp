@@ -19,8 +19,8 @@ namespace {
 constexpr double tick_every_s = 0.25;
 /// How long to wait for batches in progress on a soft stop: longer than a node has work queued.
 constexpr double patience_s = 0.1;
-/// A group stops showing light of before once its own has one batch for this many of the former:
-/// errors are twice as large, but the building is right.
+/// A group shows the light from before an edit until it has traced one batch for this many of the
+/// earlier ones. Its error is then twice that of the earlier light, but it is of this building.
 constexpr int64_t caught_up_at = 4;
 
 using SteadyClock = std::chrono::steady_clock;

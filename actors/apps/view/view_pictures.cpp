@@ -41,8 +41,8 @@ Camera camera_of(const RenderAsk& ask) {
 
 }  // namespace
 
-/// A run of the building in a state, the radiance that paths of its pictures end in, and the data
-/// by which they choose emitters.
+/// A run of the building in a state, the radiance cache in which paths of its pictures end
+/// (decision 34), and the data by which they choose emitters.
 struct ViewPictures::Traced {
   std::string state;
   std::unique_ptr<LocalRun> run;

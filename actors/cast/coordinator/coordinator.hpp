@@ -160,7 +160,7 @@ class Coordinator
   /// The totals that count flushes, and the range of bins that they hold.
   virtual Totals& totals() = 0;
   virtual BinRange bins() const { return {0, scene_.layout.totals()}; }
-  /// Whether no flush of this many leases may be counted now.
+  /// Whether a flush of this many leases has to wait before it is counted.
   virtual bool holds_back(size_t leases) = 0;
   /// Whether this flush may be counted.
   virtual Result<void> may_count(const Letter<Flush>&) const { return {}; }

@@ -260,8 +260,9 @@ RunEnded RunCoordinator::end_word() const {
   return {round(), fault_ ? fault_->what.substr(0, limits::text_bytes) : ""};
 }
 
-/// If this node crashed while its journal lacks work, that work would have to be traced again, by
-/// workers that have not heard of an end. After `lost` it no longer waits for the disk.
+/// Whether the end of the run waits until the journal holds all work. Otherwise, if this node
+/// crashed, that work would have to be traced again by workers that have been told to end. After
+/// `lost` it no longer waits for the disk.
 bool RunCoordinator::awaits_journal() const {
   return journal_ != nullptr && !journal_->is_whole() && !fault_ && !interrupt_.load() &&
          over_for() < config_.lost;

@@ -1,5 +1,5 @@
-// Looks up a run's batch by its number. Numbers come nearly in order; a late lease is lent again,
-// and asks for an earlier one. Thread rule: one thread.
+// Looks up a run's batch by its number. Numbers come nearly in order: only when a late lease is
+// leased again does the number of an earlier batch come. Thread rule: one thread.
 #pragma once
 
 #include <cstdint>

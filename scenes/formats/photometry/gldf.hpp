@@ -26,7 +26,8 @@ namespace limits {
 inline constexpr uint64_t gldf_bytes = uint64_t{64} << 20;
 /// Size of its `product.xml`, unpacked [bytes]; the largest public one has 0.4 MB.
 inline constexpr uint64_t gldf_xml_bytes = uint64_t{8} << 20;
-/// Sizes of one photometric file in it, as of one beside a scene, and of all, unpacked [bytes].
+/// Unpacked size of one photometric file in it, the same limit as for a file beside a scene; and of
+/// all files together [bytes].
 inline constexpr uint64_t gldf_file_bytes = uint64_t{16} << 20;
 inline constexpr uint64_t gldf_all_bytes = uint64_t{64} << 20;
 /// Numbers of files in a container, of variants, of light emitters, of models.

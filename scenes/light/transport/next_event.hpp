@@ -120,7 +120,8 @@ class NextEvent {
     if (emitters_near) add_near_emitter(s, ends, weight, into);
   }
 
-  // add_scattered in two steps, for a segment with several flights, each weighted by its share.
+  // add_scattered in two steps, for a segment on which several free flights are sampled: `share` of
+  // the segment is one over their number.
 
   /// Points sampled near an emitter. Returns whether any emitter is near.
   bool add_near(const Stretch& s, double weight, GroupLight& into, const PathEnds& ends) {

@@ -89,9 +89,9 @@ class PathTracer {
     trace({ray, PathBands::one(band), counted, weight, into}, known, 0);
   }
 
-  /// The radiance of all bands, in `into.by_band()`, by one path sampled for the hero. Requires:
-  /// heroes are chosen by choose_band. `first`: receives the noise-free data of the ray; null: not
-  /// needed.
+  /// The radiance of all bands, in `into.by_band()`, by one path that is sampled for one band, the
+  /// hero (hero wavelength sampling). Requires: heroes are chosen by choose_band. `first`: receives
+  /// the noise-free data of the ray; null: not needed.
   void radiance_of_all(const Ray& ray, int hero, EmitterHits counted, GroupLight& into,
                        const KnownRadiance* known = nullptr, FirstHit* first = nullptr) {
     ends_.clear();

@@ -56,7 +56,7 @@ TEST_CASE("no shipped graph is disconnected by one link or vertex failure", "[to
   }
 }
 
-TEST_CASE("no known record is below the bound", "[topology][shipped]") {
+TEST_CASE("no best known diameter is below the Moore bound", "[topology][shipped]") {
   int known = 0;
   for (uint32_t nodes = 1; nodes <= limits::graph_vertices; ++nodes) {
     for (uint32_t links = 3; links <= 8; ++links) {

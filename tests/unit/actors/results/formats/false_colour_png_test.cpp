@@ -106,7 +106,7 @@ TEST_CASE("a logarithmic scale gives every decade the same length", "[format][co
   CHECK(count_colour(image, light_colour(1)) == Approx(cell).epsilon(0.04));
 }
 
-TEST_CASE("cells without a value are hatched and counted, and a single value shows its place",
+TEST_CASE("cells without a value are hatched, and a line says how many there are",
           "[format][colour]") {
   FalseColourPicture p = example(20, 10);
   const PngImage whole = drawn(p);
