@@ -125,6 +125,6 @@ TEST_CASE("a cluster that is to make pictures of no finished run says so",
   Process up(LUX_PROGRAM, {"cluster", "up", file});
   const int code = up.wait();
   INFO(up.text());
-  CHECK(code == 1);
+  CHECK(code == 2);
   CHECK(up.said("flux.lux"));
 }
