@@ -221,15 +221,13 @@ Result<void> ended_well(int status, const IsolatedLimits& most) {
 Result<void> began_well(int status, const OtherProgram& other) {
   const std::string name = other.path.substr(other.path.rfind('/') + 1);
   if (WIFEXITED(status) && WEXITSTATUS(status) == not_begun)
-    return problem_in(other.path,
-                      name +
-                          " cannot be begun: its libraries are missing (apt-get "
-                          "install " +
-                          other.packages + ")",
-                      ProblemKind::system);
+    return problem_in(other.path, name +
+                                      " cannot be begun: its libraries are missing (apt-get "
+                                      "install " +
+                                      other.packages + ")");
   if (WIFEXITED(status) && WEXITSTATUS(status) == no_such_job)
-    return problem_in(other.path, name + " is of another build than this program: " + other.renewal,
-                      ProblemKind::system);
+    return problem_in(other.path,
+                      name + " is of another build than this program: " + other.renewal);
   return {};
 }
 
@@ -266,8 +264,7 @@ Result<PlainReader> ask_process(const std::vector<std::string>& words, const cha
   PlainReader reader(std::move(answer));
   uint64_t first = 0;
   if (!reader.get(first) || first != mark) {
-    if (other != nullptr)
-      return problem_in(other->path, "gives no answer: " + other->renewal, ProblemKind::system);
+    if (other != nullptr) return problem_in(other->path, "gives no answer: " + other->renewal);
     return problem("this program reads such files in a process of its own, and cannot begin one",
                    ProblemKind::system);
   }

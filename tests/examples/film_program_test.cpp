@@ -81,7 +81,7 @@ TEST_CASE("ffmpeg makes a film of the frames, and a failure is an error", "[prog
   const std::string with_tools = "env PATH=" + tools.string() + ":/usr/bin:/bin ";
   install("echo no room for it >&2; exit 3");
   const Outcome failed = place.render(walk, with_tools);
-  CHECK(failed.code == 2);
+  CHECK(failed.code == 1);
   CHECK_THAT(failed.err, Contains("ffmpeg failed with code 3, which said: no room for it"));
   CHECK_FALSE(fs::exists(place.out / "films/to_the_door.mp4"));
   install("exit 0");

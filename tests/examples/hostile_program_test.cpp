@@ -194,7 +194,7 @@ TEST_CASE("pipes in place of keys, profiles, graphs and results are rejected wit
   const Outcome told =
       run_luxodus(folder, "node --config " + profiled + " --name n0", "timeout 60 ");
   INFO(told.err);
-  CHECK(told.code == 1);
+  CHECK(told.code == 2);
   CHECK(told.err.find("its.profile: this is no file but a pipe") != std::string::npos);
 
   const std::string keyed = cluster("keyed.toml", "", "[keys]\nfolder = \"keys\"\n");

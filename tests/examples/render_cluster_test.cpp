@@ -124,6 +124,6 @@ TEST_CASE("a cluster that should render a missing run says so", "[cluster][rende
   Process up(LUX_PROGRAM, {"cluster", "up", file});
   const int code = up.wait();
   INFO(up.text());
-  CHECK(code == 1);
+  CHECK(code == 2);
   CHECK(up.said("flux.lux"));
 }

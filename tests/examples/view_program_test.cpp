@@ -168,7 +168,7 @@ TEST_CASE("a live view refuses nodes that do not hold the scene", "[cluster][vie
   text.more += "[budget]\nobject_bytes = \"1 MiB\"\n";
   Process node(LUX_PROGRAM,
                {"node", "--config", write_cluster(folder, text), "--name", "controller"});
-  CHECK(node.wait() == 1);
+  CHECK(node.wait() == 2);
   CHECK(node.said("object_bytes"));
 }
 

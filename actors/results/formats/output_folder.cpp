@@ -141,8 +141,7 @@ struct OutputFolder::State {
     }
     return problem_in(named,
                       "other processes begin and end in this folder all the time: give "
-                      "another one",
-                      ProblemKind::refused);
+                      "another one");
   }
 
  private:
