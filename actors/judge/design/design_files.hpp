@@ -14,7 +14,7 @@
 
 namespace luxodus {
 
-inline constexpr const char* design_format = "luxodus design 1";
+inline constexpr const char* design_format = "luxodus design 2";
 
 /// A layout of the result as a variant, to be written into `folder`, from which it includes the
 /// scene. Requires everywhere: a result with a layout.

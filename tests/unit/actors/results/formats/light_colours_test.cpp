@@ -29,9 +29,8 @@ double lightness(const LightColour& rgb) {
 std::string module_of_the_page() {
   std::string out = fmt::format(
       "// The colour map of actors/results/formats/light_colours.hpp for the live view's page. A "
-      "test of "
-      "that\n"
-      "// room compares it, and says how to write it anew.\n\n"
+      "test of\n"
+      "// that room compares the two, and says how to regenerate this one.\n\n"
       "/** Ends of the scale of luminance [cd/m2]. */\n"
       "export const scaleLow = {:g};\nexport const scaleHigh = {:g};\n\n"
       "/** 256 colours from the lower end to the upper one, as rrggbb. */\n"
