@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/emergency/rule_table.hpp"
+
 namespace luxodus {
 
 const char* name_of(CheckVerdict verdict) {
@@ -31,22 +33,28 @@ std::optional<double> Check::margin() const {
   return (at_least ? *value - *limit : *limit - *value) / std::abs(*limit);
 }
 
-Check judged(Rule rule, Subject subject, double value, double limit, bool at_least,
-             std::string unit, std::optional<glm::dvec3> worst) {
+Check judged(Rule rule, Subject subject, double value, std::optional<glm::dvec3> worst) {
+  const RuleRow& row = row_of(rule.id);
+  const Limit limit{row.limit.value(), row.at_least};
+  return judged(std::move(rule), std::move(subject), value, limit, worst);
+}
+
+Check judged(Rule rule, Subject subject, double value, Limit limit,
+             std::optional<glm::dvec3> worst) {
   Check check;
+  check.unit = row_of(rule.id).unit;
   check.rule = std::move(rule);
   check.subject = std::move(subject);
   check.value = value;
-  check.limit = limit;
-  check.at_least = at_least;
-  check.unit = std::move(unit);
+  check.limit = limit.value;
+  check.at_least = limit.at_least;
   check.worst = worst;
   if (std::isinf(value)) check.reasons = {remark(RemarkId::beyond_measure)};
   if (std::isnan(value)) {
     check.reasons = {remark(RemarkId::no_value)};
     return check;
   }
-  const bool holds = at_least ? value >= limit : value <= limit;
+  const bool holds = limit.at_least ? value >= limit.value : value <= limit.value;
   check.verdict = holds ? CheckVerdict::pass : CheckVerdict::fail;
   if (check.rule.recollected()) {
     check.verdict = CheckVerdict::not_verified;

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenes/emergency/remark.hpp"
@@ -18,11 +19,70 @@ namespace luxodus {
 enum class CheckVerdict { pass, fail, not_assessed, information, not_verified };
 const char* name_of(CheckVerdict verdict);
 
+/// The rules that this program knows, by ids of ours. What each asks, and where it is quoted from:
+/// rule_table.hpp.
+enum class RuleId {
+  none,  // what is of no rule
+  E1,
+  E2,
+  E4,
+  E5,
+  E6,
+  E6d,
+  E7,
+  E7u,
+  E8,
+  E9,
+  E10,
+  E10h,
+  E10f,
+  E10t,
+  E11,
+  E11n,
+  E11u,
+  E10g,
+  E6k,
+  E12,
+  E13,
+  E14,
+  S1,
+  S2,
+  S3,
+  S4,
+  S5,
+  S6,
+  S6l,
+  S6a,
+  S8,
+  N1,
+  N1m,
+  N2,
+  N2m,
+  N3,
+  I1,
+  I1m,
+  I2,
+  I2m,
+  N4,
+  N5,
+  N6,
+  N7,
+  N7s,
+  N8,
+  N10,
+  F1,
+  count  // of the ids before
+};
+/// "E1"; "" of none.
+std::string_view name_of(RuleId id);
+/// None where no rule has this name.
+std::optional<RuleId> rule_named(std::string_view name);
+
 /// A rule of a code.
 struct Rule {
-  std::string set;               // "en1838-2024"; "" for what is of no code
-  std::string deviation;         // "de-asr-a3.4-3"; "" where the set itself has it
-  std::string id;                // of ours: "E1"
+  std::string set;        // "en1838-2024"; "" for what is of no code
+  std::string deviation;  // "de-asr-a3.4-3"; "" where the set itself has it
+  RuleId id = RuleId::none;
   std::string edition;           // "EN 1838:2013"
   std::string clause;            // "4.2.1"; "" where it is not known
   Remarks sources;               // what it is quoted from: the codes themselves are not at hand
@@ -49,9 +109,19 @@ struct Check {
   std::optional<double> margin() const;
 };
 
-/// Judged by its limit; not verified where that is known from memory alone.
-Check judged(Rule rule, Subject subject, double value, double limit, bool at_least,
-             std::string unit, std::optional<glm::dvec3> worst = std::nullopt);
+/// What a value is held against: it shall not be below it, or not above.
+struct Limit {
+  double value = 0;
+  bool at_least = true;
+};
+
+/// Judged by a limit; not verified where that is known from memory alone. The unit is the rule's.
+Check judged(Rule rule, Subject subject, double value, Limit limit,
+             std::optional<glm::dvec3> worst = std::nullopt);
+/// Judged by the limit that the rule states. Requires: it states one (a programmer's mistake
+/// throws).
+Check judged(Rule rule, Subject subject, double value,
+             std::optional<glm::dvec3> worst = std::nullopt);
 Check not_assessed(Rule rule, Subject subject, Remark reason);
 
 /// How many of each verdict, by CheckVerdict.

@@ -54,12 +54,12 @@ std::vector<double> as_new(const SceneDescription& scene) {
   return factors;
 }
 
-Check at_least(const Rule& rule, const Subject& subject, const Spread& spread, double limit) {
-  return judged(rule, subject, spread.least, limit, true, "lx", spread.darkest);
+Check darkest_of(const Rule& rule, const Subject& subject, const Spread& spread) {
+  return judged(rule, subject, spread.least, spread.darkest);
 }
 
 Check even(const Rule& rule, const Subject& subject, const Spread& spread) {
-  return judged(rule, subject, spread.diversity(), max_diversity, false, "1", spread.darkest);
+  return judged(rule, subject, spread.diversity(), spread.darkest);
 }
 
 /// Where it is darkest when one luminaire fails, and which.
@@ -87,11 +87,11 @@ Check enough_with_one_failed(const Rule& rule, const SceneDescription& scene,
                              const Subject& subject, const std::vector<LitPoint>& points) {
   const auto worst = worst_failure(scene, points);
   if (!worst) {
-    Check check = judged(rule, subject, 0, min_failed_lx, true, "lx");
+    Check check = judged(rule, subject, 0);
     check.reasons = {remark(RemarkId::no_emergency_luminaire)};
     return check;
   }
-  Check check = at_least(rule, subject, worst->spread, min_failed_lx);
+  Check check = darkest_of(rule, subject, worst->spread);
   check.conditions = {remark(RemarkId::luminaire_failed, worst->luminaire)};
   return check;
 }
@@ -100,20 +100,15 @@ std::vector<Check> american_checks(const SceneDescription& scene, const Subject&
                                    const Spread& centre, const std::vector<LitPoint>& points,
                                    const CodeChoice& codes) {
   const bool ibc = codes.has(Deviation::us_ibc);
-  const auto rule = [&](const char* nfpa, const char* other) {
-    return rule_of(ibc ? other : nfpa, codes);
-  };
+  const auto rule = [&](RuleId nfpa, RuleId other) { return rule_of(ibc ? other : nfpa, codes); };
   const Spread first = spread_of(points, as_new(scene));
-  std::vector<Check> out{
-      judged(rule("N1", "I1"), subject, first.mean, ibc ? ibc_first_mean_lx : first_mean_lx, true,
-             "lx"),
-      at_least(rule("N1m", "I1m"), subject, first, ibc ? ibc_min_first_lx : min_first_lx),
-      judged(rule("N2", "I2"), subject, centre.mean, ibc ? ibc_last_mean_lx : last_mean_lx, true,
-             "lx"),
-      at_least(rule("N2m", "I2m"), subject, centre, ibc ? ibc_min_last_lx : min_last_lx),
-      even(rule_of("N3", codes), subject, centre)};
+  std::vector<Check> out{judged(rule(RuleId::N1, RuleId::I1), subject, first.mean),
+                         darkest_of(rule(RuleId::N1m, RuleId::I1m), subject, first),
+                         judged(rule(RuleId::N2, RuleId::I2), subject, centre.mean),
+                         darkest_of(rule(RuleId::N2m, RuleId::I2m), subject, centre),
+                         even(rule_of(RuleId::N3, codes), subject, centre)};
   if (codes.has(Deviation::us_ibc_i2))
-    out.push_back(enough_with_one_failed(rule_of("N4", codes), scene, subject, points));
+    out.push_back(enough_with_one_failed(rule_of(RuleId::N4, codes), scene, subject, points));
   return out;
 }
 
@@ -129,7 +124,7 @@ std::vector<uint32_t> emergency_luminaires(const SceneDescription& scene) {
 Check check_of_failure(const SceneDescription& scene, const Subject& subject,
                        const std::vector<LitPoint>& points) {
   Check check;
-  check.rule = own_rule("F1");
+  check.rule = own_rule(RuleId::F1);
   check.subject = subject;
   check.unit = "lx";
   check.verdict = CheckVerdict::information;
@@ -169,20 +164,20 @@ std::vector<Check> checks_of_route(const SceneDescription& scene, const EscapeRo
   const Subject subject = subject_of(route);
   const Spread centre = spread_of(light.centre, all_lit(light.centre));
   std::vector<Check> out;
-  const auto rule = [&](const char* id) { return rule_of(id, codes); };
+  const auto rule = [&](RuleId id) { return rule_of(id, codes); };
   if (codes.set == RuleSet::en1838_2013) {
-    out.push_back(at_least(rule("E1"), subject, centre, route_lx));
+    out.push_back(darkest_of(rule(RuleId::E1), subject, centre));
     out.push_back(
-        at_least(rule("E2"), subject, spread_of(light.band, all_lit(light.band)), band_lx));
+        darkest_of(rule(RuleId::E2), subject, spread_of(light.band, all_lit(light.band))));
   }
   if (codes.set == RuleSet::en1838_2024)
     out.push_back(
-        at_least(rule("E5"), subject, spread_of(light.inner, all_lit(light.inner)), route_lx));
+        darkest_of(rule(RuleId::E5), subject, spread_of(light.inner, all_lit(light.inner))));
   if (codes.european())
-    out.push_back(even(rule("E4"), subject, centre));
+    out.push_back(even(rule(RuleId::E4), subject, centre));
   else
     out = american_checks(scene, subject, centre, light.centre, codes);
-  for (Check& check : checks_of_onset(scene, subject, light.centre, route_lx, codes))
+  for (Check& check : checks_of_onset(scene, subject, light.centre, limit_of(RuleId::E1), codes))
     out.push_back(std::move(check));
   return out;
 }
@@ -191,15 +186,16 @@ std::vector<Check> checks_of_open_area(const SceneDescription& scene, const Asse
                                        const std::vector<LitPoint>& core, const CodeChoice& codes) {
   const Subject subject{SubjectKind::open_area, area.name};
   if (!codes.european())
-    return {not_assessed(rule_of("N1", codes), subject, remark(RemarkId::routes_alone_judged))};
-  const auto rule = [&](const char* id) { return rule_of(id, codes); };
-  if (core.empty()) return {not_assessed(rule("E6"), subject, remark(RemarkId::no_core))};
+    return {
+        not_assessed(rule_of(RuleId::N1, codes), subject, remark(RemarkId::routes_alone_judged))};
+  const auto rule = [&](RuleId id) { return rule_of(id, codes); };
+  if (core.empty()) return {not_assessed(rule(RuleId::E6), subject, remark(RemarkId::no_core))};
   const Spread spread = spread_of(core, all_lit(core));
-  std::vector<Check> out{at_least(rule("E6"), subject, spread, open_lx),
-                         even(rule("E6d"), subject, spread)};
+  std::vector<Check> out{darkest_of(rule(RuleId::E6), subject, spread),
+                         even(rule(RuleId::E6d), subject, spread)};
   if (codes.has(Deviation::uk_bs_5266))
-    out.push_back(at_least(rule("E6k"), subject, spread, bs_open_lx));
-  for (Check& check : checks_of_onset(scene, subject, core, open_lx, codes))
+    out.push_back(darkest_of(rule(RuleId::E6k), subject, spread));
+  for (Check& check : checks_of_onset(scene, subject, core, limit_of(RuleId::E6), codes))
     out.push_back(std::move(check));
   return out;
 }
@@ -209,13 +205,14 @@ std::vector<Check> checks_of_task_area(const SceneDescription& scene, const Asse
                                        const CodeChoice& codes) {
   const Subject subject{SubjectKind::task_area, area.name};
   if (!codes.european())
-    return {not_assessed(rule_of("N1", codes), subject, remark(RemarkId::routes_alone_judged))};
+    return {
+        not_assessed(rule_of(RuleId::N1, codes), subject, remark(RemarkId::routes_alone_judged))};
   const Spread spread = spread_of(plane, all_lit(plane));
-  const double limit = std::max(task_lx, task_share * area.mains_lx);
+  const double limit = std::max(limit_of(RuleId::E7), task_share * area.mains_lx);
   std::vector<Check> out{
-      at_least(rule_of("E7", codes), subject, spread, limit),
-      judged(rule_of("E7u", codes), subject, spread.most > 0 ? spread.least / spread.most : 0,
-             task_uniformity, true, "1", spread.darkest)};
+      judged(rule_of(RuleId::E7, codes), subject, spread.least, Limit{limit}, spread.darkest),
+      judged(rule_of(RuleId::E7u, codes), subject, spread.most > 0 ? spread.least / spread.most : 0,
+             spread.darkest)};
   for (Check& check : checks_of_task_onset(scene, subject, plane, limit, codes))
     out.push_back(std::move(check));
   return out;

@@ -60,7 +60,7 @@ Check in_time(const Rule& rule, const SceneDescription& scene, const Subject& su
   if (points.empty()) return not_assessed(rule, subject, remark(RemarkId::nowhere_to_assess));
   if (least < limit_lx)
     if (auto unsaid = silent(scene)) return not_assessed(rule, subject, *std::move(unsaid));
-  Check check = judged(rule, subject, least, limit_lx, true, "lx", darkest);
+  Check check = judged(rule, subject, least, Limit{limit_lx}, darkest);
   check.conditions = {remark(RemarkId::after_mains_failure, seconds)};
   return check;
 }
@@ -72,16 +72,16 @@ std::vector<Check> checks_of_onset(const SceneDescription& scene, const Subject&
                                    const CodeChoice& codes) {
   if (none_states(scene)) return {};
   std::vector<Check> out;
-  const auto add = [&](const char* id, double seconds, double limit_lx) {
+  const auto add = [&](RuleId id, double seconds, double limit_lx) {
     out.push_back(in_time(rule_of(id, codes), scene, subject, points, seconds, limit_lx));
   };
   if (codes.european()) {
-    add("E10h", half_s, demanded_lx / 2);
-    add("E10f", full_s, demanded_lx);
+    add(RuleId::E10h, half_s, demanded_lx / 2);
+    add(RuleId::E10f, full_s, demanded_lx);
   } else {
-    add("N5", nfpa_s, min_last_lx);
+    add(RuleId::N5, nfpa_s, limit_of(RuleId::N5));
   }
-  if (codes.has(Deviation::de_asr)) add("E10g", german_s, demanded_lx);
+  if (codes.has(Deviation::de_asr)) add(RuleId::E10g, german_s, demanded_lx);
   return out;
 }
 
@@ -89,7 +89,7 @@ std::vector<Check> checks_of_task_onset(const SceneDescription& scene, const Sub
                                         const std::vector<LitPoint>& plane, double demanded_lx,
                                         const CodeChoice& codes) {
   if (none_states(scene) || !codes.european()) return {};
-  return {in_time(rule_of("E10t", codes), scene, subject, plane, task_s, demanded_lx)};
+  return {in_time(rule_of(RuleId::E10t, codes), scene, subject, plane, task_s, demanded_lx)};
 }
 
 namespace {
@@ -120,44 +120,39 @@ SupplyHours supply_of(const SceneDescription& scene) {
 
 std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice& codes) {
   std::vector<Check> out;
-  const auto add = [&](const char* id, SubjectKind subject, RemarkId reason) {
+  const auto add = [&](RuleId id, SubjectKind subject, RemarkId reason) {
     out.push_back(not_assessed(rule_of(id, codes), {subject}, remark(reason)));
   };
   constexpr SubjectKind all = SubjectKind::all_luminaires_and_signs;
-  const auto add_duration = [&](const char* id) {
-    const double hours = rated_duration_h(codes);
+  const auto add_duration = [&](RuleId id) {
     const SupplyHours supply = supply_of(scene);
     if (supply.said > 0 && supply.unsaid == 0) {
-      out.push_back(judged(rule_of(id, codes), {all}, supply.shortest, hours, true, "h"));
+      out.push_back(judged(rule_of(id, codes), {all}, supply.shortest));
       return;
     }
     add(id, all, supply.said == 0 ? RemarkId::no_duration : RemarkId::some_durations_unsaid);
-    out.back().limit = hours;
-    out.back().unit = "h";
+    out.back().limit = limit_of(id);
+    out.back().unit = row_of(id).unit;
   };
   if (scene.routes.empty())
-    add(codes.european() ? (codes.set == RuleSet::en1838_2013 ? "E1" : "E5") : "N1",
+    add(codes.european() ? (codes.set == RuleSet::en1838_2013 ? RuleId::E1 : RuleId::E5)
+                         : RuleId::N1,
         SubjectKind::building, RemarkId::no_route);
   if (codes.european() && emphasis_of(scene).empty())
-    add("E12", SubjectKind::building, RemarkId::no_emphasis);
+    add(RuleId::E12, SubjectKind::building, RemarkId::no_emphasis);
   const bool unsaid = none_states(scene);
   if (!codes.european()) {
-    if (unsaid) add("N5", SubjectKind::all_luminaires, RemarkId::no_onset);
-    add_duration("N10");
+    if (unsaid) add(RuleId::N5, SubjectKind::all_luminaires, RemarkId::no_onset);
+    add_duration(duration_rule(codes));
     return out;
   }
-  add("E9", all, RemarkId::spectrum_rough);
-  if (unsaid) add("E10", SubjectKind::all_luminaires, RemarkId::no_onset);
+  add(RuleId::E9, all, RemarkId::spectrum_rough);
+  if (unsaid) add(RuleId::E10, SubjectKind::all_luminaires, RemarkId::no_onset);
   if (unsaid && codes.has(Deviation::de_asr))
-    add("E10g", SubjectKind::all_luminaires, RemarkId::no_onset);
-  add("E10", SubjectKind::all_signs, RemarkId::sign_onset_unsaid);
-  if (codes.has(Deviation::uk_bs_5266))
-    add_duration("E11u");
-  else if (codes.has(Deviation::duration_3h))
-    add_duration("E11n");
-  else
-    add_duration("E11");
-  add("S8", all, RemarkId::colour_boxes_unknown);
+    add(RuleId::E10g, SubjectKind::all_luminaires, RemarkId::no_onset);
+  add(RuleId::E10, SubjectKind::all_signs, RemarkId::sign_onset_unsaid);
+  add_duration(duration_rule(codes));
+  add(RuleId::S8, all, RemarkId::colour_boxes_unknown);
   return out;
 }
 

@@ -171,10 +171,10 @@ std::vector<Check> checks_of_height(const SceneDescription& scene, const CodeCho
     const Emitter& e = scene.emitters[number];
     const Subject subject = subject_of(e);
     const auto floor = floor_of(scene, floor_under, e.frame.origin);
-    out.push_back(
-        floor ? judged(rule_of("E14", codes), subject, e.frame.origin.z - *floor, min_height_m,
-                       true, "m", e.frame.origin)
-              : not_assessed(rule_of("E14", codes), subject, remark(RemarkId::height_unknown)));
+    out.push_back(floor ? judged(rule_of(RuleId::E14, codes), subject, e.frame.origin.z - *floor,
+                                 e.frame.origin)
+                        : not_assessed(rule_of(RuleId::E14, codes), subject,
+                                       remark(RemarkId::height_unknown)));
   }
   return out;
 }
@@ -193,12 +193,14 @@ std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoi
     const Zone zone = zone_alone ? Zone{zone_low_deg, zone_high_deg} : Zone{};
     const auto candela = glaring(e, lumens / e.emergency_ageing, zone);
     if (!floor) {
-      out.push_back(not_assessed(rule_of("E8", codes), subject, remark(RemarkId::height_unknown)));
+      out.push_back(
+          not_assessed(rule_of(RuleId::E8, codes), subject, remark(RemarkId::height_unknown)));
     } else if (!candela) {
-      out.push_back(not_assessed(rule_of("E8", codes), subject, remark(RemarkId::parallel_beam)));
+      out.push_back(
+          not_assessed(rule_of(RuleId::E8, codes), subject, remark(RemarkId::parallel_beam)));
     } else {
-      Check check = judged(rule_of("E8", codes), subject, *candela,
-                           glare_limit(e.frame.origin.z - *floor), false, "cd", e.frame.origin);
+      Check check = judged(rule_of(RuleId::E8, codes), subject, *candela,
+                           Limit{glare_limit(e.frame.origin.z - *floor), false}, e.frame.origin);
       if (e.shape == EmitterShape::mesh && check.verdict == CheckVerdict::fail)
         check.reasons = {remark(RemarkId::mesh_unhidden)};
       check.conditions = {remark(zone_alone ? RemarkId::glare_zone : RemarkId::all_directions)};
@@ -243,7 +245,7 @@ Check luminaire_near(const Rule& rule, const SceneDescription& scene, const Subj
     if ((!above || e.frame.origin.z >= place.z) && distance < nearest.distance_m)
       nearest = {distance, e.name};
   }
-  Check check = judged(rule, subject, open.distance_m, near_m, false, "m", place);
+  Check check = judged(rule, subject, open.distance_m, place);
   if (!open.name.empty())
     check.reasons = {remark(RemarkId::nearest_luminaire, open.name)};
   else if (hidden.name.empty() && upstairs.name.empty())
@@ -252,7 +254,7 @@ Check luminaire_near(const Rule& rule, const SceneDescription& scene, const Subj
     check.reasons = {remark(above ? RemarkId::none_above_in_sight : RemarkId::none_in_sight)};
   if (hidden.distance_m < open.distance_m)
     check.reasons.push_back(remark(RemarkId::behind_something, hidden.name, hidden.distance_m));
-  if (upstairs.distance_m < std::min(open.distance_m, near_m))
+  if (upstairs.distance_m < std::min(open.distance_m, limit_of(rule.id)))
     check.reasons.push_back(remark(RemarkId::other_storey, upstairs.name, upstairs.distance_m));
   return check;
 }
@@ -263,12 +265,12 @@ std::vector<Check> checks_of_emphasis(const SceneDescription& scene, const Empha
   if (!codes.european()) return {};
   const Subject subject = subject_of(point);
   std::vector<Check> out = {
-      luminaire_near(rule_of("E12", codes), scene, subject, point.position, true, seen)};
+      luminaire_near(rule_of(RuleId::E12, codes), scene, subject, point.position, true, seen)};
   if (!is_equipment(point.kind)) return out;
   out.push_back(
-      vertical_lx ? judged(rule_of("E13", codes), subject, *vertical_lx, equipment_lx, true, "lx",
-                           point.position)
-                  : not_assessed(rule_of("E13", codes), subject, remark(RemarkId::facing_unsaid)));
+      vertical_lx
+          ? judged(rule_of(RuleId::E13, codes), subject, *vertical_lx, point.position)
+          : not_assessed(rule_of(RuleId::E13, codes), subject, remark(RemarkId::facing_unsaid)));
   return out;
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "scenes/emergency/rule_limits.hpp"
+#include "scenes/emergency/rule_table.hpp"
 
 namespace luxodus {
 
@@ -70,11 +70,14 @@ bool deviates_from(Deviation deviation, RuleSet set) {
   return american == (set == RuleSet::nfpa101);
 }
 
+RuleId duration_rule(const CodeChoice& codes) {
+  if (!codes.european()) return RuleId::N10;
+  if (codes.has(Deviation::uk_bs_5266)) return RuleId::E11u;
+  return codes.has(Deviation::duration_3h) ? RuleId::E11n : RuleId::E11;
+}
+
 double rated_duration_h(const CodeChoice& codes) {
-  if (!codes.european()) return rule_limit::us_duration_h;
-  return codes.has(Deviation::uk_bs_5266) || codes.has(Deviation::duration_3h)
-             ? rule_limit::national_duration_h
-             : rule_limit::duration_h;
+  return limit_of(duration_rule(codes));
 }
 
 Result<std::vector<CodeChoice>> chosen_codes(const std::vector<std::string>& sets_named,

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
-#include "scenes/emergency/remark.hpp"
+#include "scenes/emergency/check.hpp"
 
 namespace luxodus {
 
@@ -44,7 +44,9 @@ struct CodeChoice {
   bool has(Deviation deviation) const { return deviations.contains(deviation); }
 };
 
-/// How long emergency lighting has to last by a set with its deviations (E11, E11n, E11u, N10) [h].
+/// The rule of how long emergency lighting has to last, by a set with its deviations.
+RuleId duration_rule(const CodeChoice& codes);
+/// Its limit [h].
 double rated_duration_h(const CodeChoice& codes);
 
 /// Every set that is named, once, in the order of the enumeration.

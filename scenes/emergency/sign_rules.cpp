@@ -51,9 +51,9 @@ Check smallest_green(const SceneDescription& scene, const Sign& sign, const Subj
   const double limit = scene.assessment.smoke_expected ? min_green_in_smoke : min_green;
   const double mean = sign.emergency.green_cd_m2;
   const bool mapped = !sign.face.relative_luminance.empty();
-  Check check = judged(rule_of("S1", codes), subject,
-                       mapped ? mean * pattern_of(sign.face, SignColour::green).least : mean, limit,
-                       true, "cd/m2", sign.frame.origin);
+  Check check = judged(rule_of(RuleId::S1, codes), subject,
+                       mapped ? mean * pattern_of(sign.face, SignColour::green).least : mean,
+                       Limit{limit}, sign.frame.origin);
   check.conditions = {smoke_condition(scene)};
   if (!mapped && check.verdict == CheckVerdict::pass) {
     check.verdict = CheckVerdict::not_assessed;
@@ -64,7 +64,7 @@ Check smallest_green(const SceneDescription& scene, const Sign& sign, const Subj
 
 Check evenness(const Sign& sign, const Subject& subject, const CodeChoice& codes) {
   if (sign.face.relative_luminance.empty())
-    return not_assessed(rule_of("S2", codes), subject, remark(RemarkId::one_luminance));
+    return not_assessed(rule_of(RuleId::S2, codes), subject, remark(RemarkId::one_luminance));
   double worst = 0;
   for (const SignColour colour : {SignColour::white, SignColour::green}) {
     const Extremes e = pattern_of(sign.face, colour);
@@ -72,7 +72,7 @@ Check evenness(const Sign& sign, const Subject& subject, const CodeChoice& codes
       worst =
           std::max(worst, e.least > 0 ? e.most / e.least : std::numeric_limits<double>::infinity());
   }
-  return judged(rule_of("S2", codes), subject, worst, max_evenness, false, "1", sign.frame.origin);
+  return judged(rule_of(RuleId::S2, codes), subject, worst, sign.frame.origin);
 }
 
 /// As the eye weighs wavelengths, in equal-energy light.
@@ -84,11 +84,11 @@ double luminous_mean(const Spectrum& s) {
 std::vector<Check> contrast(const Sign& sign, const Subject& subject, const CodeChoice& codes) {
   const double green = sign.emergency.green_cd_m2;
   if (!(green > 0))
-    return {not_assessed(rule_of("S3", codes), subject, remark(RemarkId::green_dark))};
+    return {not_assessed(rule_of(RuleId::S3, codes), subject, remark(RemarkId::green_dark))};
   const double ratio = sign.emergency.white_cd_m2 / green;
   const bool low = ratio < min_contrast;
-  Check check = judged(rule_of("S3", codes), subject, ratio, low ? min_contrast : max_contrast, low,
-                       "1", sign.frame.origin);
+  Check check = judged(rule_of(RuleId::S3, codes), subject, ratio,
+                       Limit{low ? min_contrast : max_contrast, low}, sign.frame.origin);
   check.conditions = {remark(RemarkId::contrast_of_means)};
   return {check};
 }
@@ -97,18 +97,17 @@ std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign, con
                             const FloorUnder& floor_under, const CodeChoice& codes) {
   const auto floor = floor_of(scene, floor_under, sign.frame.origin);
   if (!floor)
-    return {not_assessed(rule_of("S6", codes), subject, remark(RemarkId::height_unknown))};
+    return {not_assessed(rule_of(RuleId::S6, codes), subject, remark(RemarkId::height_unknown))};
   const double height = sign.frame.origin.z - sign.height_m / 2 - *floor;
   if (height < low_level_m)
-    return {not_assessed(rule_of("S6", codes), subject, remark(RemarkId::low_sign))};
+    return {not_assessed(rule_of(RuleId::S6, codes), subject, remark(RemarkId::low_sign))};
   SignView from_ahead;
   const double farthest = viewing_distance(sign, from_ahead).allowed_m;
   const double above = sign.frame.origin.z - *floor - standing_eye_m;
   const double elevation =
       std::asin(std::clamp(above / std::max(farthest, 1e-9), -1.0, 1.0)) * 180 / std::numbers::pi;
-  return {judged(rule_of("S6", codes), subject, height, min_height_m, true, "m", sign.frame.origin),
-          judged(rule_of("S6a", codes), subject, elevation, max_elevation_deg, false, "deg",
-                 sign.frame.origin)};
+  return {judged(rule_of(RuleId::S6, codes), subject, height, sign.frame.origin),
+          judged(rule_of(RuleId::S6a, codes), subject, elevation, sign.frame.origin)};
 }
 
 /// Of a face that shows what falls on it.
@@ -116,8 +115,7 @@ Check lit_green(const SceneDescription& scene, const Sign& sign, const Subject& 
                 const CodeChoice& codes) {
   const double limit = scene.assessment.smoke_expected ? min_green_in_smoke : min_green;
   const double mean = lux * luminous_mean(sign.green_reflectance) / std::numbers::pi;
-  Check check =
-      judged(rule_of("S1", codes), subject, mean, limit, true, "cd/m2", sign.frame.origin);
+  Check check = judged(rule_of(RuleId::S1, codes), subject, mean, Limit{limit}, sign.frame.origin);
   check.conditions = {smoke_condition(scene)};
   if (check.verdict == CheckVerdict::pass) {
     check.verdict = CheckVerdict::not_assessed;
@@ -129,12 +127,12 @@ Check lit_green(const SceneDescription& scene, const Sign& sign, const Subject& 
 Check reflected_contrast(const Sign& sign, const Subject& subject, const CodeChoice& codes) {
   const double green = luminous_mean(sign.green_reflectance);
   if (!(green > 0))
-    return not_assessed(rule_of("S3", codes), subject, remark(RemarkId::green_dark));
+    return not_assessed(rule_of(RuleId::S3, codes), subject, remark(RemarkId::green_dark));
   // Reflectances are written to some digits, means are sums of many.
   const double ratio = std::round(luminous_mean(sign.white_reflectance) / green * 1e9) / 1e9;
   const bool low = ratio < min_contrast;
-  Check check = judged(rule_of("S3", codes), subject, ratio, low ? min_contrast : max_contrast, low,
-                       "1", sign.frame.origin);
+  Check check = judged(rule_of(RuleId::S3, codes), subject, ratio,
+                       Limit{low ? min_contrast : max_contrast, low}, sign.frame.origin);
   check.conditions = {remark(RemarkId::contrast_of_means)};
   return check;
 }
@@ -148,11 +146,11 @@ std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
     out.push_back(evenness(sign, subject, codes));
     for (Check& check : contrast(sign, subject, codes)) out.push_back(std::move(check));
     if (codes.has(Deviation::de_din_4844))
-      out.push_back(judged(rule_of("S5", codes), subject, sign.mains.white_cd_m2, mains_white, true,
-                           "cd/m2", sign.frame.origin));
+      out.push_back(
+          judged(rule_of(RuleId::S5, codes), subject, sign.mains.white_cd_m2, sign.frame.origin));
   }
   if (sign.lighting == SignLighting::photoluminescent)
-    for (const char* id : {"S1", "S3"})
+    for (RuleId id : {RuleId::S1, RuleId::S3})
       out.push_back(
           not_assessed(rule_of(id, codes), subject, remark(RemarkId::glow_class_unknown)));
   if (sign.lighting == SignLighting::external) {
@@ -160,8 +158,8 @@ std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
     out.push_back(reflected_contrast(sign, subject, codes));
   }
   if (sign.lighting == SignLighting::external)
-    out.push_back(
-        luminaire_near(rule_of("S6l", codes), scene, subject, sign.frame.origin, false, seen));
+    out.push_back(luminaire_near(rule_of(RuleId::S6l, codes), scene, subject, sign.frame.origin,
+                                 false, seen));
   for (Check& check : mounting(scene, sign, subject, floor_under, codes))
     out.push_back(std::move(check));
   return out;
@@ -176,15 +174,14 @@ std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sig
   std::vector<Check> out;
   if (codes.european()) return en_checks(scene, sign, subject, lux, seen, floor_under, codes);
   if (sign.lighting == SignLighting::external)
-    out.push_back(
-        judged(rule_of("N6", codes), subject, lux, face_lx, true, "lx", sign.frame.origin));
+    out.push_back(judged(rule_of(RuleId::N6, codes), subject, lux, sign.frame.origin));
   if (sign.letters) {
-    out.push_back(judged(rule_of("N7", codes), subject, sign.letters->height_m, min_letter_m, true,
-                         "m", sign.frame.origin));
-    out.push_back(judged(rule_of("N7s", codes), subject, sign.letters->stroke_m, min_stroke_m, true,
-                         "m", sign.frame.origin));
+    out.push_back(
+        judged(rule_of(RuleId::N7, codes), subject, sign.letters->height_m, sign.frame.origin));
+    out.push_back(
+        judged(rule_of(RuleId::N7s, codes), subject, sign.letters->stroke_m, sign.frame.origin));
   } else {
-    out.push_back(not_assessed(rule_of("N7", codes), subject, remark(RemarkId::no_letters)));
+    out.push_back(not_assessed(rule_of(RuleId::N7, codes), subject, remark(RemarkId::no_letters)));
   }
   return out;
 }
@@ -221,13 +218,11 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
   }
   std::vector<Check> out;
   if (codes.european()) {
-    out.push_back(judged(rule_of("S4", codes), subject, worst_share, 1, false,
-                         "of the viewing distance", where_share));
+    out.push_back(judged(rule_of(RuleId::S4, codes), subject, worst_share, where_share));
     if (std::isinf(worst_share)) out.back().reasons = {remark(RemarkId::no_sign_ahead)};
   }
   if (!codes.european()) {
-    out.push_back(judged(rule_of("N8", codes), subject, worst_distance, max_nearest_m, false, "m",
-                         where_distance));
+    out.push_back(judged(rule_of(RuleId::N8, codes), subject, worst_distance, where_distance));
     if (std::isinf(worst_distance)) out.back().reasons = {remark(RemarkId::no_sign_ahead)};
   }
   if (through_glass > 0 && out.back().reasons.empty())

@@ -27,6 +27,7 @@
 #include "actors/results/formats/file_names.hpp"
 #include "actors/results/formats/output_folder.hpp"
 #include "runtime/core/log.hpp"
+#include "scenes/emergency/rule_table.hpp"
 
 namespace luxodus::cli {
 
@@ -75,6 +76,12 @@ std::string behind_words(const Json& a) {
                      behind, legible);
 }
 
+/// Whether where signs hang decides a check.
+bool is_of_placed_signs(const Json& check) {
+  const auto rule = rule_named(text_in(check, "rule"));
+  return rule && row_of(*rule).decided_by == DecidedBy::placed_signs;
+}
+
 void print_summary(const Json& a) {
   std::printf("%s\n%s%s\n", first_words(a).c_str(), state_text(a).c_str(),
               verdict_words(a).c_str());
@@ -82,7 +89,7 @@ void print_summary(const Json& a) {
     for (const Json& check : a["checks"])
       if (check["verdict"] == verdict) print_check(check);
   for (const Json& check : a["checks"])
-    if (check["verdict"] == "pass" && (check["rule"] == "S4" || check["rule"] == "N8") &&
+    if (check["verdict"] == "pass" && is_of_placed_signs(check) &&
         !english_in(check, "reasons").empty())
       std::printf("  passes, but: %s: %s\n", check_words(check).c_str(),
                   english_in(check, "reasons").c_str());

@@ -29,13 +29,13 @@ Json optional_json(const std::optional<double>& value) {
 }
 
 Json check_json(const Check& check) {
-  Json out = {{"rule", check.rule.id},
+  Json out = {{"rule", name_of(check.rule.id)},
               {"rule_set", check.rule.set},
               {"deviation", check.rule.deviation},
               {"edition", check.rule.edition},
               {"clause", english().clause(check.rule)},
               {"clause_number", check.rule.clause},
-              {"title", english().rule_title(check.rule.id)},
+              {"title", english().rule_title(name_of(check.rule.id))},
               {"quoted_from", remarks_json(check.rule.sources)},
               {"status", check.rule.status ? remark_json(*check.rule.status) : Json()},
               {"subject", subject_json(check.subject)},
@@ -120,7 +120,7 @@ Json not_assessed_json(const Assessment& assessment) {
   std::map<NotAssessed, size_t> groups;
   for (const Check& check : assessment.checks)
     if (check.verdict == CheckVerdict::not_assessed)
-      ++groups[{check.rule.id, check.rule.edition, false, check.reasons}];
+      ++groups[{std::string(name_of(check.rule.id)), check.rule.edition, false, check.reasons}];
   for (const SightRow& row : assessment.sights) {
     const bool undecided = row.sight.verdict == SightVerdict::undecided;
     if (!undecided && row.sight.verdict != SightVerdict::not_assessed) continue;

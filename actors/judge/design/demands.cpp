@@ -14,6 +14,7 @@
 #include "actors/judge/design/flights.hpp"
 #include "actors/judge/inspect/site.hpp"
 #include "scenes/emergency/rule_limits.hpp"
+#include "scenes/emergency/rule_table.hpp"
 #include "scenes/emergency/way.hpp"
 #include "scenes/light/signs/onset.hpp"
 
@@ -50,14 +51,6 @@ std::vector<uint32_t> hanging_places(const std::vector<LuminaireCandidate>& cand
 }
 
 }  // namespace
-
-bool is_of_luminaires(const std::string& rule) {
-  static const std::set<std::string> rules{
-      "E1",   "E2",   "E4",   "E5",   "E6",  "E6d", "E6k", "E7",  "E7u", "E8",
-      "E10h", "E10f", "E10g", "E10t", "E12", "E13", "E14", "S6l", "N1",  "N1m",
-      "N2",   "N2m",  "N3",   "N4",   "N5",  "N6",  "I1",  "I1m", "I2",  "I2m"};
-  return rules.contains(rule);
-}
 
 Demands::Demands() = default;
 Demands::~Demands() = default;
@@ -222,15 +215,14 @@ class Demands::Builder {
 
   /// The points at which so much light is asked for: with furniture, unless some of them get less
   /// from all candidates together. Then no layout passes with furniture, and none is asked to.
-  const Points& reachable(const char* rule, const Subject& subject, const Both& both,
-                          double asked_lx) {
+  const Points& reachable(RuleId rule, const Subject& subject, const Both& both, double asked_lx) {
     if (both.furnished.empty()) return both.bare;
     const auto hidden =
         std::count_if(both.furnished.begin(), both.furnished.end(), [&](uint32_t p) {
           return most_from(*problem_.points[p].light, problem_.options) < asked_lx;
         });
     if (hidden == 0) return both.with_both;
-    out_.hidden_[{rule, subject}] = static_cast<size_t>(hidden);
+    out_.hidden_[{name_of(rule), subject}] = static_cast<size_t>(hidden);
     return both.bare;
   }
 
@@ -240,7 +232,7 @@ class Demands::Builder {
         bare, out_.furnished_ ? out_.furnished_->light.points_of(area, border_m).places : bare);
   }
 
-  uint32_t add_group(DemandKind kind, const char* rule, const Subject& subject, double asked) {
+  uint32_t add_group(DemandKind kind, RuleId rule, const Subject& subject, double asked) {
     const auto region = regions_.find(subject);
     problem_.groups.push_back(
         {kind, rule, subject, asked, region == regions_.end() ? no_region : region->second});
@@ -251,7 +243,7 @@ class Demands::Builder {
     problem_.covers.push_back({group, std::move(terms), least, place});
   }
 
-  void add_minima(DemandKind kind, const char* rule, const Subject& subject, const Both& both,
+  void add_minima(DemandKind kind, RuleId rule, const Subject& subject, const Both& both,
                   double limit_lx, const std::vector<double>& factors = {}) {
     if (both.bare.empty()) return;
     const double asked = limit_lx * design_.margin;
@@ -265,7 +257,7 @@ class Demands::Builder {
   }
 
   /// With furniture, which only takes light away.
-  void add_mean(const char* rule, const Subject& subject, const Both& both, double limit_lx,
+  void add_mean(RuleId rule, const Subject& subject, const Both& both, double limit_lx,
                 const std::vector<double>& factors = {}) {
     const Points& points = both.furnished.empty() ? both.bare : both.furnished;
     if (points.empty()) return;
@@ -281,7 +273,7 @@ class Demands::Builder {
 
   /// In time: `seconds` after the failure of the mains. Nothing where all light is there by then:
   /// as much is asked for at all times.
-  void add_early(const char* rule, const Subject& subject, const Both& both, double seconds,
+  void add_early(RuleId rule, const Subject& subject, const Both& both, double seconds,
                  double limit_lx) {
     const auto shares = after(seconds);
     if (all_one(shares)) {
@@ -294,7 +286,7 @@ class Demands::Builder {
 
   /// Brightest places are looked for straight below luminaires, too, so that no peak hides between
   /// the points of the grid. `limit_lx`: what is asked for at every point, anyway.
-  void add_spread(const char* rule, const Subject& subject, const Both& both,
+  void add_spread(RuleId rule, const Subject& subject, const Both& both,
                   const std::vector<glm::dvec3>& peaks, double ratio, double limit_lx) {
     if (both.bare.empty()) return;
     const uint32_t group = add_group(DemandKind::spread, rule, subject, ratio);
@@ -309,8 +301,7 @@ class Demands::Builder {
     if (all && !both.furnished.empty()) add(both.furnished);
   }
 
-  void add_failures(const char* rule, const Subject& subject, const Points& points,
-                    double least_lx) {
+  void add_failures(RuleId rule, const Subject& subject, const Points& points, double least_lx) {
     if (points.empty()) return;
     const uint32_t group = add_group(DemandKind::failed, rule, subject, least_lx);
     problem_.failures.push_back({group, least_lx, points});
@@ -331,13 +322,14 @@ class Demands::Builder {
   void add_single_failures(const Subject& subject, const std::vector<size_t>& above,
                            const Both& both, double limit_lx) {
     if (design_.failure == FailureDemand::none || both.bare.empty()) return;
-    const Points& points = reachable("", subject, both, limit_lx * design_.margin);
-    if (design_.failure == FailureDemand::full) return add_failures("", subject, points, limit_lx);
+    const Points& points = reachable(RuleId::none, subject, both, limit_lx * design_.margin);
+    if (design_.failure == FailureDemand::full)
+      return add_failures(RuleId::none, subject, points, limit_lx);
     std::vector<double> count(candidates_.size(), 0);
     for (const size_t i : above) count[i] = 1;
-    add_cover(add_group(DemandKind::two, "", subject, so_many), terms_of(count, 0), so_many,
-              problem_.points[points.front()].place);
-    add_failures("", subject, points, never_dark_lx);
+    add_cover(add_group(DemandKind::two, RuleId::none, subject, so_many), terms_of(count, 0),
+              so_many, problem_.points[points.front()].place);
+    add_failures(RuleId::none, subject, points, never_dark_lx);
   }
 
   /// Where the centre line of a route is brightest: next to each luminaire over it.
@@ -375,24 +367,26 @@ class Demands::Builder {
     const auto above = over(route, route.path.front().z);
     const auto peaks = peaks_of(route, places_of(above));
     Both walked = centre;
-    double walked_lx = route_lx;
+    double walked_lx = limit_of(RuleId::E1);
     for (const CodeChoice& codes : codes_) {
       switch (codes.set) {
         case RuleSet::en1838_2013:
-          add_minima(DemandKind::minimum, "E1", subject, centre, route_lx);
-          add_minima(DemandKind::minimum, "E2", subject, both_at(points.band), band_lx);
+          add_minima(DemandKind::minimum, RuleId::E1, subject, centre, limit_of(RuleId::E1));
+          add_minima(DemandKind::minimum, RuleId::E2, subject, both_at(points.band),
+                     limit_of(RuleId::E2));
           break;
         case RuleSet::en1838_2024:
           walked = both_at(points.inner);
-          add_minima(DemandKind::minimum, "E5", subject, walked, route_lx);
+          add_minima(DemandKind::minimum, RuleId::E5, subject, walked, limit_of(RuleId::E1));
           break;
         case RuleSet::nfpa101:
-          walked_lx = codes_.size() > 1 ? route_lx : min_last_lx;
+          walked_lx = codes_.size() > 1 ? limit_of(RuleId::E1) : limit_of(RuleId::N2m);
           add_american(subject, centre, peaks, codes);
           break;
       }
-      if (codes.european()) add_spread("E4", subject, centre, peaks, max_diversity, route_lx);
-      add_onset(subject, centre, route_lx, codes);
+      if (codes.european())
+        add_spread(RuleId::E4, subject, centre, peaks, limit_of(RuleId::E4), limit_of(RuleId::E1));
+      add_onset(subject, centre, limit_of(RuleId::E1), codes);
     }
     add_single_failures(subject, above, walked, walked_lx);
   }
@@ -401,27 +395,30 @@ class Demands::Builder {
                     const std::vector<glm::dvec3>& peaks, const CodeChoice& codes) {
     const bool ibc = codes.has(Deviation::us_ibc);
     const auto fresh = as_new();
-    add_mean(ibc ? "I1" : "N1", subject, centre, ibc ? ibc_first_mean_lx : first_mean_lx, fresh);
-    add_minima(DemandKind::minimum, ibc ? "I1m" : "N1m", subject, centre,
-               ibc ? ibc_min_first_lx : min_first_lx, fresh);
-    add_mean(ibc ? "I2" : "N2", subject, centre, ibc ? ibc_last_mean_lx : last_mean_lx);
-    add_minima(DemandKind::minimum, ibc ? "I2m" : "N2m", subject, centre,
-               ibc ? ibc_min_last_lx : min_last_lx);
-    add_spread("N3", subject, centre, peaks, max_diversity, min_last_lx);
+    add_mean(ibc ? RuleId::I1 : RuleId::N1, subject, centre,
+             limit_of(ibc ? RuleId::I1 : RuleId::N1), fresh);
+    add_minima(DemandKind::minimum, ibc ? RuleId::I1m : RuleId::N1m, subject, centre,
+               limit_of(ibc ? RuleId::I1m : RuleId::N1m), fresh);
+    add_mean(ibc ? RuleId::I2 : RuleId::N2, subject, centre,
+             limit_of(ibc ? RuleId::I2 : RuleId::N2));
+    add_minima(DemandKind::minimum, ibc ? RuleId::I2m : RuleId::N2m, subject, centre,
+               limit_of(ibc ? RuleId::I2m : RuleId::N2m));
+    add_spread(RuleId::N3, subject, centre, peaks, limit_of(RuleId::N3), limit_of(RuleId::N2m));
     if (codes.has(Deviation::us_ibc_i2))
-      add_failures("N4", subject, reachable("N4", subject, centre, min_failed_lx * design_.margin),
-                   min_failed_lx * design_.margin);
+      add_failures(RuleId::N4, subject,
+                   reachable(RuleId::N4, subject, centre, limit_of(RuleId::N4) * design_.margin),
+                   limit_of(RuleId::N4) * design_.margin);
   }
 
   void add_onset(const Subject& subject, const Both& points, double limit_lx,
                  const CodeChoice& codes) {
     if (codes.european()) {
-      add_early("E10h", subject, points, half_s, limit_lx / 2);
-      add_early("E10f", subject, points, full_s, limit_lx);
+      add_early(RuleId::E10h, subject, points, half_s, limit_lx / 2);
+      add_early(RuleId::E10f, subject, points, full_s, limit_lx);
     } else {
-      add_early("N5", subject, points, nfpa_s, min_last_lx);
+      add_early(RuleId::N5, subject, points, nfpa_s, limit_of(RuleId::N5));
     }
-    if (codes.has(Deviation::de_asr)) add_early("E10g", subject, points, german_s, limit_lx);
+    if (codes.has(Deviation::de_asr)) add_early(RuleId::E10g, subject, points, german_s, limit_lx);
   }
 
   void add_open_area(const AssessedArea& area) {
@@ -431,17 +428,17 @@ class Demands::Builder {
     auto peaks = places_of(above);
     for (glm::dvec3& p : peaks) p.z = area.z_m;
     bool judged = false;
-    double limit_lx = open_lx;
+    double limit_lx = limit_of(RuleId::E6);
     for (const CodeChoice& codes : codes_) {
       if (!codes.european()) continue;
       judged = true;
-      add_minima(DemandKind::minimum, "E6", subject, core, open_lx);
-      add_spread("E6d", subject, core, peaks, max_diversity, open_lx);
+      add_minima(DemandKind::minimum, RuleId::E6, subject, core, limit_of(RuleId::E6));
+      add_spread(RuleId::E6d, subject, core, peaks, limit_of(RuleId::E6d), limit_of(RuleId::E6));
       if (codes.has(Deviation::uk_bs_5266)) {
-        add_minima(DemandKind::minimum, "E6k", subject, core, bs_open_lx);
-        limit_lx = bs_open_lx;
+        add_minima(DemandKind::minimum, RuleId::E6k, subject, core, limit_of(RuleId::E6k));
+        limit_lx = limit_of(RuleId::E6k);
       }
-      add_onset(subject, core, open_lx, codes);
+      add_onset(subject, core, limit_of(RuleId::E6), codes);
     }
     if (judged) add_single_failures(subject, above, core, limit_lx);
   }
@@ -451,17 +448,17 @@ class Demands::Builder {
     const Both plane = both_of(area, 0);
     auto peaks = places_of(over(area, area.z_m));
     for (glm::dvec3& p : peaks) p.z = area.z_m;
-    const double limit_lx = std::max(task_lx, task_share * area.mains_lx);
+    const double limit_lx = std::max(limit_of(RuleId::E7), task_share * area.mains_lx);
     for (const CodeChoice& codes : codes_) {
       if (!codes.european()) continue;
-      add_minima(DemandKind::minimum, "E7", subject, plane, limit_lx);
-      add_spread("E7u", subject, plane, peaks, 1 / task_uniformity, limit_lx);
-      add_early("E10t", subject, plane, task_s, limit_lx);
+      add_minima(DemandKind::minimum, RuleId::E7, subject, plane, limit_lx);
+      add_spread(RuleId::E7u, subject, plane, peaks, 1 / limit_of(RuleId::E7u), limit_lx);
+      add_early(RuleId::E10t, subject, plane, task_s, limit_lx);
     }
   }
 
   /// A luminaire near a place, by the rule of luminaire_near.
-  void add_near(const char* rule, const Subject& subject, const glm::dvec3& place, bool above,
+  void add_near(RuleId rule, const Subject& subject, const glm::dvec3& place, bool above,
                 const LinesOfSight& seen) {
     const auto floor = floor_below(scene_, place);
     std::vector<double> near(candidates_.size(), 0);
@@ -469,10 +466,11 @@ class Demands::Builder {
       const glm::dvec3& p = candidates_[i].position;
       const bool here = !floor || !floors_[i] || std::abs(*floor - *floors_[i]) < same_storey_m;
       if (here && seen[i] && (!above || p.z >= place.z) &&
-          glm::length(glm::dvec2(p - place)) <= near_m)
+          glm::length(glm::dvec2(p - place)) <= limit_of(rule))
         near[i] = 1;
     }
-    add_cover(add_group(DemandKind::near, rule, subject, near_m), terms_of(near, 0), 1, place);
+    add_cover(add_group(DemandKind::near, rule, subject, limit_of(rule)), terms_of(near, 0), 1,
+              place);
   }
 
   void add_emphasis(const EmphasisPoint& point) {
@@ -485,16 +483,16 @@ class Demands::Builder {
       const LinesOfSight past = out_.furnished_->light.seen_from(beside(point));
       for (size_t i = 0; i < seen.size(); ++i) seen[i] = seen[i] && past[i];
     }
-    add_near("E12", subject, point.position, true, seen);
+    add_near(RuleId::E12, subject, point.position, true, seen);
     constexpr std::array equipment{EmphasisKind::first_aid, EmphasisKind::fire_equipment,
                                    EmphasisKind::call_point, EmphasisKind::alarm_panel};
     if (std::find(equipment.begin(), equipment.end(), point.kind) == equipment.end()) return;
     const Lit& darker = out_.furnished_ ? *out_.furnished_ : *out_.bare_;
     const auto lux = darker.light.vertical_lux(point);
     if (!lux) return;
-    const double asked = equipment_lx * design_.margin;
-    add_cover(add_group(DemandKind::vertical, "E13", subject, asked), terms_of(*lux, no_light_lx),
-              asked, point.position);
+    const double asked = limit_of(RuleId::E13) * design_.margin;
+    add_cover(add_group(DemandKind::vertical, RuleId::E13, subject, asked),
+              terms_of(*lux, no_light_lx), asked, point.position);
   }
 
   /// One luminaire lights the whole flight, where any can; else each tread has one that lights it.
@@ -514,8 +512,8 @@ class Demands::Builder {
       return true;
     });
     if (dark) return out_.unlit_flights_.push_back(flight.name);
-    const uint32_t group =
-        add_group(DemandKind::flight, "E12", {SubjectKind::stairs, flight.name}, lit_tread_lx);
+    const uint32_t group = add_group(DemandKind::flight, RuleId::E12,
+                                     {SubjectKind::stairs, flight.name}, lit_tread_lx);
     std::vector<double> all(candidates_.size(), 1);
     for (const LitPoint& tread : treads)
       for (size_t i = 0; i < all.size(); ++i)
@@ -534,11 +532,11 @@ class Demands::Builder {
     const Subject subject = subject_of(sign);
     for (const CodeChoice& codes : codes_) {
       if (codes.european()) {
-        add_near("S6l", subject, sign.frame.origin, false,
+        add_near(RuleId::S6l, subject, sign.frame.origin, false,
                  out_.bare_->light.seen_from({before_face(sign)}));
       } else {
-        const double asked = face_lx * design_.margin;
-        add_cover(add_group(DemandKind::face, "N6", subject, asked),
+        const double asked = limit_of(RuleId::N6) * design_.margin;
+        add_cover(add_group(DemandKind::face, RuleId::N6, subject, asked),
                   terms_of(out_.bare_->light.lux_on_face(sign), no_light_lx), asked,
                   sign.frame.origin);
       }
@@ -579,7 +577,7 @@ Result<std::unique_ptr<Demands>> Demands::make(const SceneDescription& scene,
 bool Demands::is_hidden(const Check& check) const {
   return std::count(check.conditions.begin(), check.conditions.end(),
                     remark(RemarkId::with_furniture)) > 0 &&
-         hidden_.contains({check.rule.id, check.subject});
+         hidden_.contains({name_of(check.rule.id), check.subject});
 }
 
 }  // namespace luxodus

@@ -19,9 +19,6 @@ namespace luxodus {
 /// "no place below 0.1 lx": our reading of "not in total darkness" after a failure [lx].
 inline constexpr double never_dark_lx = 0.1;
 
-/// Whether a layout of luminaires decides a rule; what others decide stays as the scene has it.
-bool is_of_luminaires(const std::string& rule);
-
 /// What was found between the points of the grid.
 struct BetweenPoints {
   size_t added = 0;                                        // points where a minimum breaks
@@ -31,7 +28,7 @@ struct BetweenPoints {
 /// A point where a minimum does not hold with luminaires off their places.
 struct PointOffPlace {
   DemandKind kind = DemandKind::minimum;
-  std::string rule;
+  RuleId rule = RuleId::none;
   Subject subject;
   glm::dvec3 place{0};
   double least = 0;  // what is asked for there [lx]
@@ -68,7 +65,7 @@ class Demands {
 
   /// Rules and subjects that are asked for without furniture alone, and how many points furniture
   /// hides from all candidates.
-  using Hidden = std::map<std::pair<std::string, Subject>, size_t>;
+  using Hidden = std::map<std::pair<std::string_view, Subject>, size_t>;
   const Hidden& hidden() const { return hidden_; }
 
   /// Flights of stairs with a tread that no candidate lights: nothing is asked for there.
@@ -91,8 +88,8 @@ class Demands {
                                const std::vector<PointOffPlace>& points, const Layout& layout);
   /// As ask_for_more of a check, of a minimum that does not hold elsewhere: `missing` at `place`,
   /// in its unit. Of a demand on failures everywhere.
-  bool ask_for_more(DemandKind kind, const std::string& rule, const Subject& subject,
-                    const glm::dvec3& place, double missing, const Layout& layout);
+  bool ask_for_more(DemandKind kind, RuleId rule, const Subject& subject, const glm::dvec3& place,
+                    double missing, const Layout& layout);
 
  private:
   struct Lit;       // a building, with furniture or without

@@ -106,7 +106,7 @@ Result<size_t> Demands::ask_off_place(const OffPlaceScene& of,
     const auto planned = [&](const Lit& lit) {
       return lit.light.lit({point.place}, floor_normal, lifted_already).front().lux;
     };
-    bool past = furnished_ && !hidden_.contains({point.rule, point.subject});
+    bool past = furnished_ && !hidden_.contains({name_of(point.rule), point.subject});
     std::vector<double> lux = planned(past ? *furnished_ : *bare_);
     if (past && most_from(*terms_of(lux, 0), problem_.options) < point.least) {
       past = false;

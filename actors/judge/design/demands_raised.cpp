@@ -134,7 +134,7 @@ bool Demands::ask_for_more(const Check& check, const Layout& layout) {
   return raise_nearest(problem_, is_it, *check.worst, *check.limit - *check.value, layout);
 }
 
-bool Demands::ask_for_more(DemandKind kind, const std::string& rule, const Subject& subject,
+bool Demands::ask_for_more(DemandKind kind, RuleId rule, const Subject& subject,
                            const glm::dvec3& place, double missing, const Layout& layout) {
   const auto is_it = [&](const auto& rows) {
     const ConstraintGroup& group = problem_.groups[rows.group];
@@ -186,7 +186,7 @@ void Demands::look_at(uint32_t group, const std::vector<glm::dvec3>& places, con
   };
   // As at points of the grid: what furniture hides from all candidates is looked at without it.
   const ConstraintGroup& of = problem_.groups[group];
-  const bool past_furniture = furnished_ && !hidden_.contains({of.rule, of.subject});
+  const bool past_furniture = furnished_ && !hidden_.contains({name_of(of.rule), of.subject});
   std::vector<Terms> light = lit(past_furniture ? *furnished_ : *bare_, places);
   for (size_t i = 0; i < places.size(); ++i) {
     const auto reached = [&](bool furnished) {

@@ -255,7 +255,8 @@ class Designing {
     out_.groups = demands_->problem().groups;
     out_.unlit_flights = demands_->unlit_flights();
     for (const auto& [what, points] : demands_->hidden())
-      if (!what.first.empty()) out_.hidden.push_back({what.first, what.second, points});
+      if (!what.first.empty())
+        out_.hidden.push_back({std::string(what.first), what.second, points});
     return {};
   }
 
@@ -281,8 +282,7 @@ class Designing {
 
   /// Whether signs that were placed decide a check, which then has to pass.
   bool is_of_signs(const Check& check) const {
-    static const std::set<std::string> distances{"S4", "N8"};
-    if (!out_.signs || !distances.contains(check.rule.id)) return false;
+    if (!out_.signs || row_of(check.rule.id).decided_by != DecidedBy::placed_signs) return false;
     return std::any_of(scene_->routes.begin(), scene_->routes.end(), [&](const EscapeRoute& route) {
       return check.subject == subject_of(route) && out_.signs->guides(route.name);
     });
@@ -475,9 +475,10 @@ class Designing {
     for (const Check& check : assessment.checks) {
       if (check.verdict != CheckVerdict::fail) continue;
       const bool of_one = check.subject.kind == SubjectKind::luminaire;
-      const bool decided = is_of_signs(check) || (is_of_luminaires(check.rule.id) &&
-                                                  (!of_one || ours.contains(check.subject)) &&
-                                                  !demands_->is_hidden(check));
+      const bool decided =
+          is_of_signs(check) ||
+          (row_of(check.rule.id).decided_by == DecidedBy::luminaires &&
+           (!of_one || ours.contains(check.subject)) && !demands_->is_hidden(check));
       if (decided)
         out.push_back(check);
       else if (others != nullptr)
@@ -555,7 +556,8 @@ class Designing {
         scene_->file,
         fmt::format("no layout was found that passes its own assessment: {} for {} still fails "
                     "after {} layouts; a larger 'margin' leaves more room",
-                    check.rule.id, english().subject(check.subject), out_.verifications));
+                    luxodus::name_of(check.rule.id), english().subject(check.subject),
+                    out_.verifications));
   }
 
   std::shared_ptr<const SceneDescription> scene_;

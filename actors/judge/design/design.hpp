@@ -40,7 +40,7 @@ struct DesignOptions {
 
 /// A rule that is asked for without furniture alone: with it no layout passes.
 struct HiddenByFurniture {
-  std::string rule;
+  std::string rule;  // "E6", or several: "E6, E6d"
   Subject subject;
   size_t points = 0;  // that furniture hides from all candidates
 };

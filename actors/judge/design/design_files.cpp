@@ -65,7 +65,7 @@ Json groups_json(const DesignResult& result) {
   for (size_t i = 0; i < result.groups.size(); ++i) {
     const ConstraintGroup& group = result.groups[i];
     out.push_back({{"kind", word_of(group.kind)},
-                   {"rule", group.rule},
+                   {"rule", name_of(group.rule)},
                    {"subject", subject_json(group.subject)},
                    {"asked", number_json(group.asked)},
                    {"words", demand_words(group)},
@@ -113,9 +113,9 @@ Json types_json(const SceneDescription& scene, const DesignResult& result) {
 Json others_json(const DesignResult& result) {
   Json out = Json::array();
   for (const Check& check : result.others)
-    out.push_back({{"rule", check.rule.id},
+    out.push_back({{"rule", name_of(check.rule.id)},
                    {"subject", subject_json(check.subject)},
-                   {"title", english().rule_title(check.rule.id)},
+                   {"title", english().rule_title(name_of(check.rule.id))},
                    {"reasons", remarks_json(check.reasons)}});
   return out;
 }
@@ -124,7 +124,7 @@ Json tolerance_json(const PlaceTolerance& tolerance) {
   Json demands = Json::array();
   for (const ShareOffPlace& one : tolerance.demands)
     demands.push_back({{"kind", word_of(one.kind)},
-                       {"rule", one.rule},
+                       {"rule", name_of(one.rule)},
                        {"subject", subject_json(one.subject)},
                        {"share", number_json(one.share)},
                        {"place", vector_json(one.place)}});
@@ -198,6 +198,11 @@ Result<void> write_alternatives(const fs::path& folder, const SceneDescription& 
   return {};
 }
 
+/// " (E6)"; "" of what is of no rule.
+std::string in_brackets(RuleId rule) {
+  return rule == RuleId::none ? "" : fmt::format(" ({})", name_of(rule));
+}
+
 std::string at_words(const glm::dvec3& place) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", place.x, place.y, place.z);
 }
@@ -239,8 +244,7 @@ std::string demand_words(const ConstraintGroup& group) {
       what = "a luminaire whose light falls directly on it, " + value + " lx on each tread";
       break;
   }
-  return fmt::format("{}: {}{}", english().subject(group.subject), what,
-                     group.rule.empty() ? "" : " (" + group.rule + ")");
+  return fmt::format("{}: {}{}", english().subject(group.subject), what, in_brackets(group.rule));
 }
 
 std::string tolerance_words(const PlaceTolerance& tolerance) {
@@ -250,8 +254,8 @@ std::string tolerance_words(const PlaceTolerance& tolerance) {
       "mounted up to {} m off their places, all luminaires at once: the least is {} of the minimum "
       "of the rules, {}{} at {}{}",
       readable_number(tolerance.distance_m, 2), percent(least.share),
-      english().subject(least.subject), least.rule.empty() ? "" : " (" + least.rule + ")",
-      at_words(least.place), tolerance.holds() ? "" : "; no layout was found whose minima hold");
+      english().subject(least.subject), in_brackets(least.rule), at_words(least.place),
+      tolerance.holds() ? "" : "; no layout was found whose minima hold");
 }
 
 std::string outcome_words(const SceneDescription& scene, const DesignResult& result) {
@@ -303,7 +307,7 @@ std::vector<HiddenByFurniture> joined_by_subject(const std::vector<HiddenByFurni
 std::vector<std::string> others_words(const std::vector<Check>& others) {
   constexpr size_t told_one_by_one = 3;
   std::vector<std::string> out;
-  std::set<std::string> told;
+  std::set<RuleId> told;
   for (const Check& check : others) {
     const auto of_rule =
         static_cast<size_t>(std::count_if(others.begin(), others.end(), [&](const Check& one) {
@@ -314,7 +318,7 @@ std::vector<std::string> others_words(const std::vector<Check>& others) {
     out.push_back(fmt::format("fails, and is not decided here: {}{}: {}",
                               english().subject(check.subject),
                               together ? fmt::format(" and {} others", of_rule - 1) : "",
-                              english().rule_title(check.rule.id)));
+                              english().rule_title(name_of(check.rule.id))));
   }
   return out;
 }

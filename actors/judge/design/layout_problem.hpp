@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/emergency/remark.hpp"
+#include "scenes/emergency/check.hpp"
 
 namespace luxodus {
 
@@ -74,7 +74,7 @@ constexpr bool is_minimum(DemandKind kind) {
 /// Constraints that stand and fall together: one rule for one subject.
 struct ConstraintGroup {
   DemandKind kind = DemandKind::minimum;
-  std::string rule;  // "E5"; "" of what is no code's
+  RuleId rule = RuleId::none;
   Subject subject;
   double asked = 0;  // the planned value, margin included
   uint32_t region = no_region;

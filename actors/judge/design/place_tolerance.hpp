@@ -14,7 +14,7 @@ namespace luxodus {
 /// Of one demand, where it is tightest.
 struct ShareOffPlace {
   DemandKind kind = DemandKind::minimum;
-  std::string rule;
+  RuleId rule = RuleId::none;
   Subject subject;
   double share = 0;  // of the minimum of the rule, without the planning margin
   glm::dvec3 place{0};

@@ -16,7 +16,7 @@
 #include "actors/judge/inspect/site.hpp"
 #include "runtime/core/clock.hpp"
 #include "scenes/emergency/guidance.hpp"
-#include "scenes/emergency/rule_limits.hpp"
+#include "scenes/emergency/rule_table.hpp"
 
 namespace luxodus {
 
@@ -70,10 +70,10 @@ uint8_t bit_of(SignArrow arrow) {
 
 /// What a sign decides by itself; light from outside comes with the luminaires.
 bool forbids_sign(const Check& check, const Sign& sign) {
-  static const std::set<std::string> always{"S2", "S3", "S5", "S6", "S6a", "N7", "N7s"};
   if (check.verdict != CheckVerdict::fail) return false;
-  return always.contains(check.rule.id) ||
-         (check.rule.id == "S1" && sign.lighting == SignLighting::internal);
+  const DecidedBy by = row_of(check.rule.id).decided_by;
+  return by == DecidedBy::sign ||
+         (by == DecidedBy::lit_sign && sign.lighting == SignLighting::internal);
 }
 
 std::string sign_prefix(const SceneDescription& scene) {
@@ -218,7 +218,7 @@ class SignPlanning {
   bool near_enough(const Sign& sign, const SignView& view) const {
     return std::all_of(options_.codes.begin(), options_.codes.end(), [&](const CodeChoice& codes) {
       return view.distance_m <= (codes.european() ? viewing_distance(sign, view).allowed_oblique_m
-                                                  : rule_limit::max_nearest_m);
+                                                  : limit_of(RuleId::N8));
     });
   }
 
@@ -363,7 +363,7 @@ class SignPlanning {
     }
     out_.places = places.size();
     for (const EscapeRoute& route : scene_.routes)
-      problem_.groups.push_back({DemandKind::near, "", subject_of(route), 1, no_region});
+      problem_.groups.push_back({DemandKind::near, RuleId::none, subject_of(route), 1, no_region});
     std::vector<std::vector<Term>> furnished(asked_.size()), bare(asked_.size());
     for (uint32_t i = 0; i < sign_options_.size(); ++i) {
       for (const uint32_t p : sign_options_[i].furnished) furnished[p].push_back({i, 1});

@@ -23,12 +23,13 @@ std::vector<Check> of_all_codes(const Checks& checks) {
 
 const Check& of(const std::vector<Check>& checks, const std::string& id) {
   const auto at = std::find_if(checks.begin(), checks.end(),
-                               [&](const Check& check) { return check.rule.id == id; });
+                               [&](const Check& check) { return name_of(check.rule.id) == id; });
   REQUIRE(at != checks.end());
   return *at;
 }
 bool has(const std::vector<Check>& checks, const std::string& id) {
-  return std::any_of(checks.begin(), checks.end(), [&](const Check& c) { return c.rule.id == id; });
+  return std::any_of(checks.begin(), checks.end(),
+                     [&](const Check& c) { return name_of(c.rule.id) == id; });
 }
 
 Emitter luminaire(const std::string& name, const glm::dvec3& at, double lumens) {

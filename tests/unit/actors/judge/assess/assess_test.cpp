@@ -16,7 +16,7 @@ namespace {
 
 const Check& check_of(const Assessment& a, const std::string& id, const std::string& condition) {
   for (const Check& check : a.checks)
-    if (check.rule.id == id &&
+    if (name_of(check.rule.id) == id &&
         english().remarks(check.conditions).find(condition) != std::string::npos)
       return check;
   FAIL("no check " << id);

@@ -117,7 +117,7 @@ TEST_CASE("the rated duration is checked where all that is lit says it", "[asses
   const auto check_of = [](const std::string& text) {
     const Assessment a = test::assessed(text, test::codes_alone());
     const auto at = std::find_if(a.checks.begin(), a.checks.end(),
-                                 [](const Check& one) { return one.rule.id == "E11"; });
+                                 [](const Check& one) { return one.rule.id == RuleId::E11; });
     REQUIRE(at != a.checks.end());
     return *at;
   };

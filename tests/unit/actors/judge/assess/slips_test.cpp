@@ -36,7 +36,7 @@ bool remarks(const std::string& text, const std::string& words,
 
 const Check& first_of(const Assessment& a, const std::string& id) {
   const auto at = std::find_if(a.checks.begin(), a.checks.end(),
-                               [&](const Check& c) { return c.rule.id == id; });
+                               [&](const Check& c) { return name_of(c.rule.id) == id; });
   REQUIRE(at != a.checks.end());
   return *at;
 }

@@ -15,7 +15,7 @@ using test::silent;
 /// A corridor with a place every metre: each lights the points within `reach` of it.
 LayoutProblem row_of_places(uint32_t count, uint32_t reach) {
   LayoutProblem out;
-  out.groups.push_back({DemandKind::minimum, "E5", {SubjectKind::route, "way"}, 1, 0});
+  out.groups.push_back({DemandKind::minimum, RuleId::E5, {SubjectKind::route, "way"}, 1, 0});
   for (uint32_t i = 0; i < count; ++i) {
     LayoutOption option;
     option.place = i;

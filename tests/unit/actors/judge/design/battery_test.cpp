@@ -77,7 +77,7 @@ TEST_CASE("types that last shorter than the rules ask for are not placed, and it
       CHECK(unused_words(type).find("lasts") != std::string::npos);
     }
     for (const Check& check : result.assessment.checks)
-      if (check.rule.id.starts_with("E11") || check.rule.id == "N10")
+      if (name_of(check.rule.id).starts_with("E11") || check.rule.id == RuleId::N10)
         CHECK(check.verdict != CheckVerdict::fail);
   }
 }

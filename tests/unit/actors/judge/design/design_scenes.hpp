@@ -12,11 +12,17 @@
 #include "actors/judge/design/design.hpp"
 #include "actors/judge/design/design_files.hpp"
 #include "actors/judge/texts/texts.hpp"
+#include "scenes/emergency/rule_table.hpp"
 #include "tests/kit/described.hpp"
 #include "tests/kit/temporary_folder.hpp"
 #include "tests/unit/actors/judge/design/silent.hpp"
 
 namespace luxodus::test {
+
+/// Whether a layout of luminaires decides a rule.
+inline bool is_of_luminaires(RuleId rule) {
+  return row_of(rule).decided_by == DecidedBy::luminaires;
+}
 
 /// A closed room with a corner at the origin [m].
 inline std::string box_room(double x, double y, double z) {
@@ -100,10 +106,11 @@ inline std::vector<std::string> failing_on_disk(const TemporaryFolder& folder,
                                       remark(RemarkId::with_furniture)) > 0;
     const bool told =
         std::any_of(result.hidden.begin(), result.hidden.end(), [&](const HiddenByFurniture& one) {
-          return one.rule == check.rule.id && one.subject == check.subject;
+          return one.rule == name_of(check.rule.id) && one.subject == check.subject;
         });
     if (!(furnished && told))
-      out.push_back(check.rule.id + " of " + english().subject(check.subject));
+      out.push_back(std::string(name_of(check.rule.id)) + " of " +
+                    english().subject(check.subject));
   }
   return out;
 }

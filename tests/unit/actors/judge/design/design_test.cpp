@@ -180,7 +180,7 @@ TEST_CASE("all single failures with the full minima take no fewer luminaires", "
   CHECK(full.answer.objective >= none.answer.objective);
   // Whatever one fails, 1 lx is left on the whole band: the assessment says so itself.
   for (const Check& check : full.assessment.checks)
-    if (check.rule.id == "F1") CHECK(check.value.value_or(0) >= 1);
+    if (check.rule.id == RuleId::F1) CHECK(check.value.value_or(0) >= 1);
 }
 
 TEST_CASE("a layout stays clear of keep-out zones, signs and walls", "[design]") {
@@ -272,7 +272,7 @@ width = 1
   REQUIRE_FALSE(result.luminaires.empty());
   CHECK(failing_on_disk(folder, file, result).empty());
   for (const Check& check : result.assessment.checks)
-    if (check.rule.id == "N2") CHECK(check.value.value_or(0) >= 1.25 * 6.5 * (1 - 1e-3));
+    if (check.rule.id == RuleId::N2) CHECK(check.value.value_or(0) >= 1.25 * 6.5 * (1 - 1e-3));
 }
 
 TEST_CASE("what a design cannot be made of is refused in a sentence", "[design]") {
@@ -321,14 +321,14 @@ TEST_CASE("a type counts with what its circuit leaves of it in the judged scenar
 
 TEST_CASE("what a design does not decide is told once for many subjects", "[design][files]") {
   std::vector<Check> others;
-  const auto add = [&](const std::string& rule, const Subject& subject) {
+  const auto add = [&](RuleId rule, const Subject& subject) {
     others.emplace_back();
     others.back().rule.id = rule;
     others.back().subject = subject;
   };
-  add("E14", {SubjectKind::luminaire, "a"});
+  add(RuleId::E14, {SubjectKind::luminaire, "a"});
   for (int storey = 0; storey < 4; ++storey)
-    add("N8", {SubjectKind::route, std::to_string(storey)});
+    add(RuleId::N8, {SubjectKind::route, std::to_string(storey)});
   CHECK(
       others_words(others) ==
       std::vector<std::string>{

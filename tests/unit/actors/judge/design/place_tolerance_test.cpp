@@ -40,8 +40,8 @@ std::set<std::string> failing_off_place(const DesignResult& result, double off_m
   const std::set<std::string> minima{"E1", "E2", "E5", "E6", "E7", "N1m", "N2m"};
   std::set<std::string> out;
   for (const Check& check : assessed->checks)
-    if (check.verdict == CheckVerdict::fail && minima.contains(check.rule.id))
-      out.insert(check.rule.id);
+    if (check.verdict == CheckVerdict::fail && minima.contains(std::string(name_of(check.rule.id))))
+      out.emplace(name_of(check.rule.id));
   return out;
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("off its place a luminaire gives no less than what is told", "[design]
     const auto assessed = assess(moved, options, test::nobody, [](const std::string&, double) {});
     REQUIRE(assessed);
     for (const Check& check : assessed->checks)
-      if ((check.rule.id == "E1" || check.rule.id == "E2") && check.value)
+      if ((check.rule.id == RuleId::E1 || check.rule.id == RuleId::E2) && check.value)
         CHECK(*check.value >= least * *check.limit * (1 - 1e-4));
   }
 }

@@ -28,7 +28,7 @@ inline LayoutProblem with_options(uint32_t options) {
 /// That a sum is not below `least`, as a demand of its own.
 inline void ask(LayoutProblem& problem, std::vector<Term> list, double least, const char* subject) {
   problem.groups.push_back(
-      {DemandKind::minimum, "E1", {SubjectKind::route, subject}, least, no_region});
+      {DemandKind::minimum, RuleId::E1, {SubjectKind::route, subject}, least, no_region});
   problem.covers.push_back(
       {static_cast<uint32_t>(problem.groups.size() - 1), sum_of(std::move(list)), least, {}});
 }
@@ -48,7 +48,7 @@ inline LayoutProblem random_problem(uint64_t seed, uint32_t options, uint32_t po
     out.options.push_back(option);
   }
   for (const DemandKind kind : {DemandKind::minimum, DemandKind::failed, DemandKind::spread})
-    out.groups.push_back({kind, "", {SubjectKind::open_area, "square"}, 1, no_region});
+    out.groups.push_back({kind, RuleId::none, {SubjectKind::open_area, "square"}, 1, no_region});
   FailureRows failures{1, 0.05, {}};
   SpreadRows spread{2, 25, {}, {}};
   for (uint32_t p = 0; p < points; ++p) {

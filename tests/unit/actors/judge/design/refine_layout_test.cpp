@@ -63,7 +63,7 @@ TEST_CASE("moving keeps the number, the reach and the rules, and says the same e
       CHECK(nearest <= 0.6 + 1e-3);
     }
     for (const Check& check : after.assessment.checks)
-      if (is_of_luminaires(check.rule.id)) CHECK(check.verdict != CheckVerdict::fail);
+      if (test::is_of_luminaires(check.rule.id)) CHECK(check.verdict != CheckVerdict::fail);
     if (after.refined) CHECK(after.refined->after >= after.refined->before);
     const auto read = test::described(folder.path() / "scene.toml");
     CHECK(variant_text(*read, after, after, folder.path()) ==

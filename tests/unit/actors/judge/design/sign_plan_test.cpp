@@ -80,7 +80,7 @@ size_t failing_distances(const std::shared_ptr<const SceneDescription>& scene) {
   return static_cast<size_t>(
       std::count_if(assessed->checks.begin(), assessed->checks.end(), [](const Check& check) {
         return check.verdict == CheckVerdict::fail &&
-               (check.rule.id == "S4" || check.rule.id == "N8");
+               (check.rule.id == RuleId::S4 || check.rule.id == RuleId::N8);
       }));
 }
 
@@ -458,7 +458,7 @@ white_reflectance = 0.7
   REQUIRE(result.signs->signs.size() == 1);
   bool lit = false;
   for (const Check& check : result.assessment.checks)
-    if (check.rule.id == "S6l") lit = check.verdict == CheckVerdict::pass;
+    if (check.rule.id == RuleId::S6l) lit = check.verdict == CheckVerdict::pass;
   CHECK(lit);
   check_guided(folder, file, result);
 }

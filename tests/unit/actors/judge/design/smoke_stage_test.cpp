@@ -180,7 +180,7 @@ TEST_CASE("a corridor in smoke: alternatives pass the rules, brighter signs are 
     INFO((assessed ? "" : assessed.problem().text()));
     REQUIRE(assessed);
     for (const Check& check : assessed->checks)
-      if (is_of_luminaires(check.rule.id)) CHECK(check.verdict != CheckVerdict::fail);
+      if (test::is_of_luminaires(check.rule.id)) CHECK(check.verdict != CheckVerdict::fail);
     // The file has the signs that were judged.
     const auto written = test::described(folder.path() / "out" / file_of(one));
     REQUIRE(written->signs.size() == one.layout.variant->signs.size());

@@ -121,7 +121,8 @@ TEST_CASE("of constraints that cannot hold together the smallest set is named", 
   ask(problem, {{1, 1}, {2, 1}}, 1, "aside");
   problem.points.push_back({sum_of({{0, 10}}), {0, 0, 0}});
   problem.points.push_back({sum_of({{0, 0.1f}, {1, 0.1f}, {2, 0.1f}}), {5, 0, 0}});
-  problem.groups.push_back({DemandKind::spread, "E4", {SubjectKind::route, "even"}, 10, no_region});
+  problem.groups.push_back(
+      {DemandKind::spread, RuleId::E4, {SubjectKind::route, "even"}, 10, no_region});
   problem.spreads.push_back({2, 10, {1}, {0}});
   CHECK(solved(problem).end == LayoutEnd::infeasible);
   const Conflict conflict = conflict_of(problem, 10, nobody);
@@ -137,7 +138,8 @@ TEST_CASE("with any one luminaire failed, what the others give is enough", "[des
   ask(problem, all, 1, "a");
   CHECK(solved(problem).objective == Approx(1));
   problem.points.push_back({sum_of(all), {}});
-  problem.groups.push_back({DemandKind::failed, "", {SubjectKind::route, "a"}, 2, no_region});
+  problem.groups.push_back(
+      {DemandKind::failed, RuleId::none, {SubjectKind::route, "a"}, 2, no_region});
   problem.failures.push_back({1, 2, {0}});
   CHECK(solved(problem).objective == Approx(3));
 }

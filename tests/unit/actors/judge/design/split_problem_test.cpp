@@ -21,9 +21,9 @@ LayoutProblem storeys(uint32_t count, bool varied) {
   Random random(3, RandomStream::test, 9);
   random.start(0);
   LayoutProblem out;
-  out.groups = {{DemandKind::minimum, "E1", {SubjectKind::route, "way"}, 1, no_region},
-                {DemandKind::failed, "", {SubjectKind::route, "way"}, 1, no_region},
-                {DemandKind::spread, "E4", {SubjectKind::route, "way"}, 1, no_region}};
+  out.groups = {{DemandKind::minimum, RuleId::E1, {SubjectKind::route, "way"}, 1, no_region},
+                {DemandKind::failed, RuleId::none, {SubjectKind::route, "way"}, 1, no_region},
+                {DemandKind::spread, RuleId::E4, {SubjectKind::route, "way"}, 1, no_region}};
   for (uint32_t storey = 0; storey < count; ++storey) {
     const double shift = varied ? 0.4 * random.uniform_double() : 0;
     for (uint32_t i = 0; i < places; ++i)

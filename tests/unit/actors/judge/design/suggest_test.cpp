@@ -92,7 +92,7 @@ TEST_CASE("with what is suggested the rules for luminaires hold, and nothing mor
   const auto assessed = assess(more, asked, test::nobody, [](const std::string&, double) {});
   REQUIRE(assessed);
   for (const Check& check : assessed->checks)
-    if (check.rule.id == "E1" || check.rule.id == "E2" || check.rule.id == "E4")
+    if (check.rule.id == RuleId::E1 || check.rule.id == RuleId::E2 || check.rule.id == RuleId::E4)
       CHECK(check.verdict == CheckVerdict::pass);
   const auto again = suggest(more, options, test::nobody);
   REQUIRE(again);

@@ -66,7 +66,7 @@ TEST_CASE("luminaires on walls hang before them and pass the assessment", "[desi
     CHECK(one.candidate.aim->z == Approx(-0.5).margin(1e-5));
   }
   for (const Check& check : result.assessment.checks)
-    if (is_of_luminaires(check.rule.id)) CHECK(check.verdict != CheckVerdict::fail);
+    if (test::is_of_luminaires(check.rule.id)) CHECK(check.verdict != CheckVerdict::fail);
 }
 
 TEST_CASE("the file of a layout places luminaires on walls as the design has them",

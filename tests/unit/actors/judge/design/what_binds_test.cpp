@@ -27,7 +27,8 @@ std::vector<Relaxed> binding(const LayoutProblem& problem) {
 
 void ask_after_failure(LayoutProblem& problem, std::vector<Term> list, double least) {
   problem.points.push_back({sum_of(std::move(list)), {}});
-  problem.groups.push_back({DemandKind::failed, "", {SubjectKind::route, "a"}, least, no_region});
+  problem.groups.push_back(
+      {DemandKind::failed, RuleId::none, {SubjectKind::route, "a"}, least, no_region});
   problem.failures.push_back({static_cast<uint32_t>(problem.groups.size() - 1),
                               least,
                               {static_cast<uint32_t>(problem.points.size() - 1)}});
