@@ -1,6 +1,6 @@
-// The limits that emergency lighting is judged by, each with the rule that asks for it (the ids of
-// rule_table.cpp, which has edition, clause and source). Where national deviations differ, their
-// rule has a row of its own.
+// Limits of the rules for emergency lighting, each with the id of its rule (rule_table.cpp has
+// edition, clause and source). A limit of a national deviation has a constant and a rule of its
+// own. Constant data; any thread.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ inline constexpr double open_lx = 0.5;          // E6: core of an open area
 inline constexpr double bs_open_lx = 1;         // E6k
 inline constexpr double max_diversity = 40;     // E4, E6, N3: largest over smallest
 inline constexpr double strip_m = 2;            // E3: wider routes are several strips
-inline constexpr double wide_edge_m = 0.5;      // E5: edge of a route that is left out
-inline constexpr double open_border_m = 0.5;    // E6: border of an area that is left out
+inline constexpr double wide_edge_m = 0.5;      // E5: edge of a route, not assessed
+inline constexpr double open_border_m = 0.5;    // E6: border of an area, not assessed
 inline constexpr double task_lx = 15;           // E7
 inline constexpr double task_share = 0.1;       // E7: of the task's mains illuminance
 inline constexpr double task_uniformity = 0.1;  // E7: smallest over largest
@@ -33,7 +33,7 @@ inline constexpr double duration_h = 1, national_duration_h = 3, us_duration_h =
 
 // Places
 inline constexpr double near_m = 2;     // E12, S6: "near" a point of emphasis
-inline constexpr double bend_deg = 30;  // a change of direction, ours
+inline constexpr double bend_deg = 30;  // our threshold for a change of direction
 inline constexpr double zone_low_deg = 60, zone_high_deg = 90;  // E8, from straight down
 
 /// Largest intensity of a luminaire by its height above the floor (E8).

@@ -9,19 +9,20 @@ namespace luxodus {
 
 namespace {
 
-/// What a rule is quoted from.
+/// The document that quotes a rule.
 struct Source {
   RemarkId id = RemarkId::count;
-  const char* name = nullptr;  // that the remark takes
+  const char* name = nullptr;  // argument of the remark
 };
-using Sources = std::array<Source, 2>;  // those with an id
+using Sources = std::array<Source, 2>;  // entries without an id are empty
 
 struct Row {
   const char* id;
   const char* edition;
   const char* clause;
   Sources sources;
-  std::optional<Deviation> deviation = std::nullopt;  // that has it; else the set itself
+  std::optional<Deviation> deviation =
+      std::nullopt;  // the rule belongs to this deviation; none: to the set itself
 };
 
 constexpr const char* en13 = "EN 1838:2013";

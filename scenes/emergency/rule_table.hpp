@@ -1,4 +1,4 @@
-// The rules by their numbers, for the sources of this folder. Constant data; any thread.
+// Rules by id, with edition, clause and source; internal to this folder. Constant data; any thread.
 #pragma once
 
 #include <string_view>
@@ -8,10 +8,10 @@
 
 namespace luxodus {
 
-/// "E1", ..., as a part of a set: a rule of EN 1838:2013 that the set of 2024 takes over says so.
-/// Requires: there is one (a programmer's mistake throws).
+/// Rule "E1", ..., as part of a set. If the set of 2024 takes a rule over from EN 1838:2013, its
+/// status says so. Requires: a known id (else it throws: a programmer's mistake).
 Rule rule_of(std::string_view id, const CodeChoice& codes);
-/// One that is of no code. Requires: as above.
+/// A rule of ours that belongs to no code. Requires: as above.
 Rule own_rule(std::string_view id);
 
 }  // namespace luxodus
