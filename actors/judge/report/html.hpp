@@ -49,7 +49,7 @@ std::string figure(const std::string& html, const std::string& caption);
 std::string subheading(const std::string& text);
 /// The sentences of a remark or a list of remarks in JSON; "" if there is none.
 std::string said(const Texts& texts, const Json& remarks);
-/// The same sentences in the style of remarks.
+/// These sentences in the style of remarks.
 std::string remark_html(const Texts& texts, const Json& remarks);
 
 /// 'route "corridor"', with the kind in the language of the report.
