@@ -156,7 +156,7 @@ std::vector<LitPoint> CodeLight::lit(const std::vector<glm::dvec3>& places,
   return out;
 }
 
-/// Of several luminaires in one place the first is traced. The others are skipped if it is fully
+/// The first of several luminaires in one place is traced. The others are skipped if it is fully
 /// hidden, and need no rays if it is fully visible.
 std::vector<double> CodeLight::light_at(const GeometryAccess& access, const glm::dvec3& place,
                                         const glm::dvec3& normal) const {

@@ -232,7 +232,7 @@ TEST_CASE("views are judged in aged and in new light, and the worse verdict coun
           "[assess][state]") {
   const Json aged_and_new =
       assessment_json(*described_text(room), assessed(room, one_round()), "1");
-  // The same scene with all ageing factors 1: its light is the new light.
+  // This scene with all ageing factors 1: its light is the new light.
   const std::string fresh =
       replaced_all(replaced_all(room, "maintenance_factor = 0.8", "maintenance_factor = 1"),
                    "end_of_duration_factor = 0.75", "end_of_duration_factor = 1");
