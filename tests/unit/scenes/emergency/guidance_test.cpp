@@ -102,10 +102,8 @@ TEST_CASE("a sign beside a route guides within 60 degrees, and no longer once it
   CHECK_FALSE(guides(back, walker_at({8, 4, 0}, {-1, 0, 0}, 16), by_first));
 }
 
-TEST_CASE(
-    "on the back of a double-sided sign left and right keep their direction in the room, and ahead "
-    "turns round",
-    "[emergency][guidance]") {
+TEST_CASE("the back of a double-sided sign keeps left and right in the room and turns ahead round",
+          "[emergency][guidance]") {
   const Sign sign = sign_at({5, 0, 2.4}, {-1, 0, 0}, SignArrow::ahead);
   CHECK(glm::length(arrow_direction(sign, SignArrow::ahead, false) - glm::dvec3(1, 0, 0)) < 1e-12);
   CHECK(glm::length(arrow_direction(sign, SignArrow::ahead, true) - glm::dvec3(-1, 0, 0)) < 1e-12);

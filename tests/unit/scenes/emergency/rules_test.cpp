@@ -130,10 +130,8 @@ TEST_CASE("wide routes are divided into strips of at most 2 m", "[emergency][rul
   for (const glm::dvec3& p : points_of(route).band) CHECK(std::abs(p.y) <= 0.4 + 1e-9);
 }
 
-TEST_CASE(
-    "a place without any light fails with infinite diversity, and so does a route without "
-    "luminaires",
-    "[emergency][rules]") {
+TEST_CASE("a place without any light fails with infinite diversity, also without luminaires",
+          "[emergency][rules]") {
   SceneDescription scene = corridor();
   RouteLight light;
   light.centre = {at(0, 0, 0), at(10, 5, 5)};

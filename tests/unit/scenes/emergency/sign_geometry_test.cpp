@@ -134,8 +134,7 @@ TEST_CASE("decay is linear at time 0 and at share 0, and never negative", "[emer
 }
 
 TEST_CASE(
-    "each operating state has its own luminance, and in dark operation only photoluminescence "
-    "remains",
+    "each operating state has its luminance, and dark operation leaves photoluminescence only",
     "[emergency][luminance]") {
   Sign sign = facing_y();
   const auto white = [&](Operation operation, double seconds = 0) {
