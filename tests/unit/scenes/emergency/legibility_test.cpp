@@ -164,15 +164,14 @@ TEST_CASE("irritant smoke limits what light alone would allow", "[emergency][leg
   CHECK_FALSE(may_be_read(judged_at(8, look, {{65}, true})));
 }
 
-TEST_CASE("of two verdicts on a view the one that is worse, or may be, counts",
-          "[emergency][legibility]") {
+TEST_CASE("the verdict on a view that is worse or may be worse counts", "[emergency][legibility]") {
   const auto sight = [](SightVerdict verdict, double seeing) {
     Sight out;
     out.verdict = verdict;
     out.seeing_level = {seeing, 0.1};
     return out;
   };
-  // From the best to the worst.
+  // Verdicts from the best to the worst.
   const std::vector<Sight> order{
       sight(SightVerdict::legible, 50),     sight(SightVerdict::undecided, 50),
       sight(SightVerdict::visible, 50),     sight(SightVerdict::undecided, 1.1),
