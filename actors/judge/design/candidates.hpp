@@ -58,7 +58,7 @@ struct UnusedType {
   double lasts_h = 0, asked_h = 0;
 };
 
-/// That as a sentence in English.
+/// An English sentence that says so.
 std::string unused_words(const UnusedType& type);
 
 struct Candidates {

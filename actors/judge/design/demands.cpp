@@ -268,7 +268,7 @@ class Demands::Builder {
     }
   }
 
-  /// With furniture, which only takes light away.
+  /// The mean is required with furniture, which only takes light away.
   void add_mean(const char* rule, const Subject& subject, const Both& both, double limit_lx,
                 const std::vector<double>& factors = {}) {
     const Points& points = both.furnished.empty() ? both.bare : both.furnished;

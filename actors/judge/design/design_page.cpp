@@ -221,7 +221,7 @@ std::string hidden(const Texts& t, const Json& d) {
   return out;
 }
 
-/// What the minima keep with luminaires off their places.
+/// The section on minima with luminaires off their places.
 std::string off_place(const Texts& t, const Json& d) {
   if (!d.contains("off_place") || d["off_place"]["demands"].empty()) return "";
   const Json& off = d["off_place"];

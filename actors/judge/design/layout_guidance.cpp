@@ -26,7 +26,7 @@ struct RouteTables {
   GuidedRoute least, most;
 };
 
-/// By layout, in one scenario.
+/// Tables by layout, in one scenario.
 using LayoutTables = std::vector<std::vector<RouteTables>>;
 
 class Following {

@@ -473,7 +473,7 @@ class SignPlanning {
   /// rows, without the rows that were given up.
   void tell_bound() {
     if (gave_up_) bound_ = bound_of_what_is_asked();
-    // Without the shares that mounts add to the weights.
+    // The shares that mounts add to the weights are taken out again.
     const double bound = bound_ / (1 + 2 * share_of_mount);
     constexpr double rounding_of_number = 1e-6;
     out_.bound = std::min(out_.objective, design_.objective == DesignObjective::number

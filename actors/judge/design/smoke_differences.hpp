@@ -1,5 +1,5 @@
-// Paired comparison of layouts in smoke: by how much more of the routes' length a sign is read with
-// one layout than with another. Errors of layouts that share paths are correlated, so the error of
+// Paired comparison of two layouts in smoke: the difference of the shares of the routes' length
+// from which a sign is read. Errors of layouts that share paths are correlated, so the error of
 // their difference is smaller than the range of either. Pure functions; any thread. Design:
 // docs/decisions/0074-differences-between-layouts.md.
 #pragma once

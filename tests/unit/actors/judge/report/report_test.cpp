@@ -162,7 +162,7 @@ TEST_CASE(
   CHECK_FALSE(check_assessment(a));
 }
 
-TEST_CASE("words on signs are readable and paths break after folders", "[report]") {
+TEST_CASE("signs are listed with their words, and paths break after folders", "[report]") {
   CHECK(has(page_in(Language::fr), "“EXIT”"));
   Json drawn = assessed_json();
   drawn["signs"][0]["text"] = "";
