@@ -1,6 +1,6 @@
-// One rule applied to one thing: what it asks, what was found, where it is worst. Whoever assesses
-// never says that a building complies: so many checks pass, fail, or cannot be made. Plain values;
-// any thread.
+// The result of one rule applied to one subject: value, limit, worst place and verdict. No function
+// here says that a building complies with a code; the verdict on the whole only counts checks that
+// pass, that fail and that could not be made. Plain values and pure functions; any thread.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace luxodus {
 
-/// not_verified: a value was found, but the limit that it was held against is known from memory
-/// alone, so that it can neither pass nor fail.
+/// not_verified: the value was compared with a limit that is known from memory alone, so the check
+/// neither passes nor fails.
 enum class CheckVerdict { pass, fail, not_assessed, information, not_verified };
 const char* name_of(CheckVerdict verdict);
 
@@ -83,29 +83,29 @@ struct Rule {
   std::string set;        // "en1838-2024"; "" for what is of no code
   std::string deviation;  // "de-asr-a3.4-3"; "" where the set itself has it
   RuleId id = RuleId::none;
-  std::string edition;           // "EN 1838:2013"
-  std::string clause;            // "4.2.1"; "" where it is not known
-  Remarks sources;               // what it is quoted from: the codes themselves are not at hand
-  std::optional<Remark> status;  // where there is something to say
+  std::string edition;  // "EN 1838:2013"
+  std::string clause;   // "4.2.1"; "" if the clause is not known
+  Remarks sources;      // documents that quote it: the codes themselves were not at hand
+  std::optional<Remark> status;
 
-  /// Whether its limit was read nowhere.
+  /// Whether the limit was found in no source.
   bool recollected() const;
-  /// Whether the set of 2024 has it from that of 2013, whose clause it names.
+  /// Whether the set of 2024 takes this rule over from that of 2013, whose clause it then names.
   bool carried_over() const { return status && status->id == RemarkId::carried_over; }
 };
 
 struct Check {
   Rule rule;
   Subject subject;
-  Remarks conditions;  // under which it holds
+  Remarks conditions;  // under which the check holds
   std::optional<double> value, limit;
-  bool at_least = true;  // the value shall not be below its limit; else not above
+  bool at_least = true;  // the value shall not be below its limit; false: not above it
   std::string unit;
-  std::optional<glm::dvec3> worst;  // where [m]
+  std::optional<glm::dvec3> worst;  // place of the worst value [m]
   CheckVerdict verdict = CheckVerdict::not_assessed;
   Remarks reasons;
 
-  /// How far the value is on the right side of its limit, as a share of it; negative on the wrong.
+  /// Distance of the value from its limit as a share of the limit; negative if the check fails.
   std::optional<double> margin() const;
 };
 
@@ -124,12 +124,12 @@ Check judged(Rule rule, Subject subject, double value,
              std::optional<glm::dvec3> worst = std::nullopt);
 Check not_assessed(Rule rule, Subject subject, Remark reason);
 
-/// How many of each verdict, by CheckVerdict.
+/// Number of checks with each verdict, indexed by CheckVerdict.
 using CheckCounts = std::array<size_t, 5>;
 CheckCounts counts_of(const std::vector<Check>& checks);
 size_t count_of(const CheckCounts& counts, CheckVerdict verdict);
-/// "3 checks fail, 2 not assessed", "no check made fails, 2 not assessed, 1 not verified": what
-/// passes is no verdict on the whole.
+/// "3 checks fail, 2 not assessed", "no check made fails, 2 not assessed, 1 not verified". Never
+/// says that the building passes.
 std::string words_of(const CheckCounts& counts);
 
 }  // namespace luxodus

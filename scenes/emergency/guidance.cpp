@@ -8,11 +8,12 @@ namespace luxodus {
 
 namespace {
 
-/// Nearer to each other, seen from above, two points have no direction [m].
+/// Two points closer than this, seen from above, define no direction [m].
 constexpr double no_direction_m = 0.01;
-/// A face that looks up or down more steeply has its top ahead: sine of 45 degrees.
+/// A face whose normal is steeper than 45 degrees (this sine) counts as lying flat: its top is
+/// ahead.
 constexpr double lies_flat = 0.707;
-/// A step that is this share of itself short of the end is the end.
+/// Rounding: a time short of the end by less than this share of a step is the end.
 constexpr double step_rounding = 1e-9;
 
 double angle_in_plan_deg(const glm::dvec3& a, const glm::dvec3& b) {
@@ -22,7 +23,8 @@ double angle_in_plan_deg(const glm::dvec3& a, const glm::dvec3& b) {
   return glm::degrees(std::acos(std::clamp(glm::dot(p, q) / lengths, -1.0, 1.0)));
 }
 
-/// Whether a direction is that of the route somewhere in the metres that follow a place.
+/// Whether a direction is within the guiding angle of the route anywhere in the metres after a
+/// place.
 bool points_along(const EscapeRoute& route, double from_m, const glm::dvec3& direction) {
   double before = 0;
   for (size_t i = 1; i < route.path.size(); ++i) {
@@ -68,7 +70,7 @@ double passed_at_m(const EscapeRoute& route, const glm::dvec3& place) {
     const glm::dvec3 a = route.path[i - 1], leg = route.path[i] - a;
     const double t = std::clamp(glm::dot(place - a, leg) / glm::dot(leg, leg), 0.0, 1.0);
     const double distance = glm::length(place - a - leg * t), length = glm::length(leg);
-    // At a bend the leg that follows counts: that is where the arrow leads.
+    // At a bend the following leg counts: the arrow points along it.
     if (distance <= least + no_direction_m) {
       least = std::min(distance, least);
       out = before + t * length;
@@ -120,8 +122,8 @@ GuidedTime guided_time(const GuidedRoute& route) {
   return out;
 }
 
-/// A place stands for the way to the next one. All states count from the last that is not after a
-/// walker has reached it to the first that is not before he has left it.
+/// Each place stands for the part of the route up to the next place. The states that count reach
+/// from the last one before the walker reaches the place to the first one after he has left it.
 Walk walk(const GuidedRoute& route, double start_s, double speed_m_s) {
   Walk out;
   out.start_s = start_s;

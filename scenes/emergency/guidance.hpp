@@ -1,8 +1,9 @@
 // Whether people on an escape route are guided to its end, in space and in time: which signs guide
-// them at a place, up to when every place is guided, how far somebody comes who sets out at a time.
-// It says nothing about how signs are read (legibility.hpp), nor about heat, gases or how long
-// people need to set out: it is no analysis of available and required safe egress time. Pure
-// functions; any thread. Design: docs/decisions/0049-guidance-over-time.md.
+// them at a place, until when every place is guided, and how far a person gets who sets out at a
+// given time. It does not decide whether a sign can be read (legibility.hpp), and it knows neither
+// heat nor gases nor the time that people need to set out: it is no analysis of available and
+// required safe egress time. Pure functions; any thread. Design:
+// docs/decisions/0049-guidance-over-time.md.
 #pragma once
 
 #include <optional>
@@ -13,34 +14,36 @@
 
 namespace luxodus {
 
-/// A sign is ahead within this angle of the way, and points along it within the same, seen from
-/// above [deg].
+/// Largest angle, seen from above, between the route and a sign that counts as ahead, and between
+/// the route and an arrow that counts as pointing along it [deg].
 inline constexpr double guiding_angle_deg = 60;
-/// Behind the place where a sign is passed its arrow may point along any of the next metres [m].
+/// An arrow may point along the route anywhere in this distance after the place where its sign is
+/// passed [m].
 inline constexpr double arrow_reach_m = 2;
 
-/// The times of the states: from, from + step, ..., and the last one.
+/// Times of the states: from, from + step, ..., and to.
 std::vector<double> times_of(const TimeSettings& time);
 
-/// Where the arrow of a face points, in the scene, level and of unit length. A sign that lies on
-/// the floor or hangs under a ceiling has its top ahead.
+/// Direction of a face's arrow in the scene, horizontal and of unit length. The top of a sign that
+/// lies on the floor or hangs flat under a ceiling counts as ahead.
 glm::dvec3 arrow_direction(const Sign& sign, SignArrow arrow, bool back_face);
 
-/// How far along a route somebody has come who passes a place: the point that is nearest to it. At
-/// a bend the leg that follows counts [m].
+/// Distance along a route at which a walker passes a place: that of the nearest point of the route.
+/// At a bend the following leg counts [m].
 double passed_at_m(const EscapeRoute& route, const glm::dvec3& place);
 
-/// Whether somebody at a place of a route can follow a sign, if it can be read: it leads to this
-/// route, lies ahead of the walker, is passed later, and its arrow points along the route there.
-/// `view`: of the sign from the walker's eye.
+/// Whether a walker on a route can follow a sign, provided that the sign can be read: it leads to
+/// this route, lies ahead of the walker, is passed later, and its arrow points along the route
+/// there.
+/// `view`: the sign as seen from the walker's eye.
 bool can_guide(const EscapeRoute& route, const Walker& walker, const Sign& sign,
                const SignView& view);
 
 enum class Guidance { guided, undecided, not_guided };
-/// "guided", ...
+/// "guided", "undecided", ...
 const char* name_of(Guidance guidance);
 
-/// One route for eyes of one height. `at[t][i]`: at time t, at place i.
+/// One route for one eye height. `at[t][i]`: guidance at time t and place i.
 struct GuidedRoute {
   double length_m = 0;
   std::vector<double> times_s;  // ascending, at least one
@@ -51,23 +54,23 @@ struct GuidedRoute {
   bool holds(size_t time) const;  // at every place
 };
 
-/// Up to when every place was guided, without a gap from the first state on.
+/// The last state up to which every place was guided in every state.
 struct GuidedTime {
-  std::optional<double> until_s;    // the last such state; none: not in the first
-  std::optional<double> lost_by_s;  // the next state; none: in all of them
+  std::optional<double> until_s;    // that state; none: not even the first state
+  std::optional<double> lost_by_s;  // the state after it; none: all states are guided
   double lost_at_m = 0;             // the first place that was not guided then
 };
 GuidedTime guided_time(const GuidedRoute& route);
 
-/// How far somebody comes who walks at a constant speed. Between two states the worse holds, for
-/// all of the time that he takes to the next place.
+/// How far a person gets who walks at a constant speed. A place must be guided in all states from
+/// the last one before the walker reaches it to the first one after he reaches the next place.
 struct Walk {
-  enum class End { arrives, lost, unknown };  // unknown: still on the way after the last state
+  enum class End { arrives, lost, unknown };  // unknown: still walking after the last state
   double start_s = 0;
   End end = End::arrives;
-  double at_m = 0, at_s = 0;  // where and when; of who arrives, the end of the route
+  double at_m = 0, at_s = 0;  // where and when the walk ends
 };
-/// Requires: a start within the times, a speed above 0 [m/s].
+/// Requires: a start between the first and the last state; a speed above 0 [m/s].
 Walk walk(const GuidedRoute& route, double start_s, double speed_m_s);
 const char* name_of(Walk::End end);
 

@@ -9,14 +9,14 @@ namespace luxodus {
 
 namespace {
 
-/// A verdict's distance from its limit, in standard errors.
+/// Distance of a value from its limit at which a verdict is given, in standard errors.
 constexpr double sure = 2;
-/// Below the first share a sign is hidden; up to the second what arrives is a mixture of the sign
-/// and of what stands before it, of which nothing is said.
+/// A sign of which less than the first share is visible is hidden. Up to the second share, light of
+/// the obstacle is mixed with that of the sign, and no verdict is given.
 constexpr double hidden_share = 0.02, whole_share = 0.95;
 
-/// Visibility level of what differs from its background by so much, both seen through a veil, with
-/// the error of both.
+/// Visibility level, with its standard error, of a difference from a background, both seen through
+/// a veil.
 Uncertain level(const Uncertain& difference, const Uncertain& background, double veil,
                 double size_arcmin, const Eye& eye) {
   if (!(size_arcmin > 0)) return {};
@@ -26,7 +26,7 @@ Uncertain level(const Uncertain& difference, const Uncertain& background, double
   const double under = background.value + veil;
   const double value = at(difference.value, under);
   const double by_chance = at(difference.error, under);
-  // The background is also what the eye adapts to.
+  // The eye adapts to the background, so its error changes the threshold as well.
   return {value, std::hypot(by_chance, at(difference.value, under + background.error) - value)};
 }
 
@@ -46,8 +46,8 @@ bool has_legend(const SignFace& face) {
          std::count(face.colour.begin(), face.colour.end(), SignColour::green) > 0;
 }
 
-/// Seen by nobody: neither the pattern, nor a silhouette that could be told from chance where
-/// chance is smaller than what an eye tells apart.
+/// Whether the face is certainly not seen: its pattern is below the threshold, and so is its
+/// silhouette, or the silhouette is not significant although its error is below the threshold.
 bool unseen(const Uncertain& pattern, const Uncertain& silhouette) {
   const bool no_silhouette =
       surely_below(silhouette, level_seen) ||
@@ -55,7 +55,7 @@ bool unseen(const Uncertain& pattern, const Uncertain& silhouette) {
   return surely_below(pattern, level_seen) && no_silhouette;
 }
 
-/// Between which verdicts chance has left a view open, the better first.
+/// The verdicts that remain possible, the better one first.
 RemarkId open_between(const Uncertain& reading, const Uncertain& pattern,
                       const Uncertain& silhouette) {
   const bool may_be_read = !surely_below(reading, level_read);
@@ -64,7 +64,7 @@ RemarkId open_between(const Uncertain& reading, const Uncertain& pattern,
   return seen ? RemarkId::legible_or_not : RemarkId::legible_or_invisible;
 }
 
-/// Of what light alone would let be read, or perhaps.
+/// Limits the verdict on a sign that would be legible, or may be, by its light alone.
 void judge_in_irritant_smoke(Sight& sight) {
   const bool undecided = sight.verdict == SightVerdict::undecided;
   if (undecided && !surely_above(sight.seeing_level, level_seen)) {
@@ -75,7 +75,7 @@ void judge_in_irritant_smoke(Sight& sight) {
   }
 }
 
-/// By what the eye receives alone.
+/// The verdict by the light that reaches the eye.
 void judge_by_light(Sight& sight, const SignView& view, const SignLook& look, const Eye& eye) {
   const double whole = std::sqrt(view.width_arcmin * view.height_arcmin);
   const double veil = look.veil_cd_m2;
@@ -161,9 +161,9 @@ double error_of_level_beyond(const SignLook& first, const SignLook& other, const
   const auto brighter_ground = [&](const SignLook& look, double by) {
     return at(look.difference.value, under(look) + by) - at(look.difference.value, under(look));
   };
-  // What errs alike in both lights counts by how differently they take it. The same paths tell of
-  // the first light and of what is beyond it, so the two add up at worst. Between difference and
-  // ground errors are taken as independent, as in level().
+  // An error that both lights share counts by the difference of its effects in them. The same paths
+  // estimate the first light and the rest of the other one, so the two errors are correlated: their
+  // sum is the worst case. Errors of difference and ground are taken as independent, as in level().
   const double by_difference =
       at(beyond.difference.error, under(other)) +
       std::abs(at(first.difference.error, under(other)) - at(first.difference.error, under(first)));

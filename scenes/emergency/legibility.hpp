@@ -1,6 +1,7 @@
-// Whether somebody reads a sign, from the luminances that arrive at the eye: the verdict of the
-// reality mode. A verdict is given only where it holds by two standard errors. It says what can be
-// read when looked at; to notice a sign is another matter. Pure functions; any thread.
+// Whether a person reads a sign, judged from the luminances that arrive at the eye: the verdict of
+// the reality mode. A verdict is given only if the value is two standard errors away from the
+// limit. It says what a person can read who looks at the sign, not whether the sign is noticed.
+// Pure functions; any thread.
 #pragma once
 
 #include <optional>
@@ -18,16 +19,16 @@ struct Uncertain {
   double error = 0;
 };
 
-/// What arrives from one sign.
+/// Light that arrives at an eye from one sign.
 struct SignLook {
   Uncertain legend, ground, surround;  // luminances at the eye [cd/m2]
-  /// Legend less ground at the eye, without the light that the smoke sends from before them: that
-  /// is the same for both, and all its chance would be in their difference.
+  /// Luminance of the legend minus that of the ground, at the eye, without light that the smoke in
+  /// front of them scatters into the eye: it is the same for both, and would only add its noise.
   Uncertain difference;
-  Uncertain face;            // mean of the whole face
-  double visible_share = 1;  // of the face that nothing solid hides
-  double transmission = 1;   // of the smoke on the way
-  double veil_cd_m2 = 0;     // of glare in the eye
+  Uncertain face;            // mean luminance of the whole face
+  double visible_share = 1;  // share of the face that nothing solid hides
+  double transmission = 1;   // share of light that smoke between sign and eye lets pass
+  double veil_cd_m2 = 0;     // veiling luminance of disability glare
 };
 
 enum class SightVerdict { legible, visible, invisible, hidden, undecided, not_assessed };
@@ -36,14 +37,16 @@ const char* name_of(SightVerdict verdict);
 
 struct Sight {
   SightVerdict verdict = SightVerdict::not_assessed;
-  std::optional<Remark> reason;  // where there is one to give
-  Uncertain reading_level;       // visibility level of the smallest detail of the legend
-  Uncertain seeing_level;        // of the face as a whole, by its pattern or before its surround
-  double extinction = 0;         // mean on the line of sight [1/m]
-  double jin_m = 0;              // how far Jin's law would have it legible
+  std::optional<Remark> reason;
+  Uncertain reading_level;  // visibility level of the legend's smallest detail
+  Uncertain
+      seeing_level;  // of the whole face: of its pattern, or of its silhouette against the surround
+  double extinction = 0;  // mean along the line of sight [1/m]
+  double jin_m = 0;       // legible distance by Jin's law
   bool jin_legible = false;
-  bool stings = false;      // irritant smoke and the distance forbid reading it, whatever its light
-  ViewingDistance viewing;  // what the code's rule would say
+  bool stings =
+      false;  // irritant smoke makes reading impossible at this distance, whatever the light
+  ViewingDistance viewing;  // distance by the code's rule
 };
 
 struct SightRules {
@@ -51,21 +54,22 @@ struct SightRules {
   bool irritant_smoke = false;
 };
 
-/// Requires: a view with a face turned to the eye.
+/// Requires: a view in which a face is turned to the eye.
 Sight judge_sight(const Sign& sign, const SignView& view, const SignLook& look,
                   const SightRules& rules);
 
-/// Whether it is read, or chance leaves open that it is.
+/// Whether the sign is read, or the verdict is undecided and it may be read.
 bool may_be_read(const Sight& sight);
 
-/// Of one view in two lights that the same paths have shown: the standard error of its level of
-/// reading in the other light less that in the first. `beyond`: what arrives in the other light
-/// less what does in the first, with the errors of that.
+/// Standard error of the difference of a view's reading levels in two lights, `other` minus
+/// `first`, both of which were estimated from the same paths. `beyond`: what arrives in the other
+/// light minus what arrives in the first, with the errors of that difference.
 double error_of_level_beyond(const SignLook& first, const SignLook& other, const SignLook& beyond,
                              const SignView& view, const Eye& eye);
 
-/// Which of two verdicts on one view, in two lights, counts: the one that is worse, or may be. What
-/// is undecided may be invisible, unless it is surely seen: then it is legible or visible.
+/// Whether verdict `a` counts rather than `b`, of two verdicts on one view in two lights: the worse
+/// one counts. An undecided view counts as possibly invisible, unless the face is certainly seen;
+/// then it is either legible or visible.
 bool is_worse(const Sight& a, const Sight& b);
 
 }  // namespace luxodus

@@ -1,4 +1,4 @@
-// Illuminance on routes, in open areas and on task planes.
+// Rules for the illuminance on routes, in open areas and on task planes.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,13 +21,13 @@ struct Spread {
   double mean = 0;
   glm::dvec3 darkest{0};
 
-  /// Infinite where some place has no light at all.
+  /// Largest over smallest; infinite if a place has no light at all.
   double diversity() const {
     return least > 0 ? most / least : std::numeric_limits<double>::infinity();
   }
 };
 
-/// Of all luminaires, each with its factor.
+/// Illuminance from all luminaires, the light of each times its factor.
 Spread spread_of(const std::vector<LitPoint>& points, const std::vector<double>& factors) {
   Spread spread;
   for (const LitPoint& point : points) {
@@ -46,7 +46,7 @@ std::vector<double> all_lit(const std::vector<LitPoint>& points) {
   return std::vector<double>(points.empty() ? 0 : points.front().lux.size(), 1.0);
 }
 
-/// From the end of the rated duration back to a new luminaire.
+/// Factors from the flux at the end of the rated duration to that of a new luminaire.
 std::vector<double> as_new(const SceneDescription& scene) {
   std::vector<double> factors;
   for (const uint32_t number : emergency_luminaires(scene))
@@ -62,7 +62,7 @@ Check even(const Rule& rule, const Subject& subject, const Spread& spread) {
   return judged(rule, subject, spread.diversity(), spread.darkest);
 }
 
-/// Where it is darkest when one luminaire fails, and which.
+/// The failure of one luminaire that leaves the smallest illuminance.
 struct LampFailure {
   Spread spread;
   std::string luminaire;
@@ -82,7 +82,7 @@ std::optional<LampFailure> worst_failure(const SceneDescription& scene,
   return worst;
 }
 
-/// Of hospitals: what is left must be enough.
+/// Hospitals (N4, IBC group I-2): illuminance with one luminaire failed.
 Check enough_with_one_failed(const Rule& rule, const SceneDescription& scene,
                              const Subject& subject, const std::vector<LitPoint>& points) {
   const auto worst = worst_failure(scene, points);

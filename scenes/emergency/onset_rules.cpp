@@ -1,5 +1,5 @@
-// Illuminance a while after the mains have failed. Fluxes are those of the end of the rated
-// duration, as for the rules whose light has to be there: what luminaires give then is least.
+// Rules for the illuminance some time after the mains have failed, and for durations. Fluxes are
+// those at the end of the rated duration, where luminaires give least.
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -16,7 +16,7 @@ using namespace rule_limit;
 
 namespace {
 
-/// Of each luminaire; 0 of those that state no onset.
+/// Share of its flux that each luminaire gives after this time; 0 without a stated onset.
 std::vector<double> shares_after(const SceneDescription& scene, double seconds) {
   std::vector<double> out;
   for (const uint32_t number : emergency_luminaires(scene)) {
@@ -26,7 +26,7 @@ std::vector<double> shares_after(const SceneDescription& scene, double seconds) 
   return out;
 }
 
-/// Which luminaires state no onset; none where all do.
+/// A remark that names luminaires without a stated onset; none if all state it.
 std::optional<Remark> silent(const SceneDescription& scene) {
   std::string first;
   int more = -1;
@@ -94,7 +94,7 @@ std::vector<Check> checks_of_task_onset(const SceneDescription& scene, const Sub
 
 namespace {
 
-/// Of all that is lit on emergency supply, but for signs that glow by themselves.
+/// Durations of everything on emergency supply, without photoluminescent signs.
 struct SupplyHours {
   size_t said = 0, unsaid = 0;
   double shortest = std::numeric_limits<double>::infinity();

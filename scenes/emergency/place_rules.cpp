@@ -1,4 +1,4 @@
-// Glare of luminaires, and what they must be near to.
+// Rules for glare of luminaires, and for luminaires near points of emphasis.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ using namespace rule_limit;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-/// Floors that differ by less are of one storey: landings, ramps, stages [m].
+/// Floors whose heights differ by less belong to one storey: landings, ramps, stages [m].
 constexpr double storey_m = 2;
 constexpr int directions_azimuth = 72, directions_polar = 90, tube_steps = 360;
 
@@ -26,7 +26,7 @@ double glare_limit(double height_m) {
   return max_glare_cd;
 }
 
-/// Share of its light per steradian that a point of a surface sends at an angle to its normal.
+/// Share of its light per steradian that a surface point emits at an angle to its normal.
 double density(const Emitter& e, double cosine) {
   const double c = std::max(0.0, cosine);
   switch (e.distribution) {
@@ -44,7 +44,7 @@ double density(const Emitter& e, double cosine) {
   return 0;
 }
 
-/// Of a mesh, over all its triangles: as if none hid another.
+/// A mesh: over all its triangles, as if none hid another.
 double mesh_density(const Emitter& e, const glm::dvec3& world) {
   double area = 0, sum = 0;
   for (const auto& t : e.mesh.triangles) {
@@ -59,7 +59,7 @@ double mesh_density(const Emitter& e, const glm::dvec3& world) {
   return area > 0 ? sum / area : 0;
 }
 
-/// Of the side of a cylinder along local x: the mean over its circumference.
+/// Side of a cylinder along local x: mean over its circumference.
 double tube_density(const Emitter& e, const glm::dvec3& local) {
   const double aside = std::sqrt(std::max(0.0, 1 - local.x * local.x));
   double sum = 0;
@@ -68,13 +68,13 @@ double tube_density(const Emitter& e, const glm::dvec3& local) {
   return sum / tube_steps;
 }
 
-/// Of a sphere, the same in all directions: the mean over its surface.
+/// A sphere: the same in all directions.
 double sphere_density() {
   return 1 / (4 * pi);
 }
 
-/// Intensity far away [cd] per lumen in a direction [scene coordinates]. Requires: neither a spot
-/// nor collimated.
+/// Far-field intensity [cd] per lumen in a direction [scene coordinates]. Requires: neither a spot
+/// nor a collimated emitter.
 double intensity_per_lm(const Emitter& e, const glm::dvec3& world) {
   const glm::dvec3 local = glm::transpose(e.frame.axes) * world;
   if (e.distribution == Distribution::web) return e.web->pdf(local);
@@ -93,8 +93,8 @@ double intensity_per_lm(const Emitter& e, const glm::dvec3& world) {
   return 0;
 }
 
-/// Of a spot, so far from its axis: full within the inner angle, nothing beyond the outer, between
-/// them the smooth step in 1 - cos that the tracer samples.
+/// Intensity of a spot at an angle from its axis: full within the inner angle, zero outside the
+/// outer one, between them the smooth step in 1 - cos that the tracer samples.
 double spot_per_lm(const Emitter& e, double off_axis_deg) {
   const auto one_minus_cos = [](double degrees) {
     return 2 * std::pow(std::sin(degrees * pi / 360), 2);
@@ -108,7 +108,7 @@ double spot_per_lm(const Emitter& e, double off_axis_deg) {
   return full * t * t * (3 - 2 * t);
 }
 
-/// Whether the way below a luminaire is a level escape route: then glare counts in a zone alone.
+/// Whether a luminaire is over a level escape route, where glare counts only in the zone of E8.
 bool over_level_route(const SceneDescription& scene, const glm::dvec3& place) {
   const auto floor = floor_below(scene, place);
   return floor && std::any_of(scene.routes.begin(), scene.routes.end(), [&](const auto& route) {
@@ -116,7 +116,7 @@ bool over_level_route(const SceneDescription& scene, const glm::dvec3& place) {
          });
 }
 
-/// Directions that count, by their angle from straight down.
+/// The directions in which glare counts, by their angle from straight down.
 struct Zone {
   double low_deg = 0, high_deg = 180;
   double distance_deg(double polar_deg) const {
@@ -124,12 +124,12 @@ struct Zone {
   }
 };
 
-/// How far from the axis of a spot or a beam the nearest direction of a zone is.
+/// Smallest angle between the axis of a spot or beam and the directions of a zone.
 double off_axis_deg(const Emitter& e, const Zone& zone) {
   return zone.distance_deg(std::acos(std::clamp(e.frame.axes[2].z, -1.0, 1.0)) * 180 / pi);
 }
 
-/// The largest intensity in a zone [cd]; none where a beam of parallel light points into it.
+/// Largest intensity in a zone [cd]; none if a beam of parallel light points into the zone.
 std::optional<double> glaring(const Emitter& e, double flux, const Zone& zone) {
   if (e.distribution == Distribution::spot) return flux * spot_per_lm(e, off_axis_deg(e, zone));
   if (e.distribution == Distribution::collimated)

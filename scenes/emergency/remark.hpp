@@ -1,5 +1,6 @@
-// What is said of a check, a view or a state: an id with arguments, never a sentence. Sentences are
-// made where people read them, in their language (actors/judge/texts). Plain values; any thread.
+// Remarks on a check, a view or a state: an id with arguments, never a sentence. Sentences are made
+// in the reader's language where they are shown (actors/judge/texts). Plain values and pure
+// functions; any thread.
 #pragma once
 
 #include <span>
@@ -106,7 +107,7 @@ enum class RemarkId {
   sign_luminance_stated,
   other_rules,
   other_deviations,
-  // Where a medium comes from
+  // Sources of media
   one_layer,
   layers,
   grid_cells,
@@ -134,23 +135,23 @@ enum class RemarkId {
   source_fernkorn,
   source_named,
   source_recollection,
-  count  // of the ids before
+  count  // number of ids
 };
 
-/// An id as files write it, and what its arguments are, in their order.
+/// How files write an id, and the meaning of its arguments in their order.
 struct RemarkKind {
   RemarkId id;
   std::string_view name;       // "points_in_bodies"
-  std::string_view arguments;  // "left out, of points"; "" for none
+  std::string_view arguments;  // "left out, of points"; "" if it has none
 };
 
 /// All kinds of remarks, in the order of RemarkId.
 std::span<const RemarkKind> remark_kinds();
 const RemarkKind& kind_of(RemarkId id);
-/// How many arguments a remark of this kind has.
+/// Number of arguments of a remark of this kind.
 size_t arity_of(const RemarkKind& kind);
 
-/// A name that the scene gives, or a number in the unit that its kind states.
+/// A name from the scene, or a number in the unit that the kind states.
 using RemarkArgument = std::variant<std::string, double>;
 
 struct Remark {
@@ -162,8 +163,8 @@ struct Remark {
 
 using Remarks = std::vector<Remark>;
 
-/// remark(RemarkId::points_in_bodies, 3, 40). Requires: as many arguments as its kind has (a
-/// programmer's mistake throws).
+/// Makes a remark, as remark(RemarkId::points_in_bodies, 3, 40) does. Requires: as many arguments
+/// as its kind has (else it throws: a programmer's mistake).
 Remark remark_of(RemarkId id, std::vector<RemarkArgument> arguments);
 template <class T>
 RemarkArgument argument_of(const T& value) {
@@ -177,7 +178,7 @@ Remark remark(RemarkId id, const Arguments&... arguments) {
   return remark_of(id, {argument_of(arguments)...});
 }
 
-/// What a check is of, and where people look from, in the order in which lists name them.
+/// Subjects of checks, and places from which people look, in the order of lists.
 enum class SubjectKind {
   emphasis,
   all_luminaires,
@@ -191,17 +192,17 @@ enum class SubjectKind {
   sign,
   task_area,
   building,
-  count  // of the kinds before
+  count  // number of kinds
 };
-/// As files write it: "open area".
+/// Name in files: "open area".
 std::string_view name_of(SubjectKind kind);
 
 struct Subject {
   SubjectKind kind = SubjectKind::building;
-  std::string name = {};                            // "" where the kind says it all
-  EmphasisKind emphasis = EmphasisKind::exit_door;  // of a point of emphasis
+  std::string name = {};                            // "" if the kind alone identifies it
+  EmphasisKind emphasis = EmphasisKind::exit_door;  // meaningful for points of emphasis only
 
-  /// A route or an area: light on it is judged.
+  /// Whether it is a route or an area, whose illuminance is judged.
   bool is_place() const {
     return kind == SubjectKind::route || kind == SubjectKind::open_area ||
            kind == SubjectKind::task_area;

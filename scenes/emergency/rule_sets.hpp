@@ -1,5 +1,5 @@
-// The sets of rules that a building can be judged by, and national deviations from them: each is
-// named by whoever asks, none is a default. Constant data and pure functions; any thread.
+// Rule sets that a building can be judged by, and national deviations from them. The user names
+// each; none is a default. Constant data and pure functions; any thread.
 #pragma once
 
 #include <optional>
@@ -15,27 +15,27 @@ namespace luxodus {
 
 enum class RuleSet { en1838_2013, en1838_2024, nfpa101 };
 
-/// What one country or authority asks otherwise, or beside a set.
+/// Requirements of one country or authority that replace or extend those of a set.
 enum class Deviation { duration_3h, de_asr, de_din_4844, uk_bs_5266, us_ibc, us_ibc_i2 };
 
-/// What is said of a set or a deviation where it is used.
+/// A rule set or deviation, as output describes it.
 struct NamedRules {
-  const char* id;       // as it is written in scenes and options: "en1838-2024"
+  const char* id;       // in scenes and options: "en1838-2024"
   const char* edition;  // "EN 1838:2024"
-  RemarkId asks;        // what it asks
-  const char* source;   // what it is quoted from
-  std::optional<RemarkId> status = std::nullopt;  // where there is something to say
+  RemarkId asks;        // what it requires
+  const char* source;   // document that quotes it
+  std::optional<RemarkId> status = std::nullopt;
 };
 
-/// In the order of RuleSet, of Deviation.
+/// In the order of RuleSet and of Deviation.
 std::span<const NamedRules> rule_sets();
 std::span<const NamedRules> deviations();
 const NamedRules& named(RuleSet set);
 const NamedRules& named(Deviation deviation);
-/// Whether it deviates from this set, not from another.
+/// Whether a deviation belongs to this set.
 bool deviates_from(Deviation deviation, RuleSet set);
 
-/// One set of rules, with the deviations from it.
+/// One rule set with its deviations.
 struct CodeChoice {
   RuleSet set = RuleSet::en1838_2013;
   std::set<Deviation> deviations = {};
@@ -49,8 +49,9 @@ RuleId duration_rule(const CodeChoice& codes);
 /// Its limit [h].
 double rated_duration_h(const CodeChoice& codes);
 
-/// Every set that is named, once, in the order of the enumeration.
-/// Errors: no set, an unknown name (all are listed), a deviation from none of the sets.
+/// The named sets without duplicates, in the order of the enumeration.
+/// Errors: no set; an unknown name (the message lists all); a deviation that belongs to none of the
+/// sets.
 Result<std::vector<CodeChoice>> chosen_codes(const std::vector<std::string>& sets,
                                              const std::vector<std::string>& deviations);
 

@@ -7,17 +7,17 @@ namespace luxodus {
 
 namespace {
 
-/// For detection in 99.9 % of cases, and the time from which it no longer counts [s].
+/// Adrian's k for detection in 99.9 % of cases, and the time from which time no longer counts [s].
 constexpr double detection = 2.6, long_enough_s = 2;
-/// Below this the threshold is that of darkness [cd/m2]: far under the dimmest background of the
-/// law's data, and above zero, of which it takes the logarithm.
+/// Smallest background of the law [cd/m2]: far below the dimmest background of its data, and above
+/// zero, since the law takes its logarithm.
 constexpr double darkness = 1e-6;
 
 double squared(double x) {
   return x * x;
 }
 
-/// Ricco's and Weber's parts of the law: areas below and above full summation.
+/// Terms of the law by Ricco (complete spatial summation) and by Weber.
 struct Summation {
   double flux;       // square root of the luminous flux function
   double luminance;  // square root of the luminance function
@@ -35,7 +35,7 @@ Summation summation(double background) {
   return {std::pow(10, 0.028 + 0.173 * lg), std::pow(10, -0.891 + 0.5275 * lg + 0.0227 * lg * lg)};
 }
 
-/// Targets darker than their background are seen more easily.
+/// Targets that are darker than their background have a lower threshold.
 double polarity_factor(double background, double size_arcmin, double brighter_threshold) {
   if (background <= 0.004) return 1;
   const double f = background >= 0.1 ? 0.125 : 0.075;

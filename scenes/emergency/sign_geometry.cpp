@@ -9,18 +9,19 @@ namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 constexpr double arcmin = 60.0 * degrees;
-/// A normal whose level part is as short is that of a face on the floor or under the ceiling.
+/// A face whose normal has a horizontal part shorter than this lies on the floor or under the
+/// ceiling.
 constexpr double level_normal = 1e-3;
-/// Lines to a face end so far before it [m].
+/// Lines to a face end at this distance before it [m].
 constexpr double before_face_m = 1e-3;
 
-/// Angle between two directions; the form with atan2 keeps its digits for small and for flat
-/// angles, where acos loses half of them.
+/// Angle between two directions. With atan2 small and nearly flat angles keep all digits; with acos
+/// they would lose half of them.
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-/// Angle that a segment around a centre takes up for the eye.
+/// Angle that a segment subtends at the eye; `half` reaches from its centre to one end.
 double extent(const glm::dvec3& eye, const glm::dvec3& centre, const glm::dvec3& half) {
   return angle_between(centre - half - eye, centre + half - eye);
 }
@@ -46,7 +47,7 @@ SignView view_of_sign(const Sign& sign, const glm::dvec3& eye) {
   const glm::dvec3 half_height = 0.5 * sign.height_m * sign.frame.axes[1];
   view.width_arcmin = extent(eye, view.centre, half_width) * arcmin;
   view.height_arcmin = extent(eye, view.centre, half_height) * arcmin;
-  // A detail may lie in the plane of the tilt, where it shrinks most.
+  // A detail may lie in the plane of the tilt, where foreshortening is largest.
   const double seen_m = sign.smallest_detail_m * glm::dot(view.normal, to_eye) / view.distance_m;
   view.detail_arcmin = 2 * std::atan2(seen_m / 2, view.distance_m) * arcmin;
   return view;
@@ -65,7 +66,7 @@ PlanLine plan_line(const SignView& view, const glm::dvec3& eye) {
   PlanLine line;
   const glm::dvec2 normal(view.normal), to_eye(glm::dvec2(eye) - glm::dvec2(view.centre));
   const bool lies_level = glm::length(normal) < level_normal;
-  // Off the face, so that the wall behind it does not hide it.
+  // The end is moved off the face, so that the wall behind it does not hide it.
   const glm::dvec2 off = lies_level ? glm::dvec2(0) : before_face_m * glm::normalize(normal);
   line.to = {glm::dvec2(view.centre) + off, eye.z};
   line.distance_m = glm::length(line.to - eye);

@@ -1,4 +1,4 @@
-// Signs: brightness, evenness, contrast, height, letters, and whether people are near enough.
+// Rules for signs: luminance, evenness, contrast, height, letters, distance.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,14 +15,14 @@ using namespace rule_limit;
 
 namespace {
 
-constexpr double low_level_m = 1;  // where way guidance along the floor ends
+constexpr double low_level_m = 1;  // below this height a sign is low-level way guidance
 constexpr double standing_eye_m = 1.65;
 
 struct Extremes {
   double least = std::numeric_limits<double>::infinity(), most = 0;
 };
 
-/// Of the brightness pattern over one colour, whose mean is 1.
+/// Extremes of the brightness pattern over one colour; the pattern's mean is 1.
 Extremes pattern_of(const SignFace& face, SignColour colour) {
   Extremes e;
   for (size_t i = 0; i < face.relative_luminance.size(); ++i) {
@@ -34,7 +34,7 @@ Extremes pattern_of(const SignFace& face, SignColour colour) {
   return e;
 }
 
-/// Whether somebody who walks on comes nearer to a sign: one behind him is none, whatever it says.
+/// Whether a walker still comes nearer to a sign. A sign behind him does not count.
 bool lies_ahead(const Walker& walker, const SignView& view) {
   return glm::dot(glm::dvec2(view.centre - walker.foot), glm::dvec2(walker.ahead)) > 0;
 }
@@ -44,8 +44,8 @@ Remark smoke_condition(const SceneDescription& scene) {
                                                 : RemarkId::no_smoke_expected);
 }
 
-/// A mean that is too low is too low somewhere; one that is high enough says nothing of the dimmest
-/// place.
+/// If the mean is below the limit, so is the smallest value. A mean above the limit does not show
+/// that the smallest value is.
 Check smallest_green(const SceneDescription& scene, const Sign& sign, const Subject& subject,
                      const CodeChoice& codes) {
   const double limit = scene.assessment.smoke_expected ? min_green_in_smoke : min_green;
@@ -75,12 +75,12 @@ Check evenness(const Sign& sign, const Subject& subject, const CodeChoice& codes
   return judged(rule_of(RuleId::S2, codes), subject, worst, sign.frame.origin);
 }
 
-/// As the eye weighs wavelengths, in equal-energy light.
+/// Mean of a spectrum weighted by V(lambda), in equal-energy light.
 double luminous_mean(const Spectrum& s) {
   return s.integral_with(cie_y()) / cie_y().integral();
 }
 
-/// By the means of the colours.
+/// Contrast of the mean luminances of the colours.
 std::vector<Check> contrast(const Sign& sign, const Subject& subject, const CodeChoice& codes) {
   const double green = sign.emergency.green_cd_m2;
   if (!(green > 0))
@@ -110,7 +110,7 @@ std::vector<Check> mounting(const SceneDescription& scene, const Sign& sign, con
           judged(rule_of(RuleId::S6a, codes), subject, elevation, sign.frame.origin)};
 }
 
-/// Of a face that shows what falls on it.
+/// Luminance of green on an externally lit face.
 Check lit_green(const SceneDescription& scene, const Sign& sign, const Subject& subject, double lux,
                 const CodeChoice& codes) {
   const double limit = scene.assessment.smoke_expected ? min_green_in_smoke : min_green;
@@ -128,7 +128,7 @@ Check reflected_contrast(const Sign& sign, const Subject& subject, const CodeCho
   const double green = luminous_mean(sign.green_reflectance);
   if (!(green > 0))
     return not_assessed(rule_of(RuleId::S3, codes), subject, remark(RemarkId::green_dark));
-  // Reflectances are written to some digits, means are sums of many.
+  // Rounded: reflectances are written with few digits, and their means are long sums.
   const double ratio = std::round(luminous_mean(sign.white_reflectance) / green * 1e9) / 1e9;
   const bool low = ratio < min_contrast;
   Check check = judged(rule_of(RuleId::S3, codes), subject, ratio,
@@ -191,7 +191,8 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
                                       const std::vector<std::vector<ClearSign>>& clear,
                                       const CodeChoice& codes) {
   const Subject subject = subject_of(route);
-  // Of the best sign, as a share of what its rule allows; and the nearest in metres.
+  // Over walkers: the worst share of the allowed distance (by the best sign of each), and the
+  // largest distance to the nearest sign [m].
   double worst_share = 0, worst_distance = 0;
   glm::dvec3 where_share(0), where_distance(0);
   size_t through_glass = 0;

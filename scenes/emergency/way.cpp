@@ -8,16 +8,16 @@ namespace luxodus {
 
 namespace {
 
-/// Heights that differ by less are one [m].
+/// Heights that differ by less count as equal [m].
 constexpr double level_within_m = 0.01;
-/// What is so near to an edge is on it [m].
+/// A point this close to an edge lies on it [m].
 constexpr double on_edge_m = 1e-6;
 
 int pieces(double length, double spacing) {
   return std::max(1, static_cast<int>(std::ceil(length / spacing * (1 - 1e-9))));
 }
 
-/// To the left of a leg, level.
+/// Horizontal unit vector to the left of a leg.
 glm::dvec3 left_of(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec2 way = glm::normalize(glm::dvec2(to - from));
   return {-way.y, way.x, 0};
@@ -36,7 +36,7 @@ double distance_to_outline(const glm::dvec2& p, const std::vector<glm::dvec2>& o
   return least;
 }
 
-/// By the number of edges that a ray to the right crosses.
+/// Even-odd rule: counts the edges that a ray to the right crosses.
 bool lies_in(const glm::dvec2& p, const std::vector<glm::dvec2>& outline) {
   bool in = false;
   for (size_t i = 0; i < outline.size(); ++i) {
@@ -47,7 +47,7 @@ bool lies_in(const glm::dvec2& p, const std::vector<glm::dvec2>& outline) {
   return in;
 }
 
-/// Distance in plan, and the height of the nearest point of a route.
+/// Distance in plan to a route, and the height of its nearest point.
 std::pair<double, double> nearest_of(const EscapeRoute& route, const glm::dvec2& p) {
   std::pair<double, double> best{std::numeric_limits<double>::infinity(), 0};
   for (size_t i = 1; i < route.path.size(); ++i) {
@@ -82,7 +82,7 @@ std::vector<glm::dvec3> along(const EscapeRoute& route, double aside_m, double s
     const glm::dvec3 from = route.path[i - 1], to = route.path[i];
     const glm::dvec3 aside = left_of(from, to) * aside_m;
     const int n = pieces(glm::length(to - from), spacing_m);
-    // Each leg begins where the one before ended, if that is the same place.
+    // A leg on the centre line shares its first point with the end of the leg before.
     for (int k = i > 1 && aside_m == 0 ? 1 : 0; k <= n; ++k)
       out.push_back(glm::mix(from, to, static_cast<double>(k) / n) + aside);
   }
@@ -162,7 +162,7 @@ std::optional<double> floor_below(const SceneDescription& scene, const glm::dvec
   std::pair<double, double> best{std::numeric_limits<double>::infinity(), 0};
   const auto offer = [&](const std::pair<double, double>& floor) {
     if (floor.second > place.z || floor.first > best.first) return;
-    // Of equal storeys the one just below.
+    // If several storeys are equally near in plan, the one just below counts.
     if (floor.first < best.first || floor.second > best.second) best = floor;
   };
   for (const EscapeRoute& route : scene.routes) offer(nearest_of(route, glm::dvec2(place)));

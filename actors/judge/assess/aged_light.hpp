@@ -1,27 +1,27 @@
-// Light of a state told apart by how far it has aged, so that one set of paths gives the state at
-// the end of the rated duration and the state when all was new. Flux is linear: new light is the
-// aged light of each source group over the share that is left of it. Pure; any thread.
+// Groups the sources of a scene by how far their light has aged, so that one set of paths gives
+// both the state at the end of the rated duration and the state when all was new. Flux is linear:
+// the new light of a group is its aged light divided by the remaining share. Pure functions; any
+// thread.
 #pragma once
 
 #include "scenes/light/transport/compile.hpp"
 
 namespace luxodus {
 
-/// The shares of new light that are left in a scene, each once. The first is 1: what does not age.
+/// Distinct remaining shares of new light in a scene. The first is 1, for sources that do not age.
 struct Ageing {
   std::vector<double> shares{1};
 
-  /// New light of aged light, in a scene that group_by_ageing has grouped.
+  /// The mixture that turns aged light into new light, in a scene grouped by group_by_ageing.
   GroupMixture renewal() const;
   bool any() const { return shares.size() > 1; }
 };
 
-/// What is left of an emitter's new light in an operation: 1 where nothing is said, and of one that
-/// is dark.
+/// Remaining share of an emitter's new light in an operation: 1 if the scene states no factor, and
+/// 1 for an emitter that is dark then.
 double aged_share(const Emitter& emitter, Operation operation);
 
-/// Puts every source into the group of its share.
-/// Errors: more shares than limits::ageings.
+/// Assigns every source to the group of its share. Errors: more shares than limits::ageings.
 Result<Ageing> group_by_ageing(SceneDescription& scene, Operation operation);
 
 }  // namespace luxodus

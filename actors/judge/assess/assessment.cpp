@@ -24,7 +24,7 @@ Result<void> can_assess(const SceneDescription& scene) {
   return {};
 }
 
-/// From how many places each sign is legible.
+/// Counts the places from which each sign is legible.
 void count_sweep(double factor, const std::vector<SightRow>& sights, std::vector<SweepRow>& out) {
   const auto first = static_cast<std::ptrdiff_t>(out.size());
   for (const SightRow& row : sights) {
@@ -38,14 +38,14 @@ void count_sweep(double factor, const std::vector<SightRow>& sights, std::vector
   }
 }
 
-/// Refuses what is wrong with the scene, and keeps what else was found.
+/// Errors: findings of severity error. Other findings are kept in `out`.
 Result<void> inspected(const std::shared_ptr<const SceneDescription>& scene,
                        const Scenario& scenario, int threads, Assessment& out) {
   auto found = inspect(scene, {scenario}, threads);
   if (!found) return found.problem();
   const auto errors = std::count_if(found->begin(), found->end(),
                                     [](const Finding& f) { return f.severity == Severity::error; });
-  if (errors > 0) {  // they come first
+  if (errors > 0) {  // errors are sorted first
     Problem first = found->front().problem;
     if (errors > 1)
       first.what += " (the first of " + std::to_string(errors) +

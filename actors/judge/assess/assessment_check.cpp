@@ -25,16 +25,15 @@ enum class Kind {
   place2,
   place3,
   place4,
-  // What sentences are made of
+  // Parts of sentences
   remark,
   remark_or_null,
   remarks,
   subject
 };
 
-/// A key that is read. "a.b" is b of a; "a[].b" is b of every entry of a. What may be absent ends
-/// in
-/// "?": below it, what is asked for is asked only where it is there.
+/// A key that is read. "a.b" is b of a; "a[].b" is b of every entry of a. A trailing "?" marks a
+/// key that may be absent; keys below it are required only if it is present.
 struct RequiredKey {
   std::string_view path;
   Kind kind;
@@ -308,12 +307,12 @@ bool is_kind(const Json& value, Kind kind) {
     case Kind::remark_or_null:
     case Kind::remarks:
     case Kind::subject:
-      return false;  // check_words_of says what is wrong with them
+      return false;  // check_words_of reports what is wrong with them
   }
   return false;
 }
 
-/// What sentences are made of: remarks and subjects.
+/// Checks remarks and subjects, of which sentences are made.
 Result<void> check_words_of(const Json& value, Kind kind, const std::string& where) {
   const auto check = [&](const auto& read) -> Result<void> {
     if (read) return {};
@@ -351,7 +350,7 @@ Result<void> check_key(const Json& value, std::string_view path, Kind kind,
   return check_key(*at, path, kind, where.empty() ? key : where + "." + key);
 }
 
-/// Texts, numbers and depth of all there is.
+/// Checks the sizes of all texts and numbers, and the nesting depth.
 Result<void> check_sizes(const Json& value, const std::string& where, int depth) {
   if (depth > limits::assessment_depth) return problem(where + " is nested too deep");
   if (value.is_string() && value.text().size() > limits::assessment_text &&
@@ -370,7 +369,7 @@ Result<void> check_sizes(const Json& value, const std::string& where, int depth)
   return {};
 }
 
-/// Of a report's drawings: what their loops run over, and what they divide by.
+/// Checks what drawings of a report iterate over and divide by.
 Result<void> check_plan(const Json& a) {
   const Json& levels = a["plan"]["levels"];
   if (levels.empty()) return problem("plan.levels is empty");
@@ -399,7 +398,7 @@ Result<void> check_plan(const Json& a) {
   return {};
 }
 
-/// What FDS says of a route is there as a whole, or not at all.
+/// The values that FDS gives for a route are all present, or all absent.
 template <class IsWhole>
 Result<void> check_fds(const Json& route, const IsWhole& is_whole) {
   const auto said = [&](const char* key) {
@@ -421,7 +420,7 @@ Result<void> check_fds(const Json& route, const IsWhole& is_whole) {
   return {};
 }
 
-/// Tables of states and places that are not as large as these: maps read them by both.
+/// Every table has a row for each state and a column for each place, since maps index them by both.
 Result<void> check_over_time(const Json& a) {
   const auto over = a.find("over_time");
   if (over == a.end() || over->is_null()) return {};
@@ -460,8 +459,8 @@ bool is_listed(const Json& state, const char* key, const std::string& id) {
                      [&](const Json& row) { return row.value("id", "") == id; });
 }
 
-/// Checks by rules that the judged state does not name, and counts that are not those of the
-/// checks: a verdict made of these would be of something else.
+/// Every check is by a rule set that the judged state names, and counts are those of the checks.
+/// Otherwise the verdict would be of something else.
 Result<void> check_checks(const Json& a) {
   const Json& state = a["state"];
   std::map<std::string, double> counts;
@@ -489,7 +488,7 @@ Result<void> check_checks(const Json& a) {
   return {};
 }
 
-/// Base64, which a page may hold.
+/// Whether a text is base64, which a page may contain.
 bool is_picture_text(const std::string& text) {
   return text.size() <= limits::assessment_picture &&
          std::all_of(text.begin(), text.end(), [](char c) {
@@ -498,7 +497,7 @@ bool is_picture_text(const std::string& text) {
          });
 }
 
-/// A backdrop is lines, or a picture with its place.
+/// A backdrop has either lines, or a picture with its place.
 Result<void> check_backdrops(const Json& a) {
   const auto all = a["plan"].find("backdrops");
   if (all == a["plan"].end() || all->is_null()) return {};

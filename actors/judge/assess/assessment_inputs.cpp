@@ -16,7 +16,7 @@ namespace luxodus {
 
 namespace {
 
-/// To four significant digits: a map of light is for drawing, and its file stays small.
+/// Four significant digits: an illuminance map is for drawing, and its file stays small.
 Json drawn_lux(double lux) {
   if (!std::isfinite(lux)) return nullptr;
   if (lux <= 0) return 0;
@@ -51,7 +51,7 @@ const char* word_of(MediumKind kind) {
   return words[static_cast<size_t>(kind)];
 }
 
-/// Mean over wavelength, as the eye weighs it (V(lambda), equal-energy light).
+/// Mean of a spectrum weighted by V(lambda), in equal-energy light.
 double luminous_mean(const Spectrum& s) {
   return s.integral_with(cie_y()) / cie_y().integral();
 }
@@ -116,7 +116,7 @@ Json area_json(const AssessedArea& area, const char* kind) {
   return out;
 }
 
-/// The extinction of a layer or a body, as it is written.
+/// The extinction of a layer or a body as the scene states it.
 Json optics_json(const SmokeOptics& optics) {
   return {{"extinction", exact_json(optics.extinction.sigma_t, "1/m")},
           {"wavelength", exact_json(optics.extinction.wavelength_nm, "nm")},
@@ -255,7 +255,7 @@ Json plan_json(const Assessment& assessment) {
           {"height", exact_json(floor_plane_m, "m")}};
 }
 
-/// What the reader of scenes has counted.
+/// The reader of scenes applies the same limit.
 static_assert(limits::backdrop_lines == limits::plan_lines);
 
 Json backdrops_json(const SceneDescription& scene) {

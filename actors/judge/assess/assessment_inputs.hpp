@@ -1,6 +1,6 @@
-// What an assessment was made of, as JSON: the project, luminaires, signs, routes, areas, materials
-// and media of the scene, in SI units. A report is made of these alone, without the scene. Reads
-// the project's logo again, else pure; any thread.
+// Inputs of an assessment as JSON in SI units: project, luminaires, signs, routes, areas, materials
+// and media of the scene. A report is made of these alone, without the scene. project_json and
+// backdrops_json read pictures from disk; everything else is pure. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +10,9 @@
 
 namespace luxodus {
 
-/// Base64 of the logo as a PNG is in it, where there is one that can still be read.
+/// Contains the logo as a PNG in base64 if its file can still be read.
 Json project_json(const ProjectSettings& project);
-/// Every emitter of the scene, in its order, with its fluxes and the factors that they contain.
+/// All emitters in the order of the scene, with their fluxes and the factors that these contain.
 Json luminaires_json(const SceneDescription& scene);
 Json signs_json(const SceneDescription& scene);
 /// {"routes", "areas", "emphasis"}.
@@ -20,10 +20,10 @@ Json places_json(const SceneDescription& scene);
 Json materials_json(const SceneDescription& scene);
 Json media_json(const SceneDescription& scene);
 Json scenario_json(const SceneDescription& scene, const std::string& name);
-/// Of each level its floor, its walls and its map of light; the codes' points of calculation.
+/// Floor, walls and illuminance map of each level; points of calculation of the codes.
 Json plan_json(const Assessment& assessment);
-/// Drawings under plans: their longest lines, or the base64 of their pixels as a PNG, if the file
-/// can still be read.
+/// Drawings under plans: their longest lines, or their pixels as a PNG in base64 if the file can
+/// still be read.
 Json backdrops_json(const SceneDescription& scene);
 
 }  // namespace luxodus

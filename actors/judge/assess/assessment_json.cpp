@@ -51,7 +51,7 @@ Json check_json(const Check& check) {
   return out;
 }
 
-/// What arrives at the eye and what it makes of it, in one light.
+/// Luminances at the eye and the verdict in one light.
 Json look_json(const SignLook& look, const Sight& sight) {
   return {{"legend", uncertain_json(look.legend, "cd/m2")},
           {"ground", uncertain_json(look.ground, "cd/m2")},
@@ -101,10 +101,10 @@ Json sight_json(const SightRow& row) {
   return out;
 }
 
-/// What was not judged: a rule, or views of signs where it has no id; and why.
+/// A rule that was not assessed, or views of signs if `rule` is empty, with the reasons.
 struct NotAssessed {
   std::string rule, edition;
-  bool undecided = false;  // chance has left views open
+  bool undecided = false;  // views are undecided within their standard errors
   Remarks reasons;
 
   friend auto operator<=>(const NotAssessed&, const NotAssessed&) = default;
@@ -115,7 +115,7 @@ struct NotAssessed {
   }
 };
 
-/// Each reason once, the most frequent first.
+/// Each group once, the most frequent first.
 Json not_assessed_json(const Assessment& assessment) {
   std::map<NotAssessed, size_t> groups;
   for (const Check& check : assessment.checks)
@@ -158,14 +158,14 @@ Json sweep_json(const Assessment& assessment) {
   return out;
 }
 
-/// The value at "a.b" or "a.0" of an object; null where there is none.
+/// The value at "a.b" or "a.0"; null if there is none.
 const Json* value_at(const Json& row, std::string path) {
   std::replace(path.begin(), path.end(), '.', '/');
   return row.at_path(path);
 }
 
-/// A row of every entry, with the values at these paths; remarks and subjects as their English
-/// sentences. A column whose name is not its path is "name=path".
+/// A row for every entry with the values at these paths; remarks and subjects are written as
+/// English sentences. "name=path" gives a column another name than its path.
 CsvTable csv_of(const Json& rows, const std::vector<std::string>& columns) {
   std::vector<std::string> names, paths;
   for (const std::string& column : columns) {

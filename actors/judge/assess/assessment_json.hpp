@@ -1,6 +1,6 @@
-// An assessment on disk: assessment.json (all of it), checks.csv, sights.csv. Reports
-// (actors/judge/report) and comparisons are made from the JSON alone, so that they can be made
-// again later. Pure but for write_assessment and read_assessment; any thread.
+// An assessment on disk: assessment.json (everything), checks.csv, sights.csv and other tables.
+// Reports (actors/judge/report) and comparisons need the JSON only, so they can be made later.
+// Functions are pure except those that read or write a folder; any thread.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 namespace luxodus {
 
 namespace limits {
-/// Largest assessment.json that is read back [bytes].
+/// Largest assessment.json that is read [bytes].
 inline constexpr uint64_t assessment_bytes = uint64_t{256} << 20;
 }  // namespace limits
 
@@ -20,20 +20,20 @@ inline constexpr const char* assessment_format = "luxodus assessment 2";
 Json assessment_json(const SceneDescription& scene, const Assessment& assessment,
                      const std::string& version);
 
-/// Tables that this one does not have are removed, as they are an earlier one's.
-/// Errors: as write_file_atomically; a folder that cannot be made.
+/// Writes the files, and removes tables of an earlier assessment that this one does not have.
+/// Errors: as write_file_atomically; a folder that cannot be created.
 Result<void> write_assessment(const std::filesystem::path& folder, const Json& assessment);
 
-/// Errors: one of these files is in the folder, and no assessment has written it: assessment.json
-/// there is none, or is of another program.
+/// Errors: the folder holds one of these files but no assessment.json of this program, so another
+/// program wrote it.
 Result<void> refuse_files_of_others(const std::filesystem::path& folder,
                                     const std::vector<std::string>& files);
 
-/// Errors: no assessment.json in the folder, or none of ours.
+/// Errors: the folder has no assessment.json of this program.
 Result<Json> read_assessment(const std::filesystem::path& folder);
 
-/// What differs between two assessments: verdicts of checks and of sights, and values by how many
-/// standard errors. Lines for a terminal.
+/// Differences between two assessments: verdicts of checks and views, and values with their
+/// distance in standard errors. comparison_text gives lines for a terminal.
 Json comparison_of(const Json& before, const Json& after);
 std::string comparison_text(const Json& comparison);
 

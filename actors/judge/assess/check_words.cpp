@@ -7,7 +7,7 @@ namespace luxodus {
 
 namespace {
 
-/// " lx"; a share of 1 has none.
+/// " lx"; "" for a ratio, whose unit is 1.
 std::string unit_words(const std::string& unit) {
   if (unit.empty() || unit == "1") return "";
   return " " + unit;

@@ -1,4 +1,5 @@
-// One check in one line of words, for the console. Reads assessment.json; pure, any thread.
+// One check as one line of English for the console, from assessment.json. Pure function; any
+// thread.
 #pragma once
 
 #include <string>

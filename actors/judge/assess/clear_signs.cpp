@@ -4,20 +4,20 @@ namespace luxodus {
 
 namespace {
 
-/// Of light that panes take away: less is none.
+/// Panes that absorb a smaller share than this count as none.
 constexpr double clear_glass = 1e-3;
-/// Panes that pass less hide a sign: clear ones pass 0.9, two of them 0.8.
+/// A pane that transmits less hides a sign: one clear pane transmits 0.9, two transmit 0.8.
 constexpr double dark_pane = 0.5;
-/// Of a face, what must be seen of it.
+/// Share of a face that must be visible.
 constexpr double seen_face = 0.5;
 
-/// A sign that is lit from within and gives no light in an emergency shows nobody the way.
+/// A sign that is lit from within and dark in an emergency guides nobody.
 bool is_dark(const Sign& sign) {
   return sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 == 0 &&
          sign.emergency.green_cd_m2 == 0;
 }
 
-/// Of the light from the middle of a face to an eye, what panes on the way let pass.
+/// Share of the light from the middle of a face to an eye that panes transmit.
 double passed_by_panes(const Building& building, const GeometryAccess& access, const SignView& view,
                        const glm::dvec3& eye) {
   return clear_share(building.scene(), access, building.local(eye),

@@ -1,6 +1,7 @@
-// Which signs somebody has a clear line to, as the codes look at a building: in clear air, in an
-// emergency. `code_mode` judges distances by it and `actors/judge/design` places signs by it, so
-// that both see alike. Any thread; one fiber at a time of each access.
+// Which signs a person can see along a free line, by the assumptions of the codes: clear air,
+// emergency operation. `code_mode` judges distances with it and `actors/judge/design` places signs
+// with it, so both agree. It does not decide whether a sign can be read. Any thread; one fiber at a
+// time for each access.
 #pragma once
 
 #include <optional>
@@ -11,17 +12,17 @@
 
 namespace luxodus {
 
-/// The eye of somebody who stands, above the floor [m].
+/// Eye height of a standing person above the floor [m].
 inline constexpr double standing_eye_m = 1.65;
 
-/// A sign seen from an eye: it is not dark, shows a face of which more than half has a clear line
-/// to the eye, and no dark pane is between. None where it is not seen. `number` is that of the
-/// sign, which need not be in the building. Takes the `view` of it from there.
+/// A sign that an eye sees: the sign is not dark, more than half of the visible face has a free
+/// line to the eye, and no dark pane is between. None if it is not seen. `number` is copied into
+/// the result; the sign need not be in the building. `view` is the sign as seen from the eye.
 std::optional<ClearSign> clear_sign(const Building& building, const GeometryAccess& access,
                                     const Sign& sign, uint32_t number, const SignView& view,
                                     const glm::dvec3& eye);
 
-/// By walker, the signs of the scene that he sees.
+/// For each walker, the signs of the scene that he sees.
 std::vector<std::vector<ClearSign>> clear_signs(const SceneDescription& scene,
                                                 const Building& building,
                                                 const std::vector<Walker>& people);

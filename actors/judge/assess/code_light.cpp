@@ -12,21 +12,21 @@ namespace luxodus {
 
 namespace {
 
-/// A place that lies in a wall or a door is looked from so far beside it [m].
+/// Distance from a point in a wall or a door to the places from which it is looked at [m].
 constexpr double beside_m = 0.3;
-/// So far before a luminous opening a line ends: it may lie in a ceiling [m].
+/// A line to a luminous opening ends this far before it, since it may lie in a ceiling [m].
 constexpr double before_opening_m = 0.01;
-/// Of a luminaire's largest intensity: less sent to a place is none.
+/// An intensity below this share of the luminaire's largest counts as no light.
 constexpr double faint_share = 1e-3;
-/// A floor is looked for so far below a thing, and not in the thing's own body [m].
+/// Search for a floor: largest depth, and the depth within which a thing may meet its own body [m].
 constexpr Real deepest_m = 1000, own_body_m = 0.15_r;
-/// What is met so little above a route is no floor: desks, counters [m].
+/// A surface less than this above the floor of a route is no floor but a desk or counter [m].
 constexpr double desk_m = 1.3;
 
-/// Luminaires whose heights differ by less are looked at together, as those of a storey [m].
+/// Luminaires whose heights differ by less form one storey, and are tested together [m].
 constexpr double one_storey_m = 2;
 
-/// A box that holds all that an emitter may shine from.
+/// A box around all points from which an emitter may shine.
 Bounds box_of(const CompiledEmitter& e, const glm::dvec3& origin) {
   Bounds out;
   for (const Vec3& corner : e.corners) out.extend(origin + glm::dvec3(corner));
@@ -72,7 +72,7 @@ SceneDescription code_scene(const SceneDescription& scene, bool furnished) {
   SceneDescription out = without_measurements(scene);
   out.media.clear();
   std::erase_if(out.emitters, [](const Emitter& e) { return !(e.emergency_flux > 0); });
-  // With no emergency luminaire the geometry is still asked for: any light will do to compile it.
+  // Geometry is needed even without emergency luminaires, and a scene compiles only with light.
   if (out.emitters.empty()) out.emitters = scene.emitters;
   if (!furnished) std::erase_if(out.objects, is_furniture);
   return out;
@@ -114,7 +114,7 @@ CodeLight::CodeLight(const SceneDescription& scene, const Building& building,
   find_storeys();
 }
 
-/// From the lowest up: what is too far above the lowest of a storey begins another.
+/// From the lowest luminaire up: one too far above the lowest of its storey begins a new storey.
 void CodeLight::find_storeys() {
   std::vector<uint32_t> by_height(columns_.size());
   std::iota(by_height.begin(), by_height.end(), 0U);
@@ -156,8 +156,8 @@ std::vector<LitPoint> CodeLight::lit(const std::vector<glm::dvec3>& places,
   return out;
 }
 
-/// Of several luminaires in one place the first is looked at; the others are looked at only where
-/// it is hidden in part.
+/// The first of several luminaires in one place is traced. The others are skipped if it is fully
+/// hidden, and need no rays if it is fully visible.
 std::vector<double> CodeLight::light_at(const GeometryAccess& access, const glm::dvec3& place,
                                         const glm::dvec3& normal) const {
   std::vector<double> out(columns_.size(), 0);
@@ -182,7 +182,7 @@ std::vector<double> CodeLight::light_at(const GeometryAccess& access, const glm:
     if (leads(i)) {
       out[i] = of_leaders[leader].illuminance_lx;
     } else if (!known_leader) {
-      others.push_back(i);  // a screen hides the first of its place alone
+      others.push_back(i);  // a screen hides only the first of this place
     } else if (const DirectFromEmitter& seen = of_leaders[leader];
                !(seen.illuminance_lx == 0 && seen.open_lx > 0)) {
       const bool clear = seen.open_lx > 0 && seen.illuminance_lx >= seen.open_lx * (1 - 1e-9);
@@ -260,7 +260,7 @@ bool CodeLight::shines_at(const GeometryAccess& access, size_t luminaire,
     const glm::dvec3 local = glm::transpose(e.frame.axes) * glm::normalize(place - e.frame.origin);
     return e.web->intensity(local) > faint_share * e.web->peak_cd();
   }
-  // Of simple shapes by what falls on a face that is turned to them.
+  // Simple shapes: by the illuminance on a surface that faces the luminaire.
   if (luminaire >= columns_.size()) return true;
   DirectOptions options = clear_air();
   options.only = {&columns_[luminaire], 1};

@@ -26,11 +26,11 @@ class CodeMode {
            const std::vector<CodeChoice>& codes)
       : scene_(scene), building_(building), codes_(codes), light_(scene, building) {}
 
-  /// Those that what stands in the way may change.
+  /// Checks that furniture may change.
   std::vector<Check> checks_by_light() const;
-  /// Those of signs and luminaires by themselves.
+  /// Checks of single signs and luminaires.
   std::vector<Check> checks_of_parts() const;
-  /// The points of calculation of each level, and its map of light.
+  /// Fills in each level's points of calculation and illuminance map.
   void fill_plan(std::vector<PlanLevel>& levels) const;
 
  private:
@@ -68,8 +68,8 @@ std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
   return out;
 }
 
-/// Points of an area within `border_m` of its edge are none of it, nor are those in furniture and
-/// walls: nobody walks or works there. How many these are stands beside the checks.
+/// Points within `border_m` of the edge do not belong to an area, nor do points in furniture and
+/// walls, where nobody walks or works. The checks state how many of the latter were left out.
 std::vector<Check> CodeMode::of_area(
     const AssessedArea& area, double border_m,
     const std::function<std::vector<Check>(const std::vector<LitPoint>&, const CodeChoice&)>&

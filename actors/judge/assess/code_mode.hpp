@@ -1,5 +1,6 @@
-// The code mode: every rule of the chosen codes, by direct light of the emergency luminaires alone,
-// in clear air, with furniture and without. Thread rule: one thread, which has rows run on others.
+// The code mode: every rule of the chosen codes, by direct light of the emergency luminaires in
+// clear air, with and without furniture. Thread rule: one thread, which has rows computed by
+// others.
 #pragma once
 
 #include "actors/judge/assess/assessment.hpp"
@@ -8,8 +9,8 @@
 
 namespace luxodus {
 
-/// Adds checks and the plan to `out`. `scenario` gives the doors.
-/// Errors: a scene that cannot be compiled.
+/// Adds checks and the plan to `out`. The doors are those of `scenario`. Errors: a scene that
+/// cannot be compiled.
 Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
                              const AssessOptions& options, const AssessProgress& progress,
                              Assessment& out);

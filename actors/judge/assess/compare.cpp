@@ -1,5 +1,4 @@
-// Two assessments side by side: what newly passes or fails, and what has changed by more than
-// chance.
+// Compares two assessments: what newly passes or fails, and which values differ significantly.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,13 +12,13 @@ namespace luxodus {
 
 namespace {
 
-/// Values that differ by less are equal, in standard errors of the difference; and exact ones, as a
-/// share.
+/// Differences below these count as none: in standard errors of the difference; for exact values as
+/// a share.
 constexpr double different_errors = 3, different_share = 1e-6;
 
 using Key = std::string;
 
-/// By the edition, too: of two sets each has its own check of the same rule.
+/// The edition is part of the key: two rule sets have a check each of the same rule.
 Key check_key(const Json& check) {
   return fmt::format("{} ({}) {} {}", check["rule"].get<std::string>(),
                      check["edition"].get<std::string>(), english_in(check, "subject"),
@@ -39,7 +38,7 @@ std::map<Key, const Json*> by_key(const Json& rows, Key (*key_of)(const Json&)) 
   return out;
 }
 
-/// Verdicts that differ, of rows of either.
+/// Verdicts that differ; a row may be in one of the two only.
 Json changed_verdicts(const Json& before, const Json& after, Key (*key_of)(const Json&)) {
   const auto old_rows = by_key(before, key_of), new_rows = by_key(after, key_of);
   Json out = Json::array();
@@ -71,7 +70,7 @@ Json changed_values(const Json& before, const Json& after) {
   return out;
 }
 
-/// Visibility levels that differ by more than chance.
+/// Visibility levels that differ significantly.
 Json changed_levels(const Json& before, const Json& after) {
   const auto old_rows = by_key(before, sight_key);
   Json out = Json::array();
@@ -94,14 +93,14 @@ Json changed_levels(const Json& before, const Json& after) {
   return out;
 }
 
-/// A verdict or value; `where` says of which assessment it is missing.
+/// A verdict or value; `where` says in which assessment it is missing.
 std::string shown(const Json& value, const char* where) {
   if (value.is_null()) return std::string("not assessed ") + where;
   return value.is_string() ? value.get<std::string>() : fmt::format("{:.4g}", value.get<double>());
 }
 
-/// What the judged states, and the verdicts on the whole, say differently. Where in which file a
-/// medium stands is none of it.
+/// Differences of judged states and of verdicts on the whole. The place of a medium in its file
+/// does not count.
 Json changed_state(const Json& before, const Json& after) {
   const auto rows_of = [](Json assessment) {
     if (Json* const media = assessment.at_path("state/smoke/media"))

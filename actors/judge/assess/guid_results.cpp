@@ -26,7 +26,7 @@ std::string guid_of(const Json& row) {
   return guid.is_string() ? guid.get<std::string>() : std::string();
 }
 
-/// Things with a GlobalId by the subject that checks call them, in the order of its name.
+/// Things with a GlobalId by their subject in checks, ordered by name.
 std::map<std::pair<std::string, std::string>, ModelThing> things_by_subject(const Json& a) {
   std::map<std::pair<std::string, std::string>, ModelThing> out;
   const auto add = [&](const Json& rows, SubjectKind subject, const char* kind) {
@@ -48,7 +48,7 @@ void begin_row(CsvTable& table, const ModelThing& thing) {
   table.cell(thing.guid).cell(thing.kind).cell(thing.name);
 }
 
-/// A cell of a check; empty where the check does not say it.
+/// A cell of a check; empty if the check has no such value.
 void put_value(CsvTable& table, const Json& check, const char* key) {
   const Json value = check.value(key, Json());
   const std::string words = english_in(check, key);
@@ -70,7 +70,7 @@ void put_check(CsvTable& table, const ModelThing& thing, const Json& check) {
   table.end_row();
 }
 
-/// A row of no rule: a value that is told.
+/// A row of a value that no rule judges.
 void put_information(CsvTable& table, const ModelThing& thing, const std::string& title,
                      double value, const std::string& unit, const std::string& reason) {
   put_check(table, thing,

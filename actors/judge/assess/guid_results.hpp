@@ -1,5 +1,6 @@
-// What an assessment says of things that came from an IFC model, by their GlobalId, so that the
-// model's program can take values as properties. From the JSON of the assessment. Pure; any thread.
+// Results of an assessment for things from an IFC model, by their GlobalId, so that the program of
+// the model can import them as properties. Reads the JSON of the assessment. Pure function; any
+// thread.
 #pragma once
 
 #include <optional>
@@ -9,8 +10,8 @@
 
 namespace luxodus {
 
-/// A row for each check of a space, a luminaire or a sign that has a GlobalId, for the emergency
-/// flux of each luminaire, and for the views of each sign. Nothing where nothing has one.
+/// Rows for checks of spaces, luminaires and signs that have a GlobalId, for the emergency flux of
+/// each such luminaire, and for the views of each such sign. None if nothing has a GlobalId.
 std::optional<CsvTable> results_by_guid(const Json& assessment);
 
 }  // namespace luxodus

@@ -1,5 +1,5 @@
-// Which views of an assessment may guide: of signs that lead along the route of who looks. Pure;
-// any thread.
+// Which views of an assessment may guide: those of signs that lead along the route of the person
+// who looks. Whether a sign can be read is not considered. Immutable; any thread.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace luxodus {
 
-/// The pairs of place and sign of a scene that may guide, of all its routes.
+/// The pairs of place and sign that may guide, for all routes of a scene.
 class GuidingViews {
  public:
   /// Requires: the scene outlives this.

@@ -16,9 +16,9 @@ namespace luxodus {
 
 namespace {
 
-/// Eyes younger than this, and eyes below this height [m], are not those of everybody.
+/// Limits for remarks: eyes younger than this, and eye heights below this [m], are not typical.
 constexpr double young_years = 40, upright_m = 1.4;
-/// People this far apart leave much of a route unseen [m].
+/// Places farther apart than this leave much of a route unassessed [m].
 constexpr double far_apart_m = 5;
 
 constexpr std::array medium_words{"homogeneous", "layered", "bounded", "data set"};
@@ -27,7 +27,7 @@ double stated(const SmokeOptics& optics) {
   return optics.extinction.spectrum().at(stated_nm);
 }
 
-/// Smallest and largest extinction of a medium as the scene has it.
+/// Smallest and largest extinction of a medium, as the scene states it.
 std::pair<double, double> range_of(const Medium& medium) {
   if (medium.kind == MediumKind::layered && !medium.layers.empty()) {
     double low = std::numeric_limits<double>::infinity(), high = 0;
@@ -40,7 +40,7 @@ std::pair<double, double> range_of(const Medium& medium) {
   const double constant = stated(medium.optics);
   const std::vector<float>& cells = medium.data.extinction;
   if (medium.kind != MediumKind::data_set || cells.empty()) return {constant, constant};
-  // A data set's cells are at the wavelength of its law.
+  // Cells of a data set are stated at the wavelength of its extinction law.
   const Extinction& law = medium.optics.extinction;
   const double there = law.spectrum().at(law.wavelength_nm);
   const double shift = there > 0 ? constant / there : 1;
@@ -67,7 +67,7 @@ Remarks notes_on(const Medium& medium, double factor) {
   return out;
 }
 
-/// Once the mains have failed, which a clock may not yet have reached.
+/// The operation after the failure of the mains, even if a clock has not reached it.
 Operation operation_then(const Scenario& scenario) {
   return scenario.operation == Operation::mains ? scenario.written_operation : scenario.operation;
 }
@@ -84,8 +84,8 @@ bool same_factors(std::vector<Scenario::Factor> a, std::vector<Scenario::Factor>
                     });
 }
 
-/// Whether two scenarios differ in their operation alone: had one lost its `operation`, judging the
-/// other would be judging it.
+/// Whether two scenarios differ in nothing but their operation. Then a forgotten `operation` does
+/// no harm: the other scenario is the state that was meant.
 bool differ_in_operation_alone(const Scenario& mains, const Scenario& other) {
   return same_factors(mains.circuits, other.circuits) && same_factors(mains.media, other.media) &&
          mains.smoke_factor == other.smoke_factor &&
@@ -111,7 +111,7 @@ Problem unclear(const SceneDescription& scene, const SourcePlace& place, const s
                         candidates(scene));
 }
 
-/// What views are judged with, of a state whose lit luminaires are known.
+/// The light by which views are judged; requires the lit luminaires in `state`.
 Remark light_of(const SceneDescription& scene, const AssessedState& state) {
   double least = 1;
   for (const Emitter& e : scene.emitters) {
@@ -129,7 +129,7 @@ bool is_aged(const Remark& light) {
   return light.id == RemarkId::light_aged_mains || light.id == RemarkId::light_aged_emergency;
 }
 
-/// Emergency luminaires and signs whose circuits this state has dimmed or switched off.
+/// Remarks on emergency luminaires and signs whose circuits this state dims or switches off.
 void add_switched(const SceneDescription& scene, const Scenario& scenario, Remarks& remarks) {
   if (scenario.operation == Operation::mains) return;
   size_t off = 0, dimmed = 0, raised = 0, signs = 0;
@@ -150,7 +150,7 @@ void add_switched(const SceneDescription& scene, const Scenario& scenario, Remar
   if (signs > 0) remarks.push_back(remark(RemarkId::circuits_switch_off_signs, signs));
 }
 
-/// Smoke that this state has thinned, and light that no file has measured.
+/// Remarks on smoke that this state thins, and on luminaires without a measured web.
 void add_thinned(const SceneDescription& scene, const Scenario& scenario, Remarks& remarks) {
   for (const Medium& m : scene.media) {
     const double factor = extinction_factor(scenario, m.name);
@@ -163,14 +163,14 @@ void add_thinned(const SceneDescription& scene, const Scenario& scenario, Remark
   if (ideal > 0) remarks.push_back(remark(RemarkId::unmeasured_luminaires, ideal));
 }
 
-/// The shortest rated duration that the chosen codes ask for [h].
+/// The shortest rated duration that the chosen codes require [h].
 double rated_hours(const std::vector<CodeChoice>& codes) {
   double least = std::numeric_limits<double>::infinity();
   for (const CodeChoice& c : codes) least = std::min(least, rated_duration_h(c));
   return least;
 }
 
-/// What is lit or glows so long after the failure by assumption alone.
+/// Remarks on light and afterglow that at this time after the failure is only assumed.
 void add_time(const SceneDescription& scene, const AssessedState& state, Remarks& remarks) {
   if (!state.seconds_after_failure) return;
   const double seconds = *state.seconds_after_failure, rated = rated_hours(state.codes);
@@ -189,7 +189,7 @@ void add_time(const SceneDescription& scene, const AssessedState& state, Remarks
       return remarks.push_back(remark(RemarkId::glow_extrapolated, sign.name, sign.decay.back().x));
 }
 
-/// Who looks, where that is not the usual, and what nobody looks at.
+/// Remarks on unusual eyes, and on places at which nobody looks.
 void add_people(const SceneDescription& scene, const AssessedState& state, Remarks& remarks) {
   const AssessmentSettings& said = scene.assessment;
   if (said.age_years < young_years) remarks.push_back(remark(RemarkId::young_eyes, said.age_years));
@@ -252,7 +252,7 @@ void add_remarks(const SceneDescription& scene, const Scenario& scenario, Assess
 
 }  // namespace
 
-// It lets its light out and is met by nobody; a data set of a fire holds smoke, too.
+// Such a medium only emits light; a data set of a fire also holds smoke.
 bool is_flame(const Medium& medium) {
   return medium.emission && medium.kind != MediumKind::data_set;
 }

@@ -1,5 +1,5 @@
-// Which state of a building an assessment judges, and by which rules: what has to be named and is
-// not is refused with what to write, never guessed. Pure; any thread.
+// Which state of a building an assessment judges, and by which rules. Nothing is guessed: if a
+// required name is missing, the error says what to write. Pure functions; any thread.
 #pragma once
 
 #include <optional>
@@ -12,61 +12,60 @@
 
 namespace luxodus {
 
-/// Sooner after a failure of the mains eyes are not adapted to what is left of the light [s]: the
-/// pupil takes seconds, cones take about two minutes, and EN 1838 counts with a minute.
+/// Time after a failure of the mains from which eyes count as adapted [s]: the pupil takes seconds,
+/// cones take about two minutes, and EN 1838 assumes a minute.
 inline constexpr double adapted_after_s = 60;
-/// Extinctions are stated at this wavelength [nm], as most measurements are.
+/// Wavelength of stated extinctions [nm], as in most measurements.
 inline constexpr double stated_nm = 633;
 
-/// Smallest and largest extinction of a medium where it is, at stated_nm, scenario applied [1/m].
+/// Range of the extinction of a medium at stated_nm, with the factors of the scenario [1/m].
 struct StatedMedium {
   std::string name;
   std::string kind;   // "layered", "flame"
   std::string place;  // "office.toml:22"
-  Remarks notes;      // 6 layers, times 0.5 in this scenario
+  Remarks notes;      // such as 6 layers, times 0.5 in this scenario
   double extinction_min = 0, extinction_max = 0;
 };
 
-/// What was judged: said before any verdict.
+/// The judged state, which is printed before any verdict.
 struct AssessedState {
   std::string scenario;
   Operation operation = Operation::mains;
-  std::optional<double> seconds_after_failure;  // where the scenario says it
-  size_t luminaires = 0;                        // in the scene
-  std::vector<std::string> lit;                 // names, in this state
-  bool smoke = false;                           // media that are no flames
-  std::vector<StatedMedium> media;              // flames too
+  std::optional<double> seconds_after_failure;  // none if the scenario states no time
+  size_t luminaires = 0;                        // number in the scene
+  std::vector<std::string> lit;                 // names of the luminaires lit in this state
+  bool smoke = false;                           // whether there are media other than flames
+  std::vector<StatedMedium> media;              // flames included
   std::vector<CodeChoice> codes;
-  Remark light{RemarkId::no_luminaire_lit};  // what views were judged with
+  Remark light{RemarkId::no_luminaire_lit};  // the light by which views were judged
   Remarks remarks;
-  Remarks warnings;  // those of the remarks that a designer is warned of at once
+  Remarks warnings;  // those of `remarks` that are warnings
 };
 
-/// The state that is judged: the one that is named, in whatever operation. Without a name, the one
-/// scenario in emergency operation that has smoke; in a scene none of whose scenarios has smoke,
-/// the one in emergency operation. What counts is the operation after the mains have failed, which
-/// a clock may not yet have reached. Nothing else in the scene may be mistaken for it: a scenario
-/// in mains operation that differs in more than its operation (its media, flames, circuits, doors)
-/// may be one whose `operation` was forgotten. Errors: no such scenario, none at all, or a choice;
-/// each says what to write.
+/// The state to judge: the named one, in whatever operation. Without a name, the only scenario in
+/// emergency operation that has smoke; if no scenario has smoke, the only one in emergency
+/// operation. The operation after the failure of the mains counts, even if a clock has not reached
+/// the failure. A scenario in mains operation that also differs in media, flames, circuits or doors
+/// makes the choice ambiguous, since its `operation` may have been forgotten.
+/// Errors: no such scenario, none at all, or several; each says what to write.
 Result<Scenario> judged_scenario(const SceneDescription& scene, const std::string& named);
 
-/// The rule sets and deviations that were asked for, else those that the scene names.
-/// Errors: as chosen_codes, with the scene's place.
+/// The rule sets and deviations of the options, or else those that the scene names. Errors: as
+/// chosen_codes, with the scene's place.
 Result<std::vector<CodeChoice>> judged_codes(const SceneDescription& scene,
                                              const std::vector<std::string>& rules,
                                              const std::vector<std::string>& deviations);
 
-/// Whether media other than flames are left in a scenario.
+/// Whether a scenario has media other than flames.
 bool has_smoke(const SceneDescription& scene, const Scenario& scenario);
 
-/// Of a scene's media, those that only glow: no smoke.
+/// Whether a medium only emits light, and is therefore no smoke.
 bool is_flame(const Medium& medium);
 
-/// Errors: there is smoke, and the scene does not say whether it stings.
+/// Errors: there is smoke, and the scene does not state `irritant_smoke`.
 Result<void> irritation_is_said(const SceneDescription& scene, const Scenario& scenario);
 
-/// What was asked for by options, and the scene says otherwise.
+/// Remarks that options override rule sets or deviations of the scene.
 Remarks overruled(const SceneDescription& scene, const std::vector<std::string>& rules,
                   const std::vector<std::string>& deviations);
 

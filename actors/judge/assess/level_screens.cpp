@@ -1,7 +1,7 @@
-// A level is cut into square cells. A cell is closed where the triangles that lie in the level
-// cover all of it: each is subtracted from what is left of the cell. A line from a place into a box
-// crosses the level within the projection of the box from that place; where all cells around that
-// are closed, no line passes.
+// A level is divided into square cells. Each triangle of the level is subtracted from the cells
+// that it meets; a cell of which nothing is left is closed. A line from a place into a box crosses
+// the level within the projection of the box from that place. If all cells around that projection
+// are closed, every such line is blocked.
 #include "actors/judge/assess/level_screens.hpp"
 
 #include <algorithm>
@@ -15,22 +15,22 @@ namespace luxodus {
 
 namespace {
 
-/// Triangles are level, and of one level, to so much [m].
+/// Heights within a triangle, and of triangles of one level, differ by less than this [m].
 constexpr double one_level_m = 1e-5;
-/// Less closed area than this hides too little to be looked at [m2].
+/// Levels with less closed area hide too little to be worth a test [m2].
 constexpr double least_area_m2 = 2;
-/// A cell's edge, unless the level has too many [m].
+/// Edge of a cell; larger if the level would have too many cells [m].
 constexpr double usual_cell_m = 0.25;
-/// What is left of a cell below this is nothing: rounding [m2].
+/// Rests of a cell below this area are rounding errors [m2].
 constexpr double no_area_m2 = 1e-8;
-/// Pieces of one cell; with more it counts as open.
+/// Largest number of pieces that are left of a cell; beyond it the cell counts as open.
 constexpr size_t most_pieces = 64;
-/// A screen stands this far off what it separates [m]: luminaires lie in ceilings, places on
-/// floors.
+/// Smallest distance of a screen from the place and the box that it separates [m]: luminaires lie
+/// in ceilings, places on floors.
 constexpr double apart_m = 5e-3;
-/// A line is looked at with so much around it [m].
+/// Margin around a projection [m].
 constexpr double around_line_m = 1e-3;
-/// Screens that are looked at from a place: one farther away rarely hides what these do not.
+/// Screens that are tested from a place; one farther away rarely hides what these do not.
 constexpr int most_screens = 6;
 
 using Polygon = std::vector<glm::dvec2>;
@@ -47,7 +47,7 @@ double area_of(const Polygon& polygon) {
   return 0.5 * std::abs(twice);
 }
 
-/// What lies to the left of the line from `a` to `b`, or to the right of it.
+/// Part of a polygon to the left of the line from `a` to `b`, or to the right of it.
 Polygon side_of(const Polygon& polygon, const glm::dvec2& a, const glm::dvec2& b, bool left) {
   Polygon out;
   const auto height = [&](const glm::dvec2& p) { return (left ? 1 : -1) * cross_of(b - a, p - a); };
@@ -60,7 +60,7 @@ Polygon side_of(const Polygon& polygon, const glm::dvec2& a, const glm::dvec2& b
   return out;
 }
 
-/// What of a piece lies beside a triangle; none where the triangle does not reach it.
+/// Parts of a piece outside a triangle; none if the triangle does not meet the piece.
 std::optional<std::vector<Polygon>> without(const Polygon& piece, const LevelTriangle& t) {
   std::vector<Polygon> out;
   Polygon rest = piece;
@@ -73,7 +73,7 @@ std::optional<std::vector<Polygon>> without(const Polygon& piece, const LevelTri
   return out;
 }
 
-/// Triangles, counter-clockwise, of each level.
+/// Horizontal triangles by level, counter-clockwise.
 std::map<int64_t, std::vector<LevelTriangle>> level_triangles(const CompiledScene& scene) {
   std::map<int64_t, std::vector<LevelTriangle>> out;
   const auto& objects = scene.description->objects;
@@ -123,14 +123,14 @@ class LevelScreens::Drawing {
     for (const LevelTriangle& t : triangles) visits_ += size_of(cells_around(t));
   }
 
-  /// How often a cell is looked at while the triangles are taken.
+  /// Visits of cells needed to subtract all triangles.
   size_t visits() const { return visits_; }
 
   size_t count() const {
     return static_cast<size_t>(level_.columns) * static_cast<size_t>(level_.rows);
   }
 
-  /// Of the triangles that it was made for.
+  /// The level of the triangles that this was made for.
   Level level(const std::vector<LevelTriangle>& triangles) {
     closed_.assign(count(), 0);
     for (const LevelTriangle& t : triangles) take(t);
@@ -168,7 +168,7 @@ class LevelScreens::Drawing {
     return static_cast<size_t>(size.x) * static_cast<size_t>(size.y);
   }
 
-  /// Takes a triangle out of what is left of the cells that it reaches.
+  /// Subtracts a triangle from what is left of the cells that it meets.
   void take(const LevelTriangle& t) {
     const auto [first, last] = cells_around(t);
     for (int y = first.y; y <= last.y; ++y)
@@ -206,7 +206,7 @@ class LevelScreens::Drawing {
   Level level_;
   size_t visits_ = 0;
   std::vector<char> closed_;
-  std::map<size_t, std::vector<Polygon>> left_;  // of cells that were begun
+  std::map<size_t, std::vector<Polygon>> left_;  // of cells that a triangle has met
 };
 
 bool LevelScreens::Level::covers(const glm::dvec2& from, const glm::dvec2& to) const {

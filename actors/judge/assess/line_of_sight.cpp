@@ -6,9 +6,9 @@ namespace luxodus {
 
 namespace {
 
-/// FDS's extinction is that of red laser light [nm], in which soot was measured.
+/// Wavelength of FDS's extinction [nm]: that of the red laser by which soot was measured.
 constexpr double fds_wavelength_nm = 633;
-/// Who stands under a sign has no line to it [m].
+/// A person within this distance of a sign in plan stands under it, and has no line to it [m].
 constexpr double under_sign_m = 1e-6;
 
 }  // namespace

@@ -1,7 +1,7 @@
-// What the line-of-sight method of FDSVismap says of a sign, to be shown beside the verdict: a sign
-// is seen from a place on the plan where nothing stands on the level line to it and the visibility
-// along that line reaches as far (smoke_laws.hpp). It knows no light, and nothing of what is above
-// or below the height of the eye. Called where the building is asked.
+// The line-of-sight method of FDSVismap, shown beside the verdict: a sign is seen if nothing stands
+// on the horizontal line to it and the visibility along that line reaches as far as the sign
+// (smoke_laws.hpp). The method knows no light, and nothing above or below eye height. Thread rule:
+// called within Building::each, with that call's access.
 #pragma once
 
 #include "actors/judge/inspect/building.hpp"
@@ -9,14 +9,14 @@
 namespace luxodus {
 
 struct LineOfSight {
-  bool clear = false;       // nothing solid is on the level line; panes do not count
-  double extinction = 0;    // mean on it, at the wavelength of FDS [1/m]
-  double visibility_m = 0;  // with the cosine of the angle of view
-  double distance_m = 0;    // on the plan
+  bool clear = false;       // no solid on the horizontal line; panes do not count
+  double extinction = 0;    // mean along the line at the wavelength of FDS [1/m]
+  double visibility_m = 0;  // includes the cosine of the angle of view
+  double distance_m = 0;    // in plan
   bool seen = false;
 };
 
-/// Requires: `view` is that of the sign from the eye.
+/// Requires: `view` is the sign as seen from the eye.
 LineOfSight line_of_sight(const Building& building, const GeometryAccess& access, const Sign& sign,
                           const SignView& view, const glm::dvec3& eye);
 

@@ -17,13 +17,12 @@ namespace luxodus {
 
 namespace {
 
-/// Smoke of fires has about these albedos: what a verdict does not survive between them, nobody
-/// knows. FDS computes none.
+/// Range of albedos of smoke from fires. FDS computes none, so a verdict must hold at both ends.
 constexpr double least_albedo = 0.1, greatest_albedo = 0.5;
-/// Of a state's work, what its own light takes; the rest is the two ends of the albedo.
+/// Share of a state's work for its own albedo; the rest is for the two ends of the range.
 constexpr double first_share = 0.6;
 
-/// A view of the assessment: who looks at what.
+/// Identifies a view: the place, the eye height and the sign.
 struct ViewKey {
   Subject from;
   double along_m, height_m;
@@ -34,15 +33,15 @@ ViewKey key_of(const SightRow& row) {
   return {row.from, row.along_m, row.height_m, row.sign};
 }
 
-/// Mean over the wavelengths.
+/// Mean over wavelength.
 double mean_albedo(const SmokeOptics& optics) {
   return optics.albedo.integral() / Spectrum::constant(1).integral();
 }
 
-/// FDS's own slices of VISIBILITY at a state, in the scene.
+/// FDS's own slices of VISIBILITY at one state of the scene.
 class SlicesOfFires {
  public:
-  /// What cannot be read is told in `warnings`, and verdicts stand without it.
+  /// Slices that cannot be read are reported in `warnings`; verdicts do not depend on them.
   SlicesOfFires(const SceneDescription& scene, std::vector<std::string>& warnings) {
     for (const Medium& medium : scene.media) {
       if (!medium.simulation || medium.simulation->index.empty()) continue;
@@ -87,11 +86,12 @@ class StateOfTime {
   StateOfTime(const StateOfTime&) = delete;
   StateOfTime& operator=(const StateOfTime&) = delete;
 
-  /// The state as it is stated, then what of it holds for other smoke. Errors: as assess_sights.
+  /// Traces the state as stated, then tests its legible views in other smoke. Errors: as
+  /// assess_sights.
   Result<void> trace(const std::atomic<bool>& interrupt, const AssessProgress& progress,
                      OverTime& out);
   TimedState facts() const;
-  /// Adds this state to each route's table.
+  /// Appends this state to the table of each route.
   void add_to(OverTime& out) const;
   int64_t paths() const { return nominal_.paths; }
 
@@ -104,7 +104,7 @@ class StateOfTime {
   AssessOptions options_;
   GuidingViews views_;
   Assessment nominal_;
-  std::set<ViewKey> doubted_;  // legible, but not in all smoke that this may be
+  std::set<ViewKey> doubted_;  // legible, but not in all smoke that is possible here
 };
 
 Result<void> StateOfTime::trace(const std::atomic<bool>& interrupt, const AssessProgress& progress,
@@ -170,14 +170,14 @@ TimedState StateOfTime::facts() const {
   return out;
 }
 
-/// Of the signs at a place the best counts.
+/// The best sign at a place counts.
 struct BestSign {
   Guidance guidance = Guidance::not_guided;
   bool jin = false, line = false;
   Guidance fds = Guidance::not_guided;
   std::string name;
 
-  /// `visibility_m`: of FDS at the place, where it is known.
+  /// `visibility_m`: of FDS at the place, if known.
   void take(const SightRow& row, bool doubted, const std::optional<double>& visibility_m) {
     const SightVerdict verdict = row.sight.verdict;
     const Guidance here = verdict == SightVerdict::legible && !doubted ? Guidance::guided
@@ -238,7 +238,7 @@ void StateOfTime::add_to(OverTime& out) const {
     }
 }
 
-/// A case without slices of VISIBILITY, or none that reaches the route, says nothing of it.
+/// Removes FDS's verdict if the case has no slice of VISIBILITY that reaches the route.
 void leave_out_unknown(RouteOverTime& route) {
   for (const auto& state : route.visibility_m)
     for (const auto& visibility : state)

@@ -132,7 +132,7 @@ std::string walk_words(const Json& walk, double speed) {
          fmt::format(" at {:.3g} m, at {:.3g} s", number(walk["at"]), number(walk["at_time"]));
 }
 
-/// FDS's visibility at a place of a state, and what it says there.
+/// FDS's visibility at a place in a state, and its verdict there.
 void fds_cells(const Json& route, size_t state, size_t place, CsvTable& table) {
   const Json& metres = route["fds_visibility"][state][place];
   if (metres.is_number())

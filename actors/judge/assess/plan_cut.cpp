@@ -9,17 +9,17 @@ namespace luxodus {
 namespace {
 
 constexpr double breast_m = 1.2;
-/// A floor that is nearer above another is a landing or a ramp of it [m].
+/// A floor less than this above another is a landing or a ramp of it [m].
 constexpr double storey_m = 2;
-/// A place so far below a floor still belongs to it [m].
+/// A place up to this far below a floor still belongs to it [m].
 constexpr double sunk_m = 0.5;
-/// A map of light goes so far beyond routes and areas [m].
+/// Margin of an illuminance map around routes and areas [m].
 constexpr double around_m = 3;
 constexpr double map_spacing_m = 0.25;
 
 using Line = std::pair<glm::dvec2, glm::dvec2>;
 
-/// Where a level plane cuts a triangle.
+/// Adds the line in which a horizontal plane cuts a triangle.
 void cut(const glm::dvec3 (&corners)[3], double z, std::vector<Line>& out) {
   glm::dvec2 ends[3];
   int count = 0;
@@ -39,7 +39,7 @@ bool stands_open(const Object& object, const Scenario& doors) {
   return named(doors.doors_open) || (object.door->open && !named(doors.doors_closed));
 }
 
-/// Open doors leave their openings free.
+/// Adds the sections of all objects except open doors.
 void cut_level(const SceneDescription& scene, const Scenario& doors, PlanLevel& level) {
   for (const Object& object : scene.objects) {
     if (stands_open(object, doors)) continue;
@@ -132,7 +132,8 @@ LightMap map_of(const SceneDescription& scene, const std::vector<PlanLevel>& lev
     map.spacing_m *= 2;
   map.columns = static_cast<int>(count(size.x));
   map.rows = static_cast<int>(count(size.y));
-  // In the middle of its cells, so that few places lie in walls that stand on round numbers.
+  // Points in the middle of cells: few of them lie in walls, which often stand on round
+  // coordinates.
   map.corner = box.low + map.spacing_m / 2;
   return map;
 }

@@ -1,5 +1,6 @@
-// The floors of a building for plans: where its routes and areas lie, and its surfaces as a level
-// plane cuts them at breast height above each. Pure; any thread.
+// Floors of a building for plans: heights on which its routes and areas lie, and horizontal
+// sections of its surfaces at breast height above each. It draws nothing. Pure functions; any
+// thread.
 #pragma once
 
 #include <vector>
@@ -10,28 +11,28 @@
 namespace luxodus {
 
 namespace limits {
-/// Lines of a plan; more are left out, the shortest first.
+/// Lines of a plan; beyond this the shortest are left out.
 inline constexpr size_t plan_lines = 20'000;
-/// Floors that are drawn, from below; a building of more has other needs.
+/// Floors that are drawn, from below.
 inline constexpr size_t plan_levels = 100;
-/// Places of a map of light: twice as many square metres at 0.25 m would be 300 m2.
+/// Grid points of an illuminance map: 1250 m2 at a spacing of 0.25 m.
 inline constexpr size_t map_places = 20'000;
 }  // namespace limits
 
-/// One for each floor that routes or areas lie on, from below, with its walls. Floors less than
-/// two metres above another are landings of it. One at zero where there are neither.
+/// One level with its walls for each floor on which routes or areas lie, from below. A floor less
+/// than two metres above another counts as its landing. Without routes and areas one level at zero.
 std::vector<PlanLevel> plan_levels(const SceneDescription& scene, const Scenario& doors);
 
-/// The number of the level that a place belongs to: the highest whose floor is not above it by
-/// more than half a metre, else the lowest. Requires: a level.
+/// Index of the level of a place: the highest whose floor is at most half a metre above the place,
+/// else the lowest. Requires: at least one level.
 size_t level_of(const std::vector<PlanLevel>& levels, double z);
 
-/// At most limits::plan_lines of them.
+/// The longest lines, at most limits::plan_lines.
 std::vector<std::pair<glm::dvec2, glm::dvec2>> longest_lines(
     std::vector<std::pair<glm::dvec2, glm::dvec2>> lines);
 
-/// The grid of a level's map of light, without its values: around its routes and areas, within its
-/// walls, 0.25 m apart or, where that is more than a limit, twice as far until it is not.
+/// Grid of a level's illuminance map without values, around its routes and areas and within its
+/// walls. The spacing is 0.25 m, doubled until the grid keeps the limit.
 LightMap map_of(const SceneDescription& scene, const std::vector<PlanLevel>& levels, size_t level);
 
 }  // namespace luxodus

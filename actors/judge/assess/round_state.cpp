@@ -12,7 +12,8 @@ namespace luxodus {
 
 namespace {
 
-/// By the name of a simulation's smoke: how much denser it may be. Its grids have one name.
+/// Raises the extinction of simulated smoke by its largest error. All grids of a simulation have
+/// one name.
 void thicken_by_errors(const SceneDescription& scene, Scenario& scenario) {
   std::map<std::string, double> denser;
   for (const Medium& medium : scene.media) {
@@ -25,14 +26,14 @@ void thicken_by_errors(const SceneDescription& scene, Scenario& scenario) {
   for (const auto& [name, factor] : denser) scenario.media.push_back({name, factor});
 }
 
-/// Of all smoke; what flames are made of stays.
+/// Sets the albedo of all smoke; flames keep theirs.
 void set_albedo(SceneDescription& scene, double albedo) {
   for_each_smoke(scene, [&](SmokeOptics& optics) { optics.albedo = Spectrum::constant(albedo); });
   for (Medium& medium : scene.media)
     if (!is_flame(medium)) medium.data.albedo.clear();
 }
 
-/// What light has more than other light of the same groups.
+/// Difference of two mixtures of the same groups.
 GroupMixture minus(const GroupMixture& light, const GroupMixture& other) {
   GroupMixture out;
   for (const GroupMixture* one : {&light, &other})
@@ -42,7 +43,7 @@ GroupMixture minus(const GroupMixture& light, const GroupMixture& other) {
   return out;
 }
 
-// What is not there or of another type is thrown by Json, and caught below.
+// Json throws if a value is missing or of another type; parse_round catches it.
 
 glm::dvec3 vector_of(const Json& list) {
   return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};

@@ -1,5 +1,6 @@
-// A round of paths from the eyes of those who still have to look, as a state of the scene: those
-// who trace it elsewhere know the scene's file, and make what they trace from a text.
+// A round of paths from the eyes whose views are undecided, as a state of the scene. Nodes that
+// know the scene's file make what they trace from a text. Plain values and pure functions for any
+// thread; RoundStates states its own rule.
 #pragma once
 
 #include <memory>
@@ -16,33 +17,33 @@
 namespace luxodus {
 
 namespace limits {
-/// Particles of a batch of a round: paths from the eye cost far more, of which a run traces some
-/// beside its particles.
+/// Particles of a batch of a round. They are few, since a batch also traces paths from eyes, which
+/// cost far more.
 inline constexpr int64_t round_batch_particles = 256;
 }  // namespace limits
 
-/// Other smoke than the scene and the scenario state.
+/// Smoke that differs from that of the scene and the scenario.
 struct OtherSmoke {
-  double factor = 1;             // of all extinctions, beside the scenario's own
-  std::optional<double> albedo;  // of all smoke
-  bool by_errors = false;        // denser by the largest error of its source
+  double factor = 1;             // on all extinctions, besides the scenario's own factors
+  std::optional<double> albedo;  // replaces that of all smoke
+  bool by_errors = false;        // extinction raised by the largest error of its source
 };
 
-/// What a round has beside the scene.
+/// Parts of a round that are not in the scene.
 struct RoundState {
   std::string scenario;        // by name
-  std::optional<double> at_s;  // of a scene that changes in time: the state that it is of
+  std::optional<double> at_s;  // the state of a scene that changes in time
   OtherSmoke smoke;
   double eye_path_factor = 0;       // as in RunSettings
-  std::vector<Observer> observers;  // each with the signs that it is asked about
+  std::vector<Observer> observers;  // each with the signs to look at
 };
 
-/// JSON, whose numbers read back to the same bits.
+/// JSON; its numbers are read back to the same bits.
 std::string round_text(const RoundState& round);
-/// Errors: a text that is none; more observers than limits::sights.
+/// Errors: no valid text; more observers than limits::sights.
 Result<RoundState> parse_round(const std::string& text);
 
-/// Calls `work` with the optics of all smoke; flames are none.
+/// Calls `work` with the optics of all media except flames.
 template <class Scene, class Work>
 void for_each_smoke(Scene& scene, const Work& work) {
   for (auto& medium : scene.media) {
@@ -54,49 +55,50 @@ void for_each_smoke(Scene& scene, const Work& work) {
   }
 }
 
-/// A light that a scene is judged in: aged, and as when its luminaires were new.
+/// A light in which a scene is judged: as its luminaires have aged, and as when they were new.
 struct JudgedLight {
   GroupMixture aged, as_new;
 };
 
-/// The scene of a judged state, which measures nothing but what eyes look at.
+/// The scene of a judged state; only views of signs are tallied.
 struct JudgedScene {
   Scenario scenario;
   SceneDescription scene;
-  Ageing ageing;                    // by which its sources are grouped
+  Ageing ageing;                    // defines the source groups
   std::vector<JudgedLight> lights;  // at least one
 
-  /// Of all lights: the aged one, and the new one where luminaires age. Then what each light but
-  /// the first has more than the first, in the same order: paths that all lights share err alike.
+  /// Mixtures of all lights: the aged one, and the new one if luminaires age. Then, in the same
+  /// order, the difference of each further light from the first one: estimated from the same paths,
+  /// it has a smaller error than either light.
   std::vector<GroupMixture> mixtures() const;
   size_t lights_mixtures() const { return per_light() * lights.size(); }
   size_t aged_mixture(size_t light) const { return per_light() * light; }
   /// Requires: luminaires age.
   size_t new_mixture(size_t light) const { return per_light() * light + 1; }
-  /// Requires: not the first light, and luminaires age where the new light is asked for.
+  /// Requires: not the first light; luminaires age if `as_new`.
   size_t mixture_beyond_first(size_t light, bool as_new) const {
     return lights_mixtures() + per_light() * (light - 1) + (as_new ? 1 : 0);
   }
   size_t per_light() const { return ageing.any() ? 2 : 1; }
 };
 
-/// A scenario with the extinctions of all media times a factor, named ones too.
+/// A scenario in which the extinctions of all media are multiplied by a factor, also of media that
+/// it names.
 Scenario thickened(Scenario scenario, double factor);
 
-/// In the one light that it has. Errors: as group_by_ageing.
+/// The scene in a single light. Errors: as group_by_ageing.
 Result<JudgedScene> judged_scene(const SceneDescription& scene, const Scenario& scenario,
                                  const OtherSmoke& smoke = {});
 
-/// What a round traces: BatchTracer's particles and its paths from the eyes.
-/// Errors: as compile_scene.
+/// The compiled scene of a round: particles, and paths from the round's eyes. Errors: as
+/// compile_scene.
 Result<std::shared_ptr<const CompiledScene>> compile_round(const JudgedScene& judged,
                                                            const RoundState& round);
 
-/// Rounds as nodes make them. The nodes of a process share the last that any of them was asked for.
-/// Any thread.
+/// Makes rounds on nodes. The nodes of a process share the last round that was made. Any thread.
 class RoundStates final : public StateMaker {
  public:
-  /// `read`: the scene at other times, where it has a clock; may be empty.
+  /// `read`: reads the scene at other times; empty for a scene without a clock.
   explicit RoundStates(std::shared_ptr<const SceneDescription> scene, SceneAtTime read = {})
       : scenes_(std::move(scene), std::move(read)) {}
   /// Errors: as parse_round, TimedScenes::at, find_scenario, judged_scene and

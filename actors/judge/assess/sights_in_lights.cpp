@@ -17,18 +17,18 @@ namespace luxodus {
 
 namespace {
 
-/// Batches of a round at least, whose spread is the error; paths to each part of a sign in the
-/// first round's batches, and at most in any: beyond that a round has more batches.
+/// Smallest number of batches of a round, whose spread gives the error; paths per batch to each
+/// part of a sign, in the first round and at most: beyond that a round has more batches.
 constexpr int64_t min_batches = 64, first_paths = 8, max_paths = 512;
-/// compile's share of paths: 0.1 of the particles, divided among the parts.
+/// Factor in compile_scene's number of paths: 0.1 of the particles, divided among the parts.
 constexpr double paths_per_particle = 0.1;
 
-/// Each round has four times the paths of the one before.
+/// Size of a round: four times the paths of the one before.
 struct RoundSize {
   explicit RoundSize(int round)
       : paths(std::min(max_paths, first_paths << (2 * round))),
         batches(min_batches * ((first_paths << (2 * round)) / paths)) {}
-  int64_t paths;  // of a batch, to each part
+  int64_t paths;  // of a batch, to each part of a sign
   int64_t batches;
 };
 
@@ -37,7 +37,7 @@ double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
       std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0, 1.0)));
 }
 
-/// A sign as somebody faces it, before anything is known of its light.
+/// The view of a sign before its light is known.
 SightRow row_of(const Stand& stand, const Sign& sign) {
   SightRow row;
   row.from = stand.from;
@@ -65,9 +65,9 @@ Factors factors_of(const CompiledScene& scene, const std::vector<GroupMixture>& 
   return out;
 }
 
-/// Veiling luminance in the eye [cd/m2], by mixture, of all emitters but the sign itself. Each part
-/// of an emitter lays its veil from where it is, through the smoke before it: a flame is no point,
-/// and not in its middle.
+/// Veiling luminance in the eye [cd/m2], by mixture, from all emitters except the sign itself. Each
+/// part of an extended emitter, such as a flame, counts with its own direction and with the smoke
+/// before it.
 std::vector<double> veils_of(const Building& building, const GeometryAccess& access,
                              const SightRow& row, uint32_t sign, double age_years,
                              const Factors& factors) {
@@ -86,7 +86,7 @@ std::vector<double> veils_of(const Building& building, const GeometryAccess& acc
   return veils;
 }
 
-/// Of independent samples, to first order.
+/// Error propagation for independent samples, to first order.
 Uncertain plus(const Uncertain& a, const Uncertain& b) {
   return {a.value + b.value, std::hypot(a.error, b.error)};
 }
@@ -94,7 +94,7 @@ Uncertain product(const Uncertain& a, const Uncertain& b) {
   return {a.value * b.value, std::hypot(a.value * b.error, a.error * b.value)};
 }
 
-/// What arrives at the eye from one sign, in one mixture of the light.
+/// Reads the light from one sign to the eye, in one mixture.
 class ViewReadout {
  public:
   ViewReadout(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
@@ -140,7 +140,7 @@ Uncertain ViewReadout::of(uint32_t part, EyeQuantity quantity) const {
       return product({scene_.mixtures[mixture_][static_cast<size_t>(group)], 0},
                      whole(part, quantity));
     }
-    default:  // what smoke and walls let pass is the same in all light
+    default:  // transmission and occlusion are the same in all light
       return whole(part, quantity);
   }
 }
@@ -206,7 +206,7 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
                                   "spacing_m or fewer eye heights",
                                   stands_.size(), scene_.signs.size(), limits::sights));
   std::vector<std::vector<SightRow>> rows(stands_.size());
-  std::vector<std::vector<Faced>> faced(stands_.size());  // rows of the stand's own
+  std::vector<std::vector<Faced>> faced(stands_.size());  // rows are counted within the stand
   building.each(stands_.size(), [&](const GeometryAccess& access, size_t i) {
     const Stand& stand = stands_[i];
     const bool stuck = building.in_solid(access, stand.observer.eye);
@@ -248,7 +248,7 @@ Result<void> SightsInLights::look_for_lines(const AssessProgress& progress) {
   return {};
 }
 
-/// Those who still have to look, and as many paths as the round has.
+/// The observers of a round with their undecided signs, and the number of paths.
 RoundState SightsInLights::round_state(int round, const std::vector<size_t>& views) const {
   RoundState out{judged_.scenario.name, scene_.at_s, smoke_, 0, {}};
   size_t last = stands_.size();
@@ -263,13 +263,13 @@ RoundState SightsInLights::round_state(int round, const std::vector<size_t>& vie
   }
   const auto paths = static_cast<double>(RoundSize(round).paths);
   const auto parts = static_cast<double>(3 * views.size());
-  // Half a path more, so that rounding down gives this many.
+  // Half a path more, so that rounding down gives this number.
   out.eye_path_factor = (paths + 0.5) * parts /
                         (paths_per_particle * static_cast<double>(limits::round_batch_particles));
   return out;
 }
 
-/// In aged light and, where it differs, in new: the worse verdict counts.
+/// Judges in aged light and, if luminaires age, in new light; the worse verdict counts.
 void SightsInLights::judge_view(const Readout& readout, const CompiledScene& scene,
                                 const EyeTarget& target, const Faced& faced, size_t light) {
   const SightRules rules{{scene_.assessment.age_years},
@@ -294,7 +294,8 @@ void SightsInLights::judge_view(const Readout& readout, const CompiledScene& sce
   row.other = std::move(as_new);
 }
 
-/// Where both verdicts count in the same light, aged or new. Requires: the round has judged both.
+/// Sets the error if both verdicts count in the same light, aged or new. Requires: this round has
+/// judged both.
 void SightsInLights::compare_with_first(const Readout& readout, const CompiledScene& scene,
                                         const EyeTarget& target, const Faced& faced, size_t light) {
   const SightRow &first = rows_.front()[faced.row], &row = rows_[light][faced.row];
@@ -323,7 +324,7 @@ void SightsInLights::judge(const CompiledScene& scene, const Totals& totals,
     for (size_t light = 0; light < lights(); ++light) {
       if (!open_[light][view]) continue;
       SightRow& row = rows_[light][faced.row];
-      if (target == targets.end()) {  // within rounding of the face's own plane
+      if (target == targets.end()) {  // edge-on within rounding
         row.sight.verdict = SightVerdict::not_assessed;
         row.sight.reason = remark(RemarkId::seen_edge_on);
       } else {

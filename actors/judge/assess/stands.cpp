@@ -12,7 +12,7 @@ namespace luxodus {
 
 namespace {
 
-/// People keep so far from the walls of an area [m].
+/// Distance that people keep from the walls of an area [m].
 constexpr double area_border_m = 0.3;
 
 Stand standing(const Subject& from, const glm::dvec3& foot, double height_m) {
@@ -39,7 +39,7 @@ void stand_on_routes(const SceneDescription& scene, std::vector<Stand>& out) {
   }
 }
 
-/// At the first height alone: where people cross an area they walk.
+/// At the first eye height only: people who cross an area walk upright.
 void stand_in_areas(const SceneDescription& scene, std::vector<Stand>& out) {
   for (const AssessedArea& area : scene.open_areas) {
     const auto places = within(area, area_border_m, scene.assessment.spacing_m);

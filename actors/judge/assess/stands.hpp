@@ -1,5 +1,5 @@
-// Where somebody stands who may read signs: on the routes, in open areas, and where the scene has
-// observers. Pure; any thread.
+// Places of people who may read signs: on routes, in open areas, and at the observers of the scene.
+// Pure function; any thread.
 #pragma once
 
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace luxodus {
 
-/// Somebody at a place.
+/// A person at a place.
 struct Stand {
   Subject from;  // a route, an open area or an observer
   double along_m = 0, stands_for = 0, height_m = 0;
   Observer observer;
-  bool looks_ahead = true;  // else anywhere
+  bool looks_ahead = true;  // false: in any direction
 };
 
-/// All of a scene, and `observers`: those that it names.
+/// All places of a scene, with `observers`, which it names.
 std::vector<Stand> stands_of(const SceneDescription& scene, const std::vector<Observer>& observers);
 
 }  // namespace luxodus

@@ -12,7 +12,7 @@ namespace luxodus {
 
 namespace {
 
-/// Names that a row lists before it counts the rest.
+/// Names that a row lists; further ones are counted.
 constexpr size_t names_listed = 12;
 
 double number_at(const Json& object, const char* key) {
@@ -20,7 +20,7 @@ double number_at(const Json& object, const char* key) {
   return at != object.end() && at->is_number() ? at->get<double>() : 0;
 }
 
-/// The list at a key; empty where there is none.
+/// The list at a key; empty if there is none.
 const Json& list_at(const Json& object, const char* key) {
   static const Json none = Json::array();
   const auto at = object.find(key);
@@ -55,8 +55,7 @@ Json deviations_json(const AssessedState& state) {
   return out;
 }
 
-/// Over all media that are no flames; null where there are none. Where media overlap their
-/// extinctions add.
+/// Range over all media except flames; null without smoke. Extinctions add where media overlap.
 Json smoke_json(const AssessedState& state) {
   if (!state.smoke) return Json();
   double low = 0, high = 0;
@@ -140,7 +139,7 @@ std::string named_row(const Json& rows) {
   return out.empty() ? "none" : out;
 }
 
-/// A row for each reason; the first alone says what they are.
+/// A row for each reason; only the first has a name.
 void add_unassessed(const Json& assessment, std::vector<StateRow>& rows) {
   const char* what = "not assessed";
   for (const Json& group : list_at(assessment, "not_assessed")) {

@@ -9,15 +9,15 @@ namespace luxodus {
 
 namespace {
 
-/// Layouts that are made for each that is wished.
+/// Layouts that are made for each wished one.
 constexpr size_t made_of_each = 6;
-/// Of scores: so large that layouts begin elsewhere.
+/// Noise of scores that makes greedy layouts start elsewhere.
 constexpr double loud = 2;
-/// Share of the luminaires of the best that a swap takes out.
+/// Share of the best layout's luminaires that a swap removes.
 constexpr double swapped = 0.3;
 constexpr double sum_rounding = 1e-9;
 
-/// Which option each place has; -1 for none.
+/// Option chosen at each place; -1 for none.
 std::vector<int64_t> options_of_places(const LayoutProblem& problem, const Layout& layout) {
   std::vector<int64_t> out(problem.places(), -1);
   for (size_t i = 0; i < layout.size(); ++i)
@@ -43,10 +43,10 @@ class Alternatives {
       switch (i % 3) {
         case 0:
           add_completed({});
-          break;  // from nothing
+          break;  // from an empty layout
         case 1:
           add_completed(without_some());
-          break;  // swaps around the best
+          break;  // swaps in the best layout
         default:
           add(enriched(pool_.empty() ? best_ : pool_[random_.bits() % pool_.size()]));
       }
@@ -74,7 +74,7 @@ class Alternatives {
     return out;
   }
 
-  /// With more luminaires, at free places, for as much as it may be dearer.
+  /// Adds luminaires at free places, up to a random objective within the limit.
   Layout enriched(Layout layout) {
     std::vector<int64_t> places = options_of_places(problem_, layout);
     double objective = objective_of(problem_, layout);
@@ -91,10 +91,10 @@ class Alternatives {
     return layout;
   }
 
-  /// The one that differs most from all that were taken, again and again.
+  /// Repeatedly takes the layout that differs most from all taken ones.
   std::vector<Layout> chosen() const {
     std::vector<Layout> out;
-    std::vector<size_t> least(pool_.size());  // places that differ from the nearest taken one
+    std::vector<size_t> least(pool_.size());  // distance to the nearest taken layout
     for (size_t i = 0; i < pool_.size(); ++i)
       least[i] = places_that_differ(problem_, pool_[i], best_);
     while (out.size() < wish_.count) {
@@ -111,7 +111,7 @@ class Alternatives {
   const LayoutIndex index_;
   const Layout& best_;
   const AlternativesWish& wish_;
-  const double most_;  // objective
+  const double most_;  // largest objective
   const std::atomic<bool>& interrupt_;
   Random random_;
   std::vector<Layout> pool_;

@@ -1,6 +1,6 @@
-// Layouts that differ from the best one: for people to choose from, and for what the program of the
-// search does not know, such as smoke. Numbers alone. Pure: the same seed gives the same layouts.
-// Thread rule: one thread.
+// Layouts that differ from the best one: for people to choose from, and for criteria that the
+// integer program does not contain, such as smoke. It knows options and rows only, no geometry.
+// Pure: the same seed gives the same layouts. Thread rule: one thread.
 #pragma once
 
 #include <atomic>
@@ -12,18 +12,19 @@ namespace luxodus {
 
 struct AlternativesWish {
   size_t count = 8;
-  /// Their objective may be larger than that of the best by this share: the cheapest alone say
-  /// nothing of what more luminaires would bring.
+  /// Largest share by which the objective may exceed that of the best layout: the cheapest layouts
+  /// alone do not show what more luminaires would bring.
   double dearer = 0.3;
   uint64_t seed = 1;
 };
 
-/// In how many places one has a luminaire, or another one, and the other has not.
+/// Number of places at which two layouts have different options, or only one of them has an option.
 size_t places_that_differ(const LayoutProblem& problem, const Layout& a, const Layout& b);
 
-/// As many as are wished, or fewer where there are no more: all demands hold in each; each differs
-/// from the best and from those before it in as many places as can be. Ends early at `interrupt`.
-/// Requires: all holds in `best`.
+/// As many layouts as wished, or fewer if no more are found. All demands hold in each; each differs
+/// from the best layout and from the earlier ones at as many places as possible. Ends early at
+/// `interrupt`.
+/// Requires: all demands hold in `best`.
 std::vector<Layout> alternatives_to(const LayoutProblem& problem, const Layout& best,
                                     const AlternativesWish& wish,
                                     const std::atomic<bool>& interrupt);

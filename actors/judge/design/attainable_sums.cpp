@@ -10,9 +10,9 @@ namespace luxodus {
 
 namespace {
 
-/// Weights are whole numbers of this many parts of one, where they have a step.
+/// Weights with a common step are integers when multiplied by this.
 constexpr double parts_of_one = 1000;
-/// Of weights and bounds.
+/// Rounding of weights and bounds.
 constexpr double attainable_rounding = 1e-6;
 
 }  // namespace
@@ -28,7 +28,7 @@ AttainableSums::AttainableSums(const LayoutProblem& problem) {
   }
   if (step == 0) return;
   step_ = static_cast<double>(step) / parts_of_one;
-  // From the product of the smallest and the largest on, every multiple of the step is a sum
+  // From the product of the smallest and the largest weight on, every multiple of the step is a sum
   // (Schur's bound on Frobenius numbers).
   const double from_here_all =
       static_cast<double>(*weights.begin() / step) * static_cast<double>(*weights.rbegin() / step);

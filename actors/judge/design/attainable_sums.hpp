@@ -1,5 +1,5 @@
-// The sums that weights of luminaires can add up to. No layout's objective lies between two of
-// them, so a bound between two is one at the larger of them. Plain values; any thread.
+// The sums that weights of luminaires can form. No objective lies between two neighbouring sums, so
+// a lower bound can be raised to the next sum. Plain values; any thread.
 #pragma once
 
 #include <vector>
@@ -9,24 +9,25 @@
 namespace luxodus {
 
 namespace limits {
-/// Sums that are told apart; above them those of a step between weights are taken.
+/// Number of sums that are enumerated; above them every multiple of the step counts as a sum.
 inline constexpr size_t told_apart_sums = 1'000'000;
 }  // namespace limits
 
 class AttainableSums {
  public:
-  /// Of the options that are not fixed, each as often as one likes.
+  /// Sums of weights of the options that are not fixed, each any number of times.
   explicit AttainableSums(const LayoutProblem& problem);
 
-  /// The smallest one that is not below a bound; the bound itself where weights have no step.
+  /// The smallest sum that is not below a bound; the bound itself if the weights have no common
+  /// step.
   double from(double bound) const;
-  /// A number below a sum that no other sum lies above and below it, and that is itself none.
+  /// A number below `sum` and above the next smaller sum.
   double just_below(double sum) const;
 
  private:
   bool is_one(size_t steps) const;
 
-  double step_ = 0;               // every sum is a multiple of it; 0 where there is none
+  double step_ = 0;               // every sum is a multiple of it; 0 if there is none
   std::vector<char> attainable_;  // by number of steps
 };
 

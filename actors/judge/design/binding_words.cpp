@@ -18,7 +18,7 @@ std::string demand_of(const Texts& t, const Json& design, const Json& one) {
          (rule.empty() ? "" : " (" + rule + ")");
 }
 
-/// "1 luminaire", "3 luminaires"; of another objective "240 (cost)".
+/// "1 luminaire", "3 luminaires"; for another objective "240 (cost)".
 std::string amount(const Texts& t, const std::string& objective, double value) {
   if (objective != "number")
     return t.say("design.because_amount", t.number(value, 4),

@@ -1,4 +1,4 @@
-// What binds in a layout, in words: which demand takes how many luminaires more.
+// Binding demands in words: how many luminaires each demand costs. Pure functions; any thread.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace luxodus {
 
-/// By demand, the one that takes most first.
+/// An entry for each binding demand, the costliest first.
 Json because_json(const DesignResult& result);
 
-/// A sentence for each, in the language. Requires: `design` is a design_json.
+/// A sentence for each, in the language of `t`. Requires: `design` is a design_json.
 std::vector<std::string> because_words(const Texts& t, const Json& design);
 
-/// What a group of constraints of a design_json asks for, in the language.
+/// The requirement of a group of constraints of a design_json, in the language of `t`.
 std::string demand_text(const Texts& t, const Json& group);
 
 }  // namespace luxodus

@@ -1,5 +1,5 @@
-// Places are found in this order, and the first of two that are near to each other stays: over
-// routes, along their centre line, then over open areas, then over task areas.
+// Places are found in this order: over routes along their centre line, then over open areas, then
+// over task areas. Of two places close to each other the first is kept.
 #include "actors/judge/design/candidates.hpp"
 
 #include <fmt/format.h>
@@ -21,30 +21,31 @@ namespace luxodus {
 
 namespace {
 
-/// A ceiling is looked for from here above the floor, up to so far [m].
+/// Height above the floor from which a ceiling is searched, and largest distance [m].
 constexpr double above_floor_m = 0.05, highest_m = 200;
-/// Two places nearer than this share of the spacing are one.
+/// Two places nearer than this share of the spacing are merged.
 constexpr double one_place = 0.5;
-/// Routes that are wider have several rows of places [m].
+/// Wider routes get several rows of places [m].
 constexpr double one_row_width_m = 2.5;
-/// Directions in which walls beside a place are looked for.
+/// Number of directions in which walls beside a place are searched.
 constexpr int wall_directions = 16;
-/// What is on one storey [m].
+/// Largest height difference within a storey [m].
 constexpr double one_storey_m = 2;
-/// Places are told to the millimetre.
+/// Places are rounded to a millimetre [m].
 constexpr double told_m = 1e-3;
-/// A luminaire looks down if its aim is within this of it, as a cosine: half a degree.
+/// A luminaire faces down if its aim is within half a degree of it [cosine].
 constexpr double looks_down = 0.99996;
 /// Luminaires on walls whose aims differ by less are of one kind [deg].
 constexpr double same_aim_deg = 1;
-/// Light that changes by less over the azimuth, as a share of its largest, has no direction.
+/// An intensity that varies less over the azimuth, as a share of its largest value, has no
+/// direction.
 constexpr double even_share = 0.02;
 
-/// A place on the floor that a candidate may hang over.
+/// A point on the floor over which a candidate may hang.
 struct Spot {
   glm::dvec3 floor;
-  double heading_deg = 0;   // of the route below; 0 over areas
-  std::optional<double> z;  // stated
+  double heading_deg = 0;   // of the route below it; 0 over areas
+  std::optional<double> z;  // height, if the scene states it
 };
 
 double heading_of(const glm::dvec3& way) {
@@ -91,7 +92,7 @@ std::vector<Spot> spots_of(const SceneDescription& scene, const DesignSettings& 
   return out;
 }
 
-/// Whether the intensity of a type depends on the azimuth about its aim.
+/// Whether the intensity of a type depends on the azimuth around its aim.
 bool has_direction(const Emitter& e) {
   if (e.distribution != Distribution::web) return e.shape == EmitterShape::tube;
   constexpr int azimuths = 24, polars = 9;
@@ -115,10 +116,10 @@ glm::dvec3 rounded(const glm::dvec3& place) {
   return glm::round(place / told_m) * told_m;
 }
 
-/// Rotations of a type over a way with this heading.
+/// Rotations of a type over a route with this heading.
 std::vector<double> rotations_of(const DesignType& type, double heading_deg) {
   std::vector<double> turns = type.turns_deg;
-  // Light without a direction is not turned: nobody would know which way.
+  // A type without a direction gets no rotation, which nobody could see on site.
   if (turns.empty() && !has_direction(type.emitter)) return {0};
   if (turns.empty()) turns = {0, 90};
   for (double& turn : turns) turn = std::remainder(heading_deg + turn, 360.0);
@@ -131,7 +132,7 @@ class PlaceFinder {
               const Building& furnished)
       : scene_(scene), design_(design), bare_(bare), furnished_(furnished) {}
 
-  /// The spots that luminaires can hang over, each at its mounting height.
+  /// Spots over which luminaires can hang, each at its mounting height.
   std::vector<Spot> find(LeftOut& left_out) const {
     const std::vector<Spot> spots = spots_of(scene_, design_);
     enum class Fate : char { good, no_ceiling, in_body, near_wall };
@@ -176,7 +177,7 @@ class PlaceFinder {
     return out;
   }
 
-  /// Over a place on the floor; none where it may not be.
+  /// Mounting height over a point on the floor; none if it is not allowed.
   std::optional<double> height_over(const glm::dvec3& floor) const {
     std::optional<double> z;
     bare_.each(1, [&](const GeometryAccess& access, size_t) { z = mounting_z(access, floor); });
@@ -192,7 +193,7 @@ class PlaceFinder {
   }
 
  private:
-  /// Listed places are taken as they are, but for two in one place.
+  /// Smallest distance of two places; listed places are only merged if they coincide.
   double apart() const { return design_.places.empty() ? design_.spacing_m : 0.02; }
 
   std::optional<double> mounting_z(const GeometryAccess& access, const glm::dvec3& floor) const {
@@ -224,7 +225,7 @@ class PlaceFinder {
   const Building& furnished_;
 };
 
-/// What becomes of a luminaire that is there.
+/// Whether an existing luminaire is fixed, movable or removed.
 Existing fate_of(const DesignSettings& design, const std::string& name) {
   const auto in = [&](const std::vector<std::string>& list) {
     return std::find(list.begin(), list.end(), name) != list.end();
@@ -248,7 +249,7 @@ void add_existing(const SceneDescription& scene, const DesignSettings& design, C
     one.place = static_cast<uint32_t>(out.all.size());
     one.position = one.floor = e.frame.origin;
     one.name = e.name;
-    // A mesh has its corners where its file says.
+    // A mesh cannot be moved: its corners are where its file says.
     const bool movable = fate == Existing::movable && e.shape != EmitterShape::mesh;
     one.fixed = fate == Existing::fixed || (fate == Existing::movable && !movable);
     if (movable) one.pool = MovablePool{};
@@ -256,12 +257,13 @@ void add_existing(const SceneDescription& scene, const DesignSettings& design, C
   }
 }
 
-/// A circuit that is out in the judged state leaves its types without light.
+/// A type whose circuit the judged state switches off gives no light.
 bool gives_light(const DesignType& type) {
   return type.emitter.emergency_flux > 0;
 }
 
-/// Why a type does not last as long as all rules ask for; none where it does, or says nothing.
+/// Why a type's battery does not last as long as all rules require; none if it does, or if no
+/// duration is stated.
 std::optional<UnusedType> too_short(const DesignType& type, const std::vector<CodeChoice>& codes) {
   constexpr double hour_s = 3600, share = 1 - 1e-9;
   if (!type.emitter.duration_s) return std::nullopt;
@@ -290,20 +292,20 @@ struct MovableKind {
   const Emitter* emitter;           // of the first of them
   std::optional<double> floor_z{};  // of their storey
   MovablePool pool;
-  std::vector<size_t> at{};  // of the candidates
+  std::vector<size_t> at{};  // indices of the candidates
 
-  /// One that does not look down hangs on a wall.
+  /// A luminaire that does not face down hangs on a wall.
   bool on_wall() const { return emitter->frame.axes[2].z < looks_down; }
   double aim_deg() const {
     return std::acos(std::clamp(emitter->frame.axes[2].z, -1.0, 1.0)) * 180 / std::numbers::pi;
   }
-  /// Over no floor the height of luminaires tells storeys apart.
+  /// Without a floor below, the heights of luminaires decide on the storey.
   bool is_on_storey(double floor, double height) const {
     return std::abs(floor_z ? floor - *floor_z : height - emitter->frame.origin.z) < one_storey_m;
   }
 };
 
-/// Numbers the pools of the luminaires that may be moved.
+/// Numbers the pools of movable luminaires.
 std::vector<MovableKind> find_pools(const SceneDescription& scene,
                                     std::vector<LuminaireCandidate>& existing) {
   std::vector<MovableKind> out;
@@ -329,8 +331,8 @@ std::vector<MovableKind> find_pools(const SceneDescription& scene,
   return out;
 }
 
-/// Where luminaires that are there may be moved to, beside staying. `first`: number of the first
-/// place.
+/// Adds candidates for places to which existing luminaires may be moved. `first`: index of the
+/// first place.
 void add_moves(const std::vector<MovableKind>& kinds, const std::vector<Spot>& spots,
                const std::vector<WallSpot>& walls, uint32_t first, Candidates& out) {
   for (const MovableKind& kind : kinds) {
@@ -403,14 +405,14 @@ void add_new(const DesignSettings& design, const std::vector<Spot>& spots,
   out.places = spots.size() + walls.size();
 }
 
-/// Whether any type hangs there.
+/// Whether any type is mounted in this way.
 bool any_mounted(const DesignSettings& design, LuminaireMount mount) {
   return std::any_of(design.types.begin(), design.types.end(), [&](const DesignType& type) {
     return type.mount == mount || type.mount == LuminaireMount::both;
   });
 }
 
-/// What glares or hangs too low may not be: no other luminaire changes that.
+/// Removes candidates that glare or hang too low, since no other luminaire changes that.
 void leave_out_forbidden(const SceneDescription& scene, const DesignSettings& design,
                          const std::vector<CodeChoice>& codes, const Building& bare,
                          Candidates& out) {
@@ -447,17 +449,17 @@ void leave_out_forbidden(const SceneDescription& scene, const DesignSettings& de
   out.all = std::move(good);
 }
 
-/// At its place, looking down or as one on its wall.
+/// Sets the position, facing down or as its wall requires.
 void put_in_frame(Emitter& e, const LuminaireCandidate& candidate) {
   const glm::dvec3 aim = candidate.aim.value_or(glm::dvec3(0, 0, -1));
   e.frame = frame_aiming(candidate.position, aim, {0, 0, 1}).value();
-  // As `rotation_deg` of a luminaire: about local z.
+  // Like `rotation_deg` of a luminaire: around local z.
   e.frame.axes = e.frame.axes * rotation({0, 0, 1}, candidate.rotation_deg).value().linear;
 }
 
-/// One that may not stay where it is needs a place to go to.
+/// Errors: a luminaire that must not stay has no place to go to.
 Result<void> all_may_hang_somewhere(const DesignSettings& design, const Candidates& candidates) {
-  std::map<uint32_t, std::set<uint32_t>> places;  // of each pool
+  std::map<uint32_t, std::set<uint32_t>> places;  // by pool
   for (const LuminaireCandidate& one : candidates.all)
     if (one.pool && !one.barred) places[one.pool->number].insert(one.place);
   for (const LuminaireCandidate& one : candidates.all)
@@ -469,7 +471,7 @@ Result<void> all_may_hang_somewhere(const DesignSettings& design, const Candidat
   return {};
 }
 
-/// Luminaires that are there have bodies, which are no walls: the building is looked at bare.
+/// Bodies of existing luminaires must not count as walls, so the building is taken without them.
 SceneDescription without_bodies(const SceneDescription& scene, const DesignSettings& design) {
   SceneDescription out = scene;
   for (Emitter& e : out.emitters) e.body_material.clear();
@@ -619,7 +621,7 @@ Result<Candidates> find_candidates(const SceneDescription& scene, const DesignSe
                                                 places, limits::design_places));
   add_new(design, spots, walls, out);
   add_moves(kinds, spots, walls, existing, out);
-  // Those of one place stand one after another: what hides the first of them hides all.
+  // Candidates of one place are consecutive: what hides the first hides all of them.
   std::stable_sort(out.all.begin(), out.all.end(),
                    [](const auto& a, const auto& b) { return a.place < b.place; });
   if (out.all.size() > limits::design_candidates)

@@ -1,4 +1,5 @@
-// Why a problem has no layout: what no place can give by itself, else what cannot hold together.
+// Finds why a problem has no layout: rows that no place can satisfy, or else an infeasible subset
+// of groups.
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -13,7 +14,7 @@ namespace luxodus {
 
 namespace {
 
-/// Those of a problem's groups alone.
+/// The problem with some of its groups only.
 LayoutProblem only(const LayoutProblem& problem, const std::set<uint32_t>& groups) {
   LayoutProblem out = problem;
   const auto other = [&](const auto& rows) { return !groups.contains(rows.group); };
@@ -51,7 +52,7 @@ Exists layout_exists(const LayoutProblem& problem, double seconds,
   return Exists::not_known;
 }
 
-/// What the best option of each place adds up to.
+/// Sum over places of the best option.
 double most_of(const LayoutProblem& problem, const std::vector<Term>& terms,
                std::vector<double>& of_place) {
   std::fill(of_place.begin(), of_place.end(), 0);
@@ -94,8 +95,8 @@ Conflict conflict_of(const LayoutProblem& problem, double seconds,
   for (const auto& rows : problem.covers) left.insert(rows.group);
   for (const auto& rows : problem.failures) left.insert(rows.group);
   for (const auto& rows : problem.spreads) left.insert(rows.group);
-  // A group without which there is still no layout is not needed to have none (deletion filter:
-  // Chinneck and Dravnieks, ORSA Journal on Computing 3, 1991).
+  // Deletion filter: a group without which the problem is still infeasible is dropped from the
+  // subset (Chinneck and Dravnieks, ORSA Journal on Computing 3, 1991).
   const double each = seconds / static_cast<double>(std::max<size_t>(left.size(), 1));
   for (const uint32_t group : std::set<uint32_t>(left)) {
     std::set<uint32_t> without = left;

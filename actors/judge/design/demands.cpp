@@ -1,7 +1,7 @@
-// Furniture takes light away and never adds any. So minima are asked for with furniture, and
-// without it only at points that lie in furniture; ratios of illuminance are asked for both ways.
-// Where furniture hides a point from all candidates, no layout passes with furniture, and the rule
-// is asked for without it.
+// Furniture only takes light away. So minima are required with furniture, and without it only at
+// points that lie in furniture; ratios of illuminance are required both ways. If furniture hides a
+// point from all candidates, no layout passes with furniture, and the rule is required without
+// furniture only.
 #include "actors/judge/design/demands.hpp"
 
 #include <algorithm>
@@ -25,19 +25,19 @@ using namespace rule_limit;
 namespace {
 
 constexpr double same_storey_m = 2;
-/// Direct light falls on a tread where a luminaire gives so much: a tenth of a route's minimum
-/// [lx].
+/// Illuminance from one luminaire from which it lights a tread directly: a tenth of a route's
+/// minimum [lx].
 constexpr double lit_tread_lx = 0.1;
-/// Above the line from the lowest to the highest tread, so that no edge hides its tread [m].
+/// Height above the line from the lowest to the highest tread, so that no edge hides its tread [m].
 constexpr double above_tread_m = 0.1;
-/// Two luminaires over each route and open area.
+/// Luminaires over each route and open area.
 constexpr double so_many = 2;
 bool all_one(const std::vector<double>& factors) {
   return std::all_of(factors.begin(), factors.end(), [](double f) { return f >= 1; });
 }
 
-/// A number for each candidate; types and turns that hang in the same place have the same, as what
-/// hides one of them hides all. Those that share a place of the problem need not.
+/// An index for each candidate, equal for types and rotations that hang at the same position, since
+/// what hides one of them hides all. Candidates of one place of the problem may differ in position.
 std::vector<uint32_t> hanging_places(const std::vector<LuminaireCandidate>& candidates) {
   std::vector<uint32_t> out;
   uint32_t number = 0;
@@ -82,10 +82,10 @@ class Demands::Builder {
  private:
   using Points = std::vector<uint32_t>;
 
-  /// Points of a subject without furniture and, where there is any, with it.
+  /// Points of a subject without furniture and, if there is any, with it.
   struct Both {
     Points bare, furnished;
-    Points with_both;  // those with furniture, and those that lie in it without
+    Points with_both;  // points with furniture, and points without it that lie in furniture
   };
 
   void add_options() {
@@ -107,7 +107,8 @@ class Demands::Builder {
     }
   }
 
-  /// Routes and areas that share candidates are one region: a corridor with its side corridors.
+  /// Assigns routes and areas that share candidates to one region, such as a corridor with its side
+  /// corridors.
   void find_regions() {
     const auto join = [&](const Subject& subject, const std::vector<size_t>& above) {
       const auto fresh = static_cast<uint32_t>(regions_.size());
@@ -131,7 +132,8 @@ class Demands::Builder {
       join({SubjectKind::task_area, area.name}, over(area, area.z_m));
   }
 
-  /// A luminaire that is there has been paid for, and one that stays in any case is not counted.
+  /// Existing luminaires are already paid for, and a luminaire that stays in any case has no
+  /// weight.
   double weight_of(const LuminaireCandidate& one, double of_move) const {
     if (one.moved) return of_move;
     if (one.pool) return 0;
@@ -140,7 +142,7 @@ class Demands::Builder {
                  : weight_of(design_.types[one.type].cost, design_.types[one.type].watts);
   }
 
-  /// A share of the lightest luminaire that may be placed.
+  /// By default a share of the smallest weight of a luminaire that may be placed.
   double weight_of_move() const {
     if (design_.move_cost) return *design_.move_cost;
     double least = 0;
@@ -150,7 +152,8 @@ class Demands::Builder {
       const double weight = weight_of(type.cost, type.watts);
       if (weight > 0 && (least == 0 || weight < least)) least = weight;
     }
-    // Where new ones add nothing either, a luminaire is not moved in vain.
+    // If new luminaires weigh nothing, a move still has a weight, so that none is moved without
+    // need.
     return default_move_share * (least > 0 ? least : 1);
   }
 
@@ -168,7 +171,7 @@ class Demands::Builder {
     return 1;
   }
 
-  /// What is left of each candidate's light, or not there yet.
+  /// For each candidate, the share of its light that is left, or that is on.
   std::vector<double> factors(const std::function<double(const Emitter&)>& of) const {
     std::vector<double> out;
     for (const Emitter& e : scene_.emitters) out.push_back(of(e));
@@ -177,14 +180,14 @@ class Demands::Builder {
   std::vector<double> as_new() const {
     return factors([](const Emitter& e) { return 1 / e.emergency_ageing; });
   }
-  /// A luminaire that states no onset is asked for nothing: its check is not made.
+  /// Luminaires without a stated onset count as fully on here, since their check is not made.
   std::vector<double> after(double seconds) const {
     return factors([seconds](const Emitter& e) {
       return e.onset.empty() ? 1 : onset_share(e.onset, seconds);
     });
   }
 
-  /// Points that several rules ask for are computed once.
+  /// Computes points that several rules use only once.
   Points light_at(Lit& lit, const std::vector<glm::dvec3>& places) {
     std::vector<glm::dvec3> fresh;
     Points out;
@@ -213,8 +216,9 @@ class Demands::Builder {
   }
   Both both_at(const std::vector<glm::dvec3>& places) { return both_at(places, places); }
 
-  /// The points at which so much light is asked for: with furniture, unless some of them get less
-  /// from all candidates together. Then no layout passes with furniture, and none is asked to.
+  /// The points at which an illuminance is required: those with furniture, unless some of them get
+  /// less from all candidates together. Then no layout passes with furniture, and the points
+  /// without it are used.
   const Points& reachable(RuleId rule, const Subject& subject, const Both& both, double asked_lx) {
     if (both.furnished.empty()) return both.bare;
     const auto hidden =
@@ -256,7 +260,7 @@ class Demands::Builder {
     }
   }
 
-  /// With furniture, which only takes light away.
+  /// The mean is required with furniture, which only takes light away.
   void add_mean(RuleId rule, const Subject& subject, const Both& both, double limit_lx,
                 const std::vector<double>& factors = {}) {
     const Points& points = both.furnished.empty() ? both.bare : both.furnished;
@@ -271,21 +275,21 @@ class Demands::Builder {
               problem_.points[points.front()].place);
   }
 
-  /// In time: `seconds` after the failure of the mains. Nothing where all light is there by then:
-  /// as much is asked for at all times.
+  /// Required illuminance `seconds` after the failure of the mains. No rows if all luminaires are
+  /// fully on by then, since the minima require as much.
   void add_early(RuleId rule, const Subject& subject, const Both& both, double seconds,
                  double limit_lx) {
     const auto shares = after(seconds);
     if (all_one(shares)) {
-      // Only what furniture hides is told.
+      // Only counts the points that furniture hides.
       reachable(rule, subject, both, limit_lx * design_.margin);
       return;
     }
     add_minima(DemandKind::early, rule, subject, both, limit_lx, shares);
   }
 
-  /// Brightest places are looked for straight below luminaires, too, so that no peak hides between
-  /// the points of the grid. `limit_lx`: what is asked for at every point, anyway.
+  /// The brightest places are also searched straight below luminaires, since a peak may lie between
+  /// points of the grid. `limit_lx`: required at every point in any case.
   void add_spread(RuleId rule, const Subject& subject, const Both& both,
                   const std::vector<glm::dvec3>& peaks, double ratio, double limit_lx) {
     if (both.bare.empty()) return;
@@ -307,7 +311,7 @@ class Demands::Builder {
     problem_.failures.push_back({group, least_lx, points});
   }
 
-  /// Numbers of the candidates over a route or an area.
+  /// Indices of the candidates over a route or an area.
   template <class Subject>
   std::vector<size_t> over(const Subject& subject, double floor_z) const {
     std::vector<size_t> out;
@@ -318,7 +322,7 @@ class Demands::Builder {
     return out;
   }
 
-  /// What holds when any one luminaire has failed. `limit_lx`: of the rules, at the same points.
+  /// Demands with any one luminaire failed. `limit_lx`: of the rules at the same points.
   void add_single_failures(const Subject& subject, const std::vector<size_t>& above,
                            const Both& both, double limit_lx) {
     if (design_.failure == FailureDemand::none || both.bare.empty()) return;
@@ -332,7 +336,7 @@ class Demands::Builder {
     add_failures(RuleId::none, subject, points, never_dark_lx);
   }
 
-  /// Where the centre line of a route is brightest: next to each luminaire over it.
+  /// Brightest points of a route's centre line: those nearest to each luminaire over it.
   static std::vector<glm::dvec3> peaks_of(const EscapeRoute& route,
                                           const std::vector<glm::dvec3>& lamps) {
     std::vector<glm::dvec3> out;
@@ -457,7 +461,7 @@ class Demands::Builder {
     }
   }
 
-  /// A luminaire near a place, by the rule of luminaire_near.
+  /// A luminaire near a place, as in luminaire_near.
   void add_near(RuleId rule, const Subject& subject, const glm::dvec3& place, bool above,
                 const LinesOfSight& seen) {
     const auto floor = floor_below(scene_, place);
@@ -495,9 +499,9 @@ class Demands::Builder {
               terms_of(*lux, no_light_lx), asked, point.position);
   }
 
-  /// One luminaire lights the whole flight, where any can; else each tread has one that lights it.
-  /// A flight that no candidate reaches is in no part of the building that is designed. One that is
-  /// barred lights nothing.
+  /// One luminaire lights the whole flight if any can; else each tread needs a luminaire that
+  /// lights it. A flight that no candidate lights is outside the designed part of the building.
+  /// Barred candidates do not count.
   void add_flight(const StairFlight& flight) {
     if (std::none_of(codes_.begin(), codes_.end(), [](const auto& one) { return one.european(); }))
       return;

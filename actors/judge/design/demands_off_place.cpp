@@ -1,6 +1,6 @@
-// What is asked for where a layout falls below a minimum with luminaires off their places: at such
-// a point each candidate counts with the least that it gives there from any place where it may be
-// mounted. Every layout whose minima hold off its places keeps these rows.
+// Rows for points at which a layout is below a minimum with luminaires off their places. Each
+// candidate counts with the least light that it gives there from any place where it may be mounted.
+// Every layout whose minima hold off its places satisfies these rows.
 #include <algorithm>
 #include <limits>
 
@@ -11,11 +11,11 @@ namespace luxodus {
 
 namespace {
 
-/// A candidate that gives less than this share of what is asked for, at all points, counts there
-/// as if it were at its place.
+/// A candidate that gives less than this share of the requirement at every point is not displaced:
+/// it counts with the light from its place.
 constexpr double gives_little = 0.01;
 
-/// Those that give much at any of the points, or are chosen; by number.
+/// Indices of candidates that give more at any of the points, or are chosen.
 std::vector<uint32_t> worth_moving(const std::vector<PointOffPlace>& points,
                                    const std::vector<std::vector<double>>& planned,
                                    const Layout& layout) {
@@ -31,7 +31,7 @@ std::vector<uint32_t> worth_moving(const std::vector<PointOffPlace>& points,
 
 }  // namespace
 
-/// Some of the candidates and their displaced copies, in one building.
+/// Some of the candidates with their displaced copies, in one building.
 class Demands::Displaced {
  public:
   static Result<std::unique_ptr<Displaced>> make(const OffPlaceScene& of,
@@ -55,8 +55,8 @@ class Demands::Displaced {
     return out;
   }
 
-  /// At each point, of each of the candidates [lx]. `furnished`: of each point. Requires: there is
-  /// furniture, where it is asked for.
+  /// For each point, the least light of each candidate [lx]. `furnished`: for each point. Requires:
+  /// there is furniture if any point is `furnished`.
   std::vector<std::vector<double>> least_at(const std::vector<PointOffPlace>& points,
                                             const std::vector<char>& furnished) const {
     const std::vector<double> none(count_, std::numeric_limits<double>::infinity());
@@ -85,8 +85,8 @@ class Demands::Displaced {
   Displaced() = default;
 
   SceneDescription scene_;
-  std::vector<uint32_t> whose_;  // of each copy, its candidate
-  size_t count_ = 0;             // of candidates
+  std::vector<uint32_t> whose_;  // candidate of each copy
+  size_t count_ = 0;             // number of candidates
   std::unique_ptr<Lit> bare_, furnished_;
 };
 
@@ -102,7 +102,8 @@ Result<size_t> Demands::ask_off_place(const OffPlaceScene& of,
         std::find_if(problem_.groups.begin(), problem_.groups.end(),
                      [&](const ConstraintGroup& one) { return same_demand(one, point); });
     if (group == problem_.groups.end() || !is_at_points(point.kind)) continue;
-    // As at points of the grid: what furniture hides from all candidates is looked at without it.
+    // As at points of the grid: a point that furniture hides from all candidates is taken without
+    // furniture.
     const auto planned = [&](const Lit& lit) {
       return lit.light.lit({point.place}, floor_normal, lifted_already).front().lux;
     };
@@ -133,7 +134,7 @@ Result<size_t> Demands::ask_off_place(const OffPlaceScene& of,
   return broken;
 }
 
-/// Whether the layout breaks the row.
+/// Adds the row; returns whether the layout violates it.
 bool Demands::add_off_place(const PointOffPlace& point, Terms light, const Layout& layout) {
   const auto at = std::find_if(problem_.groups.begin(), problem_.groups.end(),
                                [&](const ConstraintGroup& one) { return same_demand(one, point); });

@@ -1,5 +1,5 @@
-// What is asked for beyond the first rows: more where an assessment of a layout has found less, and
-// points between those of the grid where a minimum hides.
+// Additional rows: larger requirements where an assessment found too little, and points between
+// those of the grid where a minimum does not hold.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,21 +12,21 @@ namespace luxodus {
 
 namespace {
 
-/// Points are one place below this [m].
+/// Points closer than this are one [m].
 constexpr double one_point_m = 1e-6;
-/// Points whose light is within this of the least of their demand are looked around.
+/// Neighbours are tested of points whose light is within this factor of the least of their demand.
 constexpr double near_the_least = 1.25;
-/// So many of each demand at most.
+/// Largest number of such points of each demand.
 constexpr size_t looked_around = 40;
-/// Neighbours of a point are up to this times as far as the nearest one.
+/// Neighbours of a point are up to this many times as far away as the nearest one.
 constexpr double next_to = 1.5;
-/// Less than planned by more than this share breaks a demand.
+/// A demand is violated if it misses the planned value by more than this share.
 constexpr double between_tolerance = 0.01;
-/// Points nearer to each other hide nothing between them [m].
+/// Points closer than this are not subdivided [m].
 constexpr double finest_m = 0.02;
 
-/// Adds a row to those that `is_it` names: at the nearest of them to a place, `missing` more than
-/// the layout gives there, or than is asked for. False where there is none.
+/// Raises a row among those that `is_it` selects: the nearest one to a place, to `missing` more
+/// than the layout gives there, or than is required now. False if there is none.
 bool raise_nearest(LayoutProblem& problem, const std::function<bool(const CoverRow&)>& is_it,
                    const glm::dvec3& place, double missing, const Layout& layout) {
   const auto nearest = std::min_element(
@@ -44,7 +44,7 @@ bool raise_nearest(LayoutProblem& problem, const std::function<bool(const CoverR
   return true;
 }
 
-/// Places between the darkest points of a demand and those next to them.
+/// Midpoints between the darkest points of a demand and their neighbours.
 std::vector<glm::dvec3> between_darkest(std::vector<std::pair<double, glm::dvec3>> points) {
   std::stable_sort(points.begin(), points.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -122,7 +122,8 @@ bool Demands::ask_for_more(const Check& check, const Layout& layout) {
   if (!check.value || !check.limit) return false;
   bool any = false;
   if (!check.at_least) {
-    // The largest over the smallest: the ratio is asked for smaller by as much as it is too large.
+    // Largest over smallest: the required ratio is reduced by the factor by which the value exceeds
+    // its limit.
     for (SpreadRows& rows : problem_.spreads)
       if (is_it(rows)) {
         rows.ratio *= *check.limit / *check.value * (1 - 1e-3);
@@ -184,7 +185,8 @@ void Demands::look_at(uint32_t group, const std::vector<glm::dvec3>& places, con
     }
     return light;
   };
-  // As at points of the grid: what furniture hides from all candidates is looked at without it.
+  // As at points of the grid: a point that furniture hides from all candidates is taken without
+  // furniture.
   const ConstraintGroup& of = problem_.groups[group];
   const bool past_furniture = furnished_ && !hidden_.contains({name_of(of.rule), of.subject});
   std::vector<Terms> light = lit(past_furniture ? *furnished_ : *bare_, places);

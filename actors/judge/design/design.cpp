@@ -17,18 +17,18 @@ namespace luxodus {
 
 namespace {
 
-/// Layouts that an assessment rejects are solved again with more asked for, so often.
+/// Largest number of assessments: a layout that fails one is solved again with larger requirements.
 constexpr int max_verifications = 8;
-/// Of the time of the search, the share after it that may go into what binds.
+/// Time for binding demands after the search, as a share of the search time.
 constexpr double share_for_binding = 0.25;
-/// Of the time of the search, what may go into finding out why no layout exists [s].
+/// Largest time to find out why no layout exists [s].
 constexpr double conflict_seconds = 60;
-/// Of layouts that differ so many are made for each that is judged in smoke: most hold by the
-/// rules, and fewer when their luminaires are off their places.
+/// Alternative layouts that are made for each one judged in smoke: most pass the rules, and fewer
+/// hold with luminaires off their places.
 constexpr size_t tries_of_each = 4;
 constexpr double no_objective = std::numeric_limits<double>::infinity();
 
-/// A scene without scenarios is as written: to be judged it needs one in emergency operation.
+/// Adds a scenario in emergency operation to a scene without scenarios, so that it can be judged.
 std::shared_ptr<const SceneDescription> with_scenario(
     const std::shared_ptr<const SceneDescription>& scene) {
   if (!scene->scenarios.empty()) return scene;
@@ -55,11 +55,11 @@ Result<void> check_scene(const std::shared_ptr<const SceneDescription>& scene,
                          const Scenario& scenario, int threads) {
   const auto found = inspect(scene, {scenario}, threads);
   if (!found) return found.problem();
-  if (has_error(found.value())) return found->front().problem;  // errors come first
+  if (has_error(found.value())) return found->front().problem;  // errors are sorted first
   return {};
 }
 
-/// The first of "L", "N", "P", ... that no luminaire's name begins with, before a number.
+/// The first of "L", "N", "P", ... with which, before a number, no luminaire's name begins.
 std::string prefix_of_names(const SceneDescription& scene) {
   for (const char* prefix : {"L", "N", "P", "design L"}) {
     const bool taken =
@@ -73,7 +73,7 @@ std::string prefix_of_names(const SceneDescription& scene) {
   return "designed luminaire ";
 }
 
-/// From floor to floor, from west to east, from south to north, as a schedule is read.
+/// Order of schedules: by floor, then from west to east, then from south to north.
 bool comes_before(const LuminaireCandidate& a, const LuminaireCandidate& b) {
   const glm::dvec3 p = a.position, q = b.position;
   if (std::abs(p.z - q.z) > 1) return p.z < q.z;
@@ -101,7 +101,7 @@ std::shared_ptr<const SceneDescription> variant_of(const SceneDescription& scene
   return out;
 }
 
-/// Which luminaire of a pool goes where: the two that are nearest to each other, again and again.
+/// Assigns luminaires of a pool to places: repeatedly the closest pair.
 std::vector<PlacedLuminaire> moved_in(std::vector<LuminaireCandidate> leaving,
                                       std::vector<LuminaireCandidate> places) {
   std::vector<PlacedLuminaire> out;
@@ -157,7 +157,7 @@ PlacedLayout placed(const SceneDescription& scene, const Candidates& candidates,
   return out;
 }
 
-/// Of each group, how much of what it asks for is there where it is least.
+/// For each group, the least share of its requirement in a layout.
 std::vector<double> tightest_of(const LayoutProblem& problem, const Layout& layout) {
   const LayoutIndex index(problem);
   LayoutSums sums(index);
@@ -260,12 +260,12 @@ class Designing {
     return {};
   }
 
-  /// From here on the scene has the signs.
+  /// Places signs; from here on the scene has them.
   Result<void> place_signs() {
     SignPlanOptions asked;
     asked.codes = codes_;
     asked.doors = scenario_;
-    // Signs are few beside the luminaires: their program is solved in a small part of the time.
+    // Signs are few compared with luminaires, so their program gets a small part of the time.
     constexpr double share_of_time = 0.25;
     asked.seconds = share_of_time * options_.seconds;
     asked.seed = options_.seed;
@@ -280,7 +280,7 @@ class Designing {
     return {};
   }
 
-  /// Whether signs that were placed decide a check, which then has to pass.
+  /// Whether placed signs decide a check, which then has to pass.
   bool is_of_signs(const Check& check) const {
     if (!out_.signs || row_of(check.rule.id).decided_by != DecidedBy::placed_signs) return false;
     return std::any_of(scene_->routes.begin(), scene_->routes.end(), [&](const EscapeRoute& route) {
@@ -305,7 +305,7 @@ class Designing {
     return at == out_.luminaires.end() ? "" : at->name;
   }
 
-  /// What is left of the minima with luminaires off their places.
+  /// Finds how well minima hold with luminaires off their places.
   Result<void> find_tolerance() {
     out_.tolerance.emplace();
     if (!(scene_->design->place_tolerance_m > 0)) return {};
@@ -317,17 +317,18 @@ class Designing {
     return {};
   }
 
-  /// Whether a minimum hides between the points: it is asked for there from now on.
+  /// Adds points between those of the grid where a minimum does not hold; true if there were any.
   bool look_between() {
     progress_("looking between the points", out_.answer.objective, out_.answer.bound);
     const BetweenPoints found = demands_->look_between(out_.answer.layout);
     out_.between.least = found.least;
     out_.between.added += found.added;
-    if (found.added > 0) rows_of_all_ = false;  // less is let be by a hundredth
+    if (found.added > 0) rows_of_all_ = false;  // passing layouts may miss these by 1 %
     return found.added > 0;
   }
 
-  /// Moves what was placed; what then fails or holds less off its places stays where it was.
+  /// Moves placed luminaires. If a check then fails, or less is left off their places, they stay
+  /// where they were.
   Result<void> refine() {
     RefineOptions asked;
     asked.codes = codes_;
@@ -370,8 +371,8 @@ class Designing {
     return {};
   }
 
-  /// Rows that were raised for one layout may exclude others that pass, or hold off their places,
-  /// with less: the bound is the largest of searches without such rows.
+  /// Rows that were raised for one layout may exclude others that pass. So the bound is the largest
+  /// one from searches without such rows.
   void keep_bound() {
     LayoutAnswer& answer = out_.answer;
     if (rows_of_all_) known_bound_ = std::max(known_bound_, answer.bound);
@@ -393,8 +394,8 @@ class Designing {
     return out;
   }
 
-  /// Whether another layout keeps the minima off its places as the best one does; where that does
-  /// not, none is asked to.
+  /// Whether another layout satisfies the minima off its places. True if even the best layout does
+  /// not.
   Result<bool> holds_off_place(const Layout& layout) const {
     if (!(scene_->design->place_tolerance_m > 0) || !out_.tolerance || !out_.tolerance->holds())
       return true;
@@ -404,7 +405,8 @@ class Designing {
     return found->holds();
   }
 
-  /// False where nothing can be asked for, or no layout gives more: then what is there is told.
+  /// Adds rows off the places. False if no row can be added or no layout satisfies them; then the
+  /// result reports the shortfall.
   Result<bool> ask_for_more_off_place() {
     const auto broken = demands_->ask_off_place(
         {switched_, *switched_.design, scenario_, options_.threads}, candidates_.all,
@@ -423,7 +425,7 @@ class Designing {
 
   void solve() {
     SolveSettings settings;
-    // A layout that was rejected is solved again in what is left, and in no less than a moment.
+    // A rejected layout is solved again in the remaining time, but at least for this long.
     constexpr double moment = 5;
     settings.seconds = out_.verifications == 1
                            ? options_.seconds
@@ -431,7 +433,7 @@ class Designing {
     settings.gap = options_.gap;
     settings.seed = options_.seed;
     if (out_.verifications > 1) {
-      // More is asked for now.
+      // The problem has more rows now, so known bounds stay valid.
       settings.start = out_.answer.layout;
       settings.known_regions = out_.answer.regions;
     }
@@ -452,7 +454,7 @@ class Designing {
     return {};
   }
 
-  /// A layout that was found before an interrupt is assessed all the same: it takes seconds.
+  /// Assesses the layout even after an interrupt, since it takes only seconds.
   Result<Assessment> assessed_by_codes(const std::shared_ptr<const SceneDescription>& variant) {
     AssessOptions asked;
     asked.scenario = options_.scenario;
@@ -464,7 +466,8 @@ class Designing {
     return assess(variant, asked, never, [](const std::string&, double) {});
   }
 
-  /// Those that luminaires of the layout decide; others go to `others`, unless it is null.
+  /// Failing checks that luminaires of the layout decide; the rest is appended to `others` unless
+  /// it is null.
   std::vector<Check> failing_checks(const PlacedLayout& layout, const Assessment& assessment,
                                     std::vector<Check>* others) {
     std::set<Subject> ours;
@@ -506,7 +509,7 @@ class Designing {
     return out;
   }
 
-  /// The best by the rules, and others that pass them, race in smoke.
+  /// Judges the best layout by the rules, and alternatives that pass them, in smoke.
   Result<void> judge_alternatives() {
     const auto tell = [&](const std::string& what) {
       progress_(what, out_.answer.objective, out_.answer.bound);
@@ -569,13 +572,13 @@ class Designing {
   double solving_since_ = 0;
   Scenario scenario_;
   std::vector<CodeChoice> codes_;
-  SceneDescription switched_;  // as the circuits of the scenario leave it, with signs
+  SceneDescription switched_;  // after the circuits of the scenario, with signs
   Candidates candidates_;
   std::unique_ptr<Demands> demands_;
   DesignResult out_;
-  /// The layout that passes the rules and holds best off its places, while none holds there.
+  /// While no layout holds off its places: the one that passes the rules and holds best.
   std::optional<DesignResult> nearest_;
-  bool rows_of_all_ = true;  // every layout that passes keeps all rows that were added
+  bool rows_of_all_ = true;  // every layout that passes satisfies all added rows
   double known_bound_ = 0;
 };
 

@@ -1,8 +1,8 @@
-// Where to put emergency luminaires: candidates, what must hold of them by the rules of the scene,
-// the best layout with its proof, and the verdict of an assessment on it. Whatever is returned with
-// a layout has passed every check of the code mode that luminaires decide. Nothing here says that a
-// building complies with a code. Thread rule: one thread, which has rows run on others; one design
-// at a time in a process.
+// Places emergency luminaires: finds candidates, derives demands from the rules of the scene,
+// solves for the best layout with a lower bound, and assesses it. A returned layout has passed
+// every check of the code mode that luminaires decide. Nothing here says that a building complies
+// with a code. Thread rule: one thread, which has rows computed by others; one design at a time in
+// a process.
 #pragma once
 
 #include <atomic>
@@ -24,67 +24,67 @@
 namespace luxodus {
 
 struct DesignOptions {
-  std::string scenario;                        // gives the doors and the circuits; "": as assess
+  std::string scenario;                        // gives doors and circuits; "": as in an assessment
   std::vector<std::string> rules, deviations;  // by name; empty: those of the scene
   uint64_t seed = 1;
   int threads = 1;
   double seconds = 120;    // of the search
   bool refine = false;     // as [design] refine
-  double gap = 0;          // it ends within this share of the best possible
-  bool what_binds = true;  // solve again without single demands, to say what each takes
-  /// Scenarios in whose smoke layouts are judged; empty: those of the scene's [design].
+  double gap = 0;          // stop when the objective is within this share of the bound
+  bool what_binds = true;  // solve again without single demands, to find what each costs
+  /// Scenarios in whose smoke layouts are judged; empty: those of [design].
   std::vector<std::string> in_smoke;
-  double smoke_seconds = 600;  // of judging layouts there, at most
-  SceneAtTime scene_at = {};   // the scene at other times, where it has a clock
+  double smoke_seconds = 600;  // largest time for judging in smoke
+  SceneAtTime scene_at = {};   // reads the scene at other times; empty: it has no clock
 };
 
-/// A rule that is asked for without furniture alone: with it no layout passes.
+/// A rule required without furniture only, since no layout passes it with furniture.
 struct HiddenByFurniture {
   std::string rule;  // "E6", or several: "E6, E6d"
   Subject subject;
-  size_t points = 0;  // that furniture hides from all candidates
+  size_t points = 0;  // points that furniture hides from all candidates
 };
 
-/// What moving luminaires has brought.
+/// Effect of moving luminaires.
 struct Refined {
-  size_t moved = 0;              // luminaires
-  double before = 0, after = 0;  // least share of what is planned for, over all minima
+  size_t moved = 0;              // number of luminaires
+  double before = 0, after = 0;  // least share of the planned value over all minima
 };
 
-/// What a layout could do without if one demand were not there; as words need it.
+/// Saving without one demand, with what a sentence needs.
 struct BindingDemand {
   Relaxed relaxed;
-  std::string luminaire;  // whose failure it is, if one's
+  std::string luminaire;  // the luminaire whose failure is the demand, if it is one
 };
 
-/// The layout is the best by the rules alone.
+/// The base is the best layout by the rules.
 struct DesignResult : PlacedLayout {
-  size_t places = 0, candidates = 0;  // of new luminaires; of these and those that are there
+  size_t places = 0, candidates = 0;  // places of new luminaires; candidates with existing ones
   LeftOut left_out;
-  std::vector<UnusedType> unused;  // types that last too short
-  size_t points = 0;               // of calculation
+  std::vector<UnusedType> unused;  // types whose battery does not last long enough
+  size_t points = 0;               // number of points of calculation
   std::vector<HiddenByFurniture> hidden;
-  std::vector<std::string> unlit_flights;  // of stairs that no candidate lights
-  std::optional<SignPlan> signs;           // where signs were placed
+  std::vector<std::string> unlit_flights;  // flights of stairs that no candidate lights
+  std::optional<SignPlan> signs;           // set if signs were placed
   std::vector<ConstraintGroup> groups;
-  std::vector<double> tightest;  // of each group: the least share of what it asks for that is there
+  std::vector<double> tightest;  // for each group, the least share of the required value
   LayoutAnswer answer;
-  std::vector<BindingDemand> because;  // what takes luminaires that would not be needed without
-  std::optional<PlaceTolerance> tolerance;  // of the layout
-  BetweenPoints between;  // all points that were added, and the least beside those of this layout
-  std::optional<Refined> refined;  // where luminaires were moved
-  Conflict conflict;               // where no layout exists
+  std::vector<BindingDemand> because;       // demands that cost luminaires
+  std::optional<PlaceTolerance> tolerance;  // of the layout off its places
+  BetweenPoints between;           // all added points; least share between points in this layout
+  std::optional<Refined> refined;  // set if luminaires were moved
+  Conflict conflict;               // set if no layout exists
   Assessment assessment;
-  std::vector<Check> others;    // checks that fail and that no luminaire of the layout decides
-  bool added_scenario = false;  // the scene has none: the variant has one in emergency operation
-  std::vector<std::string> rules, deviations;  // that were asked for and that the scene lacks
+  std::vector<Check> others;    // failing checks that no luminaire of the layout decides
+  bool added_scenario = false;  // the variant adds one, in emergency operation
+  std::vector<std::string> rules, deviations;  // given by options, missing in the scene
   int verifications = 0;
-  std::optional<SmokeStage> smoke;  // where layouts were judged in smoke
+  std::optional<SmokeStage> smoke;  // set if layouts were judged in smoke
   double prepared_seconds = 0;      // until the search began
 };
 
-/// Errors: as assess; no place for a luminaire; a layout that the assessment rejects for a reason
-/// that no constraint can express.
+/// Errors: as assess; no place for a luminaire; the assessment rejects the layout for a reason that
+/// no constraint can express.
 Result<DesignResult> design(const std::shared_ptr<const SceneDescription>& scene,
                             const DesignOptions& options, const std::atomic<bool>& interrupt,
                             const SolveProgress& progress);

@@ -152,7 +152,7 @@ Result<void> write_plans(const fs::path& folder, const Json& a, Language languag
   return {};
 }
 
-/// Removes layouts of an earlier design, which are none of this one's. What else lies there stays.
+/// Removes layouts of an earlier design; other files are kept.
 Result<void> remove_alternatives(const fs::path& folder) {
   const fs::path others = folder / "alternatives";
   std::error_code failed;
@@ -166,11 +166,11 @@ Result<void> remove_alternatives(const fs::path& folder) {
     if (!failed) fs::remove(layout, failed);
   if (failed)
     return system_problem(others, "cannot remove layouts of an earlier design", failed.value());
-  fs::remove(others, failed);  // where nothing else is in it
+  fs::remove(others, failed);  // if nothing else is in it
   return {};
 }
 
-/// One of an earlier design is none of this one's; whoever asks for one prints it afterwards.
+/// Removes the PDF of an earlier design; the caller prints a new one afterwards.
 Result<void> remove_page_as_pdf(const fs::path& folder) {
   std::error_code failed;
   fs::remove(folder / "design.pdf", failed);
@@ -180,7 +180,7 @@ Result<void> remove_page_as_pdf(const fs::path& folder) {
   return {};
 }
 
-/// Layouts beside the best one, as variants.
+/// Writes the other layouts as variants.
 Result<void> write_alternatives(const fs::path& folder, const SceneDescription& scene,
                                 const DesignResult& result) {
   for (const JudgedLayout& one : result.smoke->layouts) {
@@ -396,7 +396,7 @@ std::string variant_text(const SceneDescription& scene, const DesignResult& resu
                : "\n[[change]]\nkind = \"luminaire\"\nof = " + toml_text(one.name);
     out += "\nposition = [" + toml_metres(p.x) + ", " + toml_metres(p.y) + ", " + toml_metres(p.z) +
            "]\n";
-    // A type looks down by itself; a luminaire of the scene may be turned.
+    // A new type faces down by default; an existing luminaire may have another direction.
     if (one.candidate.aim || !one.is_new()) {
       const glm::dvec3 aim = one.candidate.aim.value_or(glm::dvec3(0, 0, -1));
       out += "facing = [" + shortest_number(aim.x) + ", " + shortest_number(aim.y) + ", " +

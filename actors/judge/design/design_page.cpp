@@ -17,9 +17,9 @@ namespace luxodus {
 
 namespace {
 
-/// Groups that add less than this to the bound bind nothing.
+/// Groups with a smaller share of the bound are not listed as binding.
 constexpr double binding_share = 0.05;
-/// Within this of what it asks for a group is tight.
+/// A group is tight within this factor of its requirement.
 constexpr double tight_share = 1.02;
 
 std::string heading(const Texts& t, const char* key) {
@@ -79,7 +79,7 @@ std::string plans_of(const Texts& t, const Json& a, const Schedule& schedule) {
   return out;
 }
 
-/// What a luminaire of the schedule is.
+/// Kind of a luminaire in the schedule.
 std::string kind_of(const Texts& t, const Json& one) {
   if (one["is_new"].get<bool>()) return text_in(one, "type");
   const Json& from = one["moved_from"];
@@ -221,7 +221,7 @@ std::string hidden(const Texts& t, const Json& d) {
   return out;
 }
 
-/// What is left with luminaires off their places.
+/// The section on minima with luminaires off their places.
 std::string off_place(const Texts& t, const Json& d) {
   if (!d.contains("off_place") || d["off_place"]["demands"].empty()) return "";
   const Json& off = d["off_place"];

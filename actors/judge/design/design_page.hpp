@@ -1,6 +1,6 @@
-// The page of a design: what was found and how good it is, the plan, the schedule, what binds, and
-// what no luminaire decides. From the JSON of the design and that of its assessment; pure; any
-// thread.
+// The page of a design: the result and its bound, plan, schedule, binding demands, and failing
+// checks that no luminaire decides. Made of the JSON of the design and of its assessment. Pure
+// function; any thread.
 #pragma once
 
 #include <string>

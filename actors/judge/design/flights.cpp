@@ -10,11 +10,11 @@ namespace luxodus {
 
 namespace {
 
-/// What climbs more than this is no ramp [deg]: these have up to 10.
+/// Steepness above which a leg is no ramp [deg]; ramps have up to 10.
 constexpr double least_climb_deg = 15;
-/// Rise of a step where only a route says that there are stairs [m].
+/// Riser height if only a route shows that there are stairs [m].
 constexpr double usual_rise_m = 0.17;
-/// A route and stairs below it are this near to each other [m].
+/// Largest distance between a route and the stairs that it climbs [m].
 constexpr double same_stairs_m = 1;
 
 bool climbs(const glm::dvec3& way) {
@@ -22,7 +22,7 @@ bool climbs(const glm::dvec3& way) {
          std::tan(least_climb_deg * std::numbers::pi / 180) * glm::length(glm::dvec2(way));
 }
 
-/// Whether a leg of a route runs over stairs.
+/// Whether a leg of a route leads over stairs.
 bool runs_over(const EscapeRoute& leg, const StairFlight& stairs) {
   const glm::dvec3 middle = (stairs.lowest + stairs.highest) / 2.0;
   const glm::dvec3 a = leg.path[0], way = leg.path[1] - a;

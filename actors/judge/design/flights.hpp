@@ -1,5 +1,4 @@
-// Flights of stairs: those that objects are made of, and those that routes climb. Pure functions;
-// any thread.
+// Flights of stairs: those of objects, and those that routes climb. Pure functions; any thread.
 #pragma once
 
 #include <vector>
@@ -8,10 +7,10 @@
 
 namespace luxodus {
 
-/// Each flight once: that of an object where a route climbs one, too.
+/// Each flight once; if a route climbs the stairs of an object, the flight is that of the object.
 std::vector<StairFlight> flights_of(const SceneDescription& scene, const DesignSettings& design);
 
-/// The middle of each tread, from below.
+/// Centre of each tread, from below.
 std::vector<glm::dvec3> treads_of(const StairFlight& flight);
 
 }  // namespace luxodus

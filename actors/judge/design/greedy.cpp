@@ -11,19 +11,20 @@ namespace luxodus {
 
 namespace {
 
-/// Luminaires that are in the way of nothing may still cost nothing: shares are over at least this.
+/// Smallest divisor of gains: luminaires may have a weight of zero.
 constexpr double least_weight = 1e-3;
-/// Luminaires of a neighbourhood that is emptied.
+/// Number of luminaires of a neighbourhood that is emptied.
 constexpr size_t fewest_emptied = 2, most_emptied = 5;
-/// Equal but for rounding.
+/// Relative difference that counts as rounding.
 constexpr double same = 1e-9;
 
-/// What each option would add to what is missing, each row counted as a share of its demand.
+/// For each option, its contribution to violated rows, as a share of their requirements.
 class Gains {
  public:
   explicit Gains(const LayoutProblem& problem)
       : problem_(problem), gain_(problem.options.size(), 0) {
-    // One that stays costs nothing, and takes the place of one that moves: they count alike.
+    // Options of a pool all count with its largest weight, so that staying at no cost does not win
+    // by itself.
     std::vector<double> of_pool(problem.pools.size(), 0);
     for (const LayoutOption& option : problem.options)
       if (option.pool != no_pool)
@@ -33,7 +34,7 @@ class Gains {
           std::max(option.pool == no_pool ? option.weight : of_pool[option.pool], least_weight));
   }
 
-  /// False where nothing is missing.
+  /// False if no row is violated.
   bool find(const LayoutSums& sums) {
     std::fill(gain_.begin(), gain_.end(), 0);
     bool missing = false;
@@ -45,7 +46,7 @@ class Gains {
       add(*row.terms, 1 / row.least, lack, none);
     }
     if (missing) return true;
-    // Failures and spreads follow from what is there: they count once the sums are right.
+    // Failure and spread rows depend on the other luminaires, so they count by the current sums.
     for (const Violation& v : sums.violations()) {
       missing = true;
       if (v.kind == Violation::Kind::failure) {
@@ -80,7 +81,7 @@ std::vector<char> taken_places(const LayoutProblem& problem, const Layout& layou
   return out;
 }
 
-/// The chosen ones that may go, the dearest first, then by what they give.
+/// Chosen options that are not fixed, the heaviest first.
 std::vector<uint32_t> removable_in(const LayoutProblem& problem, const Layout& layout) {
   std::vector<uint32_t> out;
   for (uint32_t i = 0; i < layout.size(); ++i)
@@ -91,7 +92,7 @@ std::vector<uint32_t> removable_in(const LayoutProblem& problem, const Layout& l
   return out;
 }
 
-/// The layout without a few luminaires that are near to each other.
+/// Removes a few luminaires that are close to each other.
 Layout emptied(const LayoutProblem& problem, const Layout& layout, Random& random) {
   std::vector<uint32_t> chosen = removable_in(problem, layout);
   if (chosen.empty()) return layout;
@@ -106,8 +107,8 @@ Layout emptied(const LayoutProblem& problem, const Layout& layout, Random& rando
   return out;
 }
 
-/// Movable luminaires that nothing has asked for yet, where they cost least: they stay. False where
-/// there is no place for one.
+/// Puts movable luminaires that no row needed at the places with the smallest weight: they stay.
+/// False if one has no place.
 bool fill_pools(const LayoutProblem& problem, LayoutSums& sums, std::vector<char>& taken,
                 bool& any) {
   any = false;
@@ -127,7 +128,7 @@ bool fill_pools(const LayoutProblem& problem, LayoutSums& sums, std::vector<char
   return true;
 }
 
-/// Has a luminaire that was moved stay where it is, where everything holds with it there.
+/// Moves a luminaire back to its original place if all rows still hold.
 void send_home(const LayoutProblem& problem, LayoutSums& sums, uint32_t moved) {
   const std::vector<char> taken = taken_places(problem, sums.layout());
   for (uint32_t i = 0; i < problem.options.size(); ++i) {
@@ -170,7 +171,7 @@ std::optional<Layout> completed(const LayoutIndex& index, const Layout& begun, d
       if (option.barred || taken[option.place] != 0 || !(gains.of(i) > 0)) continue;
       if (option.pool != no_pool && sums.lack_of(option.pool) <= 0) continue;
       const double score = gains.of(i) * (noise > 0 ? 1 + noise * random.uniform_double() : 1);
-      // In symmetric rooms scores differ by rounding alone: the first is taken.
+      // In symmetric rooms scores differ by rounding only: the first option is taken.
       if (score <= best * (1 + same)) continue;
       best = score;
       choice = i;
@@ -209,7 +210,7 @@ Layout improved(const LayoutIndex& index, Layout layout, int rounds, uint64_t se
     random.start(static_cast<uint64_t>(round));
     const auto filled = completed(index, emptied(problem, layout, random), 1, random);
     if (!filled) continue;
-    // What weighs more before it is pruned may weigh less after it.
+    // A layout that weighs more before pruning may weigh less after it.
     const Layout next = pruned(index, *filled);
     const double next_weight = objective_of(problem, next);
     if (next_weight > weight * (1 + same)) continue;

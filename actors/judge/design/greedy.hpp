@@ -1,7 +1,8 @@
-// Layouts without a proof: the luminaire that helps most per weight is taken until everything
-// holds, those that are not needed are taken out again, and neighbourhoods are emptied and filled
-// anew. A warm start for the integer program, what is left when time is short, and the choice among
-// equals. Pure: the same seed gives the same layout. Thread rule: one thread.
+// Greedy heuristics without a bound. A layout is completed with the luminaire of the largest gain
+// per weight, pruned of luminaires that are not needed, and improved by emptying and refilling
+// neighbourhoods. Used as a warm start for the integer program, as the result when time is short,
+// and for the choice among layouts of equal objective. Pure: the same seed gives the same layout.
+// Thread rule: one thread.
 #pragma once
 
 #include <atomic>
@@ -13,17 +14,18 @@
 
 namespace luxodus {
 
-/// Completes a layout until all holds, taking from each place one option at most; none where it
-/// finds no way. `noise`: of scores, 0 is the greedy choice itself.
+/// Completes a layout until all demands hold, with at most one option at each place; none if the
+/// heuristic fails. `noise`: of scores; 0 is the plain greedy choice.
 std::optional<Layout> completed(const LayoutIndex& index, const Layout& begun, double noise,
                                 Random& random);
 
-/// Takes out what is not needed, the dearest first. Requires: all holds.
+/// Removes luminaires that are not needed, the heaviest first. Requires: all demands hold.
 Layout pruned(const LayoutIndex& index, const Layout& layout);
 
-/// Empties neighbourhoods and fills them anew, `rounds` times: never a larger objective, and among
-/// equals a larger preference. Ends early at `interrupt` or when `out_of_time` says so.
-/// Requires: all holds.
+/// Empties and refills neighbourhoods `rounds` times. The objective never grows; among equal
+/// objectives the larger preference is taken. Ends early at `interrupt` or when `out_of_time`
+/// returns true.
+/// Requires: all demands hold.
 Layout improved(const LayoutIndex& index, Layout layout, int rounds, uint64_t seed,
                 const std::atomic<bool>& interrupt, const std::function<bool()>& out_of_time);
 

@@ -9,17 +9,17 @@ namespace luxodus {
 namespace {
 
 constexpr double infinite_row = std::numeric_limits<double>::infinity();
-/// Rows of a kind are taken so far apart at first, and in each round after it [m]: neighbours say
-/// nearly the same.
+/// Smallest distance of rows of one group that are added together [m]: neighbouring rows are nearly
+/// equal.
 constexpr double apart_m = 1;
-/// A row that the solver's rounding breaks, though it has it, is asked for by so much more.
+/// Relative increase of the requirement of a row that the solver violates by rounding.
 constexpr double raised_again = 1e-5;
-/// Terms below this share of what a row asks for are left out of the program, which makes its row
-/// weaker by all of them together: the bound stays a bound.
+/// Terms below this share of a row's requirement are left out, and the requirement is reduced by
+/// their sum. The row becomes weaker, so the bound stays valid.
 constexpr double small_term = 1e-5;
-/// A place that gives less than this share of what is asked for may fail without a row of its own.
+/// A place that gives a smaller share of the requirement gets no row for its failure.
 constexpr double large_share = 0.02;
-/// A variable is chosen above this.
+/// An option is chosen if its variable is above this.
 constexpr double chosen_above = 0.5;
 constexpr double infinite_light = 1e6;
 
@@ -139,7 +139,7 @@ void GrowingProgram::add_places() {
   }
 }
 
-/// A luminaire that may move is at one of its places.
+/// A movable luminaire is at one of its places.
 void GrowingProgram::add_pools() {
   std::vector<LinearRow> of(problem_.pools.size());
   for (size_t i = 0; i < problem_.options.size(); ++i) {
@@ -155,8 +155,8 @@ void GrowingProgram::add_pools() {
   }
 }
 
-/// More than all that a row asks for helps it no more: clipped terms keep every layout and cut
-/// off fractions of luminaires.
+/// Terms are clipped at the requirement. That keeps every layout feasible and cuts off fractional
+/// solutions.
 void GrowingProgram::add_cover(const std::vector<Term>& terms, double least, uint32_t but_place,
                                uint32_t group) {
   LinearRow row;
@@ -176,9 +176,9 @@ void GrowingProgram::add_cover(const std::vector<Term>& terms, double least, uin
   add_row(std::move(row), static_cast<int>(group));
 }
 
-/// With the luminaire of any one place out, enough is left: all that is there is not below what
-/// is asked for and the largest share of one place, which is a variable. A row for each place
-/// that may be out says the same, and is asked for one after another, as neighbours take over.
+/// Sum without the luminaire of any one place: the sum of all places is at least the requirement
+/// plus the largest share of one place, which is a variable. A row for each place would be
+/// equivalent, but would be added one after another, as neighbours take over.
 void GrowingProgram::add_failure(const std::vector<Term>& light, double least, uint32_t group) {
   const int largest = program_.add_variable(0, 0, 1, false);
   std::map<uint32_t, LinearRow> of_place_out;
@@ -201,7 +201,8 @@ void GrowingProgram::add_failure(const std::vector<Term>& light, double least, u
   program_.rows.back().value.push_back(-1);
 }
 
-/// The darkest is at most this point's light; the brightest at most `ratio` times the darkest.
+/// Darkest light <= light of this point; light of the brightest point <= `ratio` times the darkest
+/// light.
 void GrowingProgram::add_spread(const Violation& v, double more) {
   const SpreadRows& rows = problem_.spreads[v.index];
   const int darkest = darkest_[v.index];

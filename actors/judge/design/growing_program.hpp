@@ -1,6 +1,6 @@
-// The integer program of a layout with those of its rows that have been asked for so far. Rows that
-// are not there only make it easier, so its bound holds for the whole problem. Plain values; one
-// thread.
+// The integer program of a layout with the rows that were added so far (row generation). It is a
+// relaxation of the whole problem, so its lower bound holds for the whole problem. Plain values;
+// thread rule: one thread.
 #pragma once
 
 #include <cstdint>
@@ -14,44 +14,47 @@
 namespace luxodus {
 
 namespace limits {
-/// Rows that one round adds.
+/// Rows added in one round.
 inline constexpr size_t rows_per_round = 80;
-/// Rounds. Each adds rows that no earlier one had, so they end by themselves; this ends a mistake.
+/// Largest number of rounds. Each round adds new rows, so rounds end without it; it only stops an
+/// error.
 inline constexpr int row_rounds = 500;
 }  // namespace limits
 
 class GrowingProgram {
  public:
-  /// `feasible_only`: any layout will do. Requires: the problem outlives this.
+  /// `feasible_only`: all costs are zero. Requires: the problem outlives this.
   GrowingProgram(const LayoutProblem& problem, bool feasible_only);
 
   const IntegerProgram& program() const { return program_; }
-  /// Only the options of some regions cost anything, and the rows of others are left out.
+  /// The program in which only options of some regions have a cost, without the rows of other
+  /// regions.
   IntegerProgram of_regions(const std::set<uint32_t>& regions) const;
-  /// All options but those of some regions are as a layout has them.
+  /// The program in which all options outside some regions are fixed as in a layout.
   IntegerProgram around(const Layout& layout, const std::set<uint32_t>& regions) const;
-  /// No layout's options of the regions weigh less than this together.
+  /// Adds a row: the options of these regions weigh at least this in every layout.
   void add_region_bound(const std::set<uint32_t>& regions, double least);
-  /// Rows that follow from the others; and those of places.
+  /// Groups of region bounds and of rows for places, which belong to no demand.
   static constexpr int of_bound = -2, of_place = -1;
 
   size_t rows() const { return program_.rows.size(); }
-  /// Groups of the rows, as numbers of the problem; below 0: of none.
+  /// Group of each row, as an index of the problem; negative: no demand.
   const std::vector<int>& groups() const { return groups_; }
 
-  /// Whether the row, or of failures that of all of them at its point, is there.
+  /// Whether a row was added; for a failure, whether its point has a row for all failures.
   bool has(const Violation& v) const;
-  /// False where the row is there already: then it is asked for by a little more.
+  /// Adds a row. If it was added before, adds it again with a slightly larger requirement and
+  /// returns false.
   bool add(const Violation& v);
 
   Layout layout_of(const std::vector<double>& values) const;
 
  private:
-  /// What tells rows apart: kind, index, point, and the place or the brightest point.
+  /// Identifies a row: kind, index, point, and the place or the brightest point.
   using RowKey = std::tuple<int, uint32_t, uint32_t, uint32_t>;
 
   static RowKey key_of(const Violation& v);
-  /// Of all failures at a point.
+  /// Key of the row for all failures at a point.
   static RowKey whole_key(const Violation& v) { return {-1, v.index, v.point, 0}; }
 
   void add_row(LinearRow row, int group);
@@ -69,11 +72,11 @@ class GrowingProgram {
 
 uint32_t group_of(const LayoutProblem& problem, const Violation& v);
 
-/// The worst of them, none near to another of its group.
+/// The worst violations, no two of one group close to each other.
 std::vector<Violation> spread_out(const LayoutProblem& problem, std::vector<Violation> all,
                                   size_t most);
 
-/// Rows to begin with: of each group those that are hardest to satisfy, apart from each other.
+/// Rows to start with: in each group those that are hardest to satisfy, spaced apart.
 std::vector<Violation> first_rows(const LayoutProblem& problem);
 
 }  // namespace luxodus

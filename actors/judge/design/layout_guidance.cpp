@@ -13,19 +13,20 @@ namespace luxodus {
 
 namespace {
 
-/// The building of a heat at another time: its layouts and its signs, in the smoke of that time.
+/// The building of a heat at another time: its signs, in the smoke of that time.
 SceneDescription at_time(const SceneDescription& then, const SceneDescription& base) {
   SceneDescription out = then;
   out.signs = base.signs;
   return out;
 }
 
-/// One route for eyes of one height, as it is and as it may be.
+/// Guidance of one route for one eye height; undecided views do not guide in `least`, and guide in
+/// `most`.
 struct RouteTables {
   GuidedRoute least, most;
 };
 
-/// By layout, in one scenario.
+/// Tables by layout, in one scenario.
 using LayoutTables = std::vector<std::vector<RouteTables>>;
 
 class Following {
@@ -59,7 +60,7 @@ class Following {
  private:
   static void add_row(const SceneDescription& scene, const GuidingViews& views,
                       const std::vector<SightRow>& rows, std::vector<RouteTables>& tables) {
-    std::map<std::tuple<Subject, double, double>, Guidance> best;  // route, height, place
+    std::map<std::tuple<Subject, double, double>, Guidance> best;  // by route, height, place
     for (const SightRow& row : rows) {
       auto& at =
           best.insert({{row.from, row.height_m, row.along_m}, Guidance::not_guided}).first->second;

@@ -1,6 +1,6 @@
-// Until when each layout guides: the states of a scene that changes in time are judged with every
-// layout, by the same paths, for the signs that lead along the routes. Thread rule: one thread,
-// which has batches traced by others.
+// Until when each layout guides, in a scene that changes in time. Each state is judged with every
+// layout from the same paths, for the signs that lead along routes. Thread rule: one thread, which
+// has batches traced by others.
 #pragma once
 
 #include <optional>
@@ -13,33 +13,34 @@
 
 namespace luxodus {
 
-/// How long one route guides eyes of one height, with one layout. What is undecided does not guide
-/// in `least`, and guides in `most`.
+/// Until when one route guides people of one eye height, with one layout. Undecided views do not
+/// guide in `least`, and guide in `most`.
 struct GuidedUntil {
   std::string route;
   double height_m = 0;
   GuidedTime least, most;
 };
 
-/// The route and height that are lost first, over all of them.
+/// The earliest loss of guidance over all routes and eye heights.
 struct FirstLoss {
-  std::optional<double> least_s, most_s;  // the last state that guides everywhere; none: not one
-  bool never_lost = false;                // surely guided in the last state, too
+  std::optional<double> least_s,
+      most_s;               // the last state with guidance everywhere; none: not even the first
+  bool never_lost = false;  // certainly guided in the last state as well
 };
 /// Requires: at least one route.
 FirstLoss first_loss_of(const std::vector<GuidedUntil>& routes);
 
 struct GuidanceOptions {
   std::vector<double> times_s;         // ascending; empty: nothing changes in time
-  SceneAtTime scene_at;                // of the scene without any layout
-  std::vector<std::string> scenarios;  // by name
+  SceneAtTime scene_at;                // reads the scene without a layout
+  std::vector<std::string> scenarios;  // names
   AssessOptions asked;
   int rounds = 3;
 };
 
-/// Of each layout of the heats, for each route and height of eyes, in the scenario in which it is
-/// lost first. Requires: a scenario.
-/// Errors: as the reader; as HeatState::make and SightsInLights::trace; `interrupt`.
+/// For each layout, its guidance for each route and eye height, in the scenario in which it is lost
+/// first. Requires: a scenario.
+/// Errors: as the reader, HeatState::make and SightsInLights::trace; `interrupt`.
 Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<Heat>& heats,
                                                           size_t layouts,
                                                           const GuidanceOptions& options,

@@ -7,9 +7,9 @@ namespace luxodus {
 
 namespace {
 
-/// Luminaires that only some layouts of a heat have, at most. Of more than 256 emitters paths
-/// choose by power alone (limits::nearby_emitters), and those of one layout are seldom near: what
-/// is left of that is for the building's own.
+/// Largest number of luminaires that only some layouts of a heat have. Above 256 emitters paths
+/// choose them by power only (limits::nearby_emitters), and luminaires of one layout are rarely
+/// near. The rest of the 256 is for the building's own emitters.
 constexpr size_t varying_luminaires = 200;
 
 size_t views_of(const SceneDescription& scene) {
@@ -27,13 +27,14 @@ Heat heat_of(const std::vector<JudgedLayout>& layouts, std::vector<size_t> membe
   return {std::move(members), first.layout.variant, std::make_unique<LayoutLights>(lights)};
 }
 
-/// The states of all scenarios are kept at once.
+/// Whether a heat stays within the limits; the states of all scenarios are in memory at the same
+/// time.
 bool pays(const Heat& heat, size_t scenarios) {
   return heat.lights->can_add() && heat.lights->varying() <= varying_luminaires &&
          heat.members.size() * scenarios * views_of(*heat.base) <= limits::heat_views;
 }
 
-/// The layout joins the first heat of its kind where paths can be shared; else it has a new one.
+/// Adds a layout to the first heat with which it can share paths, or else to a new one.
 void join(const std::vector<JudgedLayout>& layouts, size_t layout, size_t scenarios,
           std::vector<Heat>& heats) {
   for (Heat& heat : heats) {

@@ -1,6 +1,6 @@
-// Layouts that paths are traced for together: those of one building, whose light adds, or each by
-// itself. A heat has its views traced in rounds, and tells what is read with each of its layouts.
-// Thread rule: one thread, which has batches traced by others.
+// Groups of layouts that are traced together (heats): layouts of one building whose light can be
+// added, or a single layout. The views of a heat are traced in rounds, and each round gives the
+// verdicts for all its layouts. Thread rule: one thread, which has batches traced by others.
 #pragma once
 
 #include <memory>
@@ -14,12 +14,12 @@ namespace luxodus {
 struct JudgedLayout;
 
 namespace limits {
-/// Pairs of a view and a layout in one heat, in all its scenarios: each takes some 1000 bytes of
-/// tallies, half of them for what it has more than the first layout, and 500 for its verdict.
+/// Pairs of a view and a layout in one heat, over all scenarios. Each takes about 1000 bytes of
+/// tallies, half of them for the difference from the first layout, and 500 bytes for its verdict.
 inline constexpr size_t heat_views = 300'000;
 }  // namespace limits
 
-/// One state of the building in the light of a heat's layouts.
+/// One state of the building in the light of each layout of a heat.
 class HeatState {
  public:
   /// Errors: as LayoutLights::judged and SightsInLights::look_for_lines.
@@ -36,21 +36,21 @@ class HeatState {
   HeatState(JudgedScene judged, const AssessOptions& options)
       : judged_(std::move(judged)), options_(options), sights_(judged_, nobody_, {}, options_) {}
 
-  const std::vector<Observer> nobody_;  // those of the scene are not on routes
+  const std::vector<Observer> nobody_;  // empty: observers of the scene are not on routes
   const JudgedScene judged_;
   const AssessOptions options_;
   SightsInLights sights_;
 };
 
 struct Heat {
-  std::vector<size_t> members;                   // of all layouts
-  std::shared_ptr<const SceneDescription> base;  // the building, with the signs of all
+  std::vector<size_t> members;                   // indices among all layouts
+  std::shared_ptr<const SceneDescription> base;  // the building with the signs of all members
   std::unique_ptr<LayoutLights> lights;          // of the members
 };
 
-/// Which layouts share their paths: those with the same signs, or the same but brighter, whose
-/// light can be added and does not come from too many luminaires. `scenarios`: in how many they are
-/// judged. `together`: false for each by itself.
+/// Groups layouts that share paths: those with the same signs, or the same signs made brighter,
+/// whose light can be added and does not come from too many luminaires. `scenarios`: number of
+/// scenarios in which they are judged. `together`: false gives a heat for each layout.
 std::vector<Heat> heats_of(const std::vector<JudgedLayout>& layouts, size_t scenarios,
                            bool together);
 

@@ -10,12 +10,12 @@ namespace luxodus {
 
 namespace {
 
-/// Where a layout has put a luminaire: position, rotation, aim. None for one that is where the
-/// scene has it.
+/// Position, rotation and aim that a layout gives a luminaire; none if it is where the scene has
+/// it.
 using LuminairePose = std::optional<std::array<double, 7>>;
 
-/// What tells luminaires of different layouts apart. Names of new ones say nothing: each layout
-/// counts its own.
+/// Identifies luminaires across layouts. Names of new luminaires are not used, since each layout
+/// numbers its own.
 using LuminaireKey = std::tuple<std::string, size_t, LuminairePose>;
 
 LuminaireKey key_of(const Emitter& emitter, const PlacedLayout& layout) {
@@ -30,7 +30,7 @@ LuminaireKey key_of(const Emitter& emitter, const PlacedLayout& layout) {
           std::array{p.x, p.y, p.z, one.rotation_deg, aim.x, aim.y, aim.z}};
 }
 
-/// No two luminaires of all layouts together have one name.
+/// A name that is unique among the luminaires of all layouts.
 std::string name_of(const LuminaireKey& key, size_t number) {
   const auto& [name, type, pose] = key;
   if (!pose) return name;

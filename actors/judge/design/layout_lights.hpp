@@ -1,6 +1,6 @@
-// Layouts of luminaires in one building as lights of one scene: light adds, so what one set of
-// paths finds of each luminaire tells of every layout. Luminaires that the same layouts have and
-// that age alike are one source group. Pure; any thread.
+// Several layouts of luminaires in one building as lights of one scene. Light adds, so what one set
+// of paths gives for each luminaire serves every layout. Luminaires that belong to the same layouts
+// and age alike form one source group. Immutable once made; any thread.
 #pragma once
 
 #include <memory>
@@ -12,29 +12,29 @@
 
 namespace luxodus {
 
-/// A layout as light of the building.
+/// The light of a layout.
 struct LayoutLight {
   const PlacedLayout* layout = nullptr;
-  double sign_factor = 1;  // of the luminance of signs, beside those of the first
+  double sign_factor = 1;  // on the luminance of signs of the first layout
 };
 
-/// The luminaires of several layouts, each once at each of its places.
+/// The luminaires of several layouts, each once for each of its places.
 class LayoutLights {
  public:
-  /// Requires: at least one; their variants differ in nothing but emitters and the luminance of
-  /// signs; the first has signs as they are.
+  /// Requires: at least one layout; their variants differ only in emitters and in the luminance of
+  /// signs; the first has the signs of the scene.
   explicit LayoutLights(const std::vector<LayoutLight>& layouts);
 
   size_t layouts() const { return sign_factors_.size(); }
   size_t emitters() const { return emitters_.size(); }
-  /// Of these, those that some layouts have and others have not.
+  /// Number of luminaires that some layouts have and others do not.
   size_t varying() const;
-  /// Whether light can be added: no layout has a luminaire with a body, which would stand in the
-  /// way of others' light, that another one has not.
+  /// Whether light can be added: each luminaire with a body, which may block the light of others,
+  /// is in all layouts or in none.
   bool can_add() const;
 
   /// A state of the building in the light of each layout, in their order. `scene`: the building at
-  /// any time; its emitters are not asked for. Errors: as judged_scene.
+  /// any time; its emitters are not used. Errors: as judged_scene.
   Result<JudgedScene> judged(const SceneDescription& scene, const Scenario& scenario,
                              const OtherSmoke& smoke) const;
 
@@ -42,7 +42,7 @@ class LayoutLights {
   bool varies(size_t emitter) const;
 
   std::vector<Emitter> emitters_;       // of all layouts
-  std::vector<std::vector<bool>> has_;  // of each emitter: which layouts have it
+  std::vector<std::vector<bool>> has_;  // for each emitter, which layouts have it
   std::vector<double> sign_factors_;    // of each layout
 };
 

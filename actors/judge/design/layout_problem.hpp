@@ -1,6 +1,6 @@
-// Which luminaires to choose, as numbers alone: options, what each gives at each point, and what
-// must hold. No geometry and no rule is known here, so that solutions can be compared with those
-// found by trying every subset. Plain values; any thread.
+// The choice of luminaires as numbers: options (columns), their light at each point, and constraint
+// rows. It contains no geometry and no rules, so tests compare solutions with a search over all
+// subsets. Plain values, any thread; LayoutSums states its own rule.
 #pragma once
 
 #include <cstdint>
@@ -14,64 +14,64 @@
 
 namespace luxodus {
 
-/// What one option adds to a sum, such as illuminance at a point [lx].
+/// Contribution of one option to a sum, such as the illuminance at a point [lx].
 struct Term {
   uint32_t option = 0;
   float value = 0;
 };
-/// By ascending option; those that are not named add nothing. Shared: several rows may ask for the
-/// same sum.
+/// Terms by ascending option; other options contribute nothing. Shared, since several rows may use
+/// one sum.
 using Terms = std::shared_ptr<const std::vector<Term>>;
 
-/// Of options and constraints that belong to no region.
+/// Region of options and constraints that belong to none.
 inline constexpr uint32_t no_region = static_cast<uint32_t>(-1);
 
-/// Of options that are no luminaires to be moved.
+/// Pool of options that are no movable luminaires.
 inline constexpr uint32_t no_pool = static_cast<uint32_t>(-1);
 
-/// Of options that are there already: they are of none of the types that are placed.
+/// Kind of existing luminaires, which are of none of the types to be placed.
 inline constexpr uint32_t no_kind = static_cast<uint32_t>(-1);
 
-/// A luminaire of one type, turned in one way, at one place.
+/// A luminaire of one type and rotation at one place.
 struct LayoutOption {
   uint32_t place = 0;  // options of one place exclude each other
-  double weight = 1;   // what it adds to the objective
+  double weight = 1;   // contribution to the objective
   bool fixed = false;  // chosen in every layout
-  /// Options of different regions have little to do with each other: they are in other rooms.
+  /// Options of different regions, which are in different rooms, hardly affect each other.
   uint32_t region = no_region;
   glm::dvec2 position{0};
-  bool never_fails = false;  // no demand on failures takes it away
+  bool never_fails = false;  // exempt from demands on failures
   bool barred = false;       // chosen in no layout
-  /// Of luminaires that are there, alike, and may move: each option is a place for one of them.
+  /// Pool of identical movable luminaires; each option is a place for one of them.
   uint32_t pool = no_pool;
   uint32_t kind = no_kind;  // its type
 };
 
-/// No number of a place.
+/// Stands for no place.
 inline constexpr uint32_t no_place = static_cast<uint32_t>(-1);
 
-/// What a group of constraints asks for.
+/// What a group of constraints requires.
 enum class DemandKind {
   minimum,   // illuminance at every point [lx]
   mean,      // illuminance [lx]
-  early,     // illuminance at every point a while after the failure of the mains [lx]
+  early,     // illuminance at every point some time after the mains fail [lx]
   spread,    // largest over smallest illuminance
-  two,       // so many luminaires over a route or an area
-  failed,    // illuminance at every point with any one luminaire out [lx]
+  two,       // this many luminaires over a route or an area
+  failed,    // illuminance at every point with any one luminaire failed [lx]
   near,      // a luminaire within a distance [m]
   vertical,  // illuminance on the front of equipment [lx]
   face,      // illuminance on the face of a sign [lx]
   flight,    // a luminaire whose light falls directly on a flight of stairs [lx on each tread]
 };
 
-/// Illuminance that is not to be below a limit while all luminaires work: what is kept with more to
-/// spare, and what has to hold off the places.
+/// Whether a demand is a lower limit of illuminance while all luminaires work. Refining makes these
+/// hold with more to spare, and they must hold with luminaires off their places.
 constexpr bool is_minimum(DemandKind kind) {
   return kind == DemandKind::minimum || kind == DemandKind::mean || kind == DemandKind::early ||
          kind == DemandKind::vertical || kind == DemandKind::face;
 }
 
-/// Constraints that stand and fall together: one rule for one subject.
+/// Constraints of one rule for one subject; they are relaxed together.
 struct ConstraintGroup {
   DemandKind kind = DemandKind::minimum;
   RuleId rule = RuleId::none;
@@ -80,7 +80,7 @@ struct ConstraintGroup {
   uint32_t region = no_region;
 };
 
-/// The sum is not below `least`, which is above 0.
+/// Cover constraint: the sum is at least `least`, which is above 0.
 struct CoverRow {
   uint32_t group = 0;
   Terms terms;
@@ -93,7 +93,7 @@ struct ReceiverPoint {
   glm::dvec3 place{0};
 };
 
-/// At each of the points the sum is not below `least` when the luminaire of any one place is out.
+/// At each point the sum without the luminaire of any one place is at least `least`.
 struct FailureRows {
   uint32_t group = 0;
   double least = 0;
@@ -114,7 +114,7 @@ struct LayoutProblem {
   std::vector<CoverRow> covers;
   std::vector<FailureRows> failures;
   std::vector<SpreadRows> spreads;
-  std::vector<uint32_t> pools;  // how many options of each are chosen, exactly
+  std::vector<uint32_t> pools;  // number of options to choose from each pool, exactly
 
   size_t places() const;
 };
@@ -122,7 +122,7 @@ struct LayoutProblem {
 /// Whether each option is chosen.
 using Layout = std::vector<char>;
 
-/// Regions that are bounded together: no layout's options of them weigh less.
+/// A lower bound on the weight of some regions' options, valid for every layout.
 struct RegionBound {
   std::set<uint32_t> regions;
   double least = 0;
@@ -130,20 +130,20 @@ struct RegionBound {
 
 double objective_of(const LayoutProblem& problem, const Layout& layout);
 
-/// Sums may be below what is asked for by this share of it: rounding.
+/// Relative rounding tolerance of sums below their requirement.
 inline constexpr double sum_tolerance = 1e-6;
 
-/// A sum that is not what is asked for. Exactly one of the three kinds.
+/// A violated constraint of exactly one of the three kinds.
 struct Violation {
   enum class Kind { cover, failure, spread } kind = Kind::cover;
-  uint32_t index = 0;      // of covers, failures or spreads
-  uint32_t point = 0;      // of a failure; of a spread the darkest
-  uint32_t place = 0;      // of a failure: whose luminaire is out; no_place: none can be
+  uint32_t index = 0;  // index into covers, failures or spreads
+  uint32_t point = 0;  // of a failure; for a spread the darkest
+  uint32_t place = 0;  // for a failure, where the luminaire failed; no_place: no luminaire can fail
   uint32_t brightest = 0;  // of a spread
-  double share = 0;        // of what is asked for that is there: below 1
+  double share = 0;        // of the required value: below 1
 };
 
-/// The rows of a problem by option: what an option adds to which. Keeps a reference. Any thread.
+/// Rows of a problem by option. Keeps a reference. Immutable; any thread.
 class LayoutIndex {
  public:
   explicit LayoutIndex(const LayoutProblem& problem);
@@ -153,9 +153,9 @@ class LayoutIndex {
     float value;
   };
   const LayoutProblem& problem() const { return problem_; }
-  /// Shares of what cover rows ask for.
+  /// Contributions to cover rows, as shares of their requirement.
   const std::vector<Entry>& covers(size_t option) const { return covers_[option]; }
-  /// Light at points that failures and spreads ask for [lx].
+  /// Contributions at points of failure and spread rows [lx].
   const std::vector<Entry>& points(size_t option) const { return points_[option]; }
 
  private:
@@ -163,7 +163,7 @@ class LayoutIndex {
   std::vector<std::vector<Entry>> covers_, points_;
 };
 
-/// What all rows get from a layout. Keeps a reference. One thread.
+/// Sums of all rows for a layout. Keeps a reference. Thread rule: one thread.
 class LayoutSums {
  public:
   explicit LayoutSums(const LayoutIndex& index);
@@ -173,23 +173,23 @@ class LayoutSums {
   void remove(uint32_t option) { change(option, -1); }
 
   const Layout& layout() const { return layout_; }
-  /// Of a cover row, as a share of what it asks for.
+  /// Sum of a cover row as a share of its requirement.
   double cover(size_t row) const { return cover_[row]; }
   double at_point(size_t point) const { return light_[point]; }
   bool covers_hold() const;
-  /// Of a pool, how many more it has to have in the layout; below 0 where it has too many.
+  /// Number of luminaires that a pool lacks in the layout; negative if it has too many.
   int64_t lack_of(size_t pool) const;
-  /// Of each group, the least share of what it asks for that is there; infinite without rows.
+  /// For each group, the least share of its requirement; infinite without rows.
   std::vector<double> tightest() const;
-  /// All sums that do not hold; or of which less than `below` of what is asked for is there.
+  /// All violated constraints, or all with less than `below` of their requirement.
   std::vector<Violation> violations(double below = 1 - sum_tolerance) const;
-  /// All sums, and as many of each pool as it has.
+  /// Whether all constraints hold and each pool has its number of luminaires.
   bool holds() const;
 
  private:
   void change(uint32_t option, int sign);
-  /// The largest light at each point of one luminaire that may fail, and the place that it comes
-  /// from.
+  /// At each point, the largest light of one luminaire that may fail, and the place of that
+  /// luminaire.
   void find_largest(std::vector<float>& largest, std::vector<uint32_t>& whose) const;
 
   const LayoutIndex& index_;

@@ -12,15 +12,15 @@ namespace luxodus {
 
 namespace {
 
-/// Beside the place below the sign a wall is looked for in such steps, so far [m].
+/// Step and largest distance of the search for a wall beside the place below the sign [m].
 constexpr double step_beside_m = 0.25, farthest_beside_m = 1.5;
-/// A wall is looked for from here before the sign's plane, to so far behind it [m].
+/// A wall is searched from this far before the sign's plane to this far behind it [m].
 constexpr double before_face_m = 0.3, behind_face_m = 0.6;
-/// A wall is flat behind a sign to this, and the sign hangs this far off it [m].
+/// Flatness of a wall behind a sign, and gap between sign and wall [m].
 constexpr double flat_to_m = 0.01, off_wall_m = 0.002;
-/// Signs that lie or lean more than this have none below [cosine].
+/// Signs that lean more than this get no low sign [cosine].
 constexpr double upright_cosine = 0.99;
-/// Below a low sign there is at least so much [m].
+/// Smallest distance from the floor to a low sign's lower edge [m].
 constexpr double above_floor_at_least_m = 0.05;
 
 class LowPlace {
@@ -32,7 +32,7 @@ class LowPlace {
       height_ = *floor + std::max(low_sign_height_m, sign.height_m / 2 + above_floor_at_least_m);
   }
 
-  /// The nearest to the sign above.
+  /// The possible place nearest to the high sign.
   std::optional<glm::dvec3> find() const {
     if (!height_ || sign_.frame.origin.z - *height_ < sign_.height_m) return std::nullopt;
     for (double beside = 0; beside <= farthest_beside_m; beside += step_beside_m)

@@ -17,17 +17,17 @@ namespace luxodus {
 
 namespace {
 
-/// What CBC takes for no limit, and what it reports where it has no solution.
+/// CBC's value for no limit and for no solution.
 constexpr double cbc_infinity = 1e30;
 
-/// When a search has to end, and what was known while it had not.
+/// The deadline of a search, and the bound known before it.
 class Deadline {
  public:
   Deadline(const std::atomic<bool>& interrupt, double seconds)
       : interrupt_(interrupt),
         at_(clock_.now() + static_cast<Nanoseconds>(1e9 * std::clamp(seconds, 0.0, longest_s))) {}
 
-  /// Once passed it stays so: what CBC concludes from linear programs that were cut off is wrong.
+  /// Stays true once passed: CBC draws wrong conclusions from linear programs that were stopped.
   bool passed() {
     passed_ = passed_ || interrupt_ || clock_.now() > at_;
     return passed_;
@@ -45,7 +45,7 @@ class Deadline {
   bool passed_ = false;
 };
 
-/// Tells how far the search is, and ends it at its deadline. CBC copies it.
+/// Reports the progress of a search and ends it at its deadline. CBC copies it.
 class SearchWatch : public CbcEventHandler {
  public:
   SearchWatch(Deadline& deadline, const ProgramProgress& progress)
@@ -53,7 +53,7 @@ class SearchWatch : public CbcEventHandler {
 
   CbcAction event(CbcEvent) override {
     const bool over = deadline_->passed();
-    // Searches within the search have other objectives.
+    // Nested searches (heuristics) have other objectives.
     if (!over && model_ != nullptr && model_->parentModel() == nullptr) {
       const double best = model_->getObjValue(), bound = model_->getBestPossibleObjValue();
       if (bound > -cbc_infinity && bound <= best) deadline_->bound = bound;
@@ -69,8 +69,8 @@ class SearchWatch : public CbcEventHandler {
   const ProgramProgress* progress_;
 };
 
-/// Ends linear programs at the deadline: CBC looks at its own limit between them alone, and one of
-/// them may take many seconds. Clp copies it.
+/// Ends linear programs at the deadline: CBC checks its own limit only between them, and one may
+/// take many seconds. Clp copies it.
 class LinearWatch : public ClpEventHandler {
  public:
   explicit LinearWatch(Deadline& deadline) : deadline_(&deadline) {}
@@ -88,8 +88,8 @@ class LinearWatch : public ClpEventHandler {
   unsigned iterations_ = 0;
 };
 
-/// Clp, within CBC too, would listen to Ctrl-C in the program's place while it solves a linear
-/// program, and the program would not hear of it: deadlines look at what it hears.
+/// Switches off Clp's own handler of Ctrl-C, which would replace the program's during a linear
+/// program; the deadline checks the program's.
 void leave_signals_alone(OsiClpSolverInterface& solver) {
   constexpr int interrupt_handling = 2, off = 1;
   ClpSolve options;
@@ -97,7 +97,7 @@ void leave_signals_alone(OsiClpSolverInterface& solver) {
   solver.setSolveOptions(options);
 }
 
-/// All rows at once: one after another, each would copy those before it.
+/// Loads all rows at once: adding them one by one would copy the earlier rows each time.
 void load(const IntegerProgram& program, OsiClpSolverInterface& solver) {
   std::vector<int> column;
   std::vector<double> value, low, high;
@@ -113,7 +113,7 @@ void load(const IntegerProgram& program, OsiClpSolverInterface& solver) {
                                 static_cast<int>(program.rows.size()), start.back(), value.data(),
                                 column.data(), start.data(), nullptr);
   solver.messageHandler()->setLogLevel(0);
-  solver.getModelPtr()->setLogLevel(0);  // its own messages, as of a presolve that time has ended
+  solver.getModelPtr()->setLogLevel(0);  // its own messages, as of a stopped presolve
   solver.loadProblem(matrix, program.low.data(), program.high.data(), program.cost.data(),
                      low.data(), high.data());
   leave_signals_alone(solver);
@@ -165,7 +165,7 @@ ProgramAnswer solve_program(const IntegerProgram& program, const ProgramLimits& 
       static_cast<int>(arguments.size()), arguments.data(), model, [](CbcModel*, int) { return 0; },
       data);
 
-  // CBC looks at its own limit as well, and may then take what it has not solved for infeasible.
+  // CBC checks its own time limit as well, and may then report unsolved programs as infeasible.
   (void)deadline.passed();
   ProgramAnswer answer;
   const double* best = model.bestSolution();
@@ -182,7 +182,7 @@ ProgramAnswer solve_program(const IntegerProgram& program, const ProgramLimits& 
     answer.end = ProgramEnd::infeasible;
   }
   if (deadline.was_passed()) answer.bound = std::min(answer.bound, deadline.bound);
-  // Without a node CBC has no bound: what can be said is that no cost is below zero.
+  // Without a node CBC has no bound; costs are not negative, so zero is one.
   if (!(answer.bound > -cbc_infinity && answer.bound < cbc_infinity)) answer.bound = 0;
   return answer;
 }

@@ -12,15 +12,15 @@ namespace luxodus {
 
 namespace {
 
-/// Directions in which a luminaire is off.
+/// Number of directions in which a luminaire may be off.
 constexpr int off_directions = 8;
-/// Points of a demand that are asked for at once, and how far they are from each other [m].
+/// Points of a demand that get rows at a time, and the distance between them [m].
 constexpr size_t asked_at_once = 40;
 constexpr double broken_apart_m = 0.5;
-/// A share that is this near to 1 holds: rounding.
+/// Shares this close to 1 hold: rounding.
 constexpr double share_rounding = 1e-6;
 
-/// Level on a ceiling; along and up the wall on one.
+/// Horizontal on a ceiling; along and up the wall on a wall.
 glm::dvec3 off_way(const LuminaireCandidate& one, double azimuth) {
   const glm::dvec3 level(std::cos(azimuth), std::sin(azimuth), 0);
   if (!one.outward) return level;
@@ -28,7 +28,8 @@ glm::dvec3 off_way(const LuminaireCandidate& one, double azimuth) {
   return along * level.x + glm::dvec3(0, 0, level.y);
 }
 
-/// A luminaire where it is planned and where it may be instead, one after another, in one place.
+/// A luminaire at its planned place and at the places where it may be instead, as options of one
+/// place.
 std::vector<LuminaireCandidate> with_places_off(const Building& building,
                                                 const std::vector<LuminaireCandidate>& chosen,
                                                 double distance_m) {
@@ -38,7 +39,7 @@ std::vector<LuminaireCandidate> with_places_off(const Building& building,
       LuminaireCandidate one = chosen[i];
       one.place = i;
       out.push_back(one);
-      if (one.type == LuminaireCandidate::existing && !one.moved) continue;  // it is where it is
+      if (one.type == LuminaireCandidate::existing && !one.moved) continue;  // stays where it is
       for (int d = 0; d < off_directions; ++d) {
         const double azimuth = 2 * std::numbers::pi * d / off_directions;
         const glm::dvec3 way = off_way(chosen[i], azimuth);
@@ -51,7 +52,7 @@ std::vector<LuminaireCandidate> with_places_off(const Building& building,
   return out;
 }
 
-/// Of each place, the least that it may give, and what all give together.
+/// For each place the least light that it may give, and the sum of these.
 class LeastLight {
  public:
   explicit LeastLight(const LayoutProblem& problem) : problem_(problem) {
@@ -69,7 +70,7 @@ class LeastLight {
       size_t given = 0;
       for (; i < terms.size() && problem_.options[terms[i].option].place == place; ++i, ++given)
         least = std::min(least, static_cast<double>(terms[i].value));
-      // From a place that is not named nothing arrives.
+      // A variant without a term gives no light, so the least of this place is zero.
       if (given < variants_.at(place)) continue;
       sum.all += least;
       sum.largest = std::max(sum.largest, least);
@@ -82,7 +83,7 @@ class LeastLight {
   std::map<uint32_t, size_t> variants_;
 };
 
-/// The tightest of each demand.
+/// The tightest place of each demand.
 class Tightest {
  public:
   void offer(const ConstraintGroup& group, double share, double least, const glm::dvec3& place) {
@@ -152,7 +153,7 @@ Result<PlaceTolerance> tolerance_of(const SceneDescription& scene, const DesignS
   out.distance_m = design.place_tolerance_m;
   const auto copies = displaced_copies({scene, design, doors, threads}, chosen);
   if (!copies) return copies.problem();
-  // The limits of the rules themselves: the margin is there for this, among other things.
+  // The limits of the rules themselves: the planning margin is meant to cover such deviations.
   DesignSettings bare_limits = design;
   bare_limits.margin = 1;
   const auto demands = Demands::make(scene, bare_limits, copies.value(), codes, doors, threads);

@@ -1,4 +1,4 @@
-// A layout of luminaires in the scene that it was found for. Plain values.
+// A layout of luminaires with the scene that contains it. Plain values; any thread.
 #pragma once
 
 #include <memory>
@@ -10,21 +10,21 @@
 
 namespace luxodus {
 
-/// A luminaire of the layout.
+/// A luminaire of a layout.
 struct PlacedLuminaire {
   LuminaireCandidate candidate;
   std::string name;
-  std::optional<glm::dvec3> moved_from{};  // of one of the scene
-  /// Whether a layout has it where it is: it is new, or moved.
+  std::optional<glm::dvec3> moved_from{};  // set if it is a luminaire of the scene that was moved
+  /// Whether the layout decides its place: it is new or was moved.
   bool is_placed() const { return is_new() || moved_from.has_value(); }
   bool is_new() const { return candidate.type != LuminaireCandidate::existing; }
 };
 
 struct PlacedLayout {
-  /// The scene with the layout, as the variant on disk gives it; null where there is none.
+  /// The scene with the layout, as its variant on disk gives it; null without a layout.
   std::shared_ptr<const SceneDescription> variant;
-  std::vector<PlacedLuminaire> luminaires;  // those of the scene that stay first
-  std::vector<std::string> removed;         // luminaires of the scene that go
+  std::vector<PlacedLuminaire> luminaires;  // first the luminaires of the scene that stay
+  std::vector<std::string> removed;         // luminaires of the scene that are removed
 };
 
 }  // namespace luxodus

@@ -1,5 +1,5 @@
-// Neighbourhoods that are filled at random seldom come upon a layout that is symmetric, or of one
-// type. So such layouts are made of the one that is there, and taken where they hold.
+// Random neighbourhoods rarely produce a layout that is symmetric or of one type. So such layouts
+// are derived from the current one, and taken if all demands hold.
 #include "actors/judge/design/preference.hpp"
 
 #include <algorithm>
@@ -14,18 +14,18 @@ namespace luxodus {
 
 namespace {
 
-/// Rows of luminaires that are nearer than this are one, and so are places [m].
+/// Luminaires in rows closer than this are in one row, and places closer than this are one [m].
 constexpr double one_row_m = 0.05, one_place_m = 0.1;
-/// Places brighter than this times what is asked for are bright enough.
+/// Places brighter than this times the requirement are bright enough.
 constexpr double bright_enough = 2;
-/// What a row less, a type less and full symmetry are worth beside a place's brightness, which is a
-/// share of what is asked for.
+/// Weights of one row less, one type less and full symmetry, relative to the brightness of a place
+/// as a share of its requirement.
 constexpr double worth_of_row = 0.02, worth_of_type = 0.1, worth_of_symmetry = 0.2;
-/// Each pass begins with what the one before it has found.
+/// Number of passes; each starts from the result of the one before.
 constexpr int tidy_passes = 4;
 constexpr double same_weight = 1e-9;
 
-/// Where the places of one region lie.
+/// Bounding box of the places of one region.
 struct Extent {
   glm::dvec2 low{std::numeric_limits<double>::infinity()};
   glm::dvec2 high{-std::numeric_limits<double>::infinity()};
@@ -68,7 +68,7 @@ size_t types_in(const LayoutProblem& problem, const std::vector<uint32_t>& chose
   return kinds.size();
 }
 
-/// Makes layouts of one that is there.
+/// Derives layouts from a given one.
 class Tidying {
  public:
   explicit Tidying(const LayoutProblem& problem)
@@ -98,13 +98,13 @@ class Tidying {
   }
 
  private:
-  /// A new luminaire, which may be elsewhere or another one.
+  /// Whether a luminaire is new, so that its place and type may change.
   bool stands_free(uint32_t i) const {
     const LayoutOption& option = problem_.options[i];
     return option.kind != no_kind && !option.fixed && option.pool == no_pool;
   }
 
-  /// The option of a type that is nearest to a place of a region; none within a distance.
+  /// The option of a type nearest to a place of a region, within a small distance.
   std::optional<uint32_t> at(uint32_t region, const glm::dvec2& place, uint32_t kind) const {
     std::optional<uint32_t> out;
     double nearest = one_place_m;
@@ -118,7 +118,7 @@ class Tidying {
     return out;
   }
 
-  /// The luminaires of one half of a region, and their mirror images in its other half.
+  /// The luminaires of one half of a region with their mirror images in the other half.
   std::optional<Layout> with_mirrored(const Layout& layout, uint32_t region, const Extent& extent,
                                       int axis, bool from_low) const {
     Layout out = layout;
@@ -141,7 +141,7 @@ class Tidying {
     return one_each(std::move(out));
   }
 
-  /// All of a region where most of them are along an axis.
+  /// Moves all luminaires of a region to the row that has most of them.
   std::optional<Layout> in_one_row(const Layout& layout, uint32_t region, int axis) const {
     std::map<int64_t, std::vector<uint32_t>> rows;
     for (const uint32_t i : of_region_.at(region))
@@ -178,7 +178,7 @@ class Tidying {
     return one_each(std::move(out));
   }
 
-  /// None where two options of one place are chosen.
+  /// None if two options of one place are chosen.
   std::optional<Layout> one_each(Layout layout) const {
     std::set<uint32_t> places;
     for (const uint32_t i : chosen_in(layout))

@@ -1,6 +1,6 @@
-// What is made as large as can be is a smooth least: -ln(sum exp(-k s)) / k over the shares s of
-// all minima, which grows with the darkest places first and with the others a little. A position
-// that breaks a demand, or that no luminaire may have, counts as worse than all that do not.
+// The objective is a smooth minimum, -ln(sum exp(-k s)) / k over the shares s of all minima: it is
+// dominated by the darkest places, and others contribute a little. A position that violates a
+// demand or is not allowed counts as worse than all others.
 #include "actors/judge/design/refine_layout.hpp"
 
 #include <nlopt.h>
@@ -16,21 +16,21 @@ namespace luxodus {
 
 namespace {
 
-/// Of the smooth least: at 20, a share that is 0.1 larger counts a seventh.
+/// k of the smooth minimum: at 20, a share that is 0.1 larger has a seventh of the weight.
 constexpr double sharpness = 20;
-/// Positions of one luminaire that are tried; BOBYQA begins with five.
+/// Positions tried for one luminaire; BOBYQA starts with five.
 constexpr int tried_positions = 24;
-/// BOBYQA ends at steps that are smaller than this [m].
+/// BOBYQA ends at steps below this [m].
 constexpr double smallest_step_m = 0.02;
-/// A move that gains less than this is none: installers like rows.
+/// Smallest gain for which a luminaire is moved: installers prefer rows.
 constexpr double least_gain = 5e-3;
-/// What broken demands count.
+/// Objective of a layout that violates demands.
 constexpr double when_broken = -10;
 
 struct Judged {
   bool good = false;
-  double smooth = when_broken;  // least
-  double least = 0;             // share of a minimum that is planned for
+  double smooth = when_broken;  // smooth minimum
+  double least = 0;             // least share of a planned minimum
 };
 
 class Refining {
@@ -57,7 +57,7 @@ class Refining {
     best_ = judge(out_.luminaires);
     if (problem_) return *problem_;
     out_.before = out_.after = best_.least;
-    // Without a layout that holds there is nothing to improve.
+    // Without a valid layout there is nothing to improve.
     if (best_.good)
       for (const size_t i : by_weight()) {
         if (over()) break;
@@ -99,7 +99,7 @@ class Refining {
     sums.set(Layout(problem.options.size(), 1));
     const auto violations = sums.violations();
     if (!violations.empty()) {
-      // Less broken is better, so that a way back is found.
+      // Smaller violations count as better, so that the search finds its way back.
       out.smooth = when_broken;
       for (const Violation& v : violations) out.smooth -= 1 - v.share;
       return out;
@@ -113,7 +113,7 @@ class Refining {
     for (size_t row = 0; row < problem.covers.size(); ++row)
       if (is_minimum(problem.groups[problem.covers[row].group].kind))
         sum += std::exp(-sharpness * (sums.cover(row) - out.least));
-    if (!(sum > 0)) return {};  // no minimum is asked for
+    if (!(sum > 0)) return {};  // no minimum is required
     out.smooth = out.least - std::log(sum) / sharpness;
     if (out_.evaluations == 1)
       weigh(problem, sums, out.least);
@@ -122,12 +122,13 @@ class Refining {
     return out;
   }
 
-  /// Whether a minimum hides between the points. Looked at where a position would be taken alone.
+  /// Whether a minimum does not hold between points of the grid. Tested only for positions that
+  /// would be taken.
   bool has_gap(Demands& demands) const {
     return demands.look_between(Layout(demands.problem().options.size(), 1), &all_).added > 0;
   }
 
-  /// How much each luminaire gives where minima are tightest.
+  /// Weight of each luminaire: its contribution to the tightest minima.
   void weigh(const LayoutProblem& problem, const LayoutSums& sums, double least) {
     weight_.assign(problem.options.size(), 0);
     for (size_t row = 0; row < problem.covers.size(); ++row) {
@@ -139,7 +140,8 @@ class Refining {
     }
   }
 
-  /// New and moved luminaires under ceilings, first those that the tightest minima come from.
+  /// New and moved luminaires under ceilings; first those that contribute most to the tightest
+  /// minima.
   std::vector<size_t> by_weight() const {
     std::vector<size_t> out;
     for (size_t i = 0; i < out_.luminaires.size(); ++i)
@@ -168,7 +170,7 @@ class Refining {
     nlopt_set_xtol_abs1(search, smallest_step_m);
     nlopt_set_maxeval(search, tried_positions);
     search_ = search;
-    // How it ends says nothing more: the best that was tried is kept here.
+    // The return code is not needed: the best position tried is kept here.
     nlopt_optimize(search, at.data(), &value);
     search_ = nullptr;
     nlopt_destroy(search);

@@ -1,8 +1,8 @@
-// Luminaires of a layout moved between the places of the grid, so that minima are kept with more to
-// spare by as many of them: without gradients (BOBYQA, Powell 2009), one luminaire after another,
-// each position lit by the code mode's own light. The only source that includes NLopt. The same
-// layout gives the same one, unless a limit of time or an interrupt ends it. Thread rule: one
-// thread, which has rows run on others.
+// Moves luminaires of a layout between places of the grid, so that minima hold with more to spare
+// at the same number of luminaires. Derivative-free search (BOBYQA, Powell 2009), one luminaire
+// after another, with the light of the code mode at each position. No other source includes NLopt.
+// Equal layouts give equal results, unless a time limit or an interrupt ends the search.
+// Thread rule: one thread, which has rows computed by others.
 #pragma once
 
 #include <atomic>
@@ -20,17 +20,17 @@ struct RefineOptions {
 };
 
 struct Refinement {
-  std::vector<LuminaireCandidate> luminaires;  // as they were given, moved
+  std::vector<LuminaireCandidate> luminaires;  // as given, but moved
   size_t moved = 0;
-  /// The least share of what is planned for, over all minima: before and after.
+  /// Least share of the planned value over all minima, before and after.
   double before = 0, after = 0;
   int evaluations = 0;
-  std::unique_ptr<Demands> demands;  // of the moved ones; each is an option
+  std::unique_ptr<Demands> demands;  // of the moved luminaires, each as an option
 };
 
-/// `chosen`: the candidates of a layout; `all`: the demands of all candidates. What furniture hides
-/// from all of these may be hidden: no move may hide more, and none leaves a gap between the points
-/// that they reach. Existing luminaires stay. Errors: as compile_scene.
+/// `chosen`: the candidates of a layout; `all`: the demands of all candidates. Points that
+/// furniture hides from all candidates may stay hidden; no move hides more, or leaves a gap between
+/// points that luminaires reach. Existing luminaires are not moved. Errors: as compile_scene.
 Result<Refinement> refine_layout(const SceneDescription& scene, const DesignSettings& design,
                                  const std::vector<LuminaireCandidate>& chosen, const Demands& all,
                                  const RefineOptions& options, const std::atomic<bool>& interrupt,

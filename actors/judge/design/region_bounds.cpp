@@ -10,9 +10,10 @@ namespace luxodus {
 
 namespace {
 
-/// Of the time for joining regions, what one pair may take: harder ones come later.
+/// Share of the time for joint bounds that one pair may take, so that a hard pair leaves time for
+/// others.
 constexpr double time_for_pair = 0.5;
-/// Of weights.
+/// Rounding of weights.
 constexpr double weight_rounding = 1e-6;
 
 class TimeLeft {
@@ -74,7 +75,7 @@ void RegionBounds::bound_each(const Layout& layout, double seconds, const Raised
   std::vector<size_t> asked = smallest_first();
   std::erase_if(asked, [&](size_t i) { return !layout.empty() && !is_loose(layout, bounds_[i]); });
   while (!asked.empty() && time.seconds() > 0 && !interrupt_) {
-    // Those that took more than their share are gone on with in what others left of theirs.
+    // Regions that exceeded their share of the time continue in the time that others left over.
     std::vector<size_t> unfinished;
     size_t left = asked.size();
     for (const size_t i : asked) {
@@ -170,8 +171,8 @@ std::vector<std::pair<size_t, size_t>> RegionBounds::pairs_to_try(const Layout& 
   return out;
 }
 
-/// A layout has no better one where these regions weigh as much in it as they do at least: whether
-/// they can weigh less is all that is asked.
+/// Only asks whether these regions can weigh less than in the layout, since nothing else can
+/// improve it.
 RegionBounds::Found RegionBounds::bound_of(const std::set<uint32_t>& regions, const Layout& layout,
                                            double seconds) {
   const TimeLeft time(seconds);
@@ -183,12 +184,12 @@ RegionBounds::Found RegionBounds::bound_of(const std::set<uint32_t>& regions, co
     const ProgramLimits asked{.seconds = time.seconds(), .cutoff = cutoff};
     const ProgramAnswer found = solve_program(growing_.of_regions(regions), asked, interrupt_, {});
     if (found.end == ProgramEnd::infeasible) {
-      // Without any layout the whole program says so.
+      // Without a cutoff, the whole program finds the infeasibility itself.
       if (cutoff) out.least = std::max(out.least, sums_.from(*cutoff));
       out.finished = true;
       break;
     }
-    // Of layouts below the cutoff alone: others weigh more than it.
+    // The bound is on layouts below the cutoff; all others weigh more than the cutoff.
     const double bound = cutoff ? std::min(found.bound, *cutoff) : found.bound;
     out.least = std::max(out.least, sums_.from(bound));
     if (found.end == ProgramEnd::stopped || found.values.empty()) break;

@@ -1,8 +1,9 @@
-// What the regions of a problem (corridors, rooms) weigh at least. Each is bounded by itself, with
-// the luminaires of others free: whole numbers of each region add up to more than the whole number
-// of all of them, and each is found sooner. Where that leaves the best layout's weight open,
-// regions that light each other are bounded together: then neither has the other's light for
-// nothing. Every bound holds for all layouts. Thread rule: as mixed_integer_program.hpp.
+// Lower bounds on the weight of each region (corridor, room). First each region is bounded
+// separately, with luminaires of other regions at no cost: rounded-up integers of regions add up to
+// more than the rounded-up total, and small programs are solved faster. If the sum stays below the
+// weight of the best layout, regions that light each other are bounded together, so that neither
+// uses the other's light at no cost. Every bound holds for all layouts. Thread rule: as
+// mixed_integer_program.hpp.
 #pragma once
 
 #include <atomic>
@@ -17,45 +18,46 @@
 
 namespace luxodus {
 
-/// How much two regions have to do with each other: the shares of what the rows of one ask for that
-/// options of the other may give. By pairs, the smaller number first.
+/// Coupling of two regions: the share of the requirements of one region's rows that options of the
+/// other may contribute. By pairs, the smaller index first.
 std::map<std::pair<uint32_t, uint32_t>, double> light_between_regions(const LayoutProblem& problem);
 
 class RegionBounds {
  public:
-  /// Adds to `growing` the rows that solutions break, and what regions weigh at least. `known`: of
-  /// the same problem, or of one that asks for less; also of regions that are not in this one.
-  /// Requires: all outlive this, but for `known`.
+  /// Adds to `growing` the rows that solutions violate, and the bounds. `known`: bounds of the same
+  /// problem or of a relaxation of it, also for regions that are not in this one.
+  /// Requires: all arguments but `known` outlive this.
   RegionBounds(const LayoutProblem& problem, const LayoutIndex& index, const AttainableSums& sums,
                const std::vector<RegionBound>& known, GrowingProgram& growing,
                const std::atomic<bool>& interrupt);
 
-  /// Called with the sum of all bounds, whenever it may be larger. False: it is large enough.
+  /// Called with the sum of all bounds whenever it may have grown. Returns false if the sum is
+  /// large enough.
   using Raised = std::function<bool(double sum)>;
 
-  /// Each region by itself, in a time; where a layout is there, those that it has more in than is
-  /// known to be needed.
+  /// Bounds each region separately within a time; with a layout, only regions whose weight in it
+  /// exceeds their bound.
   void bound_each(const Layout& layout, double seconds, const Raised& raised);
-  /// Joins regions that the layout has more in than they weigh at least with one that lights them,
-  /// the first where that raises the sum. False where none does, or the time was too short.
+  /// Joins a region whose weight in the layout exceeds its bound with one that lights it: the first
+  /// pair that raises the sum. False if none does, or time is out.
   bool join(const Layout& layout, double seconds, const Raised& raised);
 
-  /// All regions, each in one of them.
+  /// All regions, each in exactly one bound.
   const std::vector<RegionBound>& bounds() const { return bounds_; }
   double weight_of(const Layout& layout, const RegionBound& bound) const;
-  /// Whether a layout has more in these regions than they weigh at least.
+  /// Whether the weight of these regions in a layout exceeds their bound.
   bool is_loose(const Layout& layout, const RegionBound& bound) const;
 
  private:
   double sum() const;
-  /// By number of options: what small ones leave of their time is for the large ones.
+  /// Indices by number of options: time that small regions leave over goes to large ones.
   std::vector<size_t> smallest_first() const;
   double light_between(const RegionBound& a, const RegionBound& b) const;
-  /// Pairs of which one is loose, those first that light each other most.
+  /// Pairs with at least one loose bound, the most strongly coupled first.
   std::vector<std::pair<size_t, size_t>> pairs_to_try(const Layout& layout) const;
   struct Found {
     double least = 0;
-    bool finished = false;  // no more time would tell more
+    bool finished = false;  // more time would not raise it
   };
   Found bound_of(const std::set<uint32_t>& regions, const Layout& layout, double seconds);
 
@@ -66,7 +68,7 @@ class RegionBounds {
   const std::atomic<bool>& interrupt_;
   const std::map<std::pair<uint32_t, uint32_t>, double> light_;
   std::vector<RegionBound> bounds_;
-  std::set<std::set<uint32_t>> tried_;  // together, and nothing was gained
+  std::set<std::set<uint32_t>> tried_;  // sets of regions whose joint bound raised nothing
 };
 
 }  // namespace luxodus

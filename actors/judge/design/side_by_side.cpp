@@ -11,7 +11,7 @@ namespace luxodus {
 
 namespace {
 
-/// Two of them are as wide as a page.
+/// Two of these fit side by side on a page.
 constexpr PlanSize small_plan{128, 84};
 
 std::string caption(const Texts& t, const Json& design, const std::string& name) {

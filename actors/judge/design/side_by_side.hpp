@@ -1,4 +1,4 @@
-// Plans of the layouts that were judged in smoke, small and beside each other. Pure; any thread.
+// Small plans of the layouts that were judged in smoke, side by side. Pure functions; any thread.
 #pragma once
 
 #include <string>
@@ -11,17 +11,17 @@ namespace luxodus {
 
 struct DesignResult;
 
-/// A layout, and the assessment JSON that its plan is drawn from: its own luminaires, and the
-/// building and marks of the first layout.
+/// A layout with the assessment JSON for its plan: its own luminaires, and the building and symbols
+/// of the first layout.
 struct LayoutPlan {
   std::string name;
   Json drawn;
 };
 
-/// Of the layouts whose signs are as they are; empty where none was judged beside the first.
+/// Plans of layouts with unchanged signs; empty if only the first layout was judged.
 std::vector<LayoutPlan> layout_plans(const DesignResult& result, const std::string& version);
 
-/// A section of the page, by level; empty without plans.
+/// A section of the page, by level; "" without plans.
 std::string side_by_side(const Texts& t, const Json& design, const std::vector<LayoutPlan>& plans);
 
 }  // namespace luxodus

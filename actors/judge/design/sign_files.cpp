@@ -45,7 +45,7 @@ std::string counted(size_t count, const char* what) {
 }  // namespace
 
 std::string toml_text(const std::string& text) {
-  return Json(text).dump();  // a JSON string is a basic string of TOML
+  return Json(text).dump();  // a JSON string is a valid TOML basic string
 }
 
 std::string toml_metres(double value) {

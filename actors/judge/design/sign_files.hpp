@@ -1,5 +1,5 @@
-// The signs of a design on disk: as changes of a variant, as a schedule, as JSON, and in sentences.
-// Pure; any thread.
+// The signs of a design on disk: as changes of a variant, as a schedule, as JSON, and as sentences.
+// Pure functions; any thread.
 #pragma once
 
 #include <string>
@@ -12,24 +12,24 @@
 
 namespace luxodus {
 
-/// A text as TOML writes it between quotes.
+/// A quoted TOML string.
 std::string toml_text(const std::string& text);
-/// A coordinate in metres, to a tenth of a millimetre.
+/// A coordinate in metres, rounded to a tenth of a millimetre.
 std::string toml_metres(double value);
 
-/// What a variant of the scene has otherwise by the plan: [[change]] tables.
+/// [[change]] tables that turn the scene into the variant with the plan's signs.
 std::string sign_changes(const SceneDescription& scene, const SignPlan& plan);
 
 CsvTable signs_csv(const SceneDescription& scene, const SignPlan& plan);
 Json signs_json(const SceneDescription& scene, const SignPlan& plan);
 
-/// How many signs there are, whether fewer would do, and where nobody is guided. English.
+/// English sentences: number of signs, whether fewer would do, and places without guidance.
 std::vector<std::string> sign_words(const SignPlan& plan);
 
 /// "left"
 std::string_view arrow_word(SignArrow arrow);
 
-/// Signs of a layout made brighter, and low ones added, as changes of a variant.
+/// [[change]] tables for brighter signs and low-level signs of a layout.
 std::string changes_of_signs(const JudgedLayout& layout);
 
 }  // namespace luxodus

@@ -1,6 +1,6 @@
-// A route is followed leg by leg, at the height of the sign. Walls that the line meets are lintels
-// over doors and ends of ways: a sign hangs before each, facing who comes. Beside each there are
-// two places more, where the wall is as flat.
+// A route is followed leg by leg at the height of the sign. Walls that the line meets are lintels
+// over doors or walls at ends of legs; a sign hangs on each, facing the walker. On both sides of it
+// there are two more places if the wall is flat there.
 #include "actors/judge/design/sign_places.hpp"
 
 #include <algorithm>
@@ -15,25 +15,25 @@ namespace luxodus {
 
 namespace {
 
-/// A wall is looked for so far ahead of the end of a leg [m].
+/// Largest distance to a wall beyond the end of a leg [m].
 constexpr double ahead_m = 12;
-/// Behind a wall that was met the line goes on, so far behind it at most [m].
+/// Thickest wall behind which the line continues, and step through the wall [m].
 constexpr double thickest_wall_m = 1, wall_step_m = 0.1;
-/// From the middle of a doorway to the edge of a sign beside it [m].
+/// Distance from the middle of a doorway to the edge of a sign beside it [m].
 constexpr double beside_door_m = 0.6;
-/// Between a sign and the wall behind it, or the ceiling above it [m].
+/// Gap between a sign and the wall behind it, or the ceiling above it [m].
 constexpr double gap_m = 0.005, below_ceiling_m = 0.02;
-/// A wall is looked at from so far before it [m].
+/// Distance before a wall from which it is examined [m].
 constexpr double before_wall_m = 0.5;
-/// A wall is flat where its corners behind a sign are in one plane to this [m].
+/// A wall is flat if its points behind a sign lie in one plane to this [m].
 constexpr double flat_m = 0.01;
-/// Walls that are met more aslant than this hold no sign for who comes: tangent of 40 degrees.
+/// Walls at a larger angle to the line hold no sign for the walker [tangent of 40 degrees].
 constexpr double most_aslant = 0.84;
-/// Ceilings are looked for so far above a sign [m].
+/// Largest distance of a ceiling above a sign [m].
 constexpr double highest_ceiling_m = 50;
-/// Signs nearer to each other, and facing alike, are in one place [m].
+/// Signs closer than this with equal facing are at one place [m].
 constexpr double one_sign_place_m = 0.3;
-/// Shorter legs in plan have no direction [m].
+/// Legs shorter than this in plan have no direction [m].
 constexpr double level_leg_m = 0.05;
 
 const glm::dvec3 upwards(0, 0, 1);
@@ -76,7 +76,7 @@ class SignSpotFinder {
       hang(access, floor, -level);
   }
 
-  /// Walls on a line above the floor from `from` to `to`; the first alone behind the end of a leg.
+  /// Finds walls on a line above the floor from `from` to `to`; with `first_alone` only the first.
   void follow(const GeometryAccess& access, const glm::dvec3& from, const glm::dvec3& to,
               const glm::dvec3& level, bool first_alone = false) {
     const glm::dvec3 raised(0, 0, middle_m());
@@ -106,10 +106,10 @@ class SignSpotFinder {
     return wall_distance(bare_, access, from, direction, length_m);
   }
 
-  /// Lower where the ceiling asks for it. False where there is none to hang under.
+  /// Lowers the sign to fit below the ceiling. False if there is no ceiling.
   bool fit_below_ceiling(const GeometryAccess& access, glm::dvec3& middle,
                          const glm::dvec3& before) const {
-    // From below the sign: at its height there may be no room any more.
+    // Measured from below the sign: at its height there may be no free space.
     const double low = middle_m();
     const auto up = stop_at(access, before - glm::dvec3(0, 0, low / 2), upwards, highest_ceiling_m);
     if (!up) return false;
@@ -118,14 +118,14 @@ class SignSpotFinder {
     return true;
   }
 
-  /// `wall`: about where the wall is, met along `level`.
+  /// `wall`: approximate point of the wall, met along `level`.
   void put_on_wall(const GeometryAccess& access, glm::dvec3 wall, const glm::dvec3& level,
                    SignMount mount) {
     const glm::dvec3 before = wall - level * before_wall_m;
     fit_below_ceiling(access, wall, before);
     const glm::dvec3 across = glm::cross(upwards, level);
     const glm::dvec3 eye(before.x, before.y, wall.z);
-    // Distances to the wall behind the edges: columns are left, middle and right.
+    // Distances to the wall behind the edges; columns: left, middle, right.
     std::array<double, 3> depth{};
     for (int column = 0; column < 3; ++column) {
       const glm::dvec3 aside = eye + across * ((column - 1) * sign_.width_m / 2);
@@ -155,7 +155,7 @@ class SignSpotFinder {
     offer(access, middle, facing, SignMount::hanging);
   }
 
-  /// A place that is told to the millimetre and holds the sign.
+  /// Adds a place, rounded to a millimetre, if the sign fits there.
   void offer(const GeometryAccess& access, const glm::dvec3& middle, const glm::dvec3& facing,
              SignMount mount) {
     SignSpot spot{told_place(middle), told_direction(facing), mount, {route_}};
@@ -171,7 +171,7 @@ class SignSpotFinder {
     spots_.push_back(spot);
   }
 
-  /// Whether a body holds a corner of the sign, or the middle of one of its long edges.
+  /// Whether a corner of the sign, or the middle of a long edge, is inside a body.
   bool is_within_bodies(const Building& building, const GeometryAccess& access,
                         const SignSpot& spot) const {
     const Sign sign = sign_at(sign_, spot);
@@ -183,7 +183,7 @@ class SignSpotFinder {
     return building.in_solid(access, spot.position);
   }
 
-  /// Without places in furniture and keep-out zones, and where signs hang that stay.
+  /// Removes places in furniture, in keep-out zones, and at signs that stay.
   void keep_free() {
     std::vector<char> good(spots_.size(), 1);
     furnished_.each(spots_.size(), [&](const GeometryAccess& access, size_t i) {
@@ -213,7 +213,7 @@ class SignSpotFinder {
   const Building& bare_;
   const Building& furnished_;
   SignsLeftOut& left_out_;
-  size_t route_ = 0;  // that is followed
+  size_t route_ = 0;  // the route being followed
   std::vector<SignSpot> spots_;
 };
 

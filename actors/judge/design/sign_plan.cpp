@@ -1,9 +1,9 @@
-// A sign of a type at a place has one arrow. For each route that it can serve, that arrow is taken
-// which is nearest to the way behind the place where it is passed; routes with the same arrow share
-// the sign. Who is guided by what is a matrix of ones, and the plan is the lightest set of columns
-// that covers all rows. Signs of the plan may hide each other: the plan is looked at again with all
-// of them in the building, and a row that is lost asks for one sign more. What no plan holds is
-// told.
+// A sign of a type at a place has one arrow for each route that it serves: the one closest to the
+// direction of the route behind the point where the sign is passed. Routes with equal arrows share
+// the sign. Which sign guides at which place is a matrix of ones, and the plan is the set of
+// columns of least weight that covers all rows. Signs of a plan may hide each other. So the plan is
+// tested with all its signs in the building, and the row of a place that lost its guidance requires
+// one more sign. Places that no plan guides are reported.
 #include "actors/judge/design/sign_plan.hpp"
 
 #include <algorithm>
@@ -23,52 +23,51 @@ namespace luxodus {
 namespace {
 
 constexpr std::array all_arrows{SignArrow::left, SignArrow::right, SignArrow::ahead};
-/// Of plans that weigh alike, one with signs over doors is taken: those beside them weigh more by
-/// this share, and those under ceilings by twice this share.
+/// Among plans of equal weight, signs over doors are preferred: signs beside doors weigh more by
+/// this share, and signs under ceilings by twice this share.
 constexpr double share_of_mount = 1e-3;
-/// Places nearer to each other hold one sign [m].
+/// Places closer than this hold only one sign [m].
 constexpr double one_place_of_signs_m = 0.3;
-/// Plans in which signs hide each other are made again, so often.
+/// Largest number of plans that are made because signs hide each other.
 constexpr int most_plans = 6;
-/// A sign that was found on another route belongs to one that passes so near to it, beside its edge
-/// [m].
+/// A sign found along another route also serves a route whose edge is within this distance [m].
 constexpr double near_way_m = 3;
-/// Behind the place where a sign is passed the way is looked at so far [m].
+/// Length of route, behind the point where a sign is passed, that decides its arrow [m].
 constexpr double way_behind_m = 1;
 
-/// A plan is looked for in no less [s]: what is left of the time may be nothing.
+/// Smallest time for a search [s]; no other time may be left.
 constexpr double least_seconds = 1;
 
-/// A place on a route where somebody has to be guided.
+/// A place on a route that needs guidance.
 struct Asked {
   size_t route = 0;
   Walker walker;
   glm::dvec3 eye{0};
-  bool bare = false;  // furniture hides all signs from it: asked for without any
+  bool bare = false;  // furniture hides all signs from it, so it is guided without furniture
 };
 
-/// A sign at a place, with no arrow yet, or one of the scene.
+/// A sign at a place before its arrow is chosen, or a sign of the scene.
 struct Hung {
   size_t type = PlacedSign::existing;
   SignSpot spot;
   Sign sign;
-  /// Numbers of the places that see it near enough, and the arrows that guide there, as bits; of a
-  /// sign of the scene, any bit says that it guides.
+  /// Indices of places from which it is visible and near enough, with the guiding arrows as bits;
+  /// for a sign of the scene any bit means that it guides.
   std::vector<std::pair<uint32_t, uint8_t>> furnished, bare;
 };
 
-/// A column of the program.
+/// A column of the integer program.
 struct SignOption {
   size_t hung = 0;
   std::vector<LeadsTo> leads_to;
-  std::vector<uint32_t> furnished, bare;  // places that it guides
+  std::vector<uint32_t> furnished, bare;  // indices of the places that it guides
 };
 
 uint8_t bit_of(SignArrow arrow) {
   return static_cast<uint8_t>(1U << static_cast<unsigned>(arrow));
 }
 
-/// What a sign decides by itself; light from outside comes with the luminaires.
+/// Whether a check on the sign itself fails; light on externally lit signs is planned later.
 bool forbids_sign(const Check& check, const Sign& sign) {
   if (check.verdict != CheckVerdict::fail) return false;
   const DecidedBy by = row_of(check.rule.id).decided_by;
@@ -101,7 +100,7 @@ class SignPlanning {
 
   Result<SignPlan> run() {
     take_out_removed();
-    // A scene that has no light yet is compiled with that of a type.
+    // A scene compiles only with light, so a scene without any gets that of a type.
     if (scene_.emitters.empty()) scene_.emitters.push_back(some_light(design_));
     has_furniture_ = std::any_of(scene_.objects.begin(), scene_.objects.end(), is_furniture);
     if (auto ok = build(false, bare_); !ok) return ok.problem();
@@ -118,14 +117,14 @@ class SignPlanning {
   }
 
  private:
-  /// Until the signs of a plan do not hide each other; places that no plan guides from are told.
+  /// Makes plans until their signs do not hide each other. Places that no plan guides are reported.
   Result<void> plan() {
     std::vector<size_t> lost;
     for (int plans = 1;; ++plans) {
       const LayoutAnswer answer = solve(problem_, time_left());
       if (is_none(answer)) {
         if (plans == 1) return no_plan(answer.end);
-        for (const size_t place : lost) give_up(place);  // the plan before stands
+        for (const size_t place : lost) give_up(place);  // keep the plan before
         break;
       }
       if (plans == 1) bound_ = answer.bound;
@@ -222,7 +221,7 @@ class SignPlanning {
     });
   }
 
-  /// A sign far from a route may be seen from it and still mean another way.
+  /// Whether a sign serves a route: it may be visible from a route that it is not meant for.
   bool belongs_to(const SignSpot& spot, size_t route) const {
     const auto& found_on = spot.of_routes;
     if (std::find(found_on.begin(), found_on.end(), route) != found_on.end()) return true;
@@ -231,7 +230,7 @@ class SignPlanning {
     return glm::length(glm::dvec2(nearest - spot.position)) <= way.width_m / 2 + near_way_m;
   }
 
-  /// Arrows that guide at a place, if the sign is seen there.
+  /// The arrows that guide at a place from which the sign is visible.
   uint8_t guiding_arrows(const Hung& one, const Asked& place, const SignView& view) const {
     const EscapeRoute& route = scene_.routes[place.route];
     if (one.type == PlacedSign::existing)
@@ -268,7 +267,7 @@ class SignPlanning {
     });
   }
 
-  /// The arrow of all that guide somebody on a route which is nearest to the way behind the sign.
+  /// Among the arrows that guide on a route, the one closest to its direction behind the sign.
   std::optional<SignArrow> arrow_for(const Hung& one, size_t route) const {
     uint8_t guiding = 0;
     for (const auto& [place, arrows] : one.bare)
@@ -342,10 +341,9 @@ class SignPlanning {
     return 1;
   }
 
-  /// The columns, and a row for each place that any of them guides.
+  /// Makes the columns, and a row for each place that any of them guides.
   void make_rows() {
-    // Signs that are there do not exclude each other, wherever they hang: back to back for
-    // instance.
+    // Existing signs do not exclude each other, wherever they hang, for instance back to back.
     const auto there = static_cast<uint32_t>(scene_.signs.size());
     std::vector<glm::dvec3> places;
     for (const SignOption& option : sign_options_) {
@@ -419,7 +417,7 @@ class SignPlanning {
         [&](const std::string& what, double, double) { progress_("signs: " + what, 0, 0); });
   }
 
-  /// A plan of no signs out of none is one.
+  /// Whether no plan was found; the empty plan of a problem without columns is one.
   bool is_none(const LayoutAnswer& answer) const {
     return answer.layout.empty() && !problem_.options.empty();
   }
@@ -471,11 +469,11 @@ class SignPlanning {
     }
   }
 
-  /// Rows that were raised for one plan, and signs that were left out, may exclude others: the
-  /// bound is that of the rows before, but for those that were given up.
+  /// Raised rows and removed signs may exclude other plans. So the bound is that of the original
+  /// rows, without the rows that were given up.
   void tell_bound() {
     if (gave_up_) bound_ = bound_of_what_is_asked();
-    // Without what mounts add to the weights.
+    // The shares that mounts add to the weights are taken out again.
     const double bound = bound_ / (1 + 2 * share_of_mount);
     constexpr double rounding_of_number = 1e-6;
     out_.bound = std::min(out_.objective, design_.objective == DesignObjective::number
@@ -485,7 +483,7 @@ class SignPlanning {
       out_.end = LayoutEnd::within_gap;
   }
 
-  /// Known after an interrupt, too: the plan that is there has a bound all the same.
+  /// Also computed after an interrupt, since the current plan needs a bound.
   double bound_of_what_is_asked() {
     LayoutProblem plain = problem_;
     for (size_t i = 0; i < plain.covers.size(); ++i) {
@@ -501,16 +499,16 @@ class SignPlanning {
     return solve_layout(plain, settings, never, [](const std::string&, double, double) {}).bound;
   }
 
-  /// The plan that stands may guide where an earlier one did not.
+  /// Reports places that were given up, unless the final plan guides them.
   Result<void> tell_given_up() {
     auto lost = lost_places(given_up_);
     if (!lost) return lost.problem();
     for (const size_t place : lost.value())
-      if (!asked_[place].bare) tell_unguided(asked_[place], true);  // else it is told already
+      if (!asked_[place].bare) tell_unguided(asked_[place], true);  // others were reported before
     return {};
   }
 
-  /// Places that the plan does not guide from any more where its signs hide each other.
+  /// Places among `places` that the plan does not guide because its signs hide each other.
   Result<std::vector<size_t>> lost_places(const std::vector<size_t>& places) {
     const auto planned = with_signs(scene_, out_);
     std::vector<size_t> out;
@@ -543,7 +541,7 @@ class SignPlanning {
                                rows_of_.begin());
   }
 
-  /// One sign more. False where all places that guide from there have theirs already.
+  /// Raises a row by one sign. False if the plan cannot contain more signs that guide this place.
   bool ask_for_another(size_t place) {
     CoverRow& cover = problem_.covers[row_of(place)];
     std::set<uint32_t> hung_at;
@@ -553,8 +551,8 @@ class SignPlanning {
     return true;
   }
 
-  /// Where no further sign can be asked for, the new sign that stands in the way goes: it is in no
-  /// later plan. False where none does, or where other places have no sign but it.
+  /// Bars the new sign that hides another one, for places that can get no further sign. False if no
+  /// sign hides one, or if other places need it.
   bool leave_out_hiding(size_t place) {
     for (const size_t own : chosen_) {
       const std::vector<uint32_t>& guided =
@@ -593,11 +591,11 @@ class SignPlanning {
       std::erase_if(*rest, is_it);
       cover.terms = std::move(rest);
     }
-    problem_.options[option].barred = true;  // it may weigh nothing: then nothing else keeps it out
+    problem_.options[option].barred = true;  // a cost does not keep it out if it weighs nothing
     return true;
   }
 
-  /// From here on nothing is asked for there. Whether it is guided all the same is seen at the end.
+  /// Removes the row of a place. The final test shows whether it is guided anyway.
   void give_up(size_t place) {
     gave_up_ = true;
     given_up_.push_back(place);
@@ -617,12 +615,12 @@ class SignPlanning {
   std::vector<Hung> hung_;
   std::vector<SignOption> sign_options_;
   LayoutProblem problem_;
-  std::vector<size_t> rows_of_;   // the place that each cover row asks for
-  std::vector<Terms> terms_of_;   // of each place: all signs that guide there
-  std::vector<size_t> chosen_;    // options of the plan
+  std::vector<size_t> rows_of_;   // the place of each cover row
+  std::vector<Terms> terms_of_;   // for each place, all signs that guide there
+  std::vector<size_t> chosen_;    // options of the current plan
   std::vector<size_t> given_up_;  // places
-  double bound_ = 0;              // of all plans, before any row was raised
-  bool gave_up_ = false;          // a place
+  double bound_ = 0;              // lower bound on all plans, before rows were raised
+  bool gave_up_ = false;          // whether a place was given up
   SystemClock clock_;
   Nanoseconds began_ = clock_.now();
   SignPlan out_;

@@ -9,28 +9,29 @@ namespace luxodus {
 
 namespace {
 
-/// As verdicts on views; and of a normal variable the share that lies as far below its mean.
+/// Standard errors as for verdicts on views, and the share of a normal distribution that lies
+/// farther below its mean.
 constexpr double sure_errors = 2, unsure_share = 0.02275;
 
 double normal_below(double a) {
   return std::erfc(-a / std::numbers::sqrt2) / 2;
 }
 
-/// By how many standard errors the level that is read lies above that of a view; none where its
-/// verdict leaves nothing to chance.
+/// Distance of the limit for reading above the level of a view, in standard errors; none if its
+/// verdict is certain.
 std::optional<double> open_distance(const SightRow& row) {
   if (!may_be_read(row) || row.sight.verdict == SightVerdict::legible) return std::nullopt;
   const Uncertain& level = row.sight.reading_level;
   return (level_read - level.value) / level.error;
 }
 
-/// Chances that a sign is not read.
+/// Probabilities that a sign is not read.
 struct Unread {
   double first = 1, other = 1, both = 1;
 };
 
-/// One view with either layout. Different signs, and different places, are seen by paths of their
-/// own.
+/// One view with both layouts. Without `error` the two are independent, since different paths
+/// decided them.
 Unread unread(const SightRow& first, const SightRow& other, std::optional<double> error) {
   const auto a = open_distance(first), b = open_distance(other);
   const auto alone = [](const SightRow& row, const std::optional<double>& open) {
@@ -46,12 +47,12 @@ Unread unread(const SightRow& first, const SightRow& other, std::optional<double
   return out;
 }
 
-/// A length of the routes, with the chances that the other layout wins and loses it.
+/// A length of the routes, with the probabilities that the other layout wins or loses it.
 struct OpenPlace {
   double length = 0, won = 0, lost = 0;
 };
 
-/// The logarithm of the mean of exp(-t times what is won).
+/// Logarithm of the mean of exp(-t times the length won).
 double log_mean_exp(const std::vector<OpenPlace>& places, double t) {
   double out = 0;
   for (const OpenPlace& p : places)
@@ -59,8 +60,8 @@ double log_mean_exp(const std::vector<OpenPlace>& places, double t) {
   return out;
 }
 
-/// The length that is won but for a share of chance: two standard errors below the mean, or what
-/// Chernoff's bound leaves (Annals of Mathematical Statistics 23, 1952) where few places decide.
+/// Length that is certainly won: two standard errors below the mean, or less by Chernoff's bound
+/// (Annals of Mathematical Statistics 23, 1952), which matters if few places decide.
 double surely_won(const std::vector<OpenPlace>& places) {
   double mean = 0, variance = 0, longest = 0, all = 0;
   for (const OpenPlace& p : places) {
@@ -86,7 +87,7 @@ RoutePlace place_of(const SightRow& row) {
   return {row.from, row.along_m, row.height_m};
 }
 
-/// A sign is read from a place where any is.
+/// A place is unread if none of its signs is read.
 UnreadPlaces unread_by_the_same_paths(const std::vector<SightRow>& first,
                                       const std::vector<SightRow>& other,
                                       const ErrorOfDifference& error_of) {
@@ -148,8 +149,8 @@ ShareDifference difference_of(const LayoutViews& first, const LayoutViews& other
                  by_ranges(share_of(first.places, all), share_of(other.places, all)));
 }
 
-/// By Plackett's formula (Biometrika 41, 1954): the integral over correlations up to this one, as
-/// one over the angle whose sine they are, which is smooth.
+/// Plackett's formula (Biometrika 41, 1954): an integral over correlations up to this one.
+/// Integrated over the arcsine of the correlation, in which the integrand is smooth.
 double chance_below(double a, double b, double correlation) {
   const double of_a = normal_below(a), of_b = normal_below(b);
   constexpr double all_but_one = 1 - 1e-12;
@@ -160,7 +161,7 @@ double chance_below(double a, double b, double correlation) {
     const double s = std::sin(angle);
     return std::exp((a * b * s - (a * a + b * b) / 2) / (1 - s * s)) / (2 * std::numbers::pi);
   };
-  constexpr int steps = 400;  // of Simpson's rule, even
+  constexpr int steps = 400;  // of Simpson's rule; even
   double sum = density(0) + density(end);
   for (int i = 1; i < steps; ++i) sum += (i % 2 == 1 ? 4 : 2) * density(end * i / steps);
   return std::clamp(of_a * of_b + sum * end / steps / 3, 0.0, std::min(of_a, of_b));

@@ -1,6 +1,7 @@
-// By how much more of the routes a sign is read from with one layout than with another. Layouts
-// that share their paths err alike, so the error of what they differ by is smaller than the range
-// of either. Pure; any thread. Why so: docs/decisions/0074-differences-between-layouts.md.
+// Paired comparison of two layouts in smoke: the difference of the shares of the routes' length
+// from which a sign is read. Errors of layouts that share paths are correlated, so the error of
+// their difference is smaller than the range of either. Pure functions; any thread. Design:
+// docs/decisions/0074-differences-between-layouts.md.
 #pragma once
 
 #include <functional>
@@ -11,12 +12,12 @@
 
 namespace luxodus {
 
-/// By how much the share of one layout is larger than that of another: between these two but for
-/// 2.3 % on either side, as by two standard errors, in shares of the routes' length.
+/// Interval of the difference of two layouts' legible shares, in shares of the routes' length. Each
+/// end excludes 2.3 %, as two standard errors do.
 struct ShareDifference {
   double least = -1, most = 1;  // [1]
 
-  /// But for what rounding leaves of equal shares.
+  /// `rounding` is the tolerance for equal shares.
   bool surely_more() const { return least > rounding; }
   bool surely_no_less() const { return least >= -rounding; }
   bool surely_no_more() const { return most <= rounding; }
@@ -25,29 +26,29 @@ struct ShareDifference {
   static constexpr double rounding = 1e-9;
 };
 
-/// Where both hold.
+/// Intersection of two intervals.
 ShareDifference both_of(const ShareDifference& a, const ShareDifference& b);
-/// Of a third layout beside a second, from what both are beside the first.
+/// Interval of a third layout relative to a second, from those of both relative to the first.
 ShareDifference chained(const ShareDifference& second, const ShareDifference& third);
-/// By the ranges of each layout alone.
+/// Interval from the separate ranges of two layouts.
 ShareDifference by_ranges(const LegibleShare& first, const LegibleShare& other);
 
-/// What paths found of one layout in one scenario: `rows` are its views.
+/// Traced views of one layout in one scenario.
 struct LayoutViews {
   const SeenPlaces& places;
   const std::vector<SightRow>& rows;
 };
 
-/// Of a view, by number: the standard error of its level of reading with the other layout less that
-/// with the first; none where it is not known, as of views that different paths have decided.
+/// For a view: the standard error of its reading level with the other layout minus that with the
+/// first. None if it is not known, as for views that different paths decided.
 using ErrorOfDifference = std::function<std::optional<double>(size_t row)>;
 
-/// The other layout beside the first. `error_of`: where they share their paths, and so have the
-/// same views in the same order; else it is empty. Requires: the same places on routes.
+/// Interval of the other layout relative to the first. `error_of`: empty unless the layouts share
+/// paths, and so have the same views in the same order. Requires: the same places on routes.
 ShareDifference difference_of(const LayoutViews& first, const LayoutViews& other,
                               const ErrorOfDifference& error_of);
 
-/// The chance that two standard normal variables of this correlation are below `a` and `b`.
+/// Probability that two standard normal variables with this correlation are below `a` and `b`.
 double chance_below(double a, double b, double correlation);
 
 }  // namespace luxodus

@@ -10,7 +10,7 @@ namespace luxodus {
 
 namespace {
 
-/// Layouts are beside each other with the same signs.
+/// Only layouts with equal signs are compared.
 bool like_signs(const JudgedLayout& a, const JudgedLayout& b) {
   return a.sign_factor == b.sign_factor && a.low_signs.size() == b.low_signs.size();
 }
@@ -33,7 +33,7 @@ bool beats(const JudgedLayout& a, const JudgedLayout& b) {
   return a.objective < b.objective * (1 - 1e-9) || beyond.surely_more();
 }
 
-/// Whether more paths could change its place among the others.
+/// Whether more paths could change the rank of a layout.
 bool SmokeRace::is_open(const JudgedLayout& one) const {
   if (one.rounds == 0) return true;
   const LegibleShare share = one.worst();
@@ -43,7 +43,7 @@ bool SmokeRace::is_open(const JudgedLayout& one) const {
          });
 }
 
-/// From all others that may be on the front.
+/// Whether a layout is certainly ranked against all others that are still open.
 bool SmokeRace::is_told_apart(const JudgedLayout& one) const {
   return std::all_of(stage_.layouts.begin(), stage_.layouts.end(), [&](const auto& other) {
     if (&other == &one || !like_signs(other, one) || !is_open(other)) return true;
@@ -77,7 +77,7 @@ bool SmokeRace::any_open() const {
                      [&](const JudgedLayout& one) { return is_open(one); });
 }
 
-/// One round of a heat; false where it was stopped before it.
+/// One round of a heat; false if it was stopped before.
 Result<bool> SmokeRace::race(size_t heat, int round) {
   if (stopped_) return false;
   if (round == 0)
@@ -130,7 +130,7 @@ Result<void> SmokeRace::trace(size_t heat, int round, const std::vector<bool>& a
   return {};
 }
 
-/// All layouts of a heat, those too that were not asked for.
+/// Sets the verdicts of all layouts of a heat, also of those that were decided before.
 void SmokeRace::judge(size_t heat, int rounds) {
   for (size_t i = 0; i < heats_[heat].members.size(); ++i) {
     const size_t layout = heats_[heat].members[i];
@@ -148,7 +148,7 @@ void SmokeRace::judge(size_t heat, int rounds) {
   for (size_t h = 0; h < states_.size(); ++h) compare_with_first(h);
 }
 
-/// All layouts of a heat. Those that share their paths with the first are compared view by view.
+/// Compares all layouts of a heat with the first layout; views are paired if both share paths.
 void SmokeRace::compare_with_first(size_t heat) {
   const std::vector<size_t>& members = heats_[heat].members;
   for (size_t i = 0; i < members.size(); ++i) {
@@ -168,7 +168,7 @@ void SmokeRace::compare_with_first(size_t heat) {
   }
 }
 
-/// Those that are read with the first layout and not with this one; the other way.
+/// Counts places that are read with the first layout only, and with this one only.
 void SmokeRace::count_places(size_t layout) {
   JudgedLayout& one = stage_.layouts[layout];
   one.lost = one.won = 0;

@@ -1,18 +1,19 @@
-// The race of layouts in smoke: rounds of paths, each of four times as many, as long as more paths
-// could change which layout is read from more of the routes. Layouts of one heat share their paths.
-// Thread rule: one thread, which has batches traced by others.
+// Elimination rounds of layouts in smoke (successive halving): each round traces four times as many
+// paths as the one before, for layouts that more paths could still rank differently. Layouts of one
+// heat share their paths. Thread rule: one thread, which has batches traced by others.
 #pragma once
 
 #include "actors/judge/design/smoke_stage.hpp"
 
 namespace luxodus {
 
-/// Whether `a` is surely read at least as well for no more.
+/// Whether `a` dominates `b`: certainly not read less, at no higher objective, and better in one of
+/// them.
 bool beats(const JudgedLayout& a, const JudgedLayout& b);
 
 class SmokeRace {
  public:
-  /// Requires: all outlive this; `stage` has its layouts, scenarios and heights.
+  /// Requires: all arguments outlive this; `stage` has its layouts, scenarios and heights.
   SmokeRace(SmokeStage& stage, const std::vector<Heat>& heats, const SmokeStageOptions& options,
             const std::atomic<bool>& stopped,
             const std::function<void(const std::string&)>& progress)
@@ -23,14 +24,13 @@ class SmokeRace {
         progress_(progress),
         places_(stage.layouts.size()) {}
 
-  /// Judges layouts until `stopped`, or nothing is to be found out, or there are no more rounds.
-  /// Layouts that it did not come to are left at no rounds. False where it was stopped with paths
-  /// left to trace. Errors: as HeatState::make and SightsInLights::trace, but not of who stopped
-  /// it.
+  /// Judges layouts until `stopped`, until all are decided, or until the last round. Layouts that
+  /// were not reached have zero rounds. False if it was stopped before it finished. Errors: as
+  /// HeatState::make and SightsInLights::trace, except those that `stopped` causes.
   Result<bool> run();
 
  private:
-  /// Of a heat, by scenario.
+  /// States of a heat, by scenario.
   using States = std::vector<std::unique_ptr<HeatState>>;
 
   Result<bool> race(size_t heat, int round);
@@ -50,7 +50,7 @@ class SmokeRace {
   const std::atomic<bool>& stopped_;
   const std::function<void(const std::string&)>& progress_;
   std::vector<States> states_;                   // by heat
-  std::vector<std::vector<SeenPlaces>> places_;  // of each layout, by scenario
+  std::vector<std::vector<SeenPlaces>> places_;  // by layout and scenario
 };
 
 }  // namespace luxodus

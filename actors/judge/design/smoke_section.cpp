@@ -131,8 +131,7 @@ const Json& named_layout(const Json& smoke, const std::string& name) {
   return layouts[0];
 }
 
-/// By how much more than with the first layout is read, at most, with any layout whose signs are as
-/// they are.
+/// Upper end of the difference from the first layout, over all layouts with unchanged signs.
 double most_beyond_first(const Json& smoke) {
   double out = 0;
   for (const Json& one : smoke["layouts"])
@@ -140,11 +139,11 @@ double most_beyond_first(const Json& smoke) {
   return out;
 }
 
-/// The dearer layout with which most places are lost, of those with which more are lost than won.
+/// Among layouts of larger objective, the one that loses most places on balance.
 const Json* most_veiling(const Json& smoke) {
   const Json& first = smoke["layouts"][0];
   const Json* out = nullptr;
-  int64_t most = 1;  // a single place may be an accident of the paths
+  int64_t most = 1;  // one place may be a statistical fluctuation
   for (const Json& one : smoke["layouts"]) {
     const int64_t net = one["places_lost"].get<int64_t>() - one["places_won"].get<int64_t>();
     if (has_other_signs(one) || net <= most ||
@@ -220,7 +219,7 @@ std::string rows_of(const Texts& t, const Json& smoke) {
   return out;
 }
 
-/// What ended the race, and which layouts it leaves open; nothing where all are told apart.
+/// What ended the elimination rounds, and which layouts are not ranked; "" if all are.
 std::string end_words(const Texts& t, const Json& smoke) {
   const std::string end = text_in(smoke, "end");
   if (end == name_of(RaceEnd::interrupted)) return t("design.smoke_interrupted");

@@ -1,5 +1,5 @@
-// The second stage of a design as JSON, as sentences, and as a section of the page. Pure; any
-// thread.
+// Results in smoke of a design as JSON, as sentences, and as a section of the page. Pure functions;
+// any thread.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace luxodus {
 
-/// The file of a layout, within the folder of the design; "" of one that is none of its own.
+/// File of a layout, relative to the folder of the design; "" if the layout has no file of its own.
 std::string file_of(const JudgedLayout& layout);
 
 Json smoke_json(const SmokeStage& stage);
 
-/// What follows from it, in the language. `smoke`: of smoke_json.
+/// Conclusions as sentences in the language of `texts`. `smoke`: a smoke_json.
 std::vector<std::string> smoke_words(const Texts& texts, const Json& smoke);
 
-/// Sentences, the plot of legible share against the objective, and a table, as HTML.
-/// `design`: the whole JSON of a design, whose "smoke" is there.
+/// Sentences, a plot of the legible share against the objective, and a table, as HTML.
+/// `design`: the JSON of a design, which has "smoke".
 std::string smoke_section(const Texts& texts, const Json& design);
 
 }  // namespace luxodus

@@ -22,7 +22,8 @@ std::shared_ptr<const SceneDescription> with_bright_signs(const SceneDescription
   return out;
 }
 
-/// Signs near the floor, where smoke is often thinner. Nothing where no wall has room for any.
+/// A copy of the best layout with low-level signs, where smoke is often thinner. None if no wall
+/// has room for any.
 Result<std::optional<JudgedLayout>> with_signs_below(const JudgedLayout& best,
                                                      const SmokeStageOptions& options) {
   const SceneDescription& scene = *best.layout.variant;
@@ -40,17 +41,17 @@ Result<std::optional<JudgedLayout>> with_signs_below(const JudgedLayout& best,
   return std::optional(std::move(out));
 }
 
-/// Of the time of a stage in a scene that changes in time, what the race may take.
+/// Share of the time for the elimination rounds, if the scene changes in time.
 constexpr double share_of_race = 0.6;
 
-/// One race and what follows it, within a time.
+/// Runs the elimination rounds and the guidance over time, within a time.
 class Stage {
  public:
   Stage(SmokeStage& stage, const SmokeStageOptions& options, const std::atomic<bool>& interrupt,
         const std::function<void(const std::string&)>& progress)
       : stage_(stage), options_(options), interrupt_(interrupt), progress_(progress) {}
 
-  /// Errors: as SmokeRace::run and guidance_of, but not that time is up or a person interrupts.
+  /// Errors: as SmokeRace::run and guidance_of, except for the end of the time and an interrupt.
   Result<void> run() {
     const std::vector<Heat> heats =
         heats_of(stage_.layouts, stage_.scenarios.size(), options_.together);
@@ -94,8 +95,8 @@ class Stage {
            check_guidance(scene).ok();
   }
 
-  /// Of each layout, its guidance; of none where time is up or a person interrupts. What ended the
-  /// race stays as it is.
+  /// Sets the guidance of every layout, or of none if time is up or the user interrupts. `end` of
+  /// the elimination rounds is kept.
   Result<void> follow(const std::vector<Heat>& heats,
                       const std::function<void(const std::string&)>& tell) {
     GuidanceOptions asked;
@@ -125,11 +126,11 @@ class Stage {
   const std::function<void(const std::string&)>& progress_;
   const SystemClock clock_;
   const Nanoseconds began_ = clock_.now();
-  double seconds_ = 0;  // since then, until it stops
+  double seconds_ = 0;  // after which it stops
   std::atomic<bool> stopped_{false};
 };
 
-/// Which layouts with signs as they are none of the others beats.
+/// Marks layouts with unchanged signs that no other one dominates.
 void mark_front(SmokeStage& stage) {
   for (JudgedLayout& one : stage.layouts)
     one.on_front =

@@ -1,7 +1,7 @@
-// The second stage of a design: what people on the routes read of the signs, in smoke, with each of
-// several layouts. Layouts race: paths are spent where two cannot be told apart. Nothing here is
-// allowed to go below the rules; layouts come here when they have passed them.
-// Thread rule: one thread, which has rows run on others.
+// The second stage of a design: judges what people on the routes read of the signs in smoke, with
+// each of several layouts. Elimination rounds give more paths to layouts that cannot be ranked yet.
+// All layouts have passed the rules before; nothing here relaxes them.
+// Thread rule: one thread, which has rows computed by others.
 #pragma once
 
 #include <atomic>
@@ -18,52 +18,52 @@
 
 namespace luxodus {
 
-/// Signs of the best layout are tried so many times as bright.
+/// Factor on the luminance of signs in the variant with brighter signs.
 inline constexpr double brighter_signs = 2;
 
 struct SmokeVerdict {
   std::string scenario;
-  std::vector<LegibleShare> by_height;  // of the scene's eye heights
+  std::vector<LegibleShare> by_height;  // for each of the scene's eye heights
   LegibleShare all;
-  ShareDifference beyond_first = {};  // of `all`
+  ShareDifference beyond_first = {};  // difference of `all` from the first layout
 };
 
 struct JudgedLayout {
-  std::string name;  // "A" is the best by the rules alone
+  std::string name;  // "A" is the best layout by the rules
   PlacedLayout layout;
-  double objective = 0, cost = 0, watts = 0;  // of what it places
-  size_t placed = 0;                          // luminaires
-  double sign_factor = 1;                     // of the luminance of signs
-  std::vector<LowSign> low_signs;             // beside those above
-  int rounds = 0;                             // of paths that it was judged by; 0: it was not
+  double objective = 0, cost = 0, watts = 0;  // of what the layout places
+  size_t placed = 0;                          // number of luminaires
+  double sign_factor = 1;                     // on the luminance of signs
+  std::vector<LowSign> low_signs;             // added to the high signs
+  int rounds = 0;                             // of paths; 0: not judged
   std::vector<SmokeVerdict> smoke;
-  /// Places on routes from which a sign is read with "A" and not with this one; the other way.
+  /// Places on routes from which a sign is read with "A" but not with this layout, and the reverse.
   size_t lost = 0, won = 0;
-  bool on_front = false;  // none is read more and costs no more
-  bool is_open = false;   // more paths could change its place among the others
-  /// Of each route and height of eyes, where the scene changes in time and signs lead along routes;
-  /// in the scenario where signs are lost first.
+  bool on_front = false;  // no other layout is read more at no higher cost
+  bool is_open = false;   // more paths could change its rank
+  /// For each route and eye height, in the scenario where guidance is lost first. Empty unless the
+  /// scene changes in time and signs lead along routes.
   std::vector<GuidedUntil> guided;
 
-  /// Whether its signs are those of the first layout, no brighter and no more.
+  /// Whether it has the signs of the first layout, neither brighter nor more.
   bool has_usual_signs() const { return sign_factor == 1 && low_signs.empty(); }
-  /// In the scenario where it is worst.
+  /// Legible share in the worst scenario.
   LegibleShare worst() const;
-  /// Of that, by how much more is read than with the first layout. Where both are worst in
-  /// different scenarios, it is what they differ by in any.
+  /// Difference of that share from the first layout. If the worst scenarios differ, an interval
+  /// over the differences in all scenarios.
   ShareDifference beyond_first() const;
 };
 
-/// By how much more is read with one layout than with another: by their ranges, and by what both
-/// differ from the first layout by.
+/// Difference of two layouts: by their ranges, and by the differences of both from the first
+/// layout.
 ShareDifference difference_of(const JudgedLayout& from, const JudgedLayout& to);
 
-/// What ended the race of layouts.
+/// What ended the elimination rounds.
 enum class RaceEnd {
-  decided,      // no more paths could change their order
-  rounds,       // there are no more of them
-  time,         // it was up
-  interrupted,  // by a person
+  decided,      // more paths could not change the ranking
+  rounds,       // the last round was traced
+  time,         // time was up
+  interrupted,  // by the user
 };
 /// "decided", ...
 const char* name_of(RaceEnd end);
@@ -73,17 +73,17 @@ struct SmokeStage {
   std::vector<double> heights_m;
   std::vector<JudgedLayout> layouts;  // by name
   RaceEnd end = RaceEnd::decided;
-  size_t traces = 0;            // of layouts together, or of each by itself
-  std::vector<double> times_s;  // over which layouts were followed
-  int64_t paths = 0;            // from eyes
+  size_t traces = 0;            // number of heats
+  std::vector<double> times_s;  // of the states over which guidance was followed
+  int64_t paths = 0;            // number of paths from eyes
   double seconds = 0;
 
-  /// Of the layouts with signs as they are: the first, unless with another one signs are surely
-  /// read from more places, or surely from as many for less. Requires: a layout.
+  /// Among layouts with unchanged signs: the first, unless signs are certainly read from more
+  /// places with another one, or certainly from as many at a lower objective. Requires: a layout.
   const JudgedLayout& recommended() const;
-  /// The one whose signs are brighter; null where there is none.
+  /// The layout with brighter signs; null if there is none.
   const JudgedLayout* with_brighter_signs() const;
-  /// The one with low-level signs beside the others; null where no wall has room for any.
+  /// The layout with low-level signs; null if no wall has room for any.
   const JudgedLayout* with_low_signs() const;
 };
 
@@ -91,23 +91,24 @@ struct SmokeStageOptions {
   std::vector<std::string> scenarios;
   uint64_t seed = 1;
   int threads = 1;
-  int rounds = 4;        // of paths at most, each of four times as many
-  double seconds = 600;  // until the race ends, decided or not
-  bool together = true;  // layouts share paths where that pays; else each has its own
-  /// The building at other times, to say until when layouts guide; empty: it does not change.
+  int rounds = 4;  // largest number of rounds; each has four times the paths of the one before
+  double seconds = 600;  // until the elimination rounds end, decided or not
+  bool together = true;  // share paths between layouts if possible
+  /// Reads the building at other times, to find until when layouts guide; empty: it does not
+  /// change.
   SceneAtTime scene_at = {};
 };
 
-/// Judges layouts that pass the rules; the first is the best by them, of which a copy with brighter
-/// signs, and one with low-level signs, are judged as well. The end of the time and `interrupt`
-/// keep what was judged so far. Errors: no such scenario; one without smoke; as assess_sights.
+/// Judges layouts that pass the rules. The first is the best of them; copies of it with brighter
+/// signs and with low-level signs are judged as well. When time is up or at `interrupt`, results so
+/// far are kept. Errors: no such scenario; a scenario without smoke; as assess_sights.
 Result<SmokeStage> judge_in_smoke(std::vector<JudgedLayout> layouts,
                                   const SmokeStageOptions& options,
                                   const std::atomic<bool>& interrupt,
                                   const std::function<void(const std::string&)>& progress);
 
-/// Sees which scenarios there are, before anything is computed.
-/// Errors: no such scenario; one without smoke; no route, or no sign.
+/// Checks the scenarios before anything is computed.
+/// Errors: no such scenario; a scenario without smoke; no route, or no sign.
 Result<void> check_smoke_stage(const SceneDescription& scene,
                                const std::vector<std::string>& scenarios);
 

@@ -1,5 +1,5 @@
-// What people on the routes read of the signs ahead, place by place, and the share of the routes'
-// length that it stands for. Pure; any thread.
+// What people on the routes read of the signs ahead, by place, and the share of the routes' length
+// that these places represent. Pure functions; any thread.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,11 @@
 
 namespace luxodus {
 
-/// A sign is ahead of a walker within this angle of the way [deg].
+/// Largest angle between walking direction and a sign that is ahead [deg].
 inline constexpr double ahead_deg = 60;
 
-/// Of the length of all routes: the share from which a sign ahead is read. What is undecided counts
-/// as not read in `least`, and as read in `most`.
+/// Share of the length of all routes from which a sign ahead is read. Undecided views count as not
+/// read in `least`, and as read in `most`.
 struct LegibleShare {
   double least = 0, most = 0;  // [1]
 };
@@ -24,25 +24,26 @@ struct LegibleShare {
 /// What is read from a place on a route.
 enum class Read { nothing, undecided, a_sign };
 
-/// A place: route, metres along it, height of the eye [m].
+/// A place: route, distance along it, eye height [m].
 using RoutePlace = std::tuple<Subject, double, double>;
 
 struct SeenPlace {
-  double stands_for = 0;  // metres of the route
+  double stands_for = 0;  // length of route [m]
   Read read = Read::nothing;
 };
 using SeenPlaces = std::map<RoutePlace, SeenPlace>;
 
-/// Whether a view counts: one of a sign ahead.
+/// Whether a view counts: its sign is ahead.
 bool is_ahead(const SightRow& row);
 
-/// Whether its sign is read, or chance leaves open that it is: in aged light and in new.
+/// Whether the sign of a view may be read: it is legible or undecided, in aged light and in new
+/// light.
 bool may_be_read(const SightRow& row);
 
-/// Of all places on routes: where all signs turn their backs there is no row.
+/// All places on routes, also those without views because all signs face away.
 SeenPlaces places_of(const SceneDescription& scene, const std::vector<SightRow>& rows);
 
-/// Of the places that `counts` names.
+/// The share over the places that `counts` selects.
 LegibleShare share_of(const SeenPlaces& places,
                       const std::function<bool(const RoutePlace&)>& counts);
 

@@ -23,17 +23,18 @@ namespace luxodus {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// Early rounds need no proof: their rows are not all there yet.
+/// Gap of early rounds, which need no proof: rows are still missing.
 constexpr double loose_gap = 0.04;
-/// Of the time of the search, what may go into the bounds of regions.
+/// Share of the time for bounds of regions.
 constexpr double time_for_regions = 0.6;
-/// And into regions that are solved anew around the best layout, each time.
+/// Share of the remaining time for improving regions around the best layout, each time.
 constexpr double time_for_improving = 0.1;
-/// And into the bounds of regions that are taken together.
+/// Share of the time for joint bounds of regions.
 constexpr double time_for_joining = 0.5;
-/// And how much after it into what binds.
+/// Share of the time, after the search, for dual values.
 constexpr double time_for_prices = 0.05;
-/// A row binds where a layout has less than this share of what it asks for; so many rows at most.
+/// A row binds if the layout gives less than this factor of its requirement; at most this many
+/// rows.
 constexpr double little_to_spare = 1.5;
 constexpr size_t tight_rows = 600;
 /// Rounding of an objective.
@@ -56,7 +57,7 @@ class Solving {
     return finish(settings_.seconds);
   }
 
-  /// A layout at once, where greedy choice finds one. What follows takes longer.
+  /// Finds a first layout by the greedy heuristic, which is fast.
   bool find_first() {
     tell("greedy", 0);
     Random random(settings_.seed, RandomStream::layout);
@@ -73,13 +74,13 @@ class Solving {
     return !answer_.layout.empty();
   }
 
-  /// Of parts of the same problem that have been solved: the gap that ends this is of all of them.
+  /// Adds the results of parts solved before: the gap that ends the search is that of all parts.
   void goes_on_from(const LayoutAnswer& solved) {
     solved_objective_ = solved.objective;
     solved_bound_ = solved.bound;
   }
 
-  /// The search, within a time from now on.
+  /// Runs the search for this time.
   LayoutAnswer finish(double seconds_left) {
     settings_.seconds = seconds() + seconds_left;
     if (!answer_.layout.empty()) offer(better(answer_.layout));
@@ -90,7 +91,7 @@ class Solving {
     return std::move(answer_);
   }
 
-  /// Without a search, as an interrupt leaves it.
+  /// Ends without a search, after an interrupt.
   LayoutAnswer leave() {
     raise_bound(0);
     answer_.end = answer_.layout.empty() ? LayoutEnd::unknown : LayoutEnd::interrupted;
@@ -107,7 +108,7 @@ class Solving {
               std::max(bound, answer_.bound));
   }
 
-  /// Requires: it holds.
+  /// Requires: all demands hold.
   void offer(const Layout& layout) {
     const double objective = objective_of(problem_, layout);
     if (!answer_.layout.empty() && objective >= answer_.objective - rounding) return;
@@ -127,21 +128,21 @@ class Solving {
     if (!answer_.layout.empty()) answer_.bound = std::min(answer_.bound, answer_.objective);
   }
 
-  /// The program counts nothing for what is fixed.
+  /// The integer program does not count fixed options.
   double fixed_weight() const {
     double sum = 0;
     for (const LayoutOption& option : problem_.options) sum += option.fixed ? option.weight : 0;
     return sum;
   }
 
-  /// A layout that breaks rows, made whole.
+  /// Completes and prunes a layout that violates rows, and offers it.
   void offer_repaired(const Layout& layout) {
     Random random(settings_.seed, RandomStream::layout, 2);
     random.start(static_cast<uint64_t>(answer_.rounds));
     if (const auto whole = completed(index_, layout, 0, random)) offer(pruned(index_, *whole));
   }
 
-  /// The greatest objective that is still wanted; none where there is no layout yet.
+  /// Largest objective that is still wanted; none without a layout.
   std::optional<double> cutoff() const {
     if (answer_.layout.empty()) return std::nullopt;
     return sums_.just_below(answer_.objective - fixed_weight());
@@ -170,7 +171,7 @@ class Solving {
       const ProgramAnswer found = solve(growing, gap);
       answer_.rows = growing.rows();
       if (found.end == ProgramEnd::infeasible) {
-        // No layout is better than the one that is there, or none exists.
+        // Either no layout is better than the current one, or none exists.
         if (!answer_.layout.empty()) answer_.bound = answer_.objective;
         answer_.end = answer_.layout.empty() ? LayoutEnd::infeasible : LayoutEnd::optimal;
         break;
@@ -194,7 +195,7 @@ class Solving {
     fill_shares(growing);
   }
 
-  /// Regions by themselves, then together where that leaves more open than is wanted.
+  /// Bounds regions separately, and then jointly if the gap is still too large.
   void bound_regions(GrowingProgram& growing) {
     RegionBounds regions(problem_, index_, sums_, settings_.known_regions, growing, interrupt_);
     if (regions.bounds().size() < 2 && settings_.known_regions.empty()) return;
@@ -212,8 +213,8 @@ class Solving {
     answer_.regions = regions.bounds();
   }
 
-  /// Regions that weigh more than their bound anew, while the others stay as they are, until none
-  /// gets better: what a room needs has little to do with other rooms.
+  /// Solves regions that weigh more than their bound again, with all other regions fixed, until
+  /// none improves: regions hardly affect each other.
   void improve_regions(GrowingProgram& growing, const RegionBounds& regions) {
     const double until = seconds() + time_for_improving * seconds_left();
     for (bool better = !answer_.layout.empty(); better && !ended();) {
@@ -245,13 +246,13 @@ class Solving {
     return answer_.objective < before - rounding;
   }
 
-  /// Of this part and those that have been solved before.
+  /// Gap of this part together with those solved before.
   double gap_of_all() const {
     const double all = solved_objective_ + answer_.objective;
     return all > 0 ? (all - solved_bound_ - answer_.bound) / all : 0;
   }
 
-  /// Whether the layout that is there is good enough, and is known to be.
+  /// Whether the layout is proven to be good enough.
   bool ended() {
     if (answer_.layout.empty()) return false;
     if (answer_.bound >= answer_.objective - rounding)
@@ -275,8 +276,8 @@ class Solving {
     return true;
   }
 
-  /// A search that ends early has asked for few rows: those too bind that its layout has little to
-  /// spare of.
+  /// A search that ends early has added few rows. Rows with little to spare may bind as well, so
+  /// they are added.
   void add_tight_rows(GrowingProgram& growing) const {
     if (answer_.layout.empty()) return;
     LayoutSums sums(index_);
@@ -285,14 +286,14 @@ class Solving {
       if (!growing.has(v)) growing.add(v);
   }
 
-  /// Of the program without whole numbers: what each group's rows add to its objective.
+  /// From the linear relaxation: the contribution of each group's rows to its objective.
   void fill_shares(GrowingProgram& growing) {
     add_tight_rows(growing);
     answer_.share_of_group.assign(problem_.groups.size(), 0);
     IntegerProgram program = growing.program();
     for (size_t i = 0; i < program.rows.size(); ++i)
       if (growing.groups()[i] == GrowingProgram::of_bound) program.rows[i].low = 0;
-    // What binds is worth knowing after the time is out, too, but not for long.
+    // Computed even when the time is up, but only briefly.
     const double left =
         std::max(settings_.seconds - seconds(), time_for_prices * settings_.seconds);
     const auto prices = row_prices(program, left, interrupt_);
@@ -335,7 +336,7 @@ double LayoutAnswer::gap() const {
 
 namespace {
 
-/// The end of all parts: as the worst of them. Parts that have no layout leave none.
+/// The worst end of several parts. If a part has no layout, the whole has none.
 LayoutEnd worse(LayoutEnd a, LayoutEnd b) {
   constexpr std::array order{LayoutEnd::optimal,     LayoutEnd::within_gap, LayoutEnd::out_of_time,
                              LayoutEnd::interrupted, LayoutEnd::unknown,    LayoutEnd::infeasible};
@@ -343,7 +344,7 @@ LayoutEnd worse(LayoutEnd a, LayoutEnd b) {
   return place(a) < place(b) ? b : a;
 }
 
-/// What small parts leave of their share of the time is for the larger ones, which need it.
+/// Indices by size: time that small parts leave over goes to large ones.
 std::vector<size_t> smallest_first(const std::vector<ProblemPart>& parts) {
   std::vector<size_t> out(parts.size());
   std::iota(out.begin(), out.end(), size_t{0});
@@ -353,8 +354,8 @@ std::vector<size_t> smallest_first(const std::vector<ProblemPart>& parts) {
   return out;
 }
 
-/// Regions that have options in more than one part: what such a region weighs at least in the whole
-/// problem may be more than it weighs in any of them.
+/// Regions with options in more than one part: a bound on such a region in the whole problem may
+/// exceed its weight in a part.
 std::set<uint32_t> regions_of_several(const std::vector<ProblemPart>& parts) {
   std::set<uint32_t> met, out;
   for (const ProblemPart& part : parts) {
@@ -372,7 +373,7 @@ bool reaches(const RegionBound& bound, const std::set<uint32_t>& regions) {
                      [&](uint32_t region) { return regions.contains(region); });
 }
 
-/// Parts that have nothing to do with each other, one after another: their answers add up.
+/// Solves independent parts one after another and adds up their results.
 LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<ProblemPart>& parts,
                          const SolveSettings& settings, const std::atomic<bool>& interrupt,
                          const SolveProgress& progress) {
@@ -384,7 +385,7 @@ LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<Problem
   out.greedy = true;
   out.layout.assign(problem.options.size(), 0);
   out.share_of_group.assign(problem.groups.size(), 0);
-  // A layout of all parts first, which an interrupt or a limit of time leaves.
+  // First a layout of all parts, so that an interrupt or a time limit leaves one.
   bool all = true, known = true;
   const std::set<uint32_t> shared = regions_of_several(parts);
   std::vector<std::unique_ptr<Solving>> solving;
@@ -424,7 +425,7 @@ LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<Problem
     out.regions.insert(out.regions.end(), answer.regions.begin(), answer.regions.end());
     for (size_t g = 0; g < answer.share_of_group.size(); ++g)
       out.share_of_group[g] += answer.share_of_group[g];
-    if (out.end == LayoutEnd::infeasible) break;  // nothing is left to find
+    if (out.end == LayoutEnd::infeasible) break;  // the whole problem is infeasible
   }
   if (!all) {
     out.layout.clear();

@@ -8,7 +8,7 @@ namespace luxodus {
 
 namespace {
 
-/// Sets that are joined (union-find with path halving).
+/// Disjoint sets (union-find with path halving).
 class Joined {
  public:
   explicit Joined(size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0U); }
@@ -57,7 +57,7 @@ class Splitting {
     return out;
   }
 
-  /// False where a row has no options: no part could hold it.
+  /// False if a row has no options, since it belongs to no part.
   bool join_all() {
     std::map<uint32_t, uint32_t> of_place, of_pool;
     for (uint32_t i = 0; i < problem_.options.size(); ++i) {
@@ -93,7 +93,7 @@ class Splitting {
     return true;
   }
 
-  /// Options that no row asks for are with the first that one does. False where there is no row.
+  /// Adds options that no row uses to the first part. False if there is no row.
   bool join_idle() {
     std::vector<char> asked(problem_.options.size(), 0);
     const auto mark = [&](const std::vector<Term>& terms) {
@@ -140,7 +140,7 @@ class Splitting {
 
   size_t part_of(uint32_t option) const { return part_of_[option]; }
 
-  /// With the options' numbers in their part. Rows that share terms do so in the part, too.
+  /// Terms with the indices of the part. Rows that share terms share them in the part as well.
   Terms moved(const Terms& terms) {
     Terms& out = moved_[terms.get()];
     if (!out) {

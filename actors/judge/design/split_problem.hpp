@@ -1,6 +1,5 @@
-// A problem taken apart where its parts have nothing to do with each other: storeys of a tower,
-// rooms behind closed doors. No row asks for options of two parts, and no place has options in two.
-// Plain values; any thread.
+// Splits a problem into independent parts, such as storeys of a tower or rooms behind closed doors.
+// No row has options of two parts, and no place has options in two. Pure function; any thread.
 #pragma once
 
 #include <vector>
@@ -10,12 +9,12 @@
 namespace luxodus {
 
 struct ProblemPart {
-  LayoutProblem problem;          // with all groups, so that their numbers stay
-  std::vector<uint32_t> options;  // of the whole problem, by number in the part
+  LayoutProblem problem;          // with all groups, so that their indices stay valid
+  std::vector<uint32_t> options;  // for each option of the part, its index in the whole problem
 };
 
-/// In the order of their first options. One part with everything where nothing can be taken apart,
-/// where there is no row, or where a row has no option at all.
+/// Parts in the order of their first options. A single part with everything if the problem cannot
+/// be split, has no row, or has a row without options.
 std::vector<ProblemPart> parts_of(const LayoutProblem& problem);
 
 }  // namespace luxodus

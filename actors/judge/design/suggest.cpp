@@ -10,13 +10,13 @@ namespace luxodus {
 
 namespace {
 
-/// Whether a search that goes on would find one luminaire fewer is not worth seconds of a hand.
+/// Stop within this gap: proving one luminaire fewer is not worth a user's waiting.
 constexpr double gap_of_suggestion = 0.05;
 constexpr int quick_rounds = 50;
-/// What adds less than this share helps nobody.
+/// Smaller contributions are left out.
 constexpr double least_help = 1e-4;
 
-/// All stays; what can be copied by its name may be added.
+/// Existing luminaires are fixed; types that can be copied by name may be added.
 Result<DesignSettings> settings_of(const SceneDescription& scene) {
   DesignSettings out = *scene.design;
   out.existing = Existing::fixed;
@@ -39,7 +39,7 @@ Layout what_stands(const LayoutProblem& problem) {
   return out;
 }
 
-/// The share of rows that do not hold, and what the worst has of what it asks for.
+/// Sets the share of violated rows, and the least share of a requirement.
 void fill_missing(const LayoutProblem& problem, const Layout& layout, Suggestion& out) {
   const LayoutIndex index(problem);
   LayoutSums sums(index);
@@ -92,7 +92,7 @@ Result<Suggestion> suggest(const std::shared_ptr<const SceneDescription>& scene,
   auto candidates =
       find_candidates(switched, design.value(), codes.value(), scenario.value(), options.threads);
   if (!candidates) return candidates.problem();
-  // A copy is placed by its position and its aim.
+  // A copy is defined by its position and aim, so candidates with a rotation are removed.
   std::erase_if(candidates->all, [](const LuminaireCandidate& one) {
     return one.type != LuminaireCandidate::existing && one.rotation_deg != 0;
   });
@@ -114,7 +114,7 @@ Result<Suggestion> suggest(const std::shared_ptr<const SceneDescription>& scene,
   const LayoutAnswer answer =
       solve_layout(problem, settings, interrupt, [](const std::string&, double, double) {});
   out.end = answer.end;
-  out.bound = answer.bound;  // what stands weighs nothing
+  out.bound = answer.bound;  // existing luminaires weigh nothing
   for (size_t i = 0; i < answer.layout.size(); ++i) {
     const LuminaireCandidate& one = candidates->all[i];
     if (answer.layout[i] == 0 || one.type == LuminaireCandidate::existing) continue;

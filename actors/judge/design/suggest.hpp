@@ -1,6 +1,6 @@
-// Where further luminaires would go in a building as it stands now, in seconds: for somebody who
-// moves luminaires by hand and wants the rest. By the rules of the scene and direct light in clear
-// air; the answer is not assessed. Thread rule: as design.hpp.
+// Suggests, in seconds, further luminaires for a building as it is: for users of the live view who
+// move luminaires by hand. Uses the rules of the scene and direct light in clear air; the result is
+// not assessed. Thread rule: as design.hpp.
 #pragma once
 
 #include <atomic>
@@ -18,35 +18,35 @@ struct SuggestOptions {
   int threads = 1;
 };
 
-/// A copy of a luminaire of the scene that would be added.
+/// A copy of a luminaire of the scene, to be added.
 struct SuggestedLuminaire {
   std::string of;
   glm::dvec3 position{0};
   glm::dvec3 aim{0, 0, -1};
 };
 
-/// How much of all that is missing now one luminaire there would bring, the best type for it.
+/// A place with the share of the missing light that one luminaire of the best type gives there.
 struct HelpfulPlace {
   glm::dvec3 position{0};
   double share = 0;
 };
 
 struct Suggestion {
-  std::vector<SuggestedLuminaire> luminaires;  // with them all demands hold
+  std::vector<SuggestedLuminaire> luminaires;  // with these all demands hold
   LayoutEnd end = LayoutEnd::unknown;
-  double bound = 0;    // no layout has fewer
-  double missing = 0;  // share of the demands' rows that do not hold now
-  double least = 0;    // of what a row asks for, the least share that is there now
+  double bound = 0;    // lower bound on the number of luminaires
+  double missing = 0;  // share of rows that are violated now
+  double least = 0;    // least share of a row's requirement now
   std::vector<HelpfulPlace> helpful;
 };
 
-/// Each place with what the best of its options adds to rows that do not hold, as a share of all
-/// that they miss. Numbers alone. Requires: a layout of the problem.
+/// Each place with the contribution of its best option to violated rows, as a share of all that
+/// they miss. It uses numbers only, no geometry. Requires: a layout of the problem.
 std::vector<std::pair<uint32_t, double>> helpful_places(const LayoutProblem& problem,
                                                         const Layout& layout);
 
-/// All luminaires of the scene stay as they are. Only types that are like a luminaire of the scene
-/// are placed, and none that is turned about its aim.
+/// Luminaires of the scene stay as they are. Only types that equal a luminaire of the scene are
+/// placed, without rotation about their aim.
 /// Errors: as assess; no such type; no place for a luminaire; nothing to light.
 Result<Suggestion> suggest(const std::shared_ptr<const SceneDescription>& scene,
                            const SuggestOptions& options, const std::atomic<bool>& interrupt);

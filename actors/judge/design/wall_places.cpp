@@ -1,5 +1,5 @@
-// From points along the centre line of a route two rays run to its sides, and from points of an
-// area's edge one runs out of it. What they meet is a wall if it is flat there.
+// Two horizontal rays run from points of a route's centre line to its sides, and one runs outwards
+// from points of an area's edge. The body that a ray meets is a wall if it is flat there.
 #include "actors/judge/design/wall_places.hpp"
 
 #include <algorithm>
@@ -13,17 +13,17 @@ namespace luxodus {
 
 namespace {
 
-/// A wall beside a route is looked for so far beyond its edge, and beside an area [m].
+/// Largest distance of a wall beyond the edge of a route, and beyond that of an area [m].
 constexpr double beside_way_m = 3, beside_area_m = 2;
-/// Rays to the edge of an area begin so far within it [m].
+/// Rays to the edge of an area start this far inside it [m].
 constexpr double within_edge_m = 0.5;
-/// The luminous opening is so far before the wall [m].
+/// Distance of the luminous opening from the wall [m].
 constexpr double before_its_wall_m = 0.03;
-/// Half of what has to be flat behind a luminaire, and how flat [m].
+/// Half the size of the flat part of a wall that a luminaire needs, and its flatness [m].
 constexpr double half_of_flat_m = 0.15, how_flat_m = 0.01;
-/// Walls that are met more aslant hold nothing: tangent of 50 degrees.
+/// Walls at a larger angle to the ray are not used [tangent of 50 degrees].
 constexpr double most_aslant_of_wall = 1.2;
-/// Spots of one wall nearer to each other than this share of the spacing are one.
+/// Spots on one wall closer than this share of the spacing are merged.
 constexpr double one_wall_spot = 0.5;
 
 const glm::dvec3 to_sky(0, 0, 1);
@@ -72,7 +72,7 @@ class WallSpotFinder {
       const glm::dvec2 from = area.outline[i], to = area.outline[(i + 1) % corners];
       const double length = glm::length(to - from);
       if (!(length > 2 * half_of_flat_m)) continue;
-      // Counter-clockwise: what lies to the right of an edge is outside.
+      // The outline is counter-clockwise: the right side of an edge is outside.
       const glm::dvec2 way = (to - from) / length, out(way.y, -way.x);
       const int steps = std::max(1, static_cast<int>(std::ceil(length / design_.spacing_m)));
       for (int k = 0; k < steps; ++k) {
@@ -88,13 +88,13 @@ class WallSpotFinder {
     return wall_distance(bare_, access, from, direction, length_m);
   }
 
-  /// `counted`: the place of the route or area.
+  /// `counted`: point of the route or area.
   void look(const GeometryAccess& access, const glm::dvec3& counted, const glm::dvec3& from,
             const glm::dvec3& direction, double length_m) {
     const glm::dvec3 eye = from + glm::dvec3(0, 0, design_.wall_height_m);
     const glm::dvec3 across = glm::cross(to_sky, direction) * half_of_flat_m;
     const auto middle = wall_at(access, eye, direction, length_m);
-    if (!middle) return;  // no wall there
+    if (!middle) return;  // no wall here
     const auto left = wall_at(access, eye + across, direction, 2 * length_m);
     const auto right = wall_at(access, eye - across, direction, 2 * length_m);
     const auto high = wall_at(access, eye + to_sky * half_of_flat_m, direction, 2 * length_m);

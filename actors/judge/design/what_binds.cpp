@@ -10,11 +10,11 @@ namespace luxodus {
 
 namespace {
 
-/// Of the objective: demands that add less to its bound are not tried.
+/// Demands with a smaller share of the bound are not tried.
 constexpr double least_share_of_bound = 0.02;
-/// A place whose light after a failure is within this share of what is asked for is tight.
+/// A point is tight if its light after a failure is within this factor of its requirement.
 constexpr double tight_after_failure = 1.02;
-/// Of the search for each demand: neighbourhoods that are filled anew.
+/// Neighbourhoods refilled in the search for each demand.
 constexpr int rounds_of_each = 60;
 constexpr double same_objective = 1e-6;
 
@@ -64,7 +64,8 @@ class Relaxing {
     return out;
   }
 
-  /// The parts that a demand has to do with are solved again; the others stay. They share the time.
+  /// Solves the parts that contain a demand again; other parts keep their layout. The parts share
+  /// the time.
   Relaxed relaxed(const Relaxation& what, double seconds_left) const {
     const double until = seconds() + seconds_left;
     Relaxed out{what, answer_.objective, 0, 0, answer_.end == LayoutEnd::optimal};
@@ -110,7 +111,7 @@ class Relaxing {
     return out;
   }
 
-  /// The luminaires whose failure leaves just enough at most points.
+  /// The luminaires whose failure leaves a tight illuminance at most points.
   std::vector<uint32_t> tight_failures() const {
     std::map<uint32_t, size_t> tight;
     for (const FailureRows& rows : problem_.failures)
@@ -133,7 +134,7 @@ class Relaxing {
     return out;
   }
 
-  /// A part that a demand has to do with, without it.
+  /// A part that contains a demand, with that demand removed.
   struct Easier {
     const ProblemPart* part;
     LayoutProblem problem;

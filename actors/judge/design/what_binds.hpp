@@ -1,6 +1,6 @@
-// How much of a layout is there because of one demand: the layout is solved again without it. Said
-// as a difference of two layouts that exist, so that it holds as it is said. Numbers alone. Thread
-// rule: as solve_layout.hpp.
+// How many luminaires one demand costs: the layout is solved again without it. The saving is the
+// difference of two layouts that exist, so it is a fact, not an estimate. It uses numbers only, no
+// geometry. Thread rule: as solve_layout.hpp.
 #pragma once
 
 #include <atomic>
@@ -11,39 +11,41 @@
 
 namespace luxodus {
 
-/// Exactly one of the three: a group, an option that is chosen and fails no more, or all failures.
+/// Removes exactly one of three demands: a group, the failure of one chosen option, or all
+/// failures.
 struct Relaxation {
   std::optional<uint32_t> group, never_fails;
   bool all_failures = false;
 };
 
-/// Without a demand less is enough.
+/// The saving when a demand is removed.
 struct Relaxed {
   Relaxation without;
-  double objective = 0;  // of a layout that holds all other demands
-  double saved = 0;      // by it, of the objective: above 0
-  int64_t fewer = 0;     // luminaires; may be below 0 where the objective is another
-  bool exact = false;    // no layout saves more
+  double objective = 0;  // of a layout that satisfies all other demands
+  double saved = 0;      // of the objective: above 0
+  int64_t fewer =
+      0;  // number of luminaires saved; may be negative if the objective is not their number
+  bool exact = false;  // no layout saves more
 };
 
 struct WhatBindsSettings {
   double seconds = 30;
   uint64_t seed = 1;
-  size_t demands = 5, luminaires = 3;  // that are tried
+  size_t demands = 5, luminaires = 3;  // numbers to try
 };
 
-/// Those that save anything, the most first. What is tried: all failures together, the demands
-/// that add most to the bound, and the luminaires whose failure leaves least. A layout that was not
-/// proven optimal may itself be improved by the search: then `exact` is false. When the time is
-/// out, fewer are tried, and what was begun is not `exact`. Nothing where the layout of `answer`
-/// breaks a row.
+/// Demands that save something, the largest saving first. Tried are all failures together, the
+/// demands with the largest shares of the bound, and the luminaires whose failure is tightest. If
+/// the layout was not proven optimal, the search may improve it as well; then `exact` is false.
+/// When time is out, fewer are tried, and an unfinished one is not `exact`. Empty if the layout of
+/// `answer` violates a row.
 std::vector<Relaxed> what_binds(const LayoutProblem& problem, const LayoutAnswer& answer,
                                 const WhatBindsSettings& settings,
                                 const std::atomic<bool>& interrupt);
 
-/// One demand, whether it saves anything or not. The parts of the problem that it has to do with
-/// are solved again within the time of the settings; after an interrupt, or when that is out, the
-/// others stay as they are. Requires: the layout of `answer` breaks no row.
+/// The result for one demand, even if it saves nothing. The parts of the problem that contain the
+/// demand are solved again within the time of the settings. After an interrupt or when time is out,
+/// the remaining parts keep their layout. Requires: the layout of `answer` violates no row.
 Relaxed solved_without(const LayoutProblem& problem, const LayoutAnswer& answer,
                        const Relaxation& demand, const WhatBindsSettings& settings,
                        const std::atomic<bool>& interrupt);

@@ -14,7 +14,7 @@ uint32_t big_endian(std::string_view bytes) {
   return out;
 }
 
-/// After the key of an iTXt: whether it is compressed, its language and the translated key.
+/// Parses an iTXt chunk after its key: compression, language, translated key, text.
 std::optional<std::string> international_text(std::string_view rest) {
   if (rest.size() < 2 || rest[0] != '\0') return std::nullopt;
   rest.remove_prefix(2);

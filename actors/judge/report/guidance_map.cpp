@@ -11,7 +11,7 @@ namespace luxodus {
 
 namespace {
 
-/// Told apart by lightness, too, on paper without colours.
+/// Colours differ in lightness too, for black-and-white prints.
 struct Look {
   char letter;
   const char* colour;
@@ -21,7 +21,7 @@ constexpr std::array<Look, 3> looks{{{'g', "#2f8f5b", "guided.guided"},
                                      {'u', "#e0b23a", "guided.undecided"},
                                      {'n', "#4a2a33", "guided.not_guided"}}};
 constexpr double left_mm = 16, right_mm = 4, top_mm = 4, foot_mm = 20;
-constexpr double drawing_mm = 62;  // high
+constexpr double drawing_mm = 62;  // height of the drawing
 constexpr double line_mm = 0.2;
 
 double value_of(const Json& measured) {
@@ -37,7 +37,7 @@ const Look& worse(char a, char b) {
   return *std::max(rank(a), rank(b));
 }
 
-/// Metres and seconds to millimetres of paper.
+/// Converts metres and seconds to millimetres of paper.
 class MapFrame {
  public:
   MapFrame(const Json& over, const Json& route, double width_mm)
@@ -53,7 +53,7 @@ class MapFrame {
     return top_mm + drawing_mm * (1 - share);
   }
   const std::vector<double>& times() const { return times_; }
-  /// Where the pieces of the route begin, and its end.
+  /// Start of each piece of the route, and the end of the route.
   const std::vector<double>& places() const { return places_; }
   double length_m() const { return length_m_; }
   double bottom() const { return top_mm + drawing_mm; }
@@ -77,7 +77,7 @@ std::string stroke(double x0, double y0, double x1, double y1, const char* colou
       x0, y0, x1, y1, colour, width);
 }
 
-/// Between two states the worse of both, from each place to the next.
+/// Cells between two states, from each place to the next; the worse state counts.
 std::string cells(const MapFrame& frame, const Json& letters) {
   std::string out;
   for (size_t t = 0; t < frame.times().size(); ++t) {
@@ -94,7 +94,7 @@ std::string cells(const MapFrame& frame, const Json& letters) {
   return out;
 }
 
-/// Each from where it sets out to where it ends, as far as there are states.
+/// Lines from the start of each walker to his end, or to the last state.
 std::string walkers_of(const MapFrame& frame, const Json& route) {
   std::string out;
   for (const Json& walk : route["walks"]) {

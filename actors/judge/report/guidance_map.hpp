@@ -1,6 +1,7 @@
 // A route over time as a drawing: places from left to right, time upwards, coloured by whether a
-// sign that leads on is read there; walkers as lines across it. Between two states stands the
-// worse. Requires: the "over_time" of an assessment that was checked. Pure; any thread.
+// guiding sign is read there, with walkers as lines. Between two states the worse one is drawn.
+// Requires: "over_time" of an assessment that check_assessment has passed. Pure function; any
+// thread.
 #pragma once
 
 #include <string>
@@ -10,7 +11,7 @@
 
 namespace luxodus {
 
-/// `route`: one of over_time["routes"]. An SVG, its units millimetres on paper.
+/// `route`: an entry of over_time["routes"]. Returns an SVG whose unit is 1 mm on paper.
 std::string guidance_map(const Json& over_time, const Json& route, const Texts& texts,
                          double width_mm);
 

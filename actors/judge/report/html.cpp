@@ -10,7 +10,7 @@ namespace luxodus {
 
 namespace {
 
-/// Columns whose cells stand to the right; so do their heads.
+/// Columns whose cells and heads are right-aligned.
 bool numeric(std::string_view column) {
   constexpr std::string_view keys[] = {"column.mains_flux",
                                        "column.emergency_flux",
@@ -134,8 +134,8 @@ std::string subheading(const std::string& text) {
 
 std::string said(const Texts& texts, const Json& remarks) {
   if (remarks.is_null()) return "";
-  const auto read =
-      read_remarks(remarks.is_array() ? remarks : Json::array({remarks}));  // were checked
+  const auto read = read_remarks(
+      remarks.is_array() ? remarks : Json::array({remarks}));  // were checked when read
   return read ? texts.remarks(read.value()) : "";
 }
 

@@ -1,6 +1,5 @@
-// The grid is split where walls run: each crossed square is cut out of the grid before lines are
-// drawn, by drawing each maximal block of whole squares by itself. Blocks are rows of squares,
-// whose lines are joined again where they meet.
+// Squares that a wall crosses are cut out of the grid. Lines are drawn for each run of whole
+// squares in a row separately, and then joined where the rows meet.
 #include "actors/judge/report/isolux.hpp"
 
 #include <algorithm>
@@ -30,8 +29,8 @@ ValueGrid grid_of(const Json& map) {
   return out;
 }
 
-/// Whether a line from a to b, in units of squares, touches the square (i, j): by clipping
-/// (Liang and Barsky).
+/// Whether a line from a to b, in units of squares, touches the square (i, j); clipping by Liang
+/// and Barsky.
 bool touches(glm::dvec2 a, glm::dvec2 b, double i, double j) {
   double from = 0, to = 1;
   const glm::dvec2 way = b - a;
@@ -49,7 +48,7 @@ bool touches(glm::dvec2 a, glm::dvec2 b, double i, double j) {
   return from <= to;
 }
 
-/// Squares that walls cross, row by row.
+/// Marks the squares that walls cross, row by row.
 std::vector<char> crossed(const ValueGrid& grid, const Json& walls) {
   const size_t across = grid.columns - 1, up = grid.rows - 1;
   std::vector<char> out(across * up, 0);
@@ -69,8 +68,8 @@ std::vector<char> crossed(const ValueGrid& grid, const Json& walls) {
   return out;
 }
 
-/// Dark corners of crossed squares lie in walls, or in the breast walls of windows, of which a plan
-/// shows the pane alone: between them and lit places is no line of equal illuminance.
+/// Dark corners of crossed squares lie in walls, or in walls below windows, where a plan shows only
+/// the pane. No line of equal illuminance is drawn between such a corner and lit places.
 void leave_out_walls(const std::vector<char>& cut, ValueGrid& grid) {
   const size_t across = grid.columns - 1;
   for (size_t square = 0; square < cut.size(); ++square) {
@@ -83,9 +82,9 @@ void leave_out_walls(const std::vector<char>& cut, ValueGrid& grid) {
 
 using Key = std::pair<int64_t, int64_t>;
 
-/// Pieces whose ends meet, as one line.
+/// Joins pieces whose ends meet.
 std::vector<ContourLine> joined(std::vector<ContourLine> pieces, double spacing) {
-  // Ends on a common edge are computed from the same two values: they agree to rounding.
+  // Ends on a common edge are computed from the same two values, so they agree to rounding.
   const auto key = [&](const glm::dvec2& p) {
     return Key(std::llround(p.x / spacing * 1e6), std::llround(p.y / spacing * 1e6));
   };
@@ -123,7 +122,7 @@ std::vector<ContourLine> joined(std::vector<ContourLine> pieces, double spacing)
   return out;
 }
 
-/// Lines of one row of squares, run by run of those that no wall crosses.
+/// Adds the lines of one row, for each run of squares that no wall crosses.
 void add_row(const ValueGrid& grid, const std::vector<char>& cut, size_t j, double lux,
              std::vector<ContourLine>& out) {
   const size_t across = grid.columns - 1;

@@ -1,5 +1,6 @@
-// Lines of equal illuminance on a floor, from the map of light of an assessment. Squares of the map
-// that a wall crosses are left out: light on its two sides has nothing in common. Pure; any thread.
+// Lines of equal illuminance on a floor, from the illuminance map of an assessment. Squares of the
+// map that a wall crosses are left out, since the light on both sides of a wall is unrelated. Pure
+// function; any thread.
 #pragma once
 
 #include <array>
@@ -10,16 +11,16 @@
 
 namespace luxodus {
 
-/// What is drawn [lx]: the limits of the codes (0.5 of open areas, 1 of routes, 5 of equipment) and
-/// ten times the lowest of routes.
+/// Illuminances of the lines [lx]: limits of the codes (0.5 in open areas, 1 on routes, 5 at
+/// equipment) and ten times the limit on routes.
 inline constexpr std::array<double, 4> isolux_levels{0.5, 1, 5, 10};
 
 struct IsoluxLine {
   double lux = 0;
-  ContourLine line;  // in metres of the plan
+  ContourLine line;  // in plan coordinates [m]
 };
 
-/// Requires: a level of a plan that check_assessment has passed.
+/// Requires: a plan level of a JSON that check_assessment has passed.
 std::vector<IsoluxLine> isolux_lines(const Json& level);
 
 }  // namespace luxodus

@@ -33,13 +33,13 @@ constexpr std::array<Section, 15> sections{
      {"appendix-checks", "heading.appendix_checks", other_checks_appendix, "fresh"},
      {"appendix-signs", "heading.appendix_signs", signs_appendix, "fresh"},
      {"appendix-thumb", "heading.appendix_thumb", thumb_appendix, "fresh"}}};
-constexpr size_t numbered = 12;  // the rest are appendices
+constexpr size_t numbered = 12;  // later sections are appendices
 
 constexpr std::array<const char*, 5> notices{"notice.calculation", "notice.secondary",
                                              "notice.legibility", "notice.authority",
                                              "notice.measure"};
 
-/// A text between quotes of CSS: all but letters, digits and spaces by their numbers.
+/// A string of CSS; all bytes except letters, digits and spaces are escaped by number.
 std::string css_text(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -58,7 +58,7 @@ std::string title_of(const PageParts& parts) {
   return parts.texts("page.kind");
 }
 
-/// The paper, and what its margins say on every page.
+/// CSS for the paper size and the texts in the margins of every page.
 std::string page_rule(const PageParts& parts, bool letter) {
   const Texts& t = parts.texts;
   const Json& project = parts.a["project"];
@@ -68,7 +68,7 @@ std::string page_rule(const PageParts& parts, bool letter) {
       right += (right.empty() ? "" : " · ") +
                (std::string(key) == "revision" ? t("project.revision") + (" " + text) : text);
   const std::string of = t("page.of");
-  // "Page {0} of {1}": the browser counts.
+  // "Page {0} of {1}", in which the browser counts.
   const size_t first = of.find("{0}"), second = of.find("{1}");
   const std::string page = css_text(of.substr(0, first)) + " counter(page) " +
                            css_text(of.substr(first + 3, second - first - 3)) + " counter(pages)";
@@ -107,7 +107,7 @@ std::string project_block(const PageParts& parts) {
   return out + "</dl>\n";
 }
 
-/// Scenario, operation, lit luminaires, smoke and rule sets in a line.
+/// Scenario, operation, lit luminaires, smoke and rule sets in one line.
 std::string state_line(const PageParts& parts) {
   const Texts& t = parts.texts;
   const Json& s = parts.a["state"];
@@ -165,7 +165,7 @@ std::string notice_box(const Texts& t) {
   return out + "</ul></div>\n";
 }
 
-/// "Appendix A: ..." names itself.
+/// "" for appendices, whose headings contain their letter.
 std::string section_number(size_t section) {
   return section < numbered ? std::to_string(section + 1) : "";
 }

@@ -1,5 +1,5 @@
-// The page of a report: one HTML document that needs nothing beside itself, for a browser and for
-// paper. From the JSON of an assessment; pure; any thread. Its sections are in page_*.cpp.
+// The page of a report: one self-contained HTML document for a browser and for paper, from the JSON
+// of an assessment. Its sections are in page_*.cpp. Pure functions; any thread.
 #pragma once
 
 #include <map>
@@ -10,13 +10,13 @@
 namespace luxodus {
 
 struct PageOptions {
-  bool letter = false;               // paper: Letter, else A4
-  std::map<std::string, int> pages;  // of the headings by their ids, for the contents on paper
+  bool letter = false;               // paper size Letter instead of A4
+  std::map<std::string, int> pages;  // page number by heading id, for the printed contents
 };
 
 std::string report_page(const PageParts& parts, const PageOptions& options);
 
-// Sections, without their headings; "" where there is nothing to say.
+// Sections without their headings; "" if a section has no content.
 std::string verdict_section(const PageParts& parts);
 std::string state_section(const PageParts& parts);
 std::string plans_section(const PageParts& parts);
@@ -35,8 +35,8 @@ std::string thumb_appendix(const PageParts& parts);
 
 /// The verdict in words: "3 checks fail, 2 not assessed".
 std::string verdict_words(const Texts& texts, const Json& assessment);
-/// What stands first: what was judged, by which rules, and what came of it, views of signs
-/// included. In English what first_words (actors/judge/assess) says on a terminal.
+/// The first sentence of a report: state, rules, and counts of checks and views. In English it is
+/// that of first_words (actors/judge/assess).
 std::string headline(const Texts& texts, const Json& assessment);
 
 }  // namespace luxodus

@@ -1,4 +1,4 @@
-// Plans, schedules, and what the codes ask of each route and area.
+// Sections with plans, schedules, and checks of routes and areas.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,7 +11,7 @@ namespace luxodus {
 
 namespace {
 
-/// A path in a narrow column breaks after a folder, and not within its file's ending.
+/// Lets a path in a narrow column break after a folder, but not before a file's extension.
 std::string breaking_at_slashes(const std::string& path) {
   std::string out;
   for (const char c : escaped(path)) {
@@ -21,7 +21,7 @@ std::string breaking_at_slashes(const std::string& path) {
   return out;
 }
 
-/// On its own sheet, upright or across, whichever shows it larger.
+/// A plan on its own sheet, portrait or landscape, whichever shows it larger.
 std::string plan_sheet(const PageParts& parts, const std::string& title, const std::string& note,
                        const Plan& plan) {
   const double width = parts.paper_width_mm;
@@ -31,7 +31,7 @@ std::string plan_sheet(const PageParts& parts, const std::string& title, const s
          "</figcaption></figure>\n</section>\n";
 }
 
-/// Coordinates of all members, by name.
+/// Coordinates of all members, with their names.
 std::string coordinates(const PageParts& parts, const Json& things,
                         const std::vector<size_t>& members) {
   std::string out;
@@ -100,7 +100,7 @@ std::string sign_row(const PageParts& parts, size_t number) {
   const Json& s = parts.a["signs"][number];
   const auto length = [&](const char* key) { return t.fixed(s[key]["value"].get<double>(), 3); };
   const Json &p = s["position"], &f = s["facing"];
-  // From +y towards +x, as a compass reads, with the north that the project states.
+  // Azimuth from +y towards +x, as on a compass, relative to the project's north.
   double bearing = std::atan2(f[0].get<double>(), f[1].get<double>()) * 180 / std::numbers::pi -
                    parts.a["project"]["north_deg"].get<double>();
   bearing = std::fmod(bearing + 720, 360);
@@ -200,8 +200,8 @@ std::string check_table(const PageParts& parts, const std::string& rows) {
                {13, 22, 11, 10, 8, 15, 21}, rows, "checks");
 }
 
-/// A row for each check, under a heading for each subject, in the order of their first check.
-/// `places`: of routes and areas alone, else of all others.
+/// A row for each check under a heading for each subject, in the order of their first checks.
+/// `places`: routes and areas only, else all other subjects.
 std::string rows_by_subject(const PageParts& parts, bool places) {
   std::vector<Subject> subjects;
   for (const Json& check : parts.a["checks"]) {
@@ -220,7 +220,7 @@ std::string rows_by_subject(const PageParts& parts, bool places) {
   return rows;
 }
 
-/// What the inspection found is English.
+/// Findings of the inspection are in English in every language.
 std::string warning_html(const Texts& t, const Json& warning) {
   if (warning["remark"].is_null())
     return (t.language() == Language::en ? "<i>" : "<i lang=\"en\">") +
@@ -234,7 +234,7 @@ std::string warning_html(const Texts& t, const Json& warning) {
 std::string plans_section(const PageParts& parts) {
   const Texts& t = parts.texts;
   const Json& levels = parts.a["plan"]["levels"];
-  // Across a sheet; what is narrower than an upright sheet stands upright.
+  // Sized for a landscape sheet; a drawing that fits a portrait sheet is shown on one.
   const Plans plans(parts.a, parts.schedule, t, {parts.paper_height_mm, parts.paper_width_mm - 34});
   std::string out;
   for (size_t i = 0; i < levels.size(); ++i) {

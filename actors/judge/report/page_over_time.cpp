@@ -1,4 +1,4 @@
-// Up to when routes are guided: maps of place and time, and how far walkers come.
+// Section on guidance over time: maps of place and time, and how far walkers get.
 #include <algorithm>
 
 #include "actors/judge/report/guidance_map.hpp"

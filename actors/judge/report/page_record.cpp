@@ -1,5 +1,4 @@
-// The record of an assessment: what was put in, by which clauses it was judged, what was left out,
-// how it was found, and from what.
+// The record of an assessment: inputs, clauses, what was not assessed, method and sources.
 #include <algorithm>
 #include <map>
 
@@ -10,7 +9,7 @@ namespace luxodus {
 
 namespace {
 
-/// Two columns: what, and its value as HTML.
+/// A table of two columns: name, and value as HTML.
 class Facts {
  public:
   explicit Facts(const Texts& texts) : texts_(texts) {}
@@ -63,7 +62,7 @@ std::string smoke_html(const Texts& t, const Json& smoke) {
   return out;
 }
 
-/// Rule sets or deviations: edition, id, what they ask, and what is to be said of them.
+/// Rule sets or deviations: edition, id, requirement and status.
 std::string rules_html(const Texts& t, const Json& rules) {
   std::string out;
   for (const Json& rule : rules) {
@@ -200,7 +199,7 @@ std::string inputs_section(const PageParts& parts) {
   return out;
 }
 
-/// A dash where nothing is said.
+/// A dash for an empty text.
 std::string or_dash(const std::string& text) {
   return text.empty() ? "–" : text;
 }

@@ -1,4 +1,5 @@
-// What people read of the signs, with all light and smoke, and where rules of thumb say otherwise.
+// Sections on what people read of the signs with all light and smoke, and on differences from rules
+// of thumb.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,10 +17,10 @@ namespace {
 constexpr std::array<const char*, 6> sight_order{
     "legible",   "undecided",    "visible but not legible",
     "invisible", "not assessed", "hidden by the building"};
-/// The smallest detail of a legend is read from this visibility level on.
+/// Visibility level from which the smallest detail of a legend is read.
 constexpr double reading_level = 7;
 constexpr size_t thumb_places = 10;
-/// Rows of the appendix: more fill a book that nobody reads; sights.csv has them all.
+/// Largest number of rows of the appendix; sights.csv has all views.
 constexpr size_t appendix_rows = 400;
 
 bool is_observer(const Json& sight) {
@@ -37,7 +38,7 @@ std::vector<double> heights_of(const Json& a) {
   return {heights.begin(), heights.end()};
 }
 
-/// Metres of routes and square metres of areas.
+/// Length of routes and size of areas.
 struct Amount {
   double metres = 0, square_metres = 0;
   bool none() const { return metres == 0 && square_metres == 0; }
@@ -59,7 +60,7 @@ size_t rank_of(const Json& sight) {
                              sight_order.begin());
 }
 
-/// For each eye height: of how much of routes and areas the best sign has which verdict.
+/// For each eye height, the share of routes and areas by the verdict on the best sign.
 std::string heights_table(const PageParts& parts, const std::vector<double>& heights) {
   const Texts& t = parts.texts;
   std::string rows;
@@ -85,7 +86,7 @@ std::string heights_table(const PageParts& parts, const std::vector<double>& hei
       {10, 15, 15, 15, 15, 15, 15}, rows);
 }
 
-/// For one eye height, sign by sign.
+/// For one eye height, a row for each sign.
 std::string signs_table(const PageParts& parts, double height) {
   const Texts& t = parts.texts;
   std::string rows;
@@ -132,18 +133,18 @@ std::string observers_table(const PageParts& parts) {
       {26, 26, 24, 12, 12}, rows);
 }
 
-/// The end of a picture's name, and its kind: what an eye sees, then luminances.
+/// Suffix of a picture's name and key of its caption: human view first, then luminance.
 constexpr std::array<std::pair<const char*, const char*>, 3> picture_kinds{
     {{"_human", "view.human"}, {"_luminance", "view.luminance"}, {"", "view.plain"}}};
 
-/// A picture of another state would show as visible what is hidden by smoke in this one.
+/// Whether a picture shows another scene or scenario, in which smoke may hide less.
 bool is_of_another_state(const Json& a, const ReportPicture& picture) {
   const auto scene = png_text(picture.png, "Scene"), scenario = png_text(picture.png, "Scenario");
   return (scene && *scene != text_in(a["scene"], "name")) ||
          (scenario && *scenario != text_in(a["scene"], "scenario"));
 }
 
-/// Pictures of this state by camera and kind.
+/// Pictures of the judged state by camera and kind.
 using CameraPictures = std::map<std::string, std::map<size_t, const ReportPicture*>>;
 
 CameraPictures pictures_by_camera(const PageParts& parts, size_t& others) {
@@ -162,14 +163,14 @@ CameraPictures pictures_by_camera(const PageParts& parts, size_t& others) {
   return out;
 }
 
-/// As HTML, cameras for a scene that has none: at the place from which each of the worst signs is
-/// seen worst.
+/// For a scene without cameras: HTML with cameras that show each of the worst signs from the place
+/// where it is seen worst.
 std::string suggested_cameras(const PageParts& parts) {
   constexpr size_t most = 3;
   std::map<std::string, const Json*> worst;  // by sign
   for (const Json& sight : parts.a["sights"]) {
     const size_t rank = rank_of(sight);
-    if (rank == 0 || rank > 3) continue;  // legible, or there is nothing to see
+    if (rank == 0 || rank > 3) continue;  // legible, or not visible from here
     const auto known = worst.try_emplace(text_in(sight, "sign"), &sight).first;
     if (rank > rank_of(*known->second)) known->second = &sight;
   }
@@ -191,7 +192,7 @@ std::string suggested_cameras(const PageParts& parts) {
   return out;
 }
 
-/// What makes pictures that are not there.
+/// Commands that make the missing pictures.
 std::string how_to_make_pictures(const PageParts& parts) {
   const Texts& t = parts.texts;
   std::string out;
@@ -211,7 +212,7 @@ std::string how_to_make_pictures(const PageParts& parts) {
          escaped("luxodus report " + parts.folder) + "</pre>\n";
 }
 
-/// What each camera sees; one exposure only where there is nothing better.
+/// Pictures by camera; the plain exposure is shown only if there is no better picture.
 std::string pictures(const PageParts& parts) {
   const Texts& t = parts.texts;
   size_t others = 0;
@@ -262,7 +263,7 @@ std::string sweep_table(const PageParts& parts) {
 /// A place where a rule of thumb and the simulation differ.
 struct Difference {
   const Json* sight;
-  double by;  // how far the visibility level is from the one that reads, as a ratio's logarithm
+  double by;  // logarithm of the ratio of the visibility level to the reading level
 };
 
 std::vector<Difference> differences(const Json& sights) {

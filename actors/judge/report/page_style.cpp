@@ -2,7 +2,7 @@
 
 namespace luxodus {
 
-// Widths are shares of the page, and words break: no table is wider than the paper. Named pages
+// Widths are shares of the page and words break, so no table is wider than the paper. Named pages
 // (`page: wide`) turn single sheets of a print.
 const char* const report_style = R"css(
 :root { --ink: #1c2024; --soft: #5c6670; --line: #c9d0d6; --pale: #f3f5f7; --accent: #0b5138; }

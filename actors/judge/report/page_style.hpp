@@ -1,9 +1,9 @@
-// How a report looks, on a screen and on paper. Constant data; any thread.
+// Style sheet of a report for screen and paper. Constant data; any thread.
 #pragma once
 
 namespace luxodus {
 
-/// CSS, but for what depends on the report: the size of the paper and what its margins say.
+/// CSS without what depends on the report: paper size and margin texts.
 extern const char* const report_style;
 
 }  // namespace luxodus

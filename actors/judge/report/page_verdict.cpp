@@ -1,4 +1,4 @@
-// The verdict on the whole in words: what stands first on a report.
+// The verdict on the whole in words, which a report shows first.
 #include "actors/judge/report/page.hpp"
 
 namespace luxodus {

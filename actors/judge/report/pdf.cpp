@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Pages of a PDF that are looked at, and how deep its tree of pages may be.
+/// Limits: pages that are read from a PDF, and depth of its page tree.
 constexpr size_t pdf_pages = 10'000;
 constexpr int tree_depth = 20;
 
-/// The objects of a PDF that are not in streams, by number.
+/// Objects of a PDF outside streams, by number.
 using Objects = std::map<int, std::string_view>;
 
 std::optional<int> number_at(std::string_view text, size_t& at) {
@@ -46,7 +46,7 @@ Objects objects_of(std::string_view pdf) {
   return out;
 }
 
-/// Leaves of the tree of pages, in their order.
+/// Adds the leaves of the page tree in their order.
 void add_pages(const Objects& objects, int node, int depth, std::vector<int>& out) {
   const auto at = objects.find(node);
   if (at == objects.end() || depth > tree_depth || out.size() > pdf_pages) return;
@@ -67,7 +67,7 @@ void add_pages(const Objects& objects, int node, int depth, std::vector<int>& ou
   }
 }
 
-/// The object that a key of another refers to: "/Pages 5 0 R".
+/// The object to which a key refers: "/Pages 5 0 R".
 std::optional<int> reference(std::string_view object, std::string_view key) {
   size_t at = object.find(key);
   if (at == std::string_view::npos) return std::nullopt;
@@ -91,7 +91,7 @@ Result<void> print_pdf(const fs::path& page, const fs::path& pdf) {
                                    "--no-pdf-header-footer",
                                    "--generate-pdf-document-outline",
                                    "--print-to-pdf=" + fs::absolute(pdf).string()};
-    // It has no sandbox for root; the page is ours and fetches nothing.
+    // Chromium has no sandbox for root; the page is ours and fetches nothing.
     if (::geteuid() == 0) words.emplace_back("--no-sandbox");
     words.push_back(address);
     const auto ran = run_program(words, said);

@@ -1,5 +1,5 @@
-// Printing a page as PDF by whichever Chromium is installed, and what is on which of its pages. The
-// browser runs as a child; it fetches nothing but the page. Any thread.
+// Prints a page as PDF by an installed Chromium, and finds the page numbers of headings. The
+// browser runs as a child process and fetches nothing but the page. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,11 @@
 
 namespace luxodus {
 
-/// Errors: no Chromium is installed, or none printed it; with what it said then.
+/// Errors: no Chromium is installed, or none printed the page, with its message.
 Result<void> print_pdf(const std::filesystem::path& page, const std::filesystem::path& pdf);
 
-/// Number of the page, from 1, that each named destination of a PDF is on, as Chromium writes them
-/// for links within a document. Empty where the file has none or is written another way.
+/// Page number, from 1, of each named destination of a PDF, in the form that Chromium writes for
+/// links within a document. Empty if the file has none or another form.
 std::map<std::string, int> pages_of_destinations(std::string_view pdf);
 
 }  // namespace luxodus

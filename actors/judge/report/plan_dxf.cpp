@@ -1,5 +1,5 @@
-// DXF of release 12 (AC1009), the dialect that every program reads: no handles, names of layers and
-// blocks in capitals, letters beyond ASCII as \U+XXXX. One unit is one metre.
+// DXF of release 12 (AC1009), which every CAD program reads: no handles, layer and block names in
+// capitals, non-ASCII letters as \U+XXXX. One unit is one metre.
 #include <dxflib/dl_codes.h>
 #include <dxflib/dl_writer_ascii.h>
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double letter_m = 0.25, lamp_m = 0.15;
-/// Of a plan's file [bytes]: all lines of the limits of an assessment fit in.
+/// Largest file [bytes]; a plan with all lines that the limits of an assessment allow fits in.
 constexpr uint64_t dxf_bytes = uint64_t{256} << 20;
 
 struct DxfLayer {
@@ -46,7 +46,7 @@ const char* isolux_layer(double lux) {
   return lux < 0.7 ? "ISOLUX_0_5" : lux < 2 ? "ISOLUX_1" : lux < 7 ? "ISOLUX_5" : "ISOLUX_10";
 }
 
-/// One line of ASCII.
+/// The text as one line of ASCII.
 std::string plain(const std::string& text) {
   const std::string clean = clean_utf8(text);
   std::string out;
@@ -64,10 +64,10 @@ std::string plain(const std::string& text) {
     else
       out += fmt::format("\\U+{:04X}", std::min(code, 0xffffu));
   }
-  return out.substr(0, 255);  // of a string of release 12
+  return out.substr(0, 255);  // longest string of release 12
 }
 
-/// Entities on layers, through dxflib's writer of group codes.
+/// Writes entities on layers, with dxflib's writer of group codes.
 class Drawing {
  public:
   explicit Drawing(const fs::path& path) : out_(path.c_str(), DL_Codes::AC1009) {}
@@ -104,7 +104,7 @@ class Drawing {
     }
     entity("SEQEND", layer);
   }
-  /// A block at a place, turned, with attributes that only the data show.
+  /// Inserts a rotated block with attributes that only data export shows.
   void insert(const char* layer, const std::string& block, glm::dvec3 place, double turn_deg,
               const std::vector<std::pair<const char*, std::string>>& attributes) {
     entity("INSERT", layer);
@@ -118,11 +118,11 @@ class Drawing {
       out_.dxfReal(40, letter_m / 2);
       out_.dxfString(1, plain(value));
       out_.dxfString(2, tag);
-      out_.dxfInt(70, 1);  // invisible: the names stand on layer TEXT
+      out_.dxfInt(70, 1);  // invisible: names are drawn on layer TEXT
     }
     entity("SEQEND", layer);
   }
-  /// The tags of a block's attributes, within the block.
+  /// Defines an attribute within a block.
   void define(const char* tag) {
     entity("ATTDEF", "0");
     at({0, 0});
@@ -220,8 +220,8 @@ std::string block_of(const LuminaireType& type) {
   return "LUMINAIRE_" + type.letter;
 }
 
-/// A square for each type of luminaire, crossed where it is one of the mains; a bar with an arrow
-/// along x for signs.
+/// A block for each luminaire type: a square, crossed for mains luminaires; for signs a bar with an
+/// arrow along x.
 void blocks(Drawing& out, const Schedule& schedule) {
   out.section("BLOCKS");
   for (const LuminaireType& type : schedule.types()) {
@@ -322,7 +322,7 @@ Result<void> write_plan_dxf(const fs::path& path, const Json& a, const Schedule&
   }
   for (const Json& p : level["points"]) take(point(p));
   if (low.x > high.x) low = high = {0, 0};
-  // dxflib writes files of its own; the finished one is put in place at once.
+  // dxflib writes directly to a file, so it writes a draft that replaces the plan when complete.
   const fs::path draft = path.string() + fmt::format(".{}.tmp", ::getpid());
   std::error_code ignored;
   {

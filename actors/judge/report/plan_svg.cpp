@@ -1,5 +1,5 @@
-// A drawing's units are millimetres on paper. Everything is drawn back to front; texts have a white
-// rim, so that they read on lines.
+// The unit of a drawing is 1 mm on paper. Elements are drawn back to front; texts have a white
+// outline, so they can be read on lines.
 #include "actors/judge/report/plan_svg.hpp"
 
 #include <algorithm>
@@ -32,13 +32,13 @@ double number_of(const Json& value) {
   return value.get<double>();
 }
 
-/// What is drawn already, so that labels stand beside it and beside each other.
+/// Boxes that are already drawn, so that labels do not overlap them or each other.
 class LabelSpace {
  public:
   void reserve(double x, double y, double width, double height) {
     boxes_.push_back({x - width / 2, y - height / 2, x + width / 2, y + height / 2});
   }
-  /// Reserves a box about (x, y) [mm] and says so, unless something is there.
+  /// Reserves a box around (x, y) [mm] if it is free, and returns whether it was.
   bool take(double x, double y, double width, double height) {
     const Box box{x - width / 2, y - height / 2, x + width / 2, y + height / 2};
     const bool is_free = std::none_of(boxes_.begin(), boxes_.end(), [&](const Box& other) {
@@ -65,7 +65,7 @@ std::string lines_path(const Json& lines, const Sheet& sheet, const char* style)
   return path.empty() ? "" : "<path d=\"" + path + "\" fill=\"none\" " + style + "/>\n";
 }
 
-/// A picture, whose pixels run from 0 to 1 along its edges, the upper row first.
+/// A picture whose pixels span 0 to 1 along its edges, the upper row first.
 std::string backdrop_picture(const Json& one, const Sheet& sheet) {
   const auto number = [&](const char* key, size_t k) { return number_of(one[key][k]); };
   return fmt::format(
@@ -76,12 +76,12 @@ std::string backdrop_picture(const Json& one, const Sheet& sheet) {
       sheet.y(number("corner", 1) + number("up", 1)), one["png"].text());
 }
 
-/// Drawings of others under a level, faint, and no farther than the drawing's edge.
+/// Backdrop drawings of a level, faint, clipped at the edge of the plan.
 std::string backdrops(const Json& a, size_t level, const Sheet& sheet) {
   const auto all = a["plan"].find("backdrops");
   if (all == a["plan"].end() || all->is_null()) return "";
   const double floor = number_of(a["plan"]["levels"][level]["floor"]);
-  std::string pictures, lines;  // which pictures do not hide
+  std::string pictures, lines;  // drawn after pictures, which would hide them
   for (const Json& one : *all) {
     if (floor < number_of(one["floors"][0]) || floor > number_of(one["floors"][1])) continue;
     const auto drawing = one.find("lines");
@@ -118,7 +118,7 @@ std::string route_end(double x, double y, double turn) {
       x, y, turn);
 }
 
-/// Routes with an arrow at their ends and their names beside their middles, and areas.
+/// Areas, and routes with an arrow at their ends.
 std::string places(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet) {
   std::string out = "<g class=\"places\">\n";
   for (const Json& area : a["places"]["areas"]) {
@@ -141,13 +141,14 @@ std::string places(const Json& a, const Schedule& schedule, size_t level, const 
   return out + "</g>\n";
 }
 
-/// Names of routes at a third of their first leg, so that those of two directions stand apart.
+/// Names of areas and routes; a route's name is at a third of its first leg, so that names of
+/// opposite routes do not overlap.
 std::string place_names(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet,
                         LabelSpace& space) {
   std::string out = "<g class=\"names\" fill=\"#1f5fa8\" font-style=\"italic\">\n";
   for (const Json& area : a["places"]["areas"]) {
     if (schedule.level_of(number_of(area["z"])) != level) continue;
-    // In the lower left of its outline, off the luminaires in its middle.
+    // In the lower left corner of the outline, away from the luminaires in its middle.
     const Json* corner = &area["outline"][0];
     for (const Json& p : area["outline"])
       if (number_of(p[0]) + number_of(p[1]) < number_of((*corner)[0]) + number_of((*corner)[1]))
@@ -162,7 +163,8 @@ std::string place_names(const Json& a, const Schedule& schedule, size_t level, c
     const double dx = sheet.x(number_of(to[0])) - x0, dy = sheet.y(number_of(to[1])) - y0;
     double turn = std::atan2(dy, dx) * 180 / std::numbers::pi;
     if (turn > 90.01 || turn <= -89.99) turn += 180;
-    const double radians = turn * std::numbers::pi / 180, side = 4.4;  // of the text's middle
+    const double radians = turn * std::numbers::pi / 180,
+                 side = 4.4;  // of the text's middle from the line
     const double width = text_width_mm(route["name"], text_mm);
     const double c = std::abs(std::cos(radians)), s = std::abs(std::sin(radians));
     double along = 0.3;
@@ -200,12 +202,13 @@ std::string luminaire_letters(const std::string& text, double x, double y, bool 
                  size);
 }
 
-/// Letter and height beside a luminaire at (x, y): where nothing else stands, above it at first.
+/// Letter and height beside a luminaire at (x, y), in the first free position; above is tried first
+/// for emergency luminaires.
 std::string luminaire_label(const std::string& text, double x, double y, bool emergency,
                             LabelSpace& space) {
   const double size = emergency ? text_mm : 1.7, width = text_width_mm(text, size);
   const double up = 1.5 + size / 2, across = 1.8 + width / 2, first = emergency ? -up : up;
-  const double far = first + std::copysign(size + 0.6, first);  // a row further
+  const double far = first + std::copysign(size + 0.6, first);  // one line farther
   const std::array<std::array<double, 2>, 14> offsets{{{0, first},
                                                        {0, -first},
                                                        {across, 0},
@@ -227,7 +230,7 @@ std::string luminaire_label(const std::string& text, double x, double y, bool em
   return luminaire_letters(text, x + (*at)[0], y + (*at)[1], emergency);
 }
 
-/// Symbols; with `labels`, letters and heights as well, placed in what `labels` leaves free.
+/// Symbols of luminaires; with `labels` also letters and heights, in free positions.
 std::string luminaires(const Json& a, const Schedule& schedule, const Texts& texts, size_t level,
                        const Sheet& sheet, LabelSpace* labels) {
   std::string out = "<g class=\"luminaires\">\n";
@@ -252,7 +255,7 @@ std::string luminaires(const Json& a, const Schedule& schedule, const Texts& tex
     labels->reserve(x, y, 2.2, 2.2);
     wanted.push_back({type.letter + " " + texts.fixed(schedule.above_floor(z)), x, y, emergency});
   }
-  // Emergency luminaires choose first and are drawn last: the plan is about them.
+  // Emergency luminaires are labelled first and drawn last, since the plan is about them.
   std::string emergency_labels;
   for (const bool emergency : {true, false})
     for (const Label& label : wanted)
@@ -263,7 +266,7 @@ std::string luminaires(const Json& a, const Schedule& schedule, const Texts& tex
   return out + "</g>\n";
 }
 
-/// Where a sign's number stands [mm]: beside the arrow, away from where the sign looks.
+/// Position of a sign's number [mm]: beside the arrow, away from the direction that the sign faces.
 std::array<double, 2> sign_number_place(const Json& sign, const Sheet& sheet) {
   const double fx = number_of(sign["facing"][0]), fy = -number_of(sign["facing"][1]);
   return {sheet.x(number_of(sign["position"][0])) - 2.9 * fx + (std::abs(fx) > 0.7 ? 0 : 2.6),
@@ -281,7 +284,7 @@ void reserve_signs(const Json& a, const Schedule& schedule, size_t level, const 
   }
 }
 
-/// A sign as a bar across where it looks, with an arrow there.
+/// A sign as a bar with an arrow in the direction that it faces.
 std::string sign_arrow(double x, double y, double turn, bool double_sided) {
   return fmt::format(
       "<g transform=\"translate({:.2f} {:.2f}) rotate({:.1f})\"><path d=\"M0 -1.8V1.8M0 "
@@ -298,7 +301,7 @@ std::string sign_number(double x, double y, size_t number) {
                  "text-anchor=\"middle\" font-weight=\"bold\" stroke=\"none\"", 2.3);
 }
 
-/// A circled number beside each sign, and an arrow from the sign to where it faces.
+/// A circled number for each sign, and an arrow in the direction that it faces.
 std::string signs(const Json& a, const Schedule& schedule, size_t level, const Sheet& sheet,
                   const std::string& only = "") {
   std::string out = "<g class=\"signs\">\n";
@@ -336,7 +339,7 @@ std::string emphasis(const Json& a, const Schedule& schedule, size_t level, cons
   return out;
 }
 
-/// A scale bar in round metres, the scale, and an arrow to the north.
+/// Scale bar in round metres, scale, and north arrow.
 std::string foot(const Json& a, const Sheet& sheet, const Texts& texts) {
   const double y = sheet.height() + 5;
   double bar = 1;
@@ -378,7 +381,7 @@ Plan finished(const Sheet& sheet, const Legend& legend, const std::string& body)
   return plan;
 }
 
-/// Widths differ as well, for eyes that do not tell these colours apart.
+/// Line widths differ as well, for people who cannot distinguish these colours.
 std::string isolux_colour(double lux) {
   const LightColour c = colour_of_illuminance(lux);
   return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
@@ -389,7 +392,7 @@ std::string isolux_style(double lux) {
                      lux == 1 ? 0.6 : 0.35, lux < 0.7 ? " stroke-dasharray=\"1.6 0.8\"" : "");
 }
 
-/// The line, and its value about every 36 mm, where nothing else is labelled.
+/// A line with its value about every 36 mm, where space is free.
 std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& texts,
                         LabelSpace& space) {
   const double label_width = text_width_mm(texts.number(one.lux), 2.4) + 0.6;
@@ -410,7 +413,7 @@ std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& 
                           .c_str(),
                       2.4);
   }
-  if (length < 3) return "";  // a speck
+  if (length < 3) return "";  // too short to see
   return fmt::format(
              "<path class=\"isolux\" data-lux=\"{}\" d=\"{}\" stroke-linejoin=\"round\" {}/>\n",
              one.lux, path, isolux_style(one.lux)) +
@@ -419,7 +422,7 @@ std::string isolux_line(const IsoluxLine& one, const Sheet& sheet, const Texts& 
 
 std::string grid_values(const Json& level, const Sheet& sheet, const Texts& texts) {
   std::string out = "<g class=\"values\" fill=\"#333\">\n";
-  // Where numbers would lie on each other, every other one is left out.
+  // If numbers would overlap, only the first in each cell is drawn.
   std::map<std::pair<long, long>, bool> taken;
   for (const Json& p : level["points"]) {
     const double x = sheet.x(number_of(p[0])), y = sheet.y(number_of(p[1]));
@@ -430,7 +433,7 @@ std::string grid_values(const Json& level, const Sheet& sheet, const Texts& text
   return out + "</g>\n";
 }
 
-/// From best to worst of what a place can have.
+/// Verdicts on a place, from best to worst.
 constexpr std::array<const char*, 6> ranks{"legible",   "undecided",    "visible but not legible",
                                            "invisible", "not assessed", "hidden by the building"};
 
@@ -438,10 +441,10 @@ std::string legend_line(double width, const std::string& style) {
   return fmt::format("<path d=\"M0 0h{}\" {}/>", width, style);
 }
 
-/// Luminaires of a level, with letters and heights beside them or without.
+/// Legend entries for luminaires of a level, with or without letters and heights.
 void explain_luminaires(Legend& legend, const Json& a, const Schedule& schedule, const Texts& texts,
                         size_t level, bool with_letters) {
-  std::string letters;  // of the first that the plan shows
+  std::string letters;  // of the first luminaire on the plan
   for (const bool emergency : {true, false}) {
     bool any = false;
     for (size_t i = 0; i < a["luminaires"].size(); ++i) {
@@ -473,7 +476,7 @@ void explain_signs(Legend& legend, const Json& a, const Schedule& schedule, cons
   if (double_sided) legend.add(sign_arrow(4, 0, 0, true), 8, texts("legend.double_sided"));
 }
 
-/// Routes, areas, walls and furniture.
+/// Legend entries for routes, areas, walls and furniture.
 void explain_building(Legend& legend, const Json& a, const Schedule& schedule, const Texts& texts,
                       size_t level, bool with_furniture) {
   const auto here = [&](const Json& z) { return schedule.level_of(number_of(z)) == level; };
@@ -519,7 +522,7 @@ Legend sight_legend(const Json& a, const Schedule& schedule, const Texts& texts,
   Legend legend;
   for (const char* rank : ranks)
     legend.add(verdict_shape(rank, 1.3, 0, 1.3), 2.6, texts.word("sight", rank));
-  // A map of one sign is small, and its caption names the sign.
+  // A map of one sign is small and has the sign's name in its caption.
   if (sign.empty()) explain_signs(legend, a, schedule, texts, level);
   return legend;
 }
@@ -537,7 +540,7 @@ const char* verdict_colour(const std::string& verdict) {
 std::string verdict_shape(const std::string& verdict, double x, double y, double r) {
   const char* colour = verdict_colour(verdict);
   std::string shape;
-  if (verdict == "pass" || verdict == "legible")  // a disc with a tick
+  if (verdict == "pass" || verdict == "legible")  // a disc with a check mark
     shape = fmt::format(
         "<circle r=\"1\" fill=\"{}\"/><path d=\"M-.5 0L-.12 .4L.52 -.38\" "
         "fill=\"none\" stroke=\"#fff\" stroke-width=\".24\"/>",
@@ -552,7 +555,7 @@ std::string verdict_shape(const std::string& verdict, double x, double y, double
         "<path d=\"M0 -1.15L1.15 0L0 1.15L-1.15 0Z\" fill=\"#fff\" stroke=\"{0}\" "
         "stroke-width=\".22\"/><path d=\"M0 -1.15L1.15 0L0 1.15Z\" fill=\"{0}\"/>",
         colour);
-  else if (verdict == "undecided" || verdict == "not verified")  // a triangle with a stroke
+  else if (verdict == "undecided" || verdict == "not verified")  // a triangle with a "!"
     shape = fmt::format(
         "<path d=\"M0 -1.1L1.15 .9H-1.15Z\" fill=\"{}\"/><path d=\"M0 -.4V.25M0 "
         ".45V.68\" stroke=\"#fff\" stroke-width=\".24\"/>",
@@ -562,12 +565,12 @@ std::string verdict_shape(const std::string& verdict, double x, double y, double
         "<circle r=\".9\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".22\"/><path "
         "d=\"M0 -.1V.55M0 -.5V-.28\" stroke=\"{0}\" stroke-width=\".24\"/>",
         colour);
-  else if (verdict == "hidden by the building")  // a hollow square with a stroke across
+  else if (verdict == "hidden by the building")  // a hollow square with a diagonal stroke
     shape = fmt::format(
         "<path d=\"M-.8 -.8H.8V.8H-.8ZM-.8 .8L.8 -.8\" fill=\"#fff\" stroke=\"{}\" "
         "stroke-width=\".22\"/>",
         colour);
-  else  // a ring with a bar: no answer
+  else  // a ring with a bar: no verdict
     shape = fmt::format(
         "<circle r=\".85\" fill=\"#fff\" stroke=\"{0}\" stroke-width=\".25\"/><path "
         "d=\"M-.45 0H.45\" stroke=\"{0}\" stroke-width=\".25\"/>",
@@ -582,7 +585,7 @@ Plan Plans::installation(size_t number) const {
   const Sheet sheet(a_, schedule_, number, size_, legend);
   LabelSpace space;
   reserve_signs(a_, schedule_, number, sheet, space);
-  // Before the names of routes, which can stand elsewhere.
+  // Before route names, which have more free positions.
   const std::string symbols = luminaires(a_, schedule_, texts_, number, sheet, &space);
   return finished(
       sheet, legend,
@@ -610,7 +613,7 @@ Plan Plans::sights(size_t number, double eye_height_m, const std::string& sign) 
   const Json& level = a_["plan"]["levels"][number];
   const Legend legend = sight_legend(a_, schedule_, texts_, number, sign);
   const Sheet sheet(a_, schedule_, number, size_, legend);
-  std::map<std::pair<double, double>, size_t> best;  // by place, a number of ranks
+  std::map<std::pair<double, double>, size_t> best;  // index into `ranks` by place
   for (const Json& sight : a_["sights"]) {
     const double eye = number_of(sight["eye_height"]["value"]);
     if ((text_in(sight["from"], "kind") == name_of(SubjectKind::observer))) continue;

@@ -1,7 +1,7 @@
-// Plans as SVG, one level of a building each, from the JSON of an assessment: what is installed,
-// lines of equal illuminance, and what people read. Lines and letters are sized in millimetres on
-// paper, so that all plans of one report look alike. Shapes tell verdicts, colour beside them.
-// Pure; any thread.
+// Plans as SVG from the JSON of an assessment, one for each level: installation, lines of equal
+// illuminance, and what people read. Lines and letters have sizes in millimetres on paper, so all
+// plans of a report look alike. Verdicts differ by shape as well as by colour. Immutable once made;
+// any thread.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@
 namespace luxodus {
 
 struct PlanSize {
-  double width_mm = 267;  // of the drawing on paper, at most
+  double width_mm = 267;  // largest width of the drawing on paper
   double height_mm = 150;
 };
 
-/// A drawing and what it says of itself.
+/// A drawing with its size and scale.
 struct Plan {
   std::string svg;
   double width_mm = 0;  // of the drawing on paper
@@ -25,14 +25,15 @@ struct Plan {
 
 class Plans {
  public:
-  /// Keeps references.
+  /// Keeps references to all arguments except `size`.
   Plans(const Json& assessment, const Schedule& schedule, const Texts& texts, PlanSize size)
       : a_(assessment), schedule_(schedule), texts_(texts), size_(size) {}
 
   Plan installation(size_t level) const;
   /// `values`: with numbers at points of calculation.
   Plan isolux(size_t level, bool values) const;
-  /// The best of all signs, or of one, for eyes at a height above the floor [m].
+  /// The verdict of the best sign at each place, or of one sign, for an eye height above the floor
+  /// [m].
   Plan sights(size_t level, double eye_height_m, const std::string& sign) const;
 
  private:
@@ -42,9 +43,9 @@ class Plans {
   PlanSize size_;
 };
 
-/// The symbol of a verdict of a check or a sight, as an SVG element about (x, y) with a radius.
+/// Symbol of the verdict on a check or view, as an SVG element around (x, y).
 std::string verdict_shape(const std::string& verdict, double x, double y, double radius);
-/// The colour that stands beside the shape.
+/// The colour of that symbol.
 const char* verdict_colour(const std::string& verdict);
 
 }  // namespace luxodus

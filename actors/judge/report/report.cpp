@@ -36,7 +36,7 @@ Result<void> make_folder(const fs::path& folder) {
   return {};
 }
 
-/// "1.65" as it stands in a file's name.
+/// "1.65m", for file names.
 std::string height_name(double metres) {
   return fmt::format("{:.2f}m", metres);
 }
@@ -65,7 +65,7 @@ Result<void> write_plans(const fs::path& folder, const Json& a, const Schedule& 
   return {};
 }
 
-/// One map of place and time for each route and height of eyes.
+/// Writes one map of place and time for each route and eye height.
 Result<void> write_guidance(const fs::path& folder, const Json& a, const Texts& texts) {
   const auto over = a.find("over_time");
   if (over == a.end()) return {};
@@ -94,7 +94,8 @@ Result<void> write_schedules(const fs::path& folder, const Json& a, const Schedu
   return {};
 }
 
-/// Twice: the first print says on which page each heading is, the second has that in its contents.
+/// Prints twice: the first print gives the page of each heading, which the second one has in its
+/// contents.
 Result<void> print_report(const fs::path& folder, const Json& a,
                           const std::vector<ReportPicture>& pictures,
                           const ReportOptions& options) {
@@ -122,7 +123,7 @@ std::string report_html(const Json& a, const std::vector<ReportPicture>& picture
                         const std::map<std::string, int>& pages) {
   const Schedule schedule(a);
   const Texts texts(options.language);
-  // Within margins of 15 mm aside, 20 mm above and below; a sheet across has those turned.
+  // Margins: 15 mm left and right, 20 mm above and below; on a landscape sheet they are turned.
   const double width = (options.letter ? 215.9 : 210) - 30;
   const double height = (options.letter ? 279.4 : 297) - 30;
   return report_page({a, schedule, texts, pictures, folder, width, height, options.grid_values},

@@ -1,4 +1,4 @@
-// The report of an assessment, from its JSON alone: report.html, report.pdf, plans (SVG, DXF) and
+// The report of an assessment from its JSON: report.html, report.pdf, plans (SVG, DXF) and
 // schedules (CSV) in the assessment's folder. It calculates nothing and certifies nothing. Any
 // thread; one report of a folder at a time.
 #pragma once
@@ -11,20 +11,20 @@ namespace luxodus {
 
 struct ReportOptions {
   Language language = Language::en;
-  bool letter = false;  // paper: Letter, else A4
+  bool letter = false;  // paper size Letter instead of A4
   bool grid_values = false;
   bool pdf = false;
-  std::string named;  // the folder as people name it, for commands on the page; "": as it is
+  std::string named;  // folder in commands on the page; "": its path
 };
 
-/// The page alone.
+/// The HTML page only.
 std::string report_html(const Json& assessment, const std::vector<ReportPicture>& pictures,
                         const std::string& folder, const ReportOptions& options,
                         const std::map<std::string, int>& pages = {});
 
 /// Writes all files of a report. Requires: a JSON that check_assessment (actors/judge/assess) has
-/// passed. Errors: a file that cannot be written; with `pdf` also no Chromium (all else is written
-/// then).
+/// passed. Errors: a file that cannot be written; with `pdf` also a missing Chromium (all other
+/// files are written).
 Result<void> write_report(const std::filesystem::path& folder, const Json& assessment,
                           const ReportOptions& options);
 

@@ -6,7 +6,7 @@ namespace luxodus {
 
 namespace {
 
-/// A place so far below a floor still belongs to it [m].
+/// A place up to this far below a floor still belongs to it [m].
 constexpr double sunk_m = 0.5;
 
 std::string letter_of(size_t number) {
@@ -16,7 +16,7 @@ std::string letter_of(size_t number) {
   return out;
 }
 
-/// All that makes luminaires of one type, as text.
+/// Everything that luminaires of one type have in common, as text.
 std::string key_of(const Json& luminaire) {
   Json key = luminaire;
   for (const char* own : {"name", "position", "circuit"}) key.erase(own);

@@ -1,6 +1,6 @@
-// Luminaires by type and signs by number, as plans, tables and drawings name them alike. From the
-// JSON of an assessment. Pure; any thread. Requires everywhere: a JSON that check_assessment
-// (actors/judge/assess) has passed.
+// Luminaires by type and signs by number, with the same names in plans, tables and drawings. Made
+// of the JSON of an assessment, to which it keeps references. Requires everywhere: a JSON that
+// check_assessment (actors/judge/assess) has passed. Immutable once made; any thread.
 #pragma once
 
 #include <string>
@@ -10,29 +10,29 @@
 
 namespace luxodus {
 
-/// Luminaires that are alike but for their place: one row of the schedule.
+/// Luminaires that differ in their place, circuit and name only: one row of the schedule.
 struct LuminaireType {
   std::string letter;  // "A", ..., "Z", "AA", ...
   const Json* one = nullptr;
-  std::vector<size_t> members;  // numbers of "luminaires"
+  std::vector<size_t> members;  // indices into "luminaires"
   bool emergency() const { return (*one)["emergency_flux"]["value"].get<double>() > 0; }
 };
 
-/// Signs that are alike but for their place.
+/// Signs that differ in their place only.
 struct SignType {
   const Json* one = nullptr;
-  std::vector<size_t> members;  // numbers of "signs"
+  std::vector<size_t> members;  // indices into "signs"
 };
 
 class Schedule {
  public:
   explicit Schedule(const Json& assessment);
 
-  /// Emergency luminaires first, then those of the mains, each in the order of the scene.
+  /// Emergency luminaires first, then mains luminaires, each in the order of the scene.
   const std::vector<LuminaireType>& types() const { return types_; }
   const std::vector<SignType>& sign_types() const { return sign_types_; }
   const LuminaireType& type_of(size_t luminaire) const { return types_[type_of_[luminaire]]; }
-  /// Number of the level that a height belongs to, and height above its floor [m].
+  /// Index of the level of a height, and the height above its floor [m].
   size_t level_of(double z) const;
   double above_floor(double z) const;
   size_t levels() const { return floors_.size(); }
@@ -45,7 +45,7 @@ class Schedule {
   std::vector<double> floors_;
 };
 
-/// What a luminaire is called: its product, else its file, else its shape.
+/// Name of a luminaire's product: the product, or else its file, or else its shape.
 std::string product_of(const Json& luminaire);
 
 }  // namespace luxodus

@@ -18,7 +18,7 @@ void number(CsvTable& table, const Json& value) {
     table.empty_cell();
 }
 
-/// The number of {"value", "unit"} at a key, where there is one.
+/// Adds the number of {"value", "unit"} at a key, or an empty cell.
 void quantity(CsvTable& table, const Json& row, const char* key) {
   const auto at = row.find(key);
   if (at == row.end())

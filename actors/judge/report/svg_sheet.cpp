@@ -9,9 +9,9 @@ namespace luxodus {
 
 namespace {
 
-/// The foot of a sheet [mm]: the scale bar, then rows of the legend.
+/// Heights of the foot of a sheet [mm]: scale bar, a legend row, margin below.
 constexpr double scale_bar_mm = 11.8, row_mm = 3.8, below_mm = 1.2;
-/// Between entries of a row.
+/// Gap between entries of a row.
 constexpr double gap_mm = 4;
 
 double entry_width(const LegendEntry& entry) {
@@ -35,7 +35,7 @@ std::string text_at(double x, double y, const std::string& text, const char* mor
 
 double text_width_mm(const std::string& text, double size_mm) {
   const auto letters = std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // not within a letter of UTF-8
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // not a continuation byte of UTF-8
   });
   return 0.58 * size_mm * static_cast<double>(letters);
 }
@@ -79,7 +79,7 @@ Sheet::Sheet(const Json& assessment, const Schedule& schedule, size_t level, con
              const Legend& legend) {
   take_level(assessment, schedule, level);
   if (low_[0] > high_[0]) low_[0] = low_[1] = 0, high_[0] = high_[1] = 1;
-  // A drawing that leaves more room for its legend is smaller, and its legend may need more rows.
+  // A larger legend makes the drawing smaller, and a narrower drawing may need more legend rows.
   foot_ = legend.foot_mm(size.width_mm);
   for (int tries = 0; tries < 8; ++tries) {
     fit(size);

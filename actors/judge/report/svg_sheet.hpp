@@ -1,6 +1,7 @@
-// The paper under a plan: millimetres of paper for metres of a level, letters, and the legend that
-// explains a plan's symbols below it. Requires everywhere: a JSON that check_assessment
-// (actors/judge/assess) has passed. Pure; any thread.
+// The sheet of a plan: conversion from metres to millimetres of paper, text widths, and the legend
+// below the drawing. Requires everywhere: a JSON that check_assessment (actors/judge/assess) has
+// passed. Immutable once made, except for adding entries to a legend; any thread, one at a time for
+// a legend.
 #pragma once
 
 #include <string>
@@ -10,30 +11,30 @@
 
 namespace luxodus {
 
-/// Numbers of signs on outer walls stand 5 mm beyond them (plan_svg.cpp), and are not cut.
+/// Numbers of signs on outer walls stand 5 mm outside (plan_svg.cpp); the border keeps them uncut.
 inline constexpr double border_mm = 5.2, text_mm = 2.5;
 
 std::string text_at(double x, double y, const std::string& text, const char* more = "",
                     double size = text_mm);
-/// About how wide a text is on paper: these fonts have letters of about half their height.
+/// Approximate width of a text on paper: letters of these fonts are about half as wide as high.
 double text_width_mm(const std::string& text, double size_mm);
 
-/// A symbol and what it means. The symbol is drawn about (0, 0), the middle of its left edge.
+/// A symbol and its meaning. The symbol is drawn around (0, 0), the middle of its left edge.
 struct LegendEntry {
   std::string symbol;
   double width_mm = 0;
   std::string text;
 };
 
-/// Entries in rows, in as many as a sheet is narrow, so that no language loses one.
+/// Entries in rows; the narrower the sheet, the more rows, so no entry is lost in any language.
 class Legend {
  public:
   void add(std::string symbol, double width_mm, std::string text) {
     entries_.push_back({std::move(symbol), width_mm, std::move(text)});
   }
-  /// What it needs below a drawing, the scale bar above it included.
+  /// Height below a drawing, including the scale bar above the legend.
   double foot_mm(double width_mm) const;
-  /// `top`: where the foot begins.
+  /// `top_mm`: upper edge of the foot.
   std::string svg(double width_mm, double top_mm) const;
 
  private:
@@ -41,7 +42,8 @@ class Legend {
   std::vector<LegendEntry> entries_;
 };
 
-/// Metres of a level to millimetres of paper, +y up, in a round scale, with room for a legend.
+/// Converts metres of a level to millimetres of paper, +y up, in a round scale that leaves room for
+/// a legend.
 class Sheet {
  public:
   Sheet(const Json& assessment, const Schedule& schedule, size_t level, const PlanSize& size,
@@ -50,7 +52,7 @@ class Sheet {
   double y(double metres) const { return border_mm + (high_[1] - metres) * unit_; }
   double mm(double metres) const { return metres * unit_; }
   double width() const { return width_; }
-  /// Of the drawing, and of the foot below it.
+  /// Heights of the drawing and of the foot below it.
   double height() const { return height_; }
   double foot() const { return foot_; }
   double scale() const { return 1000 / unit_; }

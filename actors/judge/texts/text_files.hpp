@@ -1,4 +1,4 @@
-// The files of texts, which CMake puts into the program (text_files.cpp.in). Constant data; any
+// The files of texts, embedded in the program by CMake (text_files.cpp.in). Constant data; any
 // thread.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace luxodus {
 
-/// The text of en.toml, de.toml or fr.toml.
+/// The content of en.toml, de.toml or fr.toml.
 std::string_view text_file(Language language);
 
 }  // namespace luxodus

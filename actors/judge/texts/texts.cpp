@@ -26,7 +26,7 @@ std::map<std::string, std::string, std::less<>> read_texts(Language language) {
   return out;
 }
 
-/// A place of a pattern such as "{1:.2f}": which argument it takes, and in which format.
+/// A placeholder such as "{1:.2f}": the index of its argument and the format.
 struct Place {
   size_t argument = 0;
   std::string format;  // "{}", "{:.2f}"
@@ -116,7 +116,7 @@ std::string Texts::number(double value, int digits) const {
 }
 
 std::string Texts::fixed(double value, int decimals) const {
-  // No "-0.00".
+  // Avoids "-0.00".
   const double step = std::pow(10.0, -decimals);
   return localised(fmt::format("{:.{}f}", std::abs(value) < step / 2 ? 0.0 : value, decimals));
 }

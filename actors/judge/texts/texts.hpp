@@ -1,6 +1,5 @@
-// Every text of assessments, reports and designs in every language that they are written in, by
-// key. Numbers are written in the custom of the language. Names that a scene gives stay as they
-// are. Constant data and pure functions; any thread.
+// Texts of assessments, reports and designs by key and language, with numbers in the format of the
+// language. Names from a scene are not translated. Constant data and pure functions; any thread.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,7 +16,7 @@ namespace luxodus {
 enum class Language { en, de, fr };
 inline constexpr std::array<std::string_view, 3> language_words{"en", "de", "fr"};
 
-/// All texts of a language by key. Read once, from what the program holds.
+/// All texts of a language by key, parsed once from the embedded file.
 const std::map<std::string, std::string, std::less<>>& texts_of(Language language);
 
 class Texts {
@@ -29,29 +28,29 @@ class Texts {
 
   /// Requires: a key of the table (a programmer's mistake throws).
   const char* operator()(std::string_view key) const;
-  /// The text with its places filled in. Requires: as many values as it has places.
+  /// The text with its placeholders filled in. Requires: as many values as placeholders.
   template <class... Values>
   std::string say(std::string_view key, const Values&... values) const {
     return fmt::format(fmt::runtime((*this)(key)), values...);
   }
-  /// A word of a list such as the verdicts ("verdict", "not assessed"); the word itself where the
-  /// list has none: it is a name then.
+  /// A word of a list such as the verdicts ("verdict", "not assessed"). A word that is not in the
+  /// list is a name, and is returned as it is.
   std::string word(std::string_view list, std::string_view word) const;
 
   /// The sentence of a remark.
   std::string remark(const Remark& remark) const;
-  /// The sentences of several, joined.
+  /// The sentences of several remarks, joined.
   std::string remarks(const Remarks& remarks) const;
   /// 'route "corridor"', '"lobby" (first aid)'.
   std::string subject(const Subject& subject) const;
-  /// What a rule asks: "Illuminance on the centre line of an escape route".
+  /// Title of a rule: "Illuminance on the centre line of an escape route".
   std::string rule_title(std::string_view id) const;
   /// "4.2.1", "4.2.1 of 2013".
   std::string clause(const Rule& rule) const;
 
   /// `digits` significant digits with the language's decimal sign: "0.0421", "12,5".
   std::string number(double value, int digits = 3) const;
-  /// So many digits behind the decimal sign: a coordinate.
+  /// A number with this many decimals: a coordinate.
   std::string fixed(double value, int decimals = 2) const;
   /// "(1.00, 8.00, 0.02)"; with semicolons where the comma is the decimal sign.
   std::string place(double x, double y, double z) const;
@@ -63,7 +62,7 @@ class Texts {
   Language language_;
 };
 
-/// The English texts, of which the console and JSON have their sentences.
+/// The English texts, which the console and JSON use.
 inline Texts english() {
   return Texts(Language::en);
 }

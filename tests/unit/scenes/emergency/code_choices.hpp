@@ -1,4 +1,4 @@
-// The rule sets that tests judge by, without deviations.
+// Rule sets without deviations, for tests.
 #pragma once
 
 #include "scenes/emergency/rule_sets.hpp"

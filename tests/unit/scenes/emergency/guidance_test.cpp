@@ -1,4 +1,4 @@
-// Which signs guide on a route, up to when, and how far a walker comes.
+// Tests which signs guide people on a route, until when, and how far a walker gets.
 #include "scenes/emergency/guidance.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,7 +14,7 @@ EscapeRoute route_along(std::vector<glm::dvec3> path) {
   return route;
 }
 
-/// At `centre`, its face towards `facing` (level), its top up.
+/// A sign with its centre at `centre`, facing `facing` (horizontal), its top up.
 Sign sign_at(const glm::dvec3& centre, const glm::dvec3& facing, SignArrow arrow) {
   Sign sign;
   sign.name = "exit";
@@ -35,7 +35,8 @@ bool guides(const EscapeRoute& route, const Walker& walker, const Sign& sign) {
   return can_guide(route, walker, sign, view_of_sign(sign, walker.foot + glm::dvec3(0, 0, 1.65)));
 }
 
-/// Rows of letters, one a time from 0 s in steps of 10 s: g guided, u undecided, else not guided.
+/// Each row is one state, from 0 s in steps of 10 s, with a letter for each place: g guided, u
+/// undecided, any other letter not guided.
 GuidedRoute table(std::vector<std::string> rows) {
   GuidedRoute out;
   for (size_t t = 0; t < rows.size(); ++t) {
@@ -55,7 +56,7 @@ GuidedRoute table(std::vector<std::string> rows) {
 
 }  // namespace
 
-TEST_CASE("states begin at from and end at to", "[emergency][guidance]") {
+TEST_CASE("the states of a scene begin at from and end at to", "[emergency][guidance]") {
   TimeSettings time;
   time.from_s = 10, time.to_s = 40, time.step_s = 10;
   CHECK(times_of(time) == std::vector<double>{10, 20, 30, 40});
@@ -67,8 +68,9 @@ TEST_CASE("states begin at from and end at to", "[emergency][guidance]") {
   CHECK(times_of(time).size() == 11);
 }
 
-TEST_CASE("a sign at the end of a route guides all who see it ahead, if it leads to this route",
-          "[emergency][guidance]") {
+TEST_CASE(
+    "a sign at the end of a route guides everybody who has it ahead, if it leads to this route",
+    "[emergency][guidance]") {
   const EscapeRoute route = route_along({{0, 0, 0}, {10, 0, 0}});
   const Walker walker = walker_at({2, 0, 0}, {1, 0, 0}, 2);
   Sign sign = sign_at({10, 0, 2.2}, {-1, 0, 0}, SignArrow::ahead);
@@ -79,8 +81,8 @@ TEST_CASE("a sign at the end of a route guides all who see it ahead, if it leads
   CHECK_FALSE(guides(route, walker, sign));
 }
 
-TEST_CASE("an arrow against the way does not guide", "[emergency][guidance]") {
-  // Reader and walker look east; the route turns north, to the reader's left.
+TEST_CASE("a sign whose arrow points against the route does not guide", "[emergency][guidance]") {
+  // The walker looks east; the route turns north, to the walker's left.
   const EscapeRoute route = route_along({{0, 0, 0}, {10, 0, 0}, {10, 8, 0}});
   const Walker walker = walker_at({2, 0, 0}, {1, 0, 0}, 2);
   CHECK(guides(route, walker, sign_at({10.8, 0, 2.2}, {-1, 0, 0}, SignArrow::left)));
@@ -88,29 +90,30 @@ TEST_CASE("an arrow against the way does not guide", "[emergency][guidance]") {
   CHECK_FALSE(guides(route, walker, sign_at({10.8, 0, 2.2}, {-1, 0, 0}, SignArrow::ahead)));
 }
 
-TEST_CASE("a sign aside of the way guides within 60 degrees, and none that is passed",
+TEST_CASE("a sign beside a route guides within 60 degrees, and no longer once it is passed",
           "[emergency][guidance]") {
   const EscapeRoute route = route_along({{0, 0, 0}, {20, 0, 0}});
   const Sign sign = sign_at({10, 3, 2.2}, {-1, 0, 0}, SignArrow::ahead);
   CHECK(guides(route, walker_at({8, 0, 0}, {1, 0, 0}, 8), sign));            // 56 degrees
   CHECK_FALSE(guides(route, walker_at({8.5, 0, 0}, {1, 0, 0}, 8.5), sign));  // 63 degrees
-  // A way that comes back: the sign stands by its first leg, the walker on its last.
+  // A route that turns back: the sign stands by its first leg, the walker is on its last.
   const EscapeRoute back = route_along({{0, 0, 0}, {10, 0, 0}, {10, 4, 0}, {0, 4, 0}});
   const Sign by_first = sign_at({2, 0, 2.2}, {1, 0, 0}, SignArrow::ahead);
   CHECK_FALSE(guides(back, walker_at({8, 4, 0}, {-1, 0, 0}, 16), by_first));
 }
 
-TEST_CASE("the back of a double-sided sign keeps left and right in the room, and turns ahead round",
+TEST_CASE("the back of a double-sided sign keeps left and right in the room and turns ahead round",
           "[emergency][guidance]") {
   const Sign sign = sign_at({5, 0, 2.4}, {-1, 0, 0}, SignArrow::ahead);
   CHECK(glm::length(arrow_direction(sign, SignArrow::ahead, false) - glm::dvec3(1, 0, 0)) < 1e-12);
   CHECK(glm::length(arrow_direction(sign, SignArrow::ahead, true) - glm::dvec3(-1, 0, 0)) < 1e-12);
-  // Who looks east has the north to the left.
+  // North is to the left of a person who looks east.
   CHECK(glm::length(arrow_direction(sign, SignArrow::left, false) - glm::dvec3(0, 1, 0)) < 1e-12);
   CHECK(glm::length(arrow_direction(sign, SignArrow::left, true) - glm::dvec3(0, 1, 0)) < 1e-12);
 }
 
-TEST_CASE("a route's time is the last state before the first gap", "[emergency][guidance]") {
+TEST_CASE("the guided time of a route ends at the last state before the first gap",
+          "[emergency][guidance]") {
   const GuidedTime some = guided_time(table({"ggg", "ggg", "gng", "ggg"}));
   CHECK(some.until_s == 10);
   CHECK(some.lost_by_s == 20);
@@ -127,10 +130,12 @@ TEST_CASE("a route's time is the last state before the first gap", "[emergency][
   CHECK_FALSE(always.lost_by_s.has_value());
 }
 
-TEST_CASE("a walker is guided where both states around the time guide", "[emergency][guidance]") {
-  // Places at 0, 5, 10 m; the route is 15 m long. The far end is lost from 20 s on.
+TEST_CASE(
+    "a place guides a walker only if it is guided in the states before and after he passes it",
+    "[emergency][guidance]") {
+  // Places at 0, 5, 10 m; the route is 15 m long. The last place is not guided from 20 s on.
   const GuidedRoute route = table({"ggg", "ggg", "ggn", "gnn"});
-  const Walk in_time = walk(route, 0, 1.5);  // at the end at 10 s, a state's own time
+  const Walk in_time = walk(route, 0, 1.5);  // arrives at 10 s, exactly at a state
   CHECK(in_time.end == Walk::End::arrives);
   CHECK(in_time.at_m == 15);
   CHECK(in_time.at_s == 10);
@@ -138,7 +143,7 @@ TEST_CASE("a walker is guided where both states around the time guide", "[emerge
   CHECK(caught.end == Walk::End::lost);
   CHECK(caught.at_m == 10);
   CHECK(caught.at_s == 10);
-  const Walk late = walk(route, 1, 1);  // at 10 m at 11 s, between a good and a bad state
+  const Walk late = walk(route, 1, 1);  // at 10 m at 11 s, between a guided and an unguided state
   CHECK(late.end == Walk::End::lost);
   CHECK(late.at_m == 10);
   CHECK(late.at_s == 11);
@@ -150,7 +155,7 @@ TEST_CASE("a walker is guided where both states around the time guide", "[emerge
   CHECK(slow.at_m == 5);
 }
 
-TEST_CASE("who sets out later comes no farther where guidance only falls",
+TEST_CASE("if guidance only decreases, a walker who sets out later gets no farther",
           "[emergency][guidance]") {
   const GuidedRoute route = table({"gggg", "gggn", "ggnn", "gnnn", "nnnn"});
   double last = 1e9;

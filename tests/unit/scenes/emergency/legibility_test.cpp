@@ -9,7 +9,7 @@ using namespace luxodus;
 
 namespace {
 
-/// 0.3 m by 0.15 m, half white, half green, details of 15 mm, seen square on.
+/// 0.3 m by 0.15 m, half white, half green, details of 15 mm, seen along its normal.
 Sign two_coloured() {
   Sign sign;
   sign.width_m = 0.3;
@@ -21,7 +21,7 @@ Sign two_coloured() {
   return sign;
 }
 
-/// In clear air: white 50, green 10, wall 1 cd/m2.
+/// Clear air: white 50, green 10, wall 1 cd/m2.
 SignLook clear() {
   SignLook look;
   look.legend = {50, 0.1};
@@ -39,7 +39,7 @@ Sight judged_at(double distance_m, const SignLook& look, SightRules rules = {}) 
 
 }  // namespace
 
-TEST_CASE("a bright sign is read from near, seen from far, and lost behind smoke",
+TEST_CASE("a bright sign is read nearby, seen from far away, and lost behind smoke",
           "[emergency][legibility]") {
   CHECK(judged_at(10, clear()).verdict == SightVerdict::legible);
   CHECK(judged_at(300, clear()).verdict == SightVerdict::visible);
@@ -53,11 +53,12 @@ TEST_CASE("a bright sign is read from near, seen from far, and lost behind smoke
   CHECK_FALSE(lost.jin_legible);
 }
 
-TEST_CASE("what chance may have made is undecided", "[emergency][legibility]") {
+TEST_CASE("a sign within two standard errors of its limit is undecided",
+          "[emergency][legibility]") {
   SignLook noisy = clear();
   const Sight sure = judged_at(10, noisy);
   REQUIRE(sure.reading_level.value > level_read);
-  // So much noise that two standard errors reach down to the limit.
+  // The noise is so large that two standard errors reach the limit.
   noisy.difference.error =
       0.6 * 40 * (sure.reading_level.value - level_read) / sure.reading_level.value;
   const Sight unsure = judged_at(10, noisy);
@@ -65,8 +66,9 @@ TEST_CASE("what chance may have made is undecided", "[emergency][legibility]") {
   CHECK(unsure.reason);
 }
 
-TEST_CASE("what may be read is what is read, or what chance leaves open",
-          "[emergency][legibility]") {
+TEST_CASE(
+    "a sign may be read if it is legible, or if the verdict is undecided and leaves reading open",
+    "[emergency][legibility]") {
   Sight sight;
   sight.reading_level = {level_read, 0.5};
   for (const auto& [verdict, may] : {std::pair{SightVerdict::legible, true},
@@ -76,13 +78,13 @@ TEST_CASE("what may be read is what is read, or what chance leaves open",
     sight.verdict = verdict;
     CHECK(may_be_read(sight) == may);
   }
-  // Open is whether it is seen at all.
+  // Undecided is only whether the sign is seen at all.
   sight.verdict = SightVerdict::undecided;
   sight.reading_level = {1, 0.5};
   CHECK_FALSE(may_be_read(sight));
 }
 
-TEST_CASE("what errs alike in two lights is no error of what they differ by",
+TEST_CASE("an error that two lights share is not counted in the difference of their levels",
           "[emergency][legibility]") {
   const Sign sign = two_coloured();
   const SignView view = view_of_sign(sign, {0, 0, 30});
@@ -90,7 +92,7 @@ TEST_CASE("what errs alike in two lights is no error of what they differ by",
   first.difference.error = first.ground.error = 2;
   SignLook nothing;
   CHECK(error_of_level_beyond(first, first, nothing, view, {}) == 0);
-  // By itself, what differs errs as it would in one light.
+  // An error of the difference alone has the same effect as in one light.
   SignLook beyond;
   beyond.difference.error = 0.5;
   first.difference.error = first.ground.error = 0;
@@ -98,7 +100,7 @@ TEST_CASE("what errs alike in two lights is no error of what they differ by",
   alone.difference.error = 0.5;
   CHECK(error_of_level_beyond(first, first, beyond, view, {}) ==
         Approx(judge_sight(sign, view, alone, {}).reading_level.error));
-  // A brighter ground is one before which the same difference errs less.
+  // Before a brighter ground the same error of the difference weighs less.
   SignLook other = first;
   other.ground.value += 30;
   first.difference.error = 2;
@@ -108,7 +110,7 @@ TEST_CASE("what errs alike in two lights is no error of what they differ by",
   CHECK(before_other < judge_sight(sign, view, in_first, {}).reading_level.error);
 }
 
-TEST_CASE("a silhouette before a bright wall is seen, though nothing on it can be told apart",
+TEST_CASE("a silhouette before a bright wall is seen, although nothing on it can be distinguished",
           "[emergency][legibility]") {
   SignLook dark = clear();
   dark.legend = dark.ground = dark.face = {0.1, 0.001};
@@ -117,11 +119,11 @@ TEST_CASE("a silhouette before a bright wall is seen, though nothing on it can b
   CHECK(judged_at(10, dark).verdict == SightVerdict::visible);
   dark.surround = {0.1, 0.0001};
   CHECK(judged_at(10, dark).verdict == SightVerdict::invisible);
-  dark.surround = {0.1, 0.3};  // nobody knows
+  dark.surround = {0.1, 0.3};  // too noisy to decide
   CHECK(judged_at(10, dark).verdict == SightVerdict::undecided);
 }
 
-TEST_CASE("glare takes a sign away", "[emergency][legibility]") {
+TEST_CASE("glare makes a legible sign illegible", "[emergency][legibility]") {
   SignLook faint = clear();
   faint.legend = {0.5, 1e-4};
   faint.ground = {0.1, 1e-4};
@@ -131,7 +133,7 @@ TEST_CASE("glare takes a sign away", "[emergency][legibility]") {
   CHECK(judged_at(10, faint).reading_level.value < before / 10);
 }
 
-TEST_CASE("hidden signs, half-hidden ones and faces of one colour get no verdict of sight",
+TEST_CASE("hidden signs, half-hidden signs and faces of one colour get no verdict on legibility",
           "[emergency][legibility]") {
   SignLook look = clear();
   look.visible_share = 0;
@@ -145,7 +147,7 @@ TEST_CASE("hidden signs, half-hidden ones and faces of one colour get no verdict
   CHECK(sight.verdict == SightVerdict::not_assessed);
 }
 
-TEST_CASE("irritant smoke caps what optics would allow", "[emergency][legibility]") {
+TEST_CASE("irritant smoke limits what light alone would allow", "[emergency][legibility]") {
   SignLook look = clear();
   look.transmission = 0.01;  // over 8 m: 0.576/m
   CHECK(judged_at(8, look).verdict == SightVerdict::legible);
@@ -155,22 +157,21 @@ TEST_CASE("irritant smoke caps what optics would allow", "[emergency][legibility
   CHECK(stung.verdict == SightVerdict::visible);
   CHECK(stung.reason == remark(RemarkId::irritant_smoke));
   CHECK(judged_at(6, look, {{65}, true}).verdict != SightVerdict::undecided);
-  // What light leaves open is not read there either.
+  // A sign that is undecided by its light is not read there either.
   look.difference.error = 20;
   REQUIRE(judged_at(8, look).verdict == SightVerdict::undecided);
   CHECK(may_be_read(judged_at(8, look)));
   CHECK_FALSE(may_be_read(judged_at(8, look, {{65}, true})));
 }
 
-TEST_CASE("of two verdicts on a view that which is or may be worse counts",
-          "[emergency][legibility]") {
+TEST_CASE("the verdict on a view that is worse or may be worse counts", "[emergency][legibility]") {
   const auto sight = [](SightVerdict verdict, double seeing) {
     Sight out;
     out.verdict = verdict;
     out.seeing_level = {seeing, 0.1};
     return out;
   };
-  // From the best to the worst.
+  // Verdicts from the best to the worst.
   const std::vector<Sight> order{
       sight(SightVerdict::legible, 50),     sight(SightVerdict::undecided, 50),
       sight(SightVerdict::visible, 50),     sight(SightVerdict::undecided, 1.1),

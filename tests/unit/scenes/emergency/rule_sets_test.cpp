@@ -1,4 +1,5 @@
-// Rule sets are named, each is whole, and none takes over what another country asks.
+// Tests that the user names rule sets, that each set is complete, and that none contains
+// requirements of another country.
 #include "scenes/emergency/rule_sets.hpp"
 
 #include <catch2/catch.hpp>
@@ -13,8 +14,8 @@ using namespace luxodus;
 
 namespace {
 
-/// A route and an area under two luminaires that say how they come on, a bench, an exit sign, a
-/// hose: something for every rule.
+/// A route and an area under two luminaires with stated onset, a bench, an exit sign, a hose: at
+/// least one subject for every rule.
 SceneDescription building() {
   SceneDescription scene;
   EscapeRoute route;
@@ -60,7 +61,7 @@ SceneDescription building() {
   return scene;
 }
 
-/// Everywhere 0.8 lx at the end, of equal parts.
+/// 0.8 lx everywhere at the end of the duration, half from each luminaire.
 std::vector<LitPoint> points() {
   return {{{0, 0, 0.02}, {0.4, 0.4}}, {{10, 0, 0.02}, {0.4, 0.4}}};
 }
@@ -107,7 +108,7 @@ CodeChoice with(CodeChoice codes, Deviation deviation) {
 
 }  // namespace
 
-TEST_CASE("no rule set is assumed: without a name all are listed", "[emergency][rules]") {
+TEST_CASE("no rule set is assumed, and without a name the error lists all", "[emergency][rules]") {
   const auto none = chosen_codes({}, {});
   REQUIRE_FALSE(none.ok());
   for (const NamedRules& set : rule_sets())
@@ -122,7 +123,8 @@ TEST_CASE("no rule set is assumed: without a name all are listed", "[emergency][
   CHECK(twice.value()[0].set == RuleSet::en1838_2024);
 }
 
-TEST_CASE("a deviation goes with the sets that it deviates from", "[emergency][rules]") {
+TEST_CASE("a deviation is accepted only with the sets that it deviates from",
+          "[emergency][rules]") {
   const auto codes = chosen_codes({"en1838-2013", "nfpa101"}, {"us-ibc", "de-asr-a3.4-3"});
   REQUIRE(codes.ok());
   CHECK(codes.value()[0].has(Deviation::de_asr));
@@ -132,7 +134,8 @@ TEST_CASE("a deviation goes with the sets that it deviates from", "[emergency][r
   CHECK_FALSE(chosen_codes({"en1838-2013"}, {"de"}).ok());
 }
 
-TEST_CASE("what one country asks does not stand in the report of another", "[emergency][rules]") {
+TEST_CASE("requirements of one country do not appear in the report of another",
+          "[emergency][rules]") {
   for (const CodeChoice& codes : {en13, en24}) {
     for (const Check& check : report(codes)) {
       INFO(name_of(check.rule.id) << " " << check.rule.edition);
@@ -149,7 +152,7 @@ TEST_CASE("what one country asks does not stand in the report of another", "[eme
   }
 }
 
-TEST_CASE("the rules of 2024 are whole, and say what they take over from 2013",
+TEST_CASE("the rule set of 2024 is complete, and its rules say if they are taken over from 2013",
           "[emergency][rules]") {
   auto expected = ids(report(en13));
   expected.erase("E1");
@@ -159,7 +162,7 @@ TEST_CASE("the rules of 2024 are whole, and say what they take over from 2013",
   CHECK(ids(now) == expected);
   for (const Check& check : now) {
     INFO(name_of(check.rule.id));
-    if (check.rule.id == RuleId::S8) continue;  // of ISO 3864-4
+    if (check.rule.id == RuleId::S8) continue;  // from ISO 3864-4
     CHECK(check.rule.edition == "EN 1838:2024");
     CHECK(check.rule.status ==
           remark(check.rule.id == RuleId::E5 ? RemarkId::not_verified : RemarkId::carried_over));
@@ -167,7 +170,8 @@ TEST_CASE("the rules of 2024 are whole, and say what they take over from 2013",
   CHECK(set_of(report(en13), "E4").rule.status == remark(RemarkId::superseded));
 }
 
-TEST_CASE("each deviation changes a limit or adds a check, with its source", "[emergency][rules]") {
+TEST_CASE("each deviation changes a limit or adds a check, and names its source",
+          "[emergency][rules]") {
   const auto lacks = ids(report(en24));
   CHECK_FALSE(lacks.contains("S5"));
   CHECK_FALSE(lacks.contains("E10g"));
@@ -180,7 +184,7 @@ TEST_CASE("each deviation changes a limit or adds a check, with its source", "[e
         Remarks{remark(RemarkId::source_named, "messefrankfurt")});
   CHECK(set_of(german, "E10g").rule.deviation == "de-asr-a3.4-3");
   const auto din = report(with(en24, Deviation::de_din_4844));
-  CHECK(set_of(din, "S5").verdict == CheckVerdict::fail);  // 400 of 500 cd/m2
+  CHECK(set_of(din, "S5").verdict == CheckVerdict::fail);
   CHECK(*set_of(report(en24), "E11").limit == 1);
   const auto long_lived = report(with(en24, Deviation::duration_3h));
   CHECK(*set_of(long_lived, "E11n").limit == 3);
@@ -189,7 +193,7 @@ TEST_CASE("each deviation changes a limit or adds a check, with its source", "[e
   CHECK(*set_of(british, "E11u").limit == 3);
   CHECK(set_of(british, "E6").verdict == CheckVerdict::pass);  // 0.8 lx of 0.5 lx
   CHECK(*set_of(british, "E6k").limit == 1);
-  // NFPA asks for a mean of 6.5 lx at the end, IBC for 6 lx; both for a least of theirs.
+  // NFPA requires a mean of 6.5 lx at the end, the IBC 6 lx; each also requires a smallest value.
   const auto ibc = report(with(nfpa, Deviation::us_ibc));
   CHECK(*set_of(report(nfpa), "N2").limit == 6.5);
   CHECK(*set_of(ibc, "I2").limit == 6);
@@ -202,7 +206,8 @@ TEST_CASE("each deviation changes a limit or adds a check, with its source", "[e
   CHECK(set_of(hospital, "N4").verdict == CheckVerdict::fail);
 }
 
-TEST_CASE("a limit that was read nowhere neither passes nor fails a check", "[emergency][rules]") {
+TEST_CASE("a check against a limit that was found in no source neither passes nor fails",
+          "[emergency][rules]") {
   Rule rule = rule_of(RuleId::S6a, en13);
   CHECK(rule.recollected());
   for (const double value : {10.0, 30.0}) {

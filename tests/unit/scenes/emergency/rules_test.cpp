@@ -1,4 +1,4 @@
-// Rules on values that are put in: what passes, what fails, where it is worst.
+// Tests the rules with given values: what passes, what fails, and where the worst place is.
 #include "scenes/emergency/rules.hpp"
 
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ using namespace luxodus;
 
 namespace {
 
-/// The checks of every set, one after the other.
+/// The checks of every rule set, one after the other.
 template <class Checks>
 std::vector<Check> of_all_codes(const Checks& checks) {
   std::vector<Check> out;
@@ -42,7 +42,7 @@ Emitter luminaire(const std::string& name, const glm::dvec3& at, double lumens) 
   return e;
 }
 
-/// A level route 10 m long, two luminaires 2.8 m above it.
+/// A level route of 10 m with two luminaires 2.8 m above it.
 SceneDescription corridor() {
   SceneDescription scene;
   EscapeRoute route;
@@ -74,7 +74,8 @@ Sign sign_of(double white, double green) {
 
 }  // namespace
 
-TEST_CASE("a route passes at 1 lx and 40 to 1, and fails below", "[emergency][rules]") {
+TEST_CASE("a route passes at 1 lx and a diversity of 40, and fails below 1 lx or above 40",
+          "[emergency][rules]") {
   const SceneDescription scene = corridor();
   const EscapeRoute& route = scene.routes.front();
   RouteLight light;
@@ -94,20 +95,20 @@ TEST_CASE("a route passes at 1 lx and 40 to 1, and fails below", "[emergency][ru
   CHECK(of(checks, "E5").verdict == CheckVerdict::pass);
 }
 
-TEST_CASE("at first light is what it was before batteries and lamps have aged",
+TEST_CASE("the initial illuminance is that before batteries and lamps have aged",
           "[emergency][rules]") {
   const SceneDescription scene = corridor();
   RouteLight light;
   light.centre = {at(0, 0.4, 0.4), at(10, 6, 6)};
   const auto checks = checks_of_route(scene, scene.routes.front(), light, nfpa);
   CHECK(*of(checks, "N2").value == Approx((0.8 + 12) / 2));
-  CHECK(*of(checks, "N1").value == Approx(0.8 + 12));  // half is left at the end
+  CHECK(*of(checks, "N1").value == Approx(0.8 + 12));  // half of the flux is left at the end
   CHECK(*of(checks, "N1m").value == Approx(1.6));
   CHECK(of(checks, "N1").verdict == CheckVerdict::pass);
   CHECK(of(checks, "N2").verdict == CheckVerdict::fail);
 }
 
-TEST_CASE("each luminaire fails in turn, and the worst is told", "[emergency][rules]") {
+TEST_CASE("each luminaire fails in turn, and the check names the worst", "[emergency][rules]") {
   const SceneDescription scene = corridor();
   const Check failed =
       check_of_failure(scene, {SubjectKind::route, "corridor"}, {at(0, 5, 0.2), at(10, 0.1, 5)});
@@ -116,21 +117,21 @@ TEST_CASE("each luminaire fails in turn, and the worst is told", "[emergency][ru
   CHECK(failed.conditions == Remarks{remark(RemarkId::luminaire_failed, "b")});
 }
 
-TEST_CASE("wide routes are strips of 2 m at most", "[emergency][rules]") {
+TEST_CASE("wide routes are divided into strips of at most 2 m", "[emergency][rules]") {
   EscapeRoute route = corridor().routes.front();
   route.width_m = 5;
   const RoutePoints points = points_of(route);
   double widest = 0;
   for (const glm::dvec3& p : points.centre) widest = std::max(widest, std::abs(p.y));
-  CHECK(widest == Approx(5.0 / 3));  // three strips, of which the middle one is the centre
+  CHECK(widest == Approx(5.0 / 3));  // three strips, the middle one on the centre line
   double edge = 0;
   for (const glm::dvec3& p : points.inner) edge = std::max(edge, std::abs(p.y));
-  CHECK(edge == Approx(2.0));  // all but half a metre each side
+  CHECK(edge == Approx(2.0));  // all but 0.5 m on each side
   route.width_m = 1.6;
   for (const glm::dvec3& p : points_of(route).band) CHECK(std::abs(p.y) <= 0.4 + 1e-9);
 }
 
-TEST_CASE("a place without any light fails beyond all measure, and without luminaires too",
+TEST_CASE("a place without any light fails with infinite diversity, also without luminaires",
           "[emergency][rules]") {
   SceneDescription scene = corridor();
   RouteLight light;
@@ -156,7 +157,7 @@ TEST_CASE("an area too narrow for its borders has no core to assess", "[emergenc
   CHECK(of(lit, "E6").verdict == CheckVerdict::pass);
 }
 
-TEST_CASE("a task needs 15 lx or a tenth of its mains light, whichever is more",
+TEST_CASE("a task area needs 15 lx or a tenth of its mains illuminance, whichever is more",
           "[emergency][rules]") {
   AssessedArea bench;
   bench.mains_lx = 500;
@@ -169,9 +170,10 @@ TEST_CASE("a task needs 15 lx or a tenth of its mains light, whichever is more",
   CHECK(of(checks_of_task_area(corridor(), bench, plane, {}), "E7").verdict == CheckVerdict::pass);
 }
 
-TEST_CASE("glare is judged by the new luminaire's intensity and its height", "[emergency][rules]") {
+TEST_CASE("glare is judged by the intensity of the new luminaire and by its height",
+          "[emergency][rules]") {
   SceneDescription scene = corridor();
-  // 4 pi I lumens when new, half of it at the end.
+  // Flux: 4 pi I when new, half of it at the end.
   const double pi = std::numbers::pi;
   scene.emitters = {luminaire("low", {2, 0, 2.4}, 0.5 * 4 * pi * 501),
                     luminaire("high", {2, 0, 2.6}, 0.5 * 4 * pi * 501)};
@@ -181,11 +183,12 @@ TEST_CASE("glare is judged by the new luminaire's intensity and its height", "[e
   CHECK(checks[0].verdict == CheckVerdict::fail);  // 500 cd below 2.5 m
   CHECK(checks[1].verdict == CheckVerdict::pass);  // 900 cd below 3 m
   CHECK(checks[0].conditions == Remarks{remark(RemarkId::glare_zone)});
-  scene.routes.front().path[1].z = 1;  // no level route any more
+  scene.routes.front().path[1].z = 1;  // no longer a level route
   CHECK(checks_of_glare(scene, {})[0].conditions == Remarks{remark(RemarkId::all_directions)});
 }
 
-TEST_CASE("a spot glares where its cone reaches, a beam where it points", "[emergency][rules]") {
+TEST_CASE("a spot causes glare within its cone, a beam of parallel light only along its direction",
+          "[emergency][rules]") {
   const double pi = std::numbers::pi;
   SceneDescription scene = corridor();
   scene.emitters = {luminaire("spot", {2, 0, 2.4}, 100)};
@@ -193,13 +196,13 @@ TEST_CASE("a spot glares where its cone reaches, a beam where it points", "[emer
   spot.distribution = Distribution::spot;
   spot.spot_inner_deg = 20;
   spot.spot_outer_deg = 40;
-  // Straight down: nothing beyond 40 degrees, so nothing between 60 and 90.
+  // Straight down: no light beyond 40 degrees, so none between 60 and 90.
   CHECK(*checks_of_glare(scene, {})[0].value == 0);
-  // In all directions its axis counts: 200 lm when new over pi ((1 - cos 20) + (1 - cos 40)) sr.
+  // In all directions the axis counts: 200 lm when new over pi ((1 - cos 20) + (1 - cos 40)) sr.
   scene.routes.front().path[1].z = 1;
   const double sr = pi * (2 - std::cos(20 * pi / 180) - std::cos(40 * pi / 180));
   CHECK(*checks_of_glare(scene, {})[0].value == Approx(200 / sr));
-  // Aimed level, its axis lies in the zone.
+  // Aimed horizontally: the axis lies in the zone.
   scene.routes.front().path[1].z = 0;
   spot.frame.axes = glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0));
   CHECK(*checks_of_glare(scene, {})[0].value == Approx(200 / sr));
@@ -209,16 +212,16 @@ TEST_CASE("a spot glares where its cone reaches, a beam where it points", "[emer
   CHECK(checks_of_glare(scene, {})[0].verdict == CheckVerdict::pass);
 }
 
-TEST_CASE("tubes and meshes have the intensity of their surfaces", "[emergency][rules]") {
+TEST_CASE("the intensity of tubes and meshes follows from their surfaces", "[emergency][rules]") {
   const double pi = std::numbers::pi;
   SceneDescription scene = corridor();
   scene.emitters = {luminaire("bare", {2, 0, 2.4}, 100)};
   Emitter& lamp = scene.emitters.front();
   lamp.distribution = Distribution::lambertian;
-  // A tube across the way: flux = pi^2 I, all around it.
+  // A tube across the route: flux = pi^2 I in all directions across it.
   lamp.shape = EmitterShape::tube;
   CHECK(*checks_of_glare(scene, {})[0].value == Approx(200 / (pi * pi)).epsilon(1e-4));
-  // A panel that looks down: I = flux / pi cos, 60 degrees off its axis at most.
+  // A panel that faces down: I = flux / pi cos, at least 60 degrees off its axis in the zone.
   lamp.shape = EmitterShape::mesh;
   lamp.mesh.positions = {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}};
   lamp.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -228,7 +231,8 @@ TEST_CASE("tubes and meshes have the intensity of their surfaces", "[emergency][
   CHECK(checks_of_glare(scene, {})[0].reasons == Remarks{remark(RemarkId::mesh_unhidden)});
 }
 
-TEST_CASE("a luminaire behind a wall is not near, and is named", "[emergency][rules]") {
+TEST_CASE("a luminaire behind a wall does not count as near, and the check names it",
+          "[emergency][rules]") {
   const SceneDescription scene = corridor();
   EmphasisPoint door;
   door.name = "door";
@@ -250,7 +254,7 @@ TEST_CASE("a luminaire behind a wall is not near, and is named", "[emergency][ru
         Approx(std::sqrt(10.0)));
 }
 
-TEST_CASE("bends of routes are points of emphasis, and luminaires are near within 2 m",
+TEST_CASE("bends of routes are points of emphasis, and a luminaire within 2 m is near",
           "[emergency][rules]") {
   SceneDescription scene = corridor();
   scene.routes.front().path = {{0, 0, 0}, {8, 0, 0}, {8, 5, 0}};
@@ -271,7 +275,8 @@ TEST_CASE("bends of routes are points of emphasis, and luminaires are near withi
   CHECK(of(checks, "E13").verdict == CheckVerdict::pass);
 }
 
-TEST_CASE("one number for a colour can fail a sign but never pass it", "[emergency][rules]") {
+TEST_CASE("a single luminance for a colour can fail a sign but never pass it",
+          "[emergency][rules]") {
   SceneDescription scene = corridor();
   auto checks = checks_of_sign(scene, sign_of(90, 12), 0, {}, {});
   CHECK(of(checks, "S1").verdict == CheckVerdict::not_assessed);
@@ -290,7 +295,7 @@ TEST_CASE("one number for a colour can fail a sign but never pass it", "[emergen
   CHECK(of(checks_of_sign(scene, sign_of(200, 12), 0, {}, {}), "S3").verdict == CheckVerdict::fail);
 }
 
-TEST_CASE("low signs stand beside high ones, and letters have their measures",
+TEST_CASE("low signs are not assessed for height, middle heights fail, and letters are measured",
           "[emergency][rules]") {
   const SceneDescription scene = corridor();
   Sign low = sign_of(90, 12);
@@ -312,7 +317,7 @@ TEST_CASE("low signs stand beside high ones, and letters have their measures",
         CheckVerdict::not_assessed);
 }
 
-TEST_CASE("a sign behind the walker is none", "[emergency][rules]") {
+TEST_CASE("a sign behind the walker does not count", "[emergency][rules]") {
   SceneDescription scene = corridor();
   scene.signs = {sign_of(90, 12)};
   scene.signs[0].frame.origin = {-1, 0, 2};
@@ -331,7 +336,7 @@ TEST_CASE("a sign behind the walker is none", "[emergency][rules]") {
   }
 }
 
-TEST_CASE("a route needs a sign near enough everywhere", "[emergency][rules]") {
+TEST_CASE("a route needs a sign within the allowed distance everywhere", "[emergency][rules]") {
   SceneDescription scene = corridor();
   scene.signs = {sign_of(90, 12)};
   scene.signs[0].frame.origin = {20, 0, 2};
@@ -353,7 +358,7 @@ TEST_CASE("a route needs a sign near enough everywhere", "[emergency][rules]") {
   CHECK(of(checks, "N8").verdict == CheckVerdict::fail);
 }
 
-TEST_CASE("light in time is judged where luminaires say how they come on", "[emergency][rules]") {
+TEST_CASE("the onset of light is judged where luminaires state it", "[emergency][rules]") {
   SceneDescription scene = corridor();
   const std::vector<LitPoint> points{at(0, 0.7, 0.7)};
   const EscapeRoute& route = scene.routes.front();
@@ -372,7 +377,7 @@ TEST_CASE("light in time is judged where luminaires say how they come on", "[eme
   CHECK(of(checks, "E10f").verdict == CheckVerdict::pass);
   CHECK(of(checks, "N5").verdict == CheckVerdict::pass);
   CHECK(of(checks_beyond(scene, en13), "E10").subject == Subject{SubjectKind::all_signs});
-  // What does not say it counts as dark: without it there is too little to tell.
+  // A luminaire without onset counts as dark: without it there is too little light for a verdict.
   scene.emitters[1].onset.clear();
   checks = of_route(en13);
   CHECK(of(checks, "E10f").verdict == CheckVerdict::not_assessed);
@@ -385,11 +390,11 @@ TEST_CASE("light in time is judged where luminaires say how they come on", "[eme
   CHECK(*of(checks_of_task_area(corridor(), bench, plane, {}), "E7").value == 80);
   scene.emitters[0].onset = {{0, 0.5}, {0.5, 1}};
   const auto task = checks_of_task_area(scene, bench, plane, {});
-  CHECK(of(task, "E10t").verdict == CheckVerdict::not_verified);  // 0.5 s was read nowhere
+  CHECK(of(task, "E10t").verdict == CheckVerdict::not_verified);  // 0.5 s was found in no source
   CHECK(*of(task, "E10t").value == 40);
 }
 
-TEST_CASE("what a scene says nothing of is never a pass", "[emergency][rules]") {
+TEST_CASE("a rule for which the scene states too little never passes", "[emergency][rules]") {
   const auto checks =
       of_all_codes([](const CodeChoice& codes) { return checks_beyond(corridor(), codes); });
   CHECK_FALSE(checks.empty());
@@ -402,8 +407,9 @@ TEST_CASE("what a scene says nothing of is never a pass", "[emergency][rules]") 
         "no check could be made, " + std::to_string(checks.size()) + " not assessed");
 }
 
-TEST_CASE("signs lit from outside are judged by what falls on them, and glowing ones never pass",
-          "[emergency][rules]") {
+TEST_CASE(
+    "externally lit signs are judged by the light on them, and photoluminescent ones never pass",
+    "[emergency][rules]") {
   SceneDescription scene = corridor();
   Sign lit = sign_of(0, 0);
   lit.lighting = SignLighting::external;
@@ -413,7 +419,7 @@ TEST_CASE("signs lit from outside are judged by what falls on them, and glowing 
   CHECK(of(dim, "S1").verdict == CheckVerdict::fail);
   CHECK(*of(dim, "S1").value == Approx(60 * 0.15 / std::numbers::pi));  // Lambert
   CHECK(*of(dim, "S3").value == Approx(5));
-  // One number says nothing of the dimmest place.
+  // A mean does not show how dim the dimmest place is.
   CHECK(of(checks_of_sign(scene, lit, 300, {}, en13), "S1").verdict == CheckVerdict::not_assessed);
   lit.white_reflectance = Spectrum::constant(0.1);
   CHECK(of(checks_of_sign(scene, lit, 60, {}, en13), "S3").verdict == CheckVerdict::fail);
@@ -422,7 +428,8 @@ TEST_CASE("signs lit from outside are judged by what falls on them, and glowing 
   CHECK(of(checks_of_sign(scene, glow, 0, {}, en13), "S1").verdict == CheckVerdict::not_assessed);
 }
 
-TEST_CASE("a luminaire on another storey is not near, and is named", "[emergency][rules]") {
+TEST_CASE("a luminaire on another storey does not count as near, and the check names it",
+          "[emergency][rules]") {
   SceneDescription scene = corridor();
   EscapeRoute upper = scene.routes.front();
   upper.name = "gallery";
@@ -437,7 +444,7 @@ TEST_CASE("a luminaire on another storey is not near, and is named", "[emergency
   CHECK(check.reasons.back() == remark(RemarkId::other_storey, "above", 1.5));
 }
 
-TEST_CASE("luminaires hang 2 m above the floor that is met below them", "[emergency][rules]") {
+TEST_CASE("luminaires must hang 2 m above the floor below them", "[emergency][rules]") {
   const SceneDescription scene = corridor();
   for (const Check& check : checks_of_height(scene, en13)) {
     CHECK(check.verdict == CheckVerdict::pass);
@@ -445,13 +452,14 @@ TEST_CASE("luminaires hang 2 m above the floor that is met below them", "[emerge
   }
   const FloorUnder gallery = [](const glm::dvec3&) { return std::optional(1.0); };
   CHECK(of(checks_of_height(scene, en13, gallery), "E14").verdict == CheckVerdict::fail);
-  // Glare: 200 lm new, the same to all sides, is 15.9 cd; the limit is that of the true height.
+  // Glare: 200 lm when new, the same in all directions, is 15.9 cd; the limit is that of the true
+  // height.
   CHECK(*of(checks_of_glare(scene, en13), "E8").limit == 900);
   CHECK(*of(checks_of_glare(scene, en13, gallery), "E8").limit == 500);
   CHECK(checks_of_height(scene, nfpa).empty());
 }
 
-TEST_CASE("a code that knows no areas says so, and what a scene does not name is not assessed",
+TEST_CASE("a code without rules for areas says so, and rules for unnamed things are not assessed",
           "[emergency][rules]") {
   SceneDescription scene = corridor();
   const AssessedArea hall{"hall", {}, {{0, 0}, {4, 0}, {4, 4}, {0, 4}}, 0, 0, ""};

@@ -12,7 +12,7 @@ using namespace luxodus;
 
 namespace {
 
-/// 0.4 m by 0.2 m in the xz plane at the origin, looking along +y (so x of the sign is -x).
+/// 0.4 m by 0.2 m in the xz plane at the origin, facing +y (so x of the sign is -x).
 Sign facing_y() {
   Sign sign;
   sign.frame.axes = glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0));
@@ -32,7 +32,8 @@ const std::vector<glm::dvec2> decay_like_1_over_t{{60, 1.0}, {600, 0.1}, {6000, 
 
 }  // namespace
 
-TEST_CASE("a sign seen square on has the angular size of its edges", "[emergency][geometry]") {
+TEST_CASE("a sign seen along its normal has the angular size of its edges",
+          "[emergency][geometry]") {
   const SignView view = view_of_sign(facing_y(), {0, 10, 0});
   CHECK_FALSE(view.behind);
   CHECK_FALSE(view.back_face);
@@ -43,14 +44,14 @@ TEST_CASE("a sign seen square on has the angular size of its edges", "[emergency
   CHECK(view.detail_arcmin == Approx(arcmin_of(0.01, 10)));
 }
 
-TEST_CASE("a sign at the end of its viewing distance is as large as the factor says",
+TEST_CASE("at its viewing distance a sign has the angular size of one over the factor",
           "[emergency][geometry]") {
   // 1/200 is 17.2 arcmin, 1/100 is 34.4 arcmin.
   CHECK(view_of_sign(facing_y(), {0, 40, 0}).height_arcmin == Approx(17.19).epsilon(1e-3));
   CHECK(view_of_sign(facing_y(), {0, 20, 0}).height_arcmin == Approx(34.38).epsilon(1e-3));
 }
 
-TEST_CASE("a sign seen aslant shrinks by the cosine in the plane of the tilt only",
+TEST_CASE("an oblique view shortens a sign by the cosine, in the plane of the tilt only",
           "[emergency][geometry]") {
   const double far_m = 1000, angle = std::numbers::pi / 3;
   const SignView view =
@@ -61,7 +62,7 @@ TEST_CASE("a sign seen aslant shrinks by the cosine in the plane of the tilt onl
   CHECK(view.detail_arcmin == Approx(arcmin_of(0.005, far_m)).epsilon(1e-6));
 }
 
-TEST_CASE("a sign seen from behind or edge-on shows nothing", "[emergency][geometry]") {
+TEST_CASE("a sign seen from behind or edge-on has no angular size", "[emergency][geometry]") {
   for (const glm::dvec3& eye : {glm::dvec3(0, -5, 0), glm::dvec3(5, 0, 0)}) {
     const SignView view = view_of_sign(facing_y(), eye);
     CHECK(view.behind);
@@ -72,7 +73,7 @@ TEST_CASE("a sign seen from behind or edge-on shows nothing", "[emergency][geome
 }
 
 TEST_CASE(
-    "a double-sided sign shows its second face to who stands behind, not to who stands beside",
+    "a double-sided sign shows its second face to people behind it, and none to people beside it",
     "[emergency][geometry]") {
   Sign sign = facing_y();
   sign.double_sided = true;
@@ -88,8 +89,9 @@ TEST_CASE(
   CHECK_FALSE(view_of_sign(sign, {0, 10, 0}).back_face);
 }
 
-TEST_CASE("the viewing distance is height times 200 or 100, less the cosine aslant",
-          "[emergency][geometry]") {
+TEST_CASE(
+    "the viewing distance is the height times 200 or 100, times the cosine in an oblique view",
+    "[emergency][geometry]") {
   Sign sign = facing_y();
   const auto rule_at = [&](const glm::dvec3& eye) {
     return viewing_distance(sign, view_of_sign(sign, eye));
@@ -113,15 +115,15 @@ TEST_CASE("decay between points follows a power of time exactly", "[emergency][d
     CHECK(decay_share(decay_like_1_over_t, t) == Approx(60 / t));
 }
 
-TEST_CASE("decay holds its first share before the table and goes on as a power after it",
+TEST_CASE("decay keeps its first share before the table and continues as a power of time after it",
           "[emergency][decay]") {
   CHECK(decay_share(decay_like_1_over_t, 0) == 1);
   CHECK(decay_share(decay_like_1_over_t, 60) == 1);
   CHECK(decay_share(decay_like_1_over_t, 60000) == Approx(0.001));
-  CHECK(decay_share({{10, 0.5}, {20, 0.8}}, 40) == 0.8);  // never rising beyond
+  CHECK(decay_share({{10, 0.5}, {20, 0.8}}, 40) == 0.8);  // never rises after the table
 }
 
-TEST_CASE("decay with time 0 or share 0 is linear there and never negative", "[emergency][decay]") {
+TEST_CASE("decay is linear at time 0 and at share 0, and never negative", "[emergency][decay]") {
   const std::vector<glm::dvec2> decay{{0, 1}, {10, 0.5}, {20, 0}};
   CHECK(decay_share(decay, 0) == 1);
   CHECK(decay_share(decay, 5) == Approx(0.75));
@@ -131,8 +133,9 @@ TEST_CASE("decay with time 0 or share 0 is linear there and never negative", "[e
   CHECK(decay_share({{5, 0.3}}, 100) == 0.3);
 }
 
-TEST_CASE("each operating state has its luminance, and a dark one leaves photoluminescence alone",
-          "[emergency][luminance]") {
+TEST_CASE(
+    "each operating state has its luminance, and dark operation leaves photoluminescence only",
+    "[emergency][luminance]") {
   Sign sign = facing_y();
   const auto white = [&](Operation operation, double seconds = 0) {
     return sign_luminance(sign, SignColour::white, operation, seconds, 1.0);
@@ -144,7 +147,7 @@ TEST_CASE("each operating state has its luminance, and a dark one leaves photolu
   CHECK(sign_luminance(sign, SignColour::other, Operation::mains, 0, 1) == 0);
 
   sign.decay = decay_like_1_over_t;
-  CHECK(white(Operation::emergency, 600) == 100);  // lit from within: the table has no say
+  CHECK(white(Operation::emergency, 600) == 100);  // lit from within: the decay table is not used
   sign.lighting = SignLighting::photoluminescent;
   CHECK(white(Operation::mains, 600) == 500);
   CHECK(white(Operation::emergency, 600) == Approx(10));
@@ -154,8 +157,9 @@ TEST_CASE("each operating state has its luminance, and a dark one leaves photolu
   CHECK(white(Operation::mains) == 0);
 }
 
-TEST_CASE("luminance falls with the cosine to the sign's exponent, and none goes backwards",
-          "[emergency][luminance]") {
+TEST_CASE(
+    "luminance follows the cosine to the sign's exponent, and no light leaves a face backwards",
+    "[emergency][luminance]") {
   Sign sign = facing_y();
   const auto white = [&](double cosine) {
     return sign_luminance(sign, SignColour::white, Operation::mains, 0, cosine);
@@ -191,24 +195,26 @@ TEST_CASE("a face's flux is the integral of its luminance over area and half spa
   }
 }
 
-TEST_CASE("on the plan a sign is as far as its foot, and turned away by its angle from above",
-          "[emergency][geometry]") {
+TEST_CASE(
+    "in plan the distance to a sign is horizontal, and the angle of view is that seen from above",
+    "[emergency][geometry]") {
   const Sign sign = facing_y();  // at the origin
   const glm::dvec3 eye(3, 4, -1.5);
   const PlanLine line = plan_line(view_of_sign(sign, eye), eye);
   CHECK(line.to.z == eye.z);
   CHECK(line.distance_m == Approx(5).margin(1e-3));
   CHECK(line.cosine == Approx(0.8));
-  CHECK(line.to.y == Approx(1e-3));  // before the wall that it hangs on
+  CHECK(line.to.y == Approx(1e-3));  // just in front of the wall that it hangs on
   const glm::dvec3 behind(0, -4, 0);
   CHECK(plan_line(view_of_sign(sign, behind), behind).cosine == 0);
-  // A sign under the ceiling is seen from all around.
+  // A sign that lies flat under the ceiling is seen from all directions.
   Sign flat = sign;
   flat.frame.axes = glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
   CHECK(plan_line(view_of_sign(flat, eye), eye).cosine == 1);
 }
 
-TEST_CASE("the line-of-sight method takes C/K up to 30 m, and less aslant", "[emergency]") {
+TEST_CASE("the line-of-sight method gives C/K up to 30 m, and less in an oblique view",
+          "[emergency]") {
   CHECK(line_of_sight_distance_m(8, 0, 1) == 30);
   CHECK(line_of_sight_distance_m(8, 0.1, 1) == 30);
   CHECK(line_of_sight_distance_m(3, 1, 0.5) == Approx(1.5));

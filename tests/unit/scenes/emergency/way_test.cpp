@@ -16,7 +16,8 @@ EscapeRoute bent() {
 
 }  // namespace
 
-TEST_CASE("points of a line are evenly apart, ends included, corners once", "[emergency][way]") {
+TEST_CASE("points on a line are evenly spaced, include the ends, and contain each corner once",
+          "[emergency][way]") {
   const EscapeRoute route = bent();
   CHECK(length_of(route) == Approx(7));
   CHECK(is_level(route));
@@ -25,18 +26,18 @@ TEST_CASE("points of a line are evenly apart, ends included, corners once", "[em
   CHECK(points.front() == glm::dvec3(0, 0, 0));
   CHECK(points.back() == glm::dvec3(4, 3, 0));
   const auto left = along(route, 0.5, 10);
-  REQUIRE(left.size() == 4);  // both ends of both legs: they do not meet
+  REQUIRE(left.size() == 4);  // both ends of both legs, which do not meet
   CHECK(left[0] == glm::dvec3(0, 0.5, 0));
   CHECK(left[2] == glm::dvec3(3.5, 0, 0));
 }
 
-TEST_CASE("a ramp is no level route", "[emergency][way]") {
+TEST_CASE("a ramp is not a level route", "[emergency][way]") {
   EscapeRoute ramp = bent();
   ramp.path[1].z = 0.5;
   CHECK_FALSE(is_level(ramp));
 }
 
-TEST_CASE("the core of an area keeps its border", "[emergency][way]") {
+TEST_CASE("the core of an area excludes its border", "[emergency][way]") {
   AssessedArea area;
   // An L: 4 m by 4 m without its upper right quarter.
   area.outline = {{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}};
@@ -55,7 +56,7 @@ TEST_CASE("the core of an area keeps its border", "[emergency][way]") {
   CHECK(within(area, 0.5, 0.5).empty());
 }
 
-TEST_CASE("of storeys that are alike the floor just below counts", "[emergency][way]") {
+TEST_CASE("if several storeys lie below a place, the nearest floor counts", "[emergency][way]") {
   SceneDescription scene;
   for (const double z : {3.0, 0.0, 6.0}) {
     EscapeRoute storey;
@@ -68,7 +69,7 @@ TEST_CASE("of storeys that are alike the floor just below counts", "[emergency][
   CHECK(floor_below(scene, {5, 0.2, 8.5}) == 6.0);
 }
 
-TEST_CASE("people walk from the start and look ahead", "[emergency][way]") {
+TEST_CASE("walkers stand along the whole route and look along it", "[emergency][way]") {
   const auto people = walkers(bent(), 2);
   REQUIRE(people.size() == 4);
   CHECK(people[0].ahead == glm::dvec3(1, 0, 0));

@@ -1,4 +1,4 @@
-// A room with one luminaire and one sign, assessed: closed forms where there are, and the page.
+// Assesses a room with one luminaire and one sign, against closed forms, and tests its page.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -25,22 +25,23 @@ const Check& check_of(const Assessment& a, const std::string& id, const std::str
 
 }  // namespace
 
-TEST_CASE("the code mode is direct light at the end of the duration, without smoke or walls",
+TEST_CASE("the code mode is direct light at the end of the duration, without smoke or reflections",
           "[assess]") {
-  // I cos^3 / h^2 of 500 lm x 0.8 x 0.75, 5 m aside, 2.48 m above the plane.
+  // I cos^3 / h^2 for 500 lm x 0.8 x 0.75, 5 m aside, 2.48 m above the plane.
   const double intensity = 300 / (4 * std::numbers::pi), h = 2.5 - 0.02;
   const double expected = intensity * h / std::pow(h * h + 25, 1.5);
   for (const std::string& text : {room, with_smoke(2, 0.3)}) {
     const Assessment a = assessed(text, codes_alone());
     CHECK(*check_of(a, "E1", "without furniture").value == Approx(expected).epsilon(1e-4));
-    // The table's shadow lies on the way.
+    // The shadow of the table falls on the route.
     CHECK(*check_of(a, "E1", "with furniture").value < 1e-9);
     CHECK(check_of(a, "F1", "\"lamp\" has failed").value == 0.0);
     CHECK(a.sights.empty());
   }
 }
 
-TEST_CASE("in absorbing smoke a sign's difference follows Koschmieder's law", "[assess]") {
+TEST_CASE("in absorbing smoke the luminance difference of a sign follows Koschmieder's law",
+          "[assess]") {
   AssessOptions options;
   options.rounds = 1;
   const Assessment a = assessed(with_smoke(0.4, 0), options);
@@ -49,13 +50,13 @@ TEST_CASE("in absorbing smoke a sign's difference follows Koschmieder's law", "[
     const double cosine = std::cos(row.view.angle_deg * std::numbers::pi / 180);
     CHECK(cosine > 0.9);
     CHECK(row.look.transmission == Approx(std::exp(-0.4 * row.view.distance_m)).epsilon(0.01));
-    // 100 - 10 cd/m2 of the sign itself, and the lamp's light on white and green letters.
+    // 100 - 10 cd/m2 of the sign itself, plus the lamp's light on white and green.
     CHECK(row.look.difference.value / row.look.transmission == Approx(90).epsilon(0.02));
     CHECK(row.sight.extinction == Approx(0.4).epsilon(0.02));
   }
 }
 
-TEST_CASE("people stand on routes and in areas, for all of their length and area", "[assess]") {
+TEST_CASE("people on routes and in areas represent their whole length and area", "[assess]") {
   AssessOptions options;
   options.rounds = 1;
   const std::string hall =
@@ -71,10 +72,10 @@ TEST_CASE("people stand on routes and in areas, for all of their length and area
   CHECK(square_metres == Approx(24));
   const auto scene = described_text(room + hall);
   const std::string page = report_html(assessment_json(*scene, a, "1"), {}, "out", {});
-  CHECK(page.find("10\u00a0m, 24\u00a0m²") != std::string::npos);  // all of both is legible
+  CHECK(page.find("10\u00a0m, 24\u00a0m²") != std::string::npos);  // everything is legible
 }
 
-TEST_CASE("thick smoke takes a sign away that clear air shows, and a sweep says where",
+TEST_CASE("a sign is not legible in thick smoke, and a sweep over the density says from where",
           "[assess]") {
   AssessOptions options;
   options.rounds = 2;
@@ -90,7 +91,7 @@ TEST_CASE("thick smoke takes a sign away that clear air shows, and a sweep says 
   CHECK(legible[20] == 0);
 }
 
-TEST_CASE("equal seeds give equal assessments, whatever the threads", "[assess]") {
+TEST_CASE("equal seeds give equal assessments for any number of threads", "[assess]") {
   AssessOptions one, two;
   one.rounds = two.rounds = 1;
   two.threads = 2;
@@ -103,7 +104,7 @@ TEST_CASE("equal seeds give equal assessments, whatever the threads", "[assess]"
   }
 }
 
-TEST_CASE("a route that nobody can walk is named with its line", "[assess]") {
+TEST_CASE("a route outside the building or in a wall is named with its line", "[assess]") {
   const auto broken = [](std::string text, const std::string& from, const std::string& to) {
     text.replace(text.find(from), from.size(), to);
     const auto result = tried(text, codes_alone());
@@ -123,7 +124,7 @@ TEST_CASE("a route that nobody can walk is named with its line", "[assess]") {
 
 namespace {
 
-/// A wall or a closed door across the way at x = 4, without any thickness.
+/// A wall or a closed door across the route at x = 4, without thickness.
 std::string across(const std::string& more) {
   return room + "[[object]]\nname = \"leaf\"\nshape = \"quad\"\n" +
          "corner = [4, -2, 0]\nedge_u = [0, 4, 0]\nedge_v = [0, 0, 3]\nmaterial = \"grey50\"\n" +
@@ -132,8 +133,9 @@ std::string across(const std::string& more) {
 
 }  // namespace
 
-TEST_CASE("a route through a wall is refused, through a closed door told, with both lines",
-          "[assess]") {
+TEST_CASE(
+    "a route through a wall is refused, and one through a closed door is reported, with both lines",
+    "[assess]") {
   const auto refused = tried(across(""), codes_alone());
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.problem().what.find("route \"way\" leads through the wall or body \"leaf\" (") ==
@@ -142,7 +144,7 @@ TEST_CASE("a route through a wall is refused, through a closed door told, with b
   CHECK(refused.problem().where.line > 0);
   const std::string door = "door = { open = false, hinge = [4, -2, 0] }\n";
   const Assessment closed = assessed(across(door), codes_alone());
-  // And what lies behind it is dark.
+  // The part behind the door is dark.
   REQUIRE(closed.warnings.size() == 2);
   CHECK(closed.warnings.front().words.find(
             "route \"way\" leads through the closed door \"leaf\"") == 0);
@@ -152,11 +154,11 @@ TEST_CASE("a route through a wall is refused, through a closed door told, with b
   AssessOptions options = codes_alone();
   const Assessment open = assessed(across("door = { open = true, hinge = [4, -2, 0] }\n"), options);
   CHECK(open.warnings.empty());
-  // A table is walked around.
+  // Routes may pass around a table.
   CHECK(assessed(room, codes_alone()).warnings.empty());
 }
 
-TEST_CASE("a luminaire is near to a point only where a straight line leads to it", "[assess]") {
+TEST_CASE("a luminaire is near to a point only if a free straight line leads to it", "[assess]") {
   const std::string point =
       "[[emphasis]]\nname = \"call\"\nkind = \"call_point\"\nposition = [4.6, 1.9, 1.2]\n"
       "facing = [0, -1, 0]\n";
@@ -173,7 +175,7 @@ TEST_CASE("a luminaire is near to a point only where a straight line leads to it
         "\"lamp\" is 2.36 m away, but behind something solid, or shining elsewhere");
 }
 
-TEST_CASE("a sign that faces a wall is told", "[assess]") {
+TEST_CASE("a sign that faces a wall is reported", "[assess]") {
   std::string text = room;
   const std::string facing = "facing = [-1, 0, 0]";
   text.replace(text.find(facing), facing.size(), "facing = [1, 0, 0]");
@@ -183,7 +185,7 @@ TEST_CASE("a sign that faces a wall is told", "[assess]") {
   CHECK(check_of(a, "S4", "without furniture").verdict == CheckVerdict::fail);
 }
 
-TEST_CASE("an assessment is read back, and a comparison says what has changed", "[assess]") {
+TEST_CASE("an assessment is read back, and a comparison lists what has changed", "[assess]") {
   const test::TemporaryFolder folder;
   AssessOptions options;
   options.rounds = 1;
@@ -204,7 +206,8 @@ TEST_CASE("an assessment is read back, and a comparison says what has changed", 
   CHECK_FALSE(read_assessment(folder / "").ok());
 }
 
-TEST_CASE("tables that an assessment does not have are not those of an earlier one", "[assess]") {
+TEST_CASE("writing an assessment removes tables of an earlier one that it does not have",
+          "[assess]") {
   const test::TemporaryFolder folder;
   const Json made = assessment_json(*described_text(room), assessed(room, codes_alone()), "1");
   const auto exists = [&](const char* file) { return std::filesystem::exists(folder / file); };
@@ -219,7 +222,7 @@ TEST_CASE("tables that an assessment does not have are not those of an earlier o
   CHECK(exists("mine.csv"));
 }
 
-TEST_CASE("the report counts, and never says that a building complies", "[assess]") {
+TEST_CASE("a report counts checks, and never says that a building complies", "[assess]") {
   const auto scene = described_text(room);
   AssessOptions options;
   options.rounds = 1;

@@ -1,4 +1,4 @@
-// A room with one luminaire and one sign, for tests of what an assessment says of it.
+// A room with one luminaire and one sign, for tests of assessments.
 #pragma once
 
 #include <catch2/catch.hpp>

@@ -6,7 +6,7 @@
 
 using namespace luxodus;
 
-TEST_CASE("a check is said without empty brackets, units of nothing, or values that are none",
+TEST_CASE("the line of a check has no empty brackets, and no unit or value that it lacks",
           "[assess]") {
   Json check = {{"subject", subject_json({SubjectKind::route, "stairs"})},
                 {"title", "Largest over smallest illuminance"},

@@ -1,4 +1,4 @@
-// What an assessment says before its verdicts of smoke that a fire simulation has computed.
+// Tests the remarks on smoke that a fire simulation has computed.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -28,7 +28,7 @@ bool warns_of_glare(const AssessedState& state) {
 
 }  // namespace
 
-TEST_CASE("verdicts in the smoke of a fire say that its flames are missing, where they are",
+TEST_CASE("verdicts in simulated smoke say if the flames are missing from the scene",
           "[assess][fds]") {
   Scenario smoky, cleared;
   cleared.media = {{"fire", 0}};

@@ -1,4 +1,4 @@
-// Results by GlobalId, for the program that a model came from.
+// Tests results by GlobalId, which the program of the IFC model imports.
 #include "actors/judge/assess/guid_results.hpp"
 
 #include <catch2/catch.hpp>
@@ -9,7 +9,7 @@ using namespace luxodus;
 
 namespace {
 
-/// An assessment with what this table is made of.
+/// An assessment with the parts that the table is made of.
 Json small_assessment() {
   return {{"luminaires",
            {{{"name", "lamp"},
@@ -37,7 +37,7 @@ Json small_assessment() {
 
 }  // namespace
 
-TEST_CASE("checks, fluxes and views stand by the GlobalId of their thing", "[assess]") {
+TEST_CASE("checks, fluxes and views are listed by the GlobalId of their thing", "[assess]") {
   const auto table = results_by_guid(small_assessment());
   REQUIRE(table);
   CHECK(table->text() ==
@@ -49,7 +49,7 @@ TEST_CASE("checks, fluxes and views stand by the GlobalId of their thing", "[ass
         "\"1 hidden, 1 legible\"\n");
 }
 
-TEST_CASE("without GlobalIds there is no table of them", "[assess]") {
+TEST_CASE("without GlobalIds there is no table of results by GlobalId", "[assess]") {
   Json assessment = small_assessment();
   assessment["luminaires"][0].erase("ifc_guid");
   assessment["signs"][0].erase("ifc_guid");

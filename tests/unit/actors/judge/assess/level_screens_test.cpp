@@ -1,5 +1,5 @@
-// Floor slabs that hide places from each other: never where a ray passes, and always where the
-// geometry is plain; the light of the codes is the same with and without them.
+// Floor slabs hide places from each other: never if a ray passes, always if the geometry is simple.
+// The light of the codes is the same with and without them.
 #include "actors/judge/assess/level_screens.hpp"
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 namespace luxodus {
 namespace {
 
-/// Three slabs of 12 m by 8 m around a stair of 2 m by 2 m, 3 m apart: open at the stair, where
-/// they are made of four boxes. A pane lies in the roof, and luminaires hang under each slab.
+/// Three slabs of 12 m by 8 m, 3 m apart, each made of four boxes around an open stair of 2 m by 2
+/// m. A pane lies in the roof, and luminaires hang under each slab.
 std::string storeys(const char* slab_material) {
   std::string out =
       "[[material]]\nname = \"glass\"\nkind = \"glass\"\n[assessment]\nrules = "
@@ -56,7 +56,7 @@ Bounds box_at(const glm::dvec3& place, double half) {
   return {place - half, place + half};
 }
 
-/// The scene of storeys() with these triangles in place of its second slab's largest part.
+/// The scene of storeys(), with these triangles instead of the largest part of its second slab.
 std::shared_ptr<const SceneDescription> with_level(
     const SceneDescription& scene, const std::vector<std::array<glm::dvec2, 3>>& triangles) {
   auto out = std::make_shared<SceneDescription>(scene);
@@ -73,7 +73,7 @@ std::shared_ptr<const SceneDescription> with_level(
   return out;
 }
 
-/// That the light at places on all storeys is the sum over all luminaires, by rays.
+/// Checks that the light at places on all storeys is the sum over all luminaires by rays.
 void check_light(const SceneDescription& scene) {
   const auto building = building_of(scene);
   std::vector<glm::dvec3> places;
@@ -97,21 +97,21 @@ void check_light(const SceneDescription& scene) {
 
 }  // namespace
 
-TEST_CASE("a slab hides one storey from the next, and the stair in it does not",
+TEST_CASE("a slab hides one storey from the next, except through the stair in it",
           "[assess][screens]") {
   const auto scene = test::described_text(storeys("white50"));
   const LevelScreens screens(building_of(*scene)->scene());
   const glm::dvec3 below(2, 2, 0.02), above(2.5, 2.5, 5.7);
   CHECK(screens.hide(below, box_at(above, 0.1)));
   CHECK(screens.hide(above, box_at(below, 0.01)));
-  // Two storeys away, too.
+  // Two storeys away.
   CHECK(screens.hide(below, box_at({3, 2.5, 8.7}, 0.1)));
-  // On the same storey nothing is between.
+  // Nothing is between places on one storey.
   CHECK_FALSE(screens.hide(below, box_at({10, 4, 2.7}, 0.1)));
   CHECK_FALSE(screens.hide({2, 2, 3.02}, box_at({10, 4, 5.7}, 0.1)));
-  // Through the stair one storey is seen from the next.
+  // Through the stair one storey is visible from the next.
   CHECK_FALSE(screens.hide({6, 4, 0.02}, box_at({6, 4, 5.7}, 0.1)));
-  // Level with each other, and outside of all slabs.
+  // At equal heights, and outside all slabs.
   CHECK_FALSE(screens.hide(below, box_at({6, 2, 0.02}, 0)));
   CHECK_FALSE(screens.hide({-2, 2, 0}, box_at({-2, 2, 5.7}, 0.1)));
 }
@@ -124,7 +124,7 @@ TEST_CASE("glass and open surfaces hide nothing", "[assess][screens]") {
   }
 }
 
-TEST_CASE("no place is said to be hidden that a ray reaches", "[assess][screens]") {
+TEST_CASE("a place that a ray reaches is never reported as hidden", "[assess][screens]") {
   const auto scene = test::described_text(storeys("white50"));
   const auto building = building_of(*scene);
   const LevelScreens screens(building->scene());
@@ -155,10 +155,10 @@ TEST_CASE("no place is said to be hidden that a ray reaches", "[assess][screens]
   CHECK(wrong == 0);
 }
 
-TEST_CASE("triangles that do not reach a cell leave it whole", "[assess][screens]") {
-  // The shortest edges of narrow triangles lie on lines through a cell that the triangles pass by;
-  // then eight triangles that meet in the cell cover the slab. Cut along all these lines, the cell
-  // would have more pieces than are kept, and stay open.
+TEST_CASE("a triangle that does not meet a cell leaves the cell unchanged", "[assess][screens]") {
+  // The shortest edges of narrow triangles lie on lines through a cell that the triangles do not
+  // meet; then eight triangles that meet in the cell cover the slab. If the cell were cut along all
+  // these lines, it would have more pieces than are kept, and would stay open.
   const glm::dvec2 middle(2.55, 4.05);
   std::vector<std::array<glm::dvec2, 3>> triangles;
   for (int i = 0; i < 60; ++i) {
@@ -176,26 +176,26 @@ TEST_CASE("triangles that do not reach a cell leave it whole", "[assess][screens
   CHECK(screens.hide({middle, 0.02}, box_at({middle, 5.7}, 0.02)));
 }
 
-TEST_CASE("a narrow triangle closes no cell that it only passes", "[assess][screens]") {
+TEST_CASE("a narrow triangle closes no cell that it does not cover", "[assess][screens]") {
   const std::vector<std::array<glm::dvec2, 3>> narrow{{{{0, 0}, {5, 7}, {5, 8}}}};
   const auto scene = with_level(*test::described_text(storeys("white50")), narrow);
   const LevelScreens screens(building_of(*scene)->scene());
   const auto hidden_at = [&](double x, double y) {
     return screens.hide({x, y, 0.02}, box_at({x, y, 5.7}, 0.02));
   };
-  CHECK(hidden_at(4.9, 7.35));         // within it
-  CHECK_FALSE(hidden_at(4.6, 7.85));   // beside it
-  CHECK_FALSE(hidden_at(4.6, 5.6));    // beside it
-  CHECK_FALSE(hidden_at(0.5, 0.75));   // narrower than a cell there
-  CHECK_FALSE(hidden_at(0.15, 7.85));  // at a corner of the box around it
+  CHECK(hidden_at(4.9, 7.35));         // in the triangle
+  CHECK_FALSE(hidden_at(4.6, 7.85));   // beside the triangle
+  CHECK_FALSE(hidden_at(4.6, 5.6));    // beside the triangle
+  CHECK_FALSE(hidden_at(0.5, 0.75));   // the triangle is narrower than a cell here
+  CHECK_FALSE(hidden_at(0.15, 7.85));  // at a corner of its bounding box
 }
 
-TEST_CASE("the light of the codes is that of all luminaires, screened or not",
+TEST_CASE("the light of the codes is that of all luminaires, with or without screens",
           "[assess][screens]") {
   check_light(*test::described_text(storeys("white50")));
 }
 
-TEST_CASE("a level that takes too long to draw is left out, and light is the same",
+TEST_CASE("a level that takes too long to divide into cells is left out, and the light is the same",
           "[assess][screens]") {
   constexpr double wide_m = 130;
   std::vector<std::array<glm::dvec2, 3>> triangles{{{{0, 0}, {wide_m, 0}, {wide_m, wide_m}}},
@@ -203,7 +203,7 @@ TEST_CASE("a level that takes too long to draw is left out, and light is the sam
   const auto whole = with_level(*test::described_text(storeys("white50")), triangles);
   const auto hides = [](const SceneDescription& scene) {
     const LevelScreens screens(building_of(scene)->scene());
-    // The slab above this one is as it was.
+    // The slab above this one is unchanged.
     CHECK(screens.hide({2, 2, 5.02}, box_at({2, 2, 8.7}, 0.1)));
     return screens.hide({2, 2, 0.02}, box_at({2, 2, 5.7}, 0.1));
   };

@@ -1,5 +1,5 @@
-// Guided routes over time, in rooms where the answer is known: smoke that sinks below a sign, mains
-// that fail, a supply that ends, people who walk.
+// Guided routes over time in rooms with a known answer: smoke that sinks below a sign, mains that
+// fail, an exhausted supply, people who walk.
 #include "actors/judge/assess/over_time.hpp"
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,8 @@
 namespace luxodus {
 namespace {
 
-/// The room, whose sign leads along its route; the first table of `more` may be of the sign.
+/// The room with a sign that leads along its route; the first table of `more` may belong to the
+/// sign.
 std::string timed_room(const std::string& sign_more, const std::string& more) {
   return test::replaced(test::room, "lighting = \"internal\"\n",
                         "lighting = \"internal\"\n" + sign_more +
@@ -21,7 +22,7 @@ std::string timed_room(const std::string& sign_more, const std::string& more) {
          more;
 }
 
-/// Dense smoke under the ceiling, whose lower end is at 3 m at 0 s and sinks by 2 cm a second.
+/// Dense smoke under the ceiling; its lower boundary is at 3 m at 0 s and sinks by 2 cm/s.
 std::string sinking(const std::string& extinction) {
   return "[[medium]]\nname = \"smoke\"\nkind = \"layered\"\n[[medium.layer]]\n"
          "z_low = [[0, 3], [100, 1]]\nz_high = 3\nalbedo = 0.3\nextinction = " +
@@ -57,8 +58,9 @@ size_t guided_places(const RouteOverTime& route, size_t state) {
 
 }  // namespace
 
-TEST_CASE("a route is guided until the smoke's lower end passes the sign", "[assess][time]") {
-  // The sign's letters end at 2.125 and 2.275 m: reached at 43.75 and 36.25 s.
+TEST_CASE("a route is guided until the lower boundary of the smoke passes the sign",
+          "[assess][time]") {
+  // Edges of the sign's letters are at 2.125 and 2.275 m: reached at 43.75 and 36.25 s.
   const OverTime all = over(timed_room("", sinking("40")), {0, 20, 35, 46, 60});
   REQUIRE(all.routes.size() == 1);
   const RouteOverTime& route = all.routes.front();
@@ -76,7 +78,7 @@ TEST_CASE("a route is guided until the smoke's lower end passes the sign", "[ass
   CHECK(all.high_albedo == 0.5);
 }
 
-TEST_CASE("thickening smoke guides at no more places than before", "[assess][time]") {
+TEST_CASE("when smoke thickens, no further place becomes guided", "[assess][time]") {
   const std::string smoke =
       "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nalbedo = 0.3\n"
       "extinction = [[0, 0], [60, 1.2]]\n";
@@ -87,7 +89,7 @@ TEST_CASE("thickening smoke guides at no more places than before", "[assess][tim
   for (size_t t = 1; t < 5; ++t) CHECK(guided_places(route, t) <= guided_places(route, t - 1));
 }
 
-TEST_CASE("a sign that only the mains light guides until they fail", "[assess][time]") {
+TEST_CASE("a sign that only the mains light guides until the mains fail", "[assess][time]") {
   const std::string dark_then = test::replaced(
       test::replaced(timed_room("", "[time]\nto = 60\nstep = 20\nmains_fail_at = 30\n"),
                      "emergency_white = 100", "emergency_white = 0"),
@@ -103,8 +105,8 @@ TEST_CASE("a sign that only the mains light guides until they fail", "[assess][t
   CHECK(all.states.at(2).lit == 1);
 }
 
-TEST_CASE("a sign guides on its supply until that is exhausted", "[assess][time]") {
-  // 0.01 h are 36 s, from the failure at 10 s on.
+TEST_CASE("a sign guides on its supply until the supply is exhausted", "[assess][time]") {
+  // 0.01 h are 36 s, counted from the failure at 10 s.
   const OverTime all =
       over(timed_room("duration_h = 0.01\n", "[time]\nto = 60\nstep = 20\nmains_fail_at = 10\n"),
            {0, 20, 45, 46});
@@ -113,7 +115,7 @@ TEST_CASE("a sign guides on its supply until that is exhausted", "[assess][time]
   CHECK(time.lost_by_s == 46);
 }
 
-TEST_CASE("the rated duration is checked where all that is lit says it", "[assess][time]") {
+TEST_CASE("the rated duration is checked if everything lit states its duration", "[assess][time]") {
   const auto check_of = [](const std::string& text) {
     const Assessment a = test::assessed(text, test::codes_alone());
     const auto at = std::find_if(a.checks.begin(), a.checks.end(),
@@ -134,15 +136,15 @@ TEST_CASE("the rated duration is checked where all that is lit says it", "[asses
   CHECK(check_of(hours("3", "0.5")).verdict == CheckVerdict::fail);
 }
 
-TEST_CASE("people who set out in time are guided to the end", "[assess][time]") {
+TEST_CASE("a person who sets out in time is guided to the end", "[assess][time]") {
   const OverTime all =
       over(timed_room("", sinking("40") + "[time]\nto = 100\nstep = 10\nwalking_speed = 0.5\n"),
            {0, 20, 35, 46});
   const auto& walks = all.routes.front().walks;
   REQUIRE(walks.size() == 4);
-  // The last place is 6.67 m along the route: 13.3 s on the way.
+  // The last place is 6.67 m along the route: 13.3 s of walking.
   CHECK(walks.at(0).end == Walk::End::arrives);
-  // From there to the end he walks until 40 s, and the state of 46 s guides nobody.
+  // From there he walks until 40 s, and the state of 46 s is not guided.
   CHECK(walks.at(1).end == Walk::End::lost);
   CHECK(walks.at(1).at_m == Approx(20.0 / 3));
   CHECK(walks.at(2).end == Walk::End::lost);
@@ -151,7 +153,7 @@ TEST_CASE("people who set out in time are guided to the end", "[assess][time]") 
   CHECK(walks.at(3).at_m == 0);
 }
 
-TEST_CASE("FDS's own visibility stands beside the verdicts, where there are slices of it",
+TEST_CASE("FDS's own visibility is shown beside the verdicts if the case has slices of it",
           "[assess][time][fds]") {
   using namespace test;
   const TemporaryFolder folder;
@@ -187,16 +189,16 @@ TEST_CASE("FDS's own visibility stands beside the verdicts, where there are slic
   };
   const OverTime all = traced(index + part_slice_entry(1, false, level, "v.sf", "SOOT VISIBILITY"));
   const RouteOverTime& route = all.routes.front();
-  // The sign hangs at 11.95 m; places are 1, 4.33 and 7.67 m along the room.
+  // The sign is at 11.95 m; places are 1, 4.33 and 7.67 m along the room.
   REQUIRE(route.by_fds.at.size() == 3);
   CHECK(route.by_fds.at[0] == std::vector<Guidance>(3, Guidance::guided));
   CHECK(route.by_fds.at[1] ==
         std::vector<Guidance>{Guidance::not_guided, Guidance::not_guided, Guidance::guided});
   CHECK(route.by_fds.at[2] == std::vector<Guidance>(3, Guidance::not_guided));
   CHECK(route.visibility_m[1][0].value_or(0) == Approx(6));
-  // C/K of the thin smoke is 800 m, so that the 30 m count: every place is nearer.
+  // C/K of the thin smoke is 800 m, so the limit of 30 m applies: every place is nearer.
   CHECK(route.by_line.at[2] == std::vector<Guidance>(3, Guidance::guided));
-  // Smoke this thin hides no sign, whatever the slice says.
+  // Smoke this thin hides no sign, whatever the slice gives.
   CHECK(route.guided.holds(2));
   const Json json = over_time_json(all);
   CHECK(json["routes"][0]["fds"][1].text() == "nng");
@@ -209,7 +211,7 @@ TEST_CASE("FDS's own visibility stands beside the verdicts, where there are slic
   const OverTime without = traced(index);
   CHECK(without.routes.front().by_fds.at.empty());
   CHECK_FALSE(over_time_json(without)["routes"][0].contains("fds"));
-  // A slice that cannot be read changes no verdict, and is told once.
+  // A slice that cannot be read changes no verdict, and is reported once.
   folder.write("v.sf", "short");
   const OverTime damaged =
       traced(index + part_slice_entry(1, false, level, "v.sf", "SOOT VISIBILITY"));
@@ -218,10 +220,10 @@ TEST_CASE("FDS's own visibility stands beside the verdicts, where there are slic
   CHECK(damaged.warnings.front().find("VISIBILITY is not shown") != std::string::npos);
 }
 
-TEST_CASE("the line-of-sight method stands beside the verdicts: C/K, 30 m, and what stands there",
+TEST_CASE("the line-of-sight method is shown beside the verdicts, with C/K, 30 m, and obstacles",
           "[assess][time]") {
-  // Places are 1, 4.33 and 7.67 m along the room, 10.95, 7.62 and 4.28 m from the sign, C is 8:
-  // at 1/m it is seen from within 8 m.
+  // Places are 1, 4.33 and 7.67 m along the room, 10.95, 7.62 and 4.28 m from the sign. C is 8: at
+  // 1/m the sign is seen within 8 m.
   const std::string even =
       "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nalbedo = 0.3\n"
       "extinction = [[0, 0], [60, 1], [120, 4]]\n";
@@ -231,11 +233,11 @@ TEST_CASE("the line-of-sight method stands beside the verdicts: C/K, 30 m, and w
   CHECK(route.by_line.at[0] == std::vector<Guidance>(3, guided));
   CHECK(route.by_line.at[1] == std::vector<Guidance>{not_guided, guided, guided});
   CHECK(route.by_line.at[2] == std::vector<Guidance>(3, not_guided));
-  // Smoke above the eyes is not on the level line, although the sign hangs in it.
+  // Smoke above eye height is not on the horizontal line, although the sign hangs in it.
   const RouteOverTime high = over(timed_room("", sinking("40")), {60}).routes.front();
   CHECK(high.guided.at[0] == std::vector<Guidance>(3, not_guided));
   CHECK(high.by_line.at[0] == std::vector<Guidance>(3, guided));
-  // A screen at the height of the eyes, which the sign is seen above.
+  // A screen at eye height; the sign is visible above it.
   const std::string screen =
       "[[object]]\nname = \"screen\"\nshape = \"box\"\nlow = [6, -2, 1.6]\n"
       "high = [6.05, 2, 1.7]\nmaterial = \"grey50\"\n";
@@ -245,7 +247,7 @@ TEST_CASE("the line-of-sight method stands beside the verdicts: C/K, 30 m, and w
 }
 
 TEST_CASE("the line-of-sight method takes extinction at the wavelength of FDS", "[assess]") {
-  // Of bands, which are tens of nanometres wide, none is at 633 nm.
+  // No band is centred at 633 nm; bands are tens of nanometres wide.
   const Assessment a =
       test::assessed(test::room +
                      "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nextinction = 0.5\n"
@@ -258,8 +260,9 @@ TEST_CASE("the line-of-sight method takes extinction at the wavelength of FDS", 
   }
 }
 
-TEST_CASE("an arrow that points elsewhere guides nobody, and no sign at all is an error",
-          "[assess][time]") {
+TEST_CASE(
+    "an arrow in another direction guides nobody, and a scene without guiding signs is an error",
+    "[assess][time]") {
   const std::string left =
       test::replaced(timed_room("", sinking("0.01")), "arrow = \"ahead\"", "arrow = \"left\"");
   CHECK_FALSE(guided_time(over(left, {0, 10}).routes.front().guided).until_s.has_value());
@@ -268,14 +271,14 @@ TEST_CASE("an arrow that points elsewhere guides nobody, and no sign at all is a
   CHECK(silent.problem().text().find("[[sign.leads_to]]") != std::string::npos);
 }
 
-TEST_CASE("a state is traced with the same random numbers whatever the others are",
-          "[assess][time]") {
+TEST_CASE("the random numbers of a state do not depend on the other states", "[assess][time]") {
   const std::string text = timed_room("", sinking("0.6"));
   const OverTime both = over(text, {20, 60}), one = over(text, {60});
   CHECK(both.routes.front().guided.at.at(1) == one.routes.front().guided.at.at(0));
 }
 
-TEST_CASE("guidance over time goes through its JSON, whose faults are named", "[assess][time]") {
+TEST_CASE("guidance over time is written to JSON and read back, and faults in it are named",
+          "[assess][time]") {
   const std::string text = timed_room("",
                                       "[time]\nto = 60\nstep = 20\nmains_fail_at = 30\n"
                                       "walking_speed = 1\n");

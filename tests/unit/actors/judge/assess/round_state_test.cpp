@@ -1,5 +1,5 @@
-// Rounds of an assessment as states that others trace: as text, and traced by nodes that know the
-// scene alone. Real nodes of this process, over inproc.
+// Rounds of an assessment as text, and traced by nodes that know only the scene: real nodes of this
+// process, over inproc.
 #include "actors/judge/assess/round_state.hpp"
 
 #include "actors/cast/process/process_executor.hpp"
@@ -16,13 +16,13 @@ namespace {
 
 const auto nobody_hears = [](const std::string&, double) {};
 
-/// Lamps that age in two ways, so that there are two source groups, and smoke that scatters.
+/// Lamps with two ageing factors, so that there are two source groups, and scattering smoke.
 std::string two_ageings() {
   const std::string second = replaced(middle_lamp, "name = \"lamp\"", "name = \"second\"");
   return with_smoke(0.3, 0.6) + replaced(second, "0.75", "0.5");
 }
 
-/// Nodes of this process that trace rounds of a scene.
+/// Nodes of this process that trace the rounds of a scene.
 struct RoundNodes {
   explicit RoundNodes(const std::shared_ptr<const SceneDescription>& scene) : states(scene) {
     auto compiled = compile_scene(scene, find_scenario(*scene, "failed").value(), {1});
@@ -46,7 +46,7 @@ void same_look(const SignLook& a, const SignLook& b) {
 
 }  // namespace
 
-TEST_CASE("a round of an assessment is read back from its text, to the bit", "[assess]") {
+TEST_CASE("a round of an assessment is read back from its text to the bit", "[assess]") {
   RoundState round{"smoke \"grey\"", 60.25, {1.0 / 3, 0.1, true}, 0.1, {}};
   Observer observer;
   observer.name = "somebody";
@@ -69,7 +69,7 @@ TEST_CASE("a round of an assessment is read back from its text, to the bit", "[a
   CHECK(*read->observers[1].signs == *observer.signs);
 }
 
-TEST_CASE("what is no round of an assessment is refused in words", "[assess]") {
+TEST_CASE("a text that is no round of an assessment is refused with a message", "[assess]") {
   const auto scene = described_text(with_smoke(0.3, 0.5));
   RoundStates states(scene);
   const auto refused = [&](const std::string& text, const std::string& words) {
@@ -87,11 +87,12 @@ TEST_CASE("what is no round of an assessment is refused in words", "[assess]") {
   refused(round_text({"there is none", {}, {}, 1, {}}), "there is none");
 }
 
-TEST_CASE("nodes that know the scene alone give an assessment the looks of threads",
+TEST_CASE("nodes that know only the scene give the same luminances and verdicts as threads",
           "[assess][nodes]") {
   const auto scene = described_text(with_smoke(0.3, 0.6));
   RoundNodes nodes(scene);
-  // As a cluster asks: the executor has a lock of its own, which once was waited for in two orders.
+  // As in a cluster: the executor takes a lock of its own. The two locks were once taken in two
+  // orders.
   NodeExecutor& executor = *nodes.nodes->executor();
   RunInPieces pieces(executor, [&]() -> Result<void> {
     return executor.counters().workers > 2 ? problem("there are two") : executor.goes_on();
@@ -118,7 +119,7 @@ TEST_CASE("nodes that know the scene alone give an assessment the looks of threa
   CHECK(nodes.nodes->executor()->counters().leases >= 64);
 }
 
-TEST_CASE("an assessment that nobody will trace for ends, and says why", "[assess][nodes]") {
+TEST_CASE("an assessment whose nodes refuse to go on ends with their reason", "[assess][nodes]") {
   const auto scene = described_text(with_smoke(0.3, 0.5));
   RoundNodes nodes(scene);
   RunInPieces pieces(*nodes.nodes->executor(),
@@ -131,7 +132,7 @@ TEST_CASE("an assessment that nobody will trace for ends, and says why", "[asses
   CHECK(ended.problem().what == "they have gone home");
 }
 
-TEST_CASE("a run in pieces goes on from what an interrupt has left of it", "[run][nodes]") {
+TEST_CASE("a run in pieces continues after an interrupt with the same result", "[run][nodes]") {
   const auto scene = described_text(two_ageings());
   RoundNodes nodes(scene);
   const auto judged = judged_scene(*scene, find_scenario(*scene, "failed").value());
@@ -150,7 +151,7 @@ TEST_CASE("a run in pieces goes on from what an interrupt has left of it", "[run
 
   std::atomic<bool> interrupt{false};
   std::atomic<int> asked = 0;
-  int patience = 4;  // questions until somebody interrupts it
+  int patience = 4;  // the run is interrupted at this question
   RunInPieces pieces(*nodes.nodes->executor(), [&]() -> Result<void> {
     if (++asked >= patience) interrupt = true;
     return {};
@@ -180,7 +181,8 @@ TEST_CASE("a run in pieces goes on from what an interrupt has left of it", "[run
   }
 }
 
-TEST_CASE("smoke that may be denser is never thinner, whatever glows in it", "[assess]") {
+TEST_CASE("raising simulated smoke by its error never thins it, even in a medium that emits light",
+          "[assess]") {
   const auto base = described_text(with_smoke(0.3, 0.6));
   SceneDescription scene = *base;
   Medium fire;
@@ -207,7 +209,8 @@ TEST_CASE("smoke that may be denser is never thinner, whatever glows in it", "[a
         const double after = factor_of_medium(denser->scenario, medium);
         const bool simulated = medium.simulation.has_value();
         CHECK(before == Approx(of_all * factor));
-        CHECK(after == Approx(simulated ? 1.1 * before : before));  // the largest error, once
+        CHECK(after ==
+              Approx(simulated ? 1.1 * before : before));  // the largest error, applied once
       }
     }
   }

@@ -1,6 +1,6 @@
-// Verdicts that were better than what was judged: luminaires that the state has switched off, times
-// that nothing lasts, signs behind glass, and assessments whose counts are not those of their
-// checks.
+// Tests against verdicts that are better than the judged state: luminaires that are switched off,
+// times after all durations, signs behind glass, and assessments whose counts are not those of
+// their checks.
 #include <algorithm>
 
 #include "actors/judge/assess/assessment_check.hpp"
@@ -43,7 +43,8 @@ const Check& first_of(const Assessment& a, const std::string& id) {
 
 }  // namespace
 
-TEST_CASE("luminaires that the judged state switches off light no check", "[assess][slips]") {
+TEST_CASE("luminaires that the judged state switches off do not light any check",
+          "[assess][slips]") {
   const std::string on_circuit =
       replaced(in_state("circuits = { lamps = 0.5 }\n"), "name = \"lamp\"\n",
                "name = \"lamp\"\ncircuit = \"lamps\"\n");
@@ -56,13 +57,13 @@ TEST_CASE("luminaires that the judged state switches off light no check", "[asse
   CHECK(first_of(dark, "E1").verdict == CheckVerdict::fail);
   CHECK(*first_of(dark, "E1").value == 0);
   CHECK(remarks(off, "switch off 1 emergency luminaires"));
-  // More than is stated makes no check pass.
+  // A flux above the stated one makes no check pass.
   const std::string raised = replaced(on_circuit, "lamps = 0.5", "lamps = 100");
   CHECK(*first_of(assessed(raised, by_codes()), "E1").value == Approx(*first_of(full, "E1").value));
   CHECK(remarks(raised, "raise the flux of 1 emergency luminaires"));
 }
 
-TEST_CASE("times after which nothing is known to be lit are said", "[assess][slips]") {
+TEST_CASE("a remark names times at which light or adaptation is only assumed", "[assess][slips]") {
   CHECK(remarks(in_state("seconds_after_failure = 7200\n"), "rated duration of 1 h"));
   CHECK_FALSE(remarks(in_state("seconds_after_failure = 3600\n"), "rated duration of"));
   AssessOptions british = by_codes();
@@ -74,7 +75,8 @@ TEST_CASE("times after which nothing is known to be lit are said", "[assess][sli
   CHECK_FALSE(remarks(in_state("seconds_after_failure = 60\n"), "do not say how fast"));
 }
 
-TEST_CASE("eyes, spacing and rules that make verdicts better are said", "[assess][slips]") {
+TEST_CASE("a remark names eyes, spacings and rule sets that make verdicts better",
+          "[assess][slips]") {
   const auto with = [](const std::string& keys) {
     return replaced(room, "irritant_smoke = false\n", "irritant_smoke = false\n" + keys);
   };
@@ -92,7 +94,7 @@ TEST_CASE("eyes, spacing and rules that make verdicts better are said", "[assess
   CHECK_FALSE(remarks(with("rules = [\"en1838-2013\"]\n"), "the scene names other rules", older));
 }
 
-TEST_CASE("smoke of no extinction is clear air", "[assess][slips]") {
+TEST_CASE("smoke with an extinction of zero is clear air", "[assess][slips]") {
   const std::string none =
       "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nextinction = 0\nalbedo = 0.3\n";
   const Assessment a = assessed(room + none, by_codes());
@@ -117,7 +119,7 @@ TEST_CASE("the first sentence says what was judged and what came of it", "[asses
   CHECK(first_words(old) == verdict_words(json));
 }
 
-TEST_CASE("an assessment whose checks are of other rules, or counted wrongly, is refused",
+TEST_CASE("an assessment with checks of other rule sets or with wrong counts is refused",
           "[assess][slips]") {
   AssessOptions options = by_codes();
   options.rules = {"en1838-2013"};
@@ -143,7 +145,7 @@ TEST_CASE("an assessment whose checks are of other rules, or counted wrongly, is
   }
 }
 
-TEST_CASE("a sign that is seen through glass alone is told beside its check", "[assess][slips]") {
+TEST_CASE("the check of a sign that is seen only through glass says so", "[assess][slips]") {
   const std::string pane =
       "[[material]]\nname = \"pane\"\nkind = \"glass\"\n"
       "[[object]]\nname = \"screen\"\nshape = \"quad\"\ncorner = [11, -2, 0]\n"
@@ -157,7 +159,7 @@ TEST_CASE("a sign that is seen through glass alone is told beside its check", "[
         std::string::npos);
 }
 
-TEST_CASE("a dark sign, and one behind dark glass, shows nobody the way", "[assess][slips]") {
+TEST_CASE("a dark sign and a sign behind dark glass guide nobody", "[assess][slips]") {
   CHECK(first_of(assessed(room, by_codes()), "S4").verdict == CheckVerdict::pass);
   const std::string dark = replaced(room, "emergency_white = 100\nemergency_green = 10",
                                     "emergency_white = 0\nemergency_green = 0");
@@ -176,7 +178,8 @@ TEST_CASE("a dark sign, and one behind dark glass, shows nobody the way", "[asse
   CHECK(first_of(assessed(behind, by_codes()), "S4").verdict == CheckVerdict::fail);
 }
 
-TEST_CASE("an assessment replaces its own files and refuses those of others", "[assess][slips]") {
+TEST_CASE("an assessment replaces its own files and refuses to replace those of other programs",
+          "[assess][slips]") {
   const TemporaryFolder folder;
   const std::vector<std::string> files{"report.html", "assessment.json", "checks.csv"};
   CHECK(refuse_files_of_others(folder.path(), files).ok());

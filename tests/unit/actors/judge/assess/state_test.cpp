@@ -1,4 +1,4 @@
-// The judged state: named or refused, never guessed, and said before any verdict.
+// The judged state is named or refused, never guessed, and is printed before any verdict.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -17,7 +17,7 @@ bool has(const std::string& text, const std::string& words) {
   return text.find(words) != std::string::npos;
 }
 
-/// The room's only scenario, replaced by these lines, in smoke of 0.5/m.
+/// The room in smoke of 0.5/m, with these lines instead of its only scenario.
 std::string in_states(const std::string& scenarios) {
   return replaced_all(with_smoke(0.5, 0.3),
                       "[[scenario]]\nname = \"failed\"\noperation = \"emergency\"\n", scenarios);
@@ -50,14 +50,15 @@ AssessOptions one_round(const std::string& scenario = "") {
 
 }  // namespace
 
-TEST_CASE("a scene without a scenario is refused, with what to write", "[assess][state]") {
+TEST_CASE("a scene without a scenario is refused with what to write", "[assess][state]") {
   const Problem problem = refused(in_states(""));
   CHECK(has(problem.what, "there is no [[scenario]]"));
   CHECK(has(problem.what, "operation = \"emergency\""));
 }
 
-TEST_CASE("a smoky scenario whose operation was forgotten is no reason to judge the clear one",
-          "[assess][state]") {
+TEST_CASE(
+    "a smoky scenario whose operation may have been forgotten is not replaced by the clear one",
+    "[assess][state]") {
   const Problem problem = refused(in_states(state("fire", "") + state("clear", emergency + clear)));
   CHECK(has(problem.what, "no scenario with smoke is in emergency operation"));
   CHECK(has(problem.what, "--scenario"));
@@ -65,11 +66,11 @@ TEST_CASE("a smoky scenario whose operation was forgotten is no reason to judge 
   CHECK(has(problem.what, "\"fire\" (mains operation, with smoke)"));
   CHECK(has(problem.what, "\"clear\" (emergency operation, without smoke)"));
   CHECK(problem.where.line > 0);
-  // Nor to judge thin smoke, in place of that whose operation was forgotten.
+  // Nor by thin smoke.
   CHECK(has(
       refused(in_states(state("thick", "media = { smoke = 5 }\n") + state("thin", emergency))).what,
       "its operation may have been forgotten"));
-  // Nor one with a luminaire's circuit off.
+  // Nor by a scenario in which no circuit is off.
   CHECK(
       has(refused(in_states(state("cut", "circuits = { lamps = 0 }\n") + state("all", emergency)) +
                   "[[emitter]]\nname = \"b\"\nshape = \"point\"\nposition = [3, 0, 2]\n"
@@ -78,12 +79,13 @@ TEST_CASE("a smoky scenario whose operation was forgotten is no reason to judge 
           "its operation may have been forgotten"));
 }
 
-TEST_CASE("the state is the one scenario in emergency operation, in smoke where any has it",
+TEST_CASE("the judged state is the only scenario in emergency operation, with smoke if any has it",
           "[assess][state]") {
   CHECK(chosen(state("fire", emergency)) == "fire");
   CHECK(chosen(state("day", clear) + state("clear", emergency + clear) +
                state("fire", emergency)) == "fire");
-  // The same smoke with the mains on: had its operation been forgotten, it would be the same.
+  // A scenario with the same smoke and the mains on does no harm: in emergency operation it would
+  // be the same.
   CHECK(chosen(state("mains", "") + state("fire", emergency) + state("dark", dark)) == "fire");
   CHECK(chosen(state("day", clear) + state("clear", emergency + clear)) == "clear");
   for (const std::string& open : {clear, std::string()})
@@ -99,7 +101,7 @@ TEST_CASE("the state is the one scenario in emergency operation, in smoke where 
   CHECK(has(refused(in_states(state("a", emergency)), named).what, "there is no scenario \"c\""));
 }
 
-TEST_CASE("mains operation is judged only where it is named, and then said first",
+TEST_CASE("mains operation is judged only if it is named, and is then reported first",
           "[assess][state]") {
   const std::string text = in_states(state("day", ""));
   CHECK(has(refused(text).what, "is in emergency operation"));
@@ -134,19 +136,20 @@ TEST_CASE("no rule set is assumed, and a scene may name its own", "[assess][stat
   for (const Check& check : said->checks) CHECK(check.rule.set != "en1838-2013");
 }
 
-TEST_CASE("whether smoke stings is said, or nothing is judged in it", "[assess][state]") {
+TEST_CASE("a scene with smoke must state whether the smoke is irritant, or nothing is judged in it",
+          "[assess][state]") {
   const std::string unsaid = replaced_all(with_smoke(0.5, 0.3), "irritant_smoke = false\n", "");
   const Problem problem = refused(unsaid, one_round());
   CHECK(has(problem.what, "irritant_smoke = true"));
   CHECK(has(problem.what, "scenario \"failed\""));
   CHECK(problem.where.line > 0);
   CHECK(has(problem.where.file, "scene.toml"));
-  // The codes know no smoke, and clear air does not sting.
+  // The codes do not consider smoke, and clear air does not irritate.
   CHECK(tried(unsaid, codes_alone()).ok());
   CHECK(tried(replaced_all(room, "irritant_smoke = false\n", ""), one_round()).ok());
 }
 
-TEST_CASE("the judged state stands in the JSON, in words, and first on the page",
+TEST_CASE("the judged state is in the JSON, in the text, and first on the page",
           "[assess][state]") {
   std::string text = with_smoke(0.5, 0.3);
   text = replaced_all(text, "operation = \"emergency\"\n",
@@ -194,7 +197,7 @@ TEST_CASE("the judged state stands in the JSON, in words, and first on the page"
   CHECK(has(state_text(old), "not recorded"));
 }
 
-TEST_CASE("eyes are said to be unadapted within a minute of the failure, and not after",
+TEST_CASE("eyes count as unadapted within a minute of the failure, and not after",
           "[assess][state]") {
   for (const double seconds : {0.0, 59.0, 60.0, 600.0}) {
     const std::string text = replaced_all(
@@ -208,7 +211,7 @@ TEST_CASE("eyes are said to be unadapted within a minute of the failure, and not
   CHECK(has(unsaid["remarks"].dump(), "does not say how long after the failure"));
 }
 
-TEST_CASE("clear air in a scene with smoke, and luminaires that are off, are said",
+TEST_CASE("remarks name clear air in a scene with smoke, and luminaires that are off",
           "[assess][state]") {
   const std::string text =
       replaced_all(in_states(state("fire", emergency) + state("clear", emergency + clear) +
@@ -229,7 +232,7 @@ TEST_CASE("views are judged in aged and in new light, and the worse verdict coun
           "[assess][state]") {
   const Json aged_and_new =
       assessment_json(*described_text(room), assessed(room, one_round()), "1");
-  // The same with nothing aged: what new light alone gives.
+  // This scene with all ageing factors 1: its light is the new light.
   const std::string fresh =
       replaced_all(replaced_all(room, "maintenance_factor = 0.8", "maintenance_factor = 1"),
                    "end_of_duration_factor = 0.75", "end_of_duration_factor = 1");
@@ -252,15 +255,15 @@ TEST_CASE("views are judged in aged and in new light, and the worse verdict coun
     agrees(renewed.ground, alone.ground);
     agrees(renewed.surround, alone.surround);
     agrees(renewed.difference, alone.difference);
-    // The wall beside the sign has the lamp's light alone, and the sign's own little.
+    // The wall beside the sign is lit by the lamp, and only a little by the sign.
     CHECK(renewed.surround.value > aged.surround.value);
     CHECK(renewed.legend.value >= aged.legend.value);
   }
   CHECK(aged_and_new["sights"][0].contains("other_light"));
 }
 
-TEST_CASE("a sign that only new light's glare hides is not legible", "[assess][state]") {
-  // A lamp beside the line of sight, whose light falls to a hundredth in its time.
+TEST_CASE("a sign that is hidden only by glare in new light is not legible", "[assess][state]") {
+  // A lamp beside the line of sight, whose light falls to a hundredth as it ages.
   std::string glare = replaced_all(room, "position = [6, 0, 2.5]", "position = [6, 0.3, 2.3]");
   glare = replaced_all(glare, "emergency_flux = 500", "emergency_flux = 60000");
   glare = replaced_all(glare, "maintenance_factor = 0.8", "maintenance_factor = 0.1");
@@ -278,8 +281,7 @@ TEST_CASE("a sign that only new light's glare hides is not legible", "[assess][s
   CHECK(turned);
 }
 
-TEST_CASE("luminaires that have aged differently are renewed each by its own share",
-          "[assess][state]") {
+TEST_CASE("each luminaire is renewed by its own ageing factor", "[assess][state]") {
   const std::string second =
       "[[emitter]]\nname = \"old lamp\"\nshape = \"point\"\ndistribution = \"isotropic\"\n"
       "position = [9, 0, 2.5]\nflux_lm = 1000\nemergency = \"non-maintained\"\n"
@@ -303,7 +305,7 @@ TEST_CASE("luminaires that have aged differently are renewed each by its own sha
   }
 }
 
-TEST_CASE("in mains operation new light is that before maintenance alone", "[assess][state]") {
+TEST_CASE("in mains operation new light is the light before maintenance only", "[assess][state]") {
   std::string text = replaced_all(room, "\"non-maintained\"", "\"maintained\"");
   text = replaced_all(text, "operation = \"emergency\"\n", "operation = \"mains\"\n");
   for (const SightRow& row : assessed(text, one_round("failed")).sights) {
@@ -314,7 +316,7 @@ TEST_CASE("in mains operation new light is that before maintenance alone", "[ass
   }
 }
 
-TEST_CASE("a comparison says that two judged states differ", "[assess][state]") {
+TEST_CASE("a comparison reports that two judged states differ", "[assess][state]") {
   const std::string text = in_states(state("fire", emergency) + state("clear", emergency + clear));
   AssessOptions options = codes_alone();
   const auto json = [&](const std::string& scenario) {
@@ -326,7 +328,8 @@ TEST_CASE("a comparison says that two judged states differ", "[assess][state]") 
   CHECK(comparison_of(json("fire"), json("fire"))["state"].empty());
 }
 
-TEST_CASE("what fails, is not assessed, not verified or undecided is open", "[assess][state]") {
+TEST_CASE("checks that fail and checks or views without a clear verdict are open",
+          "[assess][state]") {
   const Json done = {
       {"counts", {{"pass", 3}, {"fail", 0}, {"not_assessed", 0}, {"not_verified", 0}}},
       {"sight_counts", {{"legible", 4}, {"invisible", 1}}}};

@@ -1,4 +1,4 @@
-// Layouts beside the best one: all demands hold in them, and they differ.
+// Tests layouts besides the best one: all demands hold in them, and they differ.
 #include "actors/judge/design/alternatives.hpp"
 
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ namespace {
 using test::nobody;
 using test::silent;
 
-/// A corridor with a place every metre: each lights the points within `reach` of it.
+/// A corridor with a place every metre; each place lights the points within `reach` of it.
 LayoutProblem row_of_places(uint32_t count, uint32_t reach) {
   LayoutProblem out;
   out.groups.push_back({DemandKind::minimum, RuleId::E5, {SubjectKind::route, "way"}, 1, 0});
@@ -40,7 +40,8 @@ Layout best_of(const LayoutProblem& problem) {
 
 }  // namespace
 
-TEST_CASE("alternatives to a layout hold, differ, and cost no more than they may", "[design]") {
+TEST_CASE("alternatives to a layout hold, differ, and stay below the allowed objective",
+          "[design]") {
   const LayoutProblem problem = row_of_places(30, 2);
   const Layout best = best_of(problem);
   CHECK(objective_of(problem, best) == 6);
@@ -61,22 +62,22 @@ TEST_CASE("alternatives to a layout hold, differ, and cost no more than they may
     for (size_t k = 0; k < i; ++k) CHECK(places_that_differ(problem, layouts[i], layouts[k]) > 0);
   }
   CHECK(any_dearer);
-  CHECK(alternatives_to(problem, best, wish, nobody) == layouts);  // the same seed
+  CHECK(alternatives_to(problem, best, wish, nobody) == layouts);  // same seed
 }
 
-TEST_CASE("where only one layout holds there is no alternative", "[design]") {
+TEST_CASE("if only one layout is feasible there is no alternative", "[design]") {
   const LayoutProblem problem = row_of_places(3, 0);
   CHECK(alternatives_to(problem, best_of(problem), {}, nobody).empty());
 }
 
-TEST_CASE("places of fixed luminaires are the same in all alternatives", "[design]") {
+TEST_CASE("fixed luminaires are at the same places in all alternatives", "[design]") {
   LayoutProblem problem = row_of_places(20, 2);
   problem.options[7].fixed = true;
   for (const Layout& layout : alternatives_to(problem, best_of(problem), {}, nobody))
     CHECK(layout[7] == 1);
 }
 
-TEST_CASE("whoever interrupts a search for alternatives gets what there is", "[design]") {
+TEST_CASE("an interrupted search for alternatives returns those found so far", "[design]") {
   const LayoutProblem problem = row_of_places(30, 2);
   const std::atomic<bool> interrupted{true};
   CHECK(alternatives_to(problem, best_of(problem), {}, interrupted).empty());

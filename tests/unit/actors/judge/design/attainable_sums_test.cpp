@@ -1,4 +1,4 @@
-// Sums of weights against those found by adding up every choice.
+// Compares sums of weights with those of all subsets.
 #include "actors/judge/design/attainable_sums.hpp"
 
 #include <catch2/catch.hpp>
@@ -17,7 +17,7 @@ LayoutProblem weighing(const std::vector<double>& weights) {
 
 }  // namespace
 
-TEST_CASE("a bound between two sums of weights is one at the larger of them", "[design]") {
+TEST_CASE("a bound between two sums of weights is raised to the larger one", "[design]") {
   const std::vector<double> weights{130, 145, 160, 190, 220};
   std::set<double> all{0};
   for (double sum = 0; sum < 2000; sum += 5)
@@ -35,7 +35,7 @@ TEST_CASE("a bound between two sums of weights is one at the larger of them", "[
   CHECK(sums.from(400) == Approx(405));
 }
 
-TEST_CASE("below a sum and above the one before it there is no sum", "[design]") {
+TEST_CASE("no sum lies between a sum and the number just below it", "[design]") {
   const AttainableSums sums(weighing({0.5, 0.75}));
   // Sums: 0, 0.5, 0.75, 1, 1.25, ...
   CHECK(sums.just_below(0.5) > 0);
@@ -46,7 +46,8 @@ TEST_CASE("below a sum and above the one before it there is no sum", "[design]")
   CHECK(sums.just_below(0) < 0);
 }
 
-TEST_CASE("weights without a step, and fixed luminaires, leave a bound as it is", "[design]") {
+TEST_CASE("weights without a common step, and fixed luminaires, leave a bound unchanged",
+          "[design]") {
   CHECK(AttainableSums(weighing({1.23456, 2})).from(1.5) == Approx(1.5));
   CHECK(AttainableSums(weighing({1.23456, 2})).just_below(1.5) < 1.5);
   LayoutProblem fixed = weighing({7, 2});

@@ -1,4 +1,5 @@
-// Types that last as long as the rules ask for, and the class that schedules print.
+// Tests types whose batteries last as long as the rules require, and the battery class in
+// schedules.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -44,7 +45,7 @@ std::string scene_by(const std::string& assessment) {
          type_that_lasts("long", "3", 3);
 }
 
-/// The types that a layout is made of.
+/// The types that a layout contains.
 std::set<std::string> used(const SceneDescription& scene, const DesignResult& result) {
   std::set<std::string> out;
   for (const PlacedLuminaire& one : result.luminaires)
@@ -54,7 +55,7 @@ std::set<std::string> used(const SceneDescription& scene, const DesignResult& re
 
 }  // namespace
 
-TEST_CASE("types that last shorter than the rules ask for are not placed, and it is said why",
+TEST_CASE("types with a shorter duration than the rules require are not placed, with a reason",
           "[design][battery]") {
   const TemporaryFolder folder;
   struct Case {
@@ -82,7 +83,8 @@ TEST_CASE("types that last shorter than the rules ask for are not placed, and it
   }
 }
 
-TEST_CASE("a scene whose types all last too short is refused in a sentence", "[design][battery]") {
+TEST_CASE("a scene in which no type lasts long enough is refused with a message",
+          "[design][battery]") {
   std::string text = scene_by("rules = [\"en1838-2013\"]\ndeviations = [\"uk-bs5266-1\"]");
   text.erase(text.find("[[design.type]]\nname = \"long\""));
   const TemporaryFolder folder;
@@ -92,7 +94,8 @@ TEST_CASE("a scene whose types all last too short is refused in a sentence", "[d
   CHECK(refused.problem().text().find("3 h") != std::string::npos);
 }
 
-TEST_CASE("schedules print the class of a battery as luminaires are marked", "[design][battery]") {
+TEST_CASE("schedules print battery classes in the notation of luminaire labels",
+          "[design][battery]") {
   DesignType type;
   CHECK(battery_class(type).empty());
   type.battery = Battery::self_contained;

@@ -1,5 +1,5 @@
-// Minima between the points of the grid: where light ends sharply a gap may lie between two of
-// them, and a layout has none there.
+// Tests minima between the points of the grid: if light ends sharply, a gap may lie between two
+// points, and a layout must have none there.
 #include <catch2/catch.hpp>
 
 #include "tests/kit/temporary_folder.hpp"
@@ -8,9 +8,9 @@
 namespace luxodus {
 namespace {
 
-/// A corridor under spots of 45 degrees at 2.97 m, which light 2.95 m to each side of them. Points
-/// are 0.25 m apart from `from` on; between the first two places lie 0.1 m without light, from
-/// 5.95 m to 6.05 m.
+/// A corridor under spots of 45 degrees at 2.97 m, which light 2.95 m on each side. Points are 0.25
+/// m apart, starting at `from`. Between the light of the first two places lie 0.1 m without light,
+/// from 5.95 m to 6.05 m.
 std::string corridor_with_gap(double from) {
   return test::box_room(12, 2, 3) + test::judged_2013 + test::spot_of_45_deg +
          fmt::format(R"(
@@ -32,13 +32,13 @@ places = [[3, 1, 2.97], [9, 1, 2.97], [6, 1, 2.97]]
 
 }  // namespace
 
-TEST_CASE("no minimum hides between the points of the grid", "[design][between]") {
+TEST_CASE("every minimum holds between the points of the grid as well", "[design][between]") {
   const test::TemporaryFolder folder;
-  // Here a point lies in the gap, at 6 m.
+  // A point lies in the gap, at 6 m.
   const auto seen = test::designed(folder.write("seen.toml", corridor_with_gap(0.5)));
   CHECK(seen.luminaires.size() == 3);
   CHECK(seen.between.added == 0);
-  // And here the gap is between the points at 5.875 m and 6.125 m.
+  // The gap lies between the points at 5.875 m and 6.125 m.
   const auto hidden = test::designed(folder.write("hidden.toml", corridor_with_gap(0.625)));
   CHECK(hidden.between.added > 0);
   CHECK(hidden.luminaires.size() == 3);
@@ -46,7 +46,7 @@ TEST_CASE("no minimum hides between the points of the grid", "[design][between]"
   CHECK(hidden.verifications == 2);
 }
 
-TEST_CASE("where light is smooth nothing is added between the points", "[design][between]") {
+TEST_CASE("no points are added between others if the light varies smoothly", "[design][between]") {
   const test::TemporaryFolder folder;
   const auto result = test::designed(folder.write(
       "scene.toml", test::box_room(9, 3, 3) + test::judged_2013 + test::way_along(1, 8, 1.5) +
@@ -56,9 +56,10 @@ TEST_CASE("where light is smooth nothing is added between the points", "[design]
   CHECK(result.between.least < 5);
 }
 
-TEST_CASE("moving luminaires opens no gap between the points", "[design][between][refine]") {
-  // Spots at 3.06 m and 8.94 m light all of the way. Its ends and the points at 5.875 m and 6.125 m
-  // would be brightest under spots at 3 m and 9 m, which leave 0.1 m in the middle dark.
+TEST_CASE("moving luminaires opens no gap between the points of the grid",
+          "[design][between][refine]") {
+  // Spots at 3.06 m and 8.94 m light the whole route. Its ends and the points at 5.875 m and 6.125
+  // m would be brightest under spots at 3 m and 9 m, which leave 0.1 m in the middle dark.
   const test::TemporaryFolder folder;
   DesignOptions options;
   options.refine = true;
@@ -73,7 +74,7 @@ TEST_CASE("moving luminaires opens no gap between the points", "[design][between
       options);
   REQUIRE(result.luminaires.size() == 2);
   REQUIRE(result.refined);
-  constexpr double lit_m = 2.95;  // to each side of a spot
+  constexpr double lit_m = 2.95;  // on each side of a spot
   double nearest = lit_m;
   for (const PlacedLuminaire& one : result.luminaires)
     nearest = std::min(nearest, std::abs(one.candidate.position.x - 6));

@@ -1,4 +1,4 @@
-// Ctrl-C as a program meets it that listens while it plans.
+// Simulates Ctrl-C for a program that handles SIGINT while it plans.
 #pragma once
 
 #include <sys/time.h>
@@ -12,7 +12,7 @@
 
 namespace luxodus::test {
 
-/// Listens to SIGINT, and looks every millisecond whether it still does.
+/// Handles SIGINT, and checks every millisecond that its handler is still installed.
 class CtrlC {
  public:
   CtrlC() {
@@ -36,13 +36,13 @@ class CtrlC {
   CtrlC(const CtrlC&) = delete;
   CtrlC& operator=(const CtrlC&) = delete;
 
-  /// What a search is given to look at.
+  /// The flag that a search tests.
   const std::atomic<bool>& interrupt() const { return pressed(); }
-  /// How often was looked, and how often somebody else listened in the program's place.
+  /// Number of checks, and of checks that found another handler.
   int times_looked() const { return looks(); }
   int times_taken() const { return taken(); }
 
-  /// Pressed when progress of this kind is told for so many times.
+  /// Sends SIGINT at the n-th progress message of this kind.
   SolveProgress pressed_at(const std::string& kind, int times) {
     return [kind, left = times](const std::string& what, double, double) mutable {
       if (what.starts_with(kind) && --left == 0) ::raise(SIGINT);

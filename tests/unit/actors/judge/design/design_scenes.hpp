@@ -1,4 +1,4 @@
-// Scenes that designs are tested on, and the designs of them, with nobody who watches.
+// Scenes for tests of designs, and their designs without progress messages or interrupts.
 #pragma once
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ material = "white50"
                      x, y, z);
 }
 
-/// A rule set, and the state that is judged by it.
+/// A rule set and the state to be judged.
 inline const std::string judged_2013 = R"(
 [assessment]
 rules = ["en1838-2013"]
@@ -46,7 +46,7 @@ name = "failed"
 operation = "emergency"
 )";
 
-/// A luminaire 2.97 m above the floor: what lies within its cone is lit, all else is dark.
+/// A luminaire 2.97 m above the floor: its cone is lit, everything else is dark.
 inline const std::string spot_of_45_deg = R"(
 [[emitter]]
 name = "spot"
@@ -62,12 +62,12 @@ maintenance_factor = 1
 end_of_duration_factor = 1
 )";
 
-/// `path`: points as the scene file writes them, without the outer brackets.
+/// `path`: points in the syntax of scene files, without the outer brackets.
 inline std::string route(const std::string& name, const std::string& path, double width = 1) {
   return fmt::format("[[route]]\nname = \"{}\"\npath = [{}]\nwidth = {}\n", name, path, width);
 }
 
-/// The route "way" along x at y [m].
+/// The route "way" along x at this y [m].
 inline std::string way_along(double from, double to, double y, double width = 1) {
   return route("way", fmt::format("[{0}, {1}, 0], [{2}, {1}, 0]", from, y, to), width);
 }
@@ -84,7 +84,7 @@ inline DesignResult designed(const std::filesystem::path& file, const DesignOpti
   return std::move(result).value();
 }
 
-/// The checks that luminaires decide and that fail, of an assessment of the variant on disk.
+/// Failing checks that luminaires decide, in an assessment of the variant on disk.
 inline std::vector<std::string> failing_on_disk(const TemporaryFolder& folder,
                                                 const std::filesystem::path& file,
                                                 const DesignResult& result) {
@@ -101,7 +101,7 @@ inline std::vector<std::string> failing_on_disk(const TemporaryFolder& folder,
   std::vector<std::string> out;
   for (const Check& check : assessed->checks) {
     if (check.verdict != CheckVerdict::fail || !is_of_luminaires(check.rule.id)) continue;
-    // Furniture may hide points from all candidates: the result names these, and no others.
+    // Furniture may hide points from all candidates; the result must list exactly these checks.
     const bool furnished = std::count(check.conditions.begin(), check.conditions.end(),
                                       remark(RemarkId::with_furniture)) > 0;
     const bool told =

@@ -1,5 +1,5 @@
-// Layouts of rooms and corridors: optima known by formula and by symmetry, what is refused, and
-// that every layout passes an assessment of the file that it was written to.
+// Tests layouts of rooms and corridors: optima known by formula and symmetry, refused scenes, and
+// that every layout on disk passes an assessment.
 #include "actors/judge/design/design.hpp"
 
 #include <catch2/catch.hpp>
@@ -31,7 +31,7 @@ std::string problem_of(const std::string& text) {
   return result.problem().text();
 }
 
-/// A room with furniture and perhaps a wall, a route through it and an area, as the seed has it.
+/// A room with furniture and possibly a wall, with a route through it and an area; random by seed.
 std::string random_room(uint64_t seed) {
   Random random(seed, RandomStream::test, 7);
   random.start(seed);
@@ -88,7 +88,7 @@ void check_random_rooms(uint64_t first, uint64_t count) {
   CHECK(layouts * 2 > static_cast<int>(count));
 }
 
-/// A corridor whose luminaires are spots: what lies within a cone is lit, all else is dark.
+/// A corridor under spots: their cones are lit, everything else is dark.
 std::string spot_corridor(double length) {
   return box_room(length, 2, 3) + judged_2013 + test::spot_of_45_deg +
          fmt::format(R"(
@@ -109,9 +109,9 @@ spacing_m = 0.5
 
 }  // namespace
 
-TEST_CASE("a corridor under spots takes as many as their cones are to its length", "[design]") {
+TEST_CASE("a corridor under spots needs its length divided by the width of a cone", "[design]") {
   // A cone of 45 degrees from 2.97 m lights 2 x (2.97 - 0.02) m of the plane at 2 cm. Each of its
-  // points has 300 lm / (2 pi (1 - cos 45 deg)) x cos^3 / h^2 or more: 6.6 lx at the rim.
+  // points gets 300 lm / (2 pi (1 - cos 45 deg)) x cos^3 / h^2 or more: 6.6 lx at the rim.
   constexpr double lit_m = 2 * 2.95;
   for (const double length : {6.0, 13.0, 20.0}) {
     INFO("length " << length);
@@ -123,7 +123,8 @@ TEST_CASE("a corridor under spots takes as many as their cones are to its length
   }
 }
 
-TEST_CASE("routes alone are enough: types, places and scenario have defaults", "[design]") {
+TEST_CASE("a design needs only routes, since types, places and the scenario have defaults",
+          "[design]") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("scene.toml", box_room(8, 3, 2.8) + R"(
 [[route]]
@@ -141,7 +142,7 @@ width = 1.2
   CHECK(failing_on_disk(folder, file, result).empty());
 }
 
-TEST_CASE("a room and its mirror image take as many luminaires", "[design]") {
+TEST_CASE("a room and its mirror image need equally many luminaires", "[design]") {
   const auto room = [](double from, double to) {
     return box_room(9, 6, 3) + judged_2013 +
            fmt::format(
@@ -155,7 +156,7 @@ TEST_CASE("a room and its mirror image take as many luminaires", "[design]") {
   CHECK(there.answer.objective == Approx(mirrored.answer.objective));
 }
 
-TEST_CASE("the same scene and seed give the same files", "[design]") {
+TEST_CASE("equal scenes and seeds give equal files", "[design]") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("scene.toml", random_room(5));
   const auto scene = test::described(file);
@@ -167,7 +168,8 @@ TEST_CASE("the same scene and seed give the same files", "[design]") {
   CHECK(text() == text());
 }
 
-TEST_CASE("all single failures with the full minima take no fewer luminaires", "[design]") {
+TEST_CASE("full minima after every single failure need at least as many luminaires as the default",
+          "[design]") {
   const auto with = [](const char* failure) {
     return box_room(9, 3, 3) + judged_2013 +
            "[[route]]\nname = \"way\"\npath = [[1, 1.5, 0], [8, 1.5, 0]]\nwidth = 1\n[design]\n"
@@ -178,12 +180,12 @@ TEST_CASE("all single failures with the full minima take no fewer luminaires", "
   const auto none = designed(folder.write("none.toml", with("none")));
   const auto full = designed(folder.write("full.toml", with("full")));
   CHECK(full.answer.objective >= none.answer.objective);
-  // Whatever one fails, 1 lx is left on the whole band: the assessment says so itself.
+  // Whichever luminaire fails, 1 lx is left on the whole band: the assessment confirms it.
   for (const Check& check : full.assessment.checks)
     if (check.rule.id == RuleId::F1) CHECK(check.value.value_or(0) >= 1);
 }
 
-TEST_CASE("a layout stays clear of keep-out zones, signs and walls", "[design]") {
+TEST_CASE("a layout keeps its distance from keep-out zones, signs and walls", "[design]") {
   const TemporaryFolder folder;
   const auto result = designed(folder.write("scene.toml", box_room(10, 3, 3) + judged_2013 + R"(
 [[route]]
@@ -203,8 +205,8 @@ radius = 1.2
     CHECK(glm::length(glm::dvec2(one.candidate.position) - glm::dvec2(5, 1.5)) >= 1.2);
 }
 
-TEST_CASE("where no layout exists it is said which demand cannot hold, and why", "[design]") {
-  // Task light of 15 lx from a generic luminaire of 112 lm, 6 m above.
+TEST_CASE("if no layout exists the demand that cannot hold is named with the reason", "[design]") {
+  // A task area needs 15 lx, and the generic luminaire has 112 lm and hangs 6 m above.
   const TemporaryFolder folder;
   const fs::path file = folder.write("scene.toml", box_room(4, 4, 7) + judged_2013 + R"(
 [[task_area]]
@@ -224,7 +226,7 @@ spacing_m = 2
   CHECK(words.front().find("times as bright") != std::string::npos);
 }
 
-TEST_CASE("a luminaire that is there stays where it saves a new one", "[design]") {
+TEST_CASE("an existing luminaire stays if it saves a new one", "[design]") {
   const std::string scene = box_room(9, 3, 3) + judged_2013 + R"(
 [[emitter]]
 name = "old"
@@ -257,7 +259,8 @@ failure = "none"
   CHECK(failing_on_disk(folder, file, kept).empty());
 }
 
-TEST_CASE("a layout by NFPA 101 has its means, at first and at the end", "[design]") {
+TEST_CASE("a layout by NFPA 101 has the required means initially and at the end of the duration",
+          "[design]") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("scene.toml", box_room(9, 3, 2.6) + R"(
 [assessment]
@@ -275,7 +278,7 @@ width = 1
     if (check.rule.id == RuleId::N2) CHECK(check.value.value_or(0) >= 1.25 * 6.5 * (1 - 1e-3));
 }
 
-TEST_CASE("what a design cannot be made of is refused in a sentence", "[design]") {
+TEST_CASE("a scene that cannot be designed is refused with a message", "[design]") {
   const std::string route =
       "[[route]]\nname = \"way\"\npath = [[1, 1.5, 0], [7, 1.5, 0]]\nwidth = 1\n";
   const std::string room = box_room(8, 3, 3) + judged_2013;
@@ -287,18 +290,16 @@ TEST_CASE("what a design cannot be made of is refused in a sentence", "[design]"
             .find("far") != std::string::npos);
 }
 
-TEST_CASE("layouts of random rooms pass the assessment of the file they are written to",
-          "[design]") {
+TEST_CASE("layouts of random rooms on disk pass an assessment", "[design]") {
   const char* seed = std::getenv("LUXODUS_SEED");
   check_random_rooms(seed == nullptr ? 1 : std::strtoull(seed, nullptr, 10), 4);
 }
 
-TEST_CASE("layouts of 200 random rooms pass the assessment of the file they are written to",
-          "[design][.][long]") {
+TEST_CASE("layouts of 200 random rooms on disk pass an assessment", "[design][.][long]") {
   check_random_rooms(1000, 200);
 }
 
-TEST_CASE("a type counts with what its circuit leaves of it in the judged scenario",
+TEST_CASE("a type counts with the flux that its circuit leaves in the judged scenario",
           "[design][circuits]") {
   const auto at = [](const char* factor) {
     std::string text = spot_corridor(13);
@@ -312,14 +313,15 @@ TEST_CASE("a type counts with what its circuit leaves of it in the judged scenar
   };
   const size_t all = count("1");
   CHECK(all == 3);
-  // At the rim of the cone there is less than 1 lx then: the cones have to overlap.
+  // The rim of the cone then has less than 1 lx, so the cones have to overlap.
   CHECK(count("0.06") > all);
   const std::string problem = problem_of(at("0"));
   INFO(problem);
   CHECK(problem.find("no type of luminaire gives light") != std::string::npos);
 }
 
-TEST_CASE("what a design does not decide is told once for many subjects", "[design][files]") {
+TEST_CASE("a failing check that a design does not decide is reported once for all its subjects",
+          "[design][files]") {
   std::vector<Check> others;
   const auto add = [&](RuleId rule, const Subject& subject) {
     others.emplace_back();
@@ -347,7 +349,8 @@ TEST_CASE("what a design does not decide is told once for many subjects", "[desi
   CHECK(joined[2].points == 9);
 }
 
-TEST_CASE("a design leaves no file of an earlier one that it does not have", "[design][files]") {
+TEST_CASE("writing a design removes files of an earlier one that it does not have",
+          "[design][files]") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("scene.toml", spot_corridor(6));
   const auto scene = test::described(file);
@@ -362,7 +365,7 @@ TEST_CASE("a design leaves no file of an earlier one that it does not have", "[d
   CHECK_FALSE(fs::exists(folder.path() / "design.pdf"));
 }
 
-TEST_CASE("what is left off the places is told where luminaires may be off them",
+TEST_CASE("the shortfall off the places is written if a place tolerance is set",
           "[design][files]") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("scene.toml", spot_corridor(6));

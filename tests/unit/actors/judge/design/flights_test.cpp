@@ -1,4 +1,4 @@
-// Direct light on each flight of stairs: which flights there are, and that a layout lights them.
+// Tests direct light on flights of stairs: which flights there are, and that a layout lights them.
 #include "actors/judge/design/flights.hpp"
 
 #include <catch2/catch.hpp>
@@ -20,7 +20,7 @@ std::string stairs(double x, double y, const char* more = "") {
       x, y, more);
 }
 
-/// A way along a room, and stairs behind a wall, where no rule of the way asks for light.
+/// A route along a room, and stairs behind a wall, where no rule for the route requires light.
 std::string behind_a_wall(const std::string& behind, const std::string& settings) {
   return test::box_room(10, 5, 4) + test::judged_2013 + test::way_along(1, 9, 1, 0.8) +
          "[[object]]\nname = \"wall\"\nshape = \"box\"\nlow = [0, 2.4, 0]\nhigh = [10, 2.6, "
@@ -41,7 +41,7 @@ size_t behind(const DesignResult& result) {
 
 }  // namespace
 
-TEST_CASE("flights are stairs of objects, with copies, and legs of routes that climb",
+TEST_CASE("flights are stairs of objects, copies included, and legs of routes that climb",
           "[design][flights]") {
   const TemporaryFolder folder;
   const std::string room = test::box_room(20, 5, 8) + test::judged_2013;
@@ -56,7 +56,7 @@ TEST_CASE("flights are stairs of objects, with copies, and legs of routes that c
     CHECK(glm::length(treads[static_cast<size_t>(i)] -
                       glm::dvec3(3 + 0.28 * (i + 0.5), 2.6, 0.17 * (i + 1))) < 1e-9);
   CHECK(own[1].lowest.x == Approx(own[0].lowest.x + 6));
-  // A ramp of 1 in 12 is no flight; what falls by 30 degrees is one.
+  // A ramp of 1 in 12 is no flight; a leg that descends by 30 degrees is one.
   const auto of_route = flights_in(
       folder, room + test::route("down", "[1, 1, 3], [4, 1, 3], [9.2, 1, 0], [15, 1, 0]") +
                   test::route("ramp", "[1, 4, 0.5], [7, 4, 0]"));
@@ -64,13 +64,13 @@ TEST_CASE("flights are stairs of objects, with copies, and legs of routes that c
   CHECK(of_route[0].name == "down, flight 1");
   CHECK(of_route[0].lowest.x == Approx(9.2));
   CHECK(of_route[0].treads == 18);
-  // A route over stairs is no second flight.
+  // A route over stairs adds no second flight.
   CHECK(flights_in(folder,
                    room + stairs(3, 0.4) + test::route("up", "[1, 1, 0], [3, 1, 0], [5.8, 1, 1.7]"))
             .size() == 1);
 }
 
-TEST_CASE("each flight has a luminaire that lights all of it, which no route asks for",
+TEST_CASE("each flight has a luminaire that lights all of it, which no rule for routes requires",
           "[design][flights]") {
   const TemporaryFolder folder;
   const std::string places =
@@ -91,7 +91,7 @@ TEST_CASE("each flight has a luminaire that lights all of it, which no route ask
   CHECK(test::failing_on_disk(folder, file, with).empty());
 }
 
-TEST_CASE("a flight that no candidate lights is told, and nothing is asked for there",
+TEST_CASE("a flight that no candidate lights is reported, and no light is required there",
           "[design][flights]") {
   const TemporaryFolder folder;
   const std::string places = "places = [[2, 1, 3.97], [5, 1, 3.97], [8, 1, 3.97]]\n";
@@ -104,7 +104,7 @@ TEST_CASE("a flight that no candidate lights is told, and nothing is asked for t
   CHECK(design_json(*test::described(file), result, "1")["unlit_flights"].size() == 1);
 }
 
-TEST_CASE("a luminaire that may not stay where it is lights no flight", "[design][flights]") {
+TEST_CASE("a luminaire that must not stay at its place lights no flight", "[design][flights]") {
   const TemporaryFolder folder;
   // At 1.9 m it hangs too low (E14).
   const std::string low = R"(

@@ -1,5 +1,5 @@
-// Layouts as sums of the light of their luminaires: what the sum says of a view is what the
-// layout's own trace says.
+// Tests layouts as sums of the light of their luminaires: a view in the sum agrees with a view in a
+// trace of the layout alone.
 #include "actors/judge/design/layout_lights.hpp"
 
 #include <catch2/catch.hpp>
@@ -30,7 +30,7 @@ std::vector<LayoutLight> lights_of(const std::vector<JudgedLayout>& layouts) {
   return out;
 }
 
-/// The first layout, one that shares a luminaire with it, and the first with brighter signs.
+/// A layout, one that shares a luminaire with it, and the first with brighter signs.
 std::vector<JudgedLayout> three_layouts(const std::shared_ptr<const SceneDescription>& scene) {
   std::vector<JudgedLayout> out{corridor_layout(scene, "A", {3, 8, 13}),
                                 corridor_layout(scene, "B", {3, 10.5}),
@@ -45,7 +45,7 @@ std::vector<JudgedLayout> three_layouts(const std::shared_ptr<const SceneDescrip
   return out;
 }
 
-/// Adds the luminaire "old" of the scene to a layout: moved, or where it is.
+/// Adds the existing luminaire "old" to a layout, moved or at its place.
 void take_old(JudgedLayout& layout, std::optional<double> to_x, const std::string& body = "") {
   auto variant = std::make_shared<SceneDescription>(*layout.layout.variant);
   Emitter old = test::corridor_luminaire("old", to_x.value_or(5.5));
@@ -60,7 +60,7 @@ void take_old(JudgedLayout& layout, std::optional<double> to_x, const std::strin
   layout.layout.luminaires.push_back(one);
 }
 
-/// A new luminaire at 3 m in each, and one of the scene that two of them move.
+/// Three layouts with a new luminaire at 3 m, and an existing luminaire that two of them move.
 std::vector<JudgedLayout> moving_layouts(const std::shared_ptr<const SceneDescription>& scene,
                                          const std::string& body = "") {
   std::vector<JudgedLayout> out{corridor_layout(scene, "A", {3}), corridor_layout(scene, "B", {3}),
@@ -71,7 +71,7 @@ std::vector<JudgedLayout> moving_layouts(const std::shared_ptr<const SceneDescri
   return out;
 }
 
-/// All views of a heat's layouts, by one round of 128 paths to each part and batch.
+/// All views of a heat's layouts after one round with 128 paths per part and batch.
 std::unique_ptr<HeatState> traced(const Heat& heat, uint64_t seed) {
   AssessOptions asked;
   asked.threads = 2;
@@ -86,7 +86,8 @@ std::unique_ptr<HeatState> traced(const Heat& heat, uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("luminaires of several layouts are there once, and each layout has its own", "[design]") {
+TEST_CASE("luminaires of several layouts are in the scene once, and each layout uses its own",
+          "[design]") {
   const auto scene = smoky_corridor();
   const auto layouts = three_layouts(scene);
   const LayoutLights lights(lights_of(layouts));
@@ -95,7 +96,7 @@ TEST_CASE("luminaires of several layouts are there once, and each layout has its
   const auto judged = lights.judged(*scene, find_scenario(*scene, "fire").value(), {});
   REQUIRE(judged.ok());
   REQUIRE(judged->lights.size() == 3);
-  // 8 and 13 m are of the same layouts: one group.
+  // Luminaires at 8 and 13 m belong to the same layouts: one group.
   const auto& emitters = judged->scene.emitters;
   REQUIRE(emitters.size() == 4);
   CHECK(emitters[1].group == emitters[2].group);
@@ -116,7 +117,7 @@ TEST_CASE("luminaires of several layouts are there once, and each layout has its
   CHECK(judged->lights[2].aged.factor_of(signs) == brighter_signs);
 }
 
-TEST_CASE("light is not added of layouts whose luminaires stand in each other's way", "[design]") {
+TEST_CASE("light is not added if bodies of luminaires block light of other layouts", "[design]") {
   const auto scene = smoky_corridor();
   auto layouts = three_layouts(scene);
   const auto with_body = [](JudgedLayout& one, size_t emitter) {
@@ -127,7 +128,7 @@ TEST_CASE("light is not added of layouts whose luminaires stand in each other's 
   for (JudgedLayout& one : layouts) with_body(one, 0);  // at 3 m, in all layouts
   CHECK(LayoutLights(lights_of(layouts)).can_add());
   CHECK(heats_of(layouts, 1, true).size() == 1);
-  with_body(layouts[1], 1);  // at 10.5 m, in one
+  with_body(layouts[1], 1);  // at 10.5 m, in one layout
   CHECK_FALSE(LayoutLights(lights_of(layouts)).can_add());
   const auto heats = heats_of(layouts, 1, true);
   REQUIRE(heats.size() == 2);
@@ -135,11 +136,12 @@ TEST_CASE("light is not added of layouts whose luminaires stand in each other's 
   CHECK(heats[1].members == std::vector<size_t>{1});
 }
 
-TEST_CASE("a luminaire that layouts move is one of its own at each of its places", "[design]") {
+TEST_CASE("a luminaire that layouts move is a separate luminaire at each of its places",
+          "[design]") {
   const auto scene = smoky_corridor();
   const auto layouts = moving_layouts(scene);
   const LayoutLights lights(lights_of(layouts));
-  CHECK(lights.emitters() == 4);  // at 3 m, and the old one at 13, 9 and 5.5 m
+  CHECK(lights.emitters() == 4);  // at 3 m, and "old" at 13, 9 and 5.5 m
   CHECK(lights.varying() == 3);
   CHECK(lights.can_add());
   const auto judged = lights.judged(*scene, find_scenario(*scene, "fire").value(), {});
@@ -152,13 +154,14 @@ TEST_CASE("a luminaire that layouts move is one of its own at each of its places
   CHECK(names.size() == 4);
   CHECK(names.contains("old"));
   CHECK(groups.size() == 4);
-  // A body that moves leaves others' light free where it was.
+  // A body that moves no longer blocks light where it was.
   const auto bodies = moving_layouts(scene, "grey50");
   CHECK_FALSE(LayoutLights(lights_of(bodies)).can_add());
   CHECK(heats_of(bodies, 1, true).size() == 3);
 }
 
-TEST_CASE("layouts share paths up to so many luminaires that only some of them have", "[design]") {
+TEST_CASE("layouts share paths up to a number of luminaires that only some of them have",
+          "[design]") {
   const auto scene = smoky_corridor();
   std::vector<JudgedLayout> layouts;
   for (size_t i = 0; i < 5; ++i) {
@@ -167,20 +170,20 @@ TEST_CASE("layouts share paths up to so many luminaires that only some of them h
       places.push_back(0.5 + 0.25 * static_cast<double>(k) + 0.01 * static_cast<double>(i));
     layouts.push_back(corridor_layout(scene, std::string(1, static_cast<char>('A' + i)), places));
   }
-  const auto heats = heats_of(layouts, 1, true);  // 60 of each, 180 of three, 240 of four
+  const auto heats = heats_of(layouts, 1, true);  // 60 in each, 180 in three, 240 in four
   REQUIRE(heats.size() == 2);
   CHECK(heats[0].members == std::vector<size_t>{0, 1, 2});
   CHECK(heats[1].members == std::vector<size_t>{3, 4});
   CHECK(heats[0].lights->varying() == 180);
 }
 
-TEST_CASE("layouts share paths up to so many views in all scenarios together", "[design]") {
+TEST_CASE("layouts share paths up to a number of views over all scenarios", "[design]") {
   const auto layouts = three_layouts(smoky_corridor());
   CHECK(heats_of(layouts, 2, true).size() == 1);
   CHECK(heats_of(layouts, limits::heat_views, true).size() == 3);
 }
 
-TEST_CASE("layouts with other signs are traced by themselves", "[design]") {
+TEST_CASE("layouts with other signs are traced separately", "[design]") {
   const auto scene = smoky_corridor();
   auto layouts = three_layouts(scene);
   layouts.push_back(layouts.front());
@@ -192,7 +195,7 @@ TEST_CASE("layouts with other signs are traced by themselves", "[design]") {
   CHECK(heats_of(layouts, 1, false).size() == 4);
 }
 
-TEST_CASE("what a sum says of each view of a layout is what its own trace says", "[design]") {
+TEST_CASE("a view of a layout in the sum agrees with the trace of the layout alone", "[design]") {
   const bool moving = GENERATE(false, true);
   const auto layouts = moving ? moving_layouts(smoky_corridor()) : three_layouts(smoky_corridor());
   const auto together = heats_of(layouts, 1, true), alone = heats_of(layouts, 1, false);

@@ -1,4 +1,4 @@
-// Low-level signs beside those above: on a wall where there is one, and nowhere else.
+// Tests low-level signs below high ones: on a wall if there is one, and nowhere else.
 #include "actors/judge/design/low_signs.hpp"
 
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@
 namespace luxodus {
 namespace {
 
-/// In a corridor of 16 m with its middle at y = 0, and perhaps something in it.
+/// Low signs in a corridor of 16 m with its middle at y = 0, with `more` objects in it.
 std::vector<LowSign> low_signs_in(const std::string& sign_at, const std::string& more = "") {
   const auto scene = test::described_text(
       "[[object]]\nname = \"corridor\"\nshape = \"room\"\nlow = [0, -2, 0]\nhigh = [16, 2, 3]\n"
@@ -25,7 +25,7 @@ std::vector<LowSign> low_signs_in(const std::string& sign_at, const std::string&
 
 }  // namespace
 
-TEST_CASE("below a sign on a wall there is one near the floor", "[design][low]") {
+TEST_CASE("a sign on a wall gets a low sign below it", "[design][low]") {
   const auto low = low_signs_in("[15.97, 0, 2.2]");
   REQUIRE(low.size() == 1);
   CHECK(low[0].of == "exit");
@@ -37,7 +37,7 @@ TEST_CASE("below a sign on a wall there is one near the floor", "[design][low]")
   CHECK(glm::length(low[0].sign.frame.axes[2] - glm::dvec3(-1, 0, 0)) < 1e-9);
 }
 
-TEST_CASE("a sign over an opening has its low one beside it", "[design][low]") {
+TEST_CASE("a sign over an opening gets a low sign beside the opening", "[design][low]") {
   // The wall at x = 12 is open between y = -0.5 and 0.5.
   const auto wall = [](const char* name, const char* low, const char* high) {
     return fmt::format(
@@ -51,12 +51,13 @@ TEST_CASE("a sign over an opening has its low one beside it", "[design][low]") {
                                           wall("lintel", "12, -0.5, 2.1", "12.2, 0.5, 3"));
   REQUIRE(low.size() == 1);
   const glm::dvec3 at = low[0].sign.frame.origin;
-  CHECK(std::abs(at.y) - 0.2 >= 0.5);  // its edge, half of 0.4 m, is beside the opening
+  CHECK(std::abs(at.y) - 0.2 >= 0.5);  // the edge, at half of 0.4 m, is beside the opening
   CHECK(std::abs(at.y) < 1);
   CHECK(at.x < 12);
 }
 
-TEST_CASE("a sign in the middle of a room, or one that is low, has none", "[design][low]") {
+TEST_CASE("a sign in the middle of a room and a sign near the floor get no low sign",
+          "[design][low]") {
   CHECK(low_signs_in("[8, 0, 2.2]").empty());
   CHECK(low_signs_in("[15.97, 0, 0.35]").empty());
 }

@@ -1,4 +1,4 @@
-// Luminaires of the scene that may be moved: they stay where that is enough, and their variant on
+// Tests luminaires of the scene that may be moved: they stay if that is enough, and the variant on
 // disk has them where the design says.
 #include <catch2/catch.hpp>
 
@@ -31,7 +31,7 @@ end_of_duration_factor = 0.7
                      name, at, more);
 }
 
-/// A corridor with two luminaires at one end of it.
+/// A corridor with two luminaires at one end.
 std::string crowded(const std::string& settings) {
   return test::box_room(12, 3, 3) + test::judged_2013 + test::way_along(1, 11, 1.5) +
          old_one("near the wall", "[0.8, 0.8, 2.97]") + old_one("beside it", "[0.8, 2.2, 2.97]") +
@@ -70,7 +70,7 @@ size_t moved_ones(const DesignResult& result) {
 
 }  // namespace
 
-TEST_CASE("luminaires that may be moved save new ones, and their variant has them there",
+TEST_CASE("movable luminaires save new ones, and the variant on disk has them at their new places",
           "[design][movable]") {
   const TemporaryFolder folder;
   const auto fixed = designed(folder.write("fixed.toml", crowded("")));
@@ -80,7 +80,7 @@ TEST_CASE("luminaires that may be moved save new ones, and their variant has the
   CHECK(new_ones(result) < new_ones(fixed));
   REQUIRE(moved_ones(result) >= 1);
   CHECK(result.removed.empty());
-  // A quarter of a luminaire for each that is moved, and nothing for one that stays.
+  // Each moved luminaire counts as a quarter, and each that stays counts nothing.
   CHECK(result.answer.objective == Approx(static_cast<double>(new_ones(result)) +
                                           0.25 * static_cast<double>(moved_ones(result))));
   CHECK(test::failing_on_disk(folder, file, result).empty());
@@ -103,7 +103,7 @@ TEST_CASE("luminaires that may be moved save new ones, and their variant has the
   CHECK(schedule.find(",moved,") != std::string::npos);
 }
 
-TEST_CASE("what moving costs decides between moving and a new luminaire", "[design][movable]") {
+TEST_CASE("the cost of a move decides between moving and a new luminaire", "[design][movable]") {
   const TemporaryFolder folder;
   const auto with = [&](const char* cost) {
     return designed(folder.write(
@@ -119,7 +119,7 @@ TEST_CASE("what moving costs decides between moving and a new luminaire", "[desi
   CHECK(cheap.luminaires.front().candidate.position.y == Approx(2.2));
 }
 
-TEST_CASE("a luminaire on a wall moves to walls, tilted as it was", "[design][movable]") {
+TEST_CASE("a luminaire on a wall moves only to walls and keeps its tilt", "[design][movable]") {
   const TemporaryFolder folder;
   const auto candidates = candidates_in(folder.write(
       "scene.toml", test::box_room(12, 3, 3) + test::judged_2013 + test::way_along(1, 11, 1.5) +
@@ -131,13 +131,13 @@ TEST_CASE("a luminaire on a wall moves to walls, tilted as it was", "[design][mo
     if (!one.moved) continue;
     ++moves;
     REQUIRE(one.aim);
-    CHECK(one.aim->z == Approx(-std::sqrt(0.5)).margin(1e-5));  // 45 degrees, as it was
+    CHECK(one.aim->z == Approx(-std::sqrt(0.5)).margin(1e-5));  // 45 degrees, as before
     CHECK(one.position.z == Approx(2.3));
   }
   CHECK(moves > 4);
 }
 
-TEST_CASE("a luminaire moves on its own storey alone", "[design][movable]") {
+TEST_CASE("a luminaire moves only within its storey", "[design][movable]") {
   const TemporaryFolder folder;
   const auto candidates = candidates_in(folder.write(
       "scene.toml", two_storeys() + test::judged_2013 + test::way_along(1, 11, 1.5) +
@@ -147,13 +147,14 @@ TEST_CASE("a luminaire moves on its own storey alone", "[design][movable]") {
   for (const LuminaireCandidate& one : candidates) {
     if (one.moved) CHECK(one.position.z > 3);
     above += one.moved ? 1 : 0;
-    below += one.position.z < 3 ? 1 : 0;  // of new ones
+    below += one.position.z < 3 ? 1 : 0;  // new ones
   }
   CHECK(above >= 10);
   CHECK(below >= 10);
 }
 
-TEST_CASE("over no floor, a luminaire moves to places of about its height", "[design][movable]") {
+TEST_CASE("without a floor below it a luminaire moves to places of about its height",
+          "[design][movable]") {
   const auto bench = [](const char* name, double z) {
     return fmt::format(
         "[[task_area]]\nname = \"{}\"\noutline = [[1, 0.5], [11, 0.5], [11, 2.5], [1, 2.5]]\n"
@@ -174,14 +175,15 @@ TEST_CASE("over no floor, a luminaire moves to places of about its height", "[de
   CHECK(moves >= 10);
 }
 
-TEST_CASE("what a move costs is a share of a type that may be placed", "[design][movable]") {
+TEST_CASE("the default cost of a move is a share of the lightest type that may be placed",
+          "[design][movable]") {
   const auto type = [](const char* name, const char* hours, int cost) {
     return old_one(name, "[11, 1.5, 2.97]", fmt::format("duration_h = {}", hours).c_str()) +
            fmt::format("[[design.type]]\nname = \"{0}, new\"\nlike = \"{0}\"\ncost = {1}\n", name,
                        cost);
   };
   const TemporaryFolder folder;
-  // The cheap one does not last for an hour, as EN 1838 asks for.
+  // The cheap type does not last an hour, as EN 1838 requires.
   const auto scene = test::described(folder.write(
       "scene.toml", test::box_room(12, 3, 3) + test::judged_2013 + test::way_along(1, 11, 1.5) +
                         old_one("old", "[0.8, 0.8, 2.97]") +
@@ -207,7 +209,8 @@ TEST_CASE("what a move costs is a share of a type that may be placed", "[design]
   CHECK(moves > 0);
 }
 
-TEST_CASE("a luminaire that glares where it is has to move, or is refused", "[design][movable]") {
+TEST_CASE("a luminaire that violates a rule at its place must move, or the design is refused",
+          "[design][movable]") {
   // 1.9 m above the floor is too low (E14).
   const std::string low = test::box_room(12, 3, 3) + test::judged_2013 +
                           test::way_along(1, 11, 1.5) + old_one("low", "[6, 1.5, 1.9]") +

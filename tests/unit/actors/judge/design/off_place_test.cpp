@@ -1,5 +1,5 @@
-// Layouts that hold off their places, against all layouts of few candidates: none that passes the
-// rules and holds off its places is below the bound.
+// Compares layouts that hold off their places with all subsets of few candidates: no subset that
+// passes the rules and holds off its places is below the bound.
 #include <catch2/catch.hpp>
 #include <limits>
 
@@ -47,7 +47,8 @@ struct Posed {
   std::unique_ptr<Demands> demands;
 };
 
-/// Of all subsets that pass the rules and hold off their places; infinite where none does.
+/// Smallest objective of all subsets that pass the rules and hold off their places; infinite if
+/// none does.
 double fewest_off_place(const Posed& posed) {
   const LayoutProblem& problem = posed.demands->problem();
   const LayoutIndex index(problem);
@@ -92,7 +93,7 @@ TEST_CASE("a layout that holds off its places is the smallest of all that do",
   CHECK(raised > 0);
 }
 
-TEST_CASE("rows of points off their places are kept by all layouts that hold there",
+TEST_CASE("rows for points off the places are satisfied by all layouts that hold there",
           "[design][tolerance]") {
   const test::TemporaryFolder folder;
   const Posed posed(folder.write("scene.toml", corridor_of(12, "two")));
@@ -127,10 +128,10 @@ TEST_CASE("rows of points off their places are kept by all layouts that hold the
   }
 }
 
-TEST_CASE("a luminaire off its place is hidden by what stands before it there",
+TEST_CASE("a luminaire off its place is hidden by an obstacle in front of that position",
           "[design][tolerance]") {
-  // A beam under the ceiling beside the luminaire: at its place it lights all of the way, and
-  // 0.25 m behind the beam's edge not the far side.
+  // A beam under the ceiling beside the luminaire. From its place the luminaire lights the whole
+  // route; 0.25 m farther, behind the beam's edge, it does not light the far side.
   const test::TemporaryFolder folder;
   const std::string beam = R"(
 [[object]]

@@ -1,5 +1,5 @@
-// Layouts whose luminaires are mounted a little off: the minima of the rules hold by an assessment
-// of the displaced scene itself.
+// Tests layouts whose luminaires are mounted off their places: the minima of the rules hold in an
+// assessment of the displaced scene.
 #include "actors/judge/design/place_tolerance.hpp"
 
 #include <catch2/catch.hpp>
@@ -25,7 +25,7 @@ DesignResult corridor(const TemporaryFolder& folder, double length, double margi
                                     margin, tolerance_m)));
 }
 
-/// Of the minima of the rules, which fail when each luminaire is so far off, in its own direction.
+/// Minima of the rules that fail if each luminaire is this far off, in a random direction.
 std::set<std::string> failing_off_place(const DesignResult& result, double off_m, Random& random) {
   auto moved = std::make_shared<SceneDescription>(*result.variant);
   for (Emitter& e : moved->emitters) {
@@ -62,7 +62,8 @@ TEST_CASE("minima hold with every luminaire off its place in any direction",
   }
 }
 
-TEST_CASE("a tolerance of place takes no fewer luminaires than none", "[design][tolerance]") {
+TEST_CASE("a layout with a place tolerance needs at least as many luminaires as one without",
+          "[design][tolerance]") {
   size_t more = 0;
   for (const double length : {8.0, 11.0, 14.0, 17.0, 20.0}) {
     const TemporaryFolder folder;
@@ -77,7 +78,8 @@ TEST_CASE("a tolerance of place takes no fewer luminaires than none", "[design][
   CHECK(more < 5);
 }
 
-TEST_CASE("off its place a luminaire gives no less than what is told", "[design][tolerance]") {
+TEST_CASE("illuminance with luminaires off their places is not below the reported least share",
+          "[design][tolerance]") {
   const TemporaryFolder folder;
   const DesignResult result = corridor(folder, 14, 1.25, 0.25);
   REQUIRE(result.tolerance);

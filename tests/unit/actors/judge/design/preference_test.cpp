@@ -1,5 +1,5 @@
-// The choice among layouts of one objective: symmetric ones, in rows and of few types, and never
-// one that breaks what has to hold.
+// Tests the choice among layouts of equal objective: symmetric ones in rows and of few types, and
+// none that violates a demand.
 #include "actors/judge/design/preference.hpp"
 
 #include <catch2/catch.hpp>
@@ -15,8 +15,8 @@ namespace {
 
 using test::ask;
 
-/// Seven places in a line, each with two types of one weight. The left half and the right half need
-/// a luminaire each; all that can light a half light it alike.
+/// Seven places in a line, each with two types of equal weight. The left half and the right half
+/// need one luminaire each; all options of a half light it equally.
 LayoutProblem two_halves() {
   LayoutProblem out;
   for (uint32_t i = 0; i < 14; ++i) {
@@ -47,7 +47,7 @@ double liking(const LayoutProblem& problem, const Layout& layout) {
   return preference(problem, sums);
 }
 
-/// Of new luminaires, the share that has its mirror image about the middle of a room.
+/// Share of new luminaires with a mirror image about the middle of a room.
 double mirrored_share(const DesignResult& result, int axis, double middle) {
   size_t paired = 0;
   for (const PlacedLuminaire& one : result.luminaires) {
@@ -63,11 +63,12 @@ double mirrored_share(const DesignResult& result, int axis, double middle) {
 
 }  // namespace
 
-TEST_CASE("symmetric layouts of one type are preferred among equals", "[design][preference]") {
+TEST_CASE("among layouts of equal objective symmetric ones of one type are preferred",
+          "[design][preference]") {
   const LayoutProblem problem = two_halves();
   const Layout symmetric = of({2, 10}, 14), aslant = of({0, 10}, 14), mixed = of({2, 11}, 14);
   CHECK(symmetry_of(problem, symmetric) == Approx(1));
-  CHECK(symmetry_of(problem, aslant) == Approx(0.5));  // across it is
+  CHECK(symmetry_of(problem, aslant) == Approx(0.5));  // symmetric crosswise
   CHECK(liking(problem, symmetric) > liking(problem, aslant));
   CHECK(liking(problem, symmetric) > liking(problem, mixed));
   const LayoutIndex index(problem);
@@ -82,14 +83,14 @@ TEST_CASE("symmetric layouts of one type are preferred among equals", "[design][
   }
 }
 
-TEST_CASE("nothing is tidied that would break a demand or cost more", "[design][preference]") {
+TEST_CASE("tidying a layout violates no demand and adds no cost", "[design][preference]") {
   LayoutProblem problem = two_halves();
-  // The left half has to be lit from its end, the right one from its beginning.
+  // The left half must be lit from its end, the right half from its beginning.
   ask(problem, {{0, 1}, {1, 1}}, 1, "end");
   ask(problem, {{8, 1}, {9, 1}}, 1, "beginning");
   const Layout found = tidied(LayoutIndex(problem), of({0, 8}, 14));
   CHECK(found == of({0, 8}, 14));
-  // The other type costs more: two types at the least cost are taken.
+  // The other type costs more: the layout keeps two types at the least cost.
   for (LayoutOption& option : problem.options) option.weight = option.kind == 0 ? 1 : 2;
   problem.options[8].barred = true;
   SolveSettings settings;
@@ -98,7 +99,7 @@ TEST_CASE("nothing is tidied that would break a demand or cost more", "[design][
   CHECK(answer.layout == of({0, 9}, 14));
 }
 
-TEST_CASE("luminaires that are there are not mirrored away", "[design][preference]") {
+TEST_CASE("existing luminaires are not replaced by mirror images", "[design][preference]") {
   LayoutProblem problem = two_halves();
   problem.options[0].fixed = true;
   problem.options[0].kind = no_kind;

@@ -1,4 +1,4 @@
-// Problems as numbers alone, for tests of what solves them.
+// Layout problems as numbers, for tests of solvers.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline Terms sum_of(std::vector<Term> list) {
   return std::make_shared<const std::vector<Term>>(std::move(list));
 }
 
-/// A problem with `options` luminaires of one type, each at a place of its own, of weight 1.
+/// A problem with `options` luminaires of one type and weight 1, each at its own place.
 inline LayoutProblem with_options(uint32_t options) {
   LayoutProblem out;
   for (uint32_t i = 0; i < options; ++i)
@@ -25,7 +25,7 @@ inline LayoutProblem with_options(uint32_t options) {
   return out;
 }
 
-/// That a sum is not below `least`, as a demand of its own.
+/// Adds a demand with one row: the sum is at least `least`.
 inline void ask(LayoutProblem& problem, std::vector<Term> list, double least, const char* subject) {
   problem.groups.push_back(
       {DemandKind::minimum, RuleId::E1, {SubjectKind::route, subject}, least, no_region});
@@ -33,7 +33,7 @@ inline void ask(LayoutProblem& problem, std::vector<Term> list, double least, co
       {static_cast<uint32_t>(problem.groups.size() - 1), sum_of(std::move(list)), least, {}});
 }
 
-/// Places and points at random in a square; two types at every other place; failures and a spread.
+/// Random places and points in a square; two types at every other place; failures and a spread.
 inline LayoutProblem random_problem(uint64_t seed, uint32_t options, uint32_t points) {
   Random random(seed, RandomStream::test);
   random.start(0);
@@ -71,7 +71,7 @@ inline LayoutProblem random_problem(uint64_t seed, uint32_t options, uint32_t po
   return out;
 }
 
-/// Of all subsets that hold, with one option at most of each place.
+/// All feasible subsets with at most one option at each place.
 inline std::vector<Layout> all_that_hold(const LayoutProblem& problem) {
   const LayoutIndex index(problem);
   LayoutSums sums(index);
@@ -93,7 +93,7 @@ inline std::vector<Layout> all_that_hold(const LayoutProblem& problem) {
   return out;
 }
 
-/// The smallest objective of all subsets that hold; infinite where none does.
+/// The smallest objective of all feasible subsets; infinite if there is none.
 inline double best_of_all_subsets(const LayoutProblem& problem) {
   double best = std::numeric_limits<double>::infinity();
   for (const Layout& layout : all_that_hold(problem))

@@ -1,5 +1,5 @@
-// Luminaires moved between the places of the grid: where the best place is known by symmetry, and
-// that nothing is lost by moving.
+// Tests luminaires that are moved between places of the grid: the best place is known by symmetry,
+// and moving loses nothing.
 #include "actors/judge/design/refine_layout.hpp"
 
 #include <catch2/catch.hpp>
@@ -27,8 +27,8 @@ DesignResult refined(const TemporaryFolder& folder, const std::string& scene, bo
 
 }  // namespace
 
-TEST_CASE("one luminaire off the middle of a way moves to the middle", "[design][refine]") {
-  // By symmetry the darkest ends are brightest when both are as far away.
+TEST_CASE("one luminaire beside the middle of a route moves to the middle", "[design][refine]") {
+  // By symmetry the darkest ends are brightest if both are equally far away.
   const TemporaryFolder folder;
   const DesignResult result =
       refined(folder, way_in_a_room(6, "places = [[2.7, 2, 2.97]]\nspacing_m = 1\n"), true);
@@ -37,13 +37,13 @@ TEST_CASE("one luminaire off the middle of a way moves to the middle", "[design]
   CHECK(result.refined->moved == 1);
   const LuminaireCandidate& moved = result.luminaires.front().candidate;
   CHECK(moved.position.x == Approx(3).margin(0.1));
-  // What is asked of a luminaire over a route is decided by the floor below.
+  // The floor below decides which demands apply to a luminaire over a route.
   CHECK(moved.floor.x == Approx(moved.position.x).margin(1e-3));
   CHECK(moved.floor.y == Approx(moved.position.y).margin(1e-3));
   CHECK(result.refined->after > result.refined->before);
 }
 
-TEST_CASE("moving keeps the number, the reach and the rules, and says the same each time",
+TEST_CASE("moving keeps the number of luminaires, its range and the rules, and is reproducible",
           "[design][refine]") {
   for (const double length : {9.0, 13.0}) {
     INFO("length " << length);

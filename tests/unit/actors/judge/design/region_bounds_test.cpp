@@ -1,4 +1,4 @@
-// Bounds of regions against all layouts that hold.
+// Compares bounds of regions with all feasible layouts.
 #include "actors/judge/design/region_bounds.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,10 +14,10 @@ using test::all_that_hold;
 using test::nobody;
 
 constexpr uint32_t regions = 3;
-/// Enough for any of them; nothing here is about time.
+/// More time than any bound needs: these tests do not depend on time.
 constexpr double ample_s = 600;
 
-/// The random square as three regions beside each other, with nothing in between.
+/// The random square divided into three adjacent regions.
 LayoutProblem in_regions(LayoutProblem problem) {
   const auto region_of = [](double x) { return static_cast<uint32_t>(std::min(x / 4, 2.0)); };
   for (LayoutOption& option : problem.options) option.region = region_of(option.position.x);
@@ -55,7 +55,7 @@ struct Bounding {
   GrowingProgram growing;
 };
 
-/// The least that any of them weighs in some regions.
+/// The smallest weight of some regions over all layouts.
 double least_weight(const RegionBounds& bounds, const RegionBound& of,
                     const std::vector<Layout>& layouts) {
   double out = bounds.weight_of(layouts.front(), of);
@@ -71,7 +71,7 @@ double sum_of_bounds(const RegionBounds& bounds) {
 
 }  // namespace
 
-TEST_CASE("no layout weighs less in a region than its bound, alone or joined", "[design]") {
+TEST_CASE("no layout weighs less in a region than its bound, separate or joint", "[design]") {
   int feasible = 0, raised_by_joining = 0;
   for (uint64_t seed = 1; seed <= 12; ++seed) {
     INFO("seed " << seed);
@@ -90,7 +90,7 @@ TEST_CASE("no layout weighs less in a region than its bound, alone or joined", "
       told = sum;
       return true;
     };
-    // With a layout only what it has more than needed is looked at, up to that.
+    // With a layout only regions that weigh more than their bound are solved, up to that weight.
     bounds.bound_each(seed % 2 == 0 ? best : Layout(), ample_s, tell);
     CHECK(told == Approx(sum_of_bounds(bounds)));
     for (const RegionBound& one : bounds.bounds())
@@ -99,7 +99,7 @@ TEST_CASE("no layout weighs less in a region than its bound, alone or joined", "
     while (bounds.join(best, ample_s, tell)) {
       ++raised_by_joining;
       CHECK(told == Approx(sum_of_bounds(bounds)));
-      // Together they weigh more than their bound, or the best layout cannot be improved.
+      // The joint bound stays at most the best objective.
       CHECK(told <= objective + 1e-6);
       for (const RegionBound& one : bounds.bounds())
         CHECK(one.least <= least_weight(bounds, one, layouts) + 1e-6);
@@ -109,7 +109,7 @@ TEST_CASE("no layout weighs less in a region than its bound, alone or joined", "
   CHECK(raised_by_joining >= 4);
 }
 
-TEST_CASE("no bound of a search that was stopped is above what layouts weigh", "[design]") {
+TEST_CASE("bounds of a stopped search are not above the weight of any layout", "[design]") {
   for (uint64_t seed = 1; seed <= 12; ++seed) {
     const LayoutProblem problem = in_regions(test::random_problem(seed, 12, 25));
     const std::vector<Layout> layouts = all_that_hold(problem);
@@ -118,7 +118,7 @@ TEST_CASE("no bound of a search that was stopped is above what layouts weigh", "
         *std::min_element(layouts.begin(), layouts.end(), [&](const Layout& a, const Layout& b) {
           return objective_of(problem, a) < objective_of(problem, b);
         });
-    // Wherever the time is out, what is known until then holds.
+    // Whenever time is up, the bounds so far are valid.
     for (const double seconds : {0.0, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2}) {
       INFO("seed " << seed << ", " << seconds << " s");
       Bounding kit(problem);
@@ -155,7 +155,7 @@ TEST_CASE("a problem in regions is solved as well as one without", "[design]") {
     CHECK(answer.objective == Approx(best));
     CHECK(answer.bound <= best + 1e-6);
     joined += answer.regions.size() < regions ? 1 : 0;
-    // What is known need not be found out again, and says the same.
+    // Known bounds need not be computed again, and give the same result.
     settings.start = answer.layout;
     settings.known_regions = answer.regions;
     const LayoutAnswer again = solve_layout(problem, settings, nobody, test::silent);
@@ -165,7 +165,7 @@ TEST_CASE("a problem in regions is solved as well as one without", "[design]") {
   CHECK(joined > 0);
 }
 
-TEST_CASE("light from one region to another counts as the share of what is asked for", "[design]") {
+TEST_CASE("light from one region to another counts as the share of the requirement", "[design]") {
   LayoutProblem problem = test::with_options(3);
   problem.options[0].region = 4;
   problem.options[1].region = 7;
@@ -175,7 +175,7 @@ TEST_CASE("light from one region to another counts as the share of what is asked
   problem.groups[1].region = 7;
   const auto light = light_between_regions(problem);
   REQUIRE(light.size() == 1);
-  // 0.5 of 2 from the second, and more than all that is asked for from the first.
+  // 0.5 of 2 from the second region, and more than the whole requirement from the first.
   CHECK(light.at({4, 7}) == Approx(0.25 + 1));
 }
 

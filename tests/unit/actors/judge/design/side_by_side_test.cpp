@@ -1,4 +1,4 @@
-// Plans of several layouts on one page: each with its own luminaires.
+// Tests plans of several layouts on one page: each shows its own luminaires.
 #include "actors/judge/design/side_by_side.hpp"
 
 #include <catch2/catch.hpp>
@@ -51,7 +51,7 @@ TEST_CASE("a page has the plans of all layouts that were judged, each with its l
 
   best.smoke.emplace();
   best.smoke->layouts = {judged("A", best), judged("B", more), judged("A low", best)};
-  best.smoke->layouts[2].sign_factor = 2;  // as A, but for its signs
+  best.smoke->layouts[2].sign_factor = 2;  // as A, with other signs
   const auto plans = layout_plans(best, "1");
   REQUIRE(plans.size() == 2);
   const Texts texts(Language::en);
@@ -60,7 +60,7 @@ TEST_CASE("a page has the plans of all layouts that were judged, each with its l
   CHECK(section.find("A, recommended: ") != std::string::npos);
   CHECK(section.find(fmt::format("B: {} new luminaires", more.luminaires.size())) !=
         std::string::npos);
-  // The last luminaire of the other layout is in its plan alone.
+  // The last luminaire of the other layout is in its plan only.
   const size_t second = section.find("<figure>", section.find("<figure>") + 1);
   CHECK(section.substr(0, second).find(">" + last + "<") == std::string::npos);
   CHECK(section.find(">" + last + "<", second) != std::string::npos);

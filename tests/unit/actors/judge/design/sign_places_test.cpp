@@ -1,4 +1,4 @@
-// Places for signs: what stands before a wall, and how flat it is, at every corner of the sign.
+// Tests places for signs: obstacles and flatness of the wall, at every corner of a sign.
 #include "actors/judge/design/sign_places.hpp"
 
 #include <catch2/catch.hpp>
@@ -46,16 +46,16 @@ size_t over_the_end(const std::vector<SignSpot>& spots) {
 
 }  // namespace
 
-TEST_CASE("no sign hangs with a corner in furniture", "[design][signs]") {
+TEST_CASE("no corner of a sign is in furniture", "[design][signs]") {
   CHECK(over_the_end(spots_with("")) == 1);
-  // From the left edge of the sign, at y = 1.3, it holds 0.1 m.
+  // The cupboard contains 0.1 m of the sign, from its left edge at y = 1.3.
   const std::string cupboard = box("9.8, 0.5, 0", "9.999, 1.4, 2.6", "\"furniture\"");
   CHECK(over_the_end(spots_with(cupboard)) == 0);
   const std::string narrow = box("9.8, 0.5, 0", "9.999, 1.2, 2.6", "\"furniture\"");
   CHECK(over_the_end(spots_with(narrow)) == 1);
 }
 
-TEST_CASE("a wall is flat to 1 cm behind a sign, from its lower to its upper edge",
+TEST_CASE("a wall behind a sign must be flat to 1 cm from the lower to the upper edge of the sign",
           "[design][signs]") {
   // A ledge behind the upper half of the sign.
   CHECK(over_the_end(spots_with(box("9.985, 0, 2.3", "10, 3, 3", ""))) == 0);

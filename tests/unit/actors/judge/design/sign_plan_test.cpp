@@ -1,6 +1,5 @@
-// Signs of a design: every place of a route is guided, by the assessment of the file that the
-// layout is written to and by the guidance of people on their way; arrows point where the route
-// goes.
+// Tests signs of a design: every place of a route is guided, in an assessment of the layout on disk
+// and by the rules of guidance; arrows point along the route.
 #include "actors/judge/design/sign_plan.hpp"
 
 #include <catch2/catch.hpp>
@@ -42,7 +41,7 @@ DesignResult designed_with_signs(const fs::path& file) {
   return test::designed(file, options);
 }
 
-/// The scene of the layout, read from the file that it was written to.
+/// The scene of the layout, read from its file.
 std::shared_ptr<const SceneDescription> read_back(const TemporaryFolder& folder,
                                                   const fs::path& file,
                                                   const DesignResult& result) {
@@ -70,7 +69,7 @@ std::vector<std::string> unguided_places(const SceneDescription& scene) {
   return out;
 }
 
-/// Of the rules for the distance to signs, what fails in an assessment of a scene.
+/// Number of failing rules for the distance to signs in an assessment of a scene.
 size_t failing_distances(const std::shared_ptr<const SceneDescription>& scene) {
   AssessOptions options;
   options.threads = 2;
@@ -98,7 +97,7 @@ const LeadsTo* way_of(const PlacedSign& sign, const std::string& name) {
   return nullptr;
 }
 
-/// A building with a partition and two routes, as the seed has it.
+/// A building with a partition and two routes; random by seed.
 std::string random_building(uint64_t seed) {
   Random random(seed, RandomStream::test, 22);
   random.start(seed);
@@ -155,9 +154,9 @@ TEST_CASE("one sign at its end guides along a straight corridor", "[design][sign
   check_guided(folder, file, result);
 }
 
-TEST_CASE("a corridor longer than the viewing distance takes as many signs as it is longer",
+TEST_CASE("a corridor longer than the viewing distance needs signs in proportion to its length",
           "[design][signs]") {
-  // 0.1 m high and lit from within: 20 m. With places each 5 m under the ceiling, from the end.
+  // 0.1 m high and lit from within: visible for 20 m. Places are 5 m apart under the ceiling.
   const TemporaryFolder folder;
   const fs::path file =
       folder.write("scene.toml", hall(62, 2, 3) + route("way", "[1, 1, 0], [61, 1, 0]") + R"(
@@ -176,18 +175,18 @@ emergency_green = 30
 )");
   const DesignResult result = designed_with_signs(file);
   REQUIRE(result.signs);
-  // 60 m of way: from 61.98 m back 19.9 m, and so on: 4 signs, and no fewer.
+  // 60 m of route: from 61.98 m back by 19.9 m each: 4 signs, and no fewer.
   CHECK(result.signs->signs.size() == 4);
   CHECK(result.signs->bound == Approx(4));
   check_guided(folder, file, result);
 }
 
-TEST_CASE("at a bend the arrow points where the route goes on, and to the other side in the mirror",
+TEST_CASE("at a bend the arrow points along the route, and in the mirror image to the other side",
           "[design][signs]") {
   for (const bool left : {true, false}) {
     INFO((left ? "left" : "right"));
     const TemporaryFolder folder;
-    // Up a corridor and then to one side, behind walls: the exit is not seen from the start.
+    // Up a corridor and then to one side, behind walls: the exit is not visible from the start.
     const std::string walls =
         partition("a", "0, 0, 0", "9, 6, 3") + partition("b", "11, 0, 0", "20, 6, 3");
     const fs::path file =
@@ -211,7 +210,7 @@ TEST_CASE("at a bend the arrow points where the route goes on, and to the other 
   }
 }
 
-TEST_CASE("a type whose drawing shows an arrow hangs only where that arrow is right",
+TEST_CASE("a type with an arrow in its drawing hangs only where that arrow is right",
           "[design][signs]") {
   const TemporaryFolder folder;
   const fs::path file =
@@ -236,7 +235,7 @@ arrow = "left"
   CHECK(result.signs->unguided.front().places == result.signs->unguided.front().of);
 }
 
-TEST_CASE("a sign of the scene that guides saves a new one, and one that may go and does not goes",
+TEST_CASE("an existing sign that guides saves a new one, and a removable useless one is removed",
           "[design][signs]") {
   const auto sign = [](const char* name, const char* position, const char* facing) {
     return fmt::format(
@@ -262,7 +261,7 @@ TEST_CASE("a sign of the scene that guides saves a new one, and one that may go 
   CHECK(unguided_places(*scene).empty());
 }
 
-TEST_CASE("two signs of the scene that hang back to back both stay", "[design][signs]") {
+TEST_CASE("two existing signs that hang back to back both stay", "[design][signs]") {
   const auto sign = [](const char* name, const char* position, const char* facing) {
     return fmt::format(
         "[[sign]]\nname = \"{}\"\nplain = \"green\"\nsmallest_detail = 0.02\nwidth = "
@@ -286,8 +285,8 @@ TEST_CASE("two signs of the scene that hang back to back both stay", "[design][s
   check_guided(folder, file, result);
 }
 
-/// A corridor of 1 m up to a cross way, where one route turns left and the other right, and signs
-/// as wide as the corridor: people at its start see those at its end alone.
+/// A corridor of 1 m up to a junction, where one route turns left and the other right. Signs are as
+/// wide as the corridor, so that people at its start see only those at its end.
 std::string parting_routes(const std::string& more) {
   return hall(20, 8, 3) + partition("a", "0, 0, 0", "9.5, 6, 3") +
          partition("b", "10.5, 0, 0", "20, 6, 3") +
@@ -308,11 +307,12 @@ emergency_green = 30
 )" + more;
 }
 
-TEST_CASE("a sign that another one hides in every plan is told, and the plan stays",
+TEST_CASE("a place whose sign is hidden by another in every plan is reported, and the plan is kept",
           "[design][signs]") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("scene.toml", parting_routes(""));
-  // One sign on the wall and one under the ceiling before it: two places, and none for a third.
+  // One sign on the wall and one under the ceiling before it: two places, and none for a third
+  // sign.
   const DesignResult result = designed_with_signs(file);
   REQUIRE(result.signs);
   REQUIRE(result.signs->unguided.size() == 1);
@@ -323,12 +323,12 @@ TEST_CASE("a sign that another one hides in every plan is told, and the plan sta
   CHECK(hidden.first.y < 6);
   CHECK(result.signs->signs.size() == 4);
   CHECK(result.signs->bound == Approx(result.signs->objective));
-  // All other places are guided, by the file.
+  // In the file all other places are guided.
   CHECK(unguided_places(*read_back(folder, file, result)).size() == hidden.places);
 }
 
-TEST_CASE("where no plan of signs exists that is said, and what would help", "[design][signs]") {
-  // With no place under the ceiling one sign has to point to both sides.
+TEST_CASE("if no plan of signs exists the error says so, and what would help", "[design][signs]") {
+  // Without a place under the ceiling one sign would have to point to both sides.
   const TemporaryFolder folder;
   const fs::path file = folder.write(
       "scene.toml", parting_routes("[[design.keep_out]]\nname = \"detector\"\nposition = [10, 7, "
@@ -341,9 +341,9 @@ TEST_CASE("where no plan of signs exists that is said, and what would help", "[d
         std::string::npos);
 }
 
-TEST_CASE("Ctrl-C while signs are planned keeps their plan, and ends what follows",
+TEST_CASE("Ctrl-C while signs are planned keeps their plan and ends the following steps",
           "[design][signs]") {
-  // Routes that cross: what a sign tells one of them is wrong for others.
+  // Crossing routes: the arrow for one of them is wrong for others.
   std::string crossing = hall(40, 24, 3);
   for (int i = 0; i < 6; ++i)
     crossing +=
@@ -364,7 +364,7 @@ TEST_CASE("Ctrl-C while signs are planned keeps their plan, and ends what follow
   CHECK(result->signs->end == LayoutEnd::interrupted);
   CHECK_FALSE(result->signs->signs.empty());
   CHECK(result->signs->bound <= result->signs->objective);
-  // The luminaires are those that are known at once, and they pass.
+  // The luminaires are those of the greedy heuristic, and they pass.
   CHECK(result->answer.end == LayoutEnd::interrupted);
   CHECK_FALSE(result->luminaires.empty());
   CHECK(result->because.empty());
@@ -372,7 +372,7 @@ TEST_CASE("Ctrl-C while signs are planned keeps their plan, and ends what follow
   check_guided(folder, file, result.value());
 }
 
-TEST_CASE("a sign type on a circuit that is out hangs nowhere", "[design][signs]") {
+TEST_CASE("a sign type on a circuit that is off is not placed", "[design][signs]") {
   const auto signs_with = [](const char* circuits) {
     const TemporaryFolder folder;
     const fs::path file = folder.write(
@@ -413,8 +413,7 @@ emergency_green = 30
   CHECK(out.left_out.forbidden > 0);
 }
 
-TEST_CASE("a circuit that only a type of a design hangs on is known to scenarios",
-          "[design][signs]") {
+TEST_CASE("scenarios know a circuit that only a sign type of a design uses", "[design][signs]") {
   const auto scene =
       test::described_text(test::box_room(20, 2, 3) + test::judged_2013 +
                            "circuits = { B = 0.5 }\n" + test::way_along(1, 19, 1) + R"(
@@ -437,7 +436,7 @@ emergency_green = 30
   CHECK(switched.design->sign_types[0].sign.emergency.white_cd_m2 == Approx(100));
 }
 
-TEST_CASE("a sign that is lit from outside gets its luminaire", "[design][signs]") {
+TEST_CASE("an externally lit sign gets a luminaire", "[design][signs]") {
   const TemporaryFolder folder;
   const fs::path file =
       folder.write("scene.toml", hall(12, 2, 3) + route("way", "[1, 1, 0], [11, 1, 0]") + R"(
@@ -463,13 +462,12 @@ white_reflectance = 0.7
   check_guided(folder, file, result);
 }
 
-TEST_CASE("signs of random buildings guide everywhere, by the file they are written to",
-          "[design][signs]") {
+TEST_CASE("signs of random buildings on disk guide from every place", "[design][signs]") {
   const char* seed = std::getenv("LUXODUS_SEED");
   check_random_buildings(seed == nullptr ? 1 : std::strtoull(seed, nullptr, 10), 5);
 }
 
-TEST_CASE("signs of 200 random buildings guide everywhere, by the file they are written to",
+TEST_CASE("signs of 200 random buildings on disk guide from every place",
           "[design][signs][.][long]") {
   check_random_buildings(1000, 200);
 }

@@ -1,4 +1,4 @@
-// A design that nobody watches or interrupts, for tests.
+// A design without progress messages or interrupts, for tests.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// A corridor in smoke, and layouts of luminaires in it, for tests of the stage that judges them.
+// A corridor in smoke with layouts of luminaires, for tests of the judgement in smoke.
 #pragma once
 
 #include <memory>
@@ -35,11 +35,11 @@ name = "fire"
 operation = "emergency"
 
 )";
-/// At the end of the corridor.
+/// A sign at the end of the corridor.
 inline const std::string corridor_sign =
     exit_sign_at("[15.95, 0, 2.2]") + "lighting = \"internal\"\n";
 
-/// With a sign that leads along the route; `smoke`: tables of media and of time.
+/// The corridor with a sign that leads along the route; `smoke`: tables of media and of time.
 inline std::string corridor_with(const std::string& smoke) {
   return corridor_room + corridor_sign + "[[sign.leads_to]]\nroute = \"way\"\narrow = \"ahead\"\n" +
          smoke;
@@ -48,7 +48,7 @@ inline std::string corridor_with(const std::string& smoke) {
 inline const std::string even_smoke =
     "[[medium]]\nname = \"smoke\"\nkind = \"homogeneous\"\nextinction = 0.4\nalbedo = 0.6\n";
 
-/// A luminaire of 200 lm under the ceiling that ages, as a layout has it.
+/// An ageing luminaire of 200 lm under the ceiling, as in a layout.
 inline Emitter corridor_luminaire(const std::string& name, double x) {
   static const auto scene = described_text(corridor_with(even_smoke) + R"(
 [[emitter]]
@@ -68,7 +68,7 @@ end_of_duration_factor = 0.7
   return out;
 }
 
-/// A layout of the corridor with luminaires at these places along it.
+/// A layout of the corridor with luminaires at these positions along it.
 inline JudgedLayout corridor_layout(const std::shared_ptr<const SceneDescription>& scene,
                                     const std::string& name, const std::vector<double>& places) {
   JudgedLayout out;

@@ -1,5 +1,5 @@
-// What layouts in smoke differ by, from paths that they share: sure where their ranges overlap, and
-// open where nothing tells them apart.
+// Tests paired comparisons of layouts in smoke, from shared paths: a difference may be certain
+// although the ranges overlap, and is open if nothing separates the layouts.
 #include "actors/judge/design/smoke_differences.hpp"
 
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ using std::numbers::pi;
 using test::corridor_layout;
 using test::nobody;
 
-/// A view straight ahead from so many metres along the route, whose level of reading is this one.
+/// A view straight ahead at this distance along the route, with this reading level.
 SightRow seen_from(double along_m, double level, double error) {
   SightRow row;
   row.from = {SubjectKind::route, "way"};
@@ -36,7 +36,7 @@ SightRow seen_from(double along_m, double level, double error) {
   return row;
 }
 
-/// One view from each of several places, two metres of the route each.
+/// One view from each of several places, which stand for two metres of the route each.
 struct Looked {
   std::vector<SightRow> rows;
   SeenPlaces places;
@@ -63,8 +63,8 @@ LegibleShare all_of(const Looked& one) {
   return share_of(one.places, [](const RoutePlace&) { return true; });
 }
 
-/// The corridor in bright smoke, with a dim sign and places so many metres apart: from some of them
-/// the sign is just read.
+/// The corridor in bright smoke with a dim sign and places this far apart: from some of them the
+/// sign is just legible.
 std::shared_ptr<const SceneDescription> closely_looked_at(const std::string& spacing_m) {
   std::string text = test::corridor_with(test::even_smoke);
   for (const auto& [from, to] :
@@ -77,8 +77,7 @@ std::shared_ptr<const SceneDescription> closely_looked_at(const std::string& spa
   return test::described_text(text);
 }
 
-/// Ten places that chance leaves open, by 0.4 on each side of the limit, and one that only the
-/// other layout lights.
+/// Ten undecided places, 0.4 around the limit, and one place that only the other layout lights.
 Looked open_views(double more, bool and_the_last) {
   std::vector<Uncertain> levels(10, {level_read + more, 0.4});
   levels.push_back({and_the_last ? 9.0 : 5.0, 0.1});
@@ -87,25 +86,25 @@ Looked open_views(double more, bool and_the_last) {
 
 }  // namespace
 
-TEST_CASE("one place or two that chance leaves open make no difference sure", "[design]") {
+TEST_CASE("one or two undecided places do not make a difference certain", "[design]") {
   const auto nothing_known = [](size_t) { return std::optional<double>(); };
   const auto beyond = [&](const std::vector<Uncertain>& first,
                           const std::vector<Uncertain>& other) {
     const Looked a = looked(first), b = looked(other);
     return difference_of({a.places, a.rows}, {b.places, b.rows}, nothing_known);
   };
-  // Read from with 0.2, by 0.85 standard errors, where the other layout surely is.
+  // Read with probability 0.2, at 0.85 standard errors; the other layout is certainly read.
   const Uncertain hardly{level_read - 0.34, 0.4}, surely{9, 0.1}, perhaps{level_read + 0.5, 0.4};
   CHECK_FALSE(beyond({hardly}, {surely}).surely_more());
   CHECK_FALSE(beyond({hardly, perhaps}, {surely, perhaps}).surely_more());
   CHECK(beyond({{5, 0.1}}, {surely}).surely_more());
-  // Not all of forty.
+  // Not all of forty places.
   const std::vector<Uncertain> many(40, hardly), read(40, surely);
   const ShareDifference of_many = beyond(many, read);
   CHECK(of_many.surely_more());
   CHECK(of_many.least < 0.8);
   CHECK(of_many.least > 0.5);
-  // Equal shares of other places: three won and three lost.
+  // Equal shares of different places: three won and three lost.
   std::vector<Uncertain> a(7, {5, 0.1}), b = a;
   for (const size_t i : {0, 1, 2}) a[i] = surely;
   for (const size_t i : {4, 5, 6}) b[i] = surely;
@@ -113,10 +112,11 @@ TEST_CASE("one place or two that chance leaves open make no difference sure", "[
   CHECK(beyond(a, b).surely_no_less());
 }
 
-TEST_CASE("the chance of two correlated variables is that of the bivariate normal distribution",
-          "[design]") {
+TEST_CASE(
+    "the probability of two correlated variables is that of the bivariate normal distribution",
+    "[design]") {
   for (const double r : {-1.0, -0.9, -0.3, 0.0, 0.4, 0.99, 1.0}) {
-    // Sheppard 1899: the closed form at the middle.
+    // Sheppard 1899: the closed form at the centre.
     CHECK(chance_below(0, 0, r) == Approx(0.25 + std::asin(r) / (2 * pi)).margin(1e-9));
     CHECK(chance_below(1.3, 8, r) == Approx(chance_below(1.3, 8, 0)).margin(1e-9));
   }
@@ -139,16 +139,16 @@ TEST_CASE("the chance of two correlated variables is that of the bivariate norma
   }
 }
 
-TEST_CASE("layouts whose ranges overlap differ surely where the same paths show both", "[design]") {
+TEST_CASE("layouts whose ranges overlap differ certainly if the same paths show both", "[design]") {
   const Looked first = open_views(0, false), other = open_views(0.05, true);
-  // 0 to 91 % and 9 to 100 %: by these the other may be read from far less.
+  // 0 to 91 % and 9 to 100 %: by these ranges the other layout may be read from far less.
   CHECK(all_of(first).most > all_of(other).least);
   const LayoutViews a{first.places, first.rows}, b{other.places, other.rows};
   const ShareDifference sure = difference_of(a, b, always(0.01));
   INFO(sure.least << " to " << sure.most);
   CHECK(sure.least > 0);
   CHECK(sure.most < 0.5);
-  // The one place that is sure is a part of it, and the shift of a hundredth of the others.
+  // The certain place contributes, and so does the shift of a hundredth at the others.
   CHECK(sure.least < 1.0 / 11 + 10.0 / 11 * 0.05);
   CHECK(sure.most > 1.0 / 11 + 10.0 / 11 * 0.05);
   const ShareDifference apart = difference_of(a, b, {});
@@ -156,14 +156,14 @@ TEST_CASE("layouts whose ranges overlap differ surely where the same paths show 
   CHECK(apart.most - apart.least > 2 * (sure.most - sure.least));
 }
 
-TEST_CASE("what equal layouts differ by is nothing by the same paths, and open by others",
+TEST_CASE("equal layouts have no difference by shared paths, and an open one by separate paths",
           "[design]") {
   const Looked one = open_views(0, false);
   const LayoutViews views{one.places, one.rows};
   const ShareDifference same = difference_of(views, views, always(0));
   CHECK(same.least == Approx(0).margin(1e-12));
   CHECK(same.most == Approx(0).margin(1e-12));
-  // As likely read more as read less.
+  // Reading more and reading less are equally likely.
   for (const ShareDifference& open :
        {difference_of(views, views, always(0.2)), difference_of(views, views, {})}) {
     CHECK(open.least < -0.05);
@@ -171,9 +171,9 @@ TEST_CASE("what equal layouts differ by is nothing by the same paths, and open b
   }
 }
 
-TEST_CASE("what a difference says holds in nineteen of twenty draws", "[design]") {
-  // Levels of twelve views with two layouts: what both have in common errs by 0.3, and what they
-  // differ by, by 0.1. The truth is drawn, and with it what paths would find.
+TEST_CASE("a reported difference holds in 19 of 20 draws", "[design]") {
+  // Levels of twelve views with two layouts: the common error is 0.3, and the error of the
+  // difference is 0.1. The true levels are drawn, and from them what paths would find.
   Random random(3, RandomStream::test);
   random.start(0);
   const auto normal = [&] {
@@ -203,12 +203,13 @@ TEST_CASE("what a difference says holds in nineteen of twenty draws", "[design]"
     width_apart += apart.most - apart.least;
   }
   INFO(held << " of " << draws << " hold");
-  // 95 %, and three standard errors of so many draws.
+  // 95 %, within three standard errors of this number of draws.
   CHECK(held >= 0.95 * draws - 3 * std::sqrt(0.95 * 0.05 * draws));
   CHECK(width < 0.8 * width_apart);
 }
 
-TEST_CASE("a layout is dropped that is surely read less than one that costs no more", "[design]") {
+TEST_CASE("a layout that is certainly read less than one of no higher cost is eliminated",
+          "[design]") {
   const auto judged_as = [](const std::string& name, double objective, LegibleShare share,
                             ShareDifference beyond) {
     JudgedLayout out;
@@ -225,7 +226,7 @@ TEST_CASE("a layout is dropped that is surely read less than one that costs no m
   CHECK(beats(a, less));
   CHECK_FALSE(beats(a, more));
   CHECK_FALSE(beats(a, open));
-  CHECK(beats(more, less));  // by what both differ from A by
+  CHECK(beats(more, less));  // by the differences of both from A
   CHECK_FALSE(beats(more, open));
   SmokeStage stage;
   stage.scenarios = {"fire"};
@@ -243,8 +244,8 @@ TEST_CASE("a layout is dropped that is surely read less than one that costs no m
   CHECK(page.find("−5.0 to +5.0 %") != std::string::npos);
 }
 
-TEST_CASE("paths that layouts share know what these differ by better than each", "[design]") {
-  // Where the sign is just read, the luminaire that differs is far away.
+TEST_CASE("shared paths estimate the difference of layouts better than each layout", "[design]") {
+  // Where the sign is just legible, the luminaire that differs is far away.
   const auto scene = closely_looked_at("0.2");
   const std::vector<JudgedLayout> layouts{corridor_layout(scene, "A", {3, 8, 13}),
                                           corridor_layout(scene, "B", {5, 8, 13}),
@@ -252,7 +253,7 @@ TEST_CASE("paths that layouts share know what these differ by better than each",
   const auto heats = heats_of(layouts, 1, true);
   REQUIRE(heats.size() == 1);
   const Scenario fire = find_scenario(*scene, "fire").value();
-  // What the levels of both differ by, from many seeds, and the error that one seed says.
+  // Differences of levels over many seeds, with the errors that single seeds report.
   struct Found {
     std::vector<double> difference, said, alone;
   };
@@ -301,19 +302,19 @@ TEST_CASE("paths that layouts share know what these differ by better than each",
     INFO("row " << row << ": spread " << spread << ", said " << mean(found.said)
                 << ", as of independent layouts " << mean(found.alone));
     CHECK(mean(found.said) < 0.5 * mean(found.alone));
-    // Of 10 draws a standard deviation is known by 24 %.
+    // The standard deviation of 10 draws has an error of 24 %.
     CHECK(spread < 1.7 * mean(found.said));
   }
   CHECK(looked_at >= 1);
 }
 
-TEST_CASE("two layouts in smoke are told apart while the ranges of both overlap", "[design]") {
+TEST_CASE("two layouts in smoke are distinguished although their ranges overlap", "[design]") {
   const auto scene = closely_looked_at("0.1");
   SmokeStageOptions asked;
   asked.scenarios = {"fire"};
   asked.threads = 2;
   asked.rounds = 1;
-  // B has one more luminaire, whose light falls on the sign; C has those of A once more.
+  // B has one more luminaire, whose light falls on the sign; C has the luminaires of A.
   const auto stage = judge_in_smoke(
       {corridor_layout(scene, "A", {3, 8, 13}), corridor_layout(scene, "B", {3, 8, 13, 15}),
        corridor_layout(scene, "C", {3, 8, 13})},
@@ -331,7 +332,7 @@ TEST_CASE("two layouts in smoke are told apart while the ranges of both overlap"
   CHECK(c.worst().least < c.worst().most);
   CHECK(difference_of(a, c).least == 0);
   CHECK(difference_of(a, c).most == 0);
-  // Four times the paths say the same.
+  // Four times as many paths give the same result.
   asked.rounds = 2;
   const auto longer = judge_in_smoke(
       {corridor_layout(scene, "A", {3, 8, 13}), corridor_layout(scene, "B", {3, 8, 13, 15})}, asked,

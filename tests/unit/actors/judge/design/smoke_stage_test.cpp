@@ -1,4 +1,4 @@
-// Layouts judged in smoke: which is recommended, and what is told of them.
+// Tests layouts judged in smoke: which one is recommended, and what is reported.
 #include "actors/judge/design/smoke_stage.hpp"
 
 #include <catch2/catch.hpp>
@@ -30,7 +30,7 @@ in_smoke = ["fire"]
 alternatives = 2
 )" + test::corridor_sign;
 
-/// Judged, so far, as read from between these shares.
+/// A layout judged so far, legible from between these shares.
 JudgedLayout judged_as(const std::string& name, double objective, double least, double most,
                        double sign_factor = 1) {
   JudgedLayout out;
@@ -58,7 +58,8 @@ Result<DesignResult> design_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the best by the rules is recommended unless another is surely read more", "[design]") {
+TEST_CASE("the best layout by the rules is recommended unless another is certainly read more",
+          "[design]") {
   const JudgedLayout a = judged_as("A", 4, 0.5, 0.6);
   CHECK(stage_of({a}).recommended().name == "A");
   CHECK(stage_of({a, judged_as("B", 5, 0.55, 0.9)}).recommended().name == "A");  // undecided
@@ -70,14 +71,14 @@ TEST_CASE("the best by the rules is recommended unless another is surely read mo
   CHECK(stage_of({a, judged_as("A+", 4, 0.9, 0.9, 2)}).with_brighter_signs()->name == "A+");
 }
 
-TEST_CASE("a layout counts as in the scenario where it is worst", "[design]") {
+TEST_CASE("a layout counts by the scenario in which it is worst", "[design]") {
   JudgedLayout a = judged_as("A", 4, 0.5, 0.6);
   a.smoke.push_back({"later", {}, {0.2, 0.9}});
   CHECK(a.worst().least == 0.2);
   CHECK(a.worst().most == 0.6);
 }
 
-TEST_CASE("what is told of layouts in smoke follows from how they are read", "[design]") {
+TEST_CASE("the sentences on layouts in smoke follow from their results", "[design]") {
   const Texts english(Language::en);
   const auto told = [&](std::vector<JudgedLayout> layouts) {
     std::string out;
@@ -98,7 +99,7 @@ TEST_CASE("what is told of layouts in smoke follows from how they are read", "[d
   CHECK(below.find("2 low-level signs beside the others, 0.3 m above the floor") !=
         std::string::npos);
   CHECK(below.find("from 80 to 90 %: that helps more than any layout") != std::string::npos);
-  // With other signs it is no layout of luminaires that could be recommended.
+  // A layout with other signs is not recommended as a layout of luminaires.
   CHECK(stage_of({a, low}).recommended().name == "A");
   CHECK(stage_of({a, low}).with_low_signs()->name == "A low");
   JudgedLayout veiled = judged_as("B", 6, 0.3, 0.4);
@@ -107,11 +108,11 @@ TEST_CASE("what is told of layouts in smoke follows from how they are read", "[d
   const std::string dark = told({a, veiled});
   INFO(dark);
   CHECK(dark.find("Layout B has more light, and from 5 places") != std::string::npos);
-  veiled.objective = 4;  // it has no more luminaires: nothing follows
+  veiled.objective = 4;  // no more luminaires, so no conclusion
   CHECK(told({a, veiled}).find("veils") == std::string::npos);
   for (const Language language : {Language::de, Language::fr})
     CHECK(smoke_words(Texts(language), smoke_json(stage_of({a, veiled}))).size() >= 2);
-  // What ended the race, and what it has left open.
+  // What ended the elimination rounds, and what is still open.
   SmokeStage ended = stage_of({a, judged_as("B", 4, 0.4, 0.7), judged_as("C", 5, 0.1, 0.2)});
   ended.layouts[0].is_open = ended.layouts[1].is_open = true;
   for (const auto& [end, words] :
@@ -123,7 +124,7 @@ TEST_CASE("what is told of layouts in smoke follows from how they are read", "[d
   }
 }
 
-TEST_CASE("a corridor in smoke: alternatives pass the rules, brighter signs are read farther",
+TEST_CASE("in a smoky corridor alternatives pass the rules and brighter signs are read farther",
           "[design]") {
   const test::TemporaryFolder folder;
   const fs::path file = folder.write("scene.toml", smoky);
@@ -139,7 +140,7 @@ TEST_CASE("a corridor in smoke: alternatives pass the rules, brighter signs are 
   const JudgedLayout &best = stage.layouts.front(), *bright = stage.with_brighter_signs();
   CHECK(best.name == "A");
   CHECK(best.placed == result->luminaires.size());
-  // The sign is read from near by, and not from the other end of 15 m of this smoke.
+  // The sign is read nearby, and not through 15 m of this smoke.
   CHECK(best.worst().most > 0.2);
   CHECK(best.worst().least < 0.9);
   REQUIRE(bright != nullptr);
@@ -148,7 +149,7 @@ TEST_CASE("a corridor in smoke: alternatives pass the rules, brighter signs are 
   REQUIRE(low != nullptr);
   REQUIRE(low->low_signs.size() == 1);
   CHECK(low->layout.variant->signs.size() == 2);
-  // What is read above is read with the sign below, too.
+  // A sign read above is also read together with the sign below.
   CHECK(low->worst().most >= best.worst().least);
   for (const JudgedLayout& one : stage.layouts) {
     INFO(one.name);
@@ -160,7 +161,7 @@ TEST_CASE("a corridor in smoke: alternatives pass the rules, brighter signs are 
   CHECK(json.find("\"recommended\"") != std::string::npos);
   REQUIRE(write_design(folder.path() / "out", *scene, result.value(), Language::en, version));
   CHECK(fs::exists(folder.path() / "out/alternatives/layout_B.toml"));
-  // A later design that judges nothing in smoke leaves no layouts of this one.
+  // A later design without smoke removes the layouts of this one.
   DesignResult without = result.value();
   without.smoke.reset();
   const fs::path others = folder.path() / "again/alternatives";
@@ -192,7 +193,8 @@ TEST_CASE("a corridor in smoke: alternatives pass the rules, brighter signs are 
   }
 }
 
-TEST_CASE("layouts that share their paths are read from where each is by its own", "[design]") {
+TEST_CASE("layouts are legible from the same shares with shared paths and with their own",
+          "[design]") {
   const auto scene = test::described_text(test::corridor_with(test::even_smoke));
   const std::vector<JudgedLayout> layouts{test::corridor_layout(scene, "A", {3, 8, 13}),
                                           test::corridor_layout(scene, "B", {3, 10.5}),
@@ -224,7 +226,7 @@ TEST_CASE("layouts that share their paths are read from where each is by its own
   CHECK((shared.end == RaceEnd::decided || shared.end == RaceEnd::rounds));
 }
 
-TEST_CASE("a race that has no time left judges nothing and says so", "[design]") {
+TEST_CASE("elimination rounds without time judge nothing and say so", "[design]") {
   const auto scene = test::described_text(test::corridor_with(test::even_smoke));
   SmokeStageOptions asked;
   asked.scenarios = {"fire"};
@@ -236,7 +238,7 @@ TEST_CASE("a race that has no time left judges nothing and says so", "[design]")
   CHECK(stage->layouts.empty());
 }
 
-TEST_CASE("where smoke sinks, it is told until when each layout guides", "[design]") {
+TEST_CASE("if smoke sinks, the time until which each layout guides is reported", "[design]") {
   const std::string text = test::corridor_with(
       "[[medium]]\nname = \"smoke\"\nkind = \"layered\"\n[[medium.layer]]\n"
       "z_low = [[0, 3], [100, 1]]\nz_high = 3\nalbedo = 0.3\nextinction = 40\n"
@@ -260,7 +262,7 @@ TEST_CASE("where smoke sinks, it is told until when each layout guides", "[desig
   REQUIRE(stage);
   CHECK(stage->times_s == std::vector<double>{0, 15, 30, 45, 60});
   REQUIRE(stage->layouts.size() == 4);
-  // The sign's letters end at 2.125 and 2.275 m: reached at 43.75 and 36.25 s.
+  // Edges of the sign's letters are at 2.125 and 2.275 m: reached at 43.75 and 36.25 s.
   for (const JudgedLayout& one : stage->layouts) {
     INFO(one.name);
     REQUIRE(one.guided.size() == 1);
@@ -287,7 +289,8 @@ TEST_CASE("where smoke sinks, it is told until when each layout guides", "[desig
   CHECK(page.find("60 s, the last state") != std::string::npos);
 }
 
-TEST_CASE("what ends the following of layouts leaves the end of their race as it was", "[design]") {
+TEST_CASE("an interrupted computation of guidance keeps the end of the elimination rounds",
+          "[design]") {
   const std::string text = test::corridor_with(test::even_smoke + "[time]\nto = 30\nstep = 15\n");
   const test::TemporaryFolder folder;
   const auto scene = test::described(folder.write("scene.toml", text));
@@ -313,7 +316,7 @@ TEST_CASE("what ends the following of layouts leaves the end of their race as it
   for (const JudgedLayout& one : stage->layouts) CHECK(one.guided.empty());
 }
 
-TEST_CASE("until when all routes guide is told of the one that is lost first", "[design]") {
+TEST_CASE("the guidance of all routes ends with the one that is lost first", "[design]") {
   const auto guided = [](std::optional<double> least, std::optional<double> most, bool lost) {
     GuidedUntil out;
     out.least = {least, lost ? std::optional(1000.0) : std::nullopt, 0};
@@ -328,7 +331,7 @@ TEST_CASE("until when all routes guide is told of the one that is lost first", "
   CHECK(first_loss_of({guided(90, 90, false)}).never_lost);
 }
 
-TEST_CASE("what cannot be judged in smoke is refused before the search", "[design]") {
+TEST_CASE("scenarios that cannot be judged in smoke are refused before the search", "[design]") {
   const auto refused = [](const std::string& text, const std::string& words) {
     const auto result = design_of(text);
     REQUIRE_FALSE(result);

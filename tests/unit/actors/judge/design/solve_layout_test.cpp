@@ -1,4 +1,4 @@
-// Layouts against those found by trying every subset, and proofs that there is none.
+// Compares layouts with those of all subsets, and tests proofs of infeasibility.
 #include "actors/judge/design/solve_layout.hpp"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ TEST_CASE("a layout is as good as the best of all subsets, and no bound is above
   CHECK(feasible >= 4);
 }
 
-TEST_CASE("a search that is cut short has a bound that no layout is below", "[design]") {
+TEST_CASE("the bound of an interrupted search is below every layout", "[design]") {
   for (uint64_t seed = 20; seed < 24; ++seed) {
     INFO("seed " << seed);
     const LayoutProblem problem = random_problem(seed, 12, 25);
@@ -67,9 +67,10 @@ TEST_CASE("a search that is cut short has a bound that no layout is below", "[de
   }
 }
 
-TEST_CASE("a known bound of a region stays out of parts that hold some of it alone", "[design]") {
-  // Two rooms. The last option lights nothing, so it is with the first room, though its region is
-  // the second: there nothing weighs as much as the second room needs.
+TEST_CASE("a known bound of a region is not applied to a part with only some of its options",
+          "[design]") {
+  // Two rooms. The last option lights nothing and goes to the first room's part, although its
+  // region is the second. There no option weighs as much as the second room needs.
   LayoutProblem problem = with_options(5);
   for (const uint32_t i : {0U, 1U, 2U}) problem.options[i].region = 1;
   for (const uint32_t i : {3U, 4U}) problem.options[i].region = 2;
@@ -77,7 +78,7 @@ TEST_CASE("a known bound of a region stays out of parts that hold some of it alo
   ask(problem, {{0, 0.6f}, {1, 0.5f}, {2, 1}}, 1, "first room");
   ask(problem, {{3, 1}}, 1, "second room");
   SolveSettings settings;
-  settings.start = {1, 1, 0, 1, 0};  // nothing better is looked for but by the program
+  settings.start = {1, 1, 0, 1, 0};  // only the program can find a better layout
   settings.known_regions = {{{1}, 1.5}, {{2}, 1}};
   settings.greedy_rounds = 0;
   const LayoutAnswer answer = solve_layout(problem, settings, nobody, silent);
@@ -91,7 +92,7 @@ TEST_CASE("the same problem and seed give the same layout", "[design]") {
   CHECK(solved(problem).layout == solved(problem).layout);
 }
 
-TEST_CASE("a fixed luminaire is in every layout and counts nothing more", "[design]") {
+TEST_CASE("a fixed luminaire is in every layout and adds nothing to the objective", "[design]") {
   LayoutProblem problem = with_options(3);
   problem.options[2].fixed = true;
   problem.options[2].weight = 0;
@@ -102,7 +103,8 @@ TEST_CASE("a fixed luminaire is in every layout and counts nothing more", "[desi
   CHECK(answer.objective == Approx(1));
 }
 
-TEST_CASE("what no place reaches is named, with the share that all places give", "[design]") {
+TEST_CASE("a row that all places together cannot satisfy is named with the share that they give",
+          "[design]") {
   LayoutProblem problem = with_options(3);
   ask(problem, {{0, 1}, {1, 1}}, 1, "lit");
   ask(problem, {{0, 0.2f}, {2, 0.3f}}, 2, "dark");
@@ -113,9 +115,10 @@ TEST_CASE("what no place reaches is named, with the share that all places give",
   CHECK(conflict.shortages[0].share == Approx(0.25));
 }
 
-TEST_CASE("of constraints that cannot hold together the smallest set is named", "[design]") {
-  // One luminaire each at three places; the first point needs all the light of place 0, and the
-  // ratio of the two points forbids it. A third demand is beside the matter.
+TEST_CASE("for constraints that cannot hold together a smallest infeasible subset is named",
+          "[design]") {
+  // One luminaire at each of three places. The first point needs all the light of place 0, and the
+  // ratio of the two points forbids it. The third demand is unrelated.
   LayoutProblem problem = with_options(3);
   ask(problem, {{0, 10}}, 10, "bright");
   ask(problem, {{1, 1}, {2, 1}}, 1, "aside");
@@ -131,7 +134,7 @@ TEST_CASE("of constraints that cannot hold together the smallest set is named", 
   CHECK(conflict.groups == std::vector<uint32_t>{0, 2});
 }
 
-TEST_CASE("with any one luminaire failed, what the others give is enough", "[design]") {
+TEST_CASE("with any one luminaire failed the light of the others is enough", "[design]") {
   LayoutProblem problem = with_options(4);
   std::vector<Term> all;
   for (uint32_t i = 0; i < 4; ++i) all.push_back({i, 1});
@@ -158,8 +161,7 @@ TEST_CASE("a barred luminaire is in no layout, whatever it weighs", "[design]") 
   }
 }
 
-TEST_CASE("luminaires that may be moved stay or move, as the best of all subsets has them",
-          "[design][movable]") {
+TEST_CASE("movable luminaires stay or move as in the best of all subsets", "[design][movable]") {
   int feasible = 0, with_moves = 0;
   for (uint64_t seed = 40; seed < 52; ++seed) {
     INFO("seed " << seed);
@@ -167,7 +169,7 @@ TEST_CASE("luminaires that may be moved stay or move, as the best of all subsets
     problem.pools = {2};
     for (const uint32_t i : {0u, 2u, 5u, 7u, 9u, 11u}) {
       problem.options[i].pool = 0;
-      problem.options[i].weight = i <= 2 ? 0 : 0.25;  // where they are, and elsewhere
+      problem.options[i].weight = i <= 2 ? 0 : 0.25;  // at their own places, and elsewhere
     }
     const double best = best_of_all_subsets(problem);
     const LayoutAnswer answer = solved(problem);
@@ -190,7 +192,8 @@ TEST_CASE("luminaires that may be moved stay or move, as the best of all subsets
   CHECK(with_moves >= 2);
 }
 
-TEST_CASE("greedy layouts hold, and pruning takes out what is not needed", "[design]") {
+TEST_CASE("greedy layouts are feasible, and pruning removes luminaires that are not needed",
+          "[design]") {
   const LayoutProblem problem = random_problem(3, 16, 40);
   const LayoutIndex index(problem);
   Random random(1, RandomStream::test);

@@ -1,7 +1,7 @@
-// Corridors against the spacing table that a manufacturer prints for a luminaire: for each mounting
-// height, and along and across its optics, the distances from a wall to the first luminaire, and
-// from one luminaire to the next, at which a route has its minimum. The table is computed here from
-// the intensities of the photometric file by the inverse square and cosine laws alone.
+// Compares corridors with a manufacturer's spacing table of a luminaire. For each mounting height,
+// along and across its optics, such a table has the distance from a wall to the first luminaire,
+// and from one luminaire to the next, at which a route has its minimum. Here it is computed from
+// the intensities of the photometric file by the inverse square and cosine laws.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
@@ -18,17 +18,17 @@ using std::numbers::pi;
 constexpr double emergency_lm = 200, minimum_lx = 1, plane_m = 0.02;
 constexpr double gamma_step_deg = 2.5;
 
-/// The two planes of a luminaire that a table has: C0, and C90 across it.
+/// The two planes of a luminaire in the table: C0, and C90 across it.
 enum class Optics { along, across };
 
-/// A lens for corridors, with the cosine of the angle from C0: along C0 it is three times as bright
-/// at 60 degrees as straight down, across it half as much; nothing at 90 degrees.
+/// A corridor lens; cos_c is the cosine of the angle from C0. Along C0 it is three times as bright
+/// at 60 degrees as straight down, across it half as bright; zero at 90 degrees.
 double shape_of_lens(double gamma, double cos_c) {
   const double aside = std::sin(gamma), along = 7 * cos_c * cos_c + 2 * (1 - cos_c * cos_c);
   return gamma < pi / 2 ? (1 + along * aside * aside) * std::cos(gamma) : 0;
 }
 
-/// Scaled so that 1000 lm come out of it [cd/klm].
+/// Normalised to a flux of 1000 lm [cd/klm].
 double intensity_cd_klm(double gamma, double cos_c) {
   static const double all = [] {
     double sum = 0;
@@ -43,7 +43,7 @@ double intensity_cd_klm(double gamma, double cos_c) {
   return 1000 * shape_of_lens(gamma, cos_c) / all;
 }
 
-/// Symmetric to the planes C0-C180 and C90-C270, 15 and 2.5 degrees apart.
+/// Symmetric about the planes C0-C180 and C90-C270, at steps of 15 and 2.5 degrees.
 std::string lens_ldt() {
   std::string out;
   const auto line = [&](const std::string& text) { out += text + "\r\n"; };
@@ -65,14 +65,14 @@ std::string lens_ldt() {
   return out;
 }
 
-/// On the plane, `away` from the foot of a luminaire [lx].
+/// Illuminance on the plane at a distance from the foot of a luminaire [lx].
 double lux_at(Optics optics, double away_m, double height_m) {
   const double h = height_m - plane_m, gamma = std::atan(away_m / h);
   return emergency_lm / 1000 * intensity_cd_klm(gamma, optics == Optics::along ? 1 : 0) *
          std::pow(std::cos(gamma), 3) / (h * h);
 }
 
-/// The largest distance with the minimum, of what falls beyond its brightest place.
+/// The largest distance with the minimum, beyond the brightest point.
 double largest(const std::function<double(double)>& lux) {
   double low = 1, high = 40;
   for (int i = 0; i < 60; ++i) {
@@ -90,12 +90,13 @@ TableRow spacing_at(Optics optics, double height_m) {
           largest([&](double d) { return 2 * lux_at(optics, d / 2, height_m); })};
 }
 
-/// The longest corridor that so many luminaires light by the table [m].
+/// The longest corridor that this many luminaires light by the table [m].
 double reach(const TableRow& row, int count) {
   return 2 * row.to_wall_m + (count - 1) * row.between_m;
 }
 
-/// `turns`: those about the axis that are tried, from C0 along the corridor; "": the default ones.
+/// `turns`: rotations around the axis that are tried, from C0 along the corridor; "": the default
+/// ones.
 DesignResult corridor(const test::TemporaryFolder& folder, double length, double height,
                       const std::string& turns) {
   folder.write("lens.ldt", lens_ldt());
@@ -126,13 +127,13 @@ end_of_duration_factor = 1
 
 }  // namespace
 
-TEST_CASE("corridors take as many luminaires as the manufacturer's spacing table says",
+TEST_CASE("corridors need as many luminaires as the manufacturer's spacing table says",
           "[design][spacing]") {
   struct Column {
     Optics optics;
     std::string turns;
   };
-  // Without turns of its own a type is tried along and across, and along is better.
+  // By default a type is tried along and across, and along is better.
   const auto column =
       GENERATE(Column{Optics::along, ""}, Column{Optics::across, "turns_deg = [90]\n"});
   const double height = GENERATE(2.5, 3.0, 3.5);
@@ -143,15 +144,16 @@ TEST_CASE("corridors take as many luminaires as the manufacturer's spacing table
   CHECK(row.between_m > row.to_wall_m);
   if (column.optics == Optics::along)
     CHECK(row.between_m > spacing_at(Optics::across, height).between_m);
-  // Higher up one alone has less than the minimum straight below: tables end there.
+  // At larger heights a single luminaire has less than the minimum straight below: tables end
+  // there.
   CHECK(lux_at(column.optics, 0, height) > minimum_lx);
   const test::TemporaryFolder folder;
-  // The grid of places takes up to 0.1 m from each distance.
+  // The grid of places costs up to 0.1 m of each distance.
   const double grid = 0.1 * (count + 1);
   const DesignResult result = corridor(folder, reach(row, count) - grid, height, column.turns);
   REQUIRE(result.answer.end == LayoutEnd::optimal);
   REQUIRE(result.luminaires.size() == static_cast<size_t>(count));
-  // Where a table counts two luminaires, a layout has the little light of the others, too.
+  // A table counts two luminaires; a layout also has some light of the others.
   constexpr double of_others = 1.05;
   const double first = result.luminaires.front().candidate.position.x - 0.5;
   CHECK(first <= of_others * row.to_wall_m);

@@ -1,4 +1,4 @@
-// Problems taken apart: what belongs together stays so, and nothing is lost by it.
+// Tests problems that are split: dependent options stay together, and no constraint is lost.
 #include "actors/judge/design/split_problem.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,7 +14,7 @@ namespace {
 
 using test::sum_of;
 
-/// Storeys of a line of places and points each, with failures and a ratio; every storey is alike
+/// Storeys, each with a line of places and points, with failures and a ratio. All storeys are equal
 /// unless `varied`.
 LayoutProblem storeys(uint32_t count, bool varied) {
   constexpr uint32_t places = 9, points = 14;
@@ -52,7 +52,7 @@ LayoutProblem storeys(uint32_t count, bool varied) {
   return out;
 }
 
-/// With options, points and groups of its own.
+/// Adds a storey with options, points and groups of its own.
 void add_storey(LayoutProblem& tower, const LayoutProblem& storey) {
   const auto options = static_cast<uint32_t>(tower.options.size());
   const auto points = static_cast<uint32_t>(tower.points.size());
@@ -98,7 +98,7 @@ LayoutAnswer answer_to(const LayoutProblem& problem) {
 
 }  // namespace
 
-TEST_CASE("storeys are parts, and each row is in one of them", "[design][parts]") {
+TEST_CASE("storeys are separate parts, and each row is in one of them", "[design][parts]") {
   const LayoutProblem problem = storeys(5, true);
   const auto parts = parts_of(problem);
   REQUIRE(parts.size() == 5);
@@ -118,7 +118,7 @@ TEST_CASE("storeys are parts, and each row is in one of them", "[design][parts]"
   CHECK(std::all_of(seen.begin(), seen.end(), [](int times) { return times == 1; }));
 }
 
-TEST_CASE("one row across two storeys makes them one part", "[design][parts]") {
+TEST_CASE("one row across two storeys joins them in one part", "[design][parts]") {
   LayoutProblem problem = storeys(3, false);
   problem.covers.push_back({0, sum_of({{0, 1}, {9, 1}}), 1, {}});
   CHECK(parts_of(problem).size() == 2);
@@ -126,7 +126,7 @@ TEST_CASE("one row across two storeys makes them one part", "[design][parts]") {
   CHECK(parts_of(problem).size() == 1);
 }
 
-TEST_CASE("a tower takes as many luminaires as its storeys do, and its layout holds",
+TEST_CASE("a tower needs as many luminaires as its storeys do, and its layout is feasible",
           "[design][parts]") {
   const LayoutAnswer one = answer_to(storeys(1, false));
   REQUIRE(one.end == LayoutEnd::optimal);
@@ -142,7 +142,7 @@ TEST_CASE("a tower takes as many luminaires as its storeys do, and its layout ho
   CHECK(objective_of(tower, all.layout) == Approx(all.objective));
 }
 
-TEST_CASE("without a row there is one part, and nothing is placed", "[design][parts]") {
+TEST_CASE("without a row there is one part, and no luminaire is placed", "[design][parts]") {
   const LayoutProblem nothing_asked = test::with_options(5);
   REQUIRE(parts_of(nothing_asked).size() == 1);
   CHECK(parts_of(nothing_asked).front().options.size() == 5);
@@ -151,7 +151,7 @@ TEST_CASE("without a row there is one part, and nothing is placed", "[design][pa
   CHECK(answer.objective == 0);
 }
 
-TEST_CASE("a tower has a layout of all storeys before any of them is searched", "[design][parts]") {
+TEST_CASE("a layout of all storeys is found before any storey is searched", "[design][parts]") {
   SolveSettings no_time;
   no_time.seconds = 0;
   const LayoutProblem tower = storeys(10, true);
@@ -176,8 +176,8 @@ TEST_CASE("Ctrl-C ends the search of all storeys, and the best layout of each is
   SolveSettings settings;
   settings.seconds = 20;
   settings.greedy_rounds = 5;
-  // The second storey tells of its first layout, of its search, and then of what the search found:
-  // the first is done by then, and the others have not begun.
+  // Progress of the second storey reports its first layout, its search, and the result of the
+  // search. At the third message the first storey is solved, and the others have not begun.
   const LayoutAnswer answer =
       solve_layout(tower, settings, ctrl_c.interrupt(), ctrl_c.pressed_at("part 2 of 4", 3));
   REQUIRE(ctrl_c.interrupt());
@@ -192,7 +192,7 @@ TEST_CASE("Ctrl-C ends the search of all storeys, and the best layout of each is
   CHECK(answer.bound < answer.objective);
 }
 
-TEST_CASE("whoever listens to Ctrl-C does so while a layout is searched, too", "[design][parts]") {
+TEST_CASE("a program keeps its handler of Ctrl-C while a layout is searched", "[design][parts]") {
   const test::CtrlC ctrl_c;
   SolveSettings settings;
   settings.seconds = 2;

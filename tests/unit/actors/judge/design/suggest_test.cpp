@@ -1,5 +1,5 @@
-// Suggestions for a building as it stands: what one luminaire helps, by hand, and that with what is
-// suggested the demands hold.
+// Tests suggestions for a building as it is: the contribution of one luminaire, computed by hand,
+// and that all demands hold with the suggested ones.
 #include "actors/judge/design/suggest.hpp"
 
 #include <catch2/catch.hpp>
@@ -42,8 +42,8 @@ Terms summands(std::vector<Term> list) {
 
 }  // namespace
 
-TEST_CASE("a place helps by what its best option adds to what is missing", "[design][suggest]") {
-  // One is fixed and gives half of the first row; the second row has nothing.
+TEST_CASE("a place helps by what its best option adds to the missing light", "[design][suggest]") {
+  // One option is fixed and gives half of the first row; the second row has nothing.
   LayoutProblem problem;
   problem.options = {at_place(0, true), at_place(1, false), at_place(1, false), at_place(2, false)};
   problem.groups.resize(1);
@@ -51,7 +51,7 @@ TEST_CASE("a place helps by what its best option adds to what is missing", "[des
                     {0, summands({{2, 1}, {3, 2}}), 4, {}}};
   const auto places = helpful_places(problem, {1, 0, 0, 0});
   REQUIRE(places.size() == 2);
-  // Missing: 0.5 and 1. Place 1: the first option brings 0.5 (no more is missing), the second 0.25.
+  // Missing: 0.5 and 1. Place 1: the first option gives 0.5 (no more is missing), the second 0.25.
   CHECK(places[0].first == 1);
   CHECK(places[0].second == Approx(0.5 / 1.5));
   // Place 2: 0.25 of the first row and 0.5 of the second.
@@ -60,7 +60,7 @@ TEST_CASE("a place helps by what its best option adds to what is missing", "[des
   CHECK(helpful_places(problem, {1, 1, 1, 1}).empty());
 }
 
-TEST_CASE("with what is suggested the rules for luminaires hold, and nothing more is suggested",
+TEST_CASE("with the suggested luminaires the rules hold, and nothing more is suggested",
           "[design][suggest]") {
   const TemporaryFolder folder;
   const auto scene = test::described(folder.write("scene.toml", one_lamp));
@@ -72,7 +72,7 @@ TEST_CASE("with what is suggested the rules for luminaires hold, and nothing mor
   CHECK(found->missing > 0);
   CHECK(found->least < 1);
   REQUIRE_FALSE(found->luminaires.empty());
-  // Most is missing at the far end, and a luminaire helps most there.
+  // Most light is missing at the far end, and a luminaire helps most there.
   const auto best =
       std::max_element(found->helpful.begin(), found->helpful.end(),
                        [](const auto& a, const auto& b) { return a.share < b.share; });
@@ -100,8 +100,7 @@ TEST_CASE("with what is suggested the rules for luminaires hold, and nothing mor
   CHECK(again->helpful.empty());
 }
 
-TEST_CASE("without a luminaire to copy nothing is suggested, and it is said why",
-          "[design][suggest]") {
+TEST_CASE("without a luminaire to copy nothing is suggested, with a reason", "[design][suggest]") {
   std::string dark = one_lamp;
   dark.erase(dark.find("[[emitter]]"), dark.find("[[route]]") - dark.find("[[emitter]]"));
   const TemporaryFolder folder;

@@ -1,5 +1,5 @@
-// Luminaires on walls: where they hang, that the file of the layout says the same, and that they
-// pass the assessment.
+// Tests luminaires on walls: where they hang, that the layout on disk agrees, and that they pass
+// the assessment.
 #include "actors/judge/design/wall_places.hpp"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 using test::TemporaryFolder;
 
-/// A corridor of 2 m, and a bulkhead in it to be like, which goes.
+/// A corridor of 2 m, with a bulkhead as the model of a type, which is removed.
 std::string wall_scene(const char* settings) {
   return test::box_room(12, 2, 3) + test::judged_2013 + R"(
 [[emitter]]
@@ -51,7 +51,7 @@ DesignResult on_the_walls(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("luminaires on walls hang before them and pass the assessment", "[design][walls]") {
+TEST_CASE("luminaires on walls hang in front of them and pass the assessment", "[design][walls]") {
   const TemporaryFolder folder;
   const auto file = folder.write("scene.toml", wall_scene("wall_height_m = 2.2\n") + on_walls);
   const DesignResult result = on_the_walls(file);
@@ -69,7 +69,7 @@ TEST_CASE("luminaires on walls hang before them and pass the assessment", "[desi
     if (test::is_of_luminaires(check.rule.id)) CHECK(check.verdict != CheckVerdict::fail);
 }
 
-TEST_CASE("the file of a layout places luminaires on walls as the design has them",
+TEST_CASE("the file of a layout has luminaires on walls where the design placed them",
           "[design][walls]") {
   const TemporaryFolder folder;
   const auto file = folder.write("scene.toml", wall_scene("") + on_walls);
@@ -84,7 +84,7 @@ TEST_CASE("the file of a layout places luminaires on walls as the design has the
   }
 }
 
-TEST_CASE("what hangs on a wall and looks straight down is off its place along the wall and up it",
+TEST_CASE("a luminaire on a wall that faces straight down is off its place along the wall or up it",
           "[design][walls][tolerance]") {
   const auto least_of = [](const char* aim_deg) {
     const TemporaryFolder folder;
@@ -102,7 +102,8 @@ TEST_CASE("what hangs on a wall and looks straight down is off its place along t
     const auto scene = test::described(folder.path() / "scene.toml");
     const auto codes = judged_codes(*scene, {}, {});
     REQUIRE(codes);
-    // So far that level ways, out of the wall, would change what is left by several per cent.
+    // So far that horizontal displacements out of the wall would change the result by several per
+    // cent.
     DesignSettings far_off = *scene->design;
     far_off.place_tolerance_m = 0.6;
     const auto found =
@@ -110,13 +111,13 @@ TEST_CASE("what hangs on a wall and looks straight down is off its place along t
     REQUIRE(found);
     return std::pair{chosen.size(), found->least()};
   };
-  // One degree changes the light by little, and must not change the ways of being off.
+  // One degree changes the light little, and must not change the directions of displacement.
   const auto down = least_of("0"), nearly = least_of("1");
   REQUIRE(down.first == nearly.first);
   CHECK(down.second == Approx(nearly.second).epsilon(0.03));
 }
 
-TEST_CASE("types of ceilings and of walls are chosen from together", "[design][walls]") {
+TEST_CASE("types for ceilings and for walls compete with each other", "[design][walls]") {
   const TemporaryFolder folder;
   const std::string both = wall_scene("objective = \"cost\"\n") + on_walls + R"(cost = 3
 [[design.type]]
@@ -126,11 +127,11 @@ cost = 1
 )";
   const DesignResult result = on_the_walls(folder.write("scene.toml", both));
   REQUIRE_FALSE(result.luminaires.empty());
-  // The ceiling lights more of the floor for less.
+  // The ceiling lights more of the floor at a lower cost.
   for (const PlacedLuminaire& one : result.luminaires) CHECK_FALSE(one.candidate.aim);
 }
 
-TEST_CASE("nothing hangs on a wall in a keep-out zone", "[design][walls]") {
+TEST_CASE("no luminaire hangs on a wall in a keep-out zone", "[design][walls]") {
   const TemporaryFolder folder;
   const DesignResult result = on_the_walls(folder.write(
       "scene.toml",

@@ -1,4 +1,4 @@
-// What a layout could do without: savings that are known by counting.
+// Tests what a layout saves without one demand: savings are known by counting.
 #include "actors/judge/design/what_binds.hpp"
 
 #include <catch2/catch.hpp>
@@ -51,8 +51,8 @@ TEST_CASE("without failures two luminaires of three would not be needed", "[desi
   CHECK((most.without.all_failures || most.without.group == 1u));
 }
 
-TEST_CASE("the single failure of one luminaire takes two more", "[design][binding]") {
-  // Luminaire 0 is needed anyway and gives all by itself; when it fails, two others have to.
+TEST_CASE("the single failure of one luminaire costs two more luminaires", "[design][binding]") {
+  // Luminaire 0 is needed anyway and gives everything by itself; if it fails, two others must.
   LayoutProblem problem = with_options(4);
   ask(problem, {{0, 1}}, 1, "only by the first");
   ask_after_failure(problem, {{0, 2}, {1, 1}, {2, 1}, {3, 1}}, 2);
@@ -65,17 +65,16 @@ TEST_CASE("the single failure of one luminaire takes two more", "[design][bindin
   CHECK(at->exact);
 }
 
-TEST_CASE("a demand that takes nothing is not told", "[design][binding]") {
+TEST_CASE("a demand that costs nothing is not reported", "[design][binding]") {
   LayoutProblem problem = with_options(3);
   ask(problem, {{0, 1}, {1, 1}}, 1, "a");
   ask(problem, {{0, 1}, {1, 1}, {2, 1}}, 1, "b");
   for (const Relaxed& one : binding(problem)) CHECK(one.saved > 0);
-  // Either follows from the other: without one of them as many are needed.
+  // Each demand follows from the other: without one of them as many are needed.
   CHECK(binding(problem).empty());
 }
 
-TEST_CASE("in a tower a demand is looked at where it is, and others stay as they are",
-          "[design][binding]") {
+TEST_CASE("in a tower only the parts that contain a demand are solved again", "[design][binding]") {
   LayoutProblem problem = with_options(4);
   ask(problem, {{0, 1}, {1, 1}}, 2, "below");
   ask(problem, {{2, 1}, {3, 1}}, 1, "above");
@@ -89,7 +88,7 @@ TEST_CASE("in a tower a demand is looked at where it is, and others stay as they
   CHECK(found[1].objective == Approx(2));
 }
 
-TEST_CASE("all storeys share the time of a demand, and what is not solved again is not exact",
+TEST_CASE("all storeys share the time of a demand, and an unfinished result is not exact",
           "[design][binding]") {
   constexpr uint32_t storeys = 40;
   LayoutProblem problem = with_options(2 * storeys);
@@ -101,13 +100,13 @@ TEST_CASE("all storeys share the time of a demand, and what is not solved again 
   const LayoutAnswer best = best_of(problem);
   REQUIRE(best.objective == Approx(2 * storeys));
   const Relaxation no_failures{{}, {}, true};
-  SECTION("with time, each does without one luminaire") {
+  SECTION("with enough time each storey saves one luminaire") {
     const Relaxed found = solved_without(problem, best, no_failures, {}, test::nobody);
     CHECK(found.exact);
     CHECK(found.saved == Approx(storeys));
     CHECK(found.fewer == storeys);
   }
-  SECTION("without any time, none is looked at") {
+  SECTION("without time no storey is solved") {
     WhatBindsSettings none;
     none.seconds = 0;
     const Relaxed found = solved_without(problem, best, no_failures, none, test::nobody);
@@ -116,7 +115,7 @@ TEST_CASE("all storeys share the time of a demand, and what is not solved again 
     CHECK(found.objective == best.objective);
     CHECK(what_binds(problem, best, none, test::nobody).empty());
   }
-  SECTION("after an interrupt, none is looked at") {
+  SECTION("after an interrupt no storey is solved") {
     const std::atomic<bool> interrupted{true};
     const Relaxed found = solved_without(problem, best, no_failures, {}, interrupted);
     CHECK_FALSE(found.exact);
@@ -125,7 +124,7 @@ TEST_CASE("all storeys share the time of a demand, and what is not solved again 
   }
 }
 
-TEST_CASE("of a layout that breaks a row nothing is said", "[design][binding]") {
+TEST_CASE("a layout that violates a row has no binding demands", "[design][binding]") {
   LayoutProblem problem = with_options(2);
   ask(problem, {{0, 1}, {1, 1}}, 2, "a");
   LayoutAnswer answer = best_of(problem);
@@ -133,7 +132,7 @@ TEST_CASE("of a layout that breaks a row nothing is said", "[design][binding]") 
   CHECK(what_binds(problem, answer, {}, test::nobody).empty());
 }
 
-TEST_CASE("a search that begins with a layout gives none that is worse", "[design][binding]") {
+TEST_CASE("a search that starts from a layout returns none that is worse", "[design][binding]") {
   LayoutProblem problem = with_options(4);
   ask(problem, {{0, 1}, {1, 1}, {2, 1}, {3, 1}}, 2, "a");
   SolveSettings settings;

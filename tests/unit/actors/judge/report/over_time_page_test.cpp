@@ -1,4 +1,4 @@
-// Guidance over time in a report: the section of the page, and the map of places and times.
+// Tests guidance over time in a report: its section on the page, and the map of places and times.
 #include <librsvg/rsvg.h>
 
 #include <array>
@@ -23,7 +23,7 @@ bool holds_text(const std::string& text, const std::string& piece) {
   return text.find(piece) != std::string::npos;
 }
 
-/// A route of three places over three states, and two walkers.
+/// A route with three places, three states and two walkers.
 Json with_guidance() {
   OverTime over;
   over.walking_speed_m_s = 0.5;
@@ -51,8 +51,7 @@ Json with_guidance() {
 
 }  // namespace
 
-TEST_CASE("a report says up to when routes are guided, in each language, and draws it",
-          "[report]") {
+TEST_CASE("a report says and draws until when routes are guided, in each language", "[report]") {
   const Json a = with_guidance();
   REQUIRE(check_assessment(a));
   const std::array<const char*, 3> until{"up to 0 s, lost by 30 s", "bis 0 s, verloren bis 30 s",
@@ -77,14 +76,15 @@ TEST_CASE("a report says up to when routes are guided, in each language, and dra
       rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(map.data()), map.size(), &error);
   REQUIRE(drawing != nullptr);
   g_object_unref(drawing);
-  // Two intervals of three places: the first is undecided in the middle, the second not guided.
+  // Two intervals of three places: in the first one place is undecided, in the second one is not
+  // guided.
   const auto count = [&](const std::string& colour) {
     size_t out = 0;
     for (size_t at = map.find(colour); at != std::string::npos; at = map.find(colour, at + 1))
       ++out;
     return out;
   };
-  CHECK(count("#2f8f5b") == 2 + 1);  // and in the legend
+  CHECK(count("#2f8f5b") == 2 + 1);  // one more in the legend
   CHECK(count("#e0b23a") == 1 + 1);
   CHECK(count("#4a2a33") == 3 + 1);
   const TemporaryFolder folder;

@@ -1,5 +1,5 @@
-// A room with one luminaire and one sign, assessed and reported: what the page, the drawings and
-// the tables say is what the assessment says.
+// Reports an assessed room with one luminaire and one sign: page, drawings and tables show what the
+// assessment contains.
 #include "actors/judge/report/report.hpp"
 
 #include <dxflib/dl_creationadapter.h>
@@ -41,7 +41,7 @@ revision = "C"
 date = 2026-11-23
 )";
 
-/// Of one round, so that it takes a second.
+/// One round of paths, so that it takes a second.
 const Json& assessed_json() {
   static const Json json = [] {
     AssessOptions options;
@@ -73,7 +73,7 @@ bool runs(const std::string& command) {
   return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-/// What dxflib reads of a drawing.
+/// Counts what dxflib reads from a drawing.
 class Read : public DL_CreationAdapter {
  public:
   std::map<std::string, int> on_layer;
@@ -92,7 +92,7 @@ class Read : public DL_CreationAdapter {
   std::string attributes_layer() { return getAttributes().getLayer(); }
 };
 
-/// As lines of a page break anywhere.
+/// Joins lines, since text on a page may break anywhere.
 std::string in_one_line(const std::string& page) {
   std::istringstream words(page);
   std::string out;
@@ -102,8 +102,9 @@ std::string in_one_line(const std::string& page) {
 
 }  // namespace
 
-TEST_CASE("a drawing of others lies faintly under plans of its floors, and nothing else of it",
-          "[report][backdrop]") {
+TEST_CASE(
+    "a backdrop is drawn faintly on plans of its floors, and none of its metadata enters the plan",
+    "[report][backdrop]") {
   AssessOptions options;
   options.rounds = 1;
   const TemporaryFolder folder;
@@ -138,11 +139,11 @@ TEST_CASE("a drawing of others lies faintly under plans of its floors, and nothi
   const Plan bare = plan_of({}), drawn = plan_of({lines}), pictured = plan_of({picture});
   CHECK_FALSE(has(bare.svg, "backdrop"));
   CHECK(plan_of({above}).svg == bare.svg);
-  // It does not make the plan larger, and lies before the walls.
+  // It does not enlarge the plan, and is drawn before the walls.
   CHECK(drawn.width_mm == bare.width_mm);
   CHECK(drawn.svg.find("class=\"backdrop\"") < drawn.svg.find("class=\"walls\""));
   CHECK(has(pictured.svg, "data:image/png;base64,"));
-  // Lines are not hidden by pictures, in whatever order they are written.
+  // Pictures do not hide lines, whatever their order in the scene.
   const std::string both = plan_of({lines, picture}).svg;
   CHECK(both.find("<image") < both.find("stroke=\"#555\""));
   CHECK_FALSE(has(pictured.svg, "script"));
@@ -152,7 +153,7 @@ TEST_CASE("a drawing of others lies faintly under plans of its floors, and nothi
     CHECK(handle != nullptr);
     if (handle != nullptr) g_object_unref(handle);
   }
-  // A picture that is none, or has no place, is told.
+  // A damaged picture and one without a place are refused.
   scene.backdrops = {picture};
   Json a = assessment_json(scene, assessed(room, options), "1.2.3");
   a["plan"]["backdrops"][0]["png"] = "\"><script>";
@@ -161,7 +162,7 @@ TEST_CASE("a drawing of others lies faintly under plans of its floors, and nothi
   CHECK_FALSE(check_assessment(a));
 }
 
-TEST_CASE("faces of signs keep their letters, and paths break after folders", "[report]") {
+TEST_CASE("signs are listed with their words, and paths break after folders", "[report]") {
   CHECK(has(page_in(Language::fr), "“EXIT”"));
   Json drawn = assessed_json();
   drawn["signs"][0]["text"] = "";
@@ -169,7 +170,7 @@ TEST_CASE("faces of signs keep their letters, and paths break after folders", "[
   CHECK(has(report_html(drawn, {}, "x", {}), "../<wbr>zeichen/<wbr>Ausgänge &amp; mehr.svg"));
 }
 
-TEST_CASE("a verdict is said in each language", "[report]") {
+TEST_CASE("verdicts have words in each language", "[report]") {
   const auto counted = [](int fail, int open, int unverified, int pass) {
     return Json{
         {"verdict",
@@ -190,7 +191,7 @@ TEST_CASE("a verdict is said in each language", "[report]") {
   CHECK(said(Language::de, counted(0, 4, 0, 0)) == "keine Prüfung war möglich, 4 nicht bewertet");
 }
 
-TEST_CASE("a report's headline says in each language what a terminal says first", "[report]") {
+TEST_CASE("the headline of a report says in each language what a terminal says first", "[report]") {
   const Json& a = assessed_json();
   CHECK(headline(Texts(Language::en), a) == a["verdict"]["first"]);
   Json smoky = a;
@@ -209,8 +210,9 @@ TEST_CASE("a report's headline says in each language what a terminal says first"
           page_in(language).find("<h2 "));
 }
 
-TEST_CASE("a report says what it is not, on its first page and in its footer, in each language",
-          "[report]") {
+TEST_CASE(
+    "a report says what it does not certify, on its first page and in its footer, in each language",
+    "[report]") {
   for (const Language language : {Language::en, Language::de, Language::fr}) {
     const Texts texts(language);
     const std::string page = page_in(language);
@@ -234,7 +236,7 @@ TEST_CASE("a report says what it is not, on its first page and in its footer, in
   CHECK_FALSE(has(page_in(Language::de), ">1.65"));
 }
 
-TEST_CASE("a report's sections follow each other from the verdict to the method", "[report]") {
+TEST_CASE("the sections of a report run from the verdict to the method", "[report]") {
   const std::string page = page_in(Language::en);
   size_t before = 0;
   for (const char* id : {"verdict", "state", "plans", "schedules", "places", "sights", "thumb",
@@ -253,11 +255,11 @@ TEST_CASE("a report's sections follow each other from the verdict to the method"
   CHECK(has(page, "Luxodus 1.2.3"));
   for (const Json& check : a["checks"])
     CHECK(has(page, escaped(check["edition"].get<std::string>())));
-  // No pictures: the command that makes them.
+  // Without pictures the page names the command that makes them.
   CHECK((has(page, "luxodus run") || has(page, "[[camera]]")));
 }
 
-TEST_CASE("verdicts have a shape and a word beside their colour", "[report]") {
+TEST_CASE("verdicts have a shape and a word besides their colour", "[report]") {
   const Texts texts(Language::en);
   std::set<std::string> shapes;
   for (const char* verdict : {"pass", "fail", "not assessed", "not verified", "information"}) {
@@ -271,7 +273,7 @@ TEST_CASE("verdicts have a shape and a word beside their colour", "[report]") {
 
 namespace {
 
-/// The paths of all values that are neither lists nor objects.
+/// Adds the paths of all values that are neither lists nor objects.
 void add_paths(const Json& value, const std::string& path, std::vector<std::string>& out) {
   if (!value.is_structured() || value.empty()) return out.push_back(path);
   if (value.is_object())
@@ -283,15 +285,14 @@ void add_paths(const Json& value, const std::string& path, std::vector<std::stri
 
 }  // namespace
 
-TEST_CASE("every key that a report reads is missed by name, and without it nothing ends",
-          "[report]") {
+TEST_CASE("a missing key is reported by name, and no report crashes without it", "[report]") {
   REQUIRE(check_assessment(assessed_json()));
   std::vector<std::string> paths;
   for (const auto& [key, value] : assessed_json().items()) add_paths(value, key, paths);
   std::set<std::string> tried;
   size_t faults = 0;
   for (const std::string& path : paths) {
-    // One of each kind: of lists the first entry.
+    // One of each kind: the first entry of each list.
     const std::string kind = std::regex_replace(path, std::regex("/[0-9]+"), "/0");
     if (kind != path || !tried.insert(kind).second) continue;
     Json cut = assessed_json();
@@ -341,9 +342,8 @@ TEST_CASE("a damaged assessment is refused with its file and the missing key", "
   CHECK_FALSE(read_assessment(fs::path(folder / "")).ok());
 }
 
-TEST_CASE("lines of equal illuminance lie where the closed form has them, and end at walls",
-          "[report]") {
-  // I h / (h^2 + r^2)^1.5 of 300 lm in all directions, 2.48 m above the plane.
+TEST_CASE("lines of equal illuminance match the closed form and end at walls", "[report]") {
+  // I h / (h^2 + r^2)^1.5 for 300 lm in all directions, 2.48 m above the plane.
   const double intensity = 300 / (4 * std::numbers::pi), h = 2.5 - 0.02;
   const auto lux = [&](double r) { return intensity * h / std::pow(h * h + r * r, 1.5); };
   size_t points = 0;
@@ -353,15 +353,16 @@ TEST_CASE("lines of equal illuminance lie where the closed form has them, and en
       CHECK(lux(glm::length(p - glm::dvec2(6, 0))) == Approx(one.lux).epsilon(0.03));
     }
   CHECK(points > 10);
-  // A wall across the room: the line ends on both of its sides.
+  // A wall across the room: lines end on both sides of it.
   Json walled = assessed_json()["plan"]["levels"][0];
   walled["walls"].push_back({6.0, -2.0, 6.0, 2.0});
   for (const IsoluxLine& one : isolux_lines(walled))
     for (const glm::dvec2& p : one.line.points) CHECK(std::abs(p.x - 6) > 0.1);
 }
 
-TEST_CASE("no line of equal illuminance follows the dark floor within a wall", "[report]") {
-  // Two rows of places in a breast wall below a pane, which the plan shows; the room is lit evenly.
+TEST_CASE("no line of equal illuminance follows dark grid points within a wall", "[report]") {
+  // Two rows of grid points in a wall below a pane, where the plan shows the pane; the room is
+  // evenly lit.
   Json level = assessed_json()["plan"]["levels"][0];
   Json& map = level["map"];
   const auto columns = map["columns"].get<size_t>();
@@ -406,7 +407,7 @@ TEST_CASE("a plan in DXF is read back with its layers, luminaires and lines", "[
   CHECK(std::count(read.texts.begin(), read.texts.end(), "A 2.50") == 1);
 }
 
-TEST_CASE("plans are drawings that a reader of SVG takes, with a scale and a north", "[report]") {
+TEST_CASE("plans are valid SVG drawings with a scale and a north arrow", "[report]") {
   const TemporaryFolder folder;
   ReportOptions options;
   options.grid_values = true;
@@ -434,7 +435,8 @@ TEST_CASE("the plan of the installation explains each of its symbols in each lan
   for (const Language language : {Language::en, Language::de, Language::fr}) {
     const Texts texts(language);
     const Schedule schedule(assessed_json());
-    // As wide as a small figure: what does not fit a row begins another, within the drawing.
+    // At the width of a small figure entries that do not fit continue in another row, within the
+    // drawing.
     for (const double width : {120.0, 267.0}) {
       const std::string svg =
           Plans(assessed_json(), schedule, texts, {width, 150}).installation(0).svg;
@@ -445,9 +447,9 @@ TEST_CASE("the plan of the installation explains each of its symbols in each lan
         INFO(texts.code() << " " << symbol);
         CHECK(svg.find(">" + std::string(texts(symbol)) + "</text>", legend) != std::string::npos);
       }
-      // Of what is not there it says nothing.
+      // Symbols that the plan does not show are not explained.
       for (const char* absent : {"legend.mains", "legend.double_sided", "legend.furniture"}) {
-        INFO(texts.code() << " " << absent);  // furniture is below the cut
+        INFO(texts.code() << " " << absent);  // furniture is below the section
         CHECK_FALSE(has(svg, ">" + std::string(texts(absent)) + "</text>"));
       }
       std::smatch size;
@@ -465,7 +467,7 @@ TEST_CASE("the plan of the installation explains each of its symbols in each lan
   }
 }
 
-TEST_CASE("a report takes in pictures of its own state alone", "[report]") {
+TEST_CASE("a report includes only pictures of its own scene and scenario", "[report]") {
   const Json& a = assessed_json();
   const auto picture = [&](const std::string& scenario) {
     const PngImage image{1,
@@ -501,7 +503,7 @@ TEST_CASE("a report takes in pictures of its own state alone", "[report]") {
   CHECK(has(mixed, en.say("sights.other_pictures", 1)));
 }
 
-TEST_CASE("texts in pictures are read, and damaged pictures have none", "[report]") {
+TEST_CASE("texts in pictures are read, and damaged pictures give none", "[report]") {
   const PngImage image{1, 1, {1, 2, 3}, {{"Scenario", "Rauch, größer"}, {"View", "plain"}}};
   const auto bytes = encode_png(image, {});
   REQUIRE(bytes.ok());
@@ -512,11 +514,12 @@ TEST_CASE("texts in pictures are read, and damaged pictures have none", "[report
   CHECK_FALSE(png_text("no PNG", "View"));
   for (size_t cut = 0; cut < png.size(); ++cut) png_text(png.substr(0, cut), "View");
   std::string forged = png;
-  forged[8] = '\x7f';  // the length of its first chunk
+  forged[8] = '\x7f';  // length of its first chunk
   CHECK_FALSE(png_text(forged, "View"));
 }
 
-TEST_CASE("a scene without cameras is told which would show its worst views", "[report]") {
+TEST_CASE("for a scene without cameras a report suggests cameras that show the worst views",
+          "[report]") {
   Json a = assessed_json();
   a["sights"][0]["verdict"] = "invisible";
   const std::string page = report_html(a, {}, "x", {});
@@ -524,7 +527,7 @@ TEST_CASE("a scene without cameras is told which would show its worst views", "[
   CHECK(has(page, "target = [11.95, 0, 2.2]"));
 }
 
-TEST_CASE("labels of luminaires in one place do not lie on each other", "[report]") {
+TEST_CASE("labels of luminaires in one place do not overlap", "[report]") {
   Json two = assessed_json();
   Json again = two["luminaires"][0];
   again["name"] = "its twin";
@@ -583,7 +586,7 @@ TEST_CASE("schedules have units in their headers and a place in every row", "[re
   CHECK(has(places_csv(a).text(), "worst x [m],worst y [m],worst z [m]"));
 }
 
-TEST_CASE("the pages of a PDF's destinations are found through its tree of pages", "[report]") {
+TEST_CASE("the page numbers of a PDF's destinations are found through its page tree", "[report]") {
   const std::string pdf =
       "%PDF-1.4\n1 0 obj\n<</Type /Catalog\n/Pages 2 0 R\n/Dests 7 0 R>>\nendobj\n"
       "2 0 obj\n<</Type /Pages\n/Kids [3 0 R 4 0 R]>>\nendobj\n"
@@ -594,7 +597,8 @@ TEST_CASE("the pages of a PDF's destinations are found through its tree of pages
   for (size_t cut = 0; cut < pdf.size(); ++cut) pages_of_destinations(pdf.substr(0, cut));
 }
 
-TEST_CASE("a printed report holds its verdict, footers and the pages of its contents", "[report]") {
+TEST_CASE("a printed report contains its verdict, its footers and the page numbers of its contents",
+          "[report]") {
   if (!runs("chromium --version") || !runs("pdftotext -v") || !runs("pdftoppm -v")) {
     WARN("skipped: Chromium or poppler-utils are not installed");
     return;

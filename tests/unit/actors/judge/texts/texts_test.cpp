@@ -1,4 +1,4 @@
-// Texts in every language: complete, with the same places, and filled in by its customs.
+// Texts of all languages are complete, have the same placeholders, and follow the customs of each.
 #include "actors/judge/texts/texts.hpp"
 
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr Language languages[] = {Language::en, Language::de, Language::fr};
 
-/// The places of a text with their formats: "0", "1:.2f".
+/// The placeholders of a text with their formats: "0", "1:.2f".
 std::multiset<std::string> places_of(const std::string& text) {
   std::multiset<std::string> out;
   for (size_t from = text.find('{'); from != std::string::npos; from = text.find('{', from + 1))
@@ -26,7 +26,8 @@ std::string key_of(const RemarkKind& kind) {
 
 }  // namespace
 
-TEST_CASE("every language has every text, with the same places for names and numbers", "[texts]") {
+TEST_CASE("every language has every text, with the same placeholders for names and numbers",
+          "[texts]") {
   const auto& english = texts_of(Language::en);
   CHECK(english.size() > 500);
   for (const Language language : languages) {
@@ -59,7 +60,7 @@ TEST_CASE("every kind of remark has a text that uses each of its arguments", "[t
     CHECK(arguments.size() == arity_of(kind));
     for (size_t n = 0; n < arity_of(kind); ++n) CHECK(arguments.contains(std::to_string(n)));
   }
-  // No text is left over from a remark that is gone.
+  // No text belongs to a remark that no longer exists.
   for (const auto& [key, text] : english)
     if (key.starts_with("remark.") && key != "remark.join") {
       INFO(key);
@@ -67,7 +68,7 @@ TEST_CASE("every kind of remark has a text that uses each of its arguments", "[t
     }
 }
 
-TEST_CASE("remarks keep names, and write numbers in the custom of the language", "[texts]") {
+TEST_CASE("remarks keep names and write numbers in the format of the language", "[texts]") {
   const Texts en(Language::en), de(Language::de), fr(Language::fr);
   const Remark late = remark(RemarkId::after_mains_failure, 0.5);
   CHECK(en.remark(late) == "0.5 s after the mains have failed");
@@ -86,7 +87,7 @@ TEST_CASE("remarks keep names, and write numbers in the custom of the language",
         "indécis : lisible ou non : plus de chemins le diront (--rounds)");
 }
 
-TEST_CASE("subjects and clauses are said in each language", "[texts]") {
+TEST_CASE("subjects and clauses have texts in each language", "[texts]") {
   const Texts en(Language::en), de(Language::de);
   CHECK(en.subject({SubjectKind::route, "corridor"}) == "route \"corridor\"");
   CHECK(de.subject({SubjectKind::all_signs}) == "alle Zeichen");
@@ -99,12 +100,12 @@ TEST_CASE("subjects and clauses are said in each language", "[texts]") {
   CHECK(de.clause(rule) == "4.1.2 von 2013");
 }
 
-TEST_CASE("a remark has as many arguments as its kind", "[texts]") {
+TEST_CASE("a remark with a wrong number of arguments is rejected", "[texts]") {
   CHECK_THROWS(remark(RemarkId::points_in_bodies, 7));
   CHECK_THROWS(remark(RemarkId::no_value, "name"));
 }
 
-TEST_CASE("remarks and subjects are read back from JSON as they were", "[texts][json]") {
+TEST_CASE("remarks and subjects are read back from JSON unchanged", "[texts][json]") {
   const Remarks remarks{remark(RemarkId::other_storey, "lamp", 1.5), remark(RemarkId::no_value)};
   const auto read = read_remarks(remarks_json(remarks));
   REQUIRE(read);
