@@ -8,7 +8,7 @@
 namespace luxodus {
 
 /// The shares of new light that are left in a scene, each once. The first is 1: what does not age.
-struct Ageing {
+struct AgeingShares {
   std::vector<double> shares{1};
 
   /// New light of aged light, in a scene that group_by_ageing has grouped.
@@ -22,6 +22,6 @@ double aged_share(const Emitter& emitter, Operation operation);
 
 /// Puts every source into the group of its share.
 /// Errors: more shares than limits::ageings.
-Result<Ageing> group_by_ageing(SceneDescription& scene, Operation operation);
+Result<AgeingShares> group_by_ageing(SceneDescription& scene, Operation operation);
 
 }  // namespace luxodus

@@ -63,7 +63,7 @@ struct JudgedLight {
 struct JudgedScene {
   Scenario scenario;
   SceneDescription scene;
-  Ageing ageing;                    // by which its sources are grouped
+  AgeingShares ageing;              // by which its sources are grouped
   std::vector<JudgedLight> lights;  // at least one
 
   /// Of all lights: the aged one, and the new one where luminaires age. Then what each light but

@@ -28,10 +28,10 @@ struct RouteTables {
 /// By layout, in one scenario.
 using LayoutTables = std::vector<std::vector<RouteTables>>;
 
-class Following {
+class GuidanceTracer {
  public:
-  Following(const GuidanceOptions& options, const std::string& scenario,
-            const std::atomic<bool>& interrupt, const AssessProgress& progress)
+  GuidanceTracer(const GuidanceOptions& options, const std::string& scenario,
+                 const std::atomic<bool>& interrupt, const AssessProgress& progress)
       : options_(options), scenario_(scenario), interrupt_(interrupt), progress_(progress) {}
 
   /// Adds a state to the tables of a heat's layouts. Errors: as guidance_of.
@@ -140,9 +140,9 @@ Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<Heat
       const AssessProgress tell = [&](const std::string& what, double share) {
         progress(fmt::format("\"{}\", {:g} s, {}", scenario, time, what), share);
       };
-      Following following(options, scenario, interrupt, tell);
+      GuidanceTracer tracer(options, scenario, interrupt, tell);
       for (const Heat& heat : heats)
-        if (auto ok = following.add_state(heat, *then.value(), tables[s]); !ok) return ok.problem();
+        if (auto ok = tracer.add_state(heat, *then.value(), tables[s]); !ok) return ok.problem();
     }
   }
   std::vector<std::vector<GuidedUntil>> out(layouts);

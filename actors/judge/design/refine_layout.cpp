@@ -33,12 +33,12 @@ struct Judged {
   double least = 0;             // share of a minimum that is planned for
 };
 
-class Refining {
+class LayoutRefinement {
  public:
-  Refining(const SceneDescription& scene, const DesignSettings& design,
-           const std::vector<LuminaireCandidate>& chosen, const Demands& all,
-           const RefineOptions& options, const std::atomic<bool>& interrupt,
-           const std::function<void(double)>& progress)
+  LayoutRefinement(const SceneDescription& scene, const DesignSettings& design,
+                   const std::vector<LuminaireCandidate>& chosen, const Demands& all,
+                   const RefineOptions& options, const std::atomic<bool>& interrupt,
+                   const std::function<void(double)>& progress)
       : scene_(scene),
         design_(design),
         all_(all),
@@ -163,7 +163,7 @@ class Refining {
     if (search == nullptr) return;
     nlopt_set_lower_bounds(search, low.data());
     nlopt_set_upper_bounds(search, high.data());
-    nlopt_set_max_objective(search, &Refining::value_at, this);
+    nlopt_set_max_objective(search, &LayoutRefinement::value_at, this);
     nlopt_set_initial_step1(search, reach / 2);
     nlopt_set_xtol_abs1(search, smallest_step_m);
     nlopt_set_maxeval(search, tried_positions);
@@ -181,7 +181,7 @@ class Refining {
   }
 
   static double value_at(unsigned, const double* at, double*, void* self) noexcept {
-    return static_cast<Refining*>(self)->value_at({at[0], at[1]});
+    return static_cast<LayoutRefinement*>(self)->value_at({at[0], at[1]});
   }
 
   double value_at(const glm::dvec2& plan) {
@@ -231,7 +231,7 @@ Result<Refinement> refine_layout(const SceneDescription& scene, const DesignSett
                                  const std::vector<LuminaireCandidate>& chosen, const Demands& all,
                                  const RefineOptions& options, const std::atomic<bool>& interrupt,
                                  const std::function<void(double)>& progress) {
-  return Refining(scene, design, chosen, all, options, interrupt, progress).run();
+  return LayoutRefinement(scene, design, chosen, all, options, interrupt, progress).run();
 }
 
 }  // namespace luxodus

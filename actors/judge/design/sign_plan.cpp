@@ -88,11 +88,11 @@ std::string sign_prefix(const SceneDescription& scene) {
   return "designed sign ";
 }
 
-class SignPlanning {
+class SignPlanner {
  public:
-  SignPlanning(const SceneDescription& scene, const DesignSettings& design,
-               const SignPlanOptions& options, const std::atomic<bool>& interrupt,
-               const SolveProgress& progress)
+  SignPlanner(const SceneDescription& scene, const DesignSettings& design,
+              const SignPlanOptions& options, const std::atomic<bool>& interrupt,
+              const SolveProgress& progress)
       : scene_(scene),
         design_(design),
         options_(options),
@@ -153,7 +153,7 @@ class SignPlanning {
   const Building& furnished() const { return furnished_ ? *furnished_ : *bare_; }
 
   void take_out_removed() {
-    if (design_.existing_signs != Existing::removed) return;
+    if (design_.existing_signs != ExistingTreatment::removed) return;
     for (const Sign& sign : scene_.signs) out_.removed.push_back(sign.name);
     scene_.signs.clear();
   }
@@ -354,7 +354,8 @@ class SignPlanning {
       column.place = one.type == PlacedSign::existing
                          ? static_cast<uint32_t>(option.hung)
                          : there + place_number(places, one.spot.position);
-      column.fixed = one.type == PlacedSign::existing && design_.existing_signs == Existing::fixed;
+      column.fixed =
+          one.type == PlacedSign::existing && design_.existing_signs == ExistingTreatment::fixed;
       column.weight = column.fixed ? 0
                                    : weight_of(one) *
                                          (1 + share_of_mount * static_cast<double>(one.spot.mount));
@@ -454,7 +455,7 @@ class SignPlanning {
       (there ? out_.signs : fresh)
           .push_back({there ? one.sign.name : "", one.type, one.spot, sign_options_[i].leads_to});
     }
-    if (design_.existing_signs != Existing::removed) {
+    if (design_.existing_signs != ExistingTreatment::removed) {
       out_.removed.clear();
       for (const Sign& sign : scene_.signs)
         if (!staying.contains(sign.name)) out_.removed.push_back(sign.name);
@@ -638,7 +639,7 @@ bool SignPlan::guides(const std::string& route) const {
 Result<SignPlan> plan_signs(const SceneDescription& scene, const DesignSettings& design,
                             const SignPlanOptions& options, const std::atomic<bool>& interrupt,
                             const SolveProgress& progress) {
-  return SignPlanning(scene, design, options, interrupt, progress).run();
+  return SignPlanner(scene, design, options, interrupt, progress).run();
 }
 
 std::shared_ptr<const SceneDescription> with_signs(const SceneDescription& scene,

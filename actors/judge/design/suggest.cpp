@@ -19,7 +19,7 @@ constexpr double least_help = 1e-4;
 /// All stays; what can be copied by its name may be added.
 Result<DesignSettings> settings_of(const SceneDescription& scene) {
   DesignSettings out = *scene.design;
-  out.existing = Existing::fixed;
+  out.existing = ExistingTreatment::fixed;
   out.fixed.clear();
   out.movable.clear();
   out.removable.clear();

@@ -38,10 +38,10 @@ LayoutProblem without(const LayoutProblem& problem, const Relaxation& what) {
   return out;
 }
 
-class Relaxing {
+class RelaxationSolver {
  public:
-  Relaxing(const LayoutProblem& problem, const LayoutAnswer& answer,
-           const WhatBindsSettings& settings, const std::atomic<bool>& interrupt)
+  RelaxationSolver(const LayoutProblem& problem, const LayoutAnswer& answer,
+                   const WhatBindsSettings& settings, const std::atomic<bool>& interrupt)
       : problem_(problem),
         answer_(answer),
         settings_(settings),
@@ -188,13 +188,13 @@ class Relaxing {
 std::vector<Relaxed> what_binds(const LayoutProblem& problem, const LayoutAnswer& answer,
                                 const WhatBindsSettings& settings,
                                 const std::atomic<bool>& interrupt) {
-  return Relaxing(problem, answer, settings, interrupt).run();
+  return RelaxationSolver(problem, answer, settings, interrupt).run();
 }
 
 Relaxed solved_without(const LayoutProblem& problem, const LayoutAnswer& answer,
                        const Relaxation& demand, const WhatBindsSettings& settings,
                        const std::atomic<bool>& interrupt) {
-  return Relaxing(problem, answer, settings, interrupt).relaxed(demand, settings.seconds);
+  return RelaxationSolver(problem, answer, settings, interrupt).relaxed(demand, settings.seconds);
 }
 
 }  // namespace luxodus

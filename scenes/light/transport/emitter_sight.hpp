@@ -101,7 +101,7 @@ class EmitterSight {
   };
 
   /// The places of a side of a cell, and random numbers for learning it.
-  struct Learning {
+  struct SightSampler {
     std::vector<SightPlace> places;
     Random random;
     uint64_t numbers;  // index of the first
@@ -117,7 +117,7 @@ class EmitterSight {
 
   template <class Resolver>
   CellSight learn(size_t cell, size_t side, Resolver& resolver) const {
-    Learning from{{}, Random(0, RandomStream::picture, sight_part), 0};
+    SightSampler from{{}, Random(0, RandomStream::picture, sight_part), 0};
     from.numbers = (uint64_t{cell} * cell_sides + side) * (scene_.emitters.size() + 1);
     from.random.start(from.numbers);
     from.places = sight_places(scene_, cells_.grid(), cell, side, from.random, resolver);
@@ -144,7 +144,8 @@ class EmitterSight {
 
   /// Calls ray(connection, density, weight) for shadow rays from the places to an emitter.
   template <class Resolver, class OfRay>
-  void for_each_ray(Learning& from, uint32_t emitter, Resolver& resolver, OfRay&& of_ray) const {
+  void for_each_ray(SightSampler& from, uint32_t emitter, Resolver& resolver,
+                    OfRay&& of_ray) const {
     const CompiledEmitter& e = scene_.emitters[emitter];
     for (const SightPlace& place : from.places) {
       const EmissionPoint point = emission_point(scene_, e, from.random, resolver);
@@ -158,7 +159,7 @@ class EmitterSight {
   }
 
   template <class Resolver>
-  void look_openly(Learning& from, Asked& a, Resolver& resolver) const {
+  void look_openly(SightSampler& from, Asked& a, Resolver& resolver) const {
     double squares = 0;
     for_each_ray(from, a.emitter, resolver, [&](const ShadowRay&, double density, double weight) {
       squares += weight * density * density;
@@ -167,7 +168,7 @@ class EmitterSight {
   }
 
   template <class Resolver>
-  void look(Learning& from, Asked& a, Resolver& resolver) const {
+  void look(SightSampler& from, Asked& a, Resolver& resolver) const {
     double squares = 0, unseen = 0;
     for_each_ray(from, a.emitter, resolver, [&](const ShadowRay& c, double density, double weight) {
       const double sent =
@@ -182,7 +183,7 @@ class EmitterSight {
 
   /// The visible glow of the emitter, in any direction of emission; 0: not worth testing.
   template <class Resolver>
-  double glowing(const Learning& from, const Asked& a, double all, Resolver& resolver) const {
+  double glowing(const SightSampler& from, const Asked& a, double all, Resolver& resolver) const {
     const bool worth = a.light(limits::glow_arriving) > limits::min_glow_seen * all;
     if (scene_.features.media == MediaNeed::none || !worth) return 0;
     double squares = 0;
@@ -202,7 +203,7 @@ class EmitterSight {
   }
 
   template <class Resolver>
-  std::vector<EmitterImage> images_from(Learning& from, const std::vector<Asked>& asked,
+  std::vector<EmitterImage> images_from(SightSampler& from, const std::vector<Asked>& asked,
                                         Resolver& resolver) const {
     if (!aims_at_mirrors(scene_)) return {};
     std::vector<MirroredEmitter> emitters;

@@ -187,7 +187,7 @@ class NextEvent {
 
   /// Irradiance [W/m2] from a sampled point of an emitter, normal to the connection, by the path's
   /// bands.
-  struct Arriving {
+  struct LightSample {
     Vec3 direction{0};  // towards the emitter
     double apparent_sr = 0;
     BandValues irradiance;
@@ -339,7 +339,7 @@ class NextEvent {
   GlowGuide guide_;
 
   // Results of the last call, by the path's bands.
-  Arriving arriving_;
+  LightSample arriving_;
   BandValues solid_, through_, sigma_, here_;
 };
 

@@ -45,8 +45,8 @@ LayoutProblem in_regions(LayoutProblem problem) {
   return problem;
 }
 
-struct Bounding {
-  explicit Bounding(const LayoutProblem& problem)
+struct BoundedProblem {
+  explicit BoundedProblem(const LayoutProblem& problem)
       : index(problem), sums(problem), growing(problem, false) {
     for (const Violation& v : first_rows(problem)) growing.add(v);
   }
@@ -83,7 +83,7 @@ TEST_CASE("no layout weighs less in a region than its bound, alone or joined", "
         *std::min_element(layouts.begin(), layouts.end(), [&](const Layout& a, const Layout& b) {
           return objective_of(problem, a) < objective_of(problem, b);
         });
-    Bounding kit(problem);
+    BoundedProblem kit(problem);
     RegionBounds bounds(problem, kit.index, kit.sums, {}, kit.growing, nobody);
     double told = 0;
     const auto tell = [&](double sum) {
@@ -121,7 +121,7 @@ TEST_CASE("no bound of a search that was stopped is above what layouts weigh", "
     // Wherever the time is out, what is known until then holds.
     for (const double seconds : {0.0, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2}) {
       INFO("seed " << seed << ", " << seconds << " s");
-      Bounding kit(problem);
+      BoundedProblem kit(problem);
       RegionBounds bounds(problem, kit.index, kit.sums, {}, kit.growing, nobody);
       double told = 0;
       const auto tell = [&](double sum) {
