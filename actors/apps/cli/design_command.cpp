@@ -91,7 +91,7 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
   std::printf("the layout, assessed: %s\n", words_of(counts_of(result.assessment.checks)).c_str());
   for (const std::string& line : others_words(result.others)) std::printf("  %s\n", line.c_str());
   for (const UnusedType& one : result.unused) std::printf("  %s\n", unused_words(one).c_str());
-  for (const std::string& name : result.unlit_flights)
+  for (const std::string& name : result.unlit_stair_flights)
     std::printf(
         "  not planned, as no candidate lights all of its treads: flight of stairs \"%s\"\n",
         name.c_str());

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "actors/judge/design/demands_lit.hpp"
-#include "actors/judge/design/flights.hpp"
+#include "actors/judge/design/stair_flights.hpp"
 #include "actors/judge/inspect/site.hpp"
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/way.hpp"
@@ -82,7 +82,7 @@ class Demands::Builder {
     for (const AssessedArea& area : scene_.open_areas) add_open_area(area);
     for (const AssessedArea& area : scene_.task_areas) add_task_area(area);
     for (const EmphasisPoint& point : emphasis_of(scene_)) add_emphasis(point);
-    for (const StairFlight& flight : flights_of(scene_, design_)) add_flight(flight);
+    for (const StairFlight& stairs : stair_flights_of(scene_, design_)) add_stair_flight(stairs);
     for (const Sign& sign : scene_.signs) add_sign(sign);
   }
 
@@ -500,11 +500,11 @@ class Demands::Builder {
   /// One luminaire lights the whole flight, where any can; else each tread has one that lights it.
   /// A flight that no candidate reaches is in no part of the building that is designed. One that is
   /// barred lights nothing.
-  void add_flight(const StairFlight& flight) {
+  void add_stair_flight(const StairFlight& stairs) {
     if (std::none_of(codes_.begin(), codes_.end(), [](const auto& one) { return one.european(); }))
       return;
     const Lit& darker = out_.furnished_ ? *out_.furnished_ : *out_.bare_;
-    const auto treads = darker.light.lit(treads_of(flight), floor_normal, above_tread_m);
+    const auto treads = darker.light.lit(treads_of(stairs), floor_normal, above_tread_m);
     const auto is_lit = [&](const LitPoint& tread, size_t by) {
       return !candidates_[by].barred && tread.lux[by] >= lit_tread_lx;
     };
@@ -513,9 +513,9 @@ class Demands::Builder {
         if (is_lit(tread, i)) return false;
       return true;
     });
-    if (dark) return out_.unlit_flights_.push_back(flight.name);
+    if (dark) return out_.unlit_stair_flights_.push_back(stairs.name);
     const uint32_t group =
-        add_group(DemandKind::flight, "E12", {SubjectKind::stairs, flight.name}, lit_tread_lx);
+        add_group(DemandKind::stairs, "E12", {SubjectKind::stairs, stairs.name}, lit_tread_lx);
     std::vector<double> all(candidates_.size(), 1);
     for (const LitPoint& tread : treads)
       for (size_t i = 0; i < all.size(); ++i)

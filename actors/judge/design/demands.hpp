@@ -72,7 +72,7 @@ class Demands {
   const Hidden& hidden() const { return hidden_; }
 
   /// Flights of stairs with a tread that no candidate lights: nothing is asked for there.
-  const std::vector<std::string>& unlit_flights() const { return unlit_flights_; }
+  const std::vector<std::string>& unlit_stair_flights() const { return unlit_stair_flights_; }
 
   /// After an assessment has found that a check of a layout fails, though its rows hold: asks for
   /// more where it is worst, by as much as was missing. False where there is nothing to ask for.
@@ -111,7 +111,7 @@ class Demands {
   LayoutProblem problem_;
   std::map<uint32_t, std::vector<double>> factors_;  // of the light of candidates, by group
   Hidden hidden_;
-  std::vector<std::string> unlit_flights_;
+  std::vector<std::string> unlit_stair_flights_;
 };
 
 }  // namespace luxodus

@@ -253,7 +253,7 @@ class DesignRun {
     out_.unused = candidates_.unused;
     out_.points = demands_->problem().points.size();
     out_.groups = demands_->problem().groups;
-    out_.unlit_flights = demands_->unlit_flights();
+    out_.unlit_stair_flights = demands_->unlit_stair_flights();
     for (const auto& [what, points] : demands_->hidden())
       if (!what.first.empty()) out_.hidden.push_back({what.first, what.second, points});
     return {};

@@ -64,8 +64,8 @@ struct DesignResult : PlacedLayout {
   std::vector<UnusedType> unused;  // types that last too short
   size_t points = 0;               // of calculation
   std::vector<HiddenByFurniture> hidden;
-  std::vector<std::string> unlit_flights;  // of stairs that no candidate lights
-  std::optional<SignPlan> signs;           // where signs were placed
+  std::vector<std::string> unlit_stair_flights;  // of stairs that no candidate lights
+  std::optional<SignPlan> signs;                 // where signs were placed
   std::vector<ConstraintGroup> groups;
   std::vector<double> tightest;  // of each group: the least share of what it asks for that is there
   LayoutAnswer answer;

@@ -61,7 +61,7 @@ enum class DemandKind {
   near,      // a luminaire within a distance [m]
   vertical,  // illuminance on the front of equipment [lx]
   face,      // illuminance on the face of a sign [lx]
-  flight,    // a luminaire whose light falls directly on a flight of stairs [lx on each tread]
+  stairs,    // a luminaire whose light falls directly on a flight of stairs [lx on each tread]
 };
 
 /// Illuminance that is not to be below a limit while all luminaires work: what is kept with more to

@@ -328,7 +328,7 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
 
 void complete_design(SceneReading& reading, DesignSettings design) {
   SceneDescription& scene = reading.scene;
-  design.flights = reading.flights;
+  design.stair_flights = reading.stair_flights;
   if (design.types.empty()) design.types = types_of_scene(scene);
   if (design.types.empty()) design.types.push_back(generic_type(design.place));
   if (!design.place_signs) design.place_signs = scene.signs.empty() || !design.sign_types.empty();

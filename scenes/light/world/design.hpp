@@ -111,7 +111,7 @@ struct DesignSettings {
   double wall_height_m = 2.3;               // luminaires on walls, above the floor
   std::vector<glm::dvec3> places;           // listed, instead of the grid
   std::vector<KeepOut> keep_outs;
-  std::vector<StairFlight> flights;  // objects of the scene with shape = "stairs"
+  std::vector<StairFlight> stair_flights;  // objects of the scene with shape = "stairs"
 
   // Existing luminaires
   ExistingTreatment existing = ExistingTreatment::fixed;

@@ -9,9 +9,10 @@
 namespace luxodus {
 
 /// Each flight once: that of an object where a route climbs one, too.
-std::vector<StairFlight> flights_of(const SceneDescription& scene, const DesignSettings& design);
+std::vector<StairFlight> stair_flights_of(const SceneDescription& scene,
+                                          const DesignSettings& design);
 
 /// The middle of each tread, from below.
-std::vector<glm::dvec3> treads_of(const StairFlight& flight);
+std::vector<glm::dvec3> treads_of(const StairFlight& stairs);
 
 }  // namespace luxodus
