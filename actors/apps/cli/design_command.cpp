@@ -55,9 +55,9 @@ Language language_of(const std::string& word) {
 
 /// Errors: a file with a name of a design's files exists, and no design has written it.
 Result<void> refuse_designs_of_others(const fs::path& folder) {
-  constexpr uint64_t most_bytes = uint64_t{64} << 20;
+  constexpr uint64_t max_bytes = uint64_t{64} << 20;
   std::error_code failed;
-  const auto ours = read_regular_file(folder / "design.json", most_bytes);
+  const auto ours = read_regular_file(folder / "design.json", max_bytes);
   if (ours && ours.value().find(design_format) != std::string::npos) return {};
   for (const std::string& file : design_files)
     if (fs::exists(folder / file, failed))

@@ -19,7 +19,7 @@ namespace {
 
 /// Smoke of fires has about these albedos: what a verdict does not survive between them, nobody
 /// knows. FDS computes none.
-constexpr double least_albedo = 0.1, greatest_albedo = 0.5;
+constexpr double min_albedo = 0.1, max_albedo = 0.5;
 /// Of a state's work, what its own light takes; the rest is the two ends of the albedo.
 constexpr double first_share = 0.6;
 
@@ -115,7 +115,7 @@ Result<void> StateOfTime::trace(const std::atomic<bool>& interrupt, const Assess
   if (auto ok = assess_sights(*scene_, scenario_, {}, options_, interrupt, first, nominal_); !ok)
     return ok;
   if (!has_smoke(*scene_, scenario_)) return {};
-  double low = least_albedo, high = greatest_albedo;
+  double low = min_albedo, high = max_albedo;
   for_each_smoke(*scene_, [&](const SmokeOptics& optics) {
     low = std::min(low, mean_albedo(optics));
     high = std::max(high, mean_albedo(optics));

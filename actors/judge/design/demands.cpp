@@ -227,7 +227,7 @@ class Demands::Builder {
     if (both.furnished.empty()) return both.bare;
     const auto hidden =
         std::count_if(both.furnished.begin(), both.furnished.end(), [&](uint32_t p) {
-          return most_from(*problem_.points[p].light, problem_.options) < asked_lx;
+          return max_from(*problem_.points[p].light, problem_.options) < asked_lx;
         });
     if (hidden == 0) return both.with_both;
     out_.hidden_[{rule, subject}] = static_cast<size_t>(hidden);
@@ -309,11 +309,10 @@ class Demands::Builder {
     if (all && !both.furnished.empty()) add(both.furnished);
   }
 
-  void add_failures(const char* rule, const Subject& subject, const Points& points,
-                    double least_lx) {
+  void add_failures(const char* rule, const Subject& subject, const Points& points, double min_lx) {
     if (points.empty()) return;
-    const uint32_t group = add_group(DemandKind::failed, rule, subject, least_lx);
-    problem_.failures.push_back({group, least_lx, points});
+    const uint32_t group = add_group(DemandKind::failed, rule, subject, min_lx);
+    problem_.failures.push_back({group, min_lx, points});
   }
 
   /// Numbers of the candidates over a route or an area.

@@ -103,7 +103,7 @@ class Demands {
   void look_at(uint32_t group, const std::vector<glm::dvec3>& places, const Layout& layout,
                const Demands& all, BetweenPoints& out);
   /// What all candidates together give at a place of a row [lx].
-  double most_at(const glm::dvec3& place, bool furnished) const;
+  double max_at(const glm::dvec3& place, bool furnished) const;
   bool add_off_place(const PointOffPlace& point, Terms light, const Layout& layout);
 
   SceneDescription scene_;  // with all candidates

@@ -26,7 +26,7 @@ Terms terms_of(const std::vector<double>& values, double smallest);
 /// Each times the factor of its candidate.
 Terms times(const Terms& terms, const std::vector<double>& factors);
 /// Of the best candidate of each place that is not barred. Requires: options by place.
-double most_from(const std::vector<Term>& light, const std::vector<LayoutOption>& options);
+double max_from(const std::vector<Term>& light, const std::vector<LayoutOption>& options);
 
 /// Illuminance at single points of the floor.
 constexpr bool is_at_points(DemandKind kind) {

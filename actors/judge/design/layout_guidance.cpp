@@ -108,7 +108,7 @@ std::vector<GuidedUntil> guided_until(const SceneDescription& scene,
 
 bool is_lost_before(const std::vector<GuidedUntil>& a, const std::vector<GuidedUntil>& b) {
   const FirstLoss first = first_loss_of(a), second = first_loss_of(b);
-  return std::pair(first.least_s, first.most_s) < std::pair(second.least_s, second.most_s);
+  return std::pair(first.min_s, first.max_s) < std::pair(second.min_s, second.max_s);
 }
 
 }  // namespace
@@ -119,8 +119,8 @@ FirstLoss first_loss_of(const std::vector<GuidedUntil>& routes) {
     return a && b ? std::optional(std::min(*a, *b)) : std::nullopt;
   };
   for (const GuidedUntil& route : routes) {
-    out.least_s = earlier(out.least_s, route.least.until_s);
-    out.most_s = earlier(out.most_s, route.most.until_s);
+    out.min_s = earlier(out.min_s, route.least.until_s);
+    out.max_s = earlier(out.max_s, route.most.until_s);
     out.never_lost = out.never_lost && !route.least.lost_by_s;
   }
   return out;

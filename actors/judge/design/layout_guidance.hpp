@@ -23,8 +23,8 @@ struct GuidedUntil {
 
 /// The route and height that are lost first, over all of them.
 struct FirstLoss {
-  std::optional<double> least_s, most_s;  // the last state that guides everywhere; none: not one
-  bool never_lost = false;                // surely guided in the last state, too
+  std::optional<double> min_s, max_s;  // the last state that guides everywhere; none: not one
+  bool never_lost = false;             // surely guided in the last state, too
 };
 /// Requires: at least one route.
 FirstLoss first_loss_of(const std::vector<GuidedUntil>& routes);

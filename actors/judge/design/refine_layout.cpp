@@ -23,7 +23,7 @@ constexpr int tried_positions = 24;
 /// BOBYQA ends at steps that are smaller than this [m].
 constexpr double smallest_step_m = 0.02;
 /// A move that gains less than this is none: installers like rows.
-constexpr double least_gain = 5e-3;
+constexpr double min_gain = 5e-3;
 /// What broken demands count.
 constexpr double when_broken = -10;
 
@@ -117,7 +117,7 @@ class LayoutRefinement {
     out.smooth = out.least - std::log(sum) / sharpness;
     if (out_.evaluations == 1)
       weigh(problem, sums, out.least);
-    else if (out.smooth >= best_.smooth + least_gain && has_gap(*demands.value()))
+    else if (out.smooth >= best_.smooth + min_gain && has_gap(*demands.value()))
       return {};
     return out;
   }
@@ -172,7 +172,7 @@ class LayoutRefinement {
     nlopt_optimize(search, at.data(), &value);
     search_ = nullptr;
     nlopt_destroy(search);
-    if (!found_ || found_->judged.smooth < best_.smooth + least_gain) return;
+    if (!found_ || found_->judged.smooth < best_.smooth + min_gain) return;
     best_ = found_->judged;
     out_.after = best_.least;
     out_.luminaires[i].position = found_->place.position;

@@ -28,7 +28,7 @@ constexpr double before_wall_m = 0.5;
 /// A wall is flat where its corners behind a sign are in one plane to this [m].
 constexpr double flat_m = 0.01;
 /// Walls that are met more aslant than this hold no sign for who comes: tangent of 40 degrees.
-constexpr double most_aslant = 0.84;
+constexpr double max_aslant = 0.84;
 /// Ceilings are looked for so far above a sign [m].
 constexpr double highest_ceiling_m = 50;
 /// Signs nearer to each other, and facing alike, are in one place [m].
@@ -137,7 +137,7 @@ class SignSpotFinder {
       depth[static_cast<size_t>(column)] = (*below + *above) / 2;
     }
     const double slope = (depth[2] - depth[0]) / sign_.width_m;
-    if (std::abs(depth[0] + depth[2] - 2 * depth[1]) > flat_m || std::abs(slope) > most_aslant)
+    if (std::abs(depth[0] + depth[2] - 2 * depth[1]) > flat_m || std::abs(slope) > max_aslant)
       return void(++left_out_.no_room);
     const glm::dvec3 along_wall = glm::normalize(across + level * slope);
     glm::dvec3 facing = glm::cross(along_wall, upwards);

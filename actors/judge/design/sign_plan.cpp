@@ -29,7 +29,7 @@ constexpr double share_of_mount = 1e-3;
 /// Places nearer to each other hold one sign [m].
 constexpr double one_place_of_signs_m = 0.3;
 /// Plans in which signs hide each other are made again, so often.
-constexpr int most_plans = 6;
+constexpr int max_plans = 6;
 /// A sign that was found on another route belongs to one that passes so near to it, beside its edge
 /// [m].
 constexpr double near_way_m = 3;
@@ -37,7 +37,7 @@ constexpr double near_way_m = 3;
 constexpr double way_behind_m = 1;
 
 /// A plan is looked for in no less [s]: what is left of the time may be nothing.
-constexpr double least_seconds = 1;
+constexpr double min_seconds = 1;
 
 /// A place on a route where somebody has to be guided.
 struct Asked {
@@ -134,7 +134,7 @@ class SignPlanner {
       if (!found) return found.problem();
       lost = std::move(found).value();
       if (lost.empty()) break;
-      const bool last = plans == most_plans || interrupt_ || !(time_left() > 0);
+      const bool last = plans == max_plans || interrupt_ || !(time_left() > 0);
       std::erase_if(lost, [&](size_t place) {
         if (!last && (ask_for_another(place) || leave_out_hiding(place))) return false;
         give_up(place);
@@ -413,7 +413,7 @@ class SignPlanner {
       return nothing;
     }
     SolveSettings settings;
-    settings.seconds = std::max(seconds, least_seconds);
+    settings.seconds = std::max(seconds, min_seconds);
     settings.seed = options_.seed;
     return solve_layout(
         problem, settings, interrupt_,
@@ -496,7 +496,7 @@ class SignPlanner {
     for (LayoutOption& option : plain.options) option.barred = false;
     if (plain.options.empty()) return 0;
     SolveSettings settings;
-    settings.seconds = std::max(time_left(), least_seconds);
+    settings.seconds = std::max(time_left(), min_seconds);
     settings.seed = options_.seed;
     static const std::atomic<bool> never{false};
     return solve_layout(plain, settings, never, [](const std::string&, double, double) {}).bound;

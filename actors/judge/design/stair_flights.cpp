@@ -11,7 +11,7 @@ namespace luxodus {
 namespace {
 
 /// What climbs more than this is no ramp [deg]: these have up to 10.
-constexpr double least_climb_deg = 15;
+constexpr double min_climb_deg = 15;
 /// Rise of a step where only a route says that there are stairs [m].
 constexpr double usual_rise_m = 0.17;
 /// A route and stairs below it are this near to each other [m].
@@ -19,7 +19,7 @@ constexpr double same_stairs_m = 1;
 
 bool climbs(const glm::dvec3& way) {
   return std::abs(way.z) >
-         std::tan(least_climb_deg * std::numbers::pi / 180) * glm::length(glm::dvec2(way));
+         std::tan(min_climb_deg * std::numbers::pi / 180) * glm::length(glm::dvec2(way));
 }
 
 /// Whether a leg of a route runs over stairs.

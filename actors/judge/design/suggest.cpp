@@ -14,7 +14,7 @@ namespace {
 constexpr double gap_of_suggestion = 0.05;
 constexpr int quick_rounds = 50;
 /// What adds less than this share helps nobody.
-constexpr double least_help = 1e-4;
+constexpr double min_help = 1e-4;
 
 /// All stays; what can be copied by its name may be added.
 Result<DesignSettings> settings_of(const SceneDescription& scene) {
@@ -106,7 +106,7 @@ Result<Suggestion> suggest(const std::shared_ptr<const SceneDescription>& scene,
   std::map<uint32_t, glm::dvec3> place_of;
   for (const LuminaireCandidate& one : candidates->all) place_of[one.place] = one.position;
   for (const auto& [place, share] : helpful_places(problem, now))
-    if (share > least_help) out.helpful.push_back({place_of[place], share});
+    if (share > min_help) out.helpful.push_back({place_of[place], share});
   SolveSettings settings;
   settings.seconds = options.seconds;
   settings.gap = gap_of_suggestion;

@@ -11,7 +11,7 @@ namespace luxodus {
 namespace {
 
 /// Of the objective: demands that add less to its bound are not tried.
-constexpr double least_share_of_bound = 0.02;
+constexpr double min_share_of_bound = 0.02;
 /// A place whose light after a failure is within this share of what is asked for is tight.
 constexpr double tight_after_failure = 1.02;
 /// Of the search for each demand: neighbourhoods that are filled anew.
@@ -101,7 +101,7 @@ class RelaxationSolver {
     const auto& shares = answer_.share_of_group;
     std::vector<uint32_t> groups;
     for (uint32_t g = 0; g < shares.size(); ++g)
-      if (shares[g] > least_share_of_bound * answer_.objective) groups.push_back(g);
+      if (shares[g] > min_share_of_bound * answer_.objective) groups.push_back(g);
     std::stable_sort(groups.begin(), groups.end(),
                      [&](uint32_t a, uint32_t b) { return shares[a] > shares[b]; });
     if (groups.size() > settings_.demands) groups.resize(settings_.demands);

@@ -20,11 +20,11 @@ namespace {
 constexpr size_t max_voxel_table_bytes = size_t{256} << 20;
 /// Largest share of a voxel's light in second differences to its neighbours at which eyes read it.
 /// With 0.75 and more the veil in the kitchen was 3 % too bright.
-constexpr double most_curved = 0.5;
+constexpr double max_curved = 0.5;
 /// Largest share of all light in a voxel by which the third moment of the scattered light may be
 /// unknown, after one more scattering, if eyes read it. Without a limit the veil in haze was 4 to 6
 /// % too bright.
-constexpr double most_unknown = 0.2;
+constexpr double max_unknown = 0.2;
 /// Edge of a block, in voxels, whose errors are taken as fully correlated.
 constexpr uint32_t err_alike = 2;
 
@@ -197,7 +197,7 @@ class FluxRadiance final : public KnownRadiance {
           voxels_[place_of(v, b, q)] -= second / 8;
         }
       }
-      eyes_read_[v] = is_even(means, v) && unknown_share(means, v) <= most_unknown;
+      eyes_read_[v] = is_even(means, v) && unknown_share(means, v) <= max_unknown;
     }
   }
 
@@ -207,7 +207,7 @@ class FluxRadiance final : public KnownRadiance {
     double second = 0;
     for_each_neighbour(
         voxel, [&](size_t n) { second += luminous(means, n, first_scattered_quantity) - light; });
-    return std::abs(second) <= most_curved * light;
+    return std::abs(second) <= max_curved * light;
   }
 
   /// The share of a voxel's light by which the third moment of the scattered light is unknown,

@@ -29,7 +29,7 @@ inline constexpr size_t asked_emitters = 256;
 /// counts with this share of its unoccluded light, attenuated by smoke.
 inline constexpr double unseen_share = 0.1;
 /// Least light of an emitter that sends none towards the places, as for isotropic emission [1/sr].
-inline constexpr double least_arriving = 0.03 / (4 * 3.14159265358979324);
+inline constexpr double min_arriving = 0.03 / (4 * 3.14159265358979324);
 /// Visible glow of an emitter that sends nothing towards the cell, as for isotropic emission
 /// [1/sr].
 inline constexpr double glow_arriving = 1 / (4 * 3.14159265358979324);
@@ -77,7 +77,7 @@ class EmitterSight {
   explicit EmitterSight(const CompiledScene& scene);
 
   /// Memory once every cell has been learned [bytes].
-  static uint64_t most_bytes(const CompiledScene& scene);
+  static uint64_t max_bytes(const CompiledScene& scene);
 
   /// `normal`: of the place's surface; zero in the air.
   template <class Resolver>
@@ -164,7 +164,7 @@ class EmitterSight {
     for_each_ray(from, a.emitter, resolver, [&](const ShadowRay&, double density, double weight) {
       squares += weight * density * density;
     });
-    a.open = std::max(limits::least_arriving, root_mean(squares, from.places));
+    a.open = std::max(limits::min_arriving, root_mean(squares, from.places));
   }
 
   template <class Resolver>
@@ -177,7 +177,7 @@ class EmitterSight {
       if (sent > 0 && passes(c, resolver)) squares += weight * sent * sent;
     });
     const double least = limits::unseen_share * limits::unseen_share * unseen;
-    a.arriving = std::max(limits::unseen_share * limits::least_arriving,
+    a.arriving = std::max(limits::unseen_share * limits::min_arriving,
                           root_mean(std::max(squares, least), from.places));
   }
 

@@ -12,10 +12,10 @@ namespace {
 
 /// Least sine of the angle off an axis: smaller ones are raised to it, since the density is
 /// unbounded on the axis.
-constexpr Real least_sine = 1e-6_r;
+constexpr Real min_sine = 1e-6_r;
 /// Least distance from a sphere's centre, relative to its radius: nearer, the direction to the
 /// centre is undefined.
-constexpr Real least_distance = 1e-3_r;
+constexpr Real min_distance = 1e-3_r;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ double GlowGuide::weigh(const Glow& glow, const Vec3& place, double arriving, Kn
   const Real reach = glow.radius * glow.radius;
   const double light = arriving * glow.power / static_cast<double>(std::max(square, reach));
   // Lines that start beside an extended emitter meet its light from all directions.
-  const Real least = std::max(glow.body, least_distance * glow.radius);
+  const Real least = std::max(glow.body, min_distance * glow.radius);
   const double share = known == Known::nothing ? glow.share : glow.reflected;
   if (square > least * least && share > 0) {
     const Real slope = std::min(limits::widest_slope, std::sqrt(reach / square));
@@ -88,7 +88,7 @@ double GlowGuide::density(const Vec3& direction, double own) const {
   for (const Cone& cone : cones_) {
     const Real cosine = glm::dot(direction, cone.axis);
     if (cosine <= 0) continue;
-    const Real sine = std::max(least_sine, glm::length(direction - cosine * cone.axis));
+    const Real sine = std::max(min_sine, glm::length(direction - cosine * cone.axis));
     if (sine > cosine * cone.slope) continue;
     sum += cone.share / (2 * static_cast<double>(pi_f * cone.slope * cosine * cosine * sine));
   }

@@ -36,7 +36,7 @@ inline constexpr int path_parts = 2;
 inline constexpr double collision_worth = 4;
 /// Largest share of first flights made to collide, if more collide than in free flight: one of two
 /// parts.
-inline constexpr double most_forced = 0.5;
+inline constexpr double max_forced = 0.5;
 }  // namespace limits
 
 template <class Resolver>
@@ -194,8 +194,8 @@ class PathTracer {
     const double least = *std::min_element(through.begin(), through.begin() + path.bands.count());
     const double free = 1 - least;
     if (!(free > 0)) return 1;
-    const double brought = limits::collision_worth * next_event_.media().most_scattered() * free;
-    const double wanted = std::min(limits::most_forced, brought / (brought + least));
+    const double brought = limits::collision_worth * next_event_.media().max_scattered() * free;
+    const double wanted = std::min(limits::max_forced, brought / (brought + least));
     return std::max(1.0, wanted / free);
   }
 

@@ -119,7 +119,7 @@ std::shared_ptr<const EmitterSight> make_emitter_sight(const CompiledScene& scen
 }
 
 uint64_t emitter_sight_bytes(const CompiledScene& scene) {
-  return has_choice(scene) ? EmitterSight::most_bytes(scene) : 0;
+  return has_choice(scene) ? EmitterSight::max_bytes(scene) : 0;
 }
 
 std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,

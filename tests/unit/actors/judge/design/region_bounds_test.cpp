@@ -56,8 +56,8 @@ struct BoundedProblem {
 };
 
 /// The least that any of them weighs in some regions.
-double least_weight(const RegionBounds& bounds, const RegionBound& of,
-                    const std::vector<Layout>& layouts) {
+double min_weight(const RegionBounds& bounds, const RegionBound& of,
+                  const std::vector<Layout>& layouts) {
   double out = bounds.weight_of(layouts.front(), of);
   for (const Layout& layout : layouts) out = std::min(out, bounds.weight_of(layout, of));
   return out;
@@ -94,7 +94,7 @@ TEST_CASE("no layout weighs less in a region than its bound, alone or joined", "
     bounds.bound_each(seed % 2 == 0 ? best : Layout(), ample_s, tell);
     CHECK(told == Approx(sum_of_bounds(bounds)));
     for (const RegionBound& one : bounds.bounds())
-      CHECK(one.least <= least_weight(bounds, one, layouts) + 1e-6);
+      CHECK(one.least <= min_weight(bounds, one, layouts) + 1e-6);
     const double objective = objective_of(problem, best);
     while (bounds.join(best, ample_s, tell)) {
       ++raised_by_joining;
@@ -102,7 +102,7 @@ TEST_CASE("no layout weighs less in a region than its bound, alone or joined", "
       // Together they weigh more than their bound, or the best layout cannot be improved.
       CHECK(told <= objective + 1e-6);
       for (const RegionBound& one : bounds.bounds())
-        CHECK(one.least <= least_weight(bounds, one, layouts) + 1e-6);
+        CHECK(one.least <= min_weight(bounds, one, layouts) + 1e-6);
     }
   }
   CHECK(feasible >= 4);
@@ -133,7 +133,7 @@ TEST_CASE("no bound of a search that was stopped is above what layouts weigh", "
       }
       CHECK(told <= objective_of(problem, best) + 1e-6);
       for (const RegionBound& one : bounds.bounds())
-        CHECK(one.least <= least_weight(bounds, one, layouts) + 1e-6);
+        CHECK(one.least <= min_weight(bounds, one, layouts) + 1e-6);
     }
   }
 }

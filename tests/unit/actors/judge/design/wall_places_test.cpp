@@ -86,7 +86,7 @@ TEST_CASE("the file of a layout places luminaires on walls as the design has the
 
 TEST_CASE("what hangs on a wall and looks straight down is off its place along the wall and up it",
           "[design][walls][tolerance]") {
-  const auto least_of = [](const char* aim_deg) {
+  const auto min_of = [](const char* aim_deg) {
     const TemporaryFolder folder;
     std::string types = on_walls;
     types.replace(types.find("60"), 2, aim_deg);
@@ -111,7 +111,7 @@ TEST_CASE("what hangs on a wall and looks straight down is off its place along t
     return std::pair{chosen.size(), found->least()};
   };
   // One degree changes the light by little, and must not change the ways of being off.
-  const auto down = least_of("0"), nearly = least_of("1");
+  const auto down = min_of("0"), nearly = min_of("1");
   REQUIRE(down.first == nearly.first);
   CHECK(down.second == Approx(nearly.second).epsilon(0.03));
 }
