@@ -13,7 +13,7 @@ namespace luxodus {
 
 namespace {
 
-/// The building of a heat at another time: its layouts and its signs, in the smoke of that time.
+/// The building of a group at another time: its layouts and its signs, in the smoke of that time.
 SceneDescription at_time(const SceneDescription& then, const SceneDescription& base) {
   SceneDescription out = then;
   out.signs = base.signs;
@@ -34,15 +34,16 @@ class GuidanceTracer {
                  const std::atomic<bool>& interrupt, const AssessProgress& progress)
       : options_(options), scenario_(scenario), interrupt_(interrupt), progress_(progress) {}
 
-  /// Adds a state to the tables of a heat's layouts. Errors: as guidance_of.
-  Result<void> add_state(const Heat& heat, const SceneDescription& then, LayoutTables& tables) {
-    const SceneDescription scene = at_time(then, *heat.base);
+  /// Adds a state to the tables of a group's layouts. Errors: as guidance_of.
+  Result<void> add_state(const LayoutGroup& group, const SceneDescription& then,
+                         LayoutTables& tables) {
+    const SceneDescription scene = at_time(then, *group.base);
     const auto scenario = find_scenario(scene, scenario_);
     if (!scenario) return scenario.problem();
     const GuidingViews views(scene);
     AssessOptions asked = options_.asked;
     asked.wanted = [&](const SightRow& row) { return views.can_guide(row); };
-    auto state = HeatState::make(*heat.lights, scene, scenario.value(), asked, progress_);
+    auto state = LayoutGroupState::make(*group.lights, scene, scenario.value(), asked, progress_);
     if (!state) return state.problem();
     SightsInLights& sights = state.value()->sights();
     for (int round = 0; round < options_.rounds; ++round) {
@@ -51,8 +52,8 @@ class GuidanceTracer {
       if (std::find(open.begin(), open.end(), true) == open.end()) break;
       if (auto ok = sights.trace(round, open, interrupt_, progress_); !ok) return ok.problem();
     }
-    for (size_t i = 0; i < heat.members.size(); ++i)
-      add_row(scene, views, sights.rows(i), tables[heat.members[i]]);
+    for (size_t i = 0; i < group.members.size(); ++i)
+      add_row(scene, views, sights.rows(i), tables[group.members[i]]);
     return {};
   }
 
@@ -126,7 +127,7 @@ FirstLoss first_loss_of(const std::vector<GuidedUntil>& routes) {
   return out;
 }
 
-Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<Heat>& heats,
+Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<LayoutGroup>& groups,
                                                           size_t layouts,
                                                           const GuidanceOptions& options,
                                                           const std::atomic<bool>& interrupt,
@@ -141,14 +142,14 @@ Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<Heat
         progress(fmt::format("\"{}\", {:g} s, {}", scenario, time, what), share);
       };
       GuidanceTracer tracer(options, scenario, interrupt, tell);
-      for (const Heat& heat : heats)
-        if (auto ok = tracer.add_state(heat, *then.value(), tables[s]); !ok) return ok.problem();
+      for (const LayoutGroup& group : groups)
+        if (auto ok = tracer.add_state(group, *then.value(), tables[s]); !ok) return ok.problem();
     }
   }
   std::vector<std::vector<GuidedUntil>> out(layouts);
   for (const LayoutTables& of_scenario : tables)
     for (size_t i = 0; i < layouts; ++i) {
-      auto guided = guided_until(*heats.front().base, of_scenario[i]);
+      auto guided = guided_until(*groups.front().base, of_scenario[i]);
       if (out[i].empty() || is_lost_before(guided, out[i])) out[i] = std::move(guided);
     }
   return out;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "actors/judge/design/layout_heats.hpp"
+#include "actors/judge/design/layout_groups.hpp"
 #include "scenes/emergency/guidance.hpp"
 #include "scenes/light/world/timed_scenes.hpp"
 
@@ -37,10 +37,10 @@ struct GuidanceOptions {
   int rounds = 3;
 };
 
-/// Of each layout of the heats, for each route and height of eyes, in the scenario in which it is
+/// Of each layout of the groups, for each route and height of eyes, in the scenario in which it is
 /// lost first. Requires: a scenario.
-/// Errors: as the reader; as HeatState::make and SightsInLights::trace; `interrupt`.
-Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<Heat>& heats,
+/// Errors: as the reader; as LayoutGroupState::make and SightsInLights::trace; `interrupt`.
+Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<LayoutGroup>& groups,
                                                           size_t layouts,
                                                           const GuidanceOptions& options,
                                                           const std::atomic<bool>& interrupt,

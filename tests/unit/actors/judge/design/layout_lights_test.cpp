@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "actors/judge/design/layout_heats.hpp"
+#include "actors/judge/design/layout_groups.hpp"
 #include "scenes/light/transport/compile.hpp"
 #include "tests/unit/actors/judge/design/silent.hpp"
 #include "tests/unit/actors/judge/design/smoke_corridor.hpp"
@@ -71,15 +71,15 @@ std::vector<JudgedLayout> moving_layouts(const std::shared_ptr<const SceneDescri
   return out;
 }
 
-/// All views of a heat's layouts, by one round of 128 paths to each part and batch.
-std::unique_ptr<HeatState> traced(const Heat& heat, uint64_t seed) {
+/// All views of a group's layouts, by one round of 128 paths to each part and batch.
+std::unique_ptr<LayoutGroupState> traced(const LayoutGroup& group, uint64_t seed) {
   AssessOptions asked;
   asked.threads = 2;
   asked.seed = seed;
-  auto state = HeatState::make(*heat.lights, *heat.base, find_scenario(*heat.base, "fire").value(),
-                               asked, unheard);
+  auto state = LayoutGroupState::make(*group.lights, *group.base,
+                                      find_scenario(*group.base, "fire").value(), asked, unheard);
   REQUIRE(state.ok());
-  const std::vector<bool> all(heat.members.size(), true);
+  const std::vector<bool> all(group.members.size(), true);
   REQUIRE(state.value()->sights().trace(2, all, nobody, unheard).ok());
   return std::move(state).value();
 }
@@ -126,13 +126,13 @@ TEST_CASE("light is not added of layouts whose luminaires stand in each other's 
   };
   for (JudgedLayout& one : layouts) with_body(one, 0);  // at 3 m, in all layouts
   CHECK(LayoutLights(lights_of(layouts)).can_add());
-  CHECK(heats_of(layouts, 1, true).size() == 1);
+  CHECK(layout_groups_of(layouts, 1, true).size() == 1);
   with_body(layouts[1], 1);  // at 10.5 m, in one
   CHECK_FALSE(LayoutLights(lights_of(layouts)).can_add());
-  const auto heats = heats_of(layouts, 1, true);
-  REQUIRE(heats.size() == 2);
-  CHECK(heats[0].members == std::vector<size_t>{0, 2});
-  CHECK(heats[1].members == std::vector<size_t>{1});
+  const auto groups = layout_groups_of(layouts, 1, true);
+  REQUIRE(groups.size() == 2);
+  CHECK(groups[0].members == std::vector<size_t>{0, 2});
+  CHECK(groups[1].members == std::vector<size_t>{1});
 }
 
 TEST_CASE("a luminaire that layouts move is one of its own at each of its places", "[design]") {
@@ -155,7 +155,7 @@ TEST_CASE("a luminaire that layouts move is one of its own at each of its places
   // A body that moves leaves others' light free where it was.
   const auto bodies = moving_layouts(scene, "grey50");
   CHECK_FALSE(LayoutLights(lights_of(bodies)).can_add());
-  CHECK(heats_of(bodies, 1, true).size() == 3);
+  CHECK(layout_groups_of(bodies, 1, true).size() == 3);
 }
 
 TEST_CASE("layouts share paths up to so many luminaires that only some of them have", "[design]") {
@@ -167,17 +167,17 @@ TEST_CASE("layouts share paths up to so many luminaires that only some of them h
       places.push_back(0.5 + 0.25 * static_cast<double>(k) + 0.01 * static_cast<double>(i));
     layouts.push_back(corridor_layout(scene, std::string(1, static_cast<char>('A' + i)), places));
   }
-  const auto heats = heats_of(layouts, 1, true);  // 60 of each, 180 of three, 240 of four
-  REQUIRE(heats.size() == 2);
-  CHECK(heats[0].members == std::vector<size_t>{0, 1, 2});
-  CHECK(heats[1].members == std::vector<size_t>{3, 4});
-  CHECK(heats[0].lights->varying() == 180);
+  const auto groups = layout_groups_of(layouts, 1, true);  // 60 of each, 180 of three, 240 of four
+  REQUIRE(groups.size() == 2);
+  CHECK(groups[0].members == std::vector<size_t>{0, 1, 2});
+  CHECK(groups[1].members == std::vector<size_t>{3, 4});
+  CHECK(groups[0].lights->varying() == 180);
 }
 
 TEST_CASE("layouts share paths up to so many views in all scenarios together", "[design]") {
   const auto layouts = three_layouts(smoky_corridor());
-  CHECK(heats_of(layouts, 2, true).size() == 1);
-  CHECK(heats_of(layouts, limits::heat_views, true).size() == 3);
+  CHECK(layout_groups_of(layouts, 2, true).size() == 1);
+  CHECK(layout_groups_of(layouts, limits::layout_group_views, true).size() == 3);
 }
 
 TEST_CASE("layouts with other signs are traced by themselves", "[design]") {
@@ -185,17 +185,18 @@ TEST_CASE("layouts with other signs are traced by themselves", "[design]") {
   auto layouts = three_layouts(scene);
   layouts.push_back(layouts.front());
   layouts.back().low_signs = {{"exit", {}}};
-  const auto heats = heats_of(layouts, 1, true);
-  REQUIRE(heats.size() == 2);
-  CHECK(heats[0].members == std::vector<size_t>{0, 1, 2});
-  CHECK(heats[1].members == std::vector<size_t>{3});
-  CHECK(heats_of(layouts, 1, false).size() == 4);
+  const auto groups = layout_groups_of(layouts, 1, true);
+  REQUIRE(groups.size() == 2);
+  CHECK(groups[0].members == std::vector<size_t>{0, 1, 2});
+  CHECK(groups[1].members == std::vector<size_t>{3});
+  CHECK(layout_groups_of(layouts, 1, false).size() == 4);
 }
 
 TEST_CASE("what a sum says of each view of a layout is what its own trace says", "[design]") {
   const bool moving = GENERATE(false, true);
   const auto layouts = moving ? moving_layouts(smoky_corridor()) : three_layouts(smoky_corridor());
-  const auto together = heats_of(layouts, 1, true), alone = heats_of(layouts, 1, false);
+  const auto together = layout_groups_of(layouts, 1, true),
+             alone = layout_groups_of(layouts, 1, false);
   REQUIRE(together.size() == 1);
   REQUIRE(alone.size() == 3);
   const auto sums = traced(together.front(), 1);

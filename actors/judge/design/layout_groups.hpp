@@ -1,5 +1,5 @@
 // Layouts that paths are traced for together: those of one building, whose light adds, or each by
-// itself. A heat has its views traced in rounds, and tells what is read with each of its layouts.
+// itself. A group has its views traced in rounds, and tells what is read with each of its layouts.
 // Thread rule: one thread, which has batches traced by others.
 #pragma once
 
@@ -14,26 +14,26 @@ namespace luxodus {
 struct JudgedLayout;
 
 namespace limits {
-/// Pairs of a view and a layout in one heat, in all its scenarios: each takes some 1000 bytes of
+/// Pairs of a view and a layout in one group, in all its scenarios: each takes some 1000 bytes of
 /// tallies, half of them for what it has more than the first layout, and 500 for its verdict.
-inline constexpr size_t heat_views = 300'000;
+inline constexpr size_t layout_group_views = 300'000;
 }  // namespace limits
 
-/// One state of the building in the light of a heat's layouts.
-class HeatState {
+/// One state of the building in the light of a group's layouts.
+class LayoutGroupState {
  public:
   /// Errors: as LayoutLights::judged and SightsInLights::look_for_lines.
-  static Result<std::unique_ptr<HeatState>> make(const LayoutLights& lights,
-                                                 const SceneDescription& scene,
-                                                 const Scenario& scenario,
-                                                 const AssessOptions& options,
-                                                 const AssessProgress& progress);
+  static Result<std::unique_ptr<LayoutGroupState>> make(const LayoutLights& lights,
+                                                        const SceneDescription& scene,
+                                                        const Scenario& scenario,
+                                                        const AssessOptions& options,
+                                                        const AssessProgress& progress);
 
   SightsInLights& sights() { return sights_; }
   const SceneDescription& scene() const { return judged_.scene; }
 
  private:
-  HeatState(JudgedScene judged, const AssessOptions& options)
+  LayoutGroupState(JudgedScene judged, const AssessOptions& options)
       : judged_(std::move(judged)), options_(options), sights_(judged_, nobody_, {}, options_) {}
 
   const std::vector<Observer> nobody_;  // those of the scene are not on routes
@@ -42,7 +42,7 @@ class HeatState {
   SightsInLights sights_;
 };
 
-struct Heat {
+struct LayoutGroup {
   std::vector<size_t> members;                   // of all layouts
   std::shared_ptr<const SceneDescription> base;  // the building, with the signs of all
   std::unique_ptr<LayoutLights> lights;          // of the members
@@ -51,7 +51,7 @@ struct Heat {
 /// Which layouts share their paths: those with the same signs, or the same but brighter, whose
 /// light can be added and does not come from too many luminaires. `scenarios`: in how many they are
 /// judged. `together`: false for each by itself.
-std::vector<Heat> heats_of(const std::vector<JudgedLayout>& layouts, size_t scenarios,
-                           bool together);
+std::vector<LayoutGroup> layout_groups_of(const std::vector<JudgedLayout>& layouts,
+                                          size_t scenarios, bool together);
 
 }  // namespace luxodus
