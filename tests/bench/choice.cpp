@@ -28,7 +28,7 @@ void print_choice_of(const ScenarioView& of, int64_t particles, int paths) {
   const auto run = traced_run(of, particles);
   const auto flux = flux_radiance(*run);
   for (const bool gather : {true, false}) {
-    const KnownRadiance* ends = gather ? flux.get() : nullptr;
+    const RadianceCache* ends = gather ? flux.get() : nullptr;
     const PathVariance old = variance_of_paths(*run, ends, false, paths);
     const PathVariance now = variance_of_paths(*run, ends, true, paths);
     fmt::print(

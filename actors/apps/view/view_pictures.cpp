@@ -46,7 +46,7 @@ Camera camera_of(const RenderAsk& ask) {
 struct ViewPictures::Traced {
   std::string state;
   std::unique_ptr<LocalRun> run;
-  std::unique_ptr<KnownRadiance> flux;
+  std::unique_ptr<RadianceCache> flux;
   std::shared_ptr<const EmitterSight> sight;
 };
 
