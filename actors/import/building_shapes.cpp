@@ -177,11 +177,11 @@ std::vector<MeasuredPiece> measured_pieces(const std::vector<DoorPiece>& parts,
 /// Whether a piece is a leaf: it covers much of the opening, or it is a frame of panes narrower
 /// than the whole.
 bool is_leaf(const MeasuredPiece& piece, const glm::dvec3& whole) {
-  constexpr double least_cover = 0.3, least_width = 0.3, most_width = 0.95, least_height = 0.7;
+  constexpr double min_cover = 0.3, min_width = 0.3, max_width = 0.95, min_height = 0.7;
   const glm::dvec3 size = piece.bounds.high - piece.bounds.low;
-  return piece.covered_m2 > least_cover * whole.x * whole.z ||
-         (size.x > least_width * whole.x && size.x < most_width * whole.x &&
-          size.z > least_height * whole.z);
+  return piece.covered_m2 > min_cover * whole.x * whole.z ||
+         (size.x > min_width * whole.x && size.x < max_width * whole.x &&
+          size.z > min_height * whole.z);
 }
 
 /// Whether a piece lies within a leaf, like a pane, or on it, like a handle.

@@ -37,7 +37,7 @@ ActorSystem::Place* ActorSystem::place_of(ActorName to) {
   return nullptr;
 }
 
-std::optional<Offered> ActorSystem::put(Place& place, Incoming incoming) {
+std::optional<Offered> ActorSystem::put(Place& place, IncomingMessage incoming) {
   const std::optional<Offered> offered = place.actor->accept(std::move(incoming));
   if (!offered) ++counters_.not_accepted;
   if (offered == Offered::taken) ++place.taken;

@@ -30,7 +30,7 @@ struct Letter {
 };
 
 /// A message on its way into a mailbox.
-struct Incoming {
+struct IncomingMessage {
   Address from;
   MessageId id;
   Message& message;  // may be moved out
@@ -53,7 +53,7 @@ class Recipient {
  public:
   virtual ~Recipient() = default;
   /// Puts the message into the mailbox. Returns nothing if the actor does not accept its type.
-  virtual std::optional<Offered> accept(Incoming incoming) = 0;
+  virtual std::optional<Offered> accept(IncomingMessage incoming) = 0;
   /// Number of messages waiting.
   virtual size_t waiting() const = 0;
   /// Where payloads for this actor are received; null: in rooms of the system's pool.
@@ -127,7 +127,7 @@ class ActorSystem final : public Sender {
   };
 
   Place* place_of(ActorName to);
-  std::optional<Offered> put(Place& place, Incoming incoming);
+  std::optional<Offered> put(Place& place, IncomingMessage incoming);
   std::optional<Payload> payload_of(const Delivery& delivery);
 
   const NodeId self_;

@@ -34,7 +34,7 @@ class NodeActor : public Actor<Derived, Control, Data>, public Recipient {
 
   Address address() const { return self_; }
 
-  std::optional<Offered> accept(Incoming incoming) final {
+  std::optional<Offered> accept(IncomingMessage incoming) final {
     return std::visit(
         [&](auto& body) -> std::optional<Offered> {
           using Body = std::decay_t<decltype(body)>;

@@ -60,7 +60,7 @@ Value value_of(const ::toml::node& node, Origin outer) {
 }  // namespace
 
 Result<Document> parse(std::string_view text, const std::string& file, size_t max_bytes,
-                       Quoting quoting) {
+                       QuotePolicy quoting) {
   if (text.size() > max_bytes)
     return problem_in(file, "this file is longer than " + std::to_string(max_bytes) +
                                 " bytes, the most that is read");
@@ -71,7 +71,7 @@ Result<Document> parse(std::string_view text, const std::string& file, size_t ma
     return document;
   } catch (const ::toml::parse_error& error) {
     const std::string why =
-        quoting == Quoting::allowed ? ": " + std::string(error.description()) : std::string();
+        quoting == QuotePolicy::allowed ? ": " + std::string(error.description()) : std::string();
     return problem_in(file, static_cast<int>(error.source().begin.line), "this is not TOML" + why);
   }
 }

@@ -19,11 +19,11 @@ struct Document {
 };
 
 /// Whether a problem may quote the text.
-enum class Quoting { allowed, withheld };
+enum class QuotePolicy { allowed, withheld };
 
 /// `file` names the text in problems.
 /// Errors: longer than `max_bytes`; nested too deep; not TOML.
 Result<Document> parse(std::string_view text, const std::string& file, size_t max_bytes,
-                       Quoting quoting = Quoting::allowed);
+                       QuotePolicy quoting = QuotePolicy::allowed);
 
 }  // namespace luxodus::toml

@@ -65,7 +65,7 @@ size_t after_word(std::string_view text, size_t at) {
 }
 
 /// Counts the dots in the current key and the open brackets.
-class Nesting {
+class NestingDepth {
  public:
   /// Takes one character from outside strings and comments; false if the nesting is too deep.
   bool take(char c) {
@@ -98,11 +98,11 @@ class Nesting {
 }  // namespace
 
 Result<void> check_nesting(std::string_view text, const std::string& file) {
-  Nesting nesting;
+  NestingDepth depth;
   for (size_t at = 0; at < text.size();) {
     if (const size_t behind = after_quiet(text, at); behind > at) {
       at = behind;
-    } else if (nesting.take(text[at])) {
+    } else if (depth.take(text[at])) {
       ++at;
     } else {
       const auto lines = std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(at), '\n');

@@ -104,7 +104,7 @@ Medium smoke(Air air, double scattered) {
 
 }  // namespace
 
-SceneDescription furnished(Air air, const Counting& counting) {
+SceneDescription furnished(Air air, const FurnishedTallies& tallies) {
   SceneDescription d;
   d.name = "furnished room";
   d.materials.emplace_back().name = "grey";
@@ -112,8 +112,8 @@ SceneDescription furnished(Air air, const Counting& counting) {
   d.emitters.push_back(lamp({10, 7.5, 2.99}, {2, 1, 0}));
   if (air != Air::clear) d.media.push_back(smoke(air, albedo));
   d.run.max_bands = 1;
-  d.run.voxels = counting.voxels;
-  if (counting.detectors) {
+  d.run.voxels = tallies.voxels;
+  if (tallies.detectors) {
     PlaneMeasure plane;
     plane.name = "working plane";
     plane.corner = {0, 0, 0.85};
@@ -138,8 +138,8 @@ SceneDescription furnished(Air air, const Counting& counting) {
   return d;
 }
 
-std::shared_ptr<const CompiledScene> furnished_room(Air air, const Counting& counting) {
-  return compiled(furnished(air, counting));
+std::shared_ptr<const CompiledScene> furnished_room(Air air, const FurnishedTallies& tallies) {
+  return compiled(furnished(air, tallies));
 }
 
 std::shared_ptr<const CompiledScene> pictured_room(Air air, int width, int height) {

@@ -12,7 +12,7 @@ namespace luxodus::bench {
 enum class Air { clear, homogeneous, layered };
 
 /// Tallies of the room besides the flux into and out of every patch, wall and piece of furniture.
-struct Counting {
+struct FurnishedTallies {
   bool detectors = false;  // a working plane of 20 x 15 cells, a counting plane, a volume group
   bool voxels = false;     // about 20 000
 };
@@ -20,8 +20,8 @@ struct Counting {
 /// 20 x 15 x 3 m, six walls and 131 boxes without bottoms, Lambertian 0.5, one ceiling rectangle.
 /// Homogeneous: isotropic, 0.1/m, albedo 0.8. Layered: six layers of 0.5 m, 0.05 to 2/m upwards,
 /// albedo 0.8.
-SceneDescription furnished(Air air, const Counting& counting);
-std::shared_ptr<const CompiledScene> furnished_room(Air air, const Counting& counting);
+SceneDescription furnished(Air air, const FurnishedTallies& tallies);
+std::shared_ptr<const CompiledScene> furnished_room(Air air, const FurnishedTallies& tallies);
 
 /// A room of 10 x 8 x 3 m, as densely furnished, with four ceiling lamps of 0.6 x 0.3 m and a
 /// camera in a corner. Smoke as above, albedo 0.6.

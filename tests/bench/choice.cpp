@@ -14,21 +14,21 @@ namespace luxodus::bench {
 
 namespace {
 
-constexpr int64_t most_particles = 1 << 24;
-constexpr int most_paths = 2048;
+constexpr int64_t max_particles = 1 << 24;
+constexpr int max_paths = 2048;
 
 int64_t particles_of(double share) {
-  return static_cast<int64_t>(share * static_cast<double>(most_particles));
+  return static_cast<int64_t>(share * static_cast<double>(max_particles));
 }
 int paths_of(double share) {
-  return std::max(16, static_cast<int>(share * most_paths));
+  return std::max(16, static_cast<int>(share * max_paths));
 }
 
 void print_choice_of(const ScenarioView& of, int64_t particles, int paths) {
   const auto run = traced_run(of, particles);
   const auto flux = flux_radiance(*run);
   for (const bool gather : {true, false}) {
-    const KnownRadiance* ends = gather ? flux.get() : nullptr;
+    const RadianceCache* ends = gather ? flux.get() : nullptr;
     const PathVariance old = variance_of_paths(*run, ends, false, paths);
     const PathVariance now = variance_of_paths(*run, ends, true, paths);
     fmt::print(

@@ -110,7 +110,7 @@ struct Way {
 
 /// Light of each pixel without direct light of emitters, by the same number of paths: of one band
 /// each, and of all bands.
-std::array<Way, 2> trace_ways(const LocalRun& run, const KnownRadiance* flux) {
+std::array<Way, 2> trace_ways(const LocalRun& run, const RadianceCache* flux) {
   const CompiledScene& scene = run.scene();
   const Bands& bands = scene.bands;
   std::vector<double> cdf;

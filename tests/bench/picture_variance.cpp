@@ -59,7 +59,7 @@ std::unique_ptr<LocalRun> traced_run(const ScenarioView& of, int64_t particles) 
   return run;
 }
 
-PathVariance variance_of_paths(const LocalRun& run, const KnownRadiance* flux, bool learned,
+PathVariance variance_of_paths(const LocalRun& run, const RadianceCache* flux, bool learned,
                                int paths) {
   const CompiledScene& scene = run.scene();
   const Pinhole pinhole(scene.description->cameras[0], scene.local_origin);

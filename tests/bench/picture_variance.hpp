@@ -33,7 +33,7 @@ struct PathVariance {
 
 /// Traces `paths` paths for each pixel of the run's picture. `flux`: where they end, or null.
 /// `learned`: whether emitters are chosen by learned importance; the time includes learning.
-PathVariance variance_of_paths(const LocalRun& run, const KnownRadiance* flux, bool learned,
+PathVariance variance_of_paths(const LocalRun& run, const RadianceCache* flux, bool learned,
                                int paths);
 
 }  // namespace luxodus::bench

@@ -27,9 +27,9 @@ double median_seconds(int repeats, int inside, const std::function<void()>& piec
 
 /// Work of one node at each link change: it updates its view, lists the links that are down, and
 /// recomputes its next hops.
-class Rerouting {
+class RouteUpdater {
  public:
-  Rerouting(const Graph& graph, const Routes& balanced)
+  RouteUpdater(const Graph& graph, const Routes& balanced)
       : edges_(edges_of(graph)), view_(edges_), routes_(graph, balanced, 0) {}
 
   /// Takes this many links down, evenly spread.
@@ -59,7 +59,7 @@ void print_graph(int repeats, const std::string& name, const Graph& graph) {
   constexpr int reroutes = 200;
   const Routes balanced = balanced_routes(graph);
   const double whole = median_seconds(repeats, 1, [&] { balanced_routes(graph); });
-  Rerouting one(graph, balanced), many(graph, balanced);
+  RouteUpdater one(graph, balanced), many(graph, balanced);
   many.fail(graph.links().size() / 20);
   const double around_one = median_seconds(repeats, reroutes, [&] { one.change_a_link(); });
   const double around_many = median_seconds(repeats, reroutes, [&] { many.change_a_link(); });

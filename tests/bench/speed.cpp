@@ -21,7 +21,7 @@ constexpr double seconds_per_turn = 0.15;
 struct Row {
   const char* name;
   Air air;
-  Counting counting;
+  FurnishedTallies tallies;
 };
 
 constexpr Row rows[] = {
@@ -121,7 +121,7 @@ void print_speed(int repeats) {
   fmt::print("{:<26} {:>9} {:>8} {:>9} {:>9} {:>7} {:>13} {:>11} {:>7}\n", "room of 661 quads",
              "Mparts/s", "rays/p.", "Mrays/s", "bare", "share", "spread", "to surface", "share");
   for (const Row& row : rows) {
-    const auto scene = furnished_room(row.air, row.counting);
+    const auto scene = furnished_room(row.air, row.tallies);
     const EmbreeDevice device;
     const SceneIndex index(device, *scene);
     const std::vector<Ray> rays = record_rays(row.air, *scene, index);
@@ -167,8 +167,8 @@ void print_threads(int repeats) {
              "ratio", "spread");
   const std::atomic<bool> never{false};
   for (const Row& row : rows) {
-    if (!row.counting.detectors) continue;
-    const auto scene = furnished_room(row.air, row.counting);
+    if (!row.tallies.detectors) continue;
+    const auto scene = furnished_room(row.air, row.tallies);
     std::vector<double> one, two, ratio;
     for (int i = 0; i < repeats; ++i) {
       for (const int threads : {1, 2}) {

@@ -21,7 +21,7 @@ std::string failure(const std::string& node, const std::string& actor, const std
          "\"\nat_s = " + at_s + "\n";
 }
 
-void check_all_end_well(const Running& nodes) {
+void check_all_end_well(const RunningCluster& nodes) {
   const int code = nodes.controller->wait();
   INFO(nodes.controller->text());
   CHECK(code == 0);
@@ -37,7 +37,8 @@ void check_all_end_well(const Running& nodes) {
 TEST_CASE("a worker that displays the run writes the results of the plain loop",
           "[cluster][display]") {
   const TemporaryFolder folder;
-  const Running nodes = start(write_cluster(folder, shown_by("n1", "particles = 400_000\n")), 3);
+  const RunningCluster nodes =
+      start(write_cluster(folder, shown_by("n1", "particles = 400_000\n")), 3);
   check_all_end_well(nodes);
   CHECK(nodes.workers[1]->said("in " + fs::canonical(folder / "out").string()));
   CHECK(fs::exists(folder / "out" / "result.json"));
@@ -48,7 +49,7 @@ TEST_CASE("a worker that displays the run writes the results of the plain loop",
 TEST_CASE("a display that is killed and restarted loses no flux", "[cluster][display]") {
   const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, shown_by("n1", "particles = 400_000\n"));
-  Running nodes = start(cluster, 3);
+  RunningCluster nodes = start(cluster, 3);
   nodes.workers[1]->kill(SIGKILL);
   CHECK(nodes.workers[1]->wait() == 128 + SIGKILL);
   nodes.workers[1] = node(cluster, "n1");
@@ -63,7 +64,7 @@ TEST_CASE(
     "[cluster][display]") {
   const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, shown_by("n1", "particles = 400_000\n"));
-  Running nodes = start(cluster, 3);
+  RunningCluster nodes = start(cluster, 3);
   nodes.workers[1]->kill(SIGKILL);
   CHECK(nodes.controller->wait() == 1);
   INFO(nodes.controller->text());
@@ -83,7 +84,7 @@ TEST_CASE("a cluster that is told to end has its display write the results so fa
   const TemporaryFolder folder;
   ClusterText text = shown_by("n2", endless);
   text.more += "[observe]\nlog_level = \"debug\"\n";
-  const Running nodes = start(write_cluster(folder, text), 3);
+  const RunningCluster nodes = start(write_cluster(folder, text), 3);
   REQUIRE(nodes.controller->says("flush=taken"));
   for (const auto& worker : nodes.workers) worker->kill(SIGTERM);
   nodes.controller->kill(SIGTERM);
@@ -100,7 +101,7 @@ TEST_CASE("a tracer that fails makes its node leave, and the others give the sam
   text.workers = 3;
   text.run = "particles = 1_200_000\n";
   text.more = "[timeouts]\nlost_s = 1\n" + failure("n1", "tracer", "1") + slow_workers(3);
-  const Running nodes = start(write_cluster(folder, text), 3);
+  const RunningCluster nodes = start(write_cluster(folder, text), 3);
   CHECK(nodes.workers[1]->wait() == 1);
   INFO(nodes.workers[1]->text());
   CHECK(nodes.workers[1]->said("the tracer has failed: a failure on purpose"));
@@ -120,7 +121,7 @@ TEST_CASE("a coordinator or journal that fails ends the run, and the journal rem
     text.workers = 2;
     text.run = endless;
     text.more = "[timeouts]\nlost_s = 5\n" + failure("controller", actor, "10") + slow_workers(2);
-    const Running nodes = start(write_cluster(folder, text), 2);
+    const RunningCluster nodes = start(write_cluster(folder, text), 2);
     CHECK(nodes.controller->wait() == 1);
     INFO(nodes.controller->text());
     CHECK(nodes.controller->said("controller: the " + std::string(actor) +
@@ -136,7 +137,7 @@ TEST_CASE("a display that fails on purpose begins anew, and the run completes",
   const TemporaryFolder folder;
   ClusterText text = shown_by("n0", "particles = 600_000\n");
   text.more += failure("n0", "display", "0.5");
-  const Running nodes = start(write_cluster(folder, text), 3);
+  const RunningCluster nodes = start(write_cluster(folder, text), 3);
   check_all_end_well(nodes);
   CHECK(nodes.workers[0]->said("a failure on purpose: it begins anew"));
   check_plain_flux(folder, "600k");

@@ -69,7 +69,7 @@ ClusterText of_two_levels() {
 }
 
 /// The first of these workers that leads others, and one of those it leads, when it is gone.
-size_t leader_among(const Running& nodes) {
+size_t leader_among(const RunningCluster& nodes) {
   for (size_t i = 0; i < nodes.workers.size(); ++i) {
     (void)nodes.workers[i]->now();
     if (nodes.workers[i]->said("coordinator=begun")) return i;
@@ -79,7 +79,7 @@ size_t leader_among(const Running& nodes) {
 }
 
 /// The workers of the lost leader work for another one, which takes their flushes.
-void check_orphans(const Running& nodes, size_t leader) {
+void check_orphans(const RunningCluster& nodes, size_t leader) {
   size_t orphans = 0;
   const std::string lost_one = "coordinator=lost node=" + std::to_string(leader) + " ";
   for (size_t i = 0; i < nodes.workers.size(); ++i) {
@@ -91,7 +91,8 @@ void check_orphans(const Running& nodes, size_t leader) {
 }
 
 /// Ends the run, and compares its results.
-void end_with_same_bits(const TemporaryFolder& folder, const Running& nodes, const FaultRow& row) {
+void end_with_same_bits(const TemporaryFolder& folder, const RunningCluster& nodes,
+                        const FaultRow& row) {
   nodes.end();
   INFO(nodes.controller->text());
   check_goes_on(folder);
@@ -104,7 +105,7 @@ TEST_CASE("half of the workers may be killed at once, or all but one, with the s
           "[cluster][faults]") {
   const TemporaryFolder folder;
   const int killed = GENERATE(2, 3);
-  const Running nodes = start(write_cluster(folder, over_tcp(quick(4))), 4);
+  const RunningCluster nodes = start(write_cluster(folder, over_tcp(quick(4))), 4);
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row(std::to_string(killed) + " of 4 workers are killed", *nodes.controller);
   for (size_t i = 0; i < static_cast<size_t>(killed); ++i) nodes.workers[i]->kill(SIGKILL);
@@ -117,7 +118,7 @@ TEST_CASE("half of the workers may be killed at once, or all but one, with the s
 TEST_CASE("when a sub-coordinator is killed, its workers join another one, with the same bits",
           "[cluster][faults][levels]") {
   const TemporaryFolder folder;
-  const Running nodes = start(write_cluster(folder, over_tcp(of_two_levels())), 9);
+  const RunningCluster nodes = start(write_cluster(folder, over_tcp(of_two_levels())), 9);
   const size_t leader = leader_among(nodes);
   REQUIRE(nodes.controller->says(flush_of(static_cast<int>(leader))));
   FaultRow row("one of 3 coordinators below the controller is killed", *nodes.controller);
@@ -130,7 +131,7 @@ TEST_CASE("when a sub-coordinator is killed, its workers join another one, with 
 
 TEST_CASE("a node that leads others may be suspended, and continues", "[cluster][faults][levels]") {
   const TemporaryFolder folder;
-  const Running nodes = start(write_cluster(folder, over_tcp(of_two_levels())), 9);
+  const RunningCluster nodes = start(write_cluster(folder, over_tcp(of_two_levels())), 9);
   const size_t leader = leader_among(nodes);
   REQUIRE(nodes.controller->says(flush_of(static_cast<int>(leader))));
   FaultRow row("one of 3 coordinators is stopped (SIGSTOP)", *nodes.controller);
@@ -147,14 +148,14 @@ TEST_CASE("a node that leads others may be cut off, with the same bits",
   const TemporaryFolder folder;
   size_t leader = 0;
   {
-    const Running nodes = start(write_cluster(folder, over_tcp(of_two_levels())), 9);
+    const RunningCluster nodes = start(write_cluster(folder, over_tcp(of_two_levels())), 9);
     leader = leader_among(nodes);
     REQUIRE(nodes.controller->says("flush=taken node="));
     nodes.end();
     fs::remove_all(folder / "out");
   }
   const ProxiedCluster cluster = behind_proxy(folder, of_two_levels(), leader);
-  Running nodes = start(cluster, 9, static_cast<int>(leader));
+  RunningCluster nodes = start(cluster, 9, static_cast<int>(leader));
   REQUIRE(nodes.controller->says(flush_of(static_cast<int>(leader))));
   FaultRow row("one of 3 coordinators is cut off for more than lost_s", *nodes.controller);
   cluster.proxy->order("stall");
@@ -172,7 +173,7 @@ TEST_CASE("when all tracing nodes are lost, the nodes that lead them do not keep
   ClusterText text = quick(4);
   const std::string lease = "[lease]\n";
   text.more.insert(text.more.find(lease) + lease.size(), "fan_out = 2\n");
-  const Running nodes = start(write_cluster(folder, over_tcp(text)), 4);
+  const RunningCluster nodes = start(write_cluster(folder, over_tcp(text)), 4);
   REQUIRE(nodes.controller->says("flush=taken"));
   int killed = 0;
   for (const auto& worker : nodes.workers) {
@@ -194,7 +195,7 @@ TEST_CASE("a coordinator that fails on a worker costs that worker, and the run c
   ClusterText text = of_two_levels();
   size_t leader = 0;
   {
-    const Running nodes = start(write_cluster(folder, over_tcp(text)), 9);
+    const RunningCluster nodes = start(write_cluster(folder, over_tcp(text)), 9);
     leader = leader_among(nodes);
     REQUIRE(nodes.controller->says("flush=taken node="));
     nodes.end();
@@ -203,7 +204,7 @@ TEST_CASE("a coordinator that fails on a worker costs that worker, and the run c
   const std::string name = "n" + std::to_string(leader);
   text.more += "[[faults.event]]\nkind = \"failure\"\nactor = \"coordinator\"\nnode = \"" + name +
                "\"\nat_s = 2\n[display]\nnode = \"" + name + "\"\n";
-  Running nodes = start(write_cluster(folder, over_tcp(text)), 9);
+  RunningCluster nodes = start(write_cluster(folder, over_tcp(text)), 9);
   FaultRow row("one of 3 coordinators below the controller fails", *nodes.controller);
   row.given_up(lost(static_cast<int>(leader)));
   CHECK(nodes.workers[leader]->wait() == 1);
@@ -213,7 +214,7 @@ TEST_CASE("a coordinator that fails on a worker costs that worker, and the run c
 
 TEST_CASE("a suspended worker is given up, and works again when it resumes", "[cluster][faults]") {
   const TemporaryFolder folder;
-  const Running nodes = start(write_cluster(folder, over_tcp(quick(3))), 3);
+  const RunningCluster nodes = start(write_cluster(folder, over_tcp(quick(3))), 3);
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row("a worker is stopped (SIGSTOP)", *nodes.controller);
   nodes.workers[1]->kill(SIGSTOP);
@@ -234,7 +235,7 @@ TEST_CASE("a partition that heals in time costs no worker, with the same bits",
       std::pair{"stall", "a worker is cut off and nobody is told, for less than lost_s"},
       std::pair{"refuse", "a worker is cut off and connections are refused, for less than lost_s"});
   const ProxiedCluster cluster = behind_proxy(folder, text, 1);
-  const Running nodes = start(cluster, 3, 1);
+  const RunningCluster nodes = start(cluster, 3, 1);
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row(what, *nodes.controller);
   cluster.proxy->order(how);
@@ -251,7 +252,7 @@ TEST_CASE("a worker cut off for long by a partition ends, and is accepted after 
           "[cluster][faults]") {
   const TemporaryFolder folder;
   const ProxiedCluster cluster = behind_proxy(folder, quick(3), 1);
-  Running nodes = start(cluster, 3, 1);
+  RunningCluster nodes = start(cluster, 3, 1);
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row("a worker is cut off for more than lost_s, and started again", *nodes.controller);
   cluster.proxy->order("stall");
@@ -269,7 +270,7 @@ TEST_CASE("a worker cut off for long by a partition ends, and is accepted after 
 TEST_CASE("connections that break repeatedly cost time, with the same bits", "[cluster][faults]") {
   const TemporaryFolder folder;
   const ProxiedCluster cluster = behind_proxy(folder, quick(3), 1);
-  const Running nodes = start(cluster, 3, 1);
+  const RunningCluster nodes = start(cluster, 3, 1);
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row("all connections of a worker break, three times", *nodes.controller);
   for (int i = 0; i < 3; ++i) {
@@ -289,7 +290,7 @@ TEST_CASE("a slow link with high latency delays its worker, with the same bits",
   const std::string brief = "duration_s = 2\n", patient = "duration_s = 30\n";
   text.more.replace(text.more.find(brief), brief.size(), patient);
   const ProxiedCluster cluster = behind_proxy(folder, text, 1);
-  const Running nodes = start(cluster, 3, 1);
+  const RunningCluster nodes = start(cluster, 3, 1);
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row("a worker's links get 1 MB/s and 20 ms", *nodes.controller);
   cluster.proxy->order("delay 20");
@@ -311,7 +312,7 @@ TEST_CASE("corrupted bytes are detected and sent again, with the same bits", "[c
   if (keys) text.more += "[keys]\nfolder = \"keys\"\n";
   const ProxiedCluster cluster = behind_proxy(folder, text, 1);
   if (keys) REQUIRE(run_luxodus(folder, "keygen --cluster " + cluster.its).code == 0);
-  const Running nodes = start(cluster, 2, 1);
+  const RunningCluster nodes = start(cluster, 2, 1);
   REQUIRE(nodes.controller->says(flush_of(1)));
   // CURVE ends a connection at the first corrupted byte, and the next one is there within beats: so
   // often that a beat is missed, however slow the machine.
@@ -335,7 +336,7 @@ TEST_CASE("a node whose thread is stuck is given up while its process lives, and
   for (const char* name : {"n1", "n2"}) text.of_node[name] = "process = \"pair\"\n";
   text.more += "[[faults.event]]\nkind = \"pause\"\nnode = \"n1\"\nat_s = 2\nlasts_s = 1.5\n";
   const std::string cluster = write_cluster(folder, text);
-  Running nodes;
+  RunningCluster nodes;
   nodes.controller = node(cluster, "controller");
   nodes.workers.push_back(node(cluster, "n0"));
   nodes.workers.push_back(std::make_unique<Process>(
@@ -353,7 +354,7 @@ TEST_CASE("a node whose thread is stuck is given up while its process lives, and
 TEST_CASE("the holder of objects that all nodes request may be killed, with the same bits",
           "[cluster][faults]") {
   const TemporaryFolder folder;
-  const Running nodes = start(write_cluster(folder, over_tcp(fetching(boxes(folder)))), 3);
+  const RunningCluster nodes = start(write_cluster(folder, over_tcp(fetching(boxes(folder)))), 3);
   REQUIRE(nodes.controller->says(flush_of(2)));
   FaultRow row("one of two holders of all objects is killed", *nodes.controller);
   nodes.workers[0]->kill(SIGKILL);
@@ -377,7 +378,7 @@ TEST_CASE("particles that need objects without a holder are lost, and the run sa
   text.more.insert(text.more.find("lost_s"), "fetch_attempts = 1\n");
   const std::string cluster = write_cluster(folder, text);
   text.scene = skeleton;
-  Running nodes;
+  RunningCluster nodes;
   nodes.controller = node(cluster, "controller");
   for (const char* name : {"n0", "n1"}) nodes.workers.push_back(node(cluster, name));
   nodes.workers.push_back(node(write_cluster(folder, text, "of_n2"), "n2"));
@@ -404,7 +405,7 @@ TEST_CASE("a second process under a node's name on its host ends, and the first 
           "[cluster][faults]") {
   const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, over_tcp(quick(2)));
-  const Running nodes = start(cluster, 2);
+  const RunningCluster nodes = start(cluster, 2);
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row("a node is started twice on its host", *nodes.controller);
   const auto twin = node(cluster, "n1");
@@ -423,7 +424,7 @@ TEST_CASE("a second process under a node's name on another host does not affect 
   const std::string cluster = write_cluster(folder, text);
   text.ports[1] = free_ports(1).front();  // a port that nobody connects to
   const std::string of_twin = write_cluster(folder, text, "of_twin");
-  const Running nodes = start(cluster, 3);
+  const RunningCluster nodes = start(cluster, 3);
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row("a node is started twice, on two hosts", *nodes.controller);
   const auto twin = node(of_twin, "n1");
@@ -439,7 +440,7 @@ TEST_CASE("a metrics client that reads nothing blocks nobody", "[cluster][faults
   while (pages[1] != pages[0] + 2) pages = {pages[1], free_ports(1).front()};
   text.more.insert(text.more.find("log_level"),
                    "metrics_port = " + std::to_string(pages[0]) + "\n");
-  const Running nodes = start(write_cluster(folder, text), 2);
+  const RunningCluster nodes = start(write_cluster(folder, text), 2);
   REQUIRE(nodes.controller->says(flush_of(1)));
   FaultRow row("ten who look at each process, and read nothing", *nodes.controller);
   std::vector<int> lookers;

@@ -193,7 +193,7 @@ inline std::unique_ptr<Process> node(const std::string& cluster, const std::stri
       LUX_PROGRAM, std::vector<std::string>{"node", "--config", cluster, "--name", name});
 }
 
-struct Running {
+struct RunningCluster {
   std::vector<std::unique_ptr<Process>> workers;
   std::unique_ptr<Process> controller;
 
@@ -213,8 +213,8 @@ struct Running {
 };
 
 /// All nodes of a cluster, once the run has begun.
-inline Running start(const std::string& cluster, int workers) {
-  Running nodes;
+inline RunningCluster start(const std::string& cluster, int workers) {
+  RunningCluster nodes;
   nodes.controller = node(cluster, "controller");
   for (int i = 0; i < workers; ++i) nodes.workers.push_back(node(cluster, "n" + std::to_string(i)));
   nodes.await_begin();

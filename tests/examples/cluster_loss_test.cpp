@@ -18,7 +18,7 @@ ClusterText workers(int count, const std::string& run) {
 
 TEST_CASE("a killed worker is dispensable: the others give the same bits", "[cluster]") {
   const TemporaryFolder folder;
-  const Running nodes = start(write_cluster(folder, workers(3, "particles = 400_000\n")), 3);
+  const RunningCluster nodes = start(write_cluster(folder, workers(3, "particles = 400_000\n")), 3);
   nodes.workers[1]->kill(SIGKILL);
   CHECK(nodes.controller->wait() == 0);
   INFO(nodes.controller->text());
@@ -30,7 +30,7 @@ TEST_CASE("a killed worker is dispensable: the others give the same bits", "[clu
 TEST_CASE("a worker that is killed and restarted is accepted, with the same bits", "[cluster]") {
   const TemporaryFolder folder;
   const std::string cluster = write_cluster(folder, workers(2, "particles = 400_000\n"));
-  Running nodes = start(cluster, 2);
+  RunningCluster nodes = start(cluster, 2);
   nodes.workers[0]->kill(SIGKILL);
   CHECK(nodes.workers[0]->wait() == 128 + SIGKILL);
   nodes.workers[0] = node(cluster, "n0");
@@ -47,7 +47,7 @@ TEST_CASE("a controller that is killed and restarted begins anew, with the same 
   ClusterText text = workers(2, "particles = 400_000\n");
   text.more = "[timeouts]\nlost_s = 60\n" + slow_workers(2);
   const std::string cluster = write_cluster(folder, text);
-  Running nodes = start(cluster, 2);
+  RunningCluster nodes = start(cluster, 2);
   nodes.controller->kill(SIGKILL);
   CHECK(nodes.controller->wait() == 128 + SIGKILL);
   nodes.controller = node(cluster, "controller");
@@ -62,7 +62,7 @@ TEST_CASE("a worker whose controller has vanished ends and says so", "[cluster]"
   const TemporaryFolder folder;
   ClusterText text = workers(2, endless);
   text.more += "[observe]\nlog_level = \"debug\"\n";
-  const Running nodes = start(write_cluster(folder, text), 2);
+  const RunningCluster nodes = start(write_cluster(folder, text), 2);
   REQUIRE(nodes.controller->says("flush=taken node=0"));  // so they know of it
   REQUIRE(nodes.controller->says("flush=taken node=1"));
   nodes.controller->kill(SIGKILL);
@@ -76,7 +76,7 @@ TEST_CASE("a killed worker ends the run if it holds a shard of the totals", "[cl
   const TemporaryFolder folder;
   ClusterText text = workers(2, endless);
   text.more += "[observe]\nlog_level = \"debug\"\n[tally]\nshards = [\"n1\"]\n";
-  const Running nodes = start(write_cluster(folder, text), 2);
+  const RunningCluster nodes = start(write_cluster(folder, text), 2);
   REQUIRE(nodes.controller->says("flush=taken"));
   nodes.workers[1]->kill(SIGKILL);
   CHECK(nodes.controller->wait() == 1);
@@ -94,7 +94,7 @@ TEST_CASE("a worker that is killed and restarted beside shards is accepted, with
   ClusterText text = workers(3, "particles = 400_000\n");
   text.more += "[tally]\nshards = [\"n0\", \"n2\"]\n";
   const std::string cluster = write_cluster(folder, text);
-  Running nodes = start(cluster, 3);
+  RunningCluster nodes = start(cluster, 3);
   nodes.workers[1]->kill(SIGKILL);
   CHECK(nodes.workers[1]->wait() == 128 + SIGKILL);
   nodes.workers[1] = node(cluster, "n1");
@@ -109,7 +109,7 @@ TEST_CASE("a controller whose workers have all vanished leaves a result that can
   const TemporaryFolder folder;
   ClusterText text = workers(2, endless);
   text.more += "[observe]\nlog_level = \"debug\"\n";
-  const Running nodes = start(write_cluster(folder, text), 2);
+  const RunningCluster nodes = start(write_cluster(folder, text), 2);
   REQUIRE(nodes.controller->says("flush=taken"));
   for (const auto& worker : nodes.workers) worker->kill(SIGKILL);
   CHECK(nodes.controller->wait() == 1);
@@ -127,7 +127,7 @@ TEST_CASE("a cluster that is told to end leaves whole batches that can be contin
   SECTION("with shards of the totals") {
     text.more += "[tally]\nshards = [\"n0\", \"n1\"]\n";
   }
-  const Running nodes = start(write_cluster(folder, text), 2);
+  const RunningCluster nodes = start(write_cluster(folder, text), 2);
   REQUIRE(nodes.controller->says("flush=taken"));
   for (const auto& worker : nodes.workers) worker->kill(SIGTERM);
   nodes.controller->kill(SIGTERM);
@@ -145,7 +145,7 @@ TEST_CASE("a disk that fills up under the journal ends the journal, and not the 
       "[lease]\nduration_s = 4\n[[faults.event]]\nkind = \"full_disk\"\n"
       "node = \"controller\"\nat_s = 0.2\nlasts_s = 1000\n" +
       slow_workers(2);
-  Running nodes = start(write_cluster(folder, text), 2);
+  RunningCluster nodes = start(write_cluster(folder, text), 2);
   CHECK(nodes.controller->wait() == 0);
   INFO(nodes.controller->text());
   CHECK(nodes.controller->said("journal=failed"));
@@ -197,7 +197,7 @@ TEST_CASE("a controller that is killed and restarted continues from its journal"
       "[timeouts]\nlost_s = 30\n[lease]\nduration_s = 4\n[observe]\nlog_level = \"debug\"\n" +
       slow_workers(2);
   const std::string cluster = write_cluster(folder, text);
-  Running nodes = start(cluster, 2);
+  RunningCluster nodes = start(cluster, 2);
   REQUIRE(nodes.controller->says("flush=taken"));
   nodes.controller->kill(SIGKILL);
   CHECK(nodes.controller->wait() == 128 + SIGKILL);

@@ -137,7 +137,7 @@ TEST_CASE("a second cluster of one file with other results is refused, and the f
   text.out = "elsewhere";
   const std::string second = write_cluster(folder, text, "second");
   SECTION("only its controller") {
-    const Running nodes = start(first, 3);
+    const RunningCluster nodes = start(first, 3);
     const auto intruder = node(second, "controller");
     CHECK(intruder->wait() == 1);
     INFO(intruder->text() << nodes.controller->text());
@@ -149,7 +149,7 @@ TEST_CASE("a second cluster of one file with other results is refused, and the f
     CHECK_FALSE(nodes.controller->said("lease=fenced"));
   }
   SECTION("all of it") {
-    const Running nodes = start(first, 3);
+    const RunningCluster nodes = start(first, 3);
     Process up(LUX_PROGRAM, {"cluster", "up", second});
     CHECK(up.wait() == 1);
     INFO(up.text());
@@ -157,7 +157,7 @@ TEST_CASE("a second cluster of one file with other results is refused, and the f
     CHECK(nodes.controller->wait() == 0);
   }
   SECTION("while the first is killed and begins anew") {
-    Running nodes = start(first, 3);
+    RunningCluster nodes = start(first, 3);
     nodes.controller->kill(SIGKILL);
     CHECK(nodes.controller->wait() == 128 + SIGKILL);
     const auto intruder = node(second, "controller");

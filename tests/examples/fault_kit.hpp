@@ -99,8 +99,8 @@ inline ProxiedCluster behind_proxy(const TemporaryFolder& folder, ClusterText te
   return cluster;
 }
 
-inline Running start(const ProxiedCluster& cluster, int workers, int worker) {
-  Running nodes;
+inline RunningCluster start(const ProxiedCluster& cluster, int workers, int worker) {
+  RunningCluster nodes;
   nodes.controller = node(cluster.others, "controller");
   for (int i = 0; i < workers; ++i)
     nodes.workers.push_back(

@@ -97,10 +97,10 @@ void trace_part(BatchTracer& tracer, const CompiledScene& scene, const Part& par
 }
 
 /// A compiled scene and the findings about it.
-class Tracing {
+class SceneCheck {
  public:
-  Tracing(const RandomScene& drawn, const CompiledScene& scene, const EmbreeDevice& device,
-          uint64_t number)
+  SceneCheck(const RandomScene& drawn, const CompiledScene& scene, const EmbreeDevice& device,
+             uint64_t number)
       : scene_(scene),
         device_(device),
         index_(device, scene),
@@ -257,10 +257,10 @@ Verdict check_scene(const RandomScene& drawn, uint64_t number, const EmbreeDevic
   if (scene.layout.scores() > limits::scores_checked || scene.triangles > limits::triangles_checked)
     return verdict;
   const TracingArithmetic arithmetic;
-  Tracing tracing(drawn, scene, device, number);
-  tracing.check();
-  verdict.findings = std::move(tracing.findings);
-  verdict.rays = tracing.rays;
+  SceneCheck check(drawn, scene, device, number);
+  check.check();
+  verdict.findings = std::move(check.findings);
+  verdict.rays = check.rays;
   return verdict;
 }
 

@@ -55,9 +55,9 @@ Language language_of(const std::string& word) {
 
 /// Errors: a file with a name of a design's files exists, and no design has written it.
 Result<void> refuse_designs_of_others(const fs::path& folder) {
-  constexpr uint64_t most_bytes = uint64_t{64} << 20;
+  constexpr uint64_t max_bytes = uint64_t{64} << 20;
   std::error_code failed;
-  const auto ours = read_regular_file(folder / "design.json", most_bytes);
+  const auto ours = read_regular_file(folder / "design.json", max_bytes);
   if (ours && ours.value().find(design_format) != std::string::npos) return {};
   for (const std::string& file : design_files)
     if (fs::exists(folder / file, failed))
@@ -91,7 +91,7 @@ void print_design(const SceneDescription& scene, const DesignResult& result) {
   std::printf("the layout, assessed: %s\n", words_of(counts_of(result.assessment.checks)).c_str());
   for (const std::string& line : others_words(result.others)) std::printf("  %s\n", line.c_str());
   for (const UnusedType& one : result.unused) std::printf("  %s\n", unused_words(one).c_str());
-  for (const std::string& name : result.unlit_flights)
+  for (const std::string& name : result.unlit_stair_flights)
     std::printf(
         "  not planned, as no candidate lights all of its treads: flight of stairs \"%s\"\n",
         name.c_str());

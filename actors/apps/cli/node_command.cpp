@@ -56,8 +56,8 @@ Result<std::optional<OutputFolder>> claim_results(const ClusterConfig& cluster,
 }
 
 /// Files of the node that displays the run, as for `luxodus run`.
-RunOutputOptions display_options(const ClusterConfig& cluster, const ClusterProcessRun& process,
-                                 const fs::path& folder) {
+RunOutputOptions output_options(const ClusterConfig& cluster, const ClusterProcessRun& process,
+                                const fs::path& folder) {
   constexpr int preview_paths = 4;
   RunOutputOptions options;
   options.folder = folder;
@@ -307,20 +307,20 @@ Result<ExitCode> run_nodes(const NodeOptions& options) {
   }
   if (cluster.assess.asked) return assess_on_nodes(cluster, *process.value());
   if (cluster.render.asked) return render_on_nodes(cluster, *process.value());
-  std::optional<RunOutputFiles> display;
+  std::optional<RunOutputFiles> output;
   if (process.value()->shows()) {
     install_preview_handler();
-    display.emplace(process.value()->local_run(),
-                    display_options(cluster, *process.value(), out.value()->path()));
+    output.emplace(process.value()->local_run(),
+                   output_options(cluster, *process.value(), out.value()->path()));
   }
   ProgressLine line(cluster.run.name);
   auto ended = process.value()->run(
-      interrupt_flag(), [&](const Progress& p) { line.show(p); }, display ? &*display : nullptr);
+      interrupt_flag(), [&](const Progress& p) { line.show(p); }, output ? &*output : nullptr);
   if (!ended) return ended.problem();
   for (const std::string& text : process.value()->residency_lines()) log_info("{}", text);
-  if (display && !display->result().is_null())
+  if (output && !output->result().is_null())
     std::printf("%s in %s\n%s", cluster.run.name.c_str(), out.value()->path().string().c_str(),
-                summary_text(display->result()).c_str());
+                summary_text(output->result()).c_str());
   if (!ended.value()) return ExitCode::success;
   process.value()->forget_journal();
   if (*ended.value() == StopReason::workers_lost)

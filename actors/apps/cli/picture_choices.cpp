@@ -47,11 +47,11 @@ std::vector<Option> options_of(PictureChoices& choices, const char* paths_name) 
        "e.g. 10%",
        {.form = Form::share, .otherwise = "none"}},
       {"--display-white",
-       &choices.display.white_cd_m2,
+       &choices.monitor.white_cd_m2,
        "Luminance of white on the monitor that NAME_human.png is made for [cd/m2]",
        {.range = Range{1, 1e5}}},
       {"--display-black",
-       &choices.display.black_cd_m2,
+       &choices.monitor.black_cd_m2,
        "Luminance of its black, with the light of the room that it reflects [cd/m2]",
        {.range = Range{1e-4, 1e3}}},
       {"--human-limits",
@@ -90,11 +90,11 @@ Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture
     if (!error) return of_option("--picture-error", error.problem());
     picture.target_error = error.value();
   }
-  picture.human.display = choices.display;
+  picture.human.monitor = choices.monitor;
   if (auto read = read_sight(choices.sight, picture.human); !read) return read.problem();
-  if (!(choices.display.white_cd_m2 > choices.display.black_cd_m2))
+  if (!(choices.monitor.white_cd_m2 > choices.monitor.black_cd_m2))
     return problem(fmt::format("--display-white {:g} must be above --display-black {:g}",
-                               choices.display.white_cd_m2, choices.display.black_cd_m2));
+                               choices.monitor.white_cd_m2, choices.monitor.black_cd_m2));
   limit_paths(choices.paths, picture);
   return {};
 }

@@ -18,7 +18,7 @@ namespace luxodus::cli {
 struct PictureChoices {
   std::optional<uint64_t> paths;
   std::string time, error;
-  DisplayModel display;
+  MonitorModel monitor;
   std::vector<std::string> sight;  // limits to apply; empty: all
 };
 

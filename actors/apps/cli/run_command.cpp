@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 constexpr int preview_paths = 4;
 
 Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_delay,
-                                   Observation* observation, RunOutput* display) {
+                                   Observation* observation, RunOutput* output) {
   NodesOptions nodes;
   if (options.profile == "0") {
     nodes.profile_share = 0;
@@ -56,13 +56,13 @@ Result<NodesOptions> nodes_options(const RunOptions& options, Nanoseconds link_d
   nodes.prefetch = options.prefetch;
   nodes.link_delay = link_delay;
   nodes.observation = observation;
-  nodes.display = display;
+  nodes.display = output;
   return nodes;
 }
 
 /// Traces with the plain loop, or on nodes, which then display the run and write its results.
 Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path& folder,
-                         const RunOptions& options, const StopRule& rule, RunOutput& display) {
+                         const RunOptions& options, const StopRule& rule, RunOutput& output) {
   std::optional<ProgressLine> line(scenario.name);
   const auto show = [&](const Progress& p) { line->show(p); };
   const auto delay = link_delay_of(options);
@@ -76,7 +76,7 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path
   const auto port = seen.value()->port();
   if (port) log_info("metrics at http://{}:{}/metrics", observe.address, *port);
   Observation* const watched = seen.value()->watches() ? seen.value().get() : nullptr;
-  const auto nodes = nodes_options(options, delay.value(), watched, &display);
+  const auto nodes = nodes_options(options, delay.value(), watched, &output);
   if (!nodes) return nodes.problem();
   NodesReport report;
   auto reason = run_on_nodes(run, nodes.value(), rule, interrupt_flag(), show, &report);
@@ -90,34 +90,34 @@ Result<StopReason> trace(LocalRun& run, const Scenario& scenario, const fs::path
 }
 
 /// Options for displaying and writing the run. Errors: invalid time spans.
-Result<RunOutputOptions> display_options(const RunFolder& folder, const RunRecord& record,
-                                         const RunOptions& options) {
-  RunOutputOptions display;
-  display.folder = folder.path();
-  display.record = record;
-  display.keep_particles = folder.keep_particles;
-  display.make_room = [room = folder.room.get()] { room->release(); };
-  display.pictures = !options.no_views;
-  if (auto ok = read_choices(options.picture, display.picture); !ok) return ok.problem();
-  display.picture.progressive = true;
-  display.picture.raw = options.raw;
-  display.preview.paths_per_pixel = preview_paths;
-  display.preview.human = display.picture.human;
-  display.picture.interrupt = display.preview.interrupt = &interrupt_flag();
+Result<RunOutputOptions> output_options(const RunFolder& folder, const RunRecord& record,
+                                        const RunOptions& options) {
+  RunOutputOptions output;
+  output.folder = folder.path();
+  output.record = record;
+  output.keep_particles = folder.keep_particles;
+  output.make_room = [room = folder.room.get()] { room->release(); };
+  output.pictures = !options.no_views;
+  if (auto ok = read_choices(options.picture, output.picture); !ok) return ok.problem();
+  output.picture.progressive = true;
+  output.picture.raw = options.raw;
+  output.preview.paths_per_pixel = preview_paths;
+  output.preview.human = output.picture.human;
+  output.picture.interrupt = output.preview.interrupt = &interrupt_flag();
   if (!options.preview.empty()) {
     const auto every = parse_seconds(options.preview);
     if (!every) return every.problem();
-    display.preview_s = every.value();
-    display.preview_asked = &preview_flag();
+    output.preview_s = every.value();
+    output.preview_asked = &preview_flag();
     install_preview_handler();
   }
-  if (options.checkpoint == "0") return display;
+  if (options.checkpoint == "0") return output;
   const auto every = parse_seconds(options.checkpoint);
   if (!every) return every.problem();
   if (every.value() < 1)
     return problem("--checkpoint " + options.checkpoint + ": write 1s or more, or 0 for none");
-  display.checkpoint_s = every.value();
-  return display;
+  output.checkpoint_s = every.value();
+  return output;
 }
 
 /// With a memory budget for scene parts, geometry must not be held elsewhere either.
@@ -210,8 +210,8 @@ Result<std::shared_ptr<const CompiledScene>> scene_to_trace(
 
 Result<Traced> print_plan(const LocalRun& run, const Scenario& scenario,
                           const RunOptions& options) {
-  RunOutputFiles display(run, RunOutputOptions());
-  const auto nodes = nodes_options(options, 0, nullptr, &display);
+  RunOutputFiles output(run, RunOutputOptions());
+  const auto nodes = nodes_options(options, 0, nullptr, &output);
   if (!nodes) return nodes.problem();
   auto plan = plan_on_nodes(run, nodes.value());
   if (!plan) return plan.problem();
@@ -243,12 +243,12 @@ Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& descr
   record.at_s = time_asked(options.at);
   record.cells = options.cells;
   record.stop = rule;
-  auto shown = display_options(folder, record, options);
+  auto shown = output_options(folder, record, options);
   if (!shown) return shown.problem();
-  RunOutputFiles display(run, shown.value());
+  RunOutputFiles output(run, shown.value());
   std::optional<Watchers> watchers;
   if (options.nodes == 0) watchers.emplace(run, shown.value());
-  auto reason = trace(run, scenario, folder.path(), options, rule, display);
+  auto reason = trace(run, scenario, folder.path(), options, rule, output);
   watchers.reset();
   if (!reason) return reason.problem();
   if (reason.value() == StopReason::interrupted && run.particles() <= folder.keep_particles) {
@@ -259,16 +259,16 @@ Result<Traced> run_scenario(const std::shared_ptr<const SceneDescription>& descr
     return Traced{StopReason::interrupted, {}};
   }
   if (options.nodes == 0) {
-    if (auto ok = display.keep_flux(run, reason.value()); !ok) return ok.problem();
-    if (auto ok = display.write_results(run, reason.value()); !ok) return ok.problem();
+    if (auto ok = output.keep_flux(run, reason.value()); !ok) return ok.problem();
+    if (auto ok = output.write_results(run, reason.value()); !ok) return ok.problem();
   }
   if (!options.json) {
     std::printf("%s, in %s\n%s", description->name.c_str(), folder.output.named().string().c_str(),
-                summary_text(display.result(), options.verbose).c_str());
+                summary_text(output.result(), options.verbose).c_str());
   }
   // Pictures may have been interrupted; the traced flux is written.
   if (interrupt_flag()) reason = StopReason::interrupted;
-  return Traced{reason.value(), display.result()};
+  return Traced{reason.value(), output.result()};
 }
 
 /// The folders of all scenarios are claimed before the first begins, so that a folder that cannot

@@ -32,27 +32,27 @@ void rethrow(const std::exception_ptr& thrown) {
 
 }  // namespace
 
-void Waiting::say(Said said) {
+void WaitingThread::say(Said said) {
   const std::lock_guard lock(mutex_);
   said_ = std::move(said);
   changed_.notify_one();
 }
 
-void Waiting::end() {
+void WaitingThread::end() {
   const std::lock_guard lock(mutex_);
   ended_ = true;
   changed_.notify_one();
 }
 
-bool Waiting::wait(Said& said) {
+bool WaitingThread::wait(Said& said) {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, between_signals, [&] { return ended_ || said_; });
   said = std::exchange(said_, nullptr);
   return ended_;
 }
 
-void work_apart(const py::object& progress, const std::function<void(Waiting&)>& work) {
-  Waiting waiting;
+void work_apart(const py::object& progress, const std::function<void(WaitingThread&)>& work) {
+  WaitingThread waiting;
   std::exception_ptr thrown;
   std::thread worker([&] {
     try {
@@ -64,7 +64,7 @@ void work_apart(const py::object& progress, const std::function<void(Waiting&)>&
   });
   std::exception_ptr raised;  // raised here, where Python objects may be used
   for (bool ended = false; !ended;) {
-    Waiting::Said said;
+    WaitingThread::Said said;
     {
       const py::gil_scoped_release others_go_on;
       ended = waiting.wait(said);

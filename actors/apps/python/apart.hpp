@@ -14,7 +14,7 @@
 namespace luxodus::python {
 
 /// The work's view of the waiting thread. Any thread.
-class Waiting {
+class WaitingThread {
  public:
   /// Makes the argument of the callable. Requires: it holds no Python objects; called with the
   /// lock.
@@ -27,7 +27,7 @@ class Waiting {
 
  private:
   friend void work_apart(const pybind11::object& progress,
-                         const std::function<void(Waiting&)>& work);
+                         const std::function<void(WaitingThread&)>& work);
   void end();
   /// Waits for a message, the end, or a short time. True at the end.
   bool wait(Said& said);
@@ -43,6 +43,6 @@ class Waiting {
 /// False, the work is asked to end. Requires: the interpreter's lock.
 /// Errors: exceptions of the callable or of a signal handler, after the work has ended on request;
 /// else those of the work, as Refused.
-void work_apart(const pybind11::object& progress, const std::function<void(Waiting&)>& work);
+void work_apart(const pybind11::object& progress, const std::function<void(WaitingThread&)>& work);
 
 }  // namespace luxodus::python

@@ -56,7 +56,7 @@ MadeAssessment assess_scene(const OpenScene& scene, AssessOptions options, int n
   options.executor = executor.get();
   const std::vector<double> times = times_wanted(scene, times_asked);
   Json json;
-  work_apart(progress, [&](Waiting& waiting) {
+  work_apart(progress, [&](WaitingThread& waiting) {
     const auto tell = [&](const std::string& what, double share) {
       waiting.say([what, share] {
         py::dict said;

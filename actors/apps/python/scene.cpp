@@ -37,7 +37,7 @@ void add_names(py::class_<OpenScene>& scene, const char* name, Member list, cons
 
 py::list findings_of(const OpenScene& scene, const std::string& scenario, int threads) {
   std::vector<Finding> found;
-  work_apart(py::none(), [&](Waiting&) {
+  work_apart(py::none(), [&](WaitingThread&) {
     const auto chosen = taken(chosen_scenarios(*scene.description(), scenario));
     found = taken(inspect(scene.description(), chosen, threads));
   });
@@ -86,7 +86,8 @@ OpenScene OpenScene::load(const fs::path& file, const py::list& changes,
   out.changes_ = changes_text(changes);
   out.at_s_ = at_s;
   OpenedScene opened;
-  work_apart(py::none(), [&](Waiting&) { opened = open_scene(out.file_, at_s, out.changes_); });
+  work_apart(py::none(),
+             [&](WaitingThread&) { opened = open_scene(out.file_, at_s, out.changes_); });
   if (!opened.scene) throw Refused(opened.problems.list());
   out.description_ = std::move(opened.scene);
   return out;

@@ -46,7 +46,7 @@ StopRule stop_rule(const std::optional<double>& particles, const std::optional<d
   return rule;
 }
 
-Waiting::Said said_of(const Progress& p) {
+WaitingThread::Said said_of(const Progress& p) {
   return [p] {
     py::dict said;
     said["particles"] = p.particles;
@@ -65,7 +65,7 @@ std::unique_ptr<TracedRun> run_of(const OpenScene& scene, const RunWish& wish,
   whole_between("cells", wish.cells, 1, 1'000'000);
   whole_between("nodes", wish.nodes, 0, limits::nodes_in_process);
   std::unique_ptr<LocalRun> run;
-  work_apart(progress, [&](Waiting& waiting) {
+  work_apart(progress, [&](WaitingThread& waiting) {
     const auto& description = scene.description();
     const uint64_t seed = wish.seed.value_or(description->run.seed);
     const Scenario scenario = taken(find_scenario(*description, wish.scenario));
@@ -161,7 +161,7 @@ void TracedRun::trace(const StopRule& stop, const py::object& progress) {
     particles_ = run_->particles();
   };
   try {
-    work_apart(progress, [&](Waiting& waiting) {
+    work_apart(progress, [&](WaitingThread& waiting) {
       RunThreads threads;
       RunExecutor& executor = executor_ ? *executor_ : threads;
       const auto report = [&](const Progress& p) { waiting.say(said_of(p)); };
@@ -179,7 +179,7 @@ void TracedRun::compute() {
   if (computed_) return;
   PlaneMaps maps;
   Json json;
-  work_apart(py::none(), [&](Waiting&) {
+  work_apart(py::none(), [&](WaitingThread&) {
     maps = make_plane_maps(*run_);
     json = result_json(*run_, record_, maps);
   });
@@ -206,7 +206,7 @@ const py::dict& TracedRun::planes() {
 py::object TracedRun::patches() {
   const Claim claim(*this);
   VtkSurface surface;
-  work_apart(py::none(), [&](Waiting&) { surface = taken(surface_flux(*run_)); });
+  work_apart(py::none(), [&](WaitingThread&) { surface = taken(surface_flux(*run_)); });
   const auto triangles = static_cast<py::ssize_t>(surface.triangles.size());
   std::vector<uint32_t> corners;
   for (const glm::uvec3& t : surface.triangles) corners.insert(corners.end(), {t.x, t.y, t.z});
@@ -221,7 +221,7 @@ py::object TracedRun::voxels() {
   const Claim claim(*this);
   if (!(run_->scene().voxels.edge > 0)) return py::none();
   VtkVolume volume;
-  work_apart(py::none(), [&](Waiting&) { volume = volume_flux(*run_); });
+  work_apart(py::none(), [&](WaitingThread&) { volume = volume_flux(*run_); });
   py::dict out;
   out["origin_m"] = array_of(std::vector{volume.origin.x, volume.origin.y, volume.origin.z}, {3});
   out["edge_m"] = volume.spacing.x;
@@ -245,7 +245,7 @@ py::object TracedRun::render(const std::string& camera, int paths, const py::obj
   const auto& cameras = run_->scene().description->cameras;
   std::optional<ShownView> view;
   const Camera* shown = nullptr;
-  work_apart(progress, [&](Waiting& waiting) {
+  work_apart(progress, [&](WaitingThread& waiting) {
     PictureOptions options;
     options.paths_per_pixel = paths;
     options.interrupt = &waiting.interrupt();

@@ -67,7 +67,7 @@ LiveTrace::~LiveTrace() {
   thread_.join();
 }
 
-void LiveTrace::edits(SceneEdits edits, uint64_t number) {
+void LiveTrace::trace_edits(SceneEdits edits, uint64_t number) {
   {
     const std::lock_guard lock(mutex_);
     next_ = std::move(edits);

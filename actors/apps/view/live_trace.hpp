@@ -97,7 +97,7 @@ class LiveTrace {
   LiveTrace& operator=(const LiveTrace&) = delete;
 
   /// `number`: identifies the edits if they are refused; the first have 0.
-  void edits(SceneEdits edits, uint64_t number);
+  void trace_edits(SceneEdits edits, uint64_t number);
   /// The scene at a time, as TimedScenes::at.
   Result<std::shared_ptr<const SceneDescription>> scene_at(std::optional<double> at_s) {
     return scenes_.at(at_s);

@@ -13,12 +13,12 @@ namespace {
 /// Time limit of the search: a viewer waits for it.
 constexpr double search_seconds = 5;
 /// Places of the map of help, the best first: as many as a page draws.
-constexpr size_t most_helpful_places = 4000;
+constexpr size_t max_helpful_places = 4000;
 
 Json list_of_places(std::vector<HelpfulPlace> places) {
   std::stable_sort(places.begin(), places.end(),
                    [](const HelpfulPlace& a, const HelpfulPlace& b) { return a.share > b.share; });
-  if (places.size() > most_helpful_places) places.resize(most_helpful_places);
+  if (places.size() > max_helpful_places) places.resize(max_helpful_places);
   Json out = Json::array();
   for (const HelpfulPlace& one : places)
     out.push_back({{"position", vector_json(one.position)}, {"share", number_json(one.share)}});

@@ -188,8 +188,8 @@ void ViewHub::refuses(uint64_t number, const std::string& why) {
   });
 }
 
-void ViewHub::edits() {
-  trace_->edits(edits_, ++wish_number_);
+void ViewHub::trace_edits() {
+  trace_->trace_edits(edits_, ++wish_number_);
 }
 
 /// Restores the edits that are traced.
@@ -279,12 +279,12 @@ void ViewHub::handle(Viewer& viewer, const ScenarioEdit& edit) {
   if (!found) return refuse(viewer, found.problem().what);
   edits_.scenario = edit.name;
   take_seconds(edit.name);
-  edits();
+  trace_edits();
 }
 
 void ViewHub::handle(Viewer&, const SmokeEdit& edit) {
   edits_.smoke = edit.factor;
-  edits();
+  trace_edits();
 }
 
 void ViewHub::handle(Viewer& viewer, const StateEdit& edit) {
@@ -295,7 +295,7 @@ void ViewHub::handle(Viewer& viewer, const StateEdit& edit) {
                               readable_number(scene_->time->from_s, 6) + " to " +
                               readable_number(scene_->time->to_s, 6) + " s");
   edits_.at_s = edit.at_s;
-  edits();
+  trace_edits();
 }
 
 void ViewHub::take_seconds(const std::string& scenario) {
@@ -331,7 +331,7 @@ void ViewHub::handle(Viewer& viewer, const MoveEdit& edit) {
   if (!can_stand(viewer, edit.is_sign, edit.position, edit.facing)) return;
   auto& moves = edit.is_sign ? edits_.signs : edits_.luminaires;
   moves[edit.name] = {edit.position, edit.facing};
-  edits();
+  trace_edits();
 }
 
 std::vector<SceneEdits::Copy>::const_iterator ViewHub::added(const std::string& name) const {
@@ -387,7 +387,7 @@ void ViewHub::handle(Viewer& viewer, const AddEdit& edit) {
                             {"kind", copy.is_sign ? "sign" : "luminaire"},
                             {"of", edit.of},
                             {"name", copy.name}}));
-  edits();
+  trace_edits();
 }
 
 void ViewHub::handle(Viewer& viewer, const RemoveEdit& edit) {
@@ -398,7 +398,7 @@ void ViewHub::handle(Viewer& viewer, const RemoveEdit& edit) {
   (copy->is_sign ? edits_.signs : edits_.luminaires).erase(edit.name);
   dimming_.factors.erase(copy->is_sign ? group_of_sign(edit.name) : group_of_luminaire(edit.name));
   edits_.added.erase(copy);
-  edits();
+  trace_edits();
 }
 
 void ViewHub::handle(Viewer& viewer, const SaveEdit& edit) {

@@ -70,7 +70,7 @@ class ViewHub final : private LiveAudience {
   void handle(Viewer& viewer, const RenderStop& stop);
   void handle(Viewer& viewer, const SuggestAsk& ask);
   /// Has the edits traced. They may be refused until that begins, and are then taken back.
-  void edits();
+  void trace_edits();
   void take_back();
   void refuse(Viewer& viewer, const std::string& why);
   void to_all(const Json& message);

@@ -46,14 +46,14 @@ Camera camera_of(const RenderAsk& ask) {
 struct ViewPictures::Traced {
   std::string state;
   std::unique_ptr<LocalRun> run;
-  std::unique_ptr<KnownRadiance> flux;
+  std::unique_ptr<RadianceCache> flux;
   std::shared_ptr<const EmitterSight> sight;
 };
 
 /// Reports a picture to one viewer, from its order on.
-class ViewPictures::Growing {
+class ViewPictures::PictureReporter {
  public:
-  Growing(const Order& order, const Tell& tell) : order_(order), tell_(tell) {}
+  PictureReporter(const Order& order, const Tell& tell) : order_(order), tell_(tell) {}
 
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
@@ -149,7 +149,8 @@ void ViewPictures::work() {
   }
 }
 
-Result<const ViewPictures::Traced*> ViewPictures::flux_for(const Order& order, Growing& growing) {
+Result<const ViewPictures::Traced*> ViewPictures::flux_for(const Order& order,
+                                                           PictureReporter& reporter) {
   std::string state = state_text(order.edits, order.factors);
   if (traced_ && traced_->state == state) return traced_.get();
   traced_.reset();
@@ -162,7 +163,7 @@ Result<const ViewPictures::Traced*> ViewPictures::flux_for(const Order& order, G
   traced->run = std::make_unique<LocalRun>(compiled.value(), options_.seed, options_.threads);
   const StopRule stop{limits_.flux_particles, {}, limits_.flux_seconds};
   traced->run->run(stop, interrupt_,
-                   [&](const Progress& progress) { growing.tell_flux(progress.particles); });
+                   [&](const Progress& progress) { reporter.tell_flux(progress.particles); });
   if (interrupt_) return nullptr;
   if (traced->run->batches() > 0) traced->flux = flux_radiance(*traced->run);
   traced->sight = make_emitter_sight(traced->run->scene());
@@ -178,8 +179,8 @@ Result<void> ViewPictures::unfinished() const {
 }
 
 Result<void> ViewPictures::render(const Order& order) {
-  Growing growing(order, tell_);
-  const auto traced = flux_for(order, growing);
+  PictureReporter reporter(order, tell_);
+  const auto traced = flux_for(order, reporter);
   if (!traced) return traced.problem();
   if (traced.value() == nullptr) return {};
   const LocalRun& run = *traced.value()->run;
@@ -187,28 +188,28 @@ Result<void> ViewPictures::render(const Order& order) {
   const Camera camera = camera_of(order.ask);
   PictureOptions options;
   options.interrupt = &interrupt_;
-  options.gives_up = [&] { return growing.seconds() > limits_.seconds; };
+  options.gives_up = [&] { return reporter.seconds() > limits_.seconds; };
   ViewPasses passes(run, camera, 0, traced.value()->flux.get(), traced.value()->sight);
   if (!passes.add_first(min_pass, options)) return unfinished();
   const ShownView half(passes.first_picture(), min_pass, options, run.threads(), first_filter);
-  if (auto ok = growing.tell_picture(first_image(human, run, camera, half), run.particles(), 0,
-                                     Growing::unknown, false);
+  if (auto ok = reporter.tell_picture(first_image(human, run, camera, half), run.particles(), 0,
+                                      PictureReporter::unknown, false);
       !ok)
     return ok;
   for (bool done = false; !done;) {
-    const double before_s = growing.seconds();
+    const double before_s = reporter.seconds();
     const int before = passes.paths();
     const bool whole = passes.add(next_pass(before) - before, options);
     if (!whole && (interrupt_ || passes.paths() == 0)) return unfinished();
     const ShownView shown(passes.picture(), passes.paths(), options, run.threads());
-    const double pass_s = growing.seconds() - before_s;
+    const double pass_s = reporter.seconds() - before_s;
     const double next = next_pass(passes.paths()) - passes.paths();
     done = !whole || passes.paths() >= limits_.paths ||
            pass_slack * pass_s * next / (passes.paths() - before) >
-               limits_.seconds - growing.seconds();
+               limits_.seconds - reporter.seconds();
     if (interrupt_) return {};
-    if (auto ok = growing.tell_picture(shown_image(human, run, camera, shown), run.particles(),
-                                       passes.paths(), shown.error(), done);
+    if (auto ok = reporter.tell_picture(shown_image(human, run, camera, shown), run.particles(),
+                                        passes.paths(), shown.error(), done);
         !ok)
       return ok;
   }

@@ -51,12 +51,12 @@ class ViewPictures {
 
  private:
   struct Traced;
-  class Growing;
+  class PictureReporter;
   void work();
   Result<void> render(const Order& order);
   Result<void> unfinished() const;
   /// The flux of the ordered building, cached or traced. Null: it was interrupted.
-  Result<const Traced*> flux_for(const Order& order, Growing& growing);
+  Result<const Traced*> flux_for(const Order& order, PictureReporter& reporter);
 
   const LiveOptions options_;
   const SceneAt scene_at_;

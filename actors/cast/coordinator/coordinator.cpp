@@ -12,7 +12,7 @@ namespace luxodus {
 
 namespace {
 /// Late leases may be close together; a look examines more than one of them.
-constexpr Nanoseconds least_between_looks = milliseconds(20);
+constexpr Nanoseconds min_between_looks = milliseconds(20);
 /// Pause before sending again after the network had no room.
 constexpr Nanoseconds say_again_after = milliseconds(20);
 }  // namespace
@@ -391,7 +391,7 @@ void Coordinator::set_timer() {
   const Nanoseconds now = clock_.now();
   Nanoseconds next = now + config_.look_every;
   if (const auto late = book_.next_deadline(); late && !over_)
-    next = std::min(next, std::max(*late, now + least_between_looks));
+    next = std::min(next, std::max(*late, now + min_between_looks));
   scheduler().timers().set(next, own_task([this] {
                              look();
                              set_timer();

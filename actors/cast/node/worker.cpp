@@ -78,10 +78,10 @@ std::unique_ptr<TracingFibers> Worker::own_photons(const NodeSeams& seams) {
                                          seams.make_tracer);
 }
 
-std::unique_ptr<StateTracing> Worker::own_states(const NodeSeams& seams) {
+std::unique_ptr<StateTracer> Worker::own_states(const NodeSeams& seams) {
   if (run_.states == nullptr) return nullptr;
-  return std::make_unique<StateTracing>(run_.scene, *run_.states, node_.photons.portion,
-                                        shell_.scheduler(), tracer_, seams.make_tracer);
+  return std::make_unique<StateTracer>(run_.scene, *run_.states, node_.photons.portion,
+                                       shell_.scheduler(), tracer_, seams.make_tracer);
 }
 
 std::unique_ptr<SubCoordinator> Worker::own_coordinator() {

@@ -6,7 +6,7 @@
 #include "actors/cast/node/fetching_objects.hpp"
 #include "actors/cast/node/node_metrics.hpp"
 #include "actors/cast/tally/tally_shard.hpp"
-#include "actors/cast/tracing/state_tracing.hpp"
+#include "actors/cast/tracing/state_tracer.hpp"
 #include "actors/cast/tracing/tracing_worker.hpp"
 
 namespace luxodus {
@@ -43,7 +43,7 @@ class Worker {
   bool end_run(const Verdict& verdict);
   std::unique_ptr<TallyShard> own_shard();
   std::unique_ptr<TracingFibers> own_photons(const NodeSeams& seams);
-  std::unique_ptr<StateTracing> own_states(const NodeSeams& seams);
+  std::unique_ptr<StateTracer> own_states(const NodeSeams& seams);
   std::unique_ptr<SubCoordinator> own_coordinator();
   LeasedWork& work();
   bool coordinates() const { return run_.coordinates(node_.net.self); }
@@ -58,7 +58,7 @@ class Worker {
   // The executor of its leases: one of these.
   std::unique_ptr<TracingFibers> photons_;
   std::unique_ptr<SubCoordinator> coordinator_;
-  std::unique_ptr<StateTracing> states_;
+  std::unique_ptr<StateTracer> states_;
   std::unique_ptr<BlockingCalls> display_calls_;
   std::optional<DisplayActor> display_;  // if the run is shown here
   std::optional<NodeMetrics> metrics_;

@@ -86,7 +86,6 @@ class TracingFibers final : public LeasedWork {
  private:
   struct OpenBatch;
   struct Portion;
-  struct Tracing;
 
   void trace_until_the_end(BatchTracer& tracer);
   void trace_portions(BatchTracer& tracer);

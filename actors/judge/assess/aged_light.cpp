@@ -16,7 +16,7 @@ std::string group_name(size_t number) {
 
 }  // namespace
 
-GroupMixture Ageing::renewal() const {
+GroupMixture AgeingShares::renewal() const {
   GroupMixture out;
   for (size_t i = 0; i < shares.size(); ++i) out.factors[group_name(i)] = 1 / shares[i];
   return out;
@@ -30,8 +30,8 @@ double aged_share(const Emitter& emitter, Operation operation) {
   return mains ? emitter.maintenance_factor : emitter.emergency_ageing;
 }
 
-Result<Ageing> group_by_ageing(SceneDescription& scene, Operation operation) {
-  Ageing ageing;
+Result<AgeingShares> group_by_ageing(SceneDescription& scene, Operation operation) {
+  AgeingShares ageing;
   for (Emitter& e : scene.emitters) {
     const double share = aged_share(e, operation);
     auto at = std::find(ageing.shares.begin(), ageing.shares.end(), share);

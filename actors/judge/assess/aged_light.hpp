@@ -9,7 +9,7 @@
 namespace luxodus {
 
 /// Distinct remaining shares of new light in a scene. The first is 1, for sources that do not age.
-struct Ageing {
+struct AgeingShares {
   std::vector<double> shares{1};
 
   /// The mixture that turns aged light into new light, in a scene grouped by group_by_ageing.
@@ -22,6 +22,6 @@ struct Ageing {
 double aged_share(const Emitter& emitter, Operation operation);
 
 /// Assigns every source to the group of its share. Errors: more shares than limits::ageings.
-Result<Ageing> group_by_ageing(SceneDescription& scene, Operation operation);
+Result<AgeingShares> group_by_ageing(SceneDescription& scene, Operation operation);
 
 }  // namespace luxodus

@@ -275,7 +275,7 @@ std::optional<double> CodeLight::floor_under(const glm::dvec3& place) const {
   building_.each(1, [&](const GeometryAccess& access, size_t) {
     const auto stop =
         first_stop(building_.scene(), access, building_.local(place), glm::vec3(0, 0, -1),
-                   deepest_m, [&](const Facing& f) {
+                   deepest_m, [&](const FacedSurface& f) {
                      return f.surface >= building_.scene().description->objects.size() ||
                             lets_light_through(f.kind) || f.distance_m < own_body_m;
                    });

@@ -24,14 +24,14 @@ constexpr double usual_cell_m = 0.25;
 /// Rests of a cell below this area are rounding errors [m2].
 constexpr double no_area_m2 = 1e-8;
 /// Largest number of pieces that are left of a cell; beyond it the cell counts as open.
-constexpr size_t most_pieces = 64;
+constexpr size_t max_pieces = 64;
 /// Smallest distance of a screen from the place and the box that it separates [m]: luminaires lie
 /// in ceilings, places on floors.
 constexpr double apart_m = 5e-3;
 /// Margin around a projection [m].
 constexpr double around_line_m = 1e-3;
 /// Screens that are tested from a place; one farther away rarely hides what these do not.
-constexpr int most_screens = 6;
+constexpr int max_screens = 6;
 
 using Polygon = std::vector<glm::dvec2>;
 using LevelTriangle = std::array<glm::dvec2, 3>;
@@ -115,7 +115,7 @@ class LevelScreens::Drawing {
     const glm::dvec2 size = high - low;
     level_.z = z;
     level_.low = low;
-    const double cell_m = std::max({usual_cell_m, size.x / most_columns, size.y / most_columns,
+    const double cell_m = std::max({usual_cell_m, size.x / max_columns, size.y / max_columns,
                                     std::sqrt(size.x * size.y / double(limits::screen_cells))});
     level_.columns = static_cast<int>(std::ceil(size.x / cell_m));
     level_.rows = static_cast<int>(std::ceil(size.y / cell_m));
@@ -146,7 +146,7 @@ class LevelScreens::Drawing {
   }
 
  private:
-  static constexpr double most_columns = 10'000;
+  static constexpr double max_columns = 10'000;
 
   glm::ivec2 cell_of(const glm::dvec2& p) const {
     const glm::ivec2 last(level_.columns - 1, level_.rows - 1);
@@ -198,7 +198,7 @@ class LevelScreens::Drawing {
     } else if (left.empty()) {
       closed_[cell] = 1;
       left_.erase(found);
-    } else if (left.size() <= most_pieces) {
+    } else if (left.size() <= max_pieces) {
       found->second = std::move(left);
     }
   }
@@ -255,12 +255,12 @@ bool LevelScreens::hide(const glm::dvec3& place, const Bounds& box) const {
   int looked_at = 0;
   if (above) {
     for (auto it = std::lower_bound(levels_.begin(), levels_.end(), place.z + apart_m, at_or_above);
-         it != levels_.end() && it->z < nearest - apart_m && looked_at < most_screens; ++it)
+         it != levels_.end() && it->z < nearest - apart_m && looked_at < max_screens; ++it)
       if (++looked_at; hides(*it)) return true;
     return false;
   }
   for (auto it = std::lower_bound(levels_.begin(), levels_.end(), place.z - apart_m, at_or_above);
-       it != levels_.begin() && looked_at < most_screens;) {
+       it != levels_.begin() && looked_at < max_screens;) {
     if (!((--it)->z > nearest + apart_m)) return false;
     if (++looked_at; hides(*it)) return true;
   }

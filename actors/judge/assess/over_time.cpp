@@ -18,7 +18,7 @@ namespace luxodus {
 namespace {
 
 /// Range of albedos of smoke from fires. FDS computes none, so a verdict must hold at both ends.
-constexpr double least_albedo = 0.1, greatest_albedo = 0.5;
+constexpr double min_albedo = 0.1, max_albedo = 0.5;
 /// Share of a state's work for its own albedo; the rest is for the two ends of the range.
 constexpr double first_share = 0.6;
 
@@ -115,7 +115,7 @@ Result<void> StateOfTime::trace(const std::atomic<bool>& interrupt, const Assess
   if (auto ok = assess_sights(*scene_, scenario_, {}, options_, interrupt, first, nominal_); !ok)
     return ok;
   if (!has_smoke(*scene_, scenario_)) return {};
-  double low = least_albedo, high = greatest_albedo;
+  double low = min_albedo, high = max_albedo;
   for_each_smoke(*scene_, [&](const SmokeOptics& optics) {
     low = std::min(low, mean_albedo(optics));
     high = std::max(high, mean_albedo(optics));

@@ -226,22 +226,22 @@ class PlaceFinder {
 };
 
 /// Whether an existing luminaire is fixed, movable or removed.
-Existing fate_of(const DesignSettings& design, const std::string& name) {
+ExistingTreatment fate_of(const DesignSettings& design, const std::string& name) {
   const auto in = [&](const std::vector<std::string>& list) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
-  if (in(design.fixed)) return Existing::fixed;
-  if (in(design.movable)) return Existing::movable;
-  if (in(design.removable)) return Existing::removable;
-  if (in(design.removed)) return Existing::removed;
+  if (in(design.fixed)) return ExistingTreatment::fixed;
+  if (in(design.movable)) return ExistingTreatment::movable;
+  if (in(design.removable)) return ExistingTreatment::removable;
+  if (in(design.removed)) return ExistingTreatment::removed;
   return design.existing;
 }
 
 void add_existing(const SceneDescription& scene, const DesignSettings& design, Candidates& out) {
   for (const uint32_t number : emergency_luminaires(scene)) {
     const Emitter& e = scene.emitters[number];
-    const Existing fate = fate_of(design, e.name);
-    if (fate == Existing::removed) {
+    const ExistingTreatment fate = fate_of(design, e.name);
+    if (fate == ExistingTreatment::removed) {
       out.removed.push_back(e.name);
       continue;
     }
@@ -250,8 +250,9 @@ void add_existing(const SceneDescription& scene, const DesignSettings& design, C
     one.position = one.floor = e.frame.origin;
     one.name = e.name;
     // A mesh cannot be moved: its corners are where its file says.
-    const bool movable = fate == Existing::movable && e.shape != EmitterShape::mesh;
-    one.fixed = fate == Existing::fixed || (fate == Existing::movable && !movable);
+    const bool movable = fate == ExistingTreatment::movable && e.shape != EmitterShape::mesh;
+    one.fixed =
+        fate == ExistingTreatment::fixed || (fate == ExistingTreatment::movable && !movable);
     if (movable) one.pool = MovablePool{};
     out.all.push_back(std::move(one));
   }

@@ -53,8 +53,8 @@ Exists layout_exists(const LayoutProblem& problem, double seconds,
 }
 
 /// Sum over places of the best option.
-double most_of(const LayoutProblem& problem, const std::vector<Term>& terms,
-               std::vector<double>& of_place) {
+double max_of(const LayoutProblem& problem, const std::vector<Term>& terms,
+              std::vector<double>& of_place) {
   std::fill(of_place.begin(), of_place.end(), 0);
   for (const Term& term : terms) {
     double& best = of_place[problem.options[term.option].place];
@@ -72,10 +72,10 @@ std::vector<Shortage> shortages_of(const LayoutProblem& problem) {
   };
   std::vector<double> of_place(problem.places(), 0);
   for (const CoverRow& row : problem.covers)
-    offer(row.group, row.place, most_of(problem, *row.terms, of_place) / row.least);
+    offer(row.group, row.place, max_of(problem, *row.terms, of_place) / row.least);
   for (const FailureRows& rows : problem.failures)
     for (const uint32_t p : rows.points) {
-      const double all = most_of(problem, *problem.points[p].light, of_place);
+      const double all = max_of(problem, *problem.points[p].light, of_place);
       const double one = of_place.empty() ? 0 : *std::max_element(of_place.begin(), of_place.end());
       offer(rows.group, problem.points[p].place, (all - one) / rows.least);
     }

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "actors/judge/design/demands_lit.hpp"
-#include "actors/judge/design/flights.hpp"
+#include "actors/judge/design/stair_flights.hpp"
 #include "actors/judge/inspect/site.hpp"
 #include "scenes/emergency/rule_limits.hpp"
 #include "scenes/emergency/rule_table.hpp"
@@ -75,7 +75,7 @@ class Demands::Builder {
     for (const AssessedArea& area : scene_.open_areas) add_open_area(area);
     for (const AssessedArea& area : scene_.task_areas) add_task_area(area);
     for (const EmphasisPoint& point : emphasis_of(scene_)) add_emphasis(point);
-    for (const StairFlight& flight : flights_of(scene_, design_)) add_flight(flight);
+    for (const StairFlight& stairs : stair_flights_of(scene_, design_)) add_stair_flight(stairs);
     for (const Sign& sign : scene_.signs) add_sign(sign);
   }
 
@@ -223,7 +223,7 @@ class Demands::Builder {
     if (both.furnished.empty()) return both.bare;
     const auto hidden =
         std::count_if(both.furnished.begin(), both.furnished.end(), [&](uint32_t p) {
-          return most_from(*problem_.points[p].light, problem_.options) < asked_lx;
+          return max_from(*problem_.points[p].light, problem_.options) < asked_lx;
         });
     if (hidden == 0) return both.with_both;
     out_.hidden_[{name_of(rule), subject}] = static_cast<size_t>(hidden);
@@ -305,10 +305,10 @@ class Demands::Builder {
     if (all && !both.furnished.empty()) add(both.furnished);
   }
 
-  void add_failures(RuleId rule, const Subject& subject, const Points& points, double least_lx) {
+  void add_failures(RuleId rule, const Subject& subject, const Points& points, double min_lx) {
     if (points.empty()) return;
-    const uint32_t group = add_group(DemandKind::failed, rule, subject, least_lx);
-    problem_.failures.push_back({group, least_lx, points});
+    const uint32_t group = add_group(DemandKind::failed, rule, subject, min_lx);
+    problem_.failures.push_back({group, min_lx, points});
   }
 
   /// Indices of the candidates over a route or an area.
@@ -502,11 +502,11 @@ class Demands::Builder {
   /// One luminaire lights the whole flight if any can; else each tread needs a luminaire that
   /// lights it. A flight that no candidate lights is outside the designed part of the building.
   /// Barred candidates do not count.
-  void add_flight(const StairFlight& flight) {
+  void add_stair_flight(const StairFlight& stairs) {
     if (std::none_of(codes_.begin(), codes_.end(), [](const auto& one) { return one.european(); }))
       return;
     const Lit& darker = out_.furnished_ ? *out_.furnished_ : *out_.bare_;
-    const auto treads = darker.light.lit(treads_of(flight), floor_normal, above_tread_m);
+    const auto treads = darker.light.lit(treads_of(stairs), floor_normal, above_tread_m);
     const auto is_lit = [&](const LitPoint& tread, size_t by) {
       return !candidates_[by].barred && tread.lux[by] >= lit_tread_lx;
     };
@@ -515,9 +515,9 @@ class Demands::Builder {
         if (is_lit(tread, i)) return false;
       return true;
     });
-    if (dark) return out_.unlit_flights_.push_back(flight.name);
-    const uint32_t group = add_group(DemandKind::flight, RuleId::E12,
-                                     {SubjectKind::stairs, flight.name}, lit_tread_lx);
+    if (dark) return out_.unlit_stair_flights_.push_back(stairs.name);
+    const uint32_t group = add_group(DemandKind::stairs, RuleId::E12,
+                                     {SubjectKind::stairs, stairs.name}, lit_tread_lx);
     std::vector<double> all(candidates_.size(), 1);
     for (const LitPoint& tread : treads)
       for (size_t i = 0; i < all.size(); ++i)

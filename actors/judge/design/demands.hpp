@@ -69,7 +69,7 @@ class Demands {
   const Hidden& hidden() const { return hidden_; }
 
   /// Flights of stairs with a tread that no candidate lights; no light is required there.
-  const std::vector<std::string>& unlit_flights() const { return unlit_flights_; }
+  const std::vector<std::string>& unlit_stair_flights() const { return unlit_stair_flights_; }
 
   /// Tightens the rows of a check that an assessment found to fail although they hold: at the worst
   /// place, by the missing amount. False if there is no such row.
@@ -101,7 +101,7 @@ class Demands {
   void look_at(uint32_t group, const std::vector<glm::dvec3>& places, const Layout& layout,
                const Demands& all, BetweenPoints& out);
   /// Light of all candidates together at a place of a row [lx].
-  double most_at(const glm::dvec3& place, bool furnished) const;
+  double max_at(const glm::dvec3& place, bool furnished) const;
   bool add_off_place(const PointOffPlace& point, Terms light, const Layout& layout);
 
   SceneDescription scene_;  // with all candidates
@@ -109,7 +109,7 @@ class Demands {
   LayoutProblem problem_;
   std::map<uint32_t, std::vector<double>> factors_;  // on the light of candidates, by group
   Hidden hidden_;
-  std::vector<std::string> unlit_flights_;
+  std::vector<std::string> unlit_stair_flights_;
 };
 
 }  // namespace luxodus

@@ -27,7 +27,7 @@ Terms terms_of(const std::vector<double>& values, double smallest);
 Terms times(const Terms& terms, const std::vector<double>& factors);
 /// Sum over places of the best candidate there, without barred ones. Requires: options sorted by
 /// place.
-double most_from(const std::vector<Term>& light, const std::vector<LayoutOption>& options);
+double max_from(const std::vector<Term>& light, const std::vector<LayoutOption>& options);
 
 /// Whether a demand is on the illuminance at single points of the floor.
 constexpr bool is_at_points(DemandKind kind) {

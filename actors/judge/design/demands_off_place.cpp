@@ -57,8 +57,8 @@ class Demands::Displaced {
 
   /// For each point, the least light of each candidate [lx]. `furnished`: for each point. Requires:
   /// there is furniture if any point is `furnished`.
-  std::vector<std::vector<double>> least_at(const std::vector<PointOffPlace>& points,
-                                            const std::vector<char>& furnished) const {
+  std::vector<std::vector<double>> min_at(const std::vector<PointOffPlace>& points,
+                                          const std::vector<char>& furnished) const {
     const std::vector<double> none(count_, std::numeric_limits<double>::infinity());
     std::vector<std::vector<double>> out(points.size(), none);
     for (const bool with : {false, true}) {
@@ -109,7 +109,7 @@ Result<size_t> Demands::ask_off_place(const OffPlaceScene& of,
     };
     bool past = furnished_ && !hidden_.contains({name_of(point.rule), point.subject});
     std::vector<double> lux = planned(past ? *furnished_ : *bare_);
-    if (past && most_from(*terms_of(lux, 0), problem_.options) < point.least) {
+    if (past && max_from(*terms_of(lux, 0), problem_.options) < point.least) {
       past = false;
       lux = planned(*bare_);
     }
@@ -125,7 +125,7 @@ Result<size_t> Demands::ask_off_place(const OffPlaceScene& of,
   const auto displaced = Displaced::make(of, some);
   if (!displaced) return displaced.problem();
   size_t broken = 0;
-  const auto least = displaced.value()->least_at(asked, furnished);
+  const auto least = displaced.value()->min_at(asked, furnished);
   for (size_t p = 0; p < asked.size(); ++p) {
     for (size_t k = 0; k < moved.size(); ++k)
       light[p][moved[k]] = std::min(light[p][moved[k]], least[p][k]);

@@ -15,7 +15,7 @@ namespace {
 /// Points closer than this are one [m].
 constexpr double one_point_m = 1e-6;
 /// Neighbours are tested of points whose light is within this factor of the least of their demand.
-constexpr double near_the_least = 1.25;
+constexpr double near_min = 1.25;
 /// Largest number of such points of each demand.
 constexpr size_t looked_around = 40;
 /// Neighbours of a point are up to this many times as far away as the nearest one.
@@ -52,7 +52,7 @@ std::vector<glm::dvec3> between_darkest(std::vector<std::pair<double, glm::dvec3
   for (const auto& [share, place] : points) seen.insert(key_of_place(place));
   std::vector<glm::dvec3> out;
   for (size_t i = 0; i < std::min(points.size(), looked_around); ++i) {
-    if (points[i].first > near_the_least * points.front().first) break;
+    if (points[i].first > near_min * points.front().first) break;
     double nearest = std::numeric_limits<double>::infinity();
     const auto away = [&](size_t k) { return glm::length(points[k].second - points[i].second); };
     for (size_t k = 0; k < points.size(); ++k)
@@ -99,7 +99,7 @@ Terms times(const Terms& terms, const std::vector<double>& factors) {
   return out;
 }
 
-double most_from(const std::vector<Term>& light, const std::vector<LayoutOption>& options) {
+double max_from(const std::vector<Term>& light, const std::vector<LayoutOption>& options) {
   double sum = 0, best = 0;
   uint32_t place = no_place;
   for (const Term& term : light) {
@@ -167,10 +167,10 @@ BetweenPoints Demands::look_between(const Layout& layout, const Demands* all) {
   return out;
 }
 
-double Demands::most_at(const glm::dvec3& place, bool furnished) const {
+double Demands::max_at(const glm::dvec3& place, bool furnished) const {
   const Lit& in = furnished && furnished_ ? *furnished_ : *bare_;
   const auto lux = in.light.lit({place}, floor_normal, lifted_already).front().lux;
-  return most_from(*terms_of(lux, no_light_lx), problem_.options);
+  return max_from(*terms_of(lux, no_light_lx), problem_.options);
 }
 
 void Demands::look_at(uint32_t group, const std::vector<glm::dvec3>& places, const Layout& layout,
@@ -192,8 +192,8 @@ void Demands::look_at(uint32_t group, const std::vector<glm::dvec3>& places, con
   std::vector<Terms> light = lit(past_furniture ? *furnished_ : *bare_, places);
   for (size_t i = 0; i < places.size(); ++i) {
     const auto reached = [&](bool furnished) {
-      return most_from(*light[i], problem_.options) >= asked ||
-             (&all != this && all.most_at(places[i], furnished) >= asked);
+      return max_from(*light[i], problem_.options) >= asked ||
+             (&all != this && all.max_at(places[i], furnished) >= asked);
     };
     const bool past = past_furniture && reached(true);
     if (past_furniture && !past) light[i] = lit(*bare_, {places[i]}).front();

@@ -165,9 +165,9 @@ std::vector<double> tightest_of(const LayoutProblem& problem, const Layout& layo
   return sums.tightest();
 }
 
-class Designing {
+class DesignRun {
  public:
-  Designing(std::shared_ptr<const SceneDescription> scene, const DesignOptions& options,
+  DesignRun(std::shared_ptr<const SceneDescription> scene, const DesignOptions& options,
             const std::atomic<bool>& interrupt, const SolveProgress& progress)
       : scene_(std::move(scene)),
         options_(options),
@@ -253,7 +253,7 @@ class Designing {
     out_.unused = candidates_.unused;
     out_.points = demands_->problem().points.size();
     out_.groups = demands_->problem().groups;
-    out_.unlit_flights = demands_->unlit_flights();
+    out_.unlit_stair_flights = demands_->unlit_stair_flights();
     for (const auto& [what, points] : demands_->hidden())
       if (!what.first.empty())
         out_.hidden.push_back({std::string(what.first), what.second, points});
@@ -588,7 +588,7 @@ Result<DesignResult> design(const std::shared_ptr<const SceneDescription>& scene
                             const DesignOptions& options, const std::atomic<bool>& interrupt,
                             const SolveProgress& progress) {
   if (auto ok = can_design(*scene); !ok) return ok.problem();
-  auto result = Designing(with_scenario(scene), options, interrupt, progress).run();
+  auto result = DesignRun(with_scenario(scene), options, interrupt, progress).run();
   if (!result) return result.problem();
   result->added_scenario = scene->scenarios.empty();
   if (scene->assessment.rules.empty()) result->rules = options.rules;

@@ -64,7 +64,7 @@ struct DesignResult : PlacedLayout {
   std::vector<UnusedType> unused;  // types whose battery does not last long enough
   size_t points = 0;               // number of points of calculation
   std::vector<HiddenByFurniture> hidden;
-  std::vector<std::string> unlit_flights;  // flights of stairs that no candidate lights
+  std::vector<std::string> unlit_stair_flights;  // flights of stairs that no candidate lights
   std::optional<SignPlan> signs;           // set if signs were placed
   std::vector<ConstraintGroup> groups;
   std::vector<double> tightest;  // for each group, the least share of the required value

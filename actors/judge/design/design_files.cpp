@@ -240,7 +240,7 @@ std::string demand_words(const ConstraintGroup& group) {
     case DemandKind::face:
       what = "at least " + value + " lx on its face";
       break;
-    case DemandKind::flight:
+    case DemandKind::stairs:
       what = "a luminaire whose light falls directly on it, " + value + " lx on each tread";
       break;
   }
@@ -490,7 +490,7 @@ Json design_json(const SceneDescription& scene, const DesignResult& result,
                                        {"lasts_h", number_json(one.lasts_h)},
                                        {"asked_h", number_json(one.asked_h)},
                                        {"rules", one.rules}});
-  out["unlit_flights"] = result.unlit_flights;
+  out["unlit_flights"] = result.unlit_stair_flights;
   out["luminaires"] = luminaires_json_of(scene, result);
   out["removed"] = result.removed;
   out["types"] = types_json(scene, result);

@@ -12,9 +12,9 @@ namespace luxodus {
 namespace {
 
 /// Smallest divisor of gains: luminaires may have a weight of zero.
-constexpr double least_weight = 1e-3;
+constexpr double min_weight = 1e-3;
 /// Number of luminaires of a neighbourhood that is emptied.
-constexpr size_t fewest_emptied = 2, most_emptied = 5;
+constexpr size_t min_emptied = 2, max_emptied = 5;
 /// Relative difference that counts as rounding.
 constexpr double same = 1e-9;
 
@@ -31,7 +31,7 @@ class Gains {
         of_pool[option.pool] = std::max(of_pool[option.pool], option.weight);
     for (const LayoutOption& option : problem.options)
       weight_.push_back(
-          std::max(option.pool == no_pool ? option.weight : of_pool[option.pool], least_weight));
+          std::max(option.pool == no_pool ? option.weight : of_pool[option.pool], min_weight));
   }
 
   /// False if no row is violated.
@@ -97,7 +97,7 @@ Layout emptied(const LayoutProblem& problem, const Layout& layout, Random& rando
   std::vector<uint32_t> chosen = removable_in(problem, layout);
   if (chosen.empty()) return layout;
   const glm::dvec2 middle = problem.options[chosen[random.bits() % chosen.size()]].position;
-  const size_t wanted = fewest_emptied + random.bits() % (most_emptied - fewest_emptied + 1);
+  const size_t wanted = min_emptied + random.bits() % (max_emptied - min_emptied + 1);
   std::stable_sort(chosen.begin(), chosen.end(), [&](uint32_t a, uint32_t b) {
     return glm::length(problem.options[a].position - middle) <
            glm::length(problem.options[b].position - middle);

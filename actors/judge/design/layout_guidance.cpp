@@ -29,21 +29,22 @@ struct RouteTables {
 /// Tables by layout, in one scenario.
 using LayoutTables = std::vector<std::vector<RouteTables>>;
 
-class Following {
+class GuidanceTracer {
  public:
-  Following(const GuidanceOptions& options, const std::string& scenario,
-            const std::atomic<bool>& interrupt, const AssessProgress& progress)
+  GuidanceTracer(const GuidanceOptions& options, const std::string& scenario,
+                 const std::atomic<bool>& interrupt, const AssessProgress& progress)
       : options_(options), scenario_(scenario), interrupt_(interrupt), progress_(progress) {}
 
-  /// Adds a state to the tables of a heat's layouts. Errors: as guidance_of.
-  Result<void> add_state(const Heat& heat, const SceneDescription& then, LayoutTables& tables) {
-    const SceneDescription scene = at_time(then, *heat.base);
+  /// Adds a state to the tables of a group's layouts. Errors: as guidance_of.
+  Result<void> add_state(const LayoutGroup& group, const SceneDescription& then,
+                         LayoutTables& tables) {
+    const SceneDescription scene = at_time(then, *group.base);
     const auto scenario = find_scenario(scene, scenario_);
     if (!scenario) return scenario.problem();
     const GuidingViews views(scene);
     AssessOptions asked = options_.asked;
     asked.wanted = [&](const SightRow& row) { return views.can_guide(row); };
-    auto state = HeatState::make(*heat.lights, scene, scenario.value(), asked, progress_);
+    auto state = LayoutGroupState::make(*group.lights, scene, scenario.value(), asked, progress_);
     if (!state) return state.problem();
     SightsInLights& sights = state.value()->sights();
     for (int round = 0; round < options_.rounds; ++round) {
@@ -52,8 +53,8 @@ class Following {
       if (std::find(open.begin(), open.end(), true) == open.end()) break;
       if (auto ok = sights.trace(round, open, interrupt_, progress_); !ok) return ok.problem();
     }
-    for (size_t i = 0; i < heat.members.size(); ++i)
-      add_row(scene, views, sights.rows(i), tables[heat.members[i]]);
+    for (size_t i = 0; i < group.members.size(); ++i)
+      add_row(scene, views, sights.rows(i), tables[group.members[i]]);
     return {};
   }
 
@@ -109,7 +110,7 @@ std::vector<GuidedUntil> guided_until(const SceneDescription& scene,
 
 bool is_lost_before(const std::vector<GuidedUntil>& a, const std::vector<GuidedUntil>& b) {
   const FirstLoss first = first_loss_of(a), second = first_loss_of(b);
-  return std::pair(first.least_s, first.most_s) < std::pair(second.least_s, second.most_s);
+  return std::pair(first.min_s, first.max_s) < std::pair(second.min_s, second.max_s);
 }
 
 }  // namespace
@@ -120,14 +121,14 @@ FirstLoss first_loss_of(const std::vector<GuidedUntil>& routes) {
     return a && b ? std::optional(std::min(*a, *b)) : std::nullopt;
   };
   for (const GuidedUntil& route : routes) {
-    out.least_s = earlier(out.least_s, route.least.until_s);
-    out.most_s = earlier(out.most_s, route.most.until_s);
+    out.min_s = earlier(out.min_s, route.least.until_s);
+    out.max_s = earlier(out.max_s, route.most.until_s);
     out.never_lost = out.never_lost && !route.least.lost_by_s;
   }
   return out;
 }
 
-Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<Heat>& heats,
+Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<LayoutGroup>& groups,
                                                           size_t layouts,
                                                           const GuidanceOptions& options,
                                                           const std::atomic<bool>& interrupt,
@@ -141,15 +142,15 @@ Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<Heat
       const AssessProgress tell = [&](const std::string& what, double share) {
         progress(fmt::format("\"{}\", {:g} s, {}", scenario, time, what), share);
       };
-      Following following(options, scenario, interrupt, tell);
-      for (const Heat& heat : heats)
-        if (auto ok = following.add_state(heat, *then.value(), tables[s]); !ok) return ok.problem();
+      GuidanceTracer tracer(options, scenario, interrupt, tell);
+      for (const LayoutGroup& group : groups)
+        if (auto ok = tracer.add_state(group, *then.value(), tables[s]); !ok) return ok.problem();
     }
   }
   std::vector<std::vector<GuidedUntil>> out(layouts);
   for (const LayoutTables& of_scenario : tables)
     for (size_t i = 0; i < layouts; ++i) {
-      auto guided = guided_until(*heats.front().base, of_scenario[i]);
+      auto guided = guided_until(*groups.front().base, of_scenario[i]);
       if (out[i].empty() || is_lost_before(guided, out[i])) out[i] = std::move(guided);
     }
   return out;

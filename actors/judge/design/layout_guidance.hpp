@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "actors/judge/design/layout_heats.hpp"
+#include "actors/judge/design/layout_groups.hpp"
 #include "scenes/emergency/guidance.hpp"
 #include "scenes/light/world/timed_scenes.hpp"
 
@@ -23,7 +23,7 @@ struct GuidedUntil {
 
 /// The earliest loss of guidance over all routes and eye heights.
 struct FirstLoss {
-  std::optional<double> least_s,
+  std::optional<double> min_s,
       most_s;               // the last state with guidance everywhere; none: not even the first
   bool never_lost = false;  // certainly guided in the last state as well
 };
@@ -41,7 +41,7 @@ struct GuidanceOptions {
 /// For each layout, its guidance for each route and eye height, in the scenario in which it is lost
 /// first. Requires: a scenario.
 /// Errors: as the reader, HeatState::make and SightsInLights::trace; `interrupt`.
-Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<Heat>& heats,
+Result<std::vector<std::vector<GuidedUntil>>> guidance_of(const std::vector<LayoutGroup>& groups,
                                                           size_t layouts,
                                                           const GuidanceOptions& options,
                                                           const std::atomic<bool>& interrupt,

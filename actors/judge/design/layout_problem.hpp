@@ -61,7 +61,7 @@ enum class DemandKind {
   near,      // a luminaire within a distance [m]
   vertical,  // illuminance on the front of equipment [lx]
   face,      // illuminance on the face of a sign [lx]
-  flight,    // a luminaire whose light falls directly on a flight of stairs [lx on each tread]
+  stairs,    // a luminaire whose light falls directly on a flight of stairs [lx on each tread]
 };
 
 /// Whether a demand is a lower limit of illuminance while all luminaires work. Refining makes these

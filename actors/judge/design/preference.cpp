@@ -69,9 +69,9 @@ size_t types_in(const LayoutProblem& problem, const std::vector<uint32_t>& chose
 }
 
 /// Derives layouts from a given one.
-class Tidying {
+class LayoutTidier {
  public:
-  explicit Tidying(const LayoutProblem& problem)
+  explicit LayoutTidier(const LayoutProblem& problem)
       : problem_(problem), extents_(extents_of(problem)) {
     for (uint32_t i = 0; i < problem.options.size(); ++i)
       of_region_[problem.options[i].region].push_back(i);
@@ -223,13 +223,13 @@ double preference(const LayoutProblem& problem, const LayoutSums& sums) {
 
 Layout tidied(const LayoutIndex& index, Layout layout) {
   const LayoutProblem& problem = index.problem();
-  const Tidying tidying(problem);
+  const LayoutTidier tidier(problem);
   LayoutSums sums(index);
   sums.set(layout);
   double weight = objective_of(problem, layout), liked = preference(problem, sums);
   for (int pass = 0; pass < tidy_passes; ++pass) {
     bool better = false;
-    for (const Layout& next : tidying.made_of(layout)) {
+    for (const Layout& next : tidier.made_of(layout)) {
       const double next_weight = objective_of(problem, next);
       if (next_weight > weight * (1 + same_weight)) continue;
       sums.set(next);

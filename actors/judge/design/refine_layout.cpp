@@ -23,7 +23,7 @@ constexpr int tried_positions = 24;
 /// BOBYQA ends at steps below this [m].
 constexpr double smallest_step_m = 0.02;
 /// Smallest gain for which a luminaire is moved: installers prefer rows.
-constexpr double least_gain = 5e-3;
+constexpr double min_gain = 5e-3;
 /// Objective of a layout that violates demands.
 constexpr double when_broken = -10;
 
@@ -33,12 +33,12 @@ struct Judged {
   double least = 0;             // least share of a planned minimum
 };
 
-class Refining {
+class LayoutRefinement {
  public:
-  Refining(const SceneDescription& scene, const DesignSettings& design,
-           const std::vector<LuminaireCandidate>& chosen, const Demands& all,
-           const RefineOptions& options, const std::atomic<bool>& interrupt,
-           const std::function<void(double)>& progress)
+  LayoutRefinement(const SceneDescription& scene, const DesignSettings& design,
+                   const std::vector<LuminaireCandidate>& chosen, const Demands& all,
+                   const RefineOptions& options, const std::atomic<bool>& interrupt,
+                   const std::function<void(double)>& progress)
       : scene_(scene),
         design_(design),
         all_(all),
@@ -117,7 +117,7 @@ class Refining {
     out.smooth = out.least - std::log(sum) / sharpness;
     if (out_.evaluations == 1)
       weigh(problem, sums, out.least);
-    else if (out.smooth >= best_.smooth + least_gain && has_gap(*demands.value()))
+    else if (out.smooth >= best_.smooth + min_gain && has_gap(*demands.value()))
       return {};
     return out;
   }
@@ -165,7 +165,7 @@ class Refining {
     if (search == nullptr) return;
     nlopt_set_lower_bounds(search, low.data());
     nlopt_set_upper_bounds(search, high.data());
-    nlopt_set_max_objective(search, &Refining::value_at, this);
+    nlopt_set_max_objective(search, &LayoutRefinement::value_at, this);
     nlopt_set_initial_step1(search, reach / 2);
     nlopt_set_xtol_abs1(search, smallest_step_m);
     nlopt_set_maxeval(search, tried_positions);
@@ -174,7 +174,7 @@ class Refining {
     nlopt_optimize(search, at.data(), &value);
     search_ = nullptr;
     nlopt_destroy(search);
-    if (!found_ || found_->judged.smooth < best_.smooth + least_gain) return;
+    if (!found_ || found_->judged.smooth < best_.smooth + min_gain) return;
     best_ = found_->judged;
     out_.after = best_.least;
     out_.luminaires[i].position = found_->place.position;
@@ -183,7 +183,7 @@ class Refining {
   }
 
   static double value_at(unsigned, const double* at, double*, void* self) noexcept {
-    return static_cast<Refining*>(self)->value_at({at[0], at[1]});
+    return static_cast<LayoutRefinement*>(self)->value_at({at[0], at[1]});
   }
 
   double value_at(const glm::dvec2& plan) {
@@ -233,7 +233,7 @@ Result<Refinement> refine_layout(const SceneDescription& scene, const DesignSett
                                  const std::vector<LuminaireCandidate>& chosen, const Demands& all,
                                  const RefineOptions& options, const std::atomic<bool>& interrupt,
                                  const std::function<void(double)>& progress) {
-  return Refining(scene, design, chosen, all, options, interrupt, progress).run();
+  return LayoutRefinement(scene, design, chosen, all, options, interrupt, progress).run();
 }
 
 }  // namespace luxodus

@@ -28,7 +28,7 @@ constexpr double before_wall_m = 0.5;
 /// A wall is flat if its points behind a sign lie in one plane to this [m].
 constexpr double flat_m = 0.01;
 /// Walls at a larger angle to the line hold no sign for the walker [tangent of 40 degrees].
-constexpr double most_aslant = 0.84;
+constexpr double max_aslant = 0.84;
 /// Largest distance of a ceiling above a sign [m].
 constexpr double highest_ceiling_m = 50;
 /// Signs closer than this with equal facing are at one place [m].
@@ -137,7 +137,7 @@ class SignSpotFinder {
       depth[static_cast<size_t>(column)] = (*below + *above) / 2;
     }
     const double slope = (depth[2] - depth[0]) / sign_.width_m;
-    if (std::abs(depth[0] + depth[2] - 2 * depth[1]) > flat_m || std::abs(slope) > most_aslant)
+    if (std::abs(depth[0] + depth[2] - 2 * depth[1]) > flat_m || std::abs(slope) > max_aslant)
       return void(++left_out_.no_room);
     const glm::dvec3 along_wall = glm::normalize(across + level * slope);
     glm::dvec3 facing = glm::cross(along_wall, upwards);

@@ -29,14 +29,14 @@ constexpr double share_of_mount = 1e-3;
 /// Places closer than this hold only one sign [m].
 constexpr double one_place_of_signs_m = 0.3;
 /// Largest number of plans that are made because signs hide each other.
-constexpr int most_plans = 6;
+constexpr int max_plans = 6;
 /// A sign found along another route also serves a route whose edge is within this distance [m].
 constexpr double near_way_m = 3;
 /// Length of route, behind the point where a sign is passed, that decides its arrow [m].
 constexpr double way_behind_m = 1;
 
 /// Smallest time for a search [s]; no other time may be left.
-constexpr double least_seconds = 1;
+constexpr double min_seconds = 1;
 
 /// A place on a route that needs guidance.
 struct Asked {
@@ -87,11 +87,11 @@ std::string sign_prefix(const SceneDescription& scene) {
   return "designed sign ";
 }
 
-class SignPlanning {
+class SignPlanner {
  public:
-  SignPlanning(const SceneDescription& scene, const DesignSettings& design,
-               const SignPlanOptions& options, const std::atomic<bool>& interrupt,
-               const SolveProgress& progress)
+  SignPlanner(const SceneDescription& scene, const DesignSettings& design,
+              const SignPlanOptions& options, const std::atomic<bool>& interrupt,
+              const SolveProgress& progress)
       : scene_(scene),
         design_(design),
         options_(options),
@@ -133,7 +133,7 @@ class SignPlanning {
       if (!found) return found.problem();
       lost = std::move(found).value();
       if (lost.empty()) break;
-      const bool last = plans == most_plans || interrupt_ || !(time_left() > 0);
+      const bool last = plans == max_plans || interrupt_ || !(time_left() > 0);
       std::erase_if(lost, [&](size_t place) {
         if (!last && (ask_for_another(place) || leave_out_hiding(place))) return false;
         give_up(place);
@@ -152,7 +152,7 @@ class SignPlanning {
   const Building& furnished() const { return furnished_ ? *furnished_ : *bare_; }
 
   void take_out_removed() {
-    if (design_.existing_signs != Existing::removed) return;
+    if (design_.existing_signs != ExistingTreatment::removed) return;
     for (const Sign& sign : scene_.signs) out_.removed.push_back(sign.name);
     scene_.signs.clear();
   }
@@ -352,7 +352,8 @@ class SignPlanning {
       column.place = one.type == PlacedSign::existing
                          ? static_cast<uint32_t>(option.hung)
                          : there + place_number(places, one.spot.position);
-      column.fixed = one.type == PlacedSign::existing && design_.existing_signs == Existing::fixed;
+      column.fixed =
+          one.type == PlacedSign::existing && design_.existing_signs == ExistingTreatment::fixed;
       column.weight = column.fixed ? 0
                                    : weight_of(one) *
                                          (1 + share_of_mount * static_cast<double>(one.spot.mount));
@@ -410,7 +411,7 @@ class SignPlanning {
       return nothing;
     }
     SolveSettings settings;
-    settings.seconds = std::max(seconds, least_seconds);
+    settings.seconds = std::max(seconds, min_seconds);
     settings.seed = options_.seed;
     return solve_layout(
         problem, settings, interrupt_,
@@ -452,7 +453,7 @@ class SignPlanning {
       (there ? out_.signs : fresh)
           .push_back({there ? one.sign.name : "", one.type, one.spot, sign_options_[i].leads_to});
     }
-    if (design_.existing_signs != Existing::removed) {
+    if (design_.existing_signs != ExistingTreatment::removed) {
       out_.removed.clear();
       for (const Sign& sign : scene_.signs)
         if (!staying.contains(sign.name)) out_.removed.push_back(sign.name);
@@ -493,7 +494,7 @@ class SignPlanning {
     for (LayoutOption& option : plain.options) option.barred = false;
     if (plain.options.empty()) return 0;
     SolveSettings settings;
-    settings.seconds = std::max(time_left(), least_seconds);
+    settings.seconds = std::max(time_left(), min_seconds);
     settings.seed = options_.seed;
     static const std::atomic<bool> never{false};
     return solve_layout(plain, settings, never, [](const std::string&, double, double) {}).bound;
@@ -636,7 +637,7 @@ bool SignPlan::guides(const std::string& route) const {
 Result<SignPlan> plan_signs(const SceneDescription& scene, const DesignSettings& design,
                             const SignPlanOptions& options, const std::atomic<bool>& interrupt,
                             const SolveProgress& progress) {
-  return SignPlanning(scene, design, options, interrupt, progress).run();
+  return SignPlanner(scene, design, options, interrupt, progress).run();
 }
 
 std::shared_ptr<const SceneDescription> with_signs(const SceneDescription& scene,

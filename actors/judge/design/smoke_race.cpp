@@ -56,7 +56,7 @@ Result<bool> SmokeRace::run() {
   stage_.end = RaceEnd::rounds;
   bool finished = true;
   for (int round = 0; round < options_.rounds && finished && any_open(); ++round)
-    for (size_t h = 0; h < heats_.size() && finished; ++h) {
+    for (size_t h = 0; h < groups_.size() && finished; ++h) {
       const auto raced = race(h, round);
       if (!raced && !stopped_) return raced.problem();
       finished = raced && raced.value();
@@ -78,22 +78,22 @@ bool SmokeRace::any_open() const {
 }
 
 /// One round of a heat; false if it was stopped before.
-Result<bool> SmokeRace::race(size_t heat, int round) {
+Result<bool> SmokeRace::race(size_t group, int round) {
   if (stopped_) return false;
   if (round == 0)
-    if (auto ok = open_heat(heats_[heat]); !ok) return ok.problem();
+    if (auto ok = open_group(groups_[group]); !ok) return ok.problem();
   std::vector<bool> asked;
-  for (const size_t i : heats_[heat].members) asked.push_back(is_open(stage_.layouts[i]));
+  for (const size_t i : groups_[group].members) asked.push_back(is_open(stage_.layouts[i]));
   if (std::find(asked.begin(), asked.end(), true) == asked.end()) return true;
-  if (auto ok = trace(heat, round, asked); !ok) return ok.problem();
-  judge(heat, round + 1);
+  if (auto ok = trace(group, round, asked); !ok) return ok.problem();
+  judge(group, round + 1);
   return true;
 }
 
-AssessProgress SmokeRace::tell(const Heat& heat, size_t scenario, int round) const {
-  const std::string who = heat.members.size() == 1
-                              ? "layout " + stage_.layouts[heat.members.front()].name
-                              : fmt::format("{} layouts together", heat.members.size());
+AssessProgress SmokeRace::tell(const LayoutGroup& group, size_t scenario, int round) const {
+  const std::string who = group.members.size() == 1
+                              ? "layout " + stage_.layouts[group.members.front()].name
+                              : fmt::format("{} layouts together", group.members.size());
   return [this, said = fmt::format("judging {} of {} in \"{}\", round {} of paths", who,
                                    stage_.layouts.size(), stage_.scenarios[scenario], round + 1)](
              const std::string&, double share) {
@@ -101,44 +101,44 @@ AssessProgress SmokeRace::tell(const Heat& heat, size_t scenario, int round) con
   };
 }
 
-Result<void> SmokeRace::open_heat(const Heat& heat) {
+Result<void> SmokeRace::open_group(const LayoutGroup& group) {
   States& states = states_.emplace_back();
   AssessOptions asked;
   asked.seed = options_.seed;
   asked.threads = options_.threads;
   asked.wanted = is_ahead;
   for (size_t s = 0; s < stage_.scenarios.size(); ++s) {
-    const auto scenario = find_scenario(*heat.base, stage_.scenarios[s]);
+    const auto scenario = find_scenario(*group.base, stage_.scenarios[s]);
     if (!scenario) return scenario.problem();
-    auto state =
-        HeatState::make(*heat.lights, *heat.base, scenario.value(), asked, tell(heat, s, 0));
+    auto state = LayoutGroupState::make(*group.lights, *group.base, scenario.value(), asked,
+                                        tell(group, s, 0));
     if (!state) return state.problem();
     states.push_back(std::move(state).value());
   }
   return {};
 }
 
-Result<void> SmokeRace::trace(size_t heat, int round, const std::vector<bool>& asked) {
+Result<void> SmokeRace::trace(size_t group, int round, const std::vector<bool>& asked) {
   for (size_t s = 0; s < stage_.scenarios.size(); ++s) {
-    SightsInLights& sights = states_[heat][s]->sights();
+    SightsInLights& sights = states_[group][s]->sights();
     bool any = false;
     for (size_t i = 0; i < asked.size(); ++i) any |= asked[i] && sights.is_open(i);
     if (!any) continue;
-    if (auto ok = sights.trace(round, asked, stopped_, tell(heats_[heat], s, round)); !ok)
+    if (auto ok = sights.trace(round, asked, stopped_, tell(groups_[group], s, round)); !ok)
       return ok.problem();
   }
   return {};
 }
 
 /// Sets the verdicts of all layouts of a heat, also of those that were decided before.
-void SmokeRace::judge(size_t heat, int rounds) {
-  for (size_t i = 0; i < heats_[heat].members.size(); ++i) {
-    const size_t layout = heats_[heat].members[i];
+void SmokeRace::judge(size_t group, int rounds) {
+  for (size_t i = 0; i < groups_[group].members.size(); ++i) {
+    const size_t layout = groups_[group].members[i];
     JudgedLayout& one = stage_.layouts[layout];
     one.smoke.clear();
     places_[layout].clear();
     for (size_t s = 0; s < stage_.scenarios.size(); ++s) {
-      HeatState& state = *states_[heat][s];
+      LayoutGroupState& state = *states_[group][s];
       places_[layout].push_back(places_of(state.scene(), state.sights().rows(i)));
       one.smoke.push_back(
           verdict_of(stage_.scenarios[s], places_[layout].back(), stage_.heights_m));
@@ -149,17 +149,17 @@ void SmokeRace::judge(size_t heat, int rounds) {
 }
 
 /// Compares all layouts of a heat with the first layout; views are paired if both share paths.
-void SmokeRace::compare_with_first(size_t heat) {
-  const std::vector<size_t>& members = heats_[heat].members;
+void SmokeRace::compare_with_first(size_t group) {
+  const std::vector<size_t>& members = groups_[group].members;
   for (size_t i = 0; i < members.size(); ++i) {
     if (stage_.layouts[members[i]].rounds == 0) continue;
     for (size_t s = 0; s < stage_.scenarios.size(); ++s) {
       const LayoutViews first{places_[0][s], states_[0][s]->sights().rows(0)};
-      const SightsInLights& sights = states_[heat][s]->sights();
+      const SightsInLights& sights = states_[group][s]->sights();
       ShareDifference& beyond = stage_.layouts[members[i]].smoke[s].beyond_first;
       if (members[i] == 0)
         beyond = {0, 0};
-      else if (heat == 0)
+      else if (group == 0)
         beyond = difference_of(first, {places_[members[i]][s], sights.rows(i)},
                                [&](size_t row) { return sights.error_beyond_first(i, row); });
       else

@@ -14,11 +14,11 @@ bool beats(const JudgedLayout& a, const JudgedLayout& b);
 class SmokeRace {
  public:
   /// Requires: all arguments outlive this; `stage` has its layouts, scenarios and heights.
-  SmokeRace(SmokeStage& stage, const std::vector<Heat>& heats, const SmokeStageOptions& options,
-            const std::atomic<bool>& stopped,
+  SmokeRace(SmokeStage& stage, const std::vector<LayoutGroup>& groups,
+            const SmokeStageOptions& options, const std::atomic<bool>& stopped,
             const std::function<void(const std::string&)>& progress)
       : stage_(stage),
-        heats_(heats),
+        groups_(groups),
         options_(options),
         stopped_(stopped),
         progress_(progress),
@@ -31,25 +31,25 @@ class SmokeRace {
 
  private:
   /// States of a heat, by scenario.
-  using States = std::vector<std::unique_ptr<HeatState>>;
+  using States = std::vector<std::unique_ptr<LayoutGroupState>>;
 
-  Result<bool> race(size_t heat, int round);
-  Result<void> open_heat(const Heat& heat);
-  Result<void> trace(size_t heat, int round, const std::vector<bool>& asked);
-  void judge(size_t heat, int rounds);
-  void compare_with_first(size_t heat);
+  Result<bool> race(size_t group, int round);
+  Result<void> open_group(const LayoutGroup& group);
+  Result<void> trace(size_t group, int round, const std::vector<bool>& asked);
+  void judge(size_t group, int rounds);
+  void compare_with_first(size_t group);
   void count_places(size_t layout);
   bool is_open(const JudgedLayout& one) const;
   bool is_told_apart(const JudgedLayout& one) const;
   bool any_open() const;
-  AssessProgress tell(const Heat& heat, size_t scenario, int round) const;
+  AssessProgress tell(const LayoutGroup& group, size_t scenario, int round) const;
 
   SmokeStage& stage_;
-  const std::vector<Heat>& heats_;
+  const std::vector<LayoutGroup>& groups_;
   const SmokeStageOptions& options_;
   const std::atomic<bool>& stopped_;
   const std::function<void(const std::string&)>& progress_;
-  std::vector<States> states_;                   // by heat
+  std::vector<States> states_;                   // by group
   std::vector<std::vector<SeenPlaces>> places_;  // by layout and scenario
 };
 

@@ -33,8 +33,8 @@ Json guided_json(const JudgedLayout& one) {
                       {"until_least_s", optional_seconds(route.least.until_s)},
                       {"until_most_s", optional_seconds(route.most.until_s)}});
   const FirstLoss loss = first_loss_of(one.guided);
-  return {{"until_least_s", optional_seconds(loss.least_s)},
-          {"until_most_s", optional_seconds(loss.most_s)},
+  return {{"until_least_s", optional_seconds(loss.min_s)},
+          {"until_most_s", optional_seconds(loss.max_s)},
           {"never_lost", loss.never_lost},
           {"routes", std::move(routes)}};
 }
@@ -72,10 +72,10 @@ Json layout_json(const SmokeStage& stage, const JudgedLayout& one) {
           {"scenarios", std::move(scenarios)}};
 }
 
-double least_of(const Json& layout) {
+double min_of(const Json& layout) {
   return layout["worst"]["least"].get<double>();
 }
-double most_of(const Json& layout) {
+double max_of(const Json& layout) {
   return layout["worst"]["most"].get<double>();
 }
 double surely_beyond_first(const Json& layout) {
@@ -132,7 +132,7 @@ const Json& named_layout(const Json& smoke, const std::string& name) {
 }
 
 /// Upper end of the difference from the first layout, over all layouts with unchanged signs.
-double most_beyond_first(const Json& smoke) {
+double max_beyond_first(const Json& smoke) {
   double out = 0;
   for (const Json& one : smoke["layouts"])
     if (!has_other_signs(one)) out = std::max(out, one["beyond_first"]["most"].get<double>());
@@ -163,8 +163,8 @@ PlotSeries series_of(const Texts& t, const char* name, const Json& smoke,
   for (const Json& one : smoke["layouts"]) {
     if (!belongs(one)) continue;
     out.x.push_back(one["objective"].get<double>());
-    out.y.push_back(50 * (least_of(one) + most_of(one)));
-    out.error.push_back(50 * (most_of(one) - least_of(one)));
+    out.y.push_back(50 * (min_of(one) + max_of(one)));
+    out.error.push_back(50 * (max_of(one) - min_of(one)));
     const std::string layout = text_in(one, "name");
     out.labels.push_back(
         is_followed(one) ? t.say("design.smoke_until_label", layout, until_words(t, one["guided"]))
@@ -271,7 +271,7 @@ std::vector<std::string> smoke_words(const Texts& t, const Json& smoke) {
                         difference_words(t, best["beyond_first"]), first_name));
   for (const Json& one : smoke["layouts"]) {
     constexpr double rounding = 1e-9;
-    const bool helps = surely_beyond_first(one) > most_beyond_first(smoke) + rounding;
+    const bool helps = surely_beyond_first(one) > max_beyond_first(smoke) + rounding;
     if (has_brighter_signs(one))
       out.push_back(t.say(helps ? "design.smoke_signs_help" : "design.smoke_signs",
                           t.number(one["sign_factor"].get<double>(), 2),

@@ -53,10 +53,10 @@ class Stage {
 
   /// Errors: as SmokeRace::run and guidance_of, except for the end of the time and an interrupt.
   Result<void> run() {
-    const std::vector<Heat> heats =
-        heats_of(stage_.layouts, stage_.scenarios.size(), options_.together);
-    stage_.traces = heats.size();
-    if (can_follow(heats)) stage_.times_s = times_of(*heats.front().base->time);
+    const std::vector<LayoutGroup> groups =
+        layout_groups_of(stage_.layouts, stage_.scenarios.size(), options_.together);
+    stage_.traces = groups.size();
+    if (can_follow(groups)) stage_.times_s = times_of(*groups.front().base->time);
     const bool followed = !stage_.times_s.empty();
     seconds_ = followed ? share_of_race * options_.seconds : options_.seconds;
     stops();
@@ -64,7 +64,7 @@ class Stage {
       stops();
       progress_(what);
     };
-    const auto finished = SmokeRace(stage_, heats, options_, stopped_, tell).run();
+    const auto finished = SmokeRace(stage_, groups, options_, stopped_, tell).run();
     if (!finished) return finished.problem();
     if (!finished.value()) stage_.end = interrupt_ ? RaceEnd::interrupted : RaceEnd::time;
     stage_.seconds = seconds();
@@ -75,7 +75,7 @@ class Stage {
     }
     seconds_ = options_.seconds;
     stopped_ = false;
-    return follow(heats, tell);
+    return follow(groups, tell);
   }
 
  private:
@@ -89,15 +89,15 @@ class Stage {
                        [](const JudgedLayout& one) { return one.rounds > 0; });
   }
 
-  bool can_follow(const std::vector<Heat>& heats) const {
-    const SceneDescription& scene = *heats.front().base;
+  bool can_follow(const std::vector<LayoutGroup>& groups) const {
+    const SceneDescription& scene = *groups.front().base;
     return options_.scene_at && scene.time && times_of(*scene.time).size() > 1 &&
            check_guidance(scene).ok();
   }
 
   /// Sets the guidance of every layout, or of none if time is up or the user interrupts. `end` of
   /// the elimination rounds is kept.
-  Result<void> follow(const std::vector<Heat>& heats,
+  Result<void> follow(const std::vector<LayoutGroup>& groups,
                       const std::function<void(const std::string&)>& tell) {
     GuidanceOptions asked;
     asked.times_s = stage_.times_s;
@@ -107,7 +107,7 @@ class Stage {
     asked.rounds = options_.rounds;
     asked.scenarios = stage_.scenarios;
     auto found =
-        guidance_of(heats, stage_.layouts.size(), asked, stopped_,
+        guidance_of(groups, stage_.layouts.size(), asked, stopped_,
                     [&](const std::string& what, double) { tell("following layouts in " + what); });
     if (!found && !stopped_) return found.problem();
     if (!found) {

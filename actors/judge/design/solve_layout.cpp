@@ -40,10 +40,10 @@ constexpr size_t tight_rows = 600;
 /// Rounding of an objective.
 constexpr double rounding = 1e-6;
 
-class Solving {
+class LayoutSolver {
  public:
-  Solving(const LayoutProblem& problem, const SolveSettings& settings,
-          const std::atomic<bool>& interrupt, const SolveProgress& progress)
+  LayoutSolver(const LayoutProblem& problem, const SolveSettings& settings,
+               const std::atomic<bool>& interrupt, const SolveProgress& progress)
       : problem_(problem),
         settings_(settings),
         interrupt_(interrupt),
@@ -388,7 +388,7 @@ LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<Problem
   // First a layout of all parts, so that an interrupt or a time limit leaves one.
   bool all = true, known = true;
   const std::set<uint32_t> shared = regions_of_several(parts);
-  std::vector<std::unique_ptr<Solving>> solving;
+  std::vector<std::unique_ptr<LayoutSolver>> solving;
   for (size_t i = 0; i < parts.size(); ++i) {
     SolveSettings its = settings;
     std::erase_if(its.known_regions, [&](const RegionBound& one) { return reaches(one, shared); });
@@ -396,7 +396,7 @@ LayoutAnswer solve_parts(const LayoutProblem& problem, const std::vector<Problem
       its.start.clear();
       for (const uint32_t option : parts[i].options) its.start.push_back(settings.start[option]);
     }
-    solving.push_back(std::make_unique<Solving>(
+    solving.push_back(std::make_unique<LayoutSolver>(
         parts[i].problem, its, interrupt, [&, i](const std::string&, double, double) {
           progress("part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()),
                    infinite, 0);
@@ -441,7 +441,7 @@ LayoutAnswer solve_layout(const LayoutProblem& problem, const SolveSettings& set
                           const std::atomic<bool>& interrupt, const SolveProgress& progress) {
   const auto parts = parts_of(problem);
   if (parts.size() > 1) return solve_parts(problem, parts, settings, interrupt, progress);
-  return Solving(problem, settings, interrupt, progress).run();
+  return LayoutSolver(problem, settings, interrupt, progress).run();
 }
 
 }  // namespace luxodus

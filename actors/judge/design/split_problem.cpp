@@ -29,9 +29,9 @@ class Joined {
   std::vector<uint32_t> above_;
 };
 
-class Splitting {
+class ProblemSplitter {
  public:
-  explicit Splitting(const LayoutProblem& problem)
+  explicit ProblemSplitter(const LayoutProblem& problem)
       : problem_(problem), joined_(problem.options.size()) {}
 
   std::vector<ProblemPart> run() {
@@ -192,7 +192,7 @@ class Splitting {
 }  // namespace
 
 std::vector<ProblemPart> parts_of(const LayoutProblem& problem) {
-  return Splitting(problem).run();
+  return ProblemSplitter(problem).run();
 }
 
 }  // namespace luxodus

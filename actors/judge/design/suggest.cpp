@@ -14,12 +14,12 @@ namespace {
 constexpr double gap_of_suggestion = 0.05;
 constexpr int quick_rounds = 50;
 /// Smaller contributions are left out.
-constexpr double least_help = 1e-4;
+constexpr double min_help = 1e-4;
 
 /// Existing luminaires are fixed; types that can be copied by name may be added.
 Result<DesignSettings> settings_of(const SceneDescription& scene) {
   DesignSettings out = *scene.design;
-  out.existing = Existing::fixed;
+  out.existing = ExistingTreatment::fixed;
   out.fixed.clear();
   out.movable.clear();
   out.removable.clear();
@@ -106,7 +106,7 @@ Result<Suggestion> suggest(const std::shared_ptr<const SceneDescription>& scene,
   std::map<uint32_t, glm::dvec3> place_of;
   for (const LuminaireCandidate& one : candidates->all) place_of[one.place] = one.position;
   for (const auto& [place, share] : helpful_places(problem, now))
-    if (share > least_help) out.helpful.push_back({place_of[place], share});
+    if (share > min_help) out.helpful.push_back({place_of[place], share});
   SolveSettings settings;
   settings.seconds = options.seconds;
   settings.gap = gap_of_suggestion;

@@ -22,7 +22,7 @@ constexpr double before_its_wall_m = 0.03;
 /// Half the size of the flat part of a wall that a luminaire needs, and its flatness [m].
 constexpr double half_of_flat_m = 0.15, how_flat_m = 0.01;
 /// Walls at a larger angle to the ray are not used [tangent of 50 degrees].
-constexpr double most_aslant_of_wall = 1.2;
+constexpr double max_aslant_of_wall = 1.2;
 /// Spots on one wall closer than this share of the spacing are merged.
 constexpr double one_wall_spot = 0.5;
 
@@ -103,7 +103,7 @@ class WallSpotFinder {
     const double slope = (*left - *right) / (2 * half_of_flat_m);
     if (std::abs(*left + *right - 2 * *middle) > how_flat_m ||
         std::abs(*high - *middle) > how_flat_m || std::abs(*low - *middle) > how_flat_m ||
-        std::abs(slope) > most_aslant_of_wall)
+        std::abs(slope) > max_aslant_of_wall)
       return void(++left_out_.no_wall);
     const glm::dvec3 along_wall = glm::normalize(across / half_of_flat_m + direction * slope);
     glm::dvec3 outward = glm::cross(along_wall, to_sky);

@@ -9,7 +9,7 @@ std::optional<double> wall_distance(const Building& building, const GeometryAcce
                                     double length_m) {
   const CompiledScene& scene = building.scene();
   const auto stop = first_stop(scene, access, building.local(from), Vec3(direction),
-                               static_cast<Real>(length_m), [&](const Facing& f) {
+                               static_cast<Real>(length_m), [&](const FacedSurface& f) {
                                  return f.surface >= scene.description->objects.size() ||
                                         lets_light_through(f.kind);
                                });

@@ -11,7 +11,7 @@ namespace luxodus {
 namespace {
 
 /// Demands with a smaller share of the bound are not tried.
-constexpr double least_share_of_bound = 0.02;
+constexpr double min_share_of_bound = 0.02;
 /// A point is tight if its light after a failure is within this factor of its requirement.
 constexpr double tight_after_failure = 1.02;
 /// Neighbourhoods refilled in the search for each demand.
@@ -38,10 +38,10 @@ LayoutProblem without(const LayoutProblem& problem, const Relaxation& what) {
   return out;
 }
 
-class Relaxing {
+class RelaxationSolver {
  public:
-  Relaxing(const LayoutProblem& problem, const LayoutAnswer& answer,
-           const WhatBindsSettings& settings, const std::atomic<bool>& interrupt)
+  RelaxationSolver(const LayoutProblem& problem, const LayoutAnswer& answer,
+                   const WhatBindsSettings& settings, const std::atomic<bool>& interrupt)
       : problem_(problem),
         answer_(answer),
         settings_(settings),
@@ -102,7 +102,7 @@ class Relaxing {
     const auto& shares = answer_.share_of_group;
     std::vector<uint32_t> groups;
     for (uint32_t g = 0; g < shares.size(); ++g)
-      if (shares[g] > least_share_of_bound * answer_.objective) groups.push_back(g);
+      if (shares[g] > min_share_of_bound * answer_.objective) groups.push_back(g);
     std::stable_sort(groups.begin(), groups.end(),
                      [&](uint32_t a, uint32_t b) { return shares[a] > shares[b]; });
     if (groups.size() > settings_.demands) groups.resize(settings_.demands);
@@ -189,13 +189,13 @@ class Relaxing {
 std::vector<Relaxed> what_binds(const LayoutProblem& problem, const LayoutAnswer& answer,
                                 const WhatBindsSettings& settings,
                                 const std::atomic<bool>& interrupt) {
-  return Relaxing(problem, answer, settings, interrupt).run();
+  return RelaxationSolver(problem, answer, settings, interrupt).run();
 }
 
 Relaxed solved_without(const LayoutProblem& problem, const LayoutAnswer& answer,
                        const Relaxation& demand, const WhatBindsSettings& settings,
                        const std::atomic<bool>& interrupt) {
-  return Relaxing(problem, answer, settings, interrupt).relaxed(demand, settings.seconds);
+  return RelaxationSolver(problem, answer, settings, interrupt).relaxed(demand, settings.seconds);
 }
 
 }  // namespace luxodus

@@ -30,11 +30,11 @@ Clear clear_at(const Site& site, const GeometryAccess& access, const glm::dvec3&
 
 }  // namespace
 
-std::optional<Facing> wall_ahead(const Site& site, const GeometryAccess& access,
-                                 const glm::dvec3& from, const glm::dvec3& direction,
-                                 double length_m) {
+std::optional<FacedSurface> wall_ahead(const Site& site, const GeometryAccess& access,
+                                       const glm::dvec3& from, const glm::dvec3& direction,
+                                       double length_m) {
   return first_stop(site.building.scene(), access, site.building.local(from), Vec3(direction),
-                    static_cast<Real>(length_m), [&](const Facing& f) {
+                    static_cast<Real>(length_m), [&](const FacedSurface& f) {
                       if (f.surface >= site.scene.objects.size() || lets_light_through(f.kind))
                         return true;
                       const Object& object = site.scene.objects[f.surface];

@@ -18,8 +18,8 @@ std::optional<Doorway> doorway_at(const Site& site, const GeometryAccess& access
 
 /// The nearest wall or body within `length_m`, ignoring door leaves, furniture and transparent
 /// surfaces.
-std::optional<Facing> wall_ahead(const Site& site, const GeometryAccess& access,
-                                 const glm::dvec3& from, const glm::dvec3& direction,
-                                 double length_m);
+std::optional<FacedSurface> wall_ahead(const Site& site, const GeometryAccess& access,
+                                       const glm::dvec3& from, const glm::dvec3& direction,
+                                       double length_m);
 
 }  // namespace luxodus

@@ -76,7 +76,7 @@ std::vector<EyePlace> eyes_of(const SceneDescription& scene, bool probes) {
   return out;
 }
 
-bool is_open(const Facing& facing) {
+bool is_open(const FacedSurface& facing) {
   return facing.kind == MaterialKind::open;
 }
 
@@ -145,7 +145,7 @@ std::optional<Finding> wrong_eye(const Site& site, const GeometryAccess& access,
   if (!eye.is_probe) return std::nullopt;
   const auto shut =
       first_stop(site.building.scene(), access, site.building.local(eye.at), eye.ahead,
-                 shut_probe_m, [&](const Facing& f) {
+                 shut_probe_m, [&](const FacedSurface& f) {
                    return f.surface >= site.scene.objects.size() || lets_light_through(f.kind);
                  });
   if (shut)
@@ -164,7 +164,7 @@ double best_transmission(const Building& smoky, const GeometryAccess& access, co
   double best = 0;
   for (const Vec3& d : eye.directions) {
     const auto met = first_stop(scene, access, at, d, sight_m,
-                                [](const Facing& f) { return lets_light_through(f.kind); });
+                                [](const FacedSurface& f) { return lets_light_through(f.kind); });
     const Real length = met ? met->distance_m : sight_m;
     best = std::max(best, media_share(scene, access, at, d, length));
     if (best >= min_transmission) break;

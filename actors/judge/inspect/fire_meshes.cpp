@@ -112,7 +112,7 @@ void tell_sights(const SceneDescription& scene, const Building& smoky, const Med
     if (length <= 0) return;
     const auto stop = first_stop(smoky.scene(), access, smoky.local(from),
                                  Vec3(way / glm::length(way)), static_cast<Real>(length),
-                                 [](const Facing& f) { return lets_light_through(f.kind); });
+                                 [](const FacedSurface& f) { return lets_light_through(f.kind); });
     seen[i] = stop ? 0 : 1;
   });
   std::vector<size_t> told;

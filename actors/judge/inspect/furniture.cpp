@@ -79,7 +79,7 @@ std::optional<double> sunk_by(const Site& site, const GeometryAccess& access,
     const glm::dvec3 inwards = glm::dvec3(middle.x - foot.x, middle.y - foot.y, 0) * 0.02;
     const auto floor = first_stop(
         site.building.scene(), access, site.building.local(foot + inwards + up * below_foot_m),
-        Vec3(up), static_cast<Real>(height), [&](const Facing& f) {
+        Vec3(up), static_cast<Real>(height), [&](const FacedSurface& f) {
           return f.surface >= site.scene.objects.size() || lets_light_through(f.kind) ||
                  is_furniture(site.scene.objects[f.surface]) || !site.is_back(f);
         });

@@ -69,7 +69,7 @@ Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, i
       origin = offset_ray(origin, side, scene.min_offset_m);
     }
     const auto end =
-        first_stop(scene, access, origin, direction, light_reach_m, [&](const Facing& f) {
+        first_stop(scene, access, origin, direction, light_reach_m, [&](const FacedSurface& f) {
           return lets_light_through(f.kind) || scene.surfaces[f.surface].body_emitter == emitter;
         });
     if (!end) continue;

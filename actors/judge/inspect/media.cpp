@@ -142,12 +142,12 @@ std::string corners_text(const glm::dvec2& low, const glm::dvec2& high) {
 }
 
 /// Points across a flame's box that burn, and where they are.
-struct Burning {
+struct BurningPoints {
   int all = 0, in_bodies = 0, outside = 0;
   bool around = false;  // the centre of the building lies in its box
 };
 
-Burning burning_of(const Building& smoky, size_t index) {
+BurningPoints burning_of(const Building& smoky, size_t index) {
   constexpr int across = 6;
   const CompiledScene& scene = smoky.scene();
   const Medium* medium = &scene.description->media[index];
@@ -168,7 +168,7 @@ Burning burning_of(const Building& smoky, size_t index) {
     points[k] = {1, smoky.in_solid(access, place) ? char{1} : char{0},
                  is_outside(scene, access, smoky.local(place)) ? char{1} : char{0}};
   });
-  Burning out;
+  BurningPoints out;
   const Bounds building = built(*scene.description);
   const glm::dvec3 middle = (building.low + building.high) * 0.5;
   out.around =
@@ -275,7 +275,7 @@ void inspect_flames(const Building& smoky, Findings& out, std::vector<char>& mis
   for (size_t i = 0; i < media.size(); ++i) {
     const Medium& m = media[i];
     if (!m.emission || m.kind != MediumKind::bounded) continue;
-    const Burning burning = burning_of(smoky, i);
+    const BurningPoints burning = burning_of(smoky, i);
     if (burning.all == 0) continue;
     const auto percent = [&](int part) {
       return percent_text(static_cast<double>(part) / burning.all);

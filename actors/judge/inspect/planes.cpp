@@ -30,7 +30,7 @@ CellPlaces places_of_cells(const Site& site, const PlaneMeasure& p,
   const glm::dvec3 normal = glm::normalize(glm::cross(p.edge_u, p.edge_v));
   const auto count = static_cast<size_t>(across) * static_cast<size_t>(down);
   std::vector<char> counts(count, 0), outside(count, 0);
-  std::vector<std::optional<Facing>> shut(count);
+  std::vector<std::optional<FacedSurface>> shut(count);
   site.building.each(count, [&](const GeometryAccess& access, size_t i) {
     const int u = static_cast<int>((static_cast<int>(i) % across + 0.5) / across * p.cells_u);
     const int v = static_cast<int>((static_cast<int>(i) / across + 0.5) / down * p.cells_v);
@@ -43,7 +43,7 @@ CellPlaces places_of_cells(const Site& site, const PlaneMeasure& p,
     outside[i] = site.is_outside(access, place) ? 1 : 0;
     shut[i] =
         first_stop(site.building.scene(), access, site.building.local(place), Vec3(normal), shut_m,
-                   [&](const Facing& f) {
+                   [&](const FacedSurface& f) {
                      return f.surface >= site.scene.objects.size() || lets_light_through(f.kind);
                    });
   });

@@ -39,7 +39,7 @@ struct Before {
 Before before(const Site& site, const GeometryAccess& access, const Sign& sign, const Face& face) {
   const CompiledScene& scene = site.building.scene();
   const Vec3 normal(face.normal), right(face.right), up(face.up);
-  const auto passes = [&](const Facing& f) {
+  const auto passes = [&](const FacedSurface& f) {
     const uint32_t own = scene.surfaces[f.surface].sign;
     return lets_light_through(f.kind) ||
            (own != none_index && &site.scene.signs[scene.signs[own].sign] == &sign);
@@ -84,7 +84,7 @@ bool lies_on_wall(const Site& site, const GeometryAccess& access, const Sign& si
                              axes[1] * (side.y * (sign.height_m / 2 + aside_m));
     const auto met =
         first_stop(site.building.scene(), access, site.building.local(place), Vec3(-axes[2]),
-                   static_cast<Real>(sign.thickness_m / 2 + beyond_m), [&](const Facing& f) {
+                   static_cast<Real>(sign.thickness_m / 2 + beyond_m), [&](const FacedSurface& f) {
                      return f.surface >= site.scene.objects.size() || lets_light_through(f.kind);
                    });
     on_wall += met ? 1 : 0;

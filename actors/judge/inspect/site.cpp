@@ -59,11 +59,11 @@ std::vector<char> furniture_of(const Site& site) {
   return out;
 }
 
-std::optional<Facing> solid_ahead(const Site& site, const GeometryAccess& access,
-                                  const glm::dvec3& from, const glm::dvec3& direction,
-                                  double length_m, bool furniture) {
+std::optional<FacedSurface> solid_ahead(const Site& site, const GeometryAccess& access,
+                                        const glm::dvec3& from, const glm::dvec3& direction,
+                                        double length_m, bool furniture) {
   return first_stop(site.building.scene(), access, site.building.local(from), Vec3(direction),
-                    static_cast<Real>(length_m), [&](const Facing& f) {
+                    static_cast<Real>(length_m), [&](const FacedSurface& f) {
                       return f.surface >= site.scene.objects.size() || lets_light_through(f.kind) ||
                              (!furniture && is_furniture(site.scene.objects[f.surface]));
                     });

@@ -59,7 +59,7 @@ struct Site {
     return luxodus::is_outside(building.scene(), access, building.local(place));
   }
   /// Whether a hit surface shows the inner side of its body.
-  bool is_back(const Facing& facing) const {
+  bool is_back(const FacedSurface& facing) const {
     return facing.surface < scene.objects.size() &&
            facing.front == (building.turned()[facing.surface] != 0);
   }
@@ -69,9 +69,9 @@ struct Site {
 std::vector<char> furniture_of(const Site& site);
 /// The nearest wall, floor or body within `length_m`, ignoring signs, luminaires and transparent
 /// surfaces, and furniture unless `furniture`.
-std::optional<Facing> solid_ahead(const Site& site, const GeometryAccess& access,
-                                  const glm::dvec3& from, const glm::dvec3& direction,
-                                  double length_m, bool furniture = true);
+std::optional<FacedSurface> solid_ahead(const Site& site, const GeometryAccess& access,
+                                        const glm::dvec3& from, const glm::dvec3& direction,
+                                        double length_m, bool furniture = true);
 
 // For one state of the doors. Sets `outside`: for each emitter, whether it is outside.
 void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outside);

@@ -74,7 +74,7 @@ Column column_over(const Building& smoky, const GeometryAccess& access, const gl
   const glm::dvec3 start = foot + glm::dvec3(0, 0, over_furniture_m);
   const auto ceiling =
       first_stop(scene, access, smoky.local(start), Vec3(0, 0, 1), highest_ceiling_m,
-                 [](const Facing& f) { return lets_light_through(f.kind); });
+                 [](const FacedSurface& f) { return lets_light_through(f.kind); });
   if (!ceiling) return column;
   column.any = true;
   column.floor_m = foot.z;

@@ -42,15 +42,15 @@ constexpr double area_share = 0.1;
 
 /// What obstructs people: objects that are not furniture. People pass under signs and luminaires.
 auto passable(const Site& site) {
-  return [&site](const Facing& f) {
+  return [&site](const FacedSurface& f) {
     return f.surface >= site.scene.objects.size() || f.kind == MaterialKind::open ||
            is_furniture(site.scene.objects[f.surface]);
   };
 }
 
-std::optional<Facing> first_wall(const Site& site, const GeometryAccess& access,
-                                 const glm::dvec3& from, const glm::dvec3& direction,
-                                 double length_m) {
+std::optional<FacedSurface> first_wall(const Site& site, const GeometryAccess& access,
+                                       const glm::dvec3& from, const glm::dvec3& direction,
+                                       double length_m) {
   return first_stop(site.building.scene(), access, site.building.local(from), Vec3(direction),
                     static_cast<Real>(length_m), passable(site));
 }
@@ -63,7 +63,7 @@ std::optional<double> above_floor(const Site& site, const GeometryAccess& access
   std::optional<double> foot;
   const auto met = first_stop(
       site.building.scene(), access, site.building.local(place + glm::dvec3(0, 0, floor_within_m)),
-      Vec3(0, 0, -1), static_cast<Real>(floor_within_m + below_m), [&](const Facing& f) {
+      Vec3(0, 0, -1), static_cast<Real>(floor_within_m + below_m), [&](const FacedSurface& f) {
         const bool passes = may_pass(f);
         if (passes && !f.front && f.surface < site.scene.objects.size())
           foot = static_cast<double>(f.distance_m) - floor_within_m;

@@ -16,7 +16,7 @@ bool lies_in_body(const CompiledScene& scene, const GeometryAccess& access, cons
   if (in_body(scene, access, place, turned)) return true;
   const Vec3 above = place + normal * off_the_floor_m;
   return in_body(scene, access, above, turned) &&
-         !first_stop(scene, access, place, normal, off_the_floor_m, [&](const Facing& f) {
+         !first_stop(scene, access, place, normal, off_the_floor_m, [&](const FacedSurface& f) {
            return f.surface >= scene.description->objects.size() || lets_light_through(f.kind);
          });
 }

@@ -20,15 +20,15 @@ namespace {
 constexpr size_t max_voxel_table_bytes = size_t{256} << 20;
 /// Largest share of a voxel's light in second differences to its neighbours at which eyes read it.
 /// With 0.75 and more the veil in the kitchen was 3 % too bright.
-constexpr double most_curved = 0.5;
+constexpr double max_curved = 0.5;
 /// Largest share of all light in a voxel by which the third moment of the scattered light may be
 /// unknown, after one more scattering, if eyes read it. Without a limit the veil in haze was 4 to 6
 /// % too bright.
-constexpr double most_unknown = 0.2;
+constexpr double max_unknown = 0.2;
 /// Edge of a block, in voxels, whose errors are taken as fully correlated.
 constexpr uint32_t err_alike = 2;
 
-class FluxRadiance final : public KnownRadiance {
+class FluxRadiance final : public RadianceCache {
  public:
   explicit FluxRadiance(const LocalRun& run)
       : scene_(run.scene()),
@@ -51,7 +51,7 @@ class FluxRadiance final : public KnownRadiance {
     if (!read) throw std::runtime_error(read.problem().text());
     for (const PhaseFunction& phase : scene_.phases)
       largest_g_ = std::max(largest_g_, static_cast<double>(std::abs(phase.mean_cosine())));
-    find_known_voxels();
+    find_cached_voxels();
     fill_voxels();
     sharpen_voxels();
   }
@@ -59,20 +59,20 @@ class FluxRadiance final : public KnownRadiance {
   double of_surface(const Hit& hit, bool front, int band) const override {
     return static_cast<double>(table_[patch_of(hit, front) * bands_ + static_cast<size_t>(band)]);
   }
-  KnownError error_of_surface(const Hit& hit, bool front) const override {
+  CachedError error_of_surface(const Hit& hit, bool front) const override {
     const size_t patch = patch_of(hit, front);
     return {patch, static_cast<double>(patch_errors_[patch])};
   }
 
-  Known known_at(const Vec3& place, bool diffused) const override {
-    if (known_.empty()) return Known::nothing;
+  CachedLight cached_at(const Vec3& place, bool diffused) const override {
+    if (cached_.empty()) return CachedLight::nothing;
     const uint32_t voxel = voxel_of(scene_.voxels, place);
-    if (voxel == none_index) return Known::nothing;
-    if (diffused) return known_[voxel];
-    return eyes_read_[voxel] ? Known::scattered : Known::nothing;
+    if (voxel == none_index) return CachedLight::nothing;
+    if (diffused) return cached_[voxel];
+    return eyes_read_[voxel] ? CachedLight::scattered : CachedLight::nothing;
   }
 
-  uint32_t choose_voxel(const Vec3& place, const Vec3& chance, Known which) const override {
+  uint32_t choose_voxel(const Vec3& place, const Vec3& chance, CachedLight which) const override {
     const VoxelGrid& grid = scene_.voxels;
     const Vec3 at = (place - Vec3(grid.low)) / Real{grid.edge};
     const std::array<int, 3> stride = {1, grid.nx, grid.nx * grid.ny};
@@ -87,13 +87,13 @@ class FluxRadiance final : public KnownRadiance {
       const auto step = static_cast<uint32_t>(stride[static_cast<size_t>(axis)]);
       const uint32_t other = off > 0 ? voxel + step : voxel - step;
       const bool open = gas_.open[std::min(voxel, other)] >> axis & 1;
-      if (open && known_[other] >= which) voxel = other;
+      if (open && cached_[other] >= which) voxel = other;
     }
     return voxel;
   }
 
   double of_medium(uint32_t voxel, const Vec3& direction, const PhaseFunction& phase, int band,
-                   Known which) const override {
+                   CachedLight which) const override {
     std::array<float, voxel_quantities> read;
     const float* values =
         voxels_.empty() ? read.data() : &voxels_[place_of(voxel, static_cast<size_t>(band), 0)];
@@ -103,8 +103,8 @@ class FluxRadiance final : public KnownRadiance {
 
   /// Propagates the errors of a voxel's quantities as if they were independent: sums the squares of
   /// the changes of `turned`.
-  KnownError error_of_medium(uint32_t voxel, const Vec3& direction, const PhaseFunction& phase,
-                             Known which) const override {
+  CachedError error_of_medium(uint32_t voxel, const Vec3& direction, const PhaseFunction& phase,
+                              CachedLight which) const override {
     std::array<Estimate, voxel_quantities> read;
     const Estimate* of = read.data();
     if (voxel_errors_.empty())
@@ -112,12 +112,12 @@ class FluxRadiance final : public KnownRadiance {
         read[q] = lumens(scene_.blocks.voxels, voxel, q);
     else
       of = &voxel_errors_[voxel_quantities * voxel];
-    const KnownError unknown{uint64_t{scene_.patch_count} + block_of(voxel), 0};
+    const CachedError unknown{uint64_t{scene_.patch_count} + block_of(voxel), 0};
     std::array<float, voxel_quantities> values;
     for (size_t q = 0; q < values.size(); ++q) values[q] = static_cast<float>(of[q].value);
     const double light = turned(values.data(), direction, phase, which);
     if (!(light > 0)) return unknown;
-    const bool all = which == Known::all;
+    const bool all = which == CachedLight::all;
     double squares = 0;
     for (size_t q = all ? 0 : first_scattered_quantity;
          q < (all ? first_scattered_quantity : values.size()); ++q) {
@@ -133,19 +133,20 @@ class FluxRadiance final : public KnownRadiance {
   /// Marks voxels that are known: their gas volume is, and they are not inside flames. Light
   /// straight from emitters, which varies close to them, is known where no emitter is within an
   /// edge.
-  void find_known_voxels() {
+  void find_cached_voxels() {
     const LitPlaces lit{
         [&](uint32_t voxel) { return lumens(scene_.blocks.voxels, voxel, 0).value > 0; },
         [&](const TriangleRecord& t, bool front) { return side_lm_m2(t, front); }};
     auto gas = find_lit_gas(scene_, lit, run_threads_);
     if (!gas) throw std::runtime_error(gas.problem().text());
     gas_ = std::move(gas).value();
-    for (const float share : gas_.share) known_.push_back(share > 0 ? Known::all : Known::nothing);
-    for (uint32_t i = 0; i < scene_.emitters.size() && !known_.empty(); ++i) {
+    for (const float share : gas_.share)
+      cached_.push_back(share > 0 ? CachedLight::all : CachedLight::nothing);
+    for (uint32_t i = 0; i < scene_.emitters.size() && !cached_.empty(); ++i) {
       const EmitterBound bound = emitter_bound(scene_, i);
       if (scene_.emitters[i].kind == EmitterKind::volume)
-        know_at_most(Known::nothing, bound.centre, bound.radius);
-      know_at_most(Known::scattered, bound.centre,
+        know_at_most(CachedLight::nothing, bound.centre, bound.radius);
+      know_at_most(CachedLight::scattered, bound.centre,
                    bound.radius + static_cast<Real>(scene_.voxels.edge));
     }
   }
@@ -176,19 +177,20 @@ class FluxRadiance final : public KnownRadiance {
     };
     for (size_t axis = 0; axis < 3; ++axis) {
       const size_t up = voxel + stride[axis], down = voxel - stride[axis];
-      if (open(voxel, axis) && known_[up] != Known::nothing) visit(up);
-      if (voxel >= stride[axis] && open(down, axis) && known_[down] != Known::nothing) visit(down);
+      if (open(voxel, axis) && cached_[up] != CachedLight::nothing) visit(up);
+      if (voxel >= stride[axis] && open(down, axis) && cached_[down] != CachedLight::nothing)
+        visit(down);
     }
   }
 
   /// A voxel's mean, and the interpolation between means, are smoother than the light by an eighth
   /// of the second differences, which is subtracted here.
   void sharpen_voxels() {
-    eyes_read_.assign(known_.size(), false);
+    eyes_read_.assign(cached_.size(), false);
     if (voxels_.empty()) return;
     const std::vector<float> means = voxels_;
-    for (size_t v = 0; v < known_.size(); ++v) {
-      if (known_[v] == Known::nothing) continue;
+    for (size_t v = 0; v < cached_.size(); ++v) {
+      if (cached_[v] == CachedLight::nothing) continue;
       for (size_t b = 0; b < bands_; ++b) {
         for (size_t q = first_scattered_quantity; q < voxel_quantities; ++q) {
           float second = 0;
@@ -197,7 +199,7 @@ class FluxRadiance final : public KnownRadiance {
           voxels_[place_of(v, b, q)] -= second / 8;
         }
       }
-      eyes_read_[v] = is_even(means, v) && unknown_share(means, v) <= most_unknown;
+      eyes_read_[v] = is_even(means, v) && unknown_share(means, v) <= max_unknown;
     }
   }
 
@@ -207,7 +209,7 @@ class FluxRadiance final : public KnownRadiance {
     double second = 0;
     for_each_neighbour(
         voxel, [&](size_t n) { second += luminous(means, n, first_scattered_quantity) - light; });
-    return std::abs(second) <= most_curved * light;
+    return std::abs(second) <= max_curved * light;
   }
 
   /// The share of a voxel's light by which the third moment of the scattered light is unknown,
@@ -239,7 +241,7 @@ class FluxRadiance final : public KnownRadiance {
   }
 
   /// Lowers to `most` what is known of the voxels in a cube.
-  void know_at_most(Known most, const Vec3& centre, Real reach) {
+  void know_at_most(CachedLight most, const Vec3& centre, Real reach) {
     const VoxelGrid& grid = scene_.voxels;
     const glm::vec3 middle = (glm::vec3(centre) - grid.low) / grid.edge;
     const float half = static_cast<float>(reach) / grid.edge;
@@ -249,7 +251,7 @@ class FluxRadiance final : public KnownRadiance {
     for (int z = from.z; z <= to.z; ++z) {
       for (int y = from.y; y <= to.y; ++y) {
         for (int x = from.x; x <= to.x; ++x) {
-          Known& at = known_[static_cast<size_t>((int64_t{z} * grid.ny + y) * grid.nx + x)];
+          CachedLight& at = cached_[static_cast<size_t>((int64_t{z} * grid.ny + y) * grid.nx + x)];
           at = std::min(at, most);
         }
       }
@@ -274,15 +276,15 @@ class FluxRadiance final : public KnownRadiance {
   /// from the moments up to the first; for scattered light, which eyes see directly, up to the
   /// second.
   static double turned(const float* values, const Vec3& direction, const PhaseFunction& phase,
-                       Known which) {
-    if (which == Known::scattered) values += first_scattered_quantity;
+                       CachedLight which) {
+    if (which == CachedLight::scattered) values += first_scattered_quantity;
     const Vec3 net(values[1], values[2], values[3]);
     const Real beam = glm::length(net);
     const Real fluence{values[0]};
     if (!(fluence > 0)) return 0;
     const Real cosine = beam > 0 ? -glm::dot(net, direction) / beam : 0;
     const Real mean_cosine = std::min(1.0_r, beam / fluence);
-    if (which == Known::all)
+    if (which == CachedLight::all)
       return static_cast<double>(fluence * evaluate_spread(phase, cosine, mean_cosine));
     const Vec3& d = direction;
     const Real xx{values[4]}, yy{values[5]}, xy{values[6]}, xz{values[7]}, yz{values[8]};
@@ -305,15 +307,15 @@ class FluxRadiance final : public KnownRadiance {
   /// than tracing the path. So they are converted once; if there are too many voxels, on demand.
   void fill_voxels() {
     const size_t bytes =
-        known_.size() * voxel_quantities * (bands_ * sizeof(float) + sizeof(Estimate));
+        cached_.size() * voxel_quantities * (bands_ * sizeof(float) + sizeof(Estimate));
     if (bytes > max_voxel_table_bytes) return;
-    voxels_.resize(known_.size() * bands_ * voxel_quantities);
-    voxel_errors_.resize(known_.size() * voxel_quantities);
+    voxels_.resize(cached_.size() * bands_ * voxel_quantities);
+    voxel_errors_.resize(cached_.size() * voxel_quantities);
     constexpr size_t per_row = 1024;  // voxels
     const auto fill_row = [&](int64_t row) {
       const size_t first = static_cast<size_t>(row) * per_row;
-      for (size_t voxel = first; voxel < std::min(known_.size(), first + per_row); ++voxel) {
-        if (known_[voxel] == Known::nothing) continue;
+      for (size_t voxel = first; voxel < std::min(cached_.size(), first + per_row); ++voxel) {
+        if (cached_[voxel] == CachedLight::nothing) continue;
         const auto bin = static_cast<uint32_t>(voxel);
         for (size_t b = 0; b < bands_; ++b)
           read_voxel(bin, static_cast<int>(b), &voxels_[place_of(voxel, b, 0)]);
@@ -321,7 +323,7 @@ class FluxRadiance final : public KnownRadiance {
           voxel_errors_[voxel_quantities * voxel + q] = lumens(scene_.blocks.voxels, bin, q);
       }
     };
-    parallel_for(static_cast<int64_t>((known_.size() + per_row - 1) / per_row), run_threads_,
+    parallel_for(static_cast<int64_t>((cached_.size() + per_row - 1) / per_row), run_threads_,
                  [&] { return fill_row; });
   }
 
@@ -364,16 +366,16 @@ class FluxRadiance final : public KnownRadiance {
   std::vector<float> table_;         // of patches, by band
   std::vector<float> patch_errors_;  // relative, of all bands together
   LitGas gas_;
-  std::vector<Known> known_;     // by voxel; empty without voxels
-  std::vector<bool> eyes_read_;  // scattered light, by voxel
-  double largest_g_ = 0;         // the largest |mean cosine| of the scene's phase functions
+  std::vector<CachedLight> cached_;  // by voxel; empty without voxels
+  std::vector<bool> eyes_read_;      // scattered light, by voxel
+  double largest_g_ = 0;             // the largest |mean cosine| of the scene's phase functions
   std::vector<float> voxels_;  // voxel_quantities by voxel and band; empty where they are too many
   std::vector<Estimate> voxel_errors_;  // [lm m], voxel_quantities by voxel
 };
 
 }  // namespace
 
-std::unique_ptr<KnownRadiance> flux_radiance(const LocalRun& run) {
+std::unique_ptr<RadianceCache> flux_radiance(const LocalRun& run) {
   return std::make_unique<FluxRadiance>(run);
 }
 

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "actors/results/run/local_run.hpp"
-#include "scenes/light/transport/known_radiance.hpp"
+#include "scenes/light/transport/radiance_cache.hpp"
 
 namespace luxodus {
 
 /// Outgoing radiance of every patch of the run, uniform over directions; and of smoke, from the
 /// fluence and the net flux of its voxels. Requires: the run outlives it and traces nothing
 /// meanwhile. Throws std::runtime_error if a packed scene cannot be read.
-std::unique_ptr<KnownRadiance> flux_radiance(const LocalRun& run);
+std::unique_ptr<RadianceCache> flux_radiance(const LocalRun& run);
 
 }  // namespace luxodus

@@ -21,7 +21,7 @@ inline constexpr size_t triangles_in_voxel = 512;
 /// Pairs of a voxel and a triangle; with more, no voxel that touches a surface is known.
 inline constexpr size_t voxel_triangles = 2'000'000;
 /// Smallest share of a voxel's volume that is known well enough.
-inline constexpr float least_gas = 1.0f / 16;
+inline constexpr float min_gas = 1.0f / 16;
 /// Share of the light that reaches a voxel's parts: a part with less is the inside of a solid that
 /// a particle has entered by rounding.
 inline constexpr float dark_share = 1e-3f;
@@ -400,7 +400,7 @@ class GasVolumes {
     for (int i = 0; i < volume_points; ++i)
       if (part_at(c, glm::fract(0.5 + static_cast<double>(i) * step)) == lit_part) ++inside;
     const float share = static_cast<float>(inside) / volume_points;
-    return share >= limits::least_gas ? share : 0;
+    return share >= limits::min_gas ? share : 0;
   }
 
   /// The part that a place of the voxel belongs to: that of a visible post around it; -1: none.

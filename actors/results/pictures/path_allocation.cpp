@@ -11,10 +11,10 @@ namespace luxodus {
 namespace {
 
 /// With fewer paths a half has less than six to estimate its error from.
-constexpr int least_paths = 16;
+constexpr int min_paths = 16;
 /// Each half has two of every four paths, so both ends of a pixel are multiples of this.
 constexpr int step = 4;
-constexpr double most_times = 32;
+constexpr double max_times = 32;
 /// A pixel darker than this share of the mean counts as that bright.
 constexpr double dark = 0.05;
 /// A pixel's error is taken as the mean over its neighbours up to this far: a pixel that missed
@@ -58,7 +58,7 @@ std::vector<float> squared_errors(const UncertainLight& light, int width, int he
 
 /// The number of paths at which an error falls to the allowed one.
 int end_of(float squared_error, double allowed, int paths) {
-  const double times = std::clamp(static_cast<double>(squared_error) / allowed, 1.0, most_times);
+  const double times = std::clamp(static_cast<double>(squared_error) / allowed, 1.0, max_times);
   const auto steps = static_cast<int>(std::ceil(paths / step * times));
   return std::min(step * steps, limits::max_paths_per_pixel);
 }
@@ -84,7 +84,7 @@ double attainable(const std::vector<float>& squared_errors, int paths, int more)
 }  // namespace
 
 int even_paths(int paths_per_pixel) {
-  if (paths_per_pixel < least_paths) return paths_per_pixel;
+  if (paths_per_pixel < min_paths) return paths_per_pixel;
   return paths_per_pixel * 3 / 4 / step * step;
 }
 

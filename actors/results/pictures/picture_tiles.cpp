@@ -315,7 +315,7 @@ Result<TiledPictures> parse_tiles(const std::string& text) try {
 // ---- states -------------------------------------------------------------------------------------
 
 PictureState::PictureState(const LocalRun& run, TiledPictures pictures,
-                           std::shared_ptr<const KnownRadiance> flux,
+                           std::shared_ptr<const RadianceCache> flux,
                            std::shared_ptr<const EmitterSight> sight)
     : run_(run), pictures_(std::move(pictures)), flux_(std::move(flux)), sight_(std::move(sight)) {
   int64_t pixels = 1;
@@ -362,14 +362,14 @@ namespace {
 /// A run's totals, and what refers to them.
 struct KnownFlux {
   std::unique_ptr<LocalRun> run;
-  std::unique_ptr<KnownRadiance> radiance;
+  std::unique_ptr<RadianceCache> radiance;
 };
 
 }  // namespace
 
 /// Consecutive pictures usually end in the same flux.
-Result<std::shared_ptr<const KnownRadiance>> PictureStates::radiance_of(const std::string& flux) {
-  if (flux.empty()) return std::shared_ptr<const KnownRadiance>();
+Result<std::shared_ptr<const RadianceCache>> PictureStates::radiance_of(const std::string& flux) {
+  if (flux.empty()) return std::shared_ptr<const RadianceCache>();
   if (flux == flux_) return radiance_;
   const SourcePlace place{run_.scene().description->file, 0};
   const auto file = decode_flux_file(std::as_bytes(std::span(flux)), place);

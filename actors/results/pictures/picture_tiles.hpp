@@ -47,7 +47,7 @@ class PictureState final : public TracedState {
   /// `flux`: that of `pictures`, or null. `sight`: from make_emitter_sight.
   /// Requires: the run is resident, and outlives this.
   PictureState(const LocalRun& run, TiledPictures pictures,
-               std::shared_ptr<const KnownRadiance> flux,
+               std::shared_ptr<const RadianceCache> flux,
                std::shared_ptr<const EmitterSight> sight);
 
   std::unique_ptr<Totals> totals() const override;
@@ -57,13 +57,13 @@ class PictureState final : public TracedState {
 
   const LocalRun& run() const { return run_; }
   const TiledPictures& pictures() const { return pictures_; }
-  const KnownRadiance* flux() const { return flux_.get(); }
+  const RadianceCache* flux() const { return flux_.get(); }
   const std::shared_ptr<const EmitterSight>& sight() const { return sight_; }
 
  private:
   const LocalRun& run_;
   const TiledPictures pictures_;
-  const std::shared_ptr<const KnownRadiance> flux_;
+  const std::shared_ptr<const RadianceCache> flux_;
   const std::shared_ptr<const EmitterSight> sight_;  // shared by all workers
   TallyLayout layout_;
 };
@@ -78,21 +78,21 @@ class PictureStates final : public StateMaker {
   Result<std::shared_ptr<const TracedState>> make(const std::string& text) override;
 
  private:
-  Result<std::shared_ptr<const KnownRadiance>> radiance_of(const std::string& flux);
+  Result<std::shared_ptr<const RadianceCache>> radiance_of(const std::string& flux);
 
   const LocalRun& run_;
   const std::shared_ptr<const EmitterSight> sight_;  // shared by all states: it does not depend on
                                                      // cameras
   std::mutex mutex_;                                 // guards all members below
   std::string text_, flux_;
-  std::shared_ptr<const KnownRadiance> radiance_;  // radiance of the flux
+  std::shared_ptr<const RadianceCache> radiance_;  // radiance of the flux
   std::shared_ptr<const TracedState> state_;
 };
 
 /// Light that the paths of pictures end in, for tracers here and elsewhere, and the data for
 /// choosing emitters. Shared by all pictures of a run.
 struct PictureFlux {
-  std::shared_ptr<const KnownRadiance> radiance;  // null: paths are traced to their end
+  std::shared_ptr<const RadianceCache> radiance;  // null: paths are traced to their end
   std::string bytes;                              // bytes of a flux file; empty if nobody needs
                                                   // them
   std::shared_ptr<const EmitterSight> sight;      // from make_emitter_sight

@@ -45,7 +45,7 @@ int next_pass(int paths) {
 }
 
 ViewPasses::ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number,
-                       const KnownRadiance* flux, std::shared_ptr<const EmitterSight> sight)
+                       const RadianceCache* flux, std::shared_ptr<const EmitterSight> sight)
     : run_(run),
       camera_(camera),
       number_(number),
@@ -278,7 +278,7 @@ TracedPicture ViewPasses::picture_of(const std::vector<const PixelSums*>& all, i
 }
 
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
-                            const KnownRadiance* flux, const ShareDone& progress) {
+                            const RadianceCache* flux, const ShareDone& progress) {
   ViewPasses view(run, run.scene().description->cameras[camera], camera, flux,
                   make_emitter_sight(run.scene()));
   const int even = even_paths(options), more = options.paths_per_pixel - even;

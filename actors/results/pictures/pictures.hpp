@@ -116,7 +116,7 @@ class ViewPasses {
   /// end in, or null. `sight`: from make_emitter_sight, shared by all pictures of the run; pixels
   /// do not depend on its cache. Both may be null if only the results of others are taken.
   /// Requires: run and flux outlive this.
-  ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number, const KnownRadiance* flux,
+  ViewPasses(const LocalRun& run, const Camera& camera, uint64_t number, const RadianceCache* flux,
              std::shared_ptr<const EmitterSight> sight);
   ViewPasses(const ViewPasses&) = delete;
   ViewPasses& operator=(const ViewPasses&) = delete;
@@ -160,7 +160,7 @@ class ViewPasses {
   const LocalRun& run_;
   const Camera camera_;
   const uint64_t number_;
-  const KnownRadiance* flux_;
+  const RadianceCache* flux_;
   std::shared_ptr<const EmitterSight> sight_;  // shared by all pictures and threads
   std::vector<PixelSums> sums_;
   int paths_ = 0;        // of each pixel
@@ -172,7 +172,7 @@ class ViewPasses {
 /// end in, or null. Requires: camera is one of the scene's; 1 <= paths_per_pixel <=
 /// limits::max_paths_per_pixel.
 TracedPicture trace_picture(const LocalRun& run, size_t camera, const PictureOptions& options,
-                            const KnownRadiance* flux, const ShareDone& progress = {});
+                            const RadianceCache* flux, const ShareDone& progress = {});
 
 /// Progress of the pictures of a call.
 struct PictureProgress {

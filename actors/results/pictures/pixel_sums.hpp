@@ -12,7 +12,7 @@
 #include <span>
 
 #include "scenes/light/tally/totals.hpp"
-#include "scenes/light/transport/known_radiance.hpp"
+#include "scenes/light/transport/radiance_cache.hpp"
 #include "scenes/light/vision/regression_filter.hpp"
 
 namespace luxodus {
@@ -60,7 +60,7 @@ class PixelSums {
   /// Adds the result of a path: scattered and reflected light, light straight from emitters, the
   /// known light that its parts have ended in, and features.
   void add(int path, const ChannelLight& turned, const ChannelLight& straight,
-           std::span<const KnownEnd> ends, const std::array<double, picture_features>& features) {
+           std::span<const CachedEnd> ends, const std::array<double, picture_features>& features) {
     const size_t half = half_of(path);
     for (size_t c = 0; c < light_channels; ++c) {
       sums_[turned_at(half, c)] += fixed(turned[c]);
@@ -176,8 +176,8 @@ class PixelSums {
   }
   /// Estimates shared errors by sign draws, since ends in the same bin have the same error. The
   /// path's own squares get that of the end, and its products with earlier ends in that bin.
-  void add_known(std::span<const KnownEnd> ends, size_t i) {
-    const KnownEnd& end = ends[i];
+  void add_known(std::span<const CachedEnd> ends, size_t i) {
+    const CachedEnd& end = ends[i];
     const double error = end.luminance * end.error.relative;
     double before = 0;
     for (size_t k = 0; k < i; ++k)

@@ -37,7 +37,7 @@ Ray Pinhole::ray(double x, double y) const {
 }
 
 PixelTracer::PixelTracer(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
-                         const Camera& camera, uint64_t number, const KnownRadiance* flux,
+                         const Camera& camera, uint64_t number, const RadianceCache* flux,
                          std::shared_ptr<const EmitterSight> sight)
     : scene_(scene),
       tracer_(make_picture_tracer(scene, access, seed, std::move(sight))),

@@ -37,7 +37,7 @@ class PixelTracer {
   /// end in, or null.
   /// `sight`: from make_emitter_sight. Requires: what is referred to outlives this.
   PixelTracer(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
-              const Camera& camera, uint64_t number, const KnownRadiance* flux,
+              const Camera& camera, uint64_t number, const RadianceCache* flux,
               std::shared_ptr<const EmitterSight> sight);
 
   /// Adds paths of a pixel; `pixel`: row * width + column, below 2^28.
@@ -53,7 +53,7 @@ class PixelTracer {
   std::unique_ptr<PictureTracer> tracer_;
   Pinhole pinhole_;
   uint64_t first_path_;
-  const KnownRadiance* flux_;
+  const RadianceCache* flux_;
   ChannelLight white_;  // of reflectance 1 in all bands
   FirstHit first_;      // of the last path
 };

@@ -107,8 +107,8 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view
           "white.");
   image.numbers = {{"paths_per_pixel", static_cast<double>(view.paths)},
                    {"particles", static_cast<double>(run.particles())},
-                   {"display_white_cd_m2", view.human.display.white_cd_m2},
-                   {"display_black_cd_m2", view.human.display.black_cd_m2},
+                   {"display_white_cd_m2", view.human.monitor.white_cd_m2},
+                   {"display_black_cd_m2", view.human.monitor.black_cd_m2},
                    {"degrees_per_pixel", degrees_per_pixel(camera)}};
   return image;
 }
@@ -194,17 +194,17 @@ std::string limits_of_sight(const HumanTone& human) {
 PngImage human_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced,
                    HumanTone human) {
   human.degrees_per_pixel = degrees_per_pixel(camera);
-  const DisplayModel& display = human.display;
+  const MonitorModel& monitor = human.monitor;
   std::vector<ImageText> texts = texts_of(run, camera);
-  texts.emplace_back("Display white [cd/m2]", fmt::format("{:g}", display.white_cd_m2));
-  texts.emplace_back("Display black [cd/m2]", fmt::format("{:g}", display.black_cd_m2));
+  texts.emplace_back("Display white [cd/m2]", fmt::format("{:g}", monitor.white_cd_m2));
+  texts.emplace_back("Display black [cd/m2]", fmt::format("{:g}", monitor.black_cd_m2));
   texts.emplace_back("Degrees per pixel", fmt::format("{:.6g}", human.degrees_per_pixel));
   texts.emplace_back("Limits of sight", limits_of_sight(human));
   return png_of(tone_human(balanced, human), texts,
                 fmt::format("What an adapted eye tells apart (Ward Larson, Rushmeier and Piatko "
                             "1997), shown on a monitor of {:g} cd/m2; luminance data is in the EXR "
                             "file",
-                            display.white_cd_m2));
+                            monitor.white_cd_m2));
 }
 
 PngImage plain_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced) {

@@ -21,7 +21,7 @@ namespace {
 /// declares pixels that it cannot contain.
 constexpr uint64_t largest_expansion = 1040;
 
-struct Decoding {
+struct DecodeState {
   std::vector<unsigned char> file;
   size_t at = 0;
   char message[200] = "";
@@ -34,7 +34,7 @@ struct Decoding {
 };
 
 [[noreturn]] void on_error(png_structp png, png_const_charp message) noexcept {
-  auto* state = static_cast<Decoding*>(png_get_error_ptr(png));
+  auto* state = static_cast<DecodeState*>(png_get_error_ptr(png));
   std::strncpy(state->message, message, sizeof state->message - 1);
   png_longjmp(png, 1);
 }
@@ -42,14 +42,14 @@ struct Decoding {
 void on_warning(png_structp, png_const_charp) noexcept {}
 
 void on_read(png_structp png, png_bytep to, size_t count) noexcept {
-  auto* state = static_cast<Decoding*>(png_get_io_ptr(png));
+  auto* state = static_cast<DecodeState*>(png_get_io_ptr(png));
   if (count > state->file.size() - state->at) png_error(png, "the file is cut short");
   std::memcpy(to, state->file.data() + state->at, count);
   state->at += count;
 }
 
 /// Reads the header and requests plain samples. Returns false with a message.
-bool begin(png_structp png, png_infop info, Decoding& state) {
+bool begin(png_structp png, png_infop info, DecodeState& state) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, &state, on_read);
   png_set_user_limits(png, limits::image_side, limits::image_side);
@@ -79,14 +79,14 @@ bool begin(png_structp png, png_infop info, Decoding& state) {
 }
 
 /// Requires: rows for the whole picture.
-bool decode(png_structp png, Decoding& state) {
+bool decode(png_structp png, DecodeState& state) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_read_image(png, state.rows.data());
   png_read_end(png, nullptr);
   return true;
 }
 
-void make_rows(Decoding& state) {
+void make_rows(DecodeState& state) {
   const size_t row_bytes = static_cast<size_t>(state.width) * static_cast<size_t>(state.channels) *
                            static_cast<size_t>(state.bytes_per_sample);
   state.pixels.resize(row_bytes * state.height);
@@ -94,7 +94,7 @@ void make_rows(Decoding& state) {
     state.rows.push_back(state.pixels.data() + y * row_bytes);
 }
 
-Result<void> load(const std::string& path, Decoding& state) {
+Result<void> load(const std::string& path, DecodeState& state) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return problem_in(path, "there is no such file");
   auto bytes = read_regular_file(path, limits::image_file_bytes);
@@ -106,7 +106,7 @@ Result<void> load(const std::string& path, Decoding& state) {
 }
 
 /// Linear value of every sample of one or two bytes.
-std::vector<float> linear_table(const Decoding& state) {
+std::vector<float> linear_table(const DecodeState& state) {
   std::vector<float> table(state.bytes_per_sample == 2 ? 65536 : 256);
   const auto most = static_cast<double>(table.size() - 1);
   for (size_t i = 0; i < table.size(); ++i) {
@@ -117,7 +117,7 @@ std::vector<float> linear_table(const Decoding& state) {
   return table;
 }
 
-Image linear_image(const Decoding& state) {
+Image linear_image(const DecodeState& state) {
   Image image;
   image.width = static_cast<int>(state.width);
   image.height = static_cast<int>(state.height);
@@ -145,7 +145,7 @@ double linear_from_srgb(double encoded) {
 }
 
 Result<Image> read_png(const std::string& path) {
-  Decoding state;
+  DecodeState state;
   Result<void> loaded = load(path, state);
   if (!loaded) return loaded.problem();
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &state, on_error, on_warning);

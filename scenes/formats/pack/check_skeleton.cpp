@@ -15,7 +15,7 @@ namespace {
 constexpr double farthest_m = 1e9;
 /// Lumens, watts or candelas per square metre: the sun has 4e26 W, a building less.
 constexpr double brightest = 1e15;
-constexpr double extinction_most_per_m = 1e9;
+constexpr double max_extinction_per_m = 1e9;
 /// The largest factor that the schema of scene files allows.
 constexpr double any_factor = 1e6;
 constexpr int64_t max_cells = 1 << 28;  // of all planes
@@ -183,11 +183,11 @@ void check(const Sign& s) {
 }
 
 void check(const SmokeOptics& o) {
-  need(within(o.extinction.sigma_t, 0, extinction_most_per_m) &&
+  need(within(o.extinction.sigma_t, 0, max_extinction_per_m) &&
            within(o.extinction.wavelength_nm, 100, 1e5) && within(o.extinction.angstrom, -10, 10),
        "a medium's extinction cannot be");
   if (o.extinction.table)
-    need_spectrum(*o.extinction.table, extinction_most_per_m, "a medium's extinction cannot be");
+    need_spectrum(*o.extinction.table, max_extinction_per_m, "a medium's extinction cannot be");
   need_spectrum(o.albedo, 1, "a medium scatters more than it takes");
 }
 

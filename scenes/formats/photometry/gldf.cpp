@@ -65,10 +65,11 @@ std::optional<size_t> entry_of(const std::vector<std::string>& names, const std:
 }
 
 /// Reports how much of a container is unpacked.
-class Unpacking {
+class UnpackProgress {
  public:
   /// Counts all photometric files, and the models if they are read.
-  Unpacking(const GldfArchive& archive, GldfModels models, const std::function<void(double)>& told)
+  UnpackProgress(const GldfArchive& archive, GldfModels models,
+                 const std::function<void(double)>& told)
       : archive_(archive), told_(told) {
     const auto& names = archive.names();
     for (size_t i = 0; i < names.size(); ++i)
@@ -89,7 +90,7 @@ class Unpacking {
 
 /// Unpacks the photometric file of each light; a light without one gets a fault.
 Result<void> take_photometry(const GldfArchive& archive, GldfProduct& product,
-                             Unpacking& unpacking) {
+                             UnpackProgress& progress) {
   uint64_t all = 0;
   for (GldfLight& light : product.lights) {
     if (!light.fault.empty()) continue;
@@ -104,7 +105,7 @@ Result<void> take_photometry(const GldfArchive& archive, GldfProduct& product,
     }
     auto bytes = archive.read(*entry, limits::gldf_file_bytes);
     if (!bytes) return bytes.problem();
-    unpacking.took(*entry);
+    progress.took(*entry);
     all += bytes->size();
     if (all > limits::gldf_all_bytes)
       return problem_in(product.file, fmt::format("its photometric files are larger than {} bytes "
@@ -116,7 +117,7 @@ Result<void> take_photometry(const GldfArchive& archive, GldfProduct& product,
 }
 
 /// Reads each model; one that cannot be read gets a fault.
-void take_models(const GldfArchive& archive, GldfProduct& product, Unpacking& unpacking) {
+void take_models(const GldfArchive& archive, GldfProduct& product, UnpackProgress& progress) {
   uint64_t left = limits::l3d_all_bytes;
   for (GldfModel& model : product.models) {
     if (!model.fault.empty()) continue;
@@ -127,7 +128,7 @@ void take_models(const GldfArchive& archive, GldfProduct& product, Unpacking& un
     }
     const auto bytes = archive.read(*entry, limits::gldf_file_bytes);
     auto shape = bytes ? l3d_of(bytes.value(), product.file, left) : bytes.problem();
-    unpacking.took(*entry);
+    progress.took(*entry);
     if (!shape) {
       model.fault = shape.problem().what;
       continue;
@@ -389,10 +390,10 @@ Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file, Gld
   if (!xml) return xml.problem();
   auto product = gldf_product_of(xml.value(), file);
   if (!product) return product;
-  Unpacking unpacking(archive.value(), models, told);
-  if (auto taken = take_photometry(archive.value(), product.value(), unpacking); !taken)
+  UnpackProgress progress(archive.value(), models, told);
+  if (auto taken = take_photometry(archive.value(), product.value(), progress); !taken)
     return taken.problem();
-  if (models == GldfModels::read) take_models(archive.value(), product.value(), unpacking);
+  if (models == GldfModels::read) take_models(archive.value(), product.value(), progress);
   return product;
 }
 

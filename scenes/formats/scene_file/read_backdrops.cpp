@@ -20,14 +20,14 @@ namespace {
 constexpr size_t max_backdrops = 50;
 
 /// From the drawing's own coordinates to the scene's.
-struct Placing {
+struct DrawingPlacement {
   glm::dvec2 origin{0}, x{1, 0}, y{0, 1};
   glm::dvec2 at(const glm::dvec2& p) const { return origin + p.x * x + p.y * y; }
 };
 
-Placing placing_of(KeyReader& keys, double metres) {
+DrawingPlacement placement_of(KeyReader& keys, double metres) {
   const double turn = keys.number("rotation_deg") * std::numbers::pi / 180;
-  Placing out;
+  DrawingPlacement out;
   out.origin = keys.pair("origin");
   out.x = metres * glm::dvec2(std::cos(turn), std::sin(turn));
   out.y = metres * glm::dvec2(-std::sin(turn), std::cos(turn));
@@ -60,11 +60,11 @@ void read_picture(KeyReader& keys, const std::filesystem::path& path, Backdrop& 
                         "a picture needs 'metres_per_pixel': how long is one of its pixels?");
   const auto picture = read_backdrop_picture(path);
   if (!picture) return take_problem(picture.problem(), keys.place("file"), keys.reading());
-  const Placing placing = placing_of(keys, keys.number("metres_per_pixel"));
+  const DrawingPlacement placement = placement_of(keys, keys.number("metres_per_pixel"));
   out.picture = true;
-  out.corner = placing.origin;
-  out.across = placing.x * static_cast<double>(picture->width);
-  out.up = placing.y * static_cast<double>(picture->height);
+  out.corner = placement.origin;
+  out.across = placement.x * static_cast<double>(picture->width);
+  out.up = placement.y * static_cast<double>(picture->height);
   take_room(keys, picture->png.size());
 }
 
@@ -80,9 +80,9 @@ void read_drawing(KeyReader& keys, const std::filesystem::path& path, Backdrop& 
   if (!(metres > 0))
     return keys.problem("file",
                         "the drawing states no unit of length ($INSUNITS): say it by 'units'");
-  const Placing placing = placing_of(keys, metres);
+  const DrawingPlacement placement = placement_of(keys, metres);
   for (const DxfSegment& s : plan->segments) {
-    const glm::dvec2 from = placing.at(s.from), to = placing.at(s.to);
+    const glm::dvec2 from = placement.at(s.from), to = placement.at(s.to);
     constexpr double farthest_m = 1e6;
     if (std::max({std::abs(from.x), std::abs(from.y), std::abs(to.x), std::abs(to.y)}) < farthest_m)
       out.lines.emplace_back(from, to);

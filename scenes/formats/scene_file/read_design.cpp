@@ -309,11 +309,12 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
     keys.problem("drop_m", "'drop_m' and 'mounting_height_m' exclude each other");
   if (says("move_cost")) design.move_cost = keys.maybe_number("move_cost");
   if (says("places")) design.places = keys.points("places");
-  if (says("existing")) design.existing = word_of<Existing>(keys, "existing", existing_words);
+  if (says("existing"))
+    design.existing = word_of<ExistingTreatment>(keys, "existing", existing_words);
   if (says("place_signs")) design.place_signs = keys.flag("place_signs");
   if (says("refine")) design.refine = keys.flag("refine");
   if (says("existing_signs"))
-    design.existing_signs = word_of<Existing>(keys, "existing_signs", existing_words);
+    design.existing_signs = word_of<ExistingTreatment>(keys, "existing_signs", existing_words);
   if (says("failure")) design.failure = word_of<FailureDemand>(keys, "failure", failure_words);
   if (says("objective"))
     design.objective = word_of<DesignObjective>(keys, "objective", objective_words);
@@ -327,7 +328,7 @@ void read_design(const toml::Table& table, SceneReading& reading, DesignSettings
 
 void complete_design(SceneReading& reading, DesignSettings design) {
   SceneDescription& scene = reading.scene;
-  design.flights = reading.flights;
+  design.stair_flights = reading.stair_flights;
   if (design.types.empty()) design.types = types_of_scene(scene);
   if (design.types.empty()) design.types.push_back(generic_type(design.place));
   if (!design.place_signs) design.place_signs = scene.signs.empty() || !design.sign_types.empty();

@@ -226,21 +226,21 @@ bool is_there_now(KeyReader& keys, const std::string& shape) {
 }
 
 /// Keeps where the flights of stairs of an object are.
-void keep_flights(KeyReader& keys, const std::string& name, const Transform& transform,
-                  std::span<const glm::dvec3> copies) {
-  StairFlight flight;
-  flight.name = name;
-  flight.treads = static_cast<int>(keys.integer("steps"));
+void keep_stair_flights(KeyReader& keys, const std::string& name, const Transform& transform,
+                        std::span<const glm::dvec3> copies) {
+  StairFlight stairs;
+  stairs.name = name;
+  stairs.treads = static_cast<int>(keys.integer("steps"));
   const double rise = keys.number("rise"), going = keys.number("going");
   const double middle = keys.number("width") / 2;
   const auto tread = [&](int number) {
     return transform.point({(number - 0.5) * going, middle, number * rise});
   };
   for (size_t i = 0; i < copies.size(); ++i) {
-    if (i > 0) flight.name = name + ", " + std::to_string(i + 1);
-    flight.lowest = tread(1) + copies[i];
-    flight.highest = tread(flight.treads) + copies[i];
-    keys.reading().flights.push_back(flight);
+    if (i > 0) stairs.name = name + ", " + std::to_string(i + 1);
+    stairs.lowest = tread(1) + copies[i];
+    stairs.highest = tread(stairs.treads) + copies[i];
+    keys.reading().stair_flights.push_back(stairs);
   }
 }
 
@@ -271,7 +271,7 @@ void read_object(const toml::Table& table, SceneReading& reading) {
       apply(transform, object.mesh);
       repeat_mesh(keys, copies, object.mesh);
       if (kind == "stairs" && keys.clean() && there)
-        keep_flights(keys, object.name, transform, copies);
+        keep_stair_flights(keys, object.name, transform, copies);
       reading.scene.degenerate_triangles += clean_mesh(object.mesh);
       if (object.mesh.triangles.empty()) keys.problem("'" + object.name + "' has no area left");
     } else if (!shape.problem().what.empty()) {

@@ -72,7 +72,7 @@ class Loader {
 
   /// Parses changes to all that was loaded.
   void change(std::string_view text) {
-    if (auto document = parse_as(text, named_changes, toml::Quoting::allowed))
+    if (auto document = parse_as(text, named_changes, toml::QuotePolicy::allowed))
       documents.push_back(std::move(document));
     else
       reading_.incomplete = true;
@@ -107,16 +107,17 @@ class Loader {
   std::unique_ptr<SceneText> parse(const std::string& text, const fs::path& path) {
     // The text of an included file is not quoted: it may be any file on the machine.
     const bool own = open_.empty() && done_.empty() && documents.empty();
-    return parse_as(text, path.string(), own ? toml::Quoting::allowed : toml::Quoting::withheld);
+    return parse_as(text, path.string(),
+                    own ? toml::QuotePolicy::allowed : toml::QuotePolicy::withheld);
   }
 
   std::unique_ptr<SceneText> parse_as(std::string_view text, const std::string& name,
-                                      toml::Quoting quoting) {
+                                      toml::QuotePolicy quoting) {
     reading_.hash_bytes(toml::with_earlier_names(text, scene_schema()));
     auto document = toml::parse(text, name, scene_limits::file_bytes, quoting);
     if (document) return std::make_unique<SceneText>(std::move(document).value(), reading_);
     const Problem& problem = document.problem();
-    reading_.problem(problem.where, quoting == toml::Quoting::allowed
+    reading_.problem(problem.where, quoting == toml::QuotePolicy::allowed
                                         ? problem.what
                                         : problem.what + ": an included file must be a scene file");
     return nullptr;

@@ -68,7 +68,7 @@ class SceneReading {
   std::vector<NamedRoute> routes_named;
 
   /// Flights of stairs of objects, before a design is read.
-  std::vector<StairFlight> flights;
+  std::vector<StairFlight> stair_flights;
 
   toml::Findings findings;
 

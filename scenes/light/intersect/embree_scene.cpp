@@ -171,7 +171,8 @@ Hit nearest_of_all(const GeometryCell& cell, std::span<const PlainBox> boxes, co
 /// Recomputes distance and barycentrics from the ray and the corners.
 void recompute(Hit& hit, const Ray& ray) {
   const PlainRay<Real> line = plain(ray);
-  const PlaneMeeting<Real> m = meet_plane(line, *hit.triangle, edge_volumes(line, *hit.triangle));
+  const PlaneIntersection<Real> m =
+      meet_plane(line, *hit.triangle, edge_volumes(line, *hit.triangle));
   const bool edge_on =
       !(m.distance >= 0 && m.distance < std::numeric_limits<Real>::infinity()) || std::isnan(m.u);
   if (edge_on) return;

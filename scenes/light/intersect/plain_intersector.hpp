@@ -56,14 +56,14 @@ EdgeVolumes<T> edge_volumes(const PlainRay<T>& ray, const TriangleRecord& triang
 
 /// Where a line hits a triangle's plane; the distance is NaN or infinite if it is parallel.
 template <class T>
-struct PlaneMeeting {
+struct PlaneIntersection {
   T distance;
   T u, v;  // barycentrics of corners 1 and 2
 };
 
 template <class T>
-PlaneMeeting<T> meet_plane(const PlainRay<T>& ray, const TriangleRecord& triangle,
-                           const EdgeVolumes<T>& volumes) {
+PlaneIntersection<T> meet_plane(const PlainRay<T>& ray, const TriangleRecord& triangle,
+                                const EdgeVolumes<T>& volumes) {
   using Vec = glm::vec<3, T>;
   const Vec corner(triangle.corner[0]);
   const Vec across = glm::cross(Vec(triangle.corner[1]) - corner, Vec(triangle.corner[2]) - corner);
@@ -153,7 +153,7 @@ PlainHit<T> plain_nearest(std::span<const TriangleRecord> triangles, const Plain
   ask_triangles(triangles.size(), boxes, ray, [&](uint32_t i) {
     const EdgeVolumes<T> volumes = edge_volumes(ray, triangles[i]);
     if (!volumes.inside()) return false;
-    const PlaneMeeting<T> m = meet_plane(ray, triangles[i], volumes);
+    const PlaneIntersection<T> m = meet_plane(ray, triangles[i], volumes);
     if (!(m.distance > 0 && m.distance <= ray.length)) return false;
     const bool nearer = m.distance < best.distance;
     const bool tie = m.distance == best.distance && best.index != no_triangle &&

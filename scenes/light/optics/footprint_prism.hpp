@@ -33,7 +33,7 @@ class FootprintPrism {
   const glm::dvec3& low() const { return low_; }
   const glm::dvec3& high() const { return high_; }
   /// Largest number of segments of one ray inside the prism.
-  int max_stretches() const {
+  int max_segments() const {
     return static_cast<int>(polygon_.size()) / 2 + static_cast<int>(parts_.size());
   }
 
@@ -42,7 +42,7 @@ class FootprintPrism {
   /// Calls add(t0, t1, component) for each segment of the ray inside the prism, clipped to
   /// `within`.
   template <class Add>
-  void for_each_stretch(const glm::dvec3& o, const glm::dvec3& d, RayInterval within,
+  void for_each_segment(const glm::dvec3& o, const glm::dvec3& d, RayInterval within,
                         Add&& add) const;
 
  private:
@@ -56,7 +56,7 @@ class FootprintPrism {
 };
 
 template <class Add>
-void FootprintPrism::for_each_stretch(const glm::dvec3& o, const glm::dvec3& d, RayInterval within,
+void FootprintPrism::for_each_segment(const glm::dvec3& o, const glm::dvec3& d, RayInterval within,
                                       Add&& add) const {
   const auto add_parts = [&](RayInterval covered) {
     for (const LayerStack::Part& p : parts_) {

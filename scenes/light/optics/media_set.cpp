@@ -224,7 +224,7 @@ class MediaCompiler {
     for (const glm::dvec2& p : f.polygon) polygon.push_back(p - glm::dvec2(origin_));
     tables_.prisms.emplace_back(std::move(polygon), std::move(parts));
     const FootprintPrism& prism = tables_.prisms.back();
-    stretches_ += prism.max_stretches();
+    segments_ += prism.max_segments();
     place({prism.low(), prism.high(), static_cast<int>(tables_.prisms.size()) - 1, -1, -1});
     general_ = true;
   }
@@ -241,7 +241,7 @@ class MediaCompiler {
     if (has_extinction(component)) general_ = true;
     const Bounds box = body->bounds();
     tables_.quadrics.push_back(std::move(body).value());
-    stretches_ += 2;
+    segments_ += 2;
     place({box.low, box.high, -1, static_cast<int>(tables_.quadrics.size()) - 1, component});
   }
 
@@ -293,12 +293,12 @@ class MediaCompiler {
   // ---- result --------------------------------------------------------------------------------
 
   Result<void> lay_out() {
-    if (stretches_ > limits::max_ray_stretches) {
+    if (segments_ > limits::max_ray_segments) {
       return problem(
-          "the media have together " + std::to_string(stretches_) +
+          "the media have together " + std::to_string(segments_) +
           " stretches that one ray may cross (footprint corners / 2 + layers, 2 for a body); at "
           "most " +
-          std::to_string(limits::max_ray_stretches) + " are allowed: simplify footprints");
+          std::to_string(limits::max_ray_segments) + " are allowed: simplify footprints");
     }
     if (stack_.size() > static_cast<size_t>(limits::max_layers)) {
       return problem("the layered media have together " + std::to_string(stack_.size()) +
@@ -336,7 +336,7 @@ class MediaCompiler {
   std::vector<std::vector<double>> sigma_;   // [component][band]
   std::vector<std::vector<double>> albedo_;  // [component][band]
   std::vector<LayerStack::Part> stack_;
-  int stretches_ = 0;
+  int segments_ = 0;
   bool general_ = false;
 };
 

@@ -19,7 +19,7 @@ namespace luxodus {
 namespace limits {
 /// Segments of one ray in prisms and bodies together; they are kept on the stack of the tracing
 /// loop (24 bytes each).
-inline constexpr int max_ray_stretches = 512;
+inline constexpr int max_ray_segments = 512;
 /// Data sets of one scene; their cursors are on that stack, too (about 250 bytes each).
 inline constexpr int max_grids = 16;
 /// Glowing media of one scene.

@@ -26,7 +26,7 @@ class MediaWalk {
   }
 
   /// Whether no prism, body or grid is on the ray: the stack alone decides.
-  bool only_stack() const { return stretches_count_ == 0 && grids_count_ == 0; }
+  bool only_stack() const { return segments_count_ == 0 && grids_count_ == 0; }
 
   /// Advances to the next segment; false at the end of the ray.
   bool next();
@@ -60,7 +60,7 @@ class MediaWalk {
   void for_each_column(Column&& column);
 
  private:
-  struct Stretch {
+  struct BodySegment {
     double t0;
     double t1;
     int component;
@@ -74,11 +74,11 @@ class MediaWalk {
 
   void find_bodies();
   void find_grids();
-  void add_stretch(double t0, double t1, int component) {
+  void add_segment(double t0, double t1, int component) {
     // MediaSet::compile bounds the sum of all segments; the check keeps memory safe if that is
     // wrong.
-    if (stretches_count_ < stretches_.size()) {
-      stretches_[stretches_count_++] = {t0, t1, component};
+    if (segments_count_ < segments_.size()) {
+      segments_[segments_count_++] = {t0, t1, component};
     }
   }
   void advance_grid(GridOnWay& g);
@@ -108,9 +108,9 @@ class MediaWalk {
   double slab_end_ = 0;
   double rise_inverse_ = 0;
 
-  size_t stretches_count_ = 0;
+  size_t segments_count_ = 0;
   size_t grids_count_ = 0;
-  std::array<Stretch, limits::max_ray_stretches> stretches_;
+  std::array<BodySegment, limits::max_ray_segments> segments_;
   std::array<GridOnWay, limits::max_grids> grids_;
 };
 
@@ -120,15 +120,15 @@ void MediaWalk<Resolver>::find_bodies() {
   for (const PlacedBody& body : tables_->bodies) {
     if (inside_box(body.low, body.high, o_, d_, way).empty()) continue;
     if (body.prism >= 0) {
-      tables_->prisms[static_cast<size_t>(body.prism)].for_each_stretch(
+      tables_->prisms[static_cast<size_t>(body.prism)].for_each_segment(
           o_, d_, way,
-          [this](double t0, double t1, int component) { add_stretch(t0, t1, component); });
+          [this](double t0, double t1, int component) { add_segment(t0, t1, component); });
       continue;
     }
     RayInterval piece[2];
     const int n =
         tables_->quadrics[static_cast<size_t>(body.quadric)].intervals(o_, d_, way, piece);
-    for (int i = 0; i < n; ++i) add_stretch(piece[i].t0, piece[i].t1, body.component);
+    for (int i = 0; i < n; ++i) add_segment(piece[i].t0, piece[i].t1, body.component);
   }
 }
 
@@ -184,10 +184,10 @@ bool MediaWalk<Resolver>::next() {
     end = std::min(end, g.cursor.t_end());
     sigma += g.sigma_t;
   }
-  for (size_t i = 0; i < stretches_count_;) {
-    const Stretch& s = stretches_[i];
+  for (size_t i = 0; i < segments_count_;) {
+    const BodySegment& s = segments_[i];
     if (s.t1 <= t_) {
-      stretches_[i] = stretches_[--stretches_count_];
+      segments_[i] = segments_[--segments_count_];
       continue;
     }
     if (s.t0 <= t_) {
@@ -214,8 +214,8 @@ void MediaWalk<Resolver>::for_each_present(Each&& each) {
     GridOnWay& g = grids_[i];
     if (g.cursor.inside() && !g.cursor.clear()) each(g.placed->component, g.sigma_t, &g);
   }
-  for (size_t i = 0; i < stretches_count_; ++i) {
-    const Stretch& s = stretches_[i];
+  for (size_t i = 0; i < segments_count_; ++i) {
+    const BodySegment& s = segments_[i];
     if (s.t0 <= t0_) {
       each(s.component, tables_->sigma_of(band_, s.component), static_cast<GridOnWay*>(nullptr));
     }
@@ -268,8 +268,8 @@ void MediaWalk<Resolver>::for_each_glow(Part&& part) {
 template <class Resolver>
 double MediaWalk<Resolver>::depth() {
   double sum = tables_->stack.depth(band_, o_.z, d_.z, t_max_);
-  for (size_t i = 0; i < stretches_count_; ++i) {
-    const Stretch& s = stretches_[i];
+  for (size_t i = 0; i < segments_count_; ++i) {
+    const BodySegment& s = segments_[i];
     const double sigma = tables_->sigma_of(band_, s.component);
     if (sigma > 0) sum += sigma * (s.t1 - s.t0);
   }
@@ -284,8 +284,8 @@ double MediaWalk<Resolver>::depth() {
 template <class Resolver>
 template <class Column>
 void MediaWalk<Resolver>::for_each_column(Column&& column) {
-  for (size_t i = 0; i < stretches_count_; ++i)
-    column(stretches_[i].component, stretches_[i].t1 - stretches_[i].t0);
+  for (size_t i = 0; i < segments_count_; ++i)
+    column(segments_[i].component, segments_[i].t1 - segments_[i].t0);
   for (size_t i = 0; i < grids_count_; ++i) {
     double sum = 0;
     for_each_cell_depth(grids_[i], [&](double depth) { sum += depth; });

@@ -34,8 +34,8 @@ Real length_inside(const CompiledVolumeGroup& group, const FlightPiece& piece) {
       return std::max(0.0_r, last - first);
     }
     case GroupShape::box: {
-      const BoxStretch stretch = stretch_in_box(group.low, group.high, piece);
-      return std::max(0.0_r, stretch.last - stretch.first);
+      const BoxSegment segment = segment_in_box(group.low, group.high, piece);
+      return std::max(0.0_r, segment.last - segment.first);
     }
     case GroupShape::sphere:
       return length_in_sphere(group.centre, group.radius, piece);

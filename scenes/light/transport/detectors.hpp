@@ -61,10 +61,10 @@ inline Vec3 finite_inverse(const Vec3& d) {
 }
 
 /// The part of the piece inside an axis-aligned box, low <= p < high; empty if last <= first.
-struct BoxStretch {
+struct BoxSegment {
   Real first, last;
 };
-inline BoxStretch stretch_in_box(const Vec3& low, const Vec3& high, const FlightPiece& piece) {
+inline BoxSegment segment_in_box(const Vec3& low, const Vec3& high, const FlightPiece& piece) {
   const Vec3 inverse = finite_inverse(piece.direction);
   const Vec3 t0 = (low - piece.origin) * inverse;
   const Vec3 t1 = (high - piece.origin) * inverse;
@@ -116,7 +116,7 @@ inline VoxelPoints points_in_grid(const VoxelGrid& grid, const FlightPiece& piec
     return glm::all(glm::greaterThanEqual(p, Vec3(0))) && glm::all(glm::lessThanEqual(p, cells));
   };
   if (!in_grid(start) || !in_grid(start + piece.direction * last)) {
-    const BoxStretch inside = stretch_in_box(
+    const BoxSegment inside = segment_in_box(
         Vec3(0), cells, {start, piece.direction, last, 0, 0, false, false, false, 0});
     if (!(inside.first < inside.last)) return {};
     first = inside.first;

@@ -24,7 +24,7 @@ CellGrid grid_of(const CompiledScene& scene) {
 
 }  // namespace
 
-uint64_t EmitterSight::most_bytes(const CompiledScene& scene) {
+uint64_t EmitterSight::max_bytes(const CompiledScene& scene) {
   return grid_of(scene).count() * bytes_of_cell(scene);
 }
 

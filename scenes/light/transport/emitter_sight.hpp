@@ -29,7 +29,7 @@ inline constexpr size_t asked_emitters = 256;
 /// counts with this share of its unoccluded light, attenuated by smoke.
 inline constexpr double unseen_share = 0.1;
 /// Least light of an emitter that sends none towards the places, as for isotropic emission [1/sr].
-inline constexpr double least_arriving = 0.03 / (4 * 3.14159265358979324);
+inline constexpr double min_arriving = 0.03 / (4 * 3.14159265358979324);
 /// Visible glow of an emitter that sends nothing towards the cell, as for isotropic emission
 /// [1/sr].
 inline constexpr double glow_arriving = 1 / (4 * 3.14159265358979324);
@@ -77,7 +77,7 @@ class EmitterSight {
   explicit EmitterSight(const CompiledScene& scene);
 
   /// Memory once every cell has been learned [bytes].
-  static uint64_t most_bytes(const CompiledScene& scene);
+  static uint64_t max_bytes(const CompiledScene& scene);
 
   /// `normal`: of the place's surface; zero in the air.
   template <class Resolver>
@@ -101,7 +101,7 @@ class EmitterSight {
   };
 
   /// The places of a side of a cell, and random numbers for learning it.
-  struct Learning {
+  struct SightSampler {
     std::vector<SightPlace> places;
     Random random;
     uint64_t numbers;  // index of the first
@@ -117,7 +117,7 @@ class EmitterSight {
 
   template <class Resolver>
   CellSight learn(size_t cell, size_t side, Resolver& resolver) const {
-    Learning from{{}, Random(0, RandomStream::picture, sight_part), 0};
+    SightSampler from{{}, Random(0, RandomStream::picture, sight_part), 0};
     from.numbers = (uint64_t{cell} * cell_sides + side) * (scene_.emitters.size() + 1);
     from.random.start(from.numbers);
     from.places = sight_places(scene_, cells_.grid(), cell, side, from.random, resolver);
@@ -144,7 +144,8 @@ class EmitterSight {
 
   /// Calls ray(connection, density, weight) for shadow rays from the places to an emitter.
   template <class Resolver, class OfRay>
-  void for_each_ray(Learning& from, uint32_t emitter, Resolver& resolver, OfRay&& of_ray) const {
+  void for_each_ray(SightSampler& from, uint32_t emitter, Resolver& resolver,
+                    OfRay&& of_ray) const {
     const CompiledEmitter& e = scene_.emitters[emitter];
     for (const SightPlace& place : from.places) {
       const EmissionPoint point = emission_point(scene_, e, from.random, resolver);
@@ -158,16 +159,16 @@ class EmitterSight {
   }
 
   template <class Resolver>
-  void look_openly(Learning& from, Asked& a, Resolver& resolver) const {
+  void look_openly(SightSampler& from, Asked& a, Resolver& resolver) const {
     double squares = 0;
     for_each_ray(from, a.emitter, resolver, [&](const ShadowRay&, double density, double weight) {
       squares += weight * density * density;
     });
-    a.open = std::max(limits::least_arriving, root_mean(squares, from.places));
+    a.open = std::max(limits::min_arriving, root_mean(squares, from.places));
   }
 
   template <class Resolver>
-  void look(Learning& from, Asked& a, Resolver& resolver) const {
+  void look(SightSampler& from, Asked& a, Resolver& resolver) const {
     double squares = 0, unseen = 0;
     for_each_ray(from, a.emitter, resolver, [&](const ShadowRay& c, double density, double weight) {
       const double sent =
@@ -176,13 +177,13 @@ class EmitterSight {
       if (sent > 0 && passes(c, resolver)) squares += weight * sent * sent;
     });
     const double least = limits::unseen_share * limits::unseen_share * unseen;
-    a.arriving = std::max(limits::unseen_share * limits::least_arriving,
+    a.arriving = std::max(limits::unseen_share * limits::min_arriving,
                           root_mean(std::max(squares, least), from.places));
   }
 
   /// The visible glow of the emitter, in any direction of emission; 0: not worth testing.
   template <class Resolver>
-  double glowing(const Learning& from, const Asked& a, double all, Resolver& resolver) const {
+  double glowing(const SightSampler& from, const Asked& a, double all, Resolver& resolver) const {
     const bool worth = a.light(limits::glow_arriving) > limits::min_glow_seen * all;
     if (scene_.features.media == MediaNeed::none || !worth) return 0;
     double squares = 0;
@@ -202,7 +203,7 @@ class EmitterSight {
   }
 
   template <class Resolver>
-  std::vector<EmitterImage> images_from(Learning& from, const std::vector<Asked>& asked,
+  std::vector<EmitterImage> images_from(SightSampler& from, const std::vector<Asked>& asked,
                                         Resolver& resolver) const {
     if (!aims_at_mirrors(scene_)) return {};
     std::vector<MirroredEmitter> emitters;

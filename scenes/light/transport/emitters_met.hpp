@@ -42,10 +42,10 @@ struct EyePath {
   EmitterHits counted;
   double weight;
   GroupLight& into;
-  PathTurn turn{};               // the last scattering event; valid if `counted` is weighted
-  Real travelled = 0;            // from the last event to the ray's origin, through panes
-  bool diffused = false;         // a surface or a medium has scattered it diffusely
-  bool scattered_known = false;  // in-scattered light is from the cache
+  ScatteringVertex vertex{};      // the last scattering event; valid if `counted` is weighted
+  Real travelled = 0;             // from the last event to the ray's origin, through panes
+  bool diffused = false;          // a surface or a medium has scattered it diffusely
+  bool scattered_cached = false;  // in-scattered light is from the cache
 
   /// Adds light of the band in place `i`.
   void add(size_t i, const SourceLight& light) {
@@ -143,7 +143,7 @@ class EmittersMet {
     if (p.counted == EmitterHits::all) return 1;
     const double apparent_sr =
         apparent_face(scene_.emitters[emitter], point, -p.ray.direction, p.travelled + distance);
-    return next_event_.weight_of_hit(p.turn, emitter, point.position, apparent_sr, p.bands);
+    return next_event_.weight_of_hit(p.vertex, emitter, point.position, apparent_sr, p.bands);
   }
 
   void add_emitted_by_sign(EyePath& p, const Hit& hit) {
@@ -224,7 +224,7 @@ class EmittersMet {
     const double apparent_sr =
         next_event_.apparent_solid_angle(flame, point, -p.ray.direction, p.travelled + place.t);
     const double weight =
-        next_event_.weight_of_hit(p.turn, emitter, point.position, apparent_sr, p.bands);
+        next_event_.weight_of_hit(p.vertex, emitter, point.position, apparent_sr, p.bands);
     p.into.add(flame.group, p.bands.band(i),
                p.weight * p.bands.light(i) * weight * power * place.light *
                    (density / place.density) / (4 * static_cast<double>(pi_f)));

@@ -39,9 +39,10 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return text + (names.size() > shown ? ", ..." : "");
 }
 
-class Judging {
+class ErrorTargetReader {
  public:
-  Judging(const CompiledScene& scene, const std::vector<std::string>& words) : scene_(scene) {
+  ErrorTargetReader(const CompiledScene& scene, const std::vector<std::string>& words)
+      : scene_(scene) {
     judged_.words = words;
     const SceneDescription& d = *scene.description;
     for (const PlaneMeasure& p : d.planes) {
@@ -121,7 +122,7 @@ class Judging {
 
 Result<ErrorTarget> error_target_of(const CompiledScene& scene,
                                     const std::vector<std::string>& words) {
-  Judging judging(scene, words);
+  ErrorTargetReader judging(scene, words);
   if (words.empty()) judging.add_all();
   for (const std::string& word : words) {
     if (auto ok = judging.add(word); !ok) return ok.problem();

@@ -12,10 +12,10 @@ namespace {
 
 /// Least sine of the angle off an axis: smaller ones are raised to it, since the density is
 /// unbounded on the axis.
-constexpr Real least_sine = 1e-6_r;
+constexpr Real min_sine = 1e-6_r;
 /// Least distance from a sphere's centre, relative to its radius: nearer, the direction to the
 /// centre is undefined.
-constexpr Real least_distance = 1e-3_r;
+constexpr Real min_distance = 1e-3_r;
 
 }  // namespace
 
@@ -29,18 +29,19 @@ GlowGuide::GlowGuide(std::vector<Glow> glows, bool mirrors)
   brightest_.resize(std::min(brightest_.size(), limits::glows));
 }
 
-void GlowGuide::stand_at(const Vec3& place, const CellSight* seen, Known known) {
+void GlowGuide::stand_at(const Vec3& place, const CellSight* seen, CachedLight cached) {
   cones_.clear();
   aimed_ = 0;
   if (!aims_ || empty()) return;
   double light = 0;
   if (seen != nullptr) {
     for (const CellSight::Bright& b : seen->bright)
-      light += weigh(by_emitter_[b.emitter], place, b.glowing, known);
+      light += weigh(by_emitter_[b.emitter], place, b.glowing, cached);
     std::erase_if(cones_, [&](const Cone& c) { return c.share < limits::min_glow_seen * light; });
     for (const EmitterImage& image : seen->images) light += weigh(image, place);
   } else {
-    for (const uint32_t emitter : brightest_) light += weigh(by_emitter_[emitter], place, 1, known);
+    for (const uint32_t emitter : brightest_)
+      light += weigh(by_emitter_[emitter], place, 1, cached);
   }
   for (Cone& cone : cones_) {
     cone.share *= limits::max_aimed / light;
@@ -48,14 +49,14 @@ void GlowGuide::stand_at(const Vec3& place, const CellSight* seen, Known known) 
   }
 }
 
-double GlowGuide::weigh(const Glow& glow, const Vec3& place, double arriving, Known known) {
+double GlowGuide::weigh(const Glow& glow, const Vec3& place, double arriving, CachedLight cached) {
   const Vec3 way = glow.centre - place;
   const Real square = glm::dot(way, way);
   const Real reach = glow.radius * glow.radius;
   const double light = arriving * glow.power / static_cast<double>(std::max(square, reach));
   // Lines that start beside an extended emitter meet its light from all directions.
-  const Real least = std::max(glow.body, least_distance * glow.radius);
-  const double share = known == Known::nothing ? glow.share : glow.reflected;
+  const Real least = std::max(glow.body, min_distance * glow.radius);
+  const double share = cached == CachedLight::nothing ? glow.share : glow.reflected;
   if (square > least * least && share > 0) {
     const Real slope = std::min(limits::widest_slope, std::sqrt(reach / square));
     cones_.push_back({way / std::sqrt(square), slope, light * share});
@@ -88,7 +89,7 @@ double GlowGuide::density(const Vec3& direction, double own) const {
   for (const Cone& cone : cones_) {
     const Real cosine = glm::dot(direction, cone.axis);
     if (cosine <= 0) continue;
-    const Real sine = std::max(least_sine, glm::length(direction - cosine * cone.axis));
+    const Real sine = std::max(min_sine, glm::length(direction - cosine * cone.axis));
     if (sine > cosine * cone.slope) continue;
     sum += cone.share / (2 * static_cast<double>(pi_f * cone.slope * cosine * cosine * sine));
   }

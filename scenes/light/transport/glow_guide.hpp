@@ -13,7 +13,7 @@
 
 #include "scenes/light/geometry/real.hpp"
 #include "scenes/light/transport/emission.hpp"
-#include "scenes/light/transport/known_radiance.hpp"
+#include "scenes/light/transport/radiance_cache.hpp"
 
 namespace luxodus {
 
@@ -63,9 +63,9 @@ class GlowGuide {
   /// multiply.
   void start_event(int event) { aims_ = event < limits::aimed_events; }
   /// Sets the place of an event until the next call. `seen`: what is known of emitters there; if
-  /// null, they are weighted by power and distance, without regard to walls. `known`: if scattered
+  /// null, they are weighted by power and distance, without regard to walls. `cached`: if scattered
   /// light is in the radiance cache, only reflected glow is guided to.
-  void stand_at(const Vec3& place, const CellSight* seen, Known known);
+  void stand_at(const Vec3& place, const CellSight* seen, CachedLight cached);
   /// Guided share of the directions there.
   double aimed() const { return aimed_; }
   /// Samples a guided direction from uniform numbers; `choice` in [0, aimed()).
@@ -81,7 +81,7 @@ class GlowGuide {
   };
   /// Adds a cone for an emitter's glow, by the light `arriving` at the place per watt without the
   /// inverse square. Returns the emitter's light there.
-  double weigh(const Glow& glow, const Vec3& place, double arriving, Known known);
+  double weigh(const Glow& glow, const Vec3& place, double arriving, CachedLight cached);
   /// Likewise for a mirror image of an emitter.
   double weigh(const EmitterImage& image, const Vec3& place);
 

@@ -40,7 +40,7 @@ MediaBands::MediaBands(const CompiledScene& scene)
   for (int c = 0; c < static_cast<int>(tables.components.size()); ++c)
     for (int b = 0; b < scene.bands.count(); ++b)
       if (tables.sigma_of(b, c) > 0)
-        most_scattered_ = std::max(most_scattered_, tables.albedo_of(b, c));
+        max_scattered_ = std::max(max_scattered_, tables.albedo_of(b, c));
 }
 
 void MediaBands::albedos(const FreeFlight& flight, const PathBands& bands, BandValues& out) const {

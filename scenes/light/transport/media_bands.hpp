@@ -20,7 +20,7 @@ class MediaBands {
   bool grey() const { return grey_; }
   /// Largest albedo of any medium in any band, as stated by the media; arrays of a data set may
   /// differ.
-  double most_scattered() const { return most_scattered_; }
+  double max_scattered() const { return max_scattered_; }
 
   /// Optical depth of each band along the ray.
   template <class Resolver>
@@ -98,7 +98,7 @@ class MediaBands {
   const CompiledScene& scene_;
   std::vector<double> ratio_;  // by band, common to all media; empty: there is none
   bool grey_ = false;          // all ratios are 1
-  double most_scattered_ = 0;
+  double max_scattered_ = 0;
 };
 
 }  // namespace luxodus

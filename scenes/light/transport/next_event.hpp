@@ -20,14 +20,14 @@
 #include "scenes/light/transport/emitter_choice.hpp"
 #include "scenes/light/transport/glow_guide.hpp"
 #include "scenes/light/transport/group_light.hpp"
-#include "scenes/light/transport/known_radiance.hpp"
 #include "scenes/light/transport/media_bands.hpp"
 #include "scenes/light/transport/path_bands.hpp"
+#include "scenes/light/transport/radiance_cache.hpp"
 
 namespace luxodus {
 
 /// A ray segment of a path on which it may collide with the medium.
-struct Stretch {
+struct RaySegment {
   Ray ray;
   Real end = 0;      // points near emitters are sampled up to here
   double share = 1;  // collisions have the density sigma_t exp(-depth) / share: 1 for a free
@@ -36,12 +36,12 @@ struct Stretch {
 };
 
 /// The last diffuse scattering event of a path, and the density of the direction sampled there.
-struct PathTurn {
+struct ScatteringVertex {
   Vec3 place{0};
   double pdf = 0;          // [1/sr]
   Vec3 normal{0};          // of a surface; zero in a medium
   bool in_medium = false;  // the place is `t` along the segment
-  Stretch stretch{{}, 0, 1, PathBands::one(0)};
+  RaySegment segment{{}, 0, 1, PathBands::one(0)};
   Real t = 0;
 };
 
@@ -63,9 +63,9 @@ class NextEvent {
   const MediaBands& media() const { return media_; }
   const GlowGuide& guide() const { return guide_; }
   /// The guide for directions at a place; the path need not find light that is in the cache
-  /// (`known`). Suspends: where the resolver does, unless emitters were weighted there before.
-  const GlowGuide& guide_at(const Vec3& place, const Vec3& normal, Known known) {
-    if (!guide_.empty()) guide_.stand_at(place, seen_at(place, normal), known);
+  /// (`cached`). Suspends: where the resolver does, unless emitters were weighted there before.
+  const GlowGuide& guide_at(const Vec3& place, const Vec3& normal, CachedLight cached) {
+    if (!guide_.empty()) guide_.stand_at(place, seen_at(place, normal), cached);
     return guide_;
   }
 
@@ -97,7 +97,7 @@ class NextEvent {
       return static_cast<double>(surface_pdf(models[i], -direction, towards, normal));
     });
     const double turned = models[0].kind == SurfaceKind::lambertian && !guide_.empty()
-                              ? turned_at(place, normal, Known::nothing, towards, hit)
+                              ? turned_at(place, normal, CachedLight::nothing, towards, hit)
                               : hit;
     const double density = sampled.probability + turned * arriving_.apparent_sr;
     for (size_t i = 0; i < bands.count(); ++i) {
@@ -113,7 +113,7 @@ class NextEvent {
   /// scatters once against its ray, except where all light is in the cache (`ends`). `flight` was
   /// sampled along the segment, and `passed` is the light of each band after its collision.
   /// Suspends: where the resolver does.
-  void add_scattered(const Stretch& s, const FreeFlight& flight, const BandValues& passed,
+  void add_scattered(const RaySegment& s, const FreeFlight& flight, const BandValues& passed,
                      double weight, GroupLight& into, const PathEnds& ends = {}) {
     const bool emitters_near = weigh_along(s, s.bands);
     if (flight.collided) add_collided(s, flight, emitters_near, passed, weight, into, ends);
@@ -124,21 +124,21 @@ class NextEvent {
   // the segment is one over their number.
 
   /// Points sampled near an emitter. Returns whether any emitter is near.
-  bool add_near(const Stretch& s, double weight, GroupLight& into, const PathEnds& ends) {
+  bool add_near(const RaySegment& s, double weight, GroupLight& into, const PathEnds& ends) {
     const bool emitters_near = weigh_along(s, s.bands);
     if (emitters_near) add_near_emitter(s, ends, weight, into);
     return emitters_near;
   }
   /// The collision of a flight. Requires: the last add_near was for this segment.
-  void add_collided(const Stretch& s, const FreeFlight& flight, bool emitters_near,
+  void add_collided(const RaySegment& s, const FreeFlight& flight, bool emitters_near,
                     const BandValues& passed, double weight, GroupLight& into,
                     const PathEnds& ends) {
-    const Known known = ends.in_medium(s.ray.origin + s.ray.direction * flight.t);
-    if (known == Known::all) return;
+    const CachedLight cached = ends.in_medium(s.ray.origin + s.ray.direction * flight.t);
+    if (cached == CachedLight::all) return;
     // A band may scatter even if the hero's band does not.
     if (std::any_of(passed.begin(), passed.begin() + s.bands.count(),
                     [](double light) { return light > 0; }))
-      add_at_collision(s, flight, emitters_near, passed, weight, into, known);
+      add_at_collision(s, flight, emitters_near, passed, weight, into, cached);
   }
 
   /// Balance-heuristic weight of an emitter hit at `point` by the path's own direction.
@@ -146,13 +146,14 @@ class NextEvent {
   /// a hit, so no cell of space may be learned here: learning uses the resolver, which may drop the
   /// hit's cell. None is new: emitters were sampled at that place, and add_scattered or add_near
   /// has already used the cells along its segment.
-  double weight_of_hit(const PathTurn& turn, size_t emitter, const Vec3& point, double apparent_sr,
-                       const PathBands& bands) {
-    const double hit = turn.pdf * apparent_sr;
+  double weight_of_hit(const ScatteringVertex& vertex, size_t emitter, const Vec3& point,
+                       double apparent_sr, const PathBands& bands) {
+    const double hit = vertex.pdf * apparent_sr;
     if (!(hit > 0)) return 0;
-    double sampled = weigh_at(turn.place, turn.normal, bands) ? choice_.probability_at(emitter) : 0;
-    if (turn.in_medium && weigh_along(turn.stretch, bands))
-      sampled += drawn_near(turn.stretch, turn.place, turn.t, emitter, point);
+    double sampled =
+        weigh_at(vertex.place, vertex.normal, bands) ? choice_.probability_at(emitter) : 0;
+    if (vertex.in_medium && weigh_along(vertex.segment, bands))
+      sampled += drawn_near(vertex.segment, vertex.place, vertex.t, emitter, point);
     return hit / (hit + sampled);
   }
 
@@ -176,7 +177,7 @@ class NextEvent {
     return choice_.weigh_at(place, normal, chosen_by(bands), seen_at(place, normal));
   }
   /// Weights emitters near a segment. False if there is none.
-  bool weigh_along(const Stretch& s, const PathBands& bands) {
+  bool weigh_along(const RaySegment& s, const PathBands& bands) {
     if (sight_ == nullptr) return choice_.weigh_along(s.ray, s.end, chosen_by(bands));
     return choice_.weigh_near(
         s.ray, s.end, chosen_by(bands),
@@ -188,7 +189,7 @@ class NextEvent {
 
   /// Irradiance [W/m2] from a sampled point of an emitter, normal to the connection, by the path's
   /// bands.
-  struct Arriving {
+  struct LightSample {
     Vec3 direction{0};  // towards the emitter
     double apparent_sr = 0;
     BandValues irradiance;
@@ -196,10 +197,10 @@ class NextEvent {
 
   /// Density [1/sr] of directions at a place, guided ones included; the phase function or surface
   /// alone has `own`.
-  double turned_at(const Vec3& place, const Vec3& normal, Known known, const Vec3& direction,
+  double turned_at(const Vec3& place, const Vec3& normal, CachedLight cached, const Vec3& direction,
                    double own) {
     if (guide_.empty()) return own;
-    return guide_at(place, normal, known).density(direction, own);
+    return guide_at(place, normal, cached).density(direction, own);
   }
 
   /// Emitters are chosen for all bands of a path together.
@@ -239,7 +240,7 @@ class NextEvent {
   // ---- light scattered into a segment of a path -----------------------------------------------
 
   /// Writes the extinction of each band at a place to `sigma_`. False if all are zero.
-  bool may_collide_at(const Stretch& s, const Vec3& place) {
+  bool may_collide_at(const RaySegment& s, const Vec3& place) {
     media_.extinctions(place, s.bands, sigma_, resolver_);
     return std::any_of(sigma_.begin(), sigma_.begin() + s.bands.count(),
                        [](double sigma) { return sigma > 0; });
@@ -247,21 +248,21 @@ class NextEvent {
 
   /// Writes the density [1/m] of collisions of each band at a point of the segment to `here_`.
   /// Returns that of the hero mixture. Requires: may_collide_at was called for this point.
-  double density_of_collisions(const Stretch& s, Real t) {
+  double density_of_collisions(const RaySegment& s, Real t) {
     media_.transmittances(s.ray, t, s.bands, through_, resolver_);
     for (size_t i = 0; i < s.bands.count(); ++i) here_[i] = sigma_[i] * through_[i] / s.share;
     return s.bands.mixed([&](size_t i) { return here_[i]; });
   }
 
   /// Equiangular sampling of a segment with respect to a point of an emitter.
-  static EquiangularLine seen_from(const Vec3& point, const Stretch& s) {
+  static EquiangularLine seen_from(const Vec3& point, const RaySegment& s) {
     return {glm::dvec3(s.ray.origin), glm::dvec3(s.ray.direction), static_cast<double>(s.end),
             glm::dvec3(point)};
   }
 
   /// Density with which `add_near_emitter` samples a place with a point of the emitter, relative to
   /// the density of collisions there. Requires: the last weigh_along was for this segment.
-  double drawn_near(const Stretch& s, const Vec3& place, Real t, size_t emitter,
+  double drawn_near(const RaySegment& s, const Vec3& place, Real t, size_t emitter,
                     const Vec3& point) {
     const double share = choice_.probability_along(emitter);
     if (!(share > 0)) return 0;
@@ -271,8 +272,9 @@ class NextEvent {
   }
 
   /// Samples an emitter at the collision of a flight.
-  void add_at_collision(const Stretch& s, const FreeFlight& flight, bool emitters_near,
-                        const BandValues& passed, double weight, GroupLight& into, Known known) {
+  void add_at_collision(const RaySegment& s, const FreeFlight& flight, bool emitters_near,
+                        const BandValues& passed, double weight, GroupLight& into,
+                        CachedLight cached) {
     const Vec3 place = s.ray.origin + s.ray.direction * flight.t;
     if (!weigh_at(place, Vec3(0), s.bands)) return;
     const EmitterSample sampled = choice_.choose_at(random_.uniform_double());
@@ -285,7 +287,7 @@ class NextEvent {
         static_cast<double>(evaluate(phase, glm::dot(arriving_.direction, s.ray.direction)));
     double probability =
         sampled.probability +
-        turned_at(place, Vec3(0), known, arriving_.direction, turned) * arriving_.apparent_sr;
+        turned_at(place, Vec3(0), cached, arriving_.direction, turned) * arriving_.apparent_sr;
     if (emitters_near)
       probability += drawn_near(s, place, flight.t, sampled.emitter, point.position);
     for (size_t i = 0; i < s.bands.count(); ++i) {
@@ -295,7 +297,8 @@ class NextEvent {
   }
 
   /// Chooses the emitter first, then a point of the segment by equiangular sampling.
-  void add_near_emitter(const Stretch& s, const PathEnds& ends, double weight, GroupLight& into) {
+  void add_near_emitter(const RaySegment& s, const PathEnds& ends, double weight,
+                        GroupLight& into) {
     const auto [chosen, share] = choice_.choose_along(random_.uniform_double());
     if (!(share > 0)) return;
     const CompiledEmitter& e = scene_.emitters[chosen];
@@ -303,8 +306,8 @@ class NextEvent {
     const EquiangularLine line = seen_from(point.position, s);
     const auto t = static_cast<Real>(line.sample(random_.uniform_double()));
     const Vec3 place = s.ray.origin + s.ray.direction * t;
-    const Known known = ends.in_medium(place);
-    if (known == Known::all) return;
+    const CachedLight cached = ends.in_medium(place);
+    if (cached == CachedLight::all) return;
     if (!may_collide_at(s, place) || !arrive(e, point, place, s.bands)) return;
     const double here = density_of_collisions(s, t);
     if (!(here > 0)) return;
@@ -312,7 +315,7 @@ class NextEvent {
     const double drawn = share * line.density(static_cast<double>(t));
     const double sampled = choice_.probability_at(chosen);
     const Real cosine = glm::dot(arriving_.direction, s.ray.direction);
-    guide_at(place, Vec3(0), known);
+    guide_at(place, Vec3(0), cached);
     for (size_t i = 0; i < s.bands.count(); ++i) {
       if (!(sigma_[i] > 0)) continue;
       double scattered = 0;  // per medium, since each has its own phase function
@@ -340,7 +343,7 @@ class NextEvent {
   GlowGuide guide_;
 
   // Results of the last call, by the path's bands.
-  Arriving arriving_;
+  LightSample arriving_;
   BandValues solid_, through_, sigma_, here_;
 };
 

@@ -85,16 +85,16 @@ class ParticleTracer {
 
   /// Random numbers for a new direction, and the cosine-weighted direction for a Lambertian
   /// surface, about its normal.
-  struct Turn {
+  struct SampledDirection {
     Real u, v;
     Vec3 lambertian;
   };
-  Turn draw_turn() {
+  SampledDirection draw_direction() {
     const Real u = random_.uniform();
     const Real v = random_.uniform();
-    Turn turn{u, v, cosine_hemisphere(u, v)};
-    if constexpr (flawed) Flaws::lambertian(turn.lambertian);
-    return turn;
+    SampledDirection drawn{u, v, cosine_hemisphere(u, v)};
+    if constexpr (flawed) Flaws::lambertian(drawn.lambertian);
+    return drawn;
   }
 
   void trace(uint64_t particle) {
@@ -109,7 +109,7 @@ class ParticleTracer {
       ++balance.rays;
       // The direction after this flight is sampled before it: that needs nothing of the hit, so it
       // can overlap with the search for the hit.
-      const Turn turn = draw_turn();
+      const SampledDirection drawn = draw_direction();
       FreeFlight flight;
       if constexpr (flight_first) {
         flight = fly(p, std::numeric_limits<Real>::infinity());
@@ -117,7 +117,7 @@ class ParticleTracer {
       }
       const Hit hit = resolver_.nearest(p.ray);
       if constexpr (!flight_first && K::media != MediaNeed::none) flight = fly(p, hit.distance);
-      const bool alive = interact(p, hit, flight, turn);
+      const bool alive = interact(p, hit, flight, drawn);
       if (!alive) return;
     }
     balance.lost_too_long += p.weight;
@@ -186,26 +186,26 @@ class ParticleTracer {
   }
 
   /// The event at the end of a flight; a surface found before the collision takes precedence.
-  bool interact(State& p, const Hit& hit, const FreeFlight& flight, const Turn& turn) {
+  bool interact(State& p, const Hit& hit, const FreeFlight& flight, const SampledDirection& drawn) {
     if constexpr (K::media != MediaNeed::none) {
       if (flight.collided && (!flight_first || hit.distance > flight.t)) {
-        pass_detectors(p, flight.t, turn);
-        return collide(p, flight, hit, turn);
+        pass_detectors(p, flight.t, drawn);
+        return collide(p, flight, hit, drawn);
       }
     }
-    if (!hit.found()) return escape(p, turn);
-    pass_detectors(p, hit.distance, turn);
-    return meet_surface(p, hit, turn);
+    if (!hit.found()) return escape(p, drawn);
+    pass_detectors(p, hit.distance, drawn);
+    return meet_surface(p, hit, drawn);
   }
 
   /// The direction sampled for the end of a flight is independent of it, so its number can also
   /// place the voxel points.
-  void pass_detectors(const State& p, Real length, const Turn& turn) {
+  void pass_detectors(const State& p, Real length, const SampledDirection& drawn) {
     if constexpr (K::detectors) {
       if constexpr (flawed) Flaws::passed(length);
       score_flight(scene_,
                    {p.ray.origin, p.ray.direction, length, p.weight, p.band, p.direct, p.collided,
-                    p.scattered, turn.u},
+                    p.scattered, drawn.u},
                    *batch_);
     }
   }
@@ -229,7 +229,8 @@ class ParticleTracer {
   }
 
   /// `ahead`: the surface beyond the collision, if one was found.
-  bool collide(State& p, const FreeFlight& flight, const Hit& ahead, const Turn& turn) {
+  bool collide(State& p, const FreeFlight& flight, const Hit& ahead,
+               const SampledDirection& drawn) {
     ++batch_->balance.collisions;
     const Vec3 place = collision_place(p.ray, flight, ahead);
     const Weight before = p.weight;
@@ -244,7 +245,7 @@ class ParticleTracer {
     p.ray.origin = place;
     const Vec3 incoming = p.ray.direction;
     p.ray.direction =
-        sample(scene_.phases[static_cast<size_t>(flight.phase)], incoming, turn.u, turn.v);
+        sample(scene_.phases[static_cast<size_t>(flight.phase)], incoming, drawn.u, drawn.v);
     if constexpr (flawed) Flaws::scattered(p.ray.direction, incoming);
     p.direct = false;
     p.collided = p.scattered = true;
@@ -254,7 +255,7 @@ class ParticleTracer {
   // ---- surfaces
   // ----------------------------------------------------------------------------------
 
-  bool meet_surface(State& p, const Hit& hit, const Turn& turn) {
+  bool meet_surface(State& p, const Hit& hit, const SampledDirection& drawn) {
     ++batch_->balance.hits;
     const TriangleRecord& triangle = *hit.triangle;
     const bool front = glm::dot(triangle.unit_normal(), p.ray.direction) < 0;
@@ -264,7 +265,7 @@ class ParticleTracer {
       const CompiledMaterial& material = scene_.materials[surface.material[side]];
       if (material.kind != MaterialKind::lambertian || material.image != none_index ||
           surface.sign != none_index) {
-        return meet_any_surface(p, hit, front, material, turn);
+        return meet_any_surface(p, hit, front, material, drawn);
       }
     }
     const size_t side = front ? 0 : 1;
@@ -283,7 +284,7 @@ class ParticleTracer {
     p.weight = after;
     if (!survives_roulette(p)) return false;
     const Vec3 normal = front ? triangle.unit_normal() : -triangle.unit_normal();
-    p.ray.direction = to_world(normal, turn.lambertian);
+    p.ray.direction = to_world(normal, drawn.lambertian);
     p.ray.origin = offset_ray(triangle.at(hit.u, hit.v), normal, scene_.min_offset_m);
     if constexpr (flawed) Flaws::departure(p.ray.origin, triangle.at(hit.u, hit.v));
     p.direct = p.scattered = false;
@@ -293,7 +294,7 @@ class ParticleTracer {
   /// Glossy, mirror, glass, open, textured, sign faces: samples the lobe first, then applies its
   /// weight.
   bool meet_any_surface(State& p, const Hit& hit, bool front, const CompiledMaterial& material,
-                        const Turn& turn) {
+                        const SampledDirection& drawn) {
     const TriangleRecord& triangle = *hit.triangle;
     const Vec3 normal = front ? triangle.unit_normal() : -triangle.unit_normal();
     SurfaceModel model = surface_at(scene_, hit, front, p.band, material, resolver_);
@@ -301,7 +302,7 @@ class ParticleTracer {
     const Vec3 place = triangle.at(hit.u, hit.v);
     const Real lobe = random_.uniform();
     const SurfaceSample sampled =
-        sample_surface(model, p.ray.direction, normal, front, lobe, turn.u, turn.v);
+        sample_surface(model, p.ray.direction, normal, front, lobe, drawn.u, drawn.v);
     const Weight before = p.weight;
     const Weight after = surviving(before, to_fraction(static_cast<double>(sampled.weight)));
     patch_score(hit, front, p.band)[0] += static_cast<int64_t>(before);
@@ -360,10 +361,10 @@ class ParticleTracer {
   // ---- leaving the scene
   // -------------------------------------------------------------------------
 
-  bool escape(State& p, const Turn& turn) {
+  bool escape(State& p, const SampledDirection& drawn) {
     EscapePoint exit = leave_box(p.ray);
     if constexpr (flawed) Flaws::exit(exit.side);
-    pass_detectors(p, exit.distance, turn);
+    pass_detectors(p, exit.distance, drawn);
     const int64_t at = scene_.layout.score_index(scene_.blocks.escape, exit.side, p.band, 0);
     batch_->scores.data()[at] += static_cast<int64_t>(p.weight);
     batch_->balance.escaped += p.weight;

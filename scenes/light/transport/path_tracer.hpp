@@ -19,8 +19,8 @@
 #include "scenes/light/transport/emitters_met.hpp"
 #include "scenes/light/transport/eye_view.hpp"
 #include "scenes/light/transport/group_light.hpp"
-#include "scenes/light/transport/known_radiance.hpp"
 #include "scenes/light/transport/next_event.hpp"
+#include "scenes/light/transport/radiance_cache.hpp"
 #include "scenes/light/transport/textures.hpp"
 #include "scenes/light/transport/turn_numbers.hpp"
 
@@ -36,7 +36,7 @@ inline constexpr int path_parts = 2;
 inline constexpr double collision_worth = 4;
 /// Largest share of first flights made to collide, if more collide than in free flight: one of two
 /// parts.
-inline constexpr double most_forced = 0.5;
+inline constexpr double max_forced = 0.5;
 }  // namespace limits
 
 template <class Resolver>
@@ -81,41 +81,41 @@ class PathTracer {
   }
 
   /// Adds `weight` times the radiance [W/(m2 sr)] in `band` that arrives against `ray.direction`,
-  /// from one path. `counted`: emitter hits that count before the first event. `known`: the cache
+  /// from one path. `counted`: emitter hits that count before the first event. `cache`: the cache
   /// in which paths may end after their first diffuse event; null traces them to their end.
   void radiance(const Ray& ray, int band, EmitterHits counted, double weight, GroupLight& into,
-                const KnownRadiance* known = nullptr) {
+                const RadianceCache* cache = nullptr) {
     ends_.clear();
-    trace({ray, PathBands::one(band), counted, weight, into}, known, 0);
+    trace({ray, PathBands::one(band), counted, weight, into}, cache, 0);
   }
 
   /// The radiance of all bands, in `into.by_band()`, by one path that is sampled for one band, the
   /// hero (hero wavelength sampling). Requires: heroes are chosen by choose_band. `first`: receives
   /// the noise-free data of the ray; null: not needed.
   void radiance_of_all(const Ray& ray, int hero, EmitterHits counted, GroupLight& into,
-                       const KnownRadiance* known = nullptr, FirstHit* first = nullptr) {
+                       const RadianceCache* cache = nullptr, FirstHit* first = nullptr) {
     ends_.clear();
     const Path path{ray, PathBands::all(hero_, hero), counted, 1, into};
     next_event_.start_event(0);  // before the ray: computing glows may drop the cell of its hit
-    if (known != nullptr || first != nullptr) met_first_ = view_.meet(ray, path.bands);
+    if (cache != nullptr || first != nullptr) met_first_ = view_.meet(ray, path.bands);
     if (first != nullptr) view_.describe(ray, path.bands, met_first_, *first);
-    if (known == nullptr) return trace(path, nullptr, 0);
-    split(path, {known, false}, scene_.features.media == MediaNeed::none ? 1 : limits::path_parts);
-    for (const Path& part : parts_) trace(part, known, 1);
+    if (cache == nullptr) return trace(path, nullptr, 0);
+    split(path, {cache, false}, scene_.features.media == MediaNeed::none ? 1 : limits::path_parts);
+    for (const Path& part : parts_) trace(part, cache, 1);
   }
 
   /// Cached light at which the last path of radiance() has ended, or the parts of the last path of
   /// radiance_of_all().
-  std::span<const KnownEnd> ends() const { return ends_; }
+  std::span<const CachedEnd> ends() const { return ends_; }
 
   /// Continues a path that a Lambertian surface has scattered along `ray`, after
   /// `add_reflected_light` has sampled emitters there.
   void radiance_after_reflection(const Ray& ray, const Vec3& normal, int band, double weight,
                                  GroupLight& into) {
     Path path{ray, PathBands::one(band), EmitterHits::weighted, weight, into};
-    path.turn.place = ray.origin;
-    path.turn.normal = normal;
-    path.turn.pdf = static_cast<double>(cosine_pdf(glm::dot(ray.direction, normal)));
+    path.vertex.place = ray.origin;
+    path.vertex.normal = normal;
+    path.vertex.pdf = static_cast<double>(cosine_pdf(glm::dot(ray.direction, normal)));
     trace(path, nullptr, 0);
   }
 
@@ -124,10 +124,10 @@ class PathTracer {
   void radiance_after_scattering(const Ray& line, Real length, const FreeFlight& flight,
                                  double share, const Vec3& direction, int band, double weight,
                                  GroupLight& into) {
-    const PathTurn turn =
+    const ScatteringVertex vertex =
         scattered({line, line_end(scene_, length), share, PathBands::one(band)}, flight, direction);
-    Path path{{turn.place, direction}, PathBands::one(band), EmitterHits::weighted, weight, into};
-    path.turn = turn;
+    Path path{{vertex.place, direction}, PathBands::one(band), EmitterHits::weighted, weight, into};
+    path.vertex = vertex;
     trace(path, nullptr, 0);
   }
 
@@ -167,7 +167,7 @@ class PathTracer {
     const bool may_force = media && hit.found();
     const double more = may_force ? more_collisions(path) : 1;
     // Collisions of all parts together are denser than those of one free flight.
-    const Stretch stretch{path.ray, end, 1.0 / (parts * more), path.bands};
+    const RaySegment segment{path.ray, end, 1.0 / (parts * more), path.bands};
     if (media) {
       const double collides = may_force ? 1 - met_first_.passed[path.bands.hero_place()] : 1;
       const uint32_t bits = random_.bits();
@@ -184,7 +184,7 @@ class PathTracer {
     const int passing = parts - static_cast<int>(flights_.size());
     if (passing > 0 && hit.found()) split_at_surface(path, hit, passing, parts, more);
     // Last, since learning cells may drop the cell of the hit.
-    if (media) split_in_medium(path, stretch, ends);
+    if (media) split_in_medium(path, segment, ends);
   }
 
   /// Factor by which the first flight collides more often than in free flight, equal for all bands.
@@ -194,8 +194,8 @@ class PathTracer {
     const double least = *std::min_element(through.begin(), through.begin() + path.bands.count());
     const double free = 1 - least;
     if (!(free > 0)) return 1;
-    const double brought = limits::collision_worth * next_event_.media().most_scattered() * free;
-    const double wanted = std::min(limits::most_forced, brought / (brought + least));
+    const double brought = limits::collision_worth * next_event_.media().max_scattered() * free;
+    const double wanted = std::min(limits::max_forced, brought / (brought + least));
     return std::max(1.0, wanted / free);
   }
 
@@ -224,45 +224,45 @@ class PathTracer {
   }
 
   /// Continues the parts whose flights, `flights_`, have collided.
-  void split_in_medium(const Path& path, const Stretch& stretch, const PathEnds& ends) {
-    const bool emitters_near = next_event_.add_near(stretch, path.weight, path.into, ends);
+  void split_in_medium(const Path& path, const RaySegment& segment, const PathEnds& ends) {
+    const bool emitters_near = next_event_.add_near(segment, path.weight, path.into, ends);
     if (flights_.empty()) return;
     const TurnNumbers numbers = medium_numbers();
     for (size_t i = 0; i < flights_.size(); ++i) {
       Path part = path;
       pass_media(part, flights_[i]);
-      next_event_.add_collided(stretch, flights_[i], emitters_near, passed_, path.weight, path.into,
+      next_event_.add_collided(segment, flights_[i], emitters_near, passed_, path.weight, path.into,
                                ends);
       if (part.bands.brightest() <= 0) continue;
-      part.weight *= stretch.share;
-      const Known known = add_known_of_medium(part, flights_[i], ends);
-      turn_in_medium(part, flights_[i], stretch, numbers.of_part(static_cast<int>(i)), known);
+      part.weight *= segment.share;
+      const CachedLight cached = add_cached_of_medium(part, flights_[i], ends);
+      turn_in_medium(part, flights_[i], segment, numbers.of_part(static_cast<int>(i)), cached);
       parts_.push_back(part);
     }
   }
 
   /// Traces a path from event number `first` on.
-  void trace(Path path, const KnownRadiance* known, int first) {
+  void trace(Path path, const RadianceCache* cache, int first) {
     for (int event = first; event < limits::eye_events; ++event) {
       next_event_.start_event(event);
       const Hit hit = resolver_.nearest(path.ray);
       if (path.counted != EmitterHits::none) met_.add_along(path, hit);
-      const PathEnds ends{known, path.diffused};
-      if (path.scattered_known) {
+      const PathEnds ends{cache, path.diffused};
+      if (path.scattered_cached) {
         if (!hit.found()) return;
         pass_without_collision(path, line_end(scene_, hit.distance));
         if (!meet_surface(path, hit, ends)) return;
         continue;
       }
-      const Stretch stretch{path.ray, line_end(scene_, hit.distance), 1, path.bands};
+      const RaySegment segment{path.ray, line_end(scene_, hit.distance), 1, path.bands};
       const FreeFlight flight = fly(path.ray, hit.distance, path.bands.hero());
       pass_media(path, flight);
       const double weight = path.weight;  // before the scattering
       const bool alive =
-          flight.collided ? scatter(path, flight, stretch, ends) : meet_surface(path, hit, ends);
+          flight.collided ? scatter(path, flight, segment, ends) : meet_surface(path, hit, ends);
       // Last, since learning cells may drop the cell of the hit.
       if (scene_.features.media != MediaNeed::none)
-        next_event_.add_scattered(stretch, flight, passed_, weight, path.into, ends);
+        next_event_.add_scattered(segment, flight, passed_, weight, path.into, ends);
       if (!alive || (event >= 2 && !survives_roulette(path.bands))) return;
     }
   }
@@ -310,28 +310,28 @@ class PathTracer {
 
   /// Medium event: a new direction, or the end in the cache. NextEvent samples the light of
   /// emitters that is not in the cache. False ends the path.
-  bool scatter(Path& p, const FreeFlight& flight, const Stretch& stretch, const PathEnds& ends) {
+  bool scatter(Path& p, const FreeFlight& flight, const RaySegment& segment, const PathEnds& ends) {
     if (p.bands.brightest() <= 0) return false;
-    const Known known = add_known_of_medium(p, flight, ends);
-    if (known == Known::all) return false;
-    turn_in_medium(p, flight, stretch, medium_numbers(), known);
+    const CachedLight cached = add_cached_of_medium(p, flight, ends);
+    if (cached == CachedLight::all) return false;
+    turn_in_medium(p, flight, segment, medium_numbers(), cached);
     return true;
   }
 
   /// Adds cached light at a collision. Returns which light that was: the rest of the path must not
   /// find it again.
-  Known add_known_of_medium(Path& p, const FreeFlight& flight, const PathEnds& ends) {
+  CachedLight add_cached_of_medium(Path& p, const FreeFlight& flight, const PathEnds& ends) {
     const Vec3 place = p.ray.origin + p.ray.direction * flight.t;
-    const Known which = ends.in_medium(place);
-    if (which == Known::nothing) return which;
+    const CachedLight which = ends.in_medium(place);
+    if (which == CachedLight::nothing) return which;
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     const Vec3& direction = p.ray.direction;
     const Real x = random_.uniform();
     const Real y = random_.uniform();
-    const uint32_t voxel = ends.known->choose_voxel(place, {x, y, random_.uniform()}, which);
+    const uint32_t voxel = ends.cache->choose_voxel(place, {x, y, random_.uniform()}, which);
     for (size_t i = 0; i < p.bands.count(); ++i)
-      add_known(p, i, ends.known->of_medium(voxel, direction, phase, p.bands.band(i), which));
-    end_in_known([&] { return ends.known->error_of_medium(voxel, direction, phase, which); });
+      add_cached(p, i, ends.cache->of_medium(voxel, direction, phase, p.bands.band(i), which));
+    end_in_cache([&] { return ends.cache->error_of_medium(voxel, direction, phase, which); });
     return which;
   }
 
@@ -343,61 +343,62 @@ class PathTracer {
     return out;
   }
 
-  void turn_in_medium(Path& p, const FreeFlight& flight, const Stretch& stretch,
-                      const TurnNumbers& numbers, Known known) {
+  void turn_in_medium(Path& p, const FreeFlight& flight, const RaySegment& segment,
+                      const TurnNumbers& numbers, CachedLight cached) {
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
     const GlowGuide& guide =
-        next_event_.guide_at(p.ray.origin + p.ray.direction * flight.t, Vec3(0), known);
+        next_event_.guide_at(p.ray.origin + p.ray.direction * flight.t, Vec3(0), cached);
     const Vec3 direction = numbers.choice < guide.aimed()
                                ? guide.direction(numbers.choice, numbers.u, numbers.v)
                                : sample(phase, p.ray.direction, numbers.u, numbers.v);
-    p.turn = scattered(stretch, flight, direction);
+    p.vertex = scattered(segment, flight, direction);
     weigh_aimed(p, direction);
-    p.ray = {p.turn.place, direction};
+    p.ray = {p.vertex.place, direction};
     p.counted = EmitterHits::weighted;
     p.travelled = 0;
     p.diffused = true;
-    p.scattered_known = known == Known::scattered;
+    p.scattered_cached = cached == CachedLight::scattered;
   }
 
   /// Whether a part of the directions is guided towards glows.
   bool aims() const { return !next_event_.guide().empty(); }
 
-  /// For a direction whose unguided density is `p.turn.pdf`: replaces it by the density of the
+  /// For a direction whose unguided density is `p.vertex.pdf`: replaces it by the density of the
   /// mixture, and weights the path by the ratio. Russian roulette ignores this weight: guided
   /// directions are rare for the unguided technique, not of low contribution.
   void weigh_aimed(Path& p, const Vec3& direction) {
     if (!aims()) return;
-    const double own = p.turn.pdf;
-    p.turn.pdf = next_event_.guide().density(direction, own);
-    p.weight *= own / p.turn.pdf;
+    const double own = p.vertex.pdf;
+    p.vertex.pdf = next_event_.guide().density(direction, own);
+    p.weight *= own / p.vertex.pdf;
   }
 
-  PathTurn scattered(const Stretch& stretch, const FreeFlight& flight, const Vec3& direction) {
+  ScatteringVertex scattered(const RaySegment& segment, const FreeFlight& flight,
+                             const Vec3& direction) {
     const PhaseFunction& phase = scene_.phases[static_cast<size_t>(flight.phase)];
-    const Vec3& before = stretch.ray.direction;
-    return {stretch.ray.origin + before * flight.t,
+    const Vec3& before = segment.ray.direction;
+    return {segment.ray.origin + before * flight.t,
             static_cast<double>(evaluate(phase, glm::dot(before, direction))),
             Vec3(0),
             true,
-            stretch,
+            segment,
             flight.t};
   }
 
   /// Surface event; the path may end in the cache. False ends it.
   bool meet_surface(Path& p, const Hit& hit, const PathEnds& ends) {
     if (!hit.found()) return false;
-    const KnownRadiance* known = ends.known;
+    const RadianceCache* cache = ends.cache;
     if (!ends.on_surfaces() || !reflects_diffusely(hit, p.ray)) return bounce(p, hit);
     const bool front = glm::dot(hit.triangle->unit_normal(), p.ray.direction) < 0;
     for (size_t i = 0; i < p.bands.count(); ++i)
-      add_known(p, i, known->of_surface(hit, front, p.bands.band(i)));
-    end_in_known([&] { return known->error_of_surface(hit, front); });
+      add_cached(p, i, cache->of_surface(hit, front, p.bands.band(i)));
+    end_in_cache([&] { return cache->error_of_surface(hit, front); });
     return false;
   }
 
   /// Adds cached radiance of the band in place `i`.
-  void add_known(Path& p, size_t i, double radiance) {
+  void add_cached(Path& p, size_t i, double radiance) {
     const double brought = p.weight * p.bands.light(i) * radiance;
     p.into.add_of_all(p.bands.band(i), brought);
     brought_luminance_ += brought * scene_.bands[p.bands.band(i)].lm_per_w;
@@ -405,7 +406,7 @@ class PathTracer {
 
   /// Call after all bands were added.
   template <class ErrorOf>
-  void end_in_known(ErrorOf&& error_of) {
+  void end_in_cache(ErrorOf&& error_of) {
     if (brought_luminance_ > 0) ends_.push_back({error_of(), brought_luminance_});
     brought_luminance_ = 0;
   }
@@ -470,16 +471,16 @@ class PathTracer {
     } else {
       p.counted = s.specular ? EmitterHits::all : EmitterHits::weighted;
       p.travelled = 0;
-      p.scattered_known = false;
+      p.scattered_cached = false;
     }
     p.ray.direction = s.direction;
     p.ray.origin = offset_ray(e.place, s.transmitted ? -normal : normal, scene_.min_offset_m);
     if (s.specular) return true;
     p.diffused = true;
-    p.turn.place = p.ray.origin;
-    p.turn.pdf = pdf;
-    p.turn.normal = normal;
-    p.turn.in_medium = false;
+    p.vertex.place = p.ray.origin;
+    p.vertex.pdf = pdf;
+    p.vertex.normal = normal;
+    p.vertex.in_medium = false;
     if (aimed) weigh_aimed(p, s.direction);
     return true;
   }
@@ -487,7 +488,7 @@ class PathTracer {
   /// Replaces the direction of a Lambertian reflection if it is to be guided. False: it points
   /// below the horizon, where nothing is reflected.
   bool aim_reflection(const SurfaceEvent& e, const TurnNumbers& numbers, SurfaceSample& s) {
-    const GlowGuide& guide = next_event_.guide_at(e.before, e.normal, Known::nothing);
+    const GlowGuide& guide = next_event_.guide_at(e.before, e.normal, CachedLight::nothing);
     if (numbers.choice >= guide.aimed()) return true;
     s.direction = guide.direction(numbers.choice, numbers.u, numbers.v);
     return glm::dot(s.direction, e.normal) > 0;
@@ -559,7 +560,7 @@ class PathTracer {
   EyeRay met_first_;                 // of the last path of all bands
   std::vector<Path> parts_;          // of the last split path
   std::vector<FreeFlight> flights_;  // of its parts
-  std::vector<KnownEnd> ends_;
+  std::vector<CachedEnd> ends_;
   double brought_luminance_ = 0;  // by the end that is being added
 };
 

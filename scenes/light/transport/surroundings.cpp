@@ -51,14 +51,14 @@ bool is_object(const CompiledScene& scene, uint32_t surface) {
 
 /// Faces of signs and bodies of luminaires do not enclose people.
 auto solid_objects(const CompiledScene& scene) {
-  return [&scene](const Facing& f) {
+  return [&scene](const FacedSurface& f) {
     return !is_object(scene, f.surface) || lets_light_through(f.kind);
   };
 }
 
 /// Panes and closed doors count as closed: they keep out people and air.
 auto closed_objects(const CompiledScene& scene) {
-  return [&scene](const Facing& f) {
+  return [&scene](const FacedSurface& f) {
     return !is_object(scene, f.surface) || f.kind == MaterialKind::open;
   };
 }
@@ -170,7 +170,7 @@ void cross(const CompiledScene& scene, const GeometryAccess& access, const Vec3&
            const Vec3& direction, std::span<const char> turned, std::span<const char> ignored,
            std::vector<Around>& all) {
   int count = 0;
-  first_stop(scene, access, place, direction, far_m, [&](const Facing& f) {
+  first_stop(scene, access, place, direction, far_m, [&](const FacedSurface& f) {
     const bool is_ignored = f.surface < ignored.size() && ignored[f.surface] != 0;
     if (!is_object(scene, f.surface) || lets_light_through(f.kind) || is_ignored)
       return ++count < crossings;

@@ -23,7 +23,7 @@ bool is_flat(const Mesh& mesh);
 std::vector<Vec3> sphere_directions(int count);
 
 /// A surface hit, as seen from the ray.
-struct Facing {
+struct FacedSurface {
   Real distance_m = 0;
   bool front = true;
   uint32_t surface = 0;
@@ -40,9 +40,9 @@ inline bool lets_light_through(MaterialKind kind) {
 /// The nearest surface on a line that `passes(facing)` does not let it pass; none if there is no
 /// such surface within `length_m`.
 template <class Passes>
-std::optional<Facing> first_stop(const CompiledScene& scene, const GeometryAccess& access,
-                                 const Vec3& from, const Vec3& direction, Real length_m,
-                                 Passes&& passes) {
+std::optional<FacedSurface> first_stop(const CompiledScene& scene, const GeometryAccess& access,
+                                       const Vec3& from, const Vec3& direction, Real length_m,
+                                       Passes&& passes) {
   // Continues behind the passed surface: beyond the rounding of its distance, before any separate
   // surface.
   const Real beyond = std::max(1e-5_r, 8 * scene.min_offset_m);
@@ -52,8 +52,8 @@ std::optional<Facing> first_stop(const CompiledScene& scene, const GeometryAcces
         next_surface(scene, access, from + direction * gone, direction, length_m - gone);
     if (!met) return std::nullopt;
     const uint32_t material = scene.surfaces[met->surface].material[met->front ? 0 : 1];
-    const Facing facing{gone + met->distance_m, met->front, met->surface,
-                        scene.materials[material].kind};
+    const FacedSurface facing{gone + met->distance_m, met->front, met->surface,
+                              scene.materials[material].kind};
     if (i == limits::surfaces_passed || !passes(facing)) return facing;
     gone = facing.distance_m + beyond;
     if (!(gone < length_m)) return std::nullopt;

@@ -85,14 +85,14 @@ class ResolverPictureTracer final : public PictureTracer {
   }
   Real uniform() override { return eye_.random().uniform(); }
   int choose_band(double u) const override { return eye_.choose_band(u); }
-  std::span<const double> radiance(const Ray& ray, int hero, const KnownRadiance* gather,
+  std::span<const double> radiance(const Ray& ray, int hero, const RadianceCache* gather,
                                    FirstHit* first) override {
     light_.clear();
     eye_.radiance_of_all(ray, hero, EmitterHits::none, light_, gather, first);
     return light_.by_band();
   }
-  std::span<const KnownEnd> ends() const override { return eye_.ends(); }
-  double radiance_in_band(const Ray& ray, int band, const KnownRadiance* gather) override {
+  std::span<const CachedEnd> ends() const override { return eye_.ends(); }
+  double radiance_in_band(const Ray& ray, int band, const RadianceCache* gather) override {
     light_.clear();
     eye_.radiance(ray, band, EmitterHits::none, 1, light_, gather);
     return light_.total();
@@ -119,7 +119,7 @@ std::shared_ptr<const EmitterSight> make_emitter_sight(const CompiledScene& scen
 }
 
 uint64_t emitter_sight_bytes(const CompiledScene& scene) {
-  return has_choice(scene) ? EmitterSight::most_bytes(scene) : 0;
+  return has_choice(scene) ? EmitterSight::max_bytes(scene) : 0;
 }
 
 std::unique_ptr<PictureTracer> make_picture_tracer(const CompiledScene& scene,

@@ -11,7 +11,7 @@
 #include "scenes/light/tally/batch_scores.hpp"
 #include "scenes/light/transport/direct_light.hpp"
 #include "scenes/light/transport/first_hit.hpp"
-#include "scenes/light/transport/known_radiance.hpp"
+#include "scenes/light/transport/radiance_cache.hpp"
 #include "scenes/light/transport/resolver.hpp"
 
 namespace luxodus {
@@ -49,12 +49,12 @@ class PictureTracer {
   /// Radiance by band, from one path sampled for the hero; valid until the next call. Light that
   /// emitters send straight to the eye is excluded and returned in `first`, free of noise, if that
   /// is not null. `first` keeps its memory.
-  virtual std::span<const double> radiance(const Ray& ray, int hero, const KnownRadiance* gather,
+  virtual std::span<const double> radiance(const Ray& ray, int hero, const RadianceCache* gather,
                                            FirstHit* first) = 0;
   /// Cached light at which the parts of the last path of radiance() have ended.
-  virtual std::span<const KnownEnd> ends() const = 0;
+  virtual std::span<const CachedEnd> ends() const = 0;
   /// Radiance in one band, from a path of that band alone.
-  virtual double radiance_in_band(const Ray& ray, int band, const KnownRadiance* gather) = 0;
+  virtual double radiance_in_band(const Ray& ray, int band, const RadianceCache* gather) = 0;
 };
 
 class EmitterSight;

@@ -15,7 +15,7 @@ namespace luxodus {
 inline constexpr float unseen_difference = 1e-3f;
 /// Less similar pixels get weight 0 in a window: otherwise a dark pixel would take a share of a
 /// bright window's light, which is small for the window but large for the pixel.
-inline constexpr float least_alike = 0.05f;
+inline constexpr float min_alike = 0.05f;
 /// Reach of a small window, and of the patches by which its pixels are compared.
 inline constexpr int close_window_px = 4, close_patch_px = 1;
 
@@ -62,7 +62,7 @@ inline float unlikeness(float light, float variance, float other_light, float ot
 /// The weight in a window for an unlikeness averaged over a patch and over channels.
 inline float likeness_weight(float unlike) {
   const float weight = std::exp(-std::max(0.0f, unlike));
-  return weight < least_alike ? 0.0f : weight;
+  return weight < min_alike ? 0.0f : weight;
 }
 
 /// Adds to each pixel of whole rows of a picture of that height its unlikeness to the pixel offset

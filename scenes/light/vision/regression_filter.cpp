@@ -25,11 +25,11 @@ constexpr int calibration_reach_px = 8;
 constexpr double own_weight = 0.25;
 /// A pixel whose windows give it less weight than this gets a small window of its own: at an edge
 /// or a thin line, few large patches are similar, but those of the nearest pixels are.
-constexpr double least_said = 12;
+constexpr double min_said = 12;
 /// Weight of a similar pixel in a small window, relative to a large one.
 constexpr double said_by_close_pixel = 0.25;
 /// Share of the mean luminance of its windows: a fit below it is due to noise around the pixel.
-constexpr double least_coloured = 0.1;
+constexpr double min_coloured = 0.1;
 constexpr size_t max_features = 16;
 constexpr size_t colour_channels = 3;
 
@@ -358,7 +358,7 @@ class HalfFilter {
   /// Adds the small window around a pixel with little weight, for the missing weight.
   void add_close_window(int x, int y) {
     const size_t centre = pixel_at(x, y);
-    const double missing = least_said - said_of(centre);
+    const double missing = min_said - said_of(centre);
     if (!(missing > 0)) return;
     std::vector<Member> window;
     double said = 0;
@@ -418,7 +418,7 @@ Light filtered_light(const std::vector<HalfFilter>& halves, size_t pixel) {
     }
   const double luminance = std::max(0.0, fit[1]);
   const bool coloured =
-      *std::min_element(fit.begin(), fit.end()) >= 0 && luminance > least_coloured * mean[1];
+      *std::min_element(fit.begin(), fit.end()) >= 0 && luminance > min_coloured * mean[1];
   if (coloured || !(mean[1] > 0)) {
     for (double& light : fit) light = std::max(0.0, light);
     return fit;

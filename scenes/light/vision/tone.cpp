@@ -175,7 +175,7 @@ double lead_of_colour(const Pixel& p, const Exposure& exposure) {
 
 // One factor for all, so that what is just visible in the scene is just visible on the display
 // (Ward 1994): an observer of the display adapts to half of its white.
-ToneCurve linear_curve(const std::vector<double>& luminances, const DisplayModel& display) {
+ToneCurve linear_curve(const std::vector<double>& luminances, const MonitorModel& monitor) {
   double log_sum = 0;
   for (const double l : luminances) log_sum += std::log(l);
   const double world =
@@ -183,8 +183,8 @@ ToneCurve linear_curve(const std::vector<double>& luminances, const DisplayModel
   ToneCurve curve;
   curve.linear = true;
   curve.factor =
-      threshold_difference_cd_m2(display.white_cd_m2 / 2) / threshold_difference_cd_m2(world);
-  curve.display_white_cd_m2 = display.white_cd_m2;
+      threshold_difference_cd_m2(monitor.white_cd_m2 / 2) / threshold_difference_cd_m2(world);
+  curve.display_white_cd_m2 = monitor.white_cd_m2;
   return curve;
 }
 
@@ -362,19 +362,19 @@ double ToneCurve::display(double world_cd_m2) const {
   return std::exp(log_display[k - 1] + f * (log_display[k] - log_display[k - 1]));
 }
 
-ToneCurve human_curve(const std::vector<double>& adaptation_cd_m2, const DisplayModel& display) {
+ToneCurve human_curve(const std::vector<double>& adaptation_cd_m2, const MonitorModel& monitor) {
   std::vector<double> lit;
   for (const double l : adaptation_cd_m2)
     if (std::isfinite(l) && l > 0) lit.push_back(std::max(l, darkest_cd_m2));
-  if (lit.empty()) return linear_curve(lit, display);
-  const double log_black = std::log(display.black_cd_m2);
-  const double log_white = std::log(display.white_cd_m2);
+  if (lit.empty()) return linear_curve(lit, monitor);
+  const double log_black = std::log(monitor.black_cd_m2);
+  const double log_white = std::log(monitor.white_cd_m2);
   LogHistogram h = histogram_of(lit);
   const bool fits = h.step * histogram_bins <= log_white - log_black;
-  if (fits || !trim_to_human_contrast(h, log_black, log_white)) return linear_curve(lit, display);
+  if (fits || !trim_to_human_contrast(h, log_black, log_white)) return linear_curve(lit, monitor);
 
   ToneCurve curve;
-  curve.display_white_cd_m2 = display.white_cd_m2;
+  curve.display_white_cd_m2 = monitor.white_cd_m2;
   const double total = h.total();
   double below = 0;
   for (size_t b = 0; b <= h.count.size(); ++b) {
@@ -404,10 +404,10 @@ SrgbPicture tone_human(const XyzPicture& whole, const HumanTone& tone) {
     seen.pixel_photopic = resolved.pixel_photopic;
     seen.pixel_scotopic = resolved.pixel_scotopic;
   }
-  const ToneCurve curve = human_curve(seen.cell_luminance, tone.display);
+  const ToneCurve curve = human_curve(seen.cell_luminance, tone.monitor);
   const Exposure exposure = exposure_of(picture, {});  // fire burns out beyond its white
-  const double black = tone.display.black_cd_m2;
-  const double range = tone.display.white_cd_m2 - black;
+  const double black = tone.monitor.black_cd_m2;
+  const double range = tone.monitor.white_cd_m2 - black;
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       const size_t i =

@@ -39,13 +39,13 @@ SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone);
 
 /// The monitor: luminance of its white, and of its black with the room's light reflected in it
 /// [cd/m2].
-struct DisplayModel {
+struct MonitorModel {
   double white_cd_m2 = 200;
   double black_cd_m2 = 1;
 };
 
 struct HumanTone {
-  DisplayModel display;
+  MonitorModel monitor;
   /// Angle of view of one pixel in the middle [degrees]: adaptation is taken over 1 degree, the
   /// size of the fovea. 0: unknown; then there is neither glare nor loss of acuity.
   double degrees_per_pixel = 0.1;
@@ -76,7 +76,7 @@ struct ToneCurve {
 
 /// The curve for a scene with these adaptation luminances (one per degree of view). At no luminance
 /// does it show more contrast than an eye in the scene could see.
-ToneCurve human_curve(const std::vector<double>& adaptation_cd_m2, const DisplayModel& display);
+ToneCurve human_curve(const std::vector<double>& adaptation_cd_m2, const MonitorModel& monitor);
 
 /// Requires: xyz.size() == 3 * width * height; scotopic empty or width * height long.
 SrgbPicture tone_human(const XyzPicture& picture, const HumanTone& tone);

@@ -61,7 +61,7 @@ struct KeepOut {
 };
 
 /// Treatment of existing emergency luminaires and signs. Signs are not moved.
-enum class Existing { fixed, removable, removed, movable };
+enum class ExistingTreatment { fixed, removable, removed, movable };
 inline constexpr std::array<std::string_view, 4> existing_words{"fixed", "removable", "removed",
                                                                 "movable"};
 
@@ -111,10 +111,10 @@ struct DesignSettings {
   double wall_height_m = 2.3;               // luminaires on walls, above the floor
   std::vector<glm::dvec3> places;           // listed, instead of the grid
   std::vector<KeepOut> keep_outs;
-  std::vector<StairFlight> flights;  // objects of the scene with shape = "stairs"
+  std::vector<StairFlight> stair_flights;  // objects of the scene with shape = "stairs"
 
   // Existing luminaires
-  Existing existing = Existing::fixed;
+  ExistingTreatment existing = ExistingTreatment::fixed;
   std::vector<std::string> fixed, movable, removable, removed;  // by name, overriding `existing`
   std::optional<double> move_cost;  // in the unit of the objective; absent: a share of a new one
 
@@ -123,7 +123,7 @@ struct DesignSettings {
   std::vector<DesignSignType> sign_types;  // as for luminaires
   double sign_height_m = 2.2;              // lower edge above the floor
   double sign_spacing_m = 5;               // between places under ceilings along routes
-  Existing existing_signs = Existing::fixed;
+  ExistingTreatment existing_signs = ExistingTreatment::fixed;
 
   // Requirements and objective
   FailureDemand failure = FailureDemand::two;

@@ -242,7 +242,7 @@ class FetchCluster {
 };
 
 /// The outcome of one get().
-struct Asking {
+struct CacheRead {
   FetchNode& node;
   uint32_t object;
   bool done = false;

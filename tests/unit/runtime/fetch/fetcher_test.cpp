@@ -17,11 +17,11 @@ constexpr size_t large = 300'000;  // sent in five frames
 
 /// Fetches an object at the first node, and runs until the result.
 Got fetch(FetchCluster& cluster, uint32_t object) {
-  Asking asking{cluster[0], object};
-  cluster[0].start(asking.body());
-  cluster.until([&] { return asking.done; });
-  if (asking.got.how == Got::How::resident) CHECK(asking.number == object);
-  return asking.got;
+  CacheRead reading{cluster[0], object};
+  cluster[0].start(reading.body());
+  cluster.until([&] { return reading.done; });
+  if (reading.got.how == Got::How::resident) CHECK(reading.number == object);
+  return reading.got;
 }
 
 /// Replaces the object's bytes by others of the same length.
@@ -145,10 +145,10 @@ TEST_CASE("when all holders refuse, every waiter is told, and may ask again", "[
   const auto held = cluster[2].store.held;
   cluster[1].store.held.clear();
   cluster[2].store.held.clear();
-  std::vector<Asking> askings(10, Asking{cluster[0], object});
-  for (Asking& asking : askings) cluster[0].start(asking.body());
+  std::vector<CacheRead> readings(10, CacheRead{cluster[0], object});
+  for (CacheRead& reading : readings) cluster[0].start(reading.body());
   cluster.until([&] { return cluster[0].fibers.live() == 0; });
-  for (const Asking& asking : askings) CHECK(asking.got.how == Got::How::unobtainable);
+  for (const CacheRead& reading : readings) CHECK(reading.got.how == Got::How::unobtainable);
   CHECK(cluster[0].fetcher.counters().unobtainable == 1);
   check_at_rest(cluster[0]);
 
@@ -176,15 +176,15 @@ TEST_CASE("a fetch succeeds despite loss, duplication, reordering and corruption
   for (int i = 0; i < 40; ++i) objects.add(i % 4 == 0 ? large : small, {b, c});
   FetchCluster cluster(3, objects);
   cluster.net.faults = {.loss = 0.05f, .twice = 0.05f, .reorder = 0.05f, .flipped_bit = 0.01f};
-  std::vector<Asking> askings;
-  for (uint32_t i = 0; i < 40; ++i) askings.push_back({cluster[0], i});
+  std::vector<CacheRead> readings;
+  for (uint32_t i = 0; i < 40; ++i) readings.push_back({cluster[0], i});
   for (size_t first = 0; first < 40; first += 8) {
-    for (size_t i = first; i < first + 8; ++i) cluster[0].start(askings[i].body());
+    for (size_t i = first; i < first + 8; ++i) cluster[0].start(readings[i].body());
     cluster.until([&] { return cluster[0].fibers.live() == 0; });
   }
-  for (const Asking& asking : askings) {
-    CHECK(asking.got.how == Got::How::resident);
-    CHECK(asking.number == asking.object);
+  for (const CacheRead& reading : readings) {
+    CHECK(reading.got.how == Got::How::resident);
+    CHECK(reading.number == reading.object);
   }
   CHECK(cluster[0].fetcher.counters().retries > 0);
   cluster.net.faults = {};
@@ -223,16 +223,16 @@ TEST_CASE("a late answer of an abandoned holder is accepted while another is ask
   cluster[1].store.held.clear();  // so that b forwards requests to c
   std::vector<MessageId> questions;
   cluster[1].on_deliver = [&](const Delivery& d) { questions.push_back(d.id); };
-  Asking asking{cluster[0], object};
-  cluster[0].start(asking.body());
+  CacheRead reading{cluster[0], object};
+  cluster[0].start(reading.body());
   cluster.run(milliseconds(1500));
   REQUIRE(questions.size() == 1);
   cluster[1].say(a, questions[0], ObjectNotHere{objects.id(object), b});
   cluster.run(milliseconds(10), milliseconds(1));
-  CHECK_FALSE(asking.done);  // b's answer no longer counts
+  CHECK_FALSE(reading.done);  // b's answer no longer counts
   cluster[1].say(a, questions[0], ObjectFound{objects.id(object), b}, objects.bytes[object]);
   cluster.run(milliseconds(10), milliseconds(1));
-  CHECK(asking.got.how == Got::How::resident);
+  CHECK(reading.got.how == Got::How::resident);
 }
 
 TEST_CASE("wrong bytes are counted, dropped, and requested elsewhere", "[runtime][fetch]") {
@@ -282,12 +282,12 @@ TEST_CASE("a fetch that ends with some pieces received releases their room", "[r
   const uint32_t object = objects.add(10 * large, {b});
   FetchCluster cluster(2, objects, {},
                        [](NetConfig& config) { config.assembly_patience = seconds(60); });
-  Asking asking{cluster[0], object};
-  cluster[0].start(asking.body());
+  CacheRead reading{cluster[0], object};
+  cluster[0].start(reading.body());
   cluster.turn();
   cluster.stop(1);
-  cluster.until([&] { return asking.done; });
-  CHECK(asking.got.how == Got::How::unobtainable);
+  cluster.until([&] { return reading.done; });
+  CHECK(reading.got.how == Got::How::unobtainable);
   cluster.run(cluster[0].config.assembly_patience + seconds(1));
   CHECK(cluster[0].network.counters().bytes_received > large / 2);
   CHECK(cluster[0].network.counters().assemblies_abandoned == 0);
@@ -322,16 +322,16 @@ TEST_CASE("fetches beyond the room for their bytes wait their turn", "[runtime][
   setup.fetch.receive_bytes = 3 * large;
   setup.fibers = 20;
   FetchCluster cluster(2, objects, setup);
-  std::vector<Asking> askings;
-  for (uint32_t i = 0; i < 20; ++i) askings.push_back({cluster[0], i});
-  for (Asking& asking : askings) cluster[0].start(asking.body());
+  std::vector<CacheRead> readings;
+  for (uint32_t i = 0; i < 20; ++i) readings.push_back({cluster[0], i});
+  for (CacheRead& reading : readings) cluster[0].start(reading.body());
   uint64_t most = 0;
   cluster.until([&] {
     most = std::max(most, cluster[0].fetcher.counters().receive_bytes_held);
     return cluster[0].fibers.live() == 0;
   });
   CHECK(most == 3 * large);
-  for (const Asking& asking : askings) CHECK(asking.got.how == Got::How::resident);
+  for (const CacheRead& reading : readings) CHECK(reading.got.how == Got::How::resident);
 }
 
 TEST_CASE("a full outbox delays requests without using up a try", "[runtime][fetch]") {
@@ -341,12 +341,12 @@ TEST_CASE("a full outbox delays requests without using up a try", "[runtime][fet
   setup.fibers = 50;
   setup.fetch.tries = 1;
   FetchCluster cluster(2, objects, setup, [](NetConfig& config) { config.outbox_messages = 2; });
-  std::vector<Asking> askings;
-  for (uint32_t i = 0; i < 50; ++i) askings.push_back({cluster[0], i});
-  for (Asking& asking : askings) cluster[0].start(asking.body());
+  std::vector<CacheRead> readings;
+  for (uint32_t i = 0; i < 50; ++i) readings.push_back({cluster[0], i});
+  for (CacheRead& reading : readings) cluster[0].start(reading.body());
   cluster.until([&] { return cluster[0].fibers.live() == 0; });
   CHECK(cluster[0].fetcher.counters().outbox_full > 0);
-  for (const Asking& asking : askings) CHECK(asking.got.how == Got::How::resident);
+  for (const CacheRead& reading : readings) CHECK(reading.got.how == Got::How::resident);
 }
 
 TEST_CASE("a fetcher that ends in the middle of a fetch leaves nothing behind",
@@ -374,9 +374,9 @@ TEST_CASE("the same seed gives the same fetches at the same times", "[runtime][f
     cluster[0].builder.on_build = [&](uint32_t object) {
       built.emplace_back(cluster.clock.now(), object);
     };
-    std::vector<Asking> askings;
-    for (uint32_t i = 0; i < 12; ++i) askings.push_back({cluster[0], i});
-    for (Asking& asking : askings) cluster[0].start(asking.body());
+    std::vector<CacheRead> readings;
+    for (uint32_t i = 0; i < 12; ++i) readings.push_back({cluster[0], i});
+    for (CacheRead& reading : readings) cluster[0].start(reading.body());
     cluster.until([&] { return cluster[0].fibers.live() == 0; });
     return built;
   };

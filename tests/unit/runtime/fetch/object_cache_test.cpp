@@ -90,10 +90,10 @@ TEST_CASE("however many fibers want an object, it is fetched and built once", "[
   setup.fibers = 100;
   FetchCluster cluster(1, objects, setup);
   FetchNode& node = cluster[0];
-  std::vector<Asking> askings(100, Asking{node, 0});
-  for (Asking& asking : askings) node.start(asking.body());
+  std::vector<CacheRead> readings(100, CacheRead{node, 0});
+  for (CacheRead& reading : readings) node.start(reading.body());
   cluster.run(milliseconds(20), milliseconds(1));
-  for (const Asking& asking : askings) CHECK(asking.got.how == Got::How::resident);
+  for (const CacheRead& reading : readings) CHECK(reading.got.how == Got::How::resident);
   CHECK(node.cache.counters().misses == 1);
   CHECK(node.cache.counters().joined == 99);
   CHECK(node.fetcher.counters().fetches == 1);
@@ -147,9 +147,9 @@ TEST_CASE("an object stays until all its waiters have run, even if the next is r
       cluster.clock.advance(milliseconds(1));
     }
   };
-  std::vector<Asking> askings(3, Asking{node, 0});
-  askings.push_back({node, 1});
-  for (Asking& asking : askings) node.start(asking.body());
+  std::vector<CacheRead> readings(3, CacheRead{node, 0});
+  readings.push_back({node, 1});
+  for (CacheRead& reading : readings) node.start(reading.body());
   node.run_fibers();  // all wait
   without_fibers();   // 0 has become resident, and 1 is built
   CHECK(node.builder.built == std::vector<uint32_t>{0, 1});
@@ -164,7 +164,7 @@ TEST_CASE("an object stays until all its waiters have run, even if the next is r
   CHECK(node.cache.state(0) == ObjectState::absent);
   CHECK(node.cache.state(1) == ObjectState::resident);
   node.run_fibers();
-  for (const Asking& asking : askings) CHECK(asking.number == asking.object);
+  for (const CacheRead& reading : readings) CHECK(reading.number == reading.object);
 }
 
 TEST_CASE("the least recently used object is evicted", "[runtime][fetch]") {
@@ -233,7 +233,7 @@ TEST_CASE("a fiber cancelled while it waits is told so, and the others get their
   const Objects objects = own_objects(1);
   FetchCluster cluster(1, objects);
   FetchNode& node = cluster[0];
-  Asking stays{node, 0}, goes{node, 0}, late{node, 0};
+  CacheRead stays{node, 0}, goes{node, 0}, late{node, 0};
   node.start(stays.body());
   const FiberId going = node.start(goes.body());
   const FiberId too_late = node.start(late.body());
@@ -258,12 +258,12 @@ TEST_CASE("a fetch without any waiter left ends like any other", "[runtime][fetc
   const Objects objects = own_objects(2);
   FetchCluster cluster(1, objects, room_for_objects(1));
   FetchNode& node = cluster[0];
-  Asking asking{node, 0};
-  const FiberId id = node.start(asking.body());
+  CacheRead reading{node, 0};
+  const FiberId id = node.start(reading.body());
   node.run_fibers();
   node.fibers.cancel(id);
   bring(cluster, {1});
-  CHECK(asking.got.how == Got::How::cancelled);
+  CHECK(reading.got.how == Got::How::cancelled);
   CHECK(resident(node, 2) == std::vector<uint32_t>{1});
   CHECK(node.fetcher.counters().receive_bytes_held == 0);
 }
@@ -273,15 +273,15 @@ TEST_CASE("a failed build is reported to all waiters, and may be retried", "[run
   FetchCluster cluster(1, objects);
   FetchNode& node = cluster[0];
   node.builder.problem = true;
-  std::vector<Asking> askings(3, Asking{node, 0});
-  for (Asking& asking : askings) node.start(asking.body());
+  std::vector<CacheRead> readings(3, CacheRead{node, 0});
+  for (CacheRead& reading : readings) node.start(reading.body());
   cluster.run(milliseconds(20), milliseconds(1));
-  for (const Asking& asking : askings) {
-    CHECK(asking.done);
-    CHECK(asking.got.how == Got::How::unobtainable);
+  for (const CacheRead& reading : readings) {
+    CHECK(reading.done);
+    CHECK(reading.got.how == Got::How::unobtainable);
   }
   node.builder.problem = false;
-  Asking again{node, 0};
+  CacheRead again{node, 0};
   node.start(again.body());
   cluster.run(milliseconds(20), milliseconds(1));
   CHECK(again.got.how == Got::How::resident);

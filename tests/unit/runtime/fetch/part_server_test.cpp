@@ -13,10 +13,10 @@ namespace {
 constexpr NodeId b{1}, c{2};
 
 Got::How fetch(FetchCluster& cluster, size_t node, uint32_t object) {
-  Asking asking{cluster[node], object};
-  cluster[node].start(asking.body());
-  cluster.until([&] { return asking.done; });
-  return asking.got.how;
+  CacheRead reading{cluster[node], object};
+  cluster[node].start(reading.body());
+  cluster.until([&] { return reading.done; });
+  return reading.got.how;
 }
 
 /// Fifty fibers get their objects from a holder whose outbox takes one message at a time; `look`
@@ -28,11 +28,11 @@ void crowd(FetchSetup setup, const std::function<void(FetchCluster&)>& look) {
   FetchCluster cluster(2, objects, setup, [](NetConfig& config) {
     if (config.self == b) config.outbox_messages = 1;
   });
-  std::vector<Asking> askings;
-  for (uint32_t i = 0; i < 50; ++i) askings.push_back({cluster[0], i});
-  for (Asking& asking : askings) cluster[0].start(asking.body());
+  std::vector<CacheRead> readings;
+  for (uint32_t i = 0; i < 50; ++i) readings.push_back({cluster[0], i});
+  for (CacheRead& reading : readings) cluster[0].start(reading.body());
   cluster.until([&] { return cluster[0].fibers.live() == 0; });
-  for (const Asking& asking : askings) CHECK(asking.got.how == Got::How::resident);
+  for (const CacheRead& reading : readings) CHECK(reading.got.how == Got::How::resident);
   look(cluster);
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "tests/kit/raw_client.hpp"
-#include "tests/unit/runtime/http/serving.hpp"
+#include "tests/unit/runtime/http/served_site.hpp"
 
 using namespace luxodus;
 using namespace luxodus::test;
@@ -29,7 +29,7 @@ TEST_CASE("a page's address is host and port, optionally with scheme and path", 
 TEST_CASE("a page is fetched whole, and another status is a problem with that status",
           "[runtime][http]") {
   const std::string page(300'000, 'x');
-  const Serving serving([&] { return page; });
+  const ServedSite serving([&] { return page; });
   HttpUrl url{"127.0.0.1", serving.port()};
   const auto got = http_get(url, seconds(30));
   REQUIRE(got.ok());
@@ -44,7 +44,7 @@ TEST_CASE("a page longer than the limit is rejected, and so is an address where 
           "[runtime][http]") {
   uint16_t port = 0;
   {
-    const Serving serving([] { return std::string(limits::http_page_bytes + (1 << 16), 'x'); });
+    const ServedSite serving([] { return std::string(limits::http_page_bytes + (1 << 16), 'x'); });
     port = serving.port();
     const auto long_one = http_get({"127.0.0.1", port}, seconds(30));
     REQUIRE_FALSE(long_one.ok());

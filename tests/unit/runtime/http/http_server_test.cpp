@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tests/kit/raw_client.hpp"
-#include "tests/unit/runtime/http/serving.hpp"
+#include "tests/unit/runtime/http/served_site.hpp"
 
 using namespace luxodus;
 using namespace luxodus::test;
@@ -61,7 +61,7 @@ std::string frame(const std::string& text) {
 
 TEST_CASE("each answer is the current page", "[runtime][http]") {
   std::atomic<int> asked{0};
-  const Serving serving([&] { return "page " + std::to_string(++asked) + "\n"; });
+  const ServedSite serving([&] { return "page " + std::to_string(++asked) + "\n"; });
   for (int i = 1; i <= 3; ++i) {
     const std::string text = whole_answer(serving.port(), serving.request());
     CHECK(begins(text, "HTTP/1.1 200 OK\r\n"));
@@ -71,7 +71,7 @@ TEST_CASE("each answer is the current page", "[runtime][http]") {
 }
 
 TEST_CASE("the server rejects unknown requests, and goes on", "[runtime][http]") {
-  const Serving serving(one_page);
+  const ServedSite serving(one_page);
   const auto ask = [&](const std::string& bytes) { return answer(serving.port(), bytes); };
   CHECK(begins(ask(serving.request("GET", "/")), "HTTP/1.1 404"));
   for (const char* path : {"/etc/passwd", "/../../etc/passwd", "/live", "//metrics"})
@@ -87,7 +87,7 @@ TEST_CASE("the server rejects unknown requests, and goes on", "[runtime][http]")
 }
 
 TEST_CASE("a HEAD request gets the page's length and no page", "[runtime][http]") {
-  const Serving serving(one_page);
+  const ServedSite serving(one_page);
   const std::string whole = whole_answer(serving.port(), serving.request());
   const std::string head = whole_answer(serving.port(), serving.request("HEAD"));
   CHECK(head.ends_with("\r\n\r\n"));
@@ -98,7 +98,7 @@ TEST_CASE("a site whose name resolves to this machine is served nothing", "[runt
   HttpAddress at;
   at.allowed_hosts = {"view.example.org", "behind:9000"};
   std::atomic<int> open{0};
-  const Serving serving(one_page, at, echoing(open));
+  const ServedSite serving(one_page, at, echoing(open));
   const uint16_t port = serving.port();
   const auto page_at = [&](const std::string& host) {
     return answer(port, "GET /metrics HTTP/1.1\r\nHost: " + host + "\r\n\r\n");
@@ -132,7 +132,7 @@ TEST_CASE("a server with a token requires it for pages and sockets", "[runtime][
   HttpAddress at;
   at.token = "secret";
   std::atomic<int> open{0};
-  const Serving serving(one_page, at, echoing(open));
+  const ServedSite serving(one_page, at, echoing(open));
   const auto page_at = [&](const std::string& target) {
     return answer(serving.port(), serving.request("GET", target));
   };
@@ -143,7 +143,7 @@ TEST_CASE("a server with a token requires it for pages and sockets", "[runtime][
 }
 
 TEST_CASE("an answer does not wait for a silent client to end", "[runtime][http]") {
-  const Serving serving(one_page);
+  const ServedSite serving(one_page);
   // On a machine that stalls for seconds its time may be over: then another try.
   bool answered_before = false;
   for (int i = 0; i < 5 && !answered_before; ++i) {
@@ -158,7 +158,7 @@ TEST_CASE("an answer does not wait for a silent client to end", "[runtime][http]
 TEST_CASE("silent and non-reading clients delay no others, however many they are",
           "[runtime][http]") {
   const std::string page(8 << 20, 'p');  // more than a socket takes at once
-  const Serving serving([&] { return page; });
+  const ServedSite serving([&] { return page; });
   std::vector<RawClient> mute(3 * limits::http_clients);
   for (size_t i = 0; i < mute.size(); ++i) {
     mute[i].connect(serving.port());
@@ -173,7 +173,7 @@ TEST_CASE("silent and non-reading clients delay no others, however many they are
 TEST_CASE("without descriptors the server pauses between its tries, and goes on afterwards",
           "[runtime][http]") {
   spdlog::set_level(spdlog::level::off);
-  const Serving serving(one_page);
+  const ServedSite serving(one_page);
   REQUIRE(answer(serving.port(), serving.request()) == http_ok);
   const RawClient late;
   rlimit before{};
@@ -192,7 +192,7 @@ TEST_CASE("without descriptors the server pauses between its tries, and goes on 
 
 TEST_CASE("invalid bytes end only their own connection", "[runtime][http]") {
   std::atomic<int> open{0};
-  const Serving serving(one_page, {}, echoing(open));
+  const ServedSite serving(one_page, {}, echoing(open));
   const uint16_t port = serving.port();
   std::string noise(3000, 'x');
   for (size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<char>((i * 7919 + i / 3) & 0xff);
@@ -210,7 +210,7 @@ TEST_CASE("invalid bytes end only their own connection", "[runtime][http]") {
 TEST_CASE("a socket's messages are received and answered, and its listener ends with it",
           "[runtime][http]") {
   std::atomic<int> open{0};
-  const Serving serving(one_page, {}, echoing(open));
+  const ServedSite serving(one_page, {}, echoing(open));
   {
     const RawClient client;
     client.connect(serving.port());
@@ -228,7 +228,7 @@ TEST_CASE("listeners of sockets that are still open end with the server", "[runt
   std::atomic<int> open{0};
   const RawClient client;
   {
-    const Serving serving(one_page, {}, echoing(open));
+    const ServedSite serving(one_page, {}, echoing(open));
     client.connect(serving.port());
     client.say(upgrade(serving.here()));
     CHECK(begins(client.hear_some(), http_switching));
@@ -242,7 +242,7 @@ TEST_CASE("sockets beyond the limit are refused", "[runtime][http]") {
   std::atomic<int> open{0};
   HttpSite site = echoing(open);
   site.limits.sockets = 1;
-  const Serving serving(one_page, {}, site);
+  const ServedSite serving(one_page, {}, site);
   const RawClient first;
   first.connect(serving.port());
   first.say(upgrade(serving.here()));
@@ -251,7 +251,7 @@ TEST_CASE("sockets beyond the limit are refused", "[runtime][http]") {
 }
 
 TEST_CASE("a server that cannot listen names the address and the reason", "[runtime][http]") {
-  const Serving first(one_page);
+  const ServedSite first(one_page);
   const auto second = HttpServer::listen({"127.0.0.1", first.port()}, {});
   REQUIRE_FALSE(second.ok());
   CHECK(second.problem().what.find(std::to_string(first.port())) != std::string::npos);

@@ -10,7 +10,7 @@ using namespace luxodus;
 
 namespace {
 
-struct Sending {
+struct SentFrame {
   uint64_t total, bytes;
 };
 
@@ -30,7 +30,7 @@ TEST_CASE("held bytes never exceed the window, and credit returns", "[runtime][c
   random.start(0);
   CreditOut out(1000);
   CreditIn in(1000);
-  std::deque<Sending> wire;
+  std::deque<SentFrame> wire;
   std::deque<uint64_t> held;
   uint64_t sent_frames = 0;
   for (int i = 0; i < 20000; ++i) {

@@ -61,7 +61,7 @@ std::vector<std::byte> frame(int first, size_t bytes = 100) {
 }
 
 /// Nothing ever arrives; it records until when it was asked to wait.
-class Waiting final : public Transport {
+class IdleTransport final : public Transport {
  public:
   Sent send(NodeId, Lane, std::span<const std::byte>, std::span<const std::byte>) override {
     return Sent::taken;
@@ -129,7 +129,7 @@ TEST_CASE("frames of a lane keep their order, and control overtakes bulk", "[run
 
 TEST_CASE("a wait ends when a held frame is due, or at its own deadline", "[runtime][delay]") {
   ManualClock clock{seconds(1)};
-  Waiting below;
+  IdleTransport below;
   FaultyTransport transport(below, config_of_end(b, delayed()), clock);
   transport.wait_until(clock.now() + seconds(5));
   CHECK(below.waited_until == clock.now() + seconds(5));
@@ -166,7 +166,7 @@ TEST_CASE("a frame from an end without a plan is dropped and counted", "[runtime
 
 TEST_CASE("a frame stamped in the future waits no longer than the delay", "[runtime][delay]") {
   ManualClock clock{seconds(1)};
-  Waiting below;
+  IdleTransport below;
   FaultyTransport transport(below, config_of_end(b, delayed()), clock);
   const Nanoseconds sent = clock.now() + seconds(1000);
   below.frames.push_back(stamped(sent, delay));
@@ -306,7 +306,7 @@ TEST_CASE("cut links lose frames, clogged ones hold them, and broken ones report
 
 TEST_CASE("nodes pause, slow down and crash by the plan", "[runtime][delay]") {
   ManualClock clock;
-  Waiting below;
+  IdleTransport below;
   FaultyConfig config = config_of_end(a, {});
   config.plan.faults = {{Fault::Kind::pause, milliseconds(10), milliseconds(5), a, {}, 1},
                         {Fault::Kind::slow, milliseconds(20), milliseconds(100), a, {}, 3},

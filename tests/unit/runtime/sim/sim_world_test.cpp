@@ -15,9 +15,9 @@ namespace {
 constexpr NodeId first{0}, second{1};
 
 /// Sends a number every millisecond, up to a count, and records what arrives.
-class Counting final : public SimNode {
+class CountingNode final : public SimNode {
  public:
-  Counting(SimWorld& world, NodeId self, int sends)
+  CountingNode(SimWorld& world, NodeId self, int sends)
       : clock_(world.clock(self)), transport_(world.transport(self)), sends_(sends) {
     next_at_ = clock_.now();
   }
@@ -65,7 +65,7 @@ struct Pair {
     setup.plan.seed = seed;
     world.emplace(setup);
     world->start([this, sends](NodeId node, uint32_t life) {
-      auto made = std::make_unique<Counting>(*world, node, node == first ? sends : 0);
+      auto made = std::make_unique<CountingNode>(*world, node, node == first ? sends : 0);
       made->be(node);
       lives[node.value] = life + 1;
       nodes[node.value] = made.get();
@@ -77,7 +77,7 @@ struct Pair {
     }
   }
   std::optional<SimWorld> world;
-  std::array<Counting*, 2> nodes{};
+  std::array<CountingNode*, 2> nodes{};
   std::array<uint32_t, 2> lives{};
 };
 

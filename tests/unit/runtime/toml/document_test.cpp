@@ -36,12 +36,12 @@ TEST_CASE("values keep their place when their document moves", "[runtime][toml]"
 }
 
 TEST_CASE("invalid, too long or too deep TOML is one problem with its line", "[runtime][toml]") {
-  const auto wrong = [](const std::string& text, Quoting quoting = Quoting::allowed) {
+  const auto wrong = [](const std::string& text, QuotePolicy quoting = QuotePolicy::allowed) {
     const auto document = parse(text, "f.toml", 1000, quoting);
     return document ? std::string() : document.problem().text();
   };
   CHECK(wrong("a = 1\nb = ").starts_with("f.toml:2: this is not TOML: "));
-  CHECK(wrong("secret", Quoting::withheld) == "f.toml:1: this is not TOML");
+  CHECK(wrong("secret", QuotePolicy::withheld) == "f.toml:1: this is not TOML");
   CHECK(wrong("a = 1\na = 2\n").starts_with("f.toml:2: this is not TOML: "));
   CHECK(wrong(std::string(1001, '\n')) ==
         "f.toml: this file is longer than 1000 bytes, the most that is read");

@@ -14,9 +14,9 @@ using namespace luxodus::test;
 
 namespace {
 
-class Serving {
+class ServedHub {
  public:
-  explicit Serving(const std::string& token) {
+  explicit ServedHub(const std::string& token) {
     server_ = std::move(ViewServer::listen({"127.0.0.1", 0, token, {}})).value();
     HubOptions of_hub;
     of_hub.live.particles = 1 << 14;
@@ -25,7 +25,7 @@ class Serving {
     });
     thread_ = std::thread([this] { server_->run(*hub_, [this] { return ends_.load(); }); });
   }
-  ~Serving() {
+  ~ServedHub() {
     ends_ = true;
     thread_.join();
   }
@@ -53,7 +53,7 @@ class Serving {
 }  // namespace
 
 TEST_CASE("the server has a page and a socket, and no other path", "[view]") {
-  const Serving serving("");
+  const ServedHub serving("");
   const uint16_t port = serving.port();
   CHECK(answer(port, serving.get("/")) == http_ok);
   for (const char* path : {"/etc/passwd", "/../../etc/passwd", "/live", "/index.html", "//"})
@@ -66,7 +66,7 @@ TEST_CASE("the server has a page and a socket, and no other path", "[view]") {
 }
 
 TEST_CASE("a server with a token requires it for page and socket", "[view]") {
-  const Serving serving("secret");
+  const ServedHub serving("secret");
   const uint16_t port = serving.port();
   CHECK(answer(port, serving.get("/")) == http_forbidden);
   CHECK(answer(port, serving.get("/?token=secreT")) == http_forbidden);
@@ -78,7 +78,7 @@ TEST_CASE("a server with a token requires it for page and socket", "[view]") {
 }
 
 TEST_CASE("a malformed WebSocket frame ends only its own connection", "[view]") {
-  const Serving serving("");
+  const ServedHub serving("");
   const uint16_t port = serving.port();
   // Malformed frames: reserved bits, a length of exabytes, an unmasked text.
   for (const std::string& frame :

@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "actors/judge/design/layout_heats.hpp"
+#include "actors/judge/design/layout_groups.hpp"
 #include "scenes/light/transport/compile.hpp"
 #include "tests/unit/actors/judge/design/silent.hpp"
 #include "tests/unit/actors/judge/design/smoke_corridor.hpp"
@@ -72,14 +72,14 @@ std::vector<JudgedLayout> moving_layouts(const std::shared_ptr<const SceneDescri
 }
 
 /// All views of a heat's layouts after one round with 128 paths per part and batch.
-std::unique_ptr<HeatState> traced(const Heat& heat, uint64_t seed) {
+std::unique_ptr<LayoutGroupState> traced(const LayoutGroup& group, uint64_t seed) {
   AssessOptions asked;
   asked.threads = 2;
   asked.seed = seed;
-  auto state = HeatState::make(*heat.lights, *heat.base, find_scenario(*heat.base, "fire").value(),
-                               asked, unheard);
+  auto state = LayoutGroupState::make(*group.lights, *group.base,
+                                      find_scenario(*group.base, "fire").value(), asked, unheard);
   REQUIRE(state.ok());
-  const std::vector<bool> all(heat.members.size(), true);
+  const std::vector<bool> all(group.members.size(), true);
   REQUIRE(state.value()->sights().trace(2, all, nobody, unheard).ok());
   return std::move(state).value();
 }
@@ -127,13 +127,13 @@ TEST_CASE("light is not added if bodies of luminaires block light of other layou
   };
   for (JudgedLayout& one : layouts) with_body(one, 0);  // at 3 m, in all layouts
   CHECK(LayoutLights(lights_of(layouts)).can_add());
-  CHECK(heats_of(layouts, 1, true).size() == 1);
+  CHECK(layout_groups_of(layouts, 1, true).size() == 1);
   with_body(layouts[1], 1);  // at 10.5 m, in one layout
   CHECK_FALSE(LayoutLights(lights_of(layouts)).can_add());
-  const auto heats = heats_of(layouts, 1, true);
-  REQUIRE(heats.size() == 2);
-  CHECK(heats[0].members == std::vector<size_t>{0, 2});
-  CHECK(heats[1].members == std::vector<size_t>{1});
+  const auto groups = layout_groups_of(layouts, 1, true);
+  REQUIRE(groups.size() == 2);
+  CHECK(groups[0].members == std::vector<size_t>{0, 2});
+  CHECK(groups[1].members == std::vector<size_t>{1});
 }
 
 TEST_CASE("a luminaire that layouts move is a separate luminaire at each of its places",
@@ -157,7 +157,7 @@ TEST_CASE("a luminaire that layouts move is a separate luminaire at each of its 
   // A body that moves no longer blocks light where it was.
   const auto bodies = moving_layouts(scene, "grey50");
   CHECK_FALSE(LayoutLights(lights_of(bodies)).can_add());
-  CHECK(heats_of(bodies, 1, true).size() == 3);
+  CHECK(layout_groups_of(bodies, 1, true).size() == 3);
 }
 
 TEST_CASE("layouts share paths up to a number of luminaires that only some of them have",
@@ -170,17 +170,17 @@ TEST_CASE("layouts share paths up to a number of luminaires that only some of th
       places.push_back(0.5 + 0.25 * static_cast<double>(k) + 0.01 * static_cast<double>(i));
     layouts.push_back(corridor_layout(scene, std::string(1, static_cast<char>('A' + i)), places));
   }
-  const auto heats = heats_of(layouts, 1, true);  // 60 in each, 180 in three, 240 in four
-  REQUIRE(heats.size() == 2);
-  CHECK(heats[0].members == std::vector<size_t>{0, 1, 2});
-  CHECK(heats[1].members == std::vector<size_t>{3, 4});
-  CHECK(heats[0].lights->varying() == 180);
+  const auto groups = layout_groups_of(layouts, 1, true);  // 60 in each, 180 in three, 240 in four
+  REQUIRE(groups.size() == 2);
+  CHECK(groups[0].members == std::vector<size_t>{0, 1, 2});
+  CHECK(groups[1].members == std::vector<size_t>{3, 4});
+  CHECK(groups[0].lights->varying() == 180);
 }
 
 TEST_CASE("layouts share paths up to a number of views over all scenarios", "[design]") {
   const auto layouts = three_layouts(smoky_corridor());
-  CHECK(heats_of(layouts, 2, true).size() == 1);
-  CHECK(heats_of(layouts, limits::heat_views, true).size() == 3);
+  CHECK(layout_groups_of(layouts, 2, true).size() == 1);
+  CHECK(layout_groups_of(layouts, limits::layout_group_views, true).size() == 3);
 }
 
 TEST_CASE("layouts with other signs are traced separately", "[design]") {
@@ -188,17 +188,18 @@ TEST_CASE("layouts with other signs are traced separately", "[design]") {
   auto layouts = three_layouts(scene);
   layouts.push_back(layouts.front());
   layouts.back().low_signs = {{"exit", {}}};
-  const auto heats = heats_of(layouts, 1, true);
-  REQUIRE(heats.size() == 2);
-  CHECK(heats[0].members == std::vector<size_t>{0, 1, 2});
-  CHECK(heats[1].members == std::vector<size_t>{3});
-  CHECK(heats_of(layouts, 1, false).size() == 4);
+  const auto groups = layout_groups_of(layouts, 1, true);
+  REQUIRE(groups.size() == 2);
+  CHECK(groups[0].members == std::vector<size_t>{0, 1, 2});
+  CHECK(groups[1].members == std::vector<size_t>{3});
+  CHECK(layout_groups_of(layouts, 1, false).size() == 4);
 }
 
 TEST_CASE("a view of a layout in the sum agrees with the trace of the layout alone", "[design]") {
   const bool moving = GENERATE(false, true);
   const auto layouts = moving ? moving_layouts(smoky_corridor()) : three_layouts(smoky_corridor());
-  const auto together = heats_of(layouts, 1, true), alone = heats_of(layouts, 1, false);
+  const auto together = layout_groups_of(layouts, 1, true),
+             alone = layout_groups_of(layouts, 1, false);
   REQUIRE(together.size() == 1);
   REQUIRE(alone.size() == 3);
   const auto sums = traced(together.front(), 1);

@@ -45,8 +45,8 @@ LayoutProblem in_regions(LayoutProblem problem) {
   return problem;
 }
 
-struct Bounding {
-  explicit Bounding(const LayoutProblem& problem)
+struct BoundedProblem {
+  explicit BoundedProblem(const LayoutProblem& problem)
       : index(problem), sums(problem), growing(problem, false) {
     for (const Violation& v : first_rows(problem)) growing.add(v);
   }
@@ -56,8 +56,8 @@ struct Bounding {
 };
 
 /// The smallest weight of some regions over all layouts.
-double least_weight(const RegionBounds& bounds, const RegionBound& of,
-                    const std::vector<Layout>& layouts) {
+double min_weight(const RegionBounds& bounds, const RegionBound& of,
+                  const std::vector<Layout>& layouts) {
   double out = bounds.weight_of(layouts.front(), of);
   for (const Layout& layout : layouts) out = std::min(out, bounds.weight_of(layout, of));
   return out;
@@ -83,7 +83,7 @@ TEST_CASE("no layout weighs less in a region than its bound, separate or joint",
         *std::min_element(layouts.begin(), layouts.end(), [&](const Layout& a, const Layout& b) {
           return objective_of(problem, a) < objective_of(problem, b);
         });
-    Bounding kit(problem);
+    BoundedProblem kit(problem);
     RegionBounds bounds(problem, kit.index, kit.sums, {}, kit.growing, nobody);
     double told = 0;
     const auto tell = [&](double sum) {
@@ -94,7 +94,7 @@ TEST_CASE("no layout weighs less in a region than its bound, separate or joint",
     bounds.bound_each(seed % 2 == 0 ? best : Layout(), ample_s, tell);
     CHECK(told == Approx(sum_of_bounds(bounds)));
     for (const RegionBound& one : bounds.bounds())
-      CHECK(one.least <= least_weight(bounds, one, layouts) + 1e-6);
+      CHECK(one.least <= min_weight(bounds, one, layouts) + 1e-6);
     const double objective = objective_of(problem, best);
     while (bounds.join(best, ample_s, tell)) {
       ++raised_by_joining;
@@ -102,7 +102,7 @@ TEST_CASE("no layout weighs less in a region than its bound, separate or joint",
       // The joint bound stays at most the best objective.
       CHECK(told <= objective + 1e-6);
       for (const RegionBound& one : bounds.bounds())
-        CHECK(one.least <= least_weight(bounds, one, layouts) + 1e-6);
+        CHECK(one.least <= min_weight(bounds, one, layouts) + 1e-6);
     }
   }
   CHECK(feasible >= 4);
@@ -121,7 +121,7 @@ TEST_CASE("bounds of a stopped search are not above the weight of any layout", "
     // Whenever time is up, the bounds so far are valid.
     for (const double seconds : {0.0, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2}) {
       INFO("seed " << seed << ", " << seconds << " s");
-      Bounding kit(problem);
+      BoundedProblem kit(problem);
       RegionBounds bounds(problem, kit.index, kit.sums, {}, kit.growing, nobody);
       double told = 0;
       const auto tell = [&](double sum) {
@@ -133,7 +133,7 @@ TEST_CASE("bounds of a stopped search are not above the weight of any layout", "
       }
       CHECK(told <= objective_of(problem, best) + 1e-6);
       for (const RegionBound& one : bounds.bounds())
-        CHECK(one.least <= least_weight(bounds, one, layouts) + 1e-6);
+        CHECK(one.least <= min_weight(bounds, one, layouts) + 1e-6);
     }
   }
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "actors/judge/design/layout_heats.hpp"
+#include "actors/judge/design/layout_groups.hpp"
 #include "actors/judge/design/smoke_race.hpp"
 #include "actors/judge/design/smoke_section.hpp"
 #include "runtime/core/random.hpp"
@@ -250,8 +250,8 @@ TEST_CASE("shared paths estimate the difference of layouts better than each layo
   const std::vector<JudgedLayout> layouts{corridor_layout(scene, "A", {3, 8, 13}),
                                           corridor_layout(scene, "B", {5, 8, 13}),
                                           corridor_layout(scene, "C", {3, 8, 13})};
-  const auto heats = heats_of(layouts, 1, true);
-  REQUIRE(heats.size() == 1);
+  const auto groups = layout_groups_of(layouts, 1, true);
+  REQUIRE(groups.size() == 1);
   const Scenario fire = find_scenario(*scene, "fire").value();
   // Differences of levels over many seeds, with the errors that single seeds report.
   struct Found {
@@ -263,8 +263,8 @@ TEST_CASE("shared paths estimate the difference of layouts better than each layo
     AssessOptions asked;
     asked.threads = 2;
     asked.seed = seed;
-    auto state = HeatState::make(*heats.front().lights, *heats.front().base, fire, asked,
-                                 [](const std::string&, double) {});
+    auto state = LayoutGroupState::make(*groups.front().lights, *groups.front().base, fire, asked,
+                                        [](const std::string&, double) {});
     REQUIRE(state.ok());
     SightsInLights& sights = state.value()->sights();
     REQUIRE(sights.trace(0, {true, true, true}, nobody, [](const std::string&, double) {}).ok());

@@ -269,11 +269,11 @@ TEST_CASE("if smoke sinks, the time until which each layout guides is reported",
     CHECK(one.guided.front().route == "way");
     const FirstLoss loss = first_loss_of(one.guided);
     if (one.low_signs.empty()) {
-      CHECK(loss.least_s == 30);
-      CHECK(loss.most_s == 30);
+      CHECK(loss.min_s == 30);
+      CHECK(loss.max_s == 30);
       CHECK_FALSE(loss.never_lost);
     } else {
-      CHECK(loss.least_s == 60);  // below the smoke
+      CHECK(loss.min_s == 60);  // below the smoke
       CHECK(loss.never_lost);
     }
   }
@@ -324,10 +324,10 @@ TEST_CASE("the guidance of all routes ends with the one that is lost first", "[d
     return out;
   };
   const FirstLoss both = first_loss_of({guided(60, 120, true), guided(90, 90, true)});
-  CHECK(both.least_s == 60);
-  CHECK(both.most_s == 90);
+  CHECK(both.min_s == 60);
+  CHECK(both.max_s == 90);
   CHECK_FALSE(both.never_lost);
-  CHECK_FALSE(first_loss_of({guided({}, 120, true), guided(90, 90, true)}).least_s.has_value());
+  CHECK_FALSE(first_loss_of({guided({}, 120, true), guided(90, 90, true)}).min_s.has_value());
   CHECK(first_loss_of({guided(90, 90, false)}).never_lost);
 }
 

@@ -86,7 +86,7 @@ TEST_CASE("the file of a layout has luminaires on walls where the design placed 
 
 TEST_CASE("a luminaire on a wall that faces straight down is off its place along the wall or up it",
           "[design][walls][tolerance]") {
-  const auto least_of = [](const char* aim_deg) {
+  const auto min_of = [](const char* aim_deg) {
     const TemporaryFolder folder;
     std::string types = on_walls;
     types.replace(types.find("60"), 2, aim_deg);
@@ -112,7 +112,7 @@ TEST_CASE("a luminaire on a wall that faces straight down is off its place along
     return std::pair{chosen.size(), found->least()};
   };
   // One degree changes the light little, and must not change the directions of displacement.
-  const auto down = least_of("0"), nearly = least_of("1");
+  const auto down = min_of("0"), nearly = min_of("1");
   REQUIRE(down.first == nearly.first);
   CHECK(down.second == Approx(nearly.second).epsilon(0.03));
 }

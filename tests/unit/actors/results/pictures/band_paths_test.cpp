@@ -248,7 +248,7 @@ enum class Paths { of_all_bands, of_one_band };
 
 /// For each band, the mean over rays from `eye` through a fan of directions around `towards`.
 std::vector<BandLight> seen(const LocalRun& run, const glm::vec3& eye, const glm::vec3& towards,
-                            int paths, Paths way, const KnownRadiance* flux, bool with_emitted) {
+                            int paths, Paths way, const RadianceCache* flux, bool with_emitted) {
   const auto bands = static_cast<size_t>(run.scene().bands.count());
   const glm::vec3 local(glm::dvec3(eye) - run.scene().local_origin);
   std::vector<double> sums(bands), squares(bands), counts(bands);

@@ -170,8 +170,8 @@ TEST_CASE("the common end of two parts of a path belongs to that path alone", "[
   const ChannelLight light{1, 1, 1, 1};
   const auto variance_of = [&](uint64_t first_bin, uint64_t second_bin) {
     PixelSums sums;
-    const std::array<KnownEnd, 2> ends{KnownEnd{{first_bin, 0.5}, 3},
-                                       KnownEnd{{second_bin, 0.1}, 5}};
+    const std::array<CachedEnd, 2> ends{CachedEnd{{first_bin, 0.5}, 3},
+                                        CachedEnd{{second_bin, 0.1}, 5}};
     sums.add(0, light, light, ends, {});
     CHECK(sums.known() == Approx(8));
     return sums.known_variance();

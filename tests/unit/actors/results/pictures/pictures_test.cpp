@@ -237,27 +237,27 @@ TEST_CASE("light is known in voxels of one room's gas, and eyes first read smoot
   const auto run = traced(two_rooms(true), 1 << 13);
   const auto flux = flux_radiance(*run);
   const glm::dvec3 origin = run->scene().local_origin;
-  const auto known = [&](double x, double y, double z) {
-    return flux->known_at(Vec3(glm::dvec3(x, y, z) - origin), true);
+  const auto cached = [&](double x, double y, double z) {
+    return flux->cached_at(Vec3(glm::dvec3(x, y, z) - origin), true);
   };
-  CHECK(known(2, 2, 1.2) == Known::all);        // in the middle of the lit room
-  CHECK(known(3.9, 2, 1.2) == Known::all);      // in front of the wall, which lies along a face
-  CHECK(known(2, 2, 0.1) == Known::all);        // on the floor
-  CHECK(known(2, 2, 2.3) == Known::scattered);  // beside the lamp
-  CHECK(known(2, 2, 1.9) == Known::scattered);  // an edge below it
-  CHECK(known(4.2, 2, 1.2) == Known::nothing);  // dark, and partly in the wall
-  CHECK(known(20, 2, 1.2) == Known::nothing);   // beyond all voxels
+  CHECK(cached(2, 2, 1.2) == CachedLight::all);    // in the middle of the lit room
+  CHECK(cached(3.9, 2, 1.2) == CachedLight::all);  // in front of the wall, which lies along a face
+  CHECK(cached(2, 2, 0.1) == CachedLight::all);    // on the floor
+  CHECK(cached(2, 2, 2.3) == CachedLight::scattered);  // beside the lamp
+  CHECK(cached(2, 2, 1.9) == CachedLight::scattered);  // an edge below it
+  CHECK(cached(4.2, 2, 1.2) == CachedLight::nothing);  // dark, and partly in the wall
+  CHECK(cached(20, 2, 1.2) == CachedLight::nothing);   // beyond all voxels
 }
 
 TEST_CASE("eyes read scattered light where its moments determine further scattering", "[display]") {
   const auto read = [](const char* g) {
     const auto run = traced(two_rooms(true, g), 1 << 16);
     const Vec3 amid_the_lit_room(glm::dvec3(2.7, 2, 1.2) - run->scene().local_origin);
-    return flux_radiance(*run)->known_at(amid_the_lit_room, false);
+    return flux_radiance(*run)->cached_at(amid_the_lit_room, false);
   };
-  CHECK(read("0") == Known::scattered);
-  CHECK(read("0.3") == Known::scattered);
-  CHECK(read("0.75") == Known::nothing);
+  CHECK(read("0") == CachedLight::scattered);
+  CHECK(read("0.3") == CachedLight::scattered);
+  CHECK(read("0.75") == CachedLight::nothing);
 }
 
 TEST_CASE("a lamp in clear air has its own luminance in every pixel, without noise", "[display]") {

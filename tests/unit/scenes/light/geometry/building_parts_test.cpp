@@ -143,11 +143,11 @@ TEST_CASE("closed stairs are closed and have the volume of their steps", "[geome
         shapes::stairs(n, rise, going, width, shapes::StairUnderside::solid).value().mesh;
     CHECK(is_closed(solid));
     CHECK(signed_volume_of(solid) == Approx(rise * going * width * 0.5 * n * (n + 1)));
-    const Mesh flight =
+    const Mesh stairs =
         shapes::stairs(n, rise, going, width, shapes::StairUnderside::soffit).value().mesh;
-    CHECK(is_closed(flight));
+    CHECK(is_closed(stairs));
     // One whole step, then per step a parallelogram of one rise and half a step on it.
-    CHECK(signed_volume_of(flight) == Approx(rise * going * width * (1 + 1.5 * (n - 1))));
+    CHECK(signed_volume_of(stairs) == Approx(rise * going * width * (1 + 1.5 * (n - 1))));
   }
 }
 
@@ -157,10 +157,10 @@ TEST_CASE("a flight whose corners are collinear but for rounding is still triang
   // digit.
   const double rise = 0.17, going = 0.28, width = 1.2;
   for (int n = 2; n <= 40; ++n) {
-    const auto flight = shapes::stairs(n, rise, going, width, shapes::StairUnderside::soffit);
-    REQUIRE(flight.ok());
-    CHECK(is_closed(flight.value().mesh));
-    CHECK(signed_volume_of(flight.value().mesh) ==
+    const auto stairs = shapes::stairs(n, rise, going, width, shapes::StairUnderside::soffit);
+    REQUIRE(stairs.ok());
+    CHECK(is_closed(stairs.value().mesh));
+    CHECK(signed_volume_of(stairs.value().mesh) ==
           Approx(rise * going * width * (1 + 1.5 * (n - 1))));
   }
 }

@@ -28,7 +28,7 @@ TEST_CASE("partly guided directions have a density that integrates to one", "[tr
   GlowGuide guide(three_glows());
   // Outside all spheres, and inside one.
   for (const Vec3& place : {Vec3(2, 1, 1), Vec3(0.1f, 0.1f, 0.2f)}) {
-    guide.stand_at(place, nullptr, Known::nothing);
+    guide.stand_at(place, nullptr, CachedLight::nothing);
     CHECK(guide.aimed() > 0);
     CHECK(guide.aimed() <= limits::max_aimed);
     Random random(1, RandomStream::test);
@@ -45,7 +45,7 @@ TEST_CASE("partly guided directions have a density that integrates to one", "[tr
 
 TEST_CASE("directions are sampled with the density that the guide states", "[transport]") {
   GlowGuide guide(three_glows());
-  guide.stand_at(Vec3(2, 1, 1), nullptr, Known::nothing);
+  guide.stand_at(Vec3(2, 1, 1), nullptr, CachedLight::nothing);
   Random random(2, RandomStream::test);
   random.start(0);
   // The mean of 1/density over sampled directions is the whole sphere; over those of a hemisphere,
@@ -71,7 +71,7 @@ TEST_CASE("within a glow, lines are guided more densely the nearer they pass the
   GlowGuide guide({{emitter, 0.5f, 10, 0.8, 0, 0.008f}});
   for (const Real distance : {2.0f, 0.6f, 0.4f, 0.01f}) {
     const Vec3 place = emitter + Vec3(0, distance, 0);
-    guide.stand_at(place, nullptr, Known::nothing);
+    guide.stand_at(place, nullptr, CachedLight::nothing);
     const auto aimed_at = [&](Real sine) {
       const Vec3 direction(sine, -std::sqrt(1 - sine * sine), 0);
       return guide.density(direction, isotropic) - (1 - guide.aimed()) * isotropic;
@@ -81,7 +81,7 @@ TEST_CASE("within a glow, lines are guided more densely the nearer they pass the
   }
   // At the emitter itself no direction leads to it.
   for (const Vec3& aside : {Vec3(0), Vec3(0, 0.007f, 0)}) {
-    guide.stand_at(emitter + aside, nullptr, Known::nothing);
+    guide.stand_at(emitter + aside, nullptr, CachedLight::nothing);
     CHECK(guide.aimed() == 0);
   }
 }
@@ -94,9 +94,9 @@ TEST_CASE("if scattered light is cached, paths are guided to surface reflections
   const auto aimed_at = [&](const Vec3& glow) {
     return guide.density(glm::normalize(glow - place + Vec3(0, 0.05f, 0)), 0);
   };
-  guide.stand_at(place, nullptr, Known::nothing);
+  guide.stand_at(place, nullptr, CachedLight::nothing);
   CHECK(aimed_at(smoky) == Approx(1.6 * aimed_at(beside_a_wall)).epsilon(1e-3));
-  guide.stand_at(place, nullptr, Known::scattered);
+  guide.stand_at(place, nullptr, CachedLight::scattered);
   CHECK(aimed_at(smoky) == 0);
   CHECK(aimed_at(beside_a_wall) > 0);
 }
@@ -104,7 +104,7 @@ TEST_CASE("if scattered light is cached, paths are guided to surface reflections
 TEST_CASE("a guide without glows leaves every density unchanged", "[transport]") {
   GlowGuide guide;
   CHECK(guide.empty());
-  guide.stand_at(Vec3(1, 2, 3), nullptr, Known::nothing);
+  guide.stand_at(Vec3(1, 2, 3), nullptr, CachedLight::nothing);
   CHECK(guide.aimed() == 0);
   CHECK(guide.density(Vec3(0, 0, 1), 0.37) == 0.37);
 }
@@ -118,7 +118,7 @@ TEST_CASE("without knowledge of emitters only the brightest glows are guided to"
   GlowGuide guide(glows);
   const auto aims_at = [&](size_t i) {
     const Vec3 place = glows[i].centre + Vec3(0, 2, 0);
-    guide.stand_at(place, nullptr, Known::nothing);
+    guide.stand_at(place, nullptr, CachedLight::nothing);
     return guide.density(glm::normalize(Vec3(0.1f, -1, 0)), isotropic) > isotropic;
   };
   CHECK_FALSE(aims_at(9));
@@ -135,12 +135,12 @@ TEST_CASE("a glow is guided to by the light that arrives from its emitter", "[tr
   };
   CellSight seen;
   seen.bright = {{0, 0.5, 0.5}, {1, 0.5, 0.5}};
-  guide.stand_at(place, &seen, Known::nothing);
+  guide.stand_at(place, &seen, CachedLight::nothing);
   CHECK(above_isotropic(first) > 1);
   CHECK(above_isotropic(second) > 1);
   // Emitters behind a wall, or reached by no ray of the cell, are not guided to.
   seen.bright = {{0, 0.5, 0.5}, {1, 1e-4, 1e-4}};
-  guide.stand_at(place, &seen, Known::nothing);
+  guide.stand_at(place, &seen, CachedLight::nothing);
   CHECK(above_isotropic(first) > 1);
   CHECK(above_isotropic(second) == Approx(0).margin(1e-9));
   // A lamp without glow leaves a smaller share for those with glow.
@@ -149,7 +149,7 @@ TEST_CASE("a glow is guided to by the light that arrives from its emitter", "[tr
   glows[2].share = 0;
   guide = GlowGuide(glows);
   seen.bright.push_back({2, 5, 5});
-  guide.stand_at(place, &seen, Known::nothing);
+  guide.stand_at(place, &seen, CachedLight::nothing);
   CHECK(guide.aimed() > 0);
   CHECK(guide.aimed() < before / 2);
 }

@@ -237,8 +237,8 @@ TEST_CASE("a scene that fits the display is shown by one factor", "[vision][tone
 }
 
 TEST_CASE("the human curve rises from the display's black to its white", "[vision][tone]") {
-  const DisplayModel display{200, 1};
-  const ToneCurve curve = human_curve(even_logs(0.01, 1e4, 2000), display);
+  const MonitorModel monitor{200, 1};
+  const ToneCurve curve = human_curve(even_logs(0.01, 1e4, 2000), monitor);
   REQUIRE_FALSE(curve.linear);
   CHECK(curve.display(0.01) == Approx(1).epsilon(1e-6));
   CHECK(curve.display(1e4) == Approx(200).epsilon(1e-6));
@@ -326,8 +326,8 @@ std::vector<std::vector<double>> test_patterns() {
   return patterns;
 }
 
-const std::array<DisplayModel, 3> displays{DisplayModel{100, 0.5}, DisplayModel{200, 1},
-                                           DisplayModel{1000, 0.01}};
+const std::array<MonitorModel, 3> monitors{MonitorModel{100, 0.5}, MonitorModel{200, 1},
+                                           MonitorModel{1000, 0.01}};
 
 // A grating of bars two pixels wide; the upper half of the picture is blank at the same mean.
 XyzPicture grating(double mean_cd_m2) {
@@ -355,27 +355,27 @@ double shown_contrast(const SrgbPicture& p) {
 
 TEST_CASE("on every monitor the human curve is monotone, and ends at its black and its white",
           "[vision][tone]") {
-  for (const DisplayModel& display : displays)
+  for (const MonitorModel& monitor : monitors)
     for (const std::vector<double>& pattern : test_patterns()) {
-      const ToneCurve curve = human_curve(pattern, display);
+      const ToneCurve curve = human_curve(pattern, monitor);
       double before = 0;
       for (const double l : even_logs(1e-5, 1e5, 1000)) {
         const double shown = curve.display(l);
         CHECK(shown >= before);
-        CHECK(shown <= display.white_cd_m2 * (1 + 1e-9));
+        CHECK(shown <= monitor.white_cd_m2 * (1 + 1e-9));
         before = shown;
       }
       if (curve.linear) continue;
-      CHECK(curve.display(std::exp(curve.log_world.front())) == Approx(display.black_cd_m2));
-      CHECK(curve.display(1e5) == Approx(display.white_cd_m2));
+      CHECK(curve.display(std::exp(curve.log_world.front())) == Approx(monitor.black_cd_m2));
+      CHECK(curve.display(1e5) == Approx(monitor.white_cd_m2));
     }
 }
 
 TEST_CASE("no monitor shows a pattern with more contrast than an eye sees in it",
           "[vision][tone]") {
-  for (const DisplayModel& display : displays)
+  for (const MonitorModel& monitor : monitors)
     for (const std::vector<double>& pattern : test_patterns()) {
-      const ToneCurve curve = human_curve(pattern, display);
+      const ToneCurve curve = human_curve(pattern, monitor);
       if (curve.linear) continue;
       for (size_t k = 1; k < curve.log_world.size(); ++k) {
         const double w = std::exp(0.5 * (curve.log_world[k] + curve.log_world[k - 1]));
@@ -395,9 +395,9 @@ TEST_CASE("a grey ramp is shown as a ramp", "[vision][tone]") {
   XyzPicture p = row(lights);
   p.width = 256;
   p.height = 8;
-  for (const DisplayModel& display : displays) {
+  for (const MonitorModel& monitor : monitors) {
     HumanTone tone;
-    tone.display = display;
+    tone.monitor = monitor;
     tone.glare = false;  // seven decades in 25 degrees dazzle: only veil at the dark end
     const SrgbPicture out = tone_human(p, tone);
     for (size_t x = 1; x < 256; ++x) CHECK(at(out, 4 * 256 + x).g >= at(out, 4 * 256 + x - 1).g);

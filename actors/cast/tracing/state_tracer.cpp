@@ -1,4 +1,4 @@
-#include "actors/cast/tracing/state_tracing.hpp"
+#include "actors/cast/tracing/state_tracer.hpp"
 
 #include <algorithm>
 
@@ -16,8 +16,8 @@ constexpr size_t min_leases = 4, max_leases = 256;
 
 }  // namespace
 
-StateTracing::StateTracing(const CompiledScene& first, StateMaker& maker, int64_t portion,
-                           Scheduler& scheduler, LeasePort& port, TracerMaker make_tracer)
+StateTracer::StateTracer(const CompiledScene& first, StateMaker& maker, int64_t portion,
+                         Scheduler& scheduler, LeasePort& port, TracerMaker make_tracer)
     : maker_(maker),
       portion_(portion),
       scheduler_(scheduler),
@@ -26,12 +26,12 @@ StateTracing::StateTracing(const CompiledScene& first, StateMaker& maker, int64_
   for (std::shared_ptr<Totals>& totals : totals_) totals = empty_totals(first);
 }
 
-void StateTracing::start() {
+void StateTracer::start() {
   LUX_CHECK(scheduler_.fibers().start("photon", [this] { trace_until_the_end(); }),
             "the plan counts a fiber for it");
 }
 
-void StateTracing::add_metrics(Metrics& metrics) const {
+void StateTracer::add_metrics(Metrics& metrics) const {
   const Counters& c = counters_;
   const BatchWorker::Counters all = done();
   metrics.add_counter({"particles", "", "Particles traced.", ""}, all.particles);
@@ -42,7 +42,7 @@ void StateTracing::add_metrics(Metrics& metrics) const {
   metrics.add_counter({"states", "", "States of the scene entered.", ""}, c.states);
 }
 
-BatchWorker::Counters StateTracing::done() const {
+BatchWorker::Counters StateTracer::done() const {
   BatchWorker::Counters all = done_before_;
   if (!worker_) return all;
   const BatchWorker::Counters& own = worker_->counters();
@@ -54,18 +54,18 @@ BatchWorker::Counters StateTracing::done() const {
 
 // ---- states -------------------------------------------------------------------------------------
 
-Result<void> StateTracing::learn(ObjectId state, std::span<const std::byte> bytes) try {
+Result<void> StateTracer::learn(ObjectId state, std::span<const std::byte> bytes) try {
   const auto object = StateObject::parse(bytes);
   if (!object) return object.problem();
   auto made = maker_.make(object->text);
   if (!made) return made.problem();
-  learnt_ = Known{state, object->seed, std::move(made).value()};
+  learnt_ = LearntState{state, object->seed, std::move(made).value()};
   return {};
 } catch (const std::exception& e) {
   return problem(e.what());
 }
 
-void StateTracing::leave_state() {
+void StateTracer::leave_state() {
   leases_.clear();
   open_.reset();
   done_before_ = done();
@@ -73,7 +73,7 @@ void StateTracing::leave_state() {
   tracing_.reset();
 }
 
-void StateTracing::enter(ObjectId) {
+void StateTracer::enter(ObjectId) {
   ++counters_.states;
   done_before_ = done();
   worker_.reset();
@@ -86,7 +86,7 @@ void StateTracing::enter(ObjectId) {
 }
 
 /// New memory is empty already.
-bool StateTracing::forget_merged() {
+bool StateTracer::forget_merged() {
   if (!tracing_ || merges_) return false;
   totals_[merging_] = tracing_->state->totals();
   return true;
@@ -96,47 +96,47 @@ bool StateTracing::forget_merged() {
 
 /// Asks for other leases: only this node knows that it has nothing to do. A batch that is being
 /// merged leaves in a flush, which is refused.
-void StateTracing::drop(std::span<const uint64_t> leases) {
-  const auto named = [&](const Waiting& waiting) {
-    return std::find(leases.begin(), leases.end(), waiting.lease) != leases.end();
+void StateTracer::drop(std::span<const uint64_t> leases) {
+  const auto named = [&](const PendingBatch& batch) {
+    return std::find(leases.begin(), leases.end(), batch.lease) != leases.end();
   };
   std::erase_if(leases_, named);
   if (open_ && !merges_ && named(*open_)) open_.reset();
   look_again();
 }
 
-void StateTracing::drop_all() {
+void StateTracer::drop_all() {
   leases_.clear();
   if (!merges_) open_.reset();
 }
 
-void StateTracing::give_back_all() {
+void StateTracer::give_back_all() {
   std::vector<uint64_t> leases;
-  for (const Waiting& waiting : leases_)
-    if (leases.size() < limits::leases) leases.push_back(waiting.lease);
+  for (const PendingBatch& batch : leases_)
+    if (leases.size() < limits::leases) leases.push_back(batch.lease);
   if (!leases.empty()) port_.give_back(leases);
   drop_all();
 }
 
 /// Asks for nothing while batches wait for their state.
-void StateTracing::look_again() {
+void StateTracer::look_again() {
   if (at_hand() == 0 || tracing_) ask_for_more();
   scheduler_.fibers().wake_all(work_);
 }
 
-void StateTracing::ask_for_more() {
+void StateTracer::ask_for_more() {
   size_t wish = min_leases;
   if (batch_takes_ > 0)
     wish = std::clamp(static_cast<size_t>(leases_take / batch_takes_), min_leases, max_leases);
   if (at_hand() <= wish / 2) port_.want_leases(wish - at_hand());
 }
 
-Totals& StateTracing::give_totals() {
+Totals& StateTracer::give_totals() {
   merging_ = 1 - merging_;
   return *totals_[1 - merging_];
 }
 
-void StateTracing::end(const std::string&) {
+void StateTracer::end(const std::string&) {
   ending_ = true;
   scheduler_.fibers().wake_all(work_);
 }
@@ -144,7 +144,7 @@ void StateTracing::end(const std::string&) {
 // ---- tracing ------------------------------------------------------------------------------------
 
 /// An exception is a failure of the tracer.
-void StateTracing::trace_until_the_end() try {
+void StateTracer::trace_until_the_end() try {
   Fibers& fibers = scheduler_.fibers();
   ask_for_more();  // also announces this node
   while (!ending_) {
@@ -156,13 +156,13 @@ void StateTracing::trace_until_the_end() try {
 }
 
 /// False: there is nothing to trace.
-bool StateTracing::trace_portion() {
+bool StateTracer::trace_portion() {
   if (!open_ && !open_next()) return false;
   if (!worker_->go_on()) close();
   return true;
 }
 
-bool StateTracing::open_next() {
+bool StateTracer::open_next() {
   if (!tracing_ || leases_.empty()) return false;
   open_ = leases_.front();
   leases_.pop_front();
@@ -172,7 +172,7 @@ bool StateTracing::open_next() {
   return true;
 }
 
-void StateTracing::close() {
+void StateTracer::close() {
   if (!merge()) return;
   const uint64_t lease = open_->lease;
   open_.reset();
@@ -183,7 +183,7 @@ void StateTracing::close() {
 
 /// Millions of bins take longer than a turn may: other fibers run between steps. Returns false if
 /// the state was left meanwhile, and its batch is no longer wanted.
-bool StateTracing::merge() {
+bool StateTracer::merge() {
   const auto state = counted_;  // must outlive the two below
   const auto worker = worker_;
   const auto totals = totals_[merging_];

@@ -14,10 +14,10 @@
 
 namespace luxodus::test {
 
-class Serving {
+class ServedSite {
  public:
   /// `page` is served at /metrics.
-  explicit Serving(std::function<std::string()> page, HttpAddress at = {}, HttpSite site = {}) {
+  explicit ServedSite(std::function<std::string()> page, HttpAddress at = {}, HttpSite site = {}) {
     site.page = [page = std::move(page)](std::string_view path) -> std::optional<HttpPage> {
       if (path != "/metrics") return std::nullopt;
       return HttpPage{page(), "text/plain"};
@@ -27,7 +27,7 @@ class Serving {
     server_ = std::move(server).value();
     thread_ = std::thread([this] { server_->run(); });
   }
-  ~Serving() {
+  ~ServedSite() {
     server_->stop();
     thread_.join();
   }

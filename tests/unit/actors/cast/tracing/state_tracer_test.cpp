@@ -1,6 +1,6 @@
 // A node that traces states of a scene leaves one while a batch of it is being merged, in steps.
 // The test plays the tracer and controls each step of a merge.
-#include "actors/cast/tracing/state_tracing.hpp"
+#include "actors/cast/tracing/state_tracer.hpp"
 
 #include <catch2/catch.hpp>
 #include <functional>
@@ -71,8 +71,8 @@ struct NotedPort final : LeasePort {
   std::vector<uint64_t> done;
 };
 
-struct Tracing : test::LoneNode {
-  Tracing() {
+struct TracingNode : test::LoneNode {
+  TracingNode() {
     for (const StateObject& state : {first, second}) {
       const std::string bytes = state.bytes();
       REQUIRE(work.learn(state.id(), std::as_bytes(std::span(bytes))).ok());
@@ -80,7 +80,7 @@ struct Tracing : test::LoneNode {
     }
     work.start();
   }
-  ~Tracing() { end_fibers(); }
+  ~TracingNode() { end_fibers(); }
   /// Traces a batch of the first state; `meanwhile` runs during its merge.
   void trace(std::function<void()> meanwhile) {
     states.merges.meanwhile = std::move(meanwhile);
@@ -94,13 +94,13 @@ struct Tracing : test::LoneNode {
   const std::shared_ptr<const CompiledScene> scene = scene_of("empty_room", "", 1);
   SteppedStates states{*scene};
   NotedPort port;
-  StateTracing work{*scene, states, 1, scheduler, port};
+  StateTracer work{*scene, states, 1, scheduler, port};
 };
 
 }  // namespace
 
 TEST_CASE("a batch being merged is in the totals when its lease is done", "[states]") {
-  Tracing node;
+  TracingNode node;
   node.trace([&] {
     CHECK_FALSE(node.work.may_give());  // these totals are being written
     CHECK_FALSE(node.work.forget_merged());
@@ -113,7 +113,7 @@ TEST_CASE("a batch being merged is in the totals when its lease is done", "[stat
 }
 
 TEST_CASE("a state left during the merge of its batch gets no report of it", "[states]") {
-  Tracing node;
+  TracingNode node;
   const auto leave = [&] {
     node.work.leave_state();
     CHECK(node.work.at_hand() == 0);

@@ -16,12 +16,12 @@
 
 namespace luxodus {
 
-class StateTracing final : public LeasedWork {
+class StateTracer final : public LeasedWork {
  public:
   /// Until a state is entered, totals belong to `first`. A turn traces at most `portion` particles.
   /// Requires: all references outlive this; portion >= 1.
-  StateTracing(const CompiledScene& first, StateMaker& maker, int64_t portion, Scheduler& scheduler,
-               LeasePort& port, TracerMaker make_tracer = make_batch_tracer);
+  StateTracer(const CompiledScene& first, StateMaker& maker, int64_t portion, Scheduler& scheduler,
+              LeasePort& port, TracerMaker make_tracer = make_batch_tracer);
 
   /// Starts its fiber.
   void start();
@@ -56,11 +56,11 @@ class StateTracing final : public LeasedWork {
   void add_metrics(Metrics& metrics) const;
 
  private:
-  struct Waiting {
+  struct PendingBatch {
     uint64_t lease;
     int64_t batch;
   };
-  struct Known {
+  struct LearntState {
     ObjectId id;
     uint64_t seed = 0;
     std::shared_ptr<const TracedState> state;
@@ -78,15 +78,15 @@ class StateTracing final : public LeasedWork {
   Scheduler& scheduler_;
   LeasePort& port_;
   const TracerMaker make_tracer_;
-  std::optional<Known> learnt_;                 // the last one
-  std::optional<Known> tracing_;                // the one entered
+  std::optional<LearntState> learnt_;           // the last one
+  std::optional<LearntState> tracing_;          // the one entered
   std::shared_ptr<const TracedState> counted_;  // to which the totals belong
   std::shared_ptr<BatchWorker> worker_;         // of the one entered
   BatchWorker::Counters done_before_;           // by previous ones
   std::shared_ptr<Totals> totals_[2];           // one is filled while the other is emptied
   size_t merging_ = 0;
-  std::deque<Waiting> leases_;   // not begun, the oldest first
-  std::optional<Waiting> open_;  // in work
+  std::deque<PendingBatch> leases_;   // not begun, the oldest first
+  std::optional<PendingBatch> open_;  // in work
   bool merges_ = false;  // the batch is being merged: totals are neither given away nor forgotten
   Nanoseconds opened_ = 0;
   Nanoseconds batch_takes_ = 0;  // recently

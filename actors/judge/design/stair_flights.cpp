@@ -1,4 +1,4 @@
-#include "actors/judge/design/flights.hpp"
+#include "actors/judge/design/stair_flights.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace luxodus {
 namespace {
 
 /// Steepness above which a leg is no ramp [deg]; ramps have up to 10.
-constexpr double least_climb_deg = 15;
+constexpr double min_climb_deg = 15;
 /// Riser height if only a route shows that there are stairs [m].
 constexpr double usual_rise_m = 0.17;
 /// Largest distance between a route and the stairs that it climbs [m].
@@ -19,7 +19,7 @@ constexpr double same_stairs_m = 1;
 
 bool climbs(const glm::dvec3& way) {
   return std::abs(way.z) >
-         std::tan(least_climb_deg * std::numbers::pi / 180) * glm::length(glm::dvec2(way));
+         std::tan(min_climb_deg * std::numbers::pi / 180) * glm::length(glm::dvec2(way));
 }
 
 /// Whether a leg of a route leads over stairs.
@@ -34,8 +34,9 @@ bool runs_over(const EscapeRoute& leg, const StairFlight& stairs) {
 
 }  // namespace
 
-std::vector<StairFlight> flights_of(const SceneDescription& scene, const DesignSettings& design) {
-  std::vector<StairFlight> out = design.flights;
+std::vector<StairFlight> stair_flights_of(const SceneDescription& scene,
+                                          const DesignSettings& design) {
+  std::vector<StairFlight> out = design.stair_flights;
   for (const EscapeRoute& route : scene.routes) {
     int number = 0;
     for (size_t i = 1; i < route.path.size(); ++i) {
@@ -43,25 +44,25 @@ std::vector<StairFlight> flights_of(const SceneDescription& scene, const DesignS
       leg.path = {route.path[i - 1], route.path[i]};
       if (!climbs(leg.path[1] - leg.path[0])) continue;
       ++number;
-      if (std::any_of(design.flights.begin(), design.flights.end(),
+      if (std::any_of(design.stair_flights.begin(), design.stair_flights.end(),
                       [&](const StairFlight& stairs) { return runs_over(leg, stairs); }))
         continue;
-      StairFlight flight{route.name + ", flight " + std::to_string(number), leg.path[0],
+      StairFlight stairs{route.name + ", flight " + std::to_string(number), leg.path[0],
                          leg.path[1], 1};
-      if (flight.lowest.z > flight.highest.z) std::swap(flight.lowest, flight.highest);
-      flight.treads = std::max(
-          1, static_cast<int>(std::lround((flight.highest.z - flight.lowest.z) / usual_rise_m)));
-      out.push_back(std::move(flight));
+      if (stairs.lowest.z > stairs.highest.z) std::swap(stairs.lowest, stairs.highest);
+      stairs.treads = std::max(
+          1, static_cast<int>(std::lround((stairs.highest.z - stairs.lowest.z) / usual_rise_m)));
+      out.push_back(std::move(stairs));
     }
   }
   return out;
 }
 
-std::vector<glm::dvec3> treads_of(const StairFlight& flight) {
+std::vector<glm::dvec3> treads_of(const StairFlight& stairs) {
   std::vector<glm::dvec3> out;
-  for (int i = 0; i < flight.treads; ++i) {
-    const double t = flight.treads > 1 ? static_cast<double>(i) / (flight.treads - 1) : 0.5;
-    out.push_back(flight.lowest + (flight.highest - flight.lowest) * t);
+  for (int i = 0; i < stairs.treads; ++i) {
+    const double t = stairs.treads > 1 ? static_cast<double>(i) / (stairs.treads - 1) : 0.5;
+    out.push_back(stairs.lowest + (stairs.highest - stairs.lowest) * t);
   }
   return out;
 }

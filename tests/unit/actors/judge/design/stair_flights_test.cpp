@@ -1,5 +1,5 @@
 // Tests direct light on flights of stairs: which flights there are, and that a layout lights them.
-#include "actors/judge/design/flights.hpp"
+#include "actors/judge/design/stair_flights.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -28,9 +28,9 @@ std::string behind_a_wall(const std::string& behind, const std::string& settings
          behind + "[design]\nplace_signs = false\nfailure = \"none\"\n" + settings;
 }
 
-std::vector<StairFlight> flights_in(const TemporaryFolder& folder, const std::string& text) {
+std::vector<StairFlight> stair_flights_in(const TemporaryFolder& folder, const std::string& text) {
   const auto scene = test::described(folder.write("flights.toml", text));
-  return flights_of(*scene, *scene->design);
+  return stair_flights_of(*scene, *scene->design);
 }
 
 size_t behind(const DesignResult& result) {
@@ -46,8 +46,8 @@ TEST_CASE("flights are stairs of objects, copies included, and legs of routes th
   const TemporaryFolder folder;
   const std::string room = test::box_room(20, 5, 8) + test::judged_2013;
   const auto own =
-      flights_in(folder, room + test::way_along(1, 9, 1) +
-                             stairs(3, 2, "repeat = [{ count = 2, step = [6, 0, 0] }]"));
+      stair_flights_in(folder, room + test::way_along(1, 9, 1) +
+                                   stairs(3, 2, "repeat = [{ count = 2, step = [6, 0, 0] }]"));
   REQUIRE(own.size() == 2);
   CHECK(own[0].treads == 10);
   const auto treads = treads_of(own[0]);
@@ -57,7 +57,7 @@ TEST_CASE("flights are stairs of objects, copies included, and legs of routes th
                       glm::dvec3(3 + 0.28 * (i + 0.5), 2.6, 0.17 * (i + 1))) < 1e-9);
   CHECK(own[1].lowest.x == Approx(own[0].lowest.x + 6));
   // A ramp of 1 in 12 is no flight; a leg that descends by 30 degrees is one.
-  const auto of_route = flights_in(
+  const auto of_route = stair_flights_in(
       folder, room + test::route("down", "[1, 1, 3], [4, 1, 3], [9.2, 1, 0], [15, 1, 0]") +
                   test::route("ramp", "[1, 4, 0.5], [7, 4, 0]"));
   REQUIRE(of_route.size() == 1);
@@ -65,8 +65,8 @@ TEST_CASE("flights are stairs of objects, copies included, and legs of routes th
   CHECK(of_route[0].lowest.x == Approx(9.2));
   CHECK(of_route[0].treads == 18);
   // A route over stairs adds no second flight.
-  CHECK(flights_in(folder,
-                   room + stairs(3, 0.4) + test::route("up", "[1, 1, 0], [3, 1, 0], [5.8, 1, 1.7]"))
+  CHECK(stair_flights_in(folder, room + stairs(3, 0.4) +
+                                     test::route("up", "[1, 1, 0], [3, 1, 0], [5.8, 1, 1.7]"))
             .size() == 1);
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("each flight has a luminaire that lights all of it, which no rule for 
   CHECK(behind(with) == 1);
   const auto group =
       std::find_if(with.groups.begin(), with.groups.end(),
-                   [](const ConstraintGroup& g) { return g.kind == DemandKind::flight; });
+                   [](const ConstraintGroup& g) { return g.kind == DemandKind::stairs; });
   REQUIRE(group != with.groups.end());
   CHECK(demand_words(*group).find("flight of stairs \"stairs\"") != std::string::npos);
   CHECK(with.tightest[static_cast<size_t>(group - with.groups.begin())] >= 1);
@@ -98,9 +98,9 @@ TEST_CASE("a flight that no candidate lights is reported, and no light is requir
   const auto file = folder.write("scene.toml", behind_a_wall(stairs(3.6, 3.2), places));
   const auto result = test::designed(file);
   REQUIRE_FALSE(result.luminaires.empty());
-  CHECK(result.unlit_flights == std::vector<std::string>{"stairs"});
+  CHECK(result.unlit_stair_flights == std::vector<std::string>{"stairs"});
   CHECK(std::none_of(result.groups.begin(), result.groups.end(),
-                     [](const ConstraintGroup& g) { return g.kind == DemandKind::flight; }));
+                     [](const ConstraintGroup& g) { return g.kind == DemandKind::stairs; }));
   CHECK(design_json(*test::described(file), result, "1")["unlit_flights"].size() == 1);
 }
 
@@ -123,7 +123,7 @@ end_of_duration_factor = 0.7
       "scene.toml", behind_a_wall(low + stairs(3.6, 2.8),
                                   "existing = \"movable\"\nplaces = [[2, 1, 3.97], [5, 1, 3.97], "
                                   "[8, 1, 3.97]]\n")));
-  CHECK(result.unlit_flights == std::vector<std::string>{"stairs"});
+  CHECK(result.unlit_stair_flights == std::vector<std::string>{"stairs"});
   CHECK(behind(result) == 0);
 }
 

@@ -1,4 +1,4 @@
-#include "actors/judge/design/layout_heats.hpp"
+#include "actors/judge/design/layout_groups.hpp"
 
 #include "actors/judge/design/smoke_stage.hpp"
 #include "scenes/emergency/way.hpp"
@@ -19,7 +19,7 @@ size_t views_of(const SceneDescription& scene) {
   return places * scene.assessment.eye_heights_m.size() * scene.signs.size();
 }
 
-Heat heat_of(const std::vector<JudgedLayout>& layouts, std::vector<size_t> members) {
+LayoutGroup layout_group_of(const std::vector<JudgedLayout>& layouts, std::vector<size_t> members) {
   const JudgedLayout& first = layouts[members.front()];
   std::vector<LayoutLight> lights;
   for (const size_t i : members)
@@ -29,49 +29,49 @@ Heat heat_of(const std::vector<JudgedLayout>& layouts, std::vector<size_t> membe
 
 /// Whether a heat stays within the limits; the states of all scenarios are in memory at the same
 /// time.
-bool pays(const Heat& heat, size_t scenarios) {
-  return heat.lights->can_add() && heat.lights->varying() <= varying_luminaires &&
-         heat.members.size() * scenarios * views_of(*heat.base) <= limits::heat_views;
+bool pays(const LayoutGroup& group, size_t scenarios) {
+  return group.lights->can_add() && group.lights->varying() <= varying_luminaires &&
+         group.members.size() * scenarios * views_of(*group.base) <= limits::layout_group_views;
 }
 
 /// Adds a layout to the first heat with which it can share paths, or else to a new one.
 void join(const std::vector<JudgedLayout>& layouts, size_t layout, size_t scenarios,
-          std::vector<Heat>& heats) {
-  for (Heat& heat : heats) {
-    if (layouts[heat.members.front()].low_signs.size() != layouts[layout].low_signs.size())
+          std::vector<LayoutGroup>& groups) {
+  for (LayoutGroup& group : groups) {
+    if (layouts[group.members.front()].low_signs.size() != layouts[layout].low_signs.size())
       continue;
-    std::vector<size_t> members = heat.members;
+    std::vector<size_t> members = group.members;
     members.push_back(layout);
-    Heat larger = heat_of(layouts, std::move(members));
+    LayoutGroup larger = layout_group_of(layouts, std::move(members));
     if (!pays(larger, scenarios)) continue;
-    heat = std::move(larger);
+    group = std::move(larger);
     return;
   }
-  heats.push_back(heat_of(layouts, {layout}));
+  groups.push_back(layout_group_of(layouts, {layout}));
 }
 
 }  // namespace
 
-Result<std::unique_ptr<HeatState>> HeatState::make(const LayoutLights& lights,
-                                                   const SceneDescription& scene,
-                                                   const Scenario& scenario,
-                                                   const AssessOptions& options,
-                                                   const AssessProgress& progress) {
+Result<std::unique_ptr<LayoutGroupState>> LayoutGroupState::make(const LayoutLights& lights,
+                                                                 const SceneDescription& scene,
+                                                                 const Scenario& scenario,
+                                                                 const AssessOptions& options,
+                                                                 const AssessProgress& progress) {
   auto judged = lights.judged(scene, scenario, {});
   if (!judged) return judged.problem();
-  std::unique_ptr<HeatState> out(new HeatState(std::move(judged).value(), options));
+  std::unique_ptr<LayoutGroupState> out(new LayoutGroupState(std::move(judged).value(), options));
   if (auto ok = out->sights_.look_for_lines(progress); !ok) return ok.problem();
   return out;
 }
 
-std::vector<Heat> heats_of(const std::vector<JudgedLayout>& layouts, size_t scenarios,
-                           bool together) {
-  std::vector<Heat> out;
+std::vector<LayoutGroup> layout_groups_of(const std::vector<JudgedLayout>& layouts,
+                                          size_t scenarios, bool together) {
+  std::vector<LayoutGroup> out;
   for (size_t i = 0; i < layouts.size(); ++i)
     if (together)
       join(layouts, i, scenarios, out);
     else
-      out.push_back(heat_of(layouts, {i}));
+      out.push_back(layout_group_of(layouts, {i}));
   return out;
 }
 
