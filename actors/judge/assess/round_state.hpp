@@ -64,7 +64,7 @@ struct JudgedLight {
 struct JudgedScene {
   Scenario scenario;
   SceneDescription scene;
-  AgeingShares ageing;                    // defines the source groups
+  AgeingShares ageing;              // defines the source groups
   std::vector<JudgedLight> lights;  // at least one
 
   /// Mixtures of all lights: the aged one, and the new one if luminaires age. Then, in the same

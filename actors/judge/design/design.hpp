@@ -65,7 +65,7 @@ struct DesignResult : PlacedLayout {
   size_t points = 0;               // number of points of calculation
   std::vector<HiddenByFurniture> hidden;
   std::vector<std::string> unlit_stair_flights;  // flights of stairs that no candidate lights
-  std::optional<SignPlan> signs;           // set if signs were placed
+  std::optional<SignPlan> signs;                 // set if signs were placed
   std::vector<ConstraintGroup> groups;
   std::vector<double> tightest;  // for each group, the least share of the required value
   LayoutAnswer answer;

@@ -7,7 +7,7 @@ namespace luxodus {
 
 namespace {
 
-/// Largest number of luminaires that only some layouts of a heat have. Above 256 emitters paths
+/// Largest number of luminaires that only some layouts of a group have. Above 256 emitters paths
 /// choose them by power only (limits::nearby_emitters), and luminaires of one layout are rarely
 /// near. The rest of the 256 is for the building's own emitters.
 constexpr size_t varying_luminaires = 200;
@@ -27,14 +27,14 @@ LayoutGroup layout_group_of(const std::vector<JudgedLayout>& layouts, std::vecto
   return {std::move(members), first.layout.variant, std::make_unique<LayoutLights>(lights)};
 }
 
-/// Whether a heat stays within the limits; the states of all scenarios are in memory at the same
+/// Whether a group stays within the limits; the states of all scenarios are in memory at the same
 /// time.
 bool pays(const LayoutGroup& group, size_t scenarios) {
   return group.lights->can_add() && group.lights->varying() <= varying_luminaires &&
          group.members.size() * scenarios * views_of(*group.base) <= limits::layout_group_views;
 }
 
-/// Adds a layout to the first heat with which it can share paths, or else to a new one.
+/// Adds a layout to the first group with which it can share paths, or else to a new one.
 void join(const std::vector<JudgedLayout>& layouts, size_t layout, size_t scenarios,
           std::vector<LayoutGroup>& groups) {
   for (LayoutGroup& group : groups) {

@@ -1,5 +1,5 @@
-// Groups of layouts that are traced together (heats): layouts of one building whose light can be
-// added, or a single layout. The views of a heat are traced in rounds, and each round gives the
+// Groups of layouts that are traced together: layouts of one building whose light can be
+// added, or a single layout. The views of a group are traced in rounds, and each round gives the
 // verdicts for all its layouts. Thread rule: one thread, which has batches traced by others.
 #pragma once
 
@@ -14,12 +14,12 @@ namespace luxodus {
 struct JudgedLayout;
 
 namespace limits {
-/// Pairs of a view and a layout in one heat, over all scenarios. Each takes about 1000 bytes of
+/// Pairs of a view and a layout in one group, over all scenarios. Each takes about 1000 bytes of
 /// tallies, half of them for the difference from the first layout, and 500 bytes for its verdict.
 inline constexpr size_t layout_group_views = 300'000;
 }  // namespace limits
 
-/// One state of the building in the light of each layout of a heat.
+/// One state of the building in the light of each layout of a group.
 class LayoutGroupState {
  public:
   /// Errors: as LayoutLights::judged and SightsInLights::look_for_lines.
@@ -50,7 +50,7 @@ struct LayoutGroup {
 
 /// Groups layouts that share paths: those with the same signs, or the same signs made brighter,
 /// whose light can be added and does not come from too many luminaires. `scenarios`: number of
-/// scenarios in which they are judged. `together`: false gives a heat for each layout.
+/// scenarios in which they are judged. `together`: false gives a group for each layout.
 std::vector<LayoutGroup> layout_groups_of(const std::vector<JudgedLayout>& layouts,
                                           size_t scenarios, bool together);
 

@@ -13,7 +13,7 @@ namespace luxodus {
 
 namespace {
 
-/// The building of a heat at another time: its signs, in the smoke of that time.
+/// The building of a group at another time: its signs, in the smoke of that time.
 SceneDescription at_time(const SceneDescription& then, const SceneDescription& base) {
   SceneDescription out = then;
   out.signs = base.signs;

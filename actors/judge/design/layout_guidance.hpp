@@ -23,8 +23,8 @@ struct GuidedUntil {
 
 /// The earliest loss of guidance over all routes and eye heights.
 struct FirstLoss {
-  std::optional<double> min_s,
-      most_s;               // the last state with guidance everywhere; none: not even the first
+  /// The last state with guidance everywhere [s]; none: not even the first.
+  std::optional<double> min_s, max_s;
   bool never_lost = false;  // certainly guided in the last state as well
 };
 /// Requires: at least one route.

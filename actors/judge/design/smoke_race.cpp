@@ -77,7 +77,7 @@ bool SmokeRace::any_open() const {
                      [&](const JudgedLayout& one) { return is_open(one); });
 }
 
-/// One round of a heat; false if it was stopped before.
+/// One round of a group; false if it was stopped before.
 Result<bool> SmokeRace::race(size_t group, int round) {
   if (stopped_) return false;
   if (round == 0)
@@ -130,7 +130,7 @@ Result<void> SmokeRace::trace(size_t group, int round, const std::vector<bool>& 
   return {};
 }
 
-/// Sets the verdicts of all layouts of a heat, also of those that were decided before.
+/// Sets the verdicts of all layouts of a group, also of those that were decided before.
 void SmokeRace::judge(size_t group, int rounds) {
   for (size_t i = 0; i < groups_[group].members.size(); ++i) {
     const size_t layout = groups_[group].members[i];
@@ -148,7 +148,7 @@ void SmokeRace::judge(size_t group, int rounds) {
   for (size_t h = 0; h < states_.size(); ++h) compare_with_first(h);
 }
 
-/// Compares all layouts of a heat with the first layout; views are paired if both share paths.
+/// Compares all layouts of a group with the first layout; views are paired if both share paths.
 void SmokeRace::compare_with_first(size_t group) {
   const std::vector<size_t>& members = groups_[group].members;
   for (size_t i = 0; i < members.size(); ++i) {

@@ -1,6 +1,6 @@
 // Elimination rounds of layouts in smoke (successive halving): each round traces four times as many
 // paths as the one before, for layouts that more paths could still rank differently. Layouts of one
-// heat share their paths. Thread rule: one thread, which has batches traced by others.
+// group share their paths. Thread rule: one thread, which has batches traced by others.
 #pragma once
 
 #include "actors/judge/design/smoke_stage.hpp"
@@ -30,7 +30,7 @@ class SmokeRace {
   Result<bool> run();
 
  private:
-  /// States of a heat, by scenario.
+  /// States of a group, by scenario.
   using States = std::vector<std::unique_ptr<LayoutGroupState>>;
 
   Result<bool> race(size_t group, int round);

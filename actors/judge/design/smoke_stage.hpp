@@ -73,7 +73,7 @@ struct SmokeStage {
   std::vector<double> heights_m;
   std::vector<JudgedLayout> layouts;  // by name
   RaceEnd end = RaceEnd::decided;
-  size_t traces = 0;            // number of heats
+  size_t traces = 0;            // number of groups
   std::vector<double> times_s;  // of the states over which guidance was followed
   int64_t paths = 0;            // number of paths from eyes
   double seconds = 0;
