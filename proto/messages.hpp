@@ -94,7 +94,7 @@ enum class ActorName : uint8_t {
 inline constexpr std::array<const char*, 7> actor_names{
     "none", "coordinator", "tracer", "tally_shard", "part_server", "display", "journal"};
 
-/// Of an actor, anywhere in the cluster.
+/// Where an actor is in the cluster: its node, and which actor of that node.
 struct Address {
   NodeId node;
   ActorName actor = ActorName::none;

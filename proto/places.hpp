@@ -16,7 +16,8 @@ namespace luxodus {
 
 struct StructPlaces;
 
-/// Of a number its offset, counted in its own size; of a bool its bit; else the pointer's index.
+/// Where a field lies: the offset of a number in units of its size, the bit of a bool, or the index
+/// of a pointer.
 struct FieldPlace {
   uint32_t at = 0;
   std::unique_ptr<const StructPlaces> items;  // of a list of structs

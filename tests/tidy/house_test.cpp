@@ -454,8 +454,8 @@ TEST_CASE("chance comes from the counter-based generator and time from nowhere",
 }
 
 TEST_CASE("what a function gives where it may fail is a Result", "[tidy]") {
-  // Of an optional problem, none is success: the opposite of every other test. A reference to one
-  // that is kept (the fault of a node) is data.
+  // With an optional problem, "none" means success, the opposite of every other test. A reference
+  // to one that is kept (the fault of a node) is data.
   constexpr std::string_view kind = "std::optional<Problem>";
   const auto is_letter = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == ':';

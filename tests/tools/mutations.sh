@@ -15,7 +15,7 @@ rooms=("$@")
 
 mkdir -p build
 cmake --preset asan-ubsan >build/mutations.log
-ninja -C build/asan-ubsan "${rooms[@]/#/test_scenes_}" >>build/mutations.log
+ninja -C build/asan-ubsan "${rooms[@]/#/test_scenes_formats_}" >>build/mutations.log
 
 # Errors of OpenVDB on a mutated file end a process of its own, and are reported. Errors in our code
 # are findings.
@@ -34,7 +34,7 @@ for room in "${rooms[@]}"; do
     export ASAN_OPTIONS=$options
     words=$reports/words
   fi
-  if LUXODUS_MUTATIONS=$count python3 - "build/asan-ubsan/tests/test_scenes_$room" 2>"$words" <<'PYTHON'; then
+  if LUXODUS_MUTATIONS=$count python3 - "build/asan-ubsan/tests/test_scenes_formats_$room" 2>"$words" <<'PYTHON'; then
 import resource, subprocess, sys
 code = subprocess.run([sys.argv[1], "mutated*"], stdout=subprocess.DEVNULL).returncode
 peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
@@ -43,7 +43,7 @@ sys.exit(code != 0)
 PYTHON
     echo "$room: $count files, $((SECONDS - begun)) s, no finding"
   else
-    echo "$room: FAILED; build/asan-ubsan/tests/test_scenes_$room \"mutated*\" says why" >&2
+    echo "$room: FAILED; build/asan-ubsan/tests/test_scenes_formats_$room \"mutated*\" says why" >&2
     failed=1
   fi
 done

@@ -131,8 +131,7 @@ struct OutputFolder::State {
         const std::string holder = holder_of(lock);
         forget_lock();
         return problem_in(
-            named, holder + " writes into this folder: wait for its end, or give another one",
-            ProblemKind::refused);
+            named, holder + " writes into this folder: wait for its end, or give another one");
       }
       const bool same = ::fstatat(handle, lock_name, &named_one, AT_SYMLINK_NOFOLLOW) == 0 &&
                         named_one.st_ino == open_one.st_ino && named_one.st_dev == open_one.st_dev;
