@@ -323,7 +323,9 @@ for name, one in sets.items():
   CHECK(told.code == 0);
   CHECK(lines_with(told.out, "told") == 1);
   const Outcome rests = shell(folder, pod + stand_in(folder, "echo done\n") +
-                                          " & sleep 1; kill -0 $! && kill -TERM $!; wait $!");
+                                          " & sleep 1; slept=$(cat /proc/$!/task/$!/children); "
+                                          "kill -0 $slept && kill -TERM $! && wait $! && "
+                                          "! kill -0 $slept");
   CHECK(rests.code == 0);
   CHECK(lines_with(rests.out, "done") == 1);
 

@@ -131,7 +131,7 @@ while [ -n "$told" ]; do
   [ $again -eq 127 ] || status=$again
 done
 if [ -n "$stopped" ] || [ $status -ne 0 ]; then exit $status; fi
-trap "exit 0" TERM INT; while :; do sleep 3600 & wait $!; done)sh";
+trap 'kill $! 2>/dev/null && wait $!; exit 0' TERM INT; while :; do sleep 3600 & wait $!; done)sh";
 
 constexpr std::string_view set_manifest = R"(---
 apiVersion: apps/v1
