@@ -138,8 +138,8 @@ class Demands::Builder {
     if (one.moved) return of_move;
     if (one.pool) return 0;
     const bool there = one.type == LuminaireCandidate::existing;
-    return there ? weight_of(0, 0)
-                 : weight_of(design_.types[one.type].cost, design_.types[one.type].watts);
+    return there ? design_.weight_of(0, 0)
+                 : design_.weight_of(design_.types[one.type].cost, design_.types[one.type].watts);
   }
 
   /// By default a share of the smallest weight of a luminaire that may be placed.
@@ -149,26 +149,12 @@ class Demands::Builder {
     for (const LuminaireCandidate& one : candidates_) {
       if (one.type == LuminaireCandidate::existing) continue;
       const DesignType& type = design_.types[one.type];
-      const double weight = weight_of(type.cost, type.watts);
+      const double weight = design_.weight_of(type.cost, type.watts);
       if (weight > 0 && (least == 0 || weight < least)) least = weight;
     }
     // If new luminaires weigh nothing, a move still has a weight, so that none is moved without
     // need.
     return default_move_share * (least > 0 ? least : 1);
-  }
-
-  double weight_of(double cost, double watts) const {
-    switch (design_.objective) {
-      case DesignObjective::number:
-        return 1;
-      case DesignObjective::cost:
-        return cost;
-      case DesignObjective::watts:
-        return watts;
-      case DesignObjective::weighted:
-        return design_.weight_number + design_.weight_cost * cost + design_.weight_watts * watts;
-    }
-    return 1;
   }
 
   /// For each candidate, the share of its light that is left, or that is on.

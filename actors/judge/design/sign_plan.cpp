@@ -328,17 +328,7 @@ class SignPlanner {
     const bool there = one.type == PlacedSign::existing;
     const double cost = there ? 0 : design_.sign_types[one.type].cost;
     const double watts = there ? 0 : design_.sign_types[one.type].watts;
-    switch (design_.objective) {
-      case DesignObjective::number:
-        return 1;
-      case DesignObjective::cost:
-        return cost;
-      case DesignObjective::watts:
-        return watts;
-      case DesignObjective::weighted:
-        return design_.weight_number + design_.weight_cost * cost + design_.weight_watts * watts;
-    }
-    return 1;
+    return design_.weight_of(cost, watts);
   }
 
   /// Makes the columns, and a row for each place that any of them guides.

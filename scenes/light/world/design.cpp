@@ -14,4 +14,18 @@ std::string battery_class(const DesignType& type) {
   return out;
 }
 
+double DesignSettings::weight_of(double cost, double watts) const {
+  switch (objective) {
+    case DesignObjective::number:
+      return 1;
+    case DesignObjective::cost:
+      return cost;
+    case DesignObjective::watts:
+      return watts;
+    case DesignObjective::weighted:
+      return weight_number + weight_cost * cost + weight_watts * watts;
+  }
+  return 1;
+}
+
 }  // namespace luxodus

@@ -132,6 +132,8 @@ struct DesignSettings {
   bool refine = false;              // placed luminaires are then moved between grid places
   DesignObjective objective = DesignObjective::number;
   double weight_number = 1, weight_cost = 0, weight_watts = 0;
+  /// What one more luminaire or sign adds to the objective.
+  double weight_of(double cost, double watts) const;
 
   // Layouts judged in smoke, beside the best one
   std::vector<std::string> in_smoke;  // scenarios; empty: none
