@@ -47,12 +47,6 @@ std::string names_of_sets() {
   return out;
 }
 
-Language language_of(const std::string& word) {
-  for (size_t i = 0; i < language_words.size(); ++i)
-    if (word == language_words[i]) return static_cast<Language>(i);
-  return Language::en;
-}
-
 /// Errors: a file with a name of a design's files exists, and no design has written it.
 Result<void> refuse_designs_of_others(const fs::path& folder) {
   constexpr uint64_t max_bytes = uint64_t{64} << 20;
@@ -246,7 +240,10 @@ Command design_command() {
             &o->design.threads,
             "Number of threads",
             {.otherwise = "all cores", .range = Range{1, 1024}}},
-           {"--language", &o->language, "Language of the page", {.choices = {"en", "de", "fr"}}},
+           {"--language",
+            &o->language,
+            "Language of the page",
+            {.choices = {language_words.begin(), language_words.end()}}},
            {"--pdf", &o->pdf, "Page as design.pdf, too, by Chromium where one is installed"},
            {"--overwrite", &o->overwrite,
             "Replacement of files in the folder that no design has written"}},

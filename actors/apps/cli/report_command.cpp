@@ -10,8 +10,7 @@ namespace fs = std::filesystem;
 
 ReportOptions ReportWords::options() const {
   ReportOptions out;
-  for (size_t i = 0; i < language_words.size(); ++i)
-    if (language == language_words[i]) out.language = static_cast<Language>(i);
+  out.language = language_of(language);
   out.letter = paper == "letter";
   out.grid_values = grid_values;
   out.pdf = pdf;
@@ -23,7 +22,7 @@ void add_report_options(Command& command, ReportWords& words) {
       {"--language",
        &words.language,
        "Language of the report",
-       {.choices = {"en", "de", "fr"}, .group = "Report"}},
+       {.choices = {language_words.begin(), language_words.end()}, .group = "Report"}},
       {"--paper",
        &words.paper,
        "Paper size of the report",

@@ -4,11 +4,9 @@
 
 #include <string_view>
 
-#include "actors/judge/texts/texts.hpp"
-
 namespace luxodus {
 
-/// The content of en.toml, de.toml or fr.toml.
-std::string_view text_file(Language language);
+/// The content of "en.toml" for "en". Requires: a language that has a file (else it throws).
+std::string_view text_file(std::string_view language);
 
 }  // namespace luxodus

@@ -1,5 +1,6 @@
 #include "actors/judge/texts/texts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -13,11 +14,13 @@ namespace {
 
 constexpr size_t max_text_file_bytes = size_t{1} << 20;
 
-std::map<std::string, std::string, std::less<>> read_texts(Language language) {
-  const std::string file = std::string(language_words[static_cast<size_t>(language)]) + ".toml";
+using TextsByKey = std::map<std::string, std::string, std::less<>>;
+
+TextsByKey read_texts(std::string_view language) {
+  const std::string file = std::string(language) + ".toml";
   const auto document = toml::parse(text_file(language), file, max_text_file_bytes);
   if (!document) throw std::logic_error(document.problem().text());
-  std::map<std::string, std::string, std::less<>> out;
+  TextsByKey out;
   for (const toml::Entry& entry : document->top.entries()) {
     const std::string* text = entry.value.as_text();
     if (text == nullptr) throw std::logic_error(file + ": no text: " + entry.key);
@@ -41,9 +44,19 @@ Place place_of(std::string_view inside) {
 }  // namespace
 
 const std::map<std::string, std::string, std::less<>>& texts_of(Language language) {
-  static const std::array all{read_texts(Language::en), read_texts(Language::de),
-                              read_texts(Language::fr)};
+  static const auto all = [] {
+    std::array<TextsByKey, language_words.size()> out;
+    std::transform(language_words.begin(), language_words.end(), out.begin(), read_texts);
+    return out;
+  }();
   return all.at(static_cast<size_t>(language));
+}
+
+Language language_of(std::string_view word) {
+  const auto at = std::find(language_words.begin(), language_words.end(), word);
+  if (at == language_words.end())
+    throw std::logic_error("there is no language " + std::string(word));
+  return static_cast<Language>(at - language_words.begin());
 }
 
 const char* Texts::operator()(std::string_view key) const {

@@ -15,6 +15,8 @@ namespace luxodus {
 
 enum class Language { en, de, fr };
 inline constexpr std::array<std::string_view, 3> language_words{"en", "de", "fr"};
+/// Requires: one of the words.
+Language language_of(std::string_view word);
 
 /// All texts of a language by key, parsed once from the embedded file.
 const std::map<std::string, std::string, std::less<>>& texts_of(Language language);
