@@ -107,7 +107,9 @@ run_help() {
   for command in $(sed -n 's/^  \([a-z]\+\)  .*/\1/p' "$out/help.txt"); do
     "$luxodus" "$command" --help >"$out/$command.txt"
   done
-  for file in scene cluster study plan; do "$luxodus" keys $file >"$out/keys_$file.txt" || true; done
+  for file in scene cluster study plan; do
+    "$luxodus" keys $file >"$out/keys_$file.txt" || true
+  done
 }
 
 smoky_corridor() {
@@ -205,9 +207,12 @@ without_times() {
   python3 - "$1" <<'EOF'
 import json, pathlib, re, sys
 
-timed = {"seconds", "particles_per_second", "rays_per_second", "figure_of_merit", "version", "commit",
-         "slope_seconds", "timed_particles",
-         "search_s", "traced_s", "took", "took_s", "time_s", "elapsed"}
+timed = {"seconds", "particles_per_second", "rays_per_second", "figure_of_merit", "version",
+         "commit", "slope_seconds", "timed_particles", "search_s", "traced_s", "took", "took_s", "time_s", "elapsed"}
+
+seconds_and_rates = re.compile(
+    r"[0-9.]+ (s|min|ms|[kM]? ?events/s|over seconds|virtual seconds)\b"
+    r"|luxodus \d+\.\d+\.\d+\S*")
 
 def timeless(value):
     if isinstance(value, dict):
@@ -219,8 +224,7 @@ for path in pathlib.Path(sys.argv[1]).rglob("*"):
         path.write_text(json.dumps(timeless(json.loads(path.read_text())), indent=1))
     elif path.suffix in (".txt", ".html", ".toml", ".log"):
         text = path.read_text(errors="replace")
-        path.write_text(re.sub(r"[0-9.]+ (s|min|ms|[kM]? ?events/s|over seconds|virtual seconds)\b|luxodus \d+\.\d+\.\d+\S*", "",
-                               text))
+        path.write_text(seconds_and_rates.sub("", text))
 EOF
 }
 
