@@ -101,8 +101,7 @@ NodeWork work_of_states(StateMaker& states) {
 }
 
 /// Runs the nodes of a cluster whose file has a table [view].
-Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
-                                                ClusterProcessRun& process) {
+Result<ExitCode> view_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process) {
   const LocalRun& base = process.local_run();
   const auto& scene = base.scene().description;
   const SceneAtTime scene_at =
@@ -129,7 +128,9 @@ Result<std::optional<StopReason>> view_on_nodes(const ClusterConfig& cluster,
     if (!served) return served.problem();
     return StopReason::interrupted;
   };
-  return process.run(interrupt_flag(), work);
+  const auto ended = process.run(interrupt_flag(), work);
+  if (!ended) return ended.problem();
+  return ExitCode::success;
 }
 
 /// Whether anybody will still trace for whoever waits for workers. Any thread.
@@ -279,12 +280,8 @@ Result<ExitCode> render_on_nodes(const ClusterConfig& cluster, ClusterProcessRun
   return code;
 }
 
-Result<ExitCode> run_nodes(const NodeOptions& options) {
-  tell_the_time();
-  const auto [read, told] = load_cluster(options.config);
-  if (!read) return exit_code_of(told);
-  const ClusterConfig& cluster = *read;
-  spdlog::set_level(spdlog::level::from_str(cluster.observe.log_level));
+/// The nodes with these names. Errors: an unknown name; nodes of several processes.
+Result<std::vector<NodeId>> nodes_of(const ClusterConfig& cluster, const NodeOptions& options) {
   std::vector<NodeId> nodes;
   for (const std::string& name : options.names) {
     const auto node = find_node(cluster, name);
@@ -294,45 +291,20 @@ Result<ExitCode> run_nodes(const NodeOptions& options) {
                                             options.names.front() + "\"");
     nodes.push_back(*node);
   }
-  add_tracer(cluster, nodes);
-  auto process = ClusterProcessRun::prepare(cluster, nodes);
-  if (!process) return process.problem();
-  const auto out = claim_results(cluster, *process.value());
-  if (!out) return out.problem();
-  install_interrupt_handler();
-  if (cluster.view.live) {
-    const auto viewed = view_on_nodes(cluster, *process.value());
-    if (!viewed) return viewed.problem();
-    return ExitCode::success;
-  }
-  if (cluster.assess.asked) return assess_on_nodes(cluster, *process.value());
-  if (cluster.render.asked) return render_on_nodes(cluster, *process.value());
-  std::optional<RunOutputFiles> output;
-  if (process.value()->shows()) {
-    install_preview_handler();
-    output.emplace(process.value()->local_run(),
-                   output_options(cluster, *process.value(), out.value()->path()));
-  }
-  ProgressLine line(cluster.run.name);
-  auto ended = process.value()->run(
-      interrupt_flag(), [&](const Progress& p) { line.show(p); }, output ? &*output : nullptr);
-  if (!ended) return ended.problem();
-  for (const std::string& text : process.value()->residency_lines()) log_info("{}", text);
-  if (output && !output->result().is_null())
-    std::printf("%s in %s\n%s", cluster.run.name.c_str(), out.value()->path().string().c_str(),
-                summary_text(output->result()).c_str());
-  if (!ended.value()) return ExitCode::success;
-  process.value()->forget_journal();
-  if (*ended.value() == StopReason::workers_lost)
-    return problem_in(options.config,
+  return nodes;
+}
+
+/// The exit code of a run that ended for this reason. Errors: workers or scene parts were lost.
+Result<ExitCode> end_of_run(StopReason reason, const std::string& config, const LocalRun& run) {
+  if (reason == StopReason::workers_lost)
+    return problem_in(config,
                       "all workers were lost; what they had counted was written: go on with "
                       "luxodus run --resume, or see to the workers and start anew",
                       ProblemKind::lost_peer);
-  if (*ended.value() == StopReason::objects_lost) {
-    const LocalRun& run = process.value()->local_run();
+  if (reason == StopReason::objects_lost) {
     const auto lost = static_cast<int64_t>(run.missing().size());
     return problem_in(
-        options.config,
+        config,
         fmt::format("{} particles are lost: {} batches need scene parts that no node "
                     "who is left has, and the results, which were written, lean away from what "
                     "these would have met; start anew with nodes that store the scene, or go on "
@@ -340,7 +312,49 @@ Result<ExitCode> run_nodes(const NodeOptions& options) {
                     lost * run.scene().batch_particles, lost),
         ProblemKind::lost_peer);
   }
-  return *ended.value() == StopReason::interrupted ? ExitCode::interrupted : ExitCode::success;
+  return reason == StopReason::interrupted ? ExitCode::interrupted : ExitCode::success;
+}
+
+/// Traces the run of a cluster and writes its results into `out` if they are written here.
+Result<ExitCode> trace_on_nodes(const ClusterConfig& cluster, ClusterProcessRun& process,
+                                const fs::path& out, const std::string& config) {
+  std::optional<RunOutputFiles> output;
+  if (process.shows()) {
+    install_preview_handler();
+    output.emplace(process.local_run(), output_options(cluster, process, out));
+  }
+  ProgressLine line(cluster.run.name);
+  const auto ended = process.run(
+      interrupt_flag(), [&](const Progress& p) { line.show(p); }, output ? &*output : nullptr);
+  if (!ended) return ended.problem();
+  for (const std::string& text : process.residency_lines()) log_info("{}", text);
+  if (output && !output->result().is_null())
+    std::printf("%s in %s\n%s", cluster.run.name.c_str(), out.string().c_str(),
+                summary_text(output->result()).c_str());
+  if (!ended.value()) return ExitCode::success;  // the controller is in another process
+  process.forget_journal();
+  return end_of_run(*ended.value(), config, process.local_run());
+}
+
+Result<ExitCode> run_nodes(const NodeOptions& options) {
+  tell_the_time();
+  const auto [read, told] = load_cluster(options.config);
+  if (!read) return exit_code_of(told);
+  const ClusterConfig& cluster = *read;
+  spdlog::set_level(spdlog::level::from_str(cluster.observe.log_level));
+  auto nodes = nodes_of(cluster, options);
+  if (!nodes) return nodes.problem();
+  add_tracer(cluster, nodes.value());
+  auto prepared = ClusterProcessRun::prepare(cluster, nodes.value());
+  if (!prepared) return prepared.problem();
+  ClusterProcessRun& process = *prepared.value();
+  const auto out = claim_results(cluster, process);
+  if (!out) return out.problem();
+  install_interrupt_handler();
+  if (cluster.view.live) return view_on_nodes(cluster, process);
+  if (cluster.assess.asked) return assess_on_nodes(cluster, process);
+  if (cluster.render.asked) return render_on_nodes(cluster, process);
+  return trace_on_nodes(cluster, process, out.value()->path(), options.config);
 }
 
 }  // namespace

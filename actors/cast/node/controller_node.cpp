@@ -15,10 +15,8 @@ CoordinatorConfig lead_config(const RunSetup& setup, const NodeSetup& node) {
 
 }  // namespace
 
-ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, LocalRun& run,
-                               const StopRule& stop, const std::atomic<bool>& interrupt,
-                               std::function<void(const Progress&)> report, const NodeSeams& seams,
-                               FlushKeeper* keeper)
+ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, ControlledRun lead,
+                               const NodeSeams& seams)
     : setup_(setup),
       node_(node),
       self_(node.net.self),
@@ -27,8 +25,8 @@ ControllerNode::ControllerNode(const RunSetup& setup, const NodeSetup& node, Loc
              setup.graph, seams.clock, seams.transport),
       calls_(seams.make_calls(shell_.scheduler())),
       coordinator_(lead_config(setup, node),
-                   {run, stop, interrupt, std::move(report), setup.shards, *calls_,
-                    make_journal(keeper, seams), setup.display},
+                   {lead.run, lead.stop, lead.interrupt, std::move(lead.report), setup.shards,
+                    *calls_, make_journal(lead.keeper, seams), setup.display},
                    shell_.scheduler(), shell_.network(), shell_.actors()) {
   if (node.display == nullptr) return;
   display_calls_ = seams.make_calls(shell_.scheduler());

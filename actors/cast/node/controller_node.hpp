@@ -8,13 +8,20 @@
 
 namespace luxodus {
 
+/// What a controller leads: a run, when it ends, and who hears of it.
+struct ControlledRun {
+  LocalRun& run;  // counting continues from what it holds
+  const StopRule& stop;
+  const std::atomic<bool>& interrupt;
+  std::function<void(const Progress&)> report;
+  FlushKeeper* keeper = nullptr;  // is given every flush before it counts; null: no journal
+};
+
 class ControllerNode {
  public:
-  /// Continues from what `run` holds. Every flush is first given to `keeper`. Requires: all
-  /// references outlive this.
-  ControllerNode(const RunSetup& setup, const NodeSetup& node, LocalRun& run, const StopRule& stop,
-                 const std::atomic<bool>& interrupt, std::function<void(const Progress&)> report,
-                 const NodeSeams& seams, FlushKeeper* keeper = nullptr);
+  /// Requires: all references outlive this.
+  ControllerNode(const RunSetup& setup, const NodeSetup& node, ControlledRun lead,
+                 const NodeSeams& seams);
 
   /// From the shell's next turn on waits for the workers and runs the run, until it has ended or
   /// `broken` returns true.

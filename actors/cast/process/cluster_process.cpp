@@ -422,9 +422,9 @@ Result<std::optional<StopReason>> ClusterProcessRun::run(
     if (cluster_.run.particles) stop.particles = static_cast<int64_t>(*cluster_.run.particles);
     stop.relative_error = cluster_.run.relative_error;
     stop.seconds = cluster_.run.time_s;
-    auto ended = run_controller(
-        nodes.setup, nodes.machine, *nodes.controller, *run_, stop, interrupt, report,
-        [&] { return threads.failed(); }, nullptr, journal_.get());
+    auto ended = run_controller(nodes.setup, nodes.machine, *nodes.controller,
+                                {*run_, stop, interrupt, report, journal_.get()},
+                                [&] { return threads.failed(); });
     if (!ended) {
       if (journal_) journal_->leave_no_trace();
       return ended.problem();

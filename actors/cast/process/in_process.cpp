@@ -33,7 +33,7 @@ Result<StopReason> run_on_nodes(LocalRun& run, const NodesOptions& options, cons
   };
   WorkerThreads workers(nodes.setup(), machine, nodes.workers(), options.stop, run_one);
   auto reason = run_controller(
-      nodes.setup(), machine, nodes.controller(), run, stop, interrupt, report,
+      nodes.setup(), machine, nodes.controller(), {run, stop, interrupt, report},
       [&] { return workers.failed(); }, counted);
   workers.join();
   if (!reason) return reason;

@@ -4,7 +4,6 @@
 #include <ctime>
 #include <exception>
 
-#include "actors/cast/node/controller_node.hpp"
 #include "runtime/core/denormals.hpp"
 
 namespace luxodus {
@@ -101,13 +100,11 @@ Problem WorkerThreads::problem() const {
 // ---- the controller --------------------------------------------------------------------------
 
 Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
-                                  const NodeSetup& node, LocalRun& run, const StopRule& stop,
-                                  const std::atomic<bool>& interrupt,
-                                  const std::function<void(const Progress&)>& report,
-                                  const std::function<bool()>& broken, NodesReport* counted,
-                                  FlushKeeper* keeper) {
+                                  const NodeSetup& node, ControlledRun lead,
+                                  const std::function<bool()>& broken, NodesReport* counted) {
   NodeTransport transport(machine, node);
-  ControllerNode here(setup, node, run, stop, interrupt, report, transport.seams(), keeper);
+  LocalRun& run = lead.run;
+  ControllerNode here(setup, node, std::move(lead), transport.seams());
   if (auto joined = join_links(transport.sockets(), node); !joined) return joined.problem();
   const Nanoseconds began = machine.clock.now();
   here.start(broken);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "actors/cast/node/controller_node.hpp"
 #include "actors/cast/node/worker.hpp"
 #include "actors/cast/parts/residency.hpp"
 #include "actors/results/run/local_run.hpp"
@@ -81,10 +82,8 @@ class WorkerThreads {
 /// Runs the controller's node on the calling thread until the run has ended or `broken` returns
 /// true. Errors: those of join_links.
 Result<StopReason> run_controller(const RunSetup& setup, const Machine& machine,
-                                  const NodeSetup& node, LocalRun& run, const StopRule& stop,
-                                  const std::atomic<bool>& interrupt,
-                                  const std::function<void(const Progress&)>& report,
+                                  const NodeSetup& node, ControlledRun lead,
                                   const std::function<bool()>& broken,
-                                  NodesReport* counted = nullptr, FlushKeeper* keeper = nullptr);
+                                  NodesReport* counted = nullptr);
 
 }  // namespace luxodus

@@ -125,9 +125,8 @@ SimController::SimController(const RunSetup& setup, const NodeSetup& node, Local
     : run_(run),
       meter_(world.clock(node.net.self)),
       costs_(costs),
-      node_(
-          setup, node, run, stop, interrupt_, [](const Progress&) {}, disk_seams(world, node),
-          keeper) {
+      node_(setup, node, {run, stop, interrupt_, [](const Progress&) {}, keeper},
+            disk_seams(world, node)) {
   node_.start([] { return false; });
 }
 

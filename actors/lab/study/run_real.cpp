@@ -46,8 +46,8 @@ Result<StopReason> run_on_processes(LocalRun& run, NodesOptions options, const S
   if (auto ok = workers.start(nodes); !ok) return ok.problem();
   ZmqContext context({});
   const auto reason = run_controller(
-      nodes.setup(), {clock, context}, nodes.controller(), run, stop, interrupt,
-      [](const Progress&) {}, [&] { return workers.failed(); }, &counted);
+      nodes.setup(), {clock, context}, nodes.controller(),
+      {run, stop, interrupt, [](const Progress&) {}}, [&] { return workers.failed(); }, &counted);
   if (!reason) return reason;
   auto did = workers.join();
   if (!did) return did.problem();

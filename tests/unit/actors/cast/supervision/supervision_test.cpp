@@ -134,9 +134,9 @@ struct OwnNodes {
     const Machine machine{clock, context};
     WorkerThreads workers(
         nodes->setup(), machine, nodes->workers(), [] { return false; }, run_one);
-    auto reason = run_controller(
-        nodes->setup(), machine, nodes->controller(), run, stop, nobody, ignore,
-        [&] { return workers.failed(); }, nullptr, keeper);
+    auto reason =
+        run_controller(nodes->setup(), machine, nodes->controller(),
+                       {run, stop, nobody, ignore, keeper}, [&] { return workers.failed(); });
     workers.join();
     lost = workers.lost();
     failed = workers.failed();
