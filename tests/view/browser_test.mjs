@@ -414,6 +414,69 @@ test('a traced picture of the view is refined, shown and saved, and can be stopp
   assert.equal(server.heard.filter((m) => m.type === 'stop_render').length, 1);
 });
 
+test('no colour is shown brighter than one of more luminance, by the camera or the eye', async () => {
+  const points = await page.evaluate(() => {
+    const { picture } = window.luxodus.page;
+    const { exposure } = picture;
+    const uniforms = picture.tone.uniforms;
+    const Texture = uniforms.scaleColours.value.constructor;
+    const Target = picture.targets.meter.constructor;
+    const wide = 64;
+    const luminance = (c, i) => 0.2126 * c[i] + 0.7152 * c[i + 1] + 0.0722 * c[i + 2];
+    // Random colours, many of them saturated, of luminances spread over eight decades.
+    let seed = 1;
+    const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+    const lights = new Float32Array(4 * wide * wide);
+    for (let i = 0; i < lights.length; i += 4) {
+      const colour = [0, 1, 2].map(() => 1e-3 + random() ** 4);
+      const level = 1e-3 * 1e8 ** random();
+      lights.set(colour.map((c) => (c * level) / luminance(colour, 0)), i);
+      lights[i + 3] = 1;
+    }
+    const [light, out] = [new Texture(lights, wide, wide), new Target(wide, wide)];
+    light.type = picture.targets.meter.texture.type;
+    light.needsUpdate = true;
+    const linear = (byte) =>
+      byte <= 10 ? byte / 255 / 12.92 : ((byte / 255 + 0.055) / 1.055) ** 2.4;
+    const found = [];
+    for (const mode of [0, 1])
+      for (const sign of [0, 500]) {
+        exposure.metered = { shown: 1, sign };
+        exposure.setFor(1);
+        uniforms.picture.value = light;
+        uniforms.mode.value = mode;
+        uniforms.fade.value = 0;
+        uniforms.scale.value = exposure.scale;
+        const bytes = new Uint8Array(4 * wide * wide);
+        picture.toneTo(out, exposure.curve);
+        picture.renderer.readRenderTargetPixels(out, 0, 0, wide, wide, bytes);
+        const shown = Float32Array.from(bytes, linear);
+        for (let i = 0; i < bytes.length; i += 4)
+          found.push([mode, sign, luminance(lights, i), luminance(shown, i)]);
+      }
+    picture.untoned = true;
+    return found;
+  });
+  const encoded = (v) => 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
+  for (const mode of [0, 1])
+    for (const sign of [0, 500]) {
+      // The eye sees by cones alone from some 10 cd/m2 on: then luminance is what it sees.
+      const codes = points
+        .filter(([m, s, level]) => m === mode && s === sign && level > 10 * mode)
+        .sort((a, b) => a[2] - b[2])
+        .map((point) => encoded(point[3]));
+      assert.ok(codes.length > 1000);
+      let [highest, inversion] = [0, 0];
+      for (const code of codes) {
+        inversion = Math.max(inversion, highest - code);
+        highest = Math.max(highest, code);
+      }
+      // A code value, and the grain of another that hides the steps of bytes.
+      assert.ok(inversion <= 2, `${mode}, ${sign}: ${inversion}`);
+      assert.ok(highest > 200, `${mode}, ${sign}: ${highest}`);
+    }
+});
+
 test("a click changes the scenario, and the eye's view is darker than the camera's", async () => {
   const old = await generation();
   await page.getByRole('button', { name: /smoke, emergency/ }).click();

@@ -36,6 +36,18 @@ Ray Pinhole::ray(double x, double y) const {
   return {glm::vec3(eye_), glm::vec3(glm::normalize(d))};
 }
 
+std::optional<glm::dvec2> Pinhole::pixel_of(const glm::dvec3& place) const {
+  const glm::dvec3 way = place - eye_;
+  const double ahead = glm::dot(way, forward_);
+  if (!(ahead > 0)) return std::nullopt;
+  // `right_` and `up_` are half the picture's width and height at a distance of 1.
+  const double right = glm::dot(way, right_) / (ahead * glm::dot(right_, right_));
+  const double up = glm::dot(way, up_) / (ahead * glm::dot(up_, up_));
+  const glm::dvec2 at{(right + 1) / 2 * width_, (1 - up) / 2 * height_};
+  if (!(at.x >= 0 && at.x < width_ && at.y >= 0 && at.y < height_)) return std::nullopt;
+  return at;
+}
+
 PixelTracer::PixelTracer(const CompiledScene& scene, const GeometryAccess& access, uint64_t seed,
                          const Camera& camera, uint64_t number, const RadianceCache* flux,
                          std::shared_ptr<const EmitterSight> sight)

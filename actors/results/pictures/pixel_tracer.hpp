@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "actors/results/pictures/pixel_sums.hpp"
 #include "scenes/light/transport/compiled_scene.hpp"
@@ -25,10 +26,13 @@ class Pinhole {
 
   /// The ray through a position in pixels from the picture's upper left corner.
   Ray ray(double x, double y) const;
+  /// The position in pixels of a place [m, local]; nothing if it is behind the camera or outside
+  /// the picture.
+  std::optional<glm::dvec2> pixel_of(const glm::dvec3& place) const;
 
  private:
   glm::dvec3 eye_, forward_, right_, up_;
-  double width_, height_;
+  double width_, height_;  // of the picture [px]
 };
 
 class PixelTracer {

@@ -10,6 +10,7 @@
 
 #include "actors/results/files/result_files.hpp"
 #include "actors/results/formats/false_colour_png.hpp"
+#include "actors/results/pictures/signs_in_view.hpp"
 #include "scenes/light/optics/chromaticity.hpp"
 #include "scenes/light/vision/tone.hpp"
 
@@ -207,8 +208,11 @@ PngImage human_png(const LocalRun& run, const Camera& camera, const XyzPicture& 
                             monitor.white_cd_m2));
 }
 
-PngImage plain_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced) {
-  return png_of(tone_plain(balanced, {}), texts_of(run, camera),
+PngImage plain_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced,
+                   double sign_cd_m2) {
+  PlainTone tone;
+  tone.sign_cd_m2 = sign_cd_m2;
+  return png_of(tone_plain(balanced, tone), texts_of(run, camera),
                 "One exposure, white balanced, as a camera takes it; luminance data is in the EXR "
                 "file");
 }
@@ -251,21 +255,26 @@ double ShownView::error() const {
 
 namespace {
 
-PngImage image_of(bool human, const LocalRun& run, const Camera& camera, const XyzPicture& light,
-                  const HumanTone& tone) {
+/// `light`: what `view` shows, of the camera's size.
+PngImage image_of(bool human, const LocalRun& run, const Camera& camera, const ShownView& view,
+                  const XyzPicture& light) {
   const XyzPicture balanced = white_balanced(run.scene(), light);
-  return human ? human_png(run, camera, balanced, tone) : plain_png(run, camera, balanced);
+  const auto signs = signs_in_view(run.scene(), camera, view.traced.noisy);
+  const double sign_cd_m2 = brightest_face(view.shown(), signs);
+  if (!human) return plain_png(run, camera, balanced, sign_cd_m2);
+  HumanTone tone = view.human;
+  tone.sign_cd_m2 = sign_cd_m2;
+  return human_png(run, camera, balanced, tone);
 }
 
 }  // namespace
 
 PngImage shown_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& view) {
-  return image_of(human, run, camera, view.shown(), view.human);
+  return image_of(human, run, camera, view, view.shown());
 }
 
 PngImage first_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& half) {
-  return image_of(human, run, camera, enlarged(half.shown(), camera.width, camera.height),
-                  half.human);
+  return image_of(human, run, camera, half, enlarged(half.shown(), camera.width, camera.height));
 }
 
 Result<void> write_shown_png(const std::filesystem::path& file, bool human, const LocalRun& run,

@@ -1,6 +1,6 @@
-// Both operators preserve a pixel's colour: its XYZ is divided by its luminance and multiplied by
-// the display's. If a channel would exceed the monitor's white, all three are scaled alike, so that
-// hue and saturation stay and luminance decreases; except colours of fire, which turn yellow.
+// Both operators decide how bright a pixel is shown by its luminance alone; its colour is then
+// fitted into the display's gamut at that luminance. So no colour, however saturated, is shown
+// brighter than one of more luminance, and a sign's legend stays apart from its ground.
 #include "scenes/light/vision/tone.hpp"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "scenes/light/optics/chromaticity.hpp"
+#include "scenes/light/vision/display_colour.hpp"
 #include "scenes/light/vision/eye_glare.hpp"
 #include "scenes/light/vision/foveal_cells.hpp"
 #include "scenes/light/vision/mesopic.hpp"
@@ -36,36 +37,10 @@ Pixel pixel(const XyzPicture& picture, size_t i) {
   return p;
 }
 
-double leading(const std::array<double, 3>& rgb) {
-  return std::max({rgb[0], rgb[1], rgb[2]});
-}
-
-// Linear sRGB of luminance `shown` with the colour of `xyz`, unbounded above. A colour more
-// saturated than the monitor's moves towards the grey of its luminance, just as far as needed.
-std::array<double, 3> shown_colour(const Xyz& xyz, double shown) {
-  const double k = shown / xyz[1];
-  std::array<double, 3> rgb = linear_srgb_from_xyz({k * xyz[0], shown, k * xyz[2]});
-  double saturation = 1;
-  for (const double v : rgb) {
-    if (v < 0) saturation = std::min(saturation, shown / (shown - v));
-  }
-  for (double& v : rgb) v = shown + saturation * (v - shown);
-  return rgb;
-}
-
-// The colour with all channels scaled alike, so that the largest one becomes `to`.
-void put_scaled(SrgbPicture& out, const std::array<double, 3>& rgb, double to) {
-  const double most = leading(rgb);
-  for (const double v : rgb) out.rgb.push_back(srgb_byte(most > 0 ? v / most * to : 0));
-}
-
-// Similarity of a colour to fire, from red to amber: 1 if its channels are a quarter of the largest
-// one apart, red first and blue last; 0 in any other order. Beyond an automatically chosen white,
-// such colours burn out channel by channel, as on film: the core of a flame turns yellow, and
-// contrasts with a wall that it lights. A sign's green would turn cyan.
-double warmth(const std::array<double, 3>& rgb) {
-  const double apart = std::min(rgb[0] - rgb[1], rgb[1] - rgb[2]);
-  return std::clamp(4 * apart / leading(rgb), 0.0, 1.0);
+void put(SrgbPicture& out, const Xyz& xyz, double shown) {
+  std::array<double, 3> rgb{};
+  if (shown > 0) rgb = display_colour(xyz, shown);
+  for (const double v : rgb) out.rgb.push_back(srgb_byte(v));
 }
 
 SrgbPicture empty_like(const XyzPicture& picture) {
@@ -76,33 +51,37 @@ SrgbPicture empty_like(const XyzPicture& picture) {
 
 // ---- plain --------------------------------------------------------------------------------------
 
-struct Exposure {
-  double factor = 1;  // display value per cd/m2
-  double white = 1;   // exposed value at which the shoulder reaches 1
-};
-
-Exposure exposure_of(const XyzPicture& picture, const PlainTone& tone) {
-  if (tone.white_cd_m2 && *tone.white_cd_m2 > 0) return {1 / *tone.white_cd_m2, 1};
-  double log_sum = 0;
-  std::vector<double> lit;
-  for (size_t i = 0; i < picture.pixels(); ++i) {
-    const double l = pixel(picture, i).luminance;
-    if (l <= darkest_cd_m2) continue;
-    log_sum += std::log(l);
-    lit.push_back(l);
-  }
-  if (lit.empty()) return {};
-  const double factor = tone.key / std::exp(log_sum / static_cast<double>(lit.size()));
-  // White is the luminance that one pixel in a thousand exceeds: a lamp may burn out, a wall may
-  // not.
-  const size_t rank = (lit.size() - 1) - lit.size() / 1000;
-  std::nth_element(lit.begin(), lit.begin() + static_cast<std::ptrdiff_t>(rank), lit.end());
-  return {factor, std::max(1.0, factor * lit[rank])};
+// The largest luminance that a monitor shows of a colour: 1 for white, 0.2 for red. A room in the
+// light of a fire is exposed for its orange; exposed as a grey room, its walls would be pale.
+double brightest_shown(const Xyz& colour) {
+  const std::array<double, 3> rgb = linear_srgb_from_xyz(colour);
+  return std::clamp(colour[1] / std::max({rgb[0], rgb[1], rgb[2]}), 0.0, 1.0);
 }
 
-// The share of a colour that burns out if its largest channel has this exposure.
-double burnt_share(const Exposure& exposure, double lead, const std::array<double, 3>& rgb) {
-  return lead > exposure.white ? (1 - exposure.white / lead) * warmth(rgb) : 0;
+// The value that one pixel in a thousand exceeds: a lamp may burn out, a wall may not.
+// Requires: values is not empty.
+double white_of(std::vector<double> values) {
+  const size_t rank = (values.size() - 1) - values.size() / 1000;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank),
+                   values.end());
+  return values[rank];
+}
+
+CameraCurve curve_of(const XyzPicture& picture, const PlainTone& tone) {
+  if (tone.white_cd_m2 && *tone.white_cd_m2 > 0) return linear_to(*tone.white_cd_m2);
+  double log_sum = 0, shown_sum = 0;
+  std::vector<double> lit;
+  for (size_t i = 0; i < picture.pixels(); ++i) {
+    const Pixel p = pixel(picture, i);
+    if (p.luminance <= darkest_cd_m2) continue;
+    log_sum += std::log(p.luminance);
+    shown_sum += brightest_shown(p.xyz);
+    lit.push_back(p.luminance);
+  }
+  if (lit.empty()) return {};
+  const auto count = static_cast<double>(lit.size());
+  const double factor = tone.key * (shown_sum / count) / std::exp(log_sum / count);
+  return camera_curve(factor, white_of(std::move(lit)), tone.sign_cd_m2);
 }
 
 // ---- human --------------------------------------------------------------------------------------
@@ -168,11 +147,6 @@ bool trim_to_human_contrast(LogHistogram& h, double log_black, double log_white)
   return true;
 }
 
-// The largest channel of a colour at this exposure.
-double lead_of_colour(const Pixel& p, const Exposure& exposure) {
-  return p.luminance > 0 ? leading(shown_colour(p.xyz, exposure.factor * p.luminance)) : 0;
-}
-
 // One factor for all, so that what is just visible in the scene is just visible on the display
 // (Ward 1994): an observer of the display adapts to half of its white.
 ToneCurve linear_curve(const std::vector<double>& luminances, const MonitorModel& monitor) {
@@ -184,7 +158,6 @@ ToneCurve linear_curve(const std::vector<double>& luminances, const MonitorModel
   curve.linear = true;
   curve.factor =
       threshold_difference_cd_m2(monitor.white_cd_m2 / 2) / threshold_difference_cd_m2(world);
-  curve.display_white_cd_m2 = monitor.white_cd_m2;
   return curve;
 }
 
@@ -299,32 +272,56 @@ XyzPicture as_resolved(const XyzPicture& picture, const Seen& seen, double degre
 
 }  // namespace
 
-double shoulder(double exposed, double white) {
+// Below the knee x (1 + bend x)^(p - 1): its slope in logarithms falls from 1 to p. Above it a
+// hyperbola that continues with the same slope and reaches 1 at white.
+double CameraCurve::bent(double exposed) const {
+  return exposed * std::pow(1 + bend * exposed, least_slope - 1);
+}
+
+double CameraCurve::slope_at(double exposed) const {
+  const double share = bend * exposed / (1 + bend * exposed);
+  return bent(exposed) / exposed * (1 + (least_slope - 1) * share);
+}
+
+double CameraCurve::shown(double cd_m2) const {
+  const double exposed = factor * cd_m2;
   if (!(exposed > 0)) return 0;
-  if (exposed <= shoulder_knee) return exposed;
-  const double top = std::max(white, 1.0);
-  if (exposed >= top) return 1;
-  const double t = (exposed - shoulder_knee) / (top - shoulder_knee);
-  const double slope = (top - shoulder_knee) / (1 - shoulder_knee);
-  return shoulder_knee + (1 - shoulder_knee) * slope * t / (1 + (slope - 1) * t);
+  if (exposed <= knee) return bent(exposed);
+  if (exposed >= white) return 1;
+  const double begin = bent(knee);
+  const double t = (exposed - knee) / (white - knee);
+  const double slope = slope_at(knee) * (white - knee) / (1 - begin);
+  return begin + (1 - begin) * slope * t / (1 + (slope - 1) * t);
+}
+
+CameraCurve linear_to(double white_cd_m2) {
+  CameraCurve curve;
+  curve.factor = 1 / white_cd_m2;
+  return curve;
+}
+
+CameraCurve camera_curve(double factor, double white_cd_m2, double sign_cd_m2) {
+  CameraCurve curve;
+  curve.factor = factor;
+  curve.white = std::max(1.0, factor * white_cd_m2);
+  if (!(curve.shown(sign_cd_m2) > sign_level)) return curve;
+  curve.knee = factor * sign_cd_m2;
+  // bent(knee) is sign_level.
+  curve.bend =
+      std::max(0.0, std::pow(curve.knee / sign_level, 1 / (1 - CameraCurve::least_slope)) - 1) /
+      curve.knee;
+  // A hyperbola that begins flatter than its chord would rise towards white.
+  const double straight = curve.knee + (1 - sign_level) / curve.slope_at(curve.knee);
+  curve.white = std::max(curve.white, straight);
+  return curve;
 }
 
 SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone) {
-  const Exposure exposure = exposure_of(picture, tone);
+  const CameraCurve curve = curve_of(picture, tone);
   SrgbPicture out = empty_like(picture);
   for (size_t i = 0; i < picture.pixels(); ++i) {
     const Pixel p = pixel(picture, i);
-    std::array<double, 3> rgb{};
-    if (p.luminance > 0) rgb = shown_colour(p.xyz, exposure.factor * p.luminance);
-    // The shoulder is applied to the largest channel, not to the luminance: a green as bright as
-    // white would have to be white, and a sign's legend would be lost on it.
-    const double lead = leading(rgb), to = shoulder(lead, exposure.white);
-    const double burnt = tone.white_cd_m2 ? 0 : burnt_share(exposure, lead, rgb);
-    for (double& v : rgb) {
-      const double scaled = lead > 0 ? v / lead * to : 0;
-      v = scaled + burnt * (shoulder(v, exposure.white) - scaled);
-    }
-    put_scaled(out, rgb, leading(rgb));
+    put(out, p.xyz, curve.shown(p.luminance));
   }
   return out;
 }
@@ -348,7 +345,7 @@ double threshold_difference_cd_m2(double adaptation_cd_m2) {
 
 double ToneCurve::display(double world_cd_m2) const {
   if (!(world_cd_m2 > 0)) return 0;
-  if (linear) return std::min(factor * world_cd_m2, display_white_cd_m2);
+  if (linear) return factor * world_cd_m2;
   const double l = std::log(world_cd_m2);
   if (l <= log_world.front()) {
     // Darker than every degree of the scene: keep the ratio to the darkest, so that black stays
@@ -374,7 +371,6 @@ ToneCurve human_curve(const std::vector<double>& adaptation_cd_m2, const Monitor
   if (fits || !trim_to_human_contrast(h, log_black, log_white)) return linear_curve(lit, monitor);
 
   ToneCurve curve;
-  curve.display_white_cd_m2 = monitor.white_cd_m2;
   const double total = h.total();
   double below = 0;
   for (size_t b = 0; b <= h.count.size(); ++b) {
@@ -405,33 +401,32 @@ SrgbPicture tone_human(const XyzPicture& whole, const HumanTone& tone) {
     seen.pixel_scotopic = resolved.pixel_scotopic;
   }
   const ToneCurve curve = human_curve(seen.cell_luminance, tone.monitor);
-  const Exposure exposure = exposure_of(picture, {});  // fire burns out beyond its white
-  const double black = tone.monitor.black_cd_m2;
-  const double range = tone.monitor.white_cd_m2 - black;
+  const auto on_monitor = [&](double cd_m2) {  // 0 black, 1 white
+    const MonitorModel& monitor = tone.monitor;
+    return std::max(0.0, (curve.display(cd_m2) - monitor.black_cd_m2) /
+                             (monitor.white_cd_m2 - monitor.black_cd_m2));
+  };
+  std::vector<double> wanted;  // above 1 where the monitor cannot show it
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
-      const size_t i =
-          static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(x);
-      Pixel p = pixel(picture, i);
+      const size_t i = wanted.size();
       const double m = seen.cells.at_pixel(seen.cell_adaptation, x, y);
       const double l = mesopic_luminance_adapted(seen.pixel_photopic[i], seen.pixel_scotopic[i], m);
+      wanted.push_back(seen.pixel_photopic[i] > 0 ? on_monitor(l) : 0);
+    }
+  const CameraCurve highlights = camera_curve(1, white_of(wanted), on_monitor(tone.sign_cd_m2));
+  size_t i = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x, ++i) {
+      Pixel p = pixel(picture, i);
       if (tone.lose_colour && p.luminance > 0) {
         // Rods see no colour: the share of colour that is kept is the cones' share of the
         // adaptation.
+        const double m = seen.cells.at_pixel(seen.cell_adaptation, x, y);
         for (size_t k = 0; k < 3; ++k)
           p.xyz[k] = p.luminance * (m * p.xyz[k] / p.luminance + (1 - m) * d65_white[k]);
       }
-      std::array<double, 3> rgb{};
-      if (p.luminance > 0) {
-        rgb = shown_colour(p.xyz, std::clamp((curve.display(l) - black) / range, 0.0, 1.0));
-      }
-      const double lead = leading(rgb), to = std::min(lead, 1.0);
-      const double burnt = lead > 1 ? burnt_share(exposure, lead_of_colour(p, exposure), rgb) : 0;
-      for (double& v : rgb) {
-        const double scaled = lead > 0 ? v / lead * to : 0;
-        v = scaled + burnt * (std::min(v, 1.0) - scaled);
-      }
-      put_scaled(out, rgb, leading(rgb));
+      put(out, p.xyz, highlights.shown(wanted[i]));
     }
   return out;
 }

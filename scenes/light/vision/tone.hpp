@@ -16,23 +16,48 @@ namespace luxodus {
 // ---- plain --------------------------------------------------------------------------------------
 
 struct PlainTone {
-  /// Luminance of white light that is shown as white [cd/m2]: the picture is linear below it and
-  /// burns out above it. Pictures with equal white can be compared. If absent, the picture's own
-  /// log-average sets the exposure.
+  /// Luminance that is shown as white [cd/m2]: the picture is linear below it and burns out above
+  /// it. Pictures with equal white can be compared. If absent, the picture's own log-average sets
+  /// the exposure.
   std::optional<double> white_cd_m2;
-  /// Display value of the log-average luminance (middle grey), when no white is given.
+  /// Display value of the log-average luminance (middle grey), when no white is given and no sign
+  /// is much brighter.
   double key = 0.18;
+  /// Luminance of the brightest face of a sign in the picture [cd/m2]; 0: none.
+  double sign_cd_m2 = 0;
 };
 
-/// Display luminance (0 black, 1 white) for an exposed luminance: linear up to the knee, then a
-/// hyperbola that leaves the knee with slope 1 and reaches 1 at `white` (white >= 1; at white == 1
-/// it stays straight).
-double shoulder(double exposed, double white);
-inline constexpr double shoulder_knee = 0.7;
+/// The brightest face of a sign is shown no brighter than this, so that lamps stay brighter.
+inline constexpr double sign_level = 0.8;
 
-/// Pixels that are not finite or not positive are black. A colour too bright for the monitor keeps
-/// hue and saturation and loses luminance: only white light burns out to white. A colour too
-/// saturated keeps hue and luminance. Requires: xyz.size() == 3 * width * height.
+/// Display luminance (0 black, 1 white) of a luminance: monotone, with a continuous slope.
+struct CameraCurve {
+  /// Least slope in logarithms up to the knee: a ratio r of luminances is shown as at least r to
+  /// this power. Legends need 0.4; the rest is for rounding to bytes.
+  static constexpr double least_slope = 0.45;
+
+  double factor = 1;  // exposed value per cd/m2
+  double bend = 0;  // one over the exposed value where the slope is halfway; 0: linear to the knee
+  double knee = 0.7;  // exposed value where the shoulder begins; it reaches 1 at `white`
+  double white = 1;   // exposed value, >= knee
+
+  double shown(double cd_m2) const;
+  /// Display value of an exposed one up to the knee, and its derivative.
+  double bent(double exposed) const;
+  double slope_at(double exposed) const;
+};
+
+/// Linear up to this luminance, which is white.
+CameraCurve linear_to(double white_cd_m2);
+
+/// Linear up to a knee, with a shoulder to `white_cd_m2`, if that shows a sign of this luminance at
+/// no more than sign_level. Otherwise all is compressed until it does, and the shoulder begins at
+/// the sign.
+CameraCurve camera_curve(double factor, double white_cd_m2, double sign_cd_m2);
+
+/// Pixels that are not finite or not positive are black. Luminance alone decides how bright a pixel
+/// is; a colour that the monitor cannot show so bright loses saturation (display_colour).
+/// Requires: xyz.size() == 3 * width * height.
 SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone);
 
 // ---- human --------------------------------------------------------------------------------------
@@ -49,6 +74,8 @@ struct HumanTone {
   /// Angle of view of one pixel in the middle [degrees]: adaptation is taken over 1 degree, the
   /// size of the fovea. 0: unknown; then there is neither glare nor loss of acuity.
   double degrees_per_pixel = 0.1;
+  /// Luminance of the brightest face of a sign in the picture [cd/m2]; 0: none.
+  double sign_cd_m2 = 0;
   bool glare = true;        // veil from light scattered within the eye
   bool lose_colour = true;  // desaturate by mesopic and scotopic adaptation
   bool lose_acuity = true;  // blur details that an eye so dark-adapted does not resolve
@@ -68,9 +95,9 @@ struct ToneCurve {
   std::vector<double> log_display;  // ascending
   bool linear = false;              // the scene fits the display: one factor for all
   double factor = 1;                // display over world luminance when linear
-  double display_white_cd_m2 = 0;
 
-  /// Display luminance [cd/m2], at most the display's white. 0 for light of 0.
+  /// Display luminance [cd/m2]; where the curve is linear it may exceed the display's white. 0 for
+  /// light of 0.
   double display(double world_cd_m2) const;
 };
 
@@ -78,6 +105,8 @@ struct ToneCurve {
 /// does it show more contrast than an eye in the scene could see.
 ToneCurve human_curve(const std::vector<double>& adaptation_cd_m2, const MonitorModel& monitor);
 
+/// Mesopic luminance, after glare and blur, decides how bright a pixel is. What exceeds the
+/// monitor's white is compressed as by a camera (camera_curve).
 /// Requires: xyz.size() == 3 * width * height; scotopic empty or width * height long.
 SrgbPicture tone_human(const XyzPicture& picture, const HumanTone& tone);
 

@@ -37,10 +37,13 @@ test('numbers have three digits, errors two, and values as many decimals as thei
 });
 
 test('the meter gives the log-average of pixels with light', () => {
-  const cells = Float32Array.of(10 * Math.log2(4), 10, 0, 1, 10 * Math.log2(16), 10, 0, 1,
-    0, 0, 0, 1);
-  assert.ok(Math.abs(readMeter(cells) - 8) < 1e-6);
-  assert.ok(readMeter(new Float32Array(8)) > 0);
+  const cells = Float32Array.of(10 * Math.log2(4), 10, 10, 0, 10 * Math.log2(16), 10, 4, 75,
+    0, 0, 0, 3);
+  const { level, shown, sign } = readMeter(cells);
+  assert.ok(Math.abs(level - 8) < 1e-6);
+  assert.ok(Math.abs(shown - 0.7) < 1e-6);
+  assert.equal(sign, 75);
+  assert.ok(readMeter(new Float32Array(8)).level > 0);
 });
 
 test('a dark-adapted eye needs less light for the same grey', () => {
@@ -52,9 +55,9 @@ test('a dark-adapted eye needs less light for the same grey', () => {
 
 test('exposure adapts towards the metered value and then rests', () => {
   const exposure = new Exposure();
-  exposure.meter(Float32Array.of(Math.log2(1), 1, 0, 0));
+  exposure.meter(Float32Array.of(Math.log2(1), 1, 1, 0));
   exposure.adapt(0.1);
-  exposure.meter(Float32Array.of(Math.log2(64), 1, 0, 0));
+  exposure.meter(Float32Array.of(Math.log2(64), 1, 1, 0));
   let before = exposure.level;
   for (let i = 0; i < 60 && exposure.adapt(0.1); ++i) {
     assert.ok(exposure.level > before);
@@ -69,7 +72,7 @@ test('slow adaptation takes seconds to more light, and minutes to less', () => {
   exposure.slow = true;
   const after = (from, to, time) => {
     exposure.adapted = from;
-    exposure.meter(Float32Array.of(Math.log2(to), 1, 0, 0));
+    exposure.meter(Float32Array.of(Math.log2(to), 1, 1, 0));
     for (let t = 0; t < time; t += 0.1) exposure.adapt(0.1, true);
     return exposure.level;
   };
@@ -82,7 +85,7 @@ test('slow adaptation takes seconds to more light, and minutes to less', () => {
 test('with reduced motion the new exposure is applied and shown at once', () => {
   const exposure = new Exposure();
   for (const luminance of [1, 30]) {
-    exposure.meter(Float32Array.of(Math.log2(luminance), 1, 0, 0));
+    exposure.meter(Float32Array.of(Math.log2(luminance), 1, 1, 0));
     assert.equal(exposure.adapt(0.01, true), true);
     assert.ok(Math.abs(exposure.level / luminance - 1) < 1e-6);
     assert.equal(exposure.adapt(0.01, true), false);

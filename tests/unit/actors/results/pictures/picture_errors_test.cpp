@@ -61,9 +61,9 @@ height = 6
 
 /// Pictures that end in the flux of independent runs. `path_seed`: shared by the paths of all;
 /// none: each has its own.
-std::vector<TracedPicture> pictures_of(const SmokeRoom& room, int count, int64_t particles,
+std::vector<TracedPicture> pictures_of(const SmokeRoom& smoky, int count, int64_t particles,
                                        int paths, std::optional<uint64_t> path_seed) {
-  const auto scene = room.compiled();
+  const auto scene = smoky.compiled();
   std::vector<TracedPicture> all;
   for (int k = 0; k < count; ++k) {
     LocalRun run(scene, 100 + static_cast<uint64_t>(k), 2);

@@ -1,11 +1,13 @@
-// Exposure of the picture. Pure: takes meter readings, returns a scale.
+// Exposure of the picture. Pure: takes meter readings, returns a scale and a curve.
+import { cameraCurve } from './tone.js';
+
 export const renditions = { camera: 0, eye: 1, luminance: 2 };
 
 /** Mid grey of a camera; and the smallest luminance that automatic exposure raises to it. */
 const key = 0.18;
 const darkest_cd_m2 = 1e-4;
-/** White point: this multiple of the luminance that is shown as half of full white. */
-export const whitePoint = 6;
+/** White without brighter signs, as a multiple of the exposed value 1. */
+const whitePoint = 6;
 /** A typical monitor, for the eye's rendition [cd/m2]. */
 const displayMost_cd_m2 = 250;
 const seconds = { camera: 0.35, eye: 1.2 };
@@ -16,15 +18,24 @@ const seconds = { camera: 0.35, eye: 1.2 };
  */
 const eyeSeconds = { brighter: 1, darker: 120 };
 
-/** Log-average luminance of meter cells: sum of log2 luminance, pixels, and two unused. */
+/**
+ * What the cells of the meter say: the log-average luminance `level`; `shown`, the mean of the
+ * largest luminances that a screen shows of the colours in view; `sign`, the luminance of the
+ * brightest sign, 0 without any.
+ */
 export function readMeter(cells) {
   let log = 0;
   let count = 0;
+  let shown = 0;
+  let sign = 0;
   for (let i = 0; i < cells.length; i += 4) {
     log += cells[i];
     count += cells[i + 1];
+    shown += cells[i + 2];
+    sign = Math.max(sign, cells[i + 3]);
   }
-  return count > 0 ? Math.max(darkest_cd_m2, 2 ** (log / count)) : darkest_cd_m2;
+  if (count === 0) return { level: darkest_cd_m2, shown: 1, sign };
+  return { level: Math.max(darkest_cd_m2, 2 ** (log / count)), shown: shown / count, sign };
 }
 
 /**
@@ -44,20 +55,37 @@ export class Exposure {
     this.fixed_cd_m2 = 10;
     this.adapted = null;
     this.target = null;
+    /** The colours and signs that the camera is set for. */
+    this.shown = 1;
+    this.sign = 0;
+    this.metered = { shown: 1, sign: 0 };
   }
 
   meter(cells) {
-    this.target = readMeter(cells);
+    this.metered = readMeter(cells);
+    this.target = this.metered.level;
   }
 
   /** Adapts for a while, or `atOnce`; returns true if the picture must be shown again. */
   adapt(elapsed, atOnce = false) {
-    if (this.target === null || !this.moves) return false;
+    if (this.target === null) return false;
     const first = this.adapted === null;
+    const set = this.setFor(first || atOnce ? 1 : 1 - Math.exp(-elapsed / seconds.camera));
+    if (!this.moves) return set;
     const apart = first ? 0 : Math.log(this.target / this.adapted);
     const share = atOnce && !this.slow ? 1 : 1 - Math.exp(-elapsed / this.secondsFor(apart));
     this.adapted = first ? this.target : this.adapted * Math.exp(share * apart);
-    return first || Math.abs(apart) > 0.005;
+    return first || set || Math.abs(apart) > 0.005;
+  }
+
+  /** Moves to the colours and signs in view by this share; returns true while it moves. */
+  setFor(share) {
+    const { shown, sign } = this.metered;
+    const signApart = Math.abs(sign - this.sign) / Math.max(sign, this.sign, darkest_cd_m2);
+    const apart = Math.max(Math.abs(shown - this.shown), signApart);
+    this.shown += share * (shown - this.shown);
+    this.sign += share * (sign - this.sign);
+    return apart > 0.005;
   }
 
   secondsFor(apart) {
@@ -75,6 +103,11 @@ export class Exposure {
   }
 
   get scale() {
-    return this.rendition === 'eye' ? eyeScale(this.level) : key / this.level;
+    return this.rendition === 'eye' ? eyeScale(this.level) : (key * this.shown) / this.level;
+  }
+
+  /** How exposed values are shown. */
+  get curve() {
+    return cameraCurve(whitePoint, this.scale * this.sign);
   }
 }

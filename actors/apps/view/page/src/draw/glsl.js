@@ -1,6 +1,7 @@
 // The shaders. Luminances are cd/m2 in linear sRGB until `tone` makes them bytes.
 import { scaleHigh, scaleLow } from '../light/colour_map.js';
 import { luminanceWeights } from '../light/colours.js';
+import { toneTools } from './tone.js';
 
 const [wr, wg, wb] = luminanceWeights;
 
@@ -11,6 +12,10 @@ precision highp sampler2D;
 precision highp sampler3D;
 float luminance(vec3 c) { return dot(c, vec3(${wr}, ${wg}, ${wb})); }
 `;
+
+/** Added to the opacity of pixels that show a sign, so that exposure finds the brightest one. */
+const signMark = '16.0';
+const isMarked = '> 12.0';
 
 /** The largest half float; nothing on a screen needs more. */
 export const brightest = '60000.0';
@@ -66,7 +71,7 @@ out vec4 colour;
 void main() {
   if (height > cut || height < above) discard;
   vec2 share = texture(shares, at).rg;
-  colour = vec4(clamp(share.r * white + share.g * green, 0.0, ${brightest}), 1.0);
+  colour = vec4(clamp(share.r * white + share.g * green, 0.0, ${brightest}), ${signMark});
 }`;
 
 export const screenVertex = `
@@ -230,29 +235,38 @@ uniform bool smoky;
 out vec4 colour;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec3 c = texelFetch(surfaces, pixel, 0).rgb;
+  vec4 surface = texelFetch(surfaces, pixel, 0);
+  vec3 c = surface.rgb;
   if (smoky) {
     vec4 s = smokeHere(at);
     c = c * s.a + s.rgb;
   }
   vec3 old = weight < 1.0 ? texelFetch(before, pixel, 0).rgb : vec3(0.0);
-  colour = vec4(mix(old, c, weight), luminance(c) > 1e-5 ? 1.0 : 0.0);
+  colour = vec4(mix(old, c, weight), surface.a ${isMarked} ? ${signMark} : 1.0);
 }`;
 
-/** Sum of log2 luminance, and of how many pixels: exposure heeds no pixel without light. */
+/**
+ * Of the pixels with light in a cell: the sum of log2 luminance, their number, the sum of the
+ * largest luminances that a screen shows of their colours; and the brightest pixel of a sign.
+ */
 export const meterFragment = `${common}
 in vec2 at;
 uniform sampler2D picture;
 out vec4 colour;
+float brightestShown(vec3 c) {
+  return clamp(luminance(c) / max(max(c.r, max(c.g, c.b)), 1e-12), 0.0, 1.0);
+}
 void main() {
   vec2 cell = 1.0 / vec2(32.0);
-  vec2 sum = vec2(0.0);
+  vec4 sum = vec4(0.0);
   for (int i = 0; i < 16; ++i) {
     vec2 o = (vec2(i & 3, i >> 2) + 0.5) / 4.0 - 0.5;
-    float y = luminance(texture(picture, at + o * cell).rgb);
-    if (y > 1e-5) sum += vec2(log2(y), 1.0);
+    vec4 c = texture(picture, at + o * cell);
+    float y = luminance(c.rgb);
+    if (y > 1e-5) sum += vec4(log2(y), 1.0, brightestShown(c.rgb), 0.0);
+    if (c.a ${isMarked}) sum.a = max(sum.a, y);
   }
-  colour = vec4(sum, 0.0, 1.0);
+  colour = sum;
 }`;
 
 // CIE 191 (MES2) with scotopic luminance estimated from three colours (Larson, Rushmeier and Piatko
@@ -277,22 +291,12 @@ vec3 eyeSees(vec3 c) {
 }
 `;
 
-export const toneFragment = `${common}${eye}
+export const toneFragment = `${common}${eye}${toneTools}
 in vec2 at;
 uniform sampler2D picture, scaleColours;
 uniform int mode;
-uniform float scale, white, fade, seed;
+uniform float scale, fade, seed;
 out vec4 colour;
-vec3 knee(vec3 c) {
-  float y = max(luminance(c), 1e-9);
-  float shown = y * (1.0 + y / (white * white)) / (1.0 + y);
-  vec3 tinted = c * (shown / y);
-  float most = max(tinted.r, max(tinted.g, tinted.b));
-  if (most <= 1.0) return tinted;
-  // A colour too bright for the screen pales, yet stays that colour: a green sign is no white one.
-  float over = 1.0 - 1.0 / most;
-  return mix(tinted / most, vec3(1.0), 0.45 * over * over);
-}
 vec3 encode(vec3 c) {
   c = clamp(c, 0.0, 1.0);
   return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
@@ -309,8 +313,10 @@ void main() {
   vec3 c = max(texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb, 0.0);
   vec3 shown;
   if (mode == 2) shown = falseColour(luminance(c));
-  else if (mode == 1) shown = encode(knee(eyeSees(c) * scale));
-  else shown = encode(knee(c * scale));
+  else {
+    if (mode == 1) c = eyeSees(c);
+    shown = encode(displayColour(c, shownOf(luminance(c) * scale)));
+  }
   shown = mix(shown, vec3(0.35 * dot(shown, vec3(0.3, 0.6, 0.1)) + 0.06), 0.75 * fade);
   colour = vec4(shown + grain(gl_FragCoord.xy) / 255.0, 1.0);
 }`;

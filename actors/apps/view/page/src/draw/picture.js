@@ -3,7 +3,7 @@
 import * as THREE from 'three';
 import { scaleTexels } from '../light/colours.js';
 import { halfValues } from '../protocol/half.js';
-import { Exposure, renditions, whitePoint } from './exposure.js';
+import { Exposure, renditions } from './exposure.js';
 import { composeFragment, meterFragment, screenVertex, toneFragment } from './glsl.js';
 import { Gloss, nothingBelow } from './gloss.js';
 import { Lamps } from './lamps.js';
@@ -11,6 +11,7 @@ import { Marks } from './marks.js';
 import { Signs } from './signs.js';
 import { Smoke, smokePaces } from './smoke.js';
 import { Surfaces } from './surfaces.js';
+import { curveUniform } from './tone.js';
 
 /** This many pictures are accumulated before the page rests; fewer on a slow machine. */
 const pictures = { least: 6, most: 24, seconds: 4 };
@@ -118,7 +119,7 @@ export class Picture {
       scaleColours: { value: colours },
       mode: { value: 0 },
       scale: { value: 1 },
-      white: { value: whitePoint },
+      curve: { value: new THREE.Vector4() },
       fade: { value: 0 },
       seed: { value: 0 },
     });
@@ -335,11 +336,16 @@ export class Picture {
     uniforms.scale.value = this.exposure.scale;
     uniforms.fade.value = this.fade.now;
     uniforms.seed.value = (this.added * 17.3) % 97;
-    this.pass(this.tone, null);
+    this.toneTo(null, this.exposure.curve);
     this.camera.clearViewOffset();
     this.renderer.getDrawingBufferSize(this.marks.points.material.uniforms.raster.value);
     this.marks.points.material.uniforms.size.value = (markAcross * this.height) / this.size[1];
     this.renderer.render(this.marks.scene, this.camera);
+  }
+
+  toneTo(target, curve) {
+    this.tone.uniforms.curve.value.fromArray(curveUniform(curve));
+    this.pass(this.tone, target);
   }
 
   /** The picture's luminances [cd/m2] within a window of its pixels. */

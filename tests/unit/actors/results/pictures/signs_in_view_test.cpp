@@ -1,0 +1,139 @@
+// Which pixels show a sign, and whether its legend stays apart from its ground on the screen.
+#include "actors/results/pictures/signs_in_view.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "actors/results/pictures/view_files.hpp"
+#include "scenes/light/optics/chromaticity.hpp"
+#include "tests/unit/actors/results/files/display_fixture.hpp"
+
+using namespace luxodus;
+using namespace luxodus::test;
+
+namespace {
+
+/// A room with a lamp and a library sign on its wall, seen from 2.2 m. `more`: smoke. A screen
+/// hides the right half of a second sign beside it.
+std::string room_with_sign(const std::string& drawing, double lamp_lm, double white_cd_m2,
+                           const std::string& more = "") {
+  const std::string file = std::string(LUX_SOURCE_DIR) + "/scenes/library/signs/" + drawing;
+  const auto sign = [&](const std::string& name, const std::string& place) {
+    return "[[sign]]\nname = \"" + name + "\"\nposition = " + place +
+           "\nfacing = [-1, 0, 0]\nwidth = 0.4\nheight = 0.2\nfile = \"" + file +
+           "\"\nsmallest_detail = 0.01\nmains_white = " + std::to_string(white_cd_m2) +
+           "\nmains_green = " + std::to_string(white_cd_m2 / 6) +
+           "\nemergency_white = 1\nemergency_green = 0.1\n";
+  };
+  return R"([run]
+max_bands = 6
+[[material]]
+name = "wall"
+reflectance = 0.5
+[[object]]
+name = "room"
+shape = "room"
+low = [0, 0, 0]
+high = [3, 3, 2.5]
+material = "wall"
+[[object]]
+name = "screen"
+shape = "box"
+low = [2.5, 0.3, 1]
+high = [2.55, 0.8, 2.2]
+material = "wall"
+[[emitter]]
+name = "lamp"
+shape = "rectangle"
+size = [0.5, 0.5]
+position = [1, 1.5, 2.49]
+flux_lm = )" +
+         std::to_string(lamp_lm) + "\n" + sign("seen", "[2.98, 1.8, 1.7]") +
+         sign("half hidden", "[2.98, 0.62, 1.7]") + more + R"([[camera]]
+name = "view"
+eye = [0.8, 1.5, 1.6]
+target = [3, 1.4, 1.65]
+width = 160
+height = 90
+)";
+}
+
+ShownView view_of(const LocalRun& run, int paths) {
+  const Camera& camera = run.scene().description->cameras[0];
+  PictureOptions options;
+  options.raw = true;
+  const PictureFlux flux = picture_flux(run, options);
+  ViewPasses passes(run, camera, 0, flux.radiance.get(), flux.sight);
+  REQUIRE(passes.add(paths, options));
+  return {passes.picture(), paths, options, 1};
+}
+
+double shown_luminance(const PngImage& image, const std::vector<size_t>& pixels) {
+  const auto linear = [](uint8_t byte) {
+    const double v = byte / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  };
+  double sum = 0;
+  for (const size_t i : pixels)
+    sum += xyz_from_linear_srgb(
+        {linear(image.rgb[3 * i]), linear(image.rgb[3 * i + 1]), linear(image.rgb[3 * i + 2])})[1];
+  return sum / static_cast<double>(pixels.size());
+}
+
+}  // namespace
+
+TEST_CASE("pixels of a sign are found where it is seen, and not where it is hidden",
+          "[display][signs]") {
+  const auto run = traced(room_with_sign("exit_left.svg", 500, 200), 1 << 14);
+  const ShownView view = view_of(*run, 16);
+  const auto signs =
+      signs_in_view(run->scene(), run->scene().description->cameras[0], view.traced.noisy);
+  REQUIRE(signs.size() == 2);
+  CHECK(run->scene().description->signs[signs[0].sign].name == "seen");
+  const auto count = [](const SignInView& sign) { return sign.white.size() + sign.green.size(); };
+  // 0.4 m by 0.2 m with 35 pixels a metre: 14 by 7, less pixels of both colours.
+  CHECK(count(signs[0]) > 45);
+  CHECK(count(signs[0]) < 14 * 7);
+  CHECK(count(signs[1]) > 10);
+  CHECK(10 * count(signs[1]) < 7 * count(signs[0]));
+  // Their own light and what they reflect.
+  CHECK(mean_luminance(view.shown(), signs[0].white) == Approx(200).epsilon(0.3));
+  CHECK(brightest_face(view.shown(), signs) >= mean_luminance(view.shown(), signs[0].white));
+}
+
+TEST_CASE("a sign's white is shown brighter than its green in clear air, smoke and the dark",
+          "[display][signs]") {
+  const std::string smoke = R"([[medium]]
+name = "smoke"
+kind = "homogeneous"
+extinction = 1
+angstrom = 1.5
+albedo = 0.6
+)";
+  for (const char* drawing : {"exit_left.svg", "exit_right.svg", "exit_straight.svg"})
+    for (const auto& [lamp, white, air] :
+         {std::tuple{800.0, 500.0, std::string()}, std::tuple{0.5, 75.0, std::string()},
+          std::tuple{0.001, 2.0, std::string()}, std::tuple{200.0, 75.0, smoke},
+          std::tuple{0.01, 40.0, smoke}}) {
+      const auto run = traced(room_with_sign(drawing, lamp, white, air), 1 << 15);
+      const ShownView view = view_of(*run, 16);
+      const Camera& camera = run->scene().description->cameras[0];
+      const auto signs = signs_in_view(run->scene(), camera, view.traced.noisy);
+      REQUIRE(!signs.empty());
+      for (const SignInView& sign : signs) {
+        if (sign.white.empty() || sign.green.empty()) continue;
+        const double ratio =
+            mean_luminance(view.shown(), sign.white) / mean_luminance(view.shown(), sign.green);
+        INFO(drawing << ", lamp of " << lamp << " lm, white of " << white << " cd/m2, ratio "
+                     << ratio);
+        REQUIRE(ratio > 1.2);
+        const PngImage plain = shown_image(false, *run, camera, view);
+        CHECK(shown_luminance(plain, sign.white) / shown_luminance(plain, sign.green) >=
+              std::pow(ratio, 0.4));
+        const PngImage human = shown_image(true, *run, camera, view);
+        CHECK(shown_luminance(human, sign.white) > shown_luminance(human, sign.green));
+      }
+      const PngImage plain = shown_image(false, *run, camera, view);
+      CHECK(shown_luminance(plain, signs[0].white) < 0.85);
+    }
+}
