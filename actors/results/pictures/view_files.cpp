@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <optional>
 
 #include "actors/results/files/result_files.hpp"
 #include "actors/results/formats/false_colour_png.hpp"
+#include "actors/results/formats/plot_axis.hpp"
 #include "actors/results/pictures/signs_in_view.hpp"
 #include "scenes/light/optics/chromaticity.hpp"
 #include "scenes/light/vision/tone.hpp"
@@ -38,24 +41,45 @@ std::vector<ImageText> texts_of(const LocalRun& run, const Camera& camera) {
           {"View", camera.name}};
 }
 
-void add_xyz(ExrImage& image, const std::string& prefix, const XyzPicture& light) {
-  for (const size_t c : {size_t{0}, size_t{1}, size_t{2}}) {
-    std::vector<float> values(light.pixels());
-    for (size_t i = 0; i < values.size(); ++i) values[i] = light.xyz[3 * i + c];
-    image.channels.push_back({prefix + "XYZ"[c], std::move(values)});
+/// Light by tristimulus values, as linear sRGB and as scotopic luminance, in a layer: "" or
+/// "filtered.".
+void add_light(ExrImage& image, const std::string& layer, const XyzPicture& light) {
+  static const glm::dmat3 to_rgb = srgb_from_xyz();
+  const size_t pixels = light.pixels();
+  std::array<std::vector<float>, 3> xyz, rgb;
+  for (size_t i = 0; i < pixels; ++i) {
+    const float* p = &light.xyz[3 * i];
+    const glm::dvec3 colour = to_rgb * glm::dvec3(p[0], p[1], p[2]);
+    for (size_t c = 0; c < 3; ++c) {
+      xyz[c].push_back(p[c]);
+      rgb[c].push_back(static_cast<float>(colour[static_cast<int>(c)]));
+    }
   }
-  image.channels.push_back({prefix + "scotopic", light.scotopic});
+  for (size_t c = 0; c < 3; ++c)
+    image.channels.push_back({layer + "XYZ." + "XYZ"[c], std::move(xyz[c])});
+  for (size_t c = 0; c < 3; ++c) image.channels.push_back({layer + "RGB"[c], std::move(rgb[c])});
+  image.channels.push_back({layer + "scotopic", light.scotopic});
 }
 
-/// Features by their names in renderers and filters.
+/// Features by their names in renderers and viewers: normal, depth, transmittance, albedo.
 void add_features(ExrImage& image, const NoisyPicture& noisy) {
+  static const glm::dmat3 to_rgb = srgb_from_xyz();
   constexpr std::array<const char*, picture_features> names{
-      "N.X", "N.Y", "N.Z", "nearness", "transmittance", "albedo.X", "albedo.Y", "albedo.Z"};
-  for (size_t k = 0; k < picture_features; ++k) {
-    std::vector<float> values(noisy.pixels());
-    for (size_t i = 0; i < values.size(); ++i) values[i] = noisy.features[picture_features * i + k];
-    image.channels.push_back({names[k], std::move(values)});
+      "N.X", "N.Y", "N.Z", "Z", "transmittance", "albedo.R", "albedo.G", "albedo.B"};
+  std::array<std::vector<float>, picture_features> values;
+  for (size_t i = 0; i < noisy.pixels(); ++i) {
+    const float* f = &noisy.features[picture_features * i];
+    const float nearness = f[3];
+    const glm::dvec3 albedo =
+        to_rgb * glm::dvec3(f[5] * d65_white[0], f[6] * d65_white[1], f[7] * d65_white[2]);
+    const float depth_m = nearness > 0 ? 1 / nearness : std::numeric_limits<float>::infinity();
+    size_t k = 0;
+    for (const float value : {f[0], f[1], f[2], depth_m, f[4], static_cast<float>(albedo.x),
+                              static_cast<float>(albedo.y), static_cast<float>(albedo.z)})
+      values[k++].push_back(value);
   }
+  for (size_t k = 0; k < picture_features; ++k)
+    image.channels.push_back({names[k], std::move(values[k])});
 }
 
 /// Angle of view of a pixel in the centre, from bottom to top.
@@ -69,17 +93,7 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view
   ExrImage image;
   image.width = camera.width;
   image.height = camera.height;
-  const size_t pixels = traced.light.pixels();
-  add_xyz(image, "", traced.light);
-  for (const char* name : {"R", "G", "B"})
-    image.channels.push_back({name, std::vector<float>(pixels)});
-  const glm::dmat3 to_rgb = srgb_from_xyz();
-  for (size_t i = 0; i < pixels; ++i) {
-    const float* xyz = &traced.light.xyz[3 * i];
-    const glm::dvec3 rgb = to_rgb * glm::dvec3(xyz[0], xyz[1], xyz[2]);
-    for (size_t c = 0; c < 3; ++c)
-      image.channels[light_channels + c].values[i] = static_cast<float>(rgb[static_cast<int>(c)]);
-  }
+  add_light(image, "", traced.light);
   // An error needs two paths: without them its channel is omitted instead of NaN.
   const bool has_error = view.paths >= 2;
   if (has_error) {
@@ -87,7 +101,7 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view
     image.channels.push_back({"flux_error.Y", traced.flux_error_y});
   }
   if (filtered != nullptr) {
-    add_xyz(image, "filtered.", filtered->light);
+    add_light(image, "filtered.", filtered->light);
     image.channels.push_back({"filtered_error.Y", filtered->standard_error_y});
   }
   add_features(image, traced.noisy);
@@ -96,16 +110,17 @@ ExrImage exr_of(const LocalRun& run, const Camera& camera, const ShownView& view
   image.text = texts_of(run, camera);
   image.text.emplace_back(
       "comments",
-      std::string("X, Y, Z: CIE 1931, Y in cd/m2. R, G, B: linear sRGB of the same light, not "
-                  "clipped. scotopic: scotopic cd/m2. All as traced, not filtered. ") +
+      std::string("R, G, B: linear sRGB, not clipped; white of 1 is 1 cd/m2. XYZ: CIE 1931 of the "
+                  "same light, Y in cd/m2. scotopic: scotopic cd/m2. All as traced, not "
+                  "filtered. ") +
           (has_error ? "standard_error.Y: of the pixel's paths and of the flux that they end in; "
                        "flux_error.Y: of the latter alone. "
                      : "No standard error: it needs two paths per pixel. ") +
           (filtered != nullptr ? "filtered: the same without most of its noise, and its error by "
                                  "the difference of two halves. "
                                : "") +
-          "N: normal; nearness: 1/m; transmittance of smoke up to the surface; albedo: relative to "
-          "white.");
+          "N: normal; Z: distance [m]; transmittance of smoke up to the surface; albedo: linear "
+          "sRGB, 1 for white.");
   image.numbers = {{"paths_per_pixel", static_cast<double>(view.paths)},
                    {"particles", static_cast<double>(run.particles())},
                    {"display_white_cd_m2", view.human.monitor.white_cd_m2},
@@ -151,6 +166,28 @@ PngImage png_of(SrgbPicture picture, std::vector<ImageText> texts, const std::st
   return {picture.width, picture.height, std::move(picture.rgb), std::move(texts)};
 }
 
+/// Shares of the pixels below and above a luminance map's scale: lamps are a thousand times as
+/// bright as what they light.
+constexpr double left_out_below = 0.01, left_out_above = 0.005;
+
+struct Range {
+  double low = 0.1, high = 1;
+};
+
+/// The scale for these luminances [cd/m2]: of steps 1, 2, 5, and at least a factor of 2.
+Range luminance_range(const std::vector<double>& values) {
+  std::vector<double> lit;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(lit),
+               [](double v) { return std::isfinite(v) && v > 0; });
+  if (lit.empty()) return {};
+  std::sort(lit.begin(), lit.end());
+  const auto at = [&](double share) {
+    return lit[static_cast<size_t>(share * static_cast<double>(lit.size() - 1))];
+  };
+  const double high = round_up_125(at(1 - left_out_above));
+  return {round_down_125(std::min(at(left_out_below), high / 2)), high};
+}
+
 FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera, const ShownView& view) {
   const SceneDescription& scene = *run.scene().description;
   FalseColourPicture p;
@@ -176,8 +213,14 @@ FalseColourPicture luminance_map(const LocalRun& run, const Camera& camera, cons
           static_cast<double>(view.traced.light.xyz[3 * (row * width + column) + 1]));
     }
   }
-  p.notes = {std::to_string(view.paths) + " paths per pixel, flux of " +
-             std::to_string(run.particles()) + " particles"};
+  const Range range = luminance_range(p.values);
+  p.scale_low = range.low;
+  p.scale_high = range.high;
+  p.notes = {fmt::format("Scale: {:g} to {:g} cd/m2, without the darkest {:g} % and the brightest "
+                         "{:g} % of the pixels",
+                         range.low, range.high, 100 * left_out_below, 100 * left_out_above),
+             std::to_string(view.paths) + " paths per pixel, flux of " +
+                 std::to_string(run.particles()) + " particles"};
   p.text = texts_of(run, camera);
   return p;
 }

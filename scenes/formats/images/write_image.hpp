@@ -28,7 +28,7 @@ inline constexpr uint64_t max_exr_bytes = uint64_t{8} << 30;
 using ImageText = std::pair<std::string, std::string>;
 
 struct ExrChannel {
-  std::string name;           // "X", "Y", "Z", "R", "G", "B", "standard_error.Y", ...; unique
+  std::string name;           // "R", "G", "B", "XYZ.Y", "standard_error.Y", ...; unique
   std::vector<float> values;  // width * height, top row first
 };
 

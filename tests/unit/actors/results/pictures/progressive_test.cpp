@@ -15,7 +15,7 @@ namespace {
 /// X, Y and Z of the first camera in a file.
 void check_file(const std::filesystem::path& file, const TracedPicture& wanted) {
   const ExrImage image = read_exr(file);
-  const ExrChannel* y = image.find("Y");
+  const ExrChannel* y = image.find("XYZ.Y");
   REQUIRE(y != nullptr);
   for (size_t i = 0; i < wanted.light.pixels(); ++i)
     CHECK(y->values[i] == wanted.light.xyz[3 * i + 1]);
@@ -86,7 +86,7 @@ TEST_CASE("pictures at their time limit end with whole passes of all views", "[d
   CHECK_FALSE(rendered->interrupted);
   REQUIRE(rendered->paths == 4);
   check_file(folder / "views/view.exr", at_once(*run, 4));
-  CHECK(read_exr(folder / "views/other.exr").find("filtered.Y") != nullptr);
+  CHECK(read_exr(folder / "views/other.exr").find("filtered.XYZ.Y") != nullptr);
 }
 
 TEST_CASE("pictures end when the worst has the requested error", "[display]") {
