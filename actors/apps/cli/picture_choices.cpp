@@ -3,13 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "actors/apps/cli/quantities.hpp"
 #include "actors/results/files/result_files.hpp"
+#include "actors/results/pictures/view_files.hpp"
 #include "runtime/core/log.hpp"
 
-namespace luxodus::cli {
+namespace luxodus {
+
+namespace limits {
+/// Range of the luminances that a picture can be exposed for.
+constexpr double min_exposure_cd_m2 = 1e-6, max_exposure_cd_m2 = 1e9;
+}  // namespace limits
+
+namespace cli {
 
 namespace {
 
@@ -46,6 +56,13 @@ std::vector<Option> options_of(PictureChoices& choices, const char* paths_name) 
        "of the relative standard error of luminance; of the worst picture, as PNG files show it; "
        "e.g. 10%",
        {.form = Form::share, .otherwise = "none"}},
+      {"--exposure",
+       &choices.exposure,
+       "Exposure of NAME.png: luminances of middle grey, of white, and of the brightest sign, 0 "
+       "for "
+       "none [cd/m2], e.g. 0.84,12,75. Pictures of equal exposure can be compared: the text "
+       "\"Exposure\" of a PNG file says its own",
+       {.otherwise = "each picture's own"}},
       {"--display-white",
        &choices.monitor.white_cd_m2,
        "Luminance of white on the monitor that NAME_human.png is made for [cd/m2]",
@@ -63,6 +80,28 @@ std::vector<Option> options_of(PictureChoices& choices, const char* paths_name) 
 }
 
 namespace {
+
+/// "GREY,WHITE,SIGN". Errors: other text; a grey that is not above 0; a white below grey.
+Result<Exposure> parse_exposure(const std::string& text) {
+  std::array<double, 3> numbers{};
+  size_t count = 0;
+  for (size_t begin = 0; begin <= text.size() && count <= numbers.size(); ++count) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    const auto [rest, failed] = std::from_chars(text.data() + begin, text.data() + end,
+                                                numbers[std::min<size_t>(count, 2)]);
+    if (failed != std::errc() || rest != text.data() + end) break;
+    begin = end + 1;
+  }
+  const Exposure out{numbers[0], numbers[1], numbers[2]};
+  const auto in_range = [](double v) { return v >= 0 && v <= limits::max_exposure_cd_m2; };
+  if (count != numbers.size() || !std::all_of(numbers.begin(), numbers.end(), in_range) ||
+      !(out.grey_cd_m2 >= limits::min_exposure_cd_m2) || !(out.white_cd_m2 >= out.grey_cd_m2))
+    return problem(
+        "--exposure takes GREY,WHITE,SIGN in cd/m2, as in 0.84,12,75, with grey above 0 "
+        "and white not below it, not \"" +
+        text + "\"");
+  return out;
+}
 
 Result<void> read_sight(const std::vector<std::string>& sight, HumanTone& human) {
   if (sight.empty()) return {};
@@ -89,6 +128,11 @@ Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture
     const auto error = parse_share(choices.error);
     if (!error) return of_option("--picture-error", error.problem());
     picture.target_error = error.value();
+  }
+  if (!choices.exposure.empty()) {
+    const auto exposure = parse_exposure(choices.exposure);
+    if (!exposure) return exposure.problem();
+    picture.exposure = exposure.value();
   }
   picture.human.monitor = choices.monitor;
   if (auto read = read_sight(choices.sight, picture.human); !read) return read.problem();
@@ -121,6 +165,8 @@ void tell_rendered(const RenderedViews& rendered) {
   } else if (rendered.paths > 0) {
     log_info("pictures: {}{}", paths_text(rendered.paths), error_text(rendered.relative_error));
   }
+  for (const auto& [name, exposure] : rendered.exposures)
+    log_info("exposure of \"{}\": {}", name, text_of(exposure));
 }
 
 OutputPlan plan_of_views(const SceneDescription& scene) {
@@ -142,4 +188,6 @@ Result<ExitCode> render_aloud(const std::filesystem::path& folder, const LocalRu
   return rendered->interrupted ? ExitCode::interrupted : ExitCode::success;
 }
 
-}  // namespace luxodus::cli
+}  // namespace cli
+
+}  // namespace luxodus

@@ -18,6 +18,7 @@ namespace luxodus::cli {
 struct PictureChoices {
   std::optional<uint64_t> paths;
   std::string time, error;
+  std::string exposure;
   MonitorModel monitor;
   std::vector<std::string> sight;  // limits to apply; empty: all
 };
@@ -28,8 +29,8 @@ std::vector<Option> options_of(PictureChoices& choices, const char* paths_name);
 /// Without a number of paths, only the time or the error in `picture` ends it.
 void limit_paths(const std::optional<uint64_t>& paths, PictureOptions& picture);
 /// Reads the choices into `picture`, with limit_paths.
-/// Errors: an invalid time or share, or one that is not above 0; a monitor whose white is not above
-/// its black; limits of sight that exclude each other.
+/// Errors: an invalid time, share or exposure, or one that is not above 0; a monitor whose white is
+/// not above its black; limits of sight that exclude each other.
 Result<void> read_choices(const PictureChoices& choices, PictureOptions& picture);
 
 /// "34 %, 12 paths, error 18 %, about 40 s left".

@@ -50,6 +50,7 @@ struct PictureOptions {
   /// PNG files show traced instead of filtered light. All pixels then have the same number of
   /// paths; otherwise some are allocated where the filter leaves most error (even_paths).
   bool raw = false;
+  std::optional<Exposure> exposure;  // of plain pictures; nothing: each has its own
   HumanTone human;  // monitor and limits of sight of human views; angles are those of each camera
   /// When set, the current work ends within a pixel, and incomplete pictures are not written. Null:
   /// no interruption.
@@ -185,6 +186,8 @@ struct RenderedViews {
   bool interrupted = false;   // ended before all requested paths
   int paths = 0;              // per pixel, of the picture with the fewest
   double relative_error = 0;  // of the worst picture as PNG files show it; NaN: not known
+  /// Names of the cameras whose pictures were written, and the exposures of these.
+  std::vector<std::pair<std::string, Exposure>> exposures;
 };
 
 /// Traces every camera, or the one named `only_view`, and writes into folder/views (made if

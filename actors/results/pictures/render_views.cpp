@@ -86,6 +86,7 @@ struct GrowingView {
   std::filesystem::path stem;
   std::optional<ShownView> shown;  // kept until it is written
   int shown_paths = 0, written_paths = 0;
+  std::optional<Exposure> exposure;                         // of the last written picture
   double error = std::numeric_limits<double>::quiet_NaN();  // of the last shown picture
 };
 
@@ -144,6 +145,11 @@ class GrowingViews {
     return worst;
   }
   double seconds() const { return watch_.seconds(); }
+  /// Of the pictures that were written.
+  void add_exposures(std::vector<std::pair<std::string, Exposure>>& out) const {
+    for (const GrowingView& view : views_)
+      if (view.exposure) out.emplace_back(view.camera.name, *view.exposure);
+  }
 
  private:
   Result<void> show_first() {
@@ -298,6 +304,7 @@ class GrowingViews {
                  [&] { return write_one; });
     for (GrowingView* const view : shown) {
       view->written_paths = view->shown_paths;
+      view->exposure = shown_exposure(run_, view->camera, *view->shown);
       view->shown.reset();
     }
     return outcome;
@@ -413,6 +420,7 @@ Result<RenderedViews> render_views(const std::filesystem::path& folder, const Lo
     GrowingViews growing(run, options, flux, seconds * pixels / left, tell);
     for (const size_t view : group) growing.add(view, folder / "views" / names[view]);
     if (auto ok = growing.grow(once_after_first); !ok) return ok.problem();
+    growing.add_exposures(rendered.exposures);
     rendered.paths = std::min(rendered.paths, growing.paths());
     if (!(growing.error() <= rendered.relative_error)) rendered.relative_error = growing.error();
     rendered.interrupted = growing.interrupted();

@@ -252,10 +252,10 @@ PngImage human_png(const LocalRun& run, const Camera& camera, const XyzPicture& 
 }
 
 PngImage plain_png(const LocalRun& run, const Camera& camera, const XyzPicture& balanced,
-                   double sign_cd_m2) {
-  PlainTone tone;
-  tone.sign_cd_m2 = sign_cd_m2;
-  return png_of(tone_plain(balanced, tone), texts_of(run, camera),
+                   const Exposure& exposure) {
+  std::vector<ImageText> texts = texts_of(run, camera);
+  texts.emplace_back("Exposure", text_of(exposure));
+  return png_of(tone_plain(balanced, exposure.curve()), texts,
                 "One exposure, white balanced, as a camera takes it; luminance data is in the EXR "
                 "file");
 }
@@ -284,9 +284,17 @@ XyzPicture enlarged(const XyzPicture& half, int width, int height) {
 
 }  // namespace
 
+std::string text_of(const Exposure& exposure) {
+  return fmt::format("{:.4g},{:.4g},{:.4g}", exposure.grey_cd_m2, exposure.white_cd_m2,
+                     exposure.sign_cd_m2);
+}
+
 ShownView::ShownView(TracedPicture picture, int paths_per_pixel, const PictureOptions& options,
                      int threads, const RegressionFilter& filter)
-    : traced(std::move(picture)), paths(paths_per_pixel), human(options.human) {
+    : traced(std::move(picture)),
+      paths(paths_per_pixel),
+      human(options.human),
+      exposure(options.exposure) {
   if (paths >= min_filtered_paths) filtered = filter_traced(traced, threads, filter);
   raw = options.raw || !filtered;
 }
@@ -298,19 +306,27 @@ double ShownView::error() const {
 
 namespace {
 
+/// Luminance of the brightest face of a sign that a view shows [cd/m2].
+double sign_in(const LocalRun& run, const Camera& camera, const ShownView& view) {
+  return brightest_face(view.shown(), signs_in_view(run.scene(), camera, view.traced.noisy));
+}
+
 /// `light`: what `view` shows, of the camera's size.
 PngImage image_of(bool human, const LocalRun& run, const Camera& camera, const ShownView& view,
                   const XyzPicture& light) {
   const XyzPicture balanced = white_balanced(run.scene(), light);
-  const auto signs = signs_in_view(run.scene(), camera, view.traced.noisy);
-  const double sign_cd_m2 = brightest_face(view.shown(), signs);
-  if (!human) return plain_png(run, camera, balanced, sign_cd_m2);
+  if (!human) return plain_png(run, camera, balanced, shown_exposure(run, camera, view));
   HumanTone tone = view.human;
-  tone.sign_cd_m2 = sign_cd_m2;
+  tone.sign_cd_m2 = sign_in(run, camera, view);
   return human_png(run, camera, balanced, tone);
 }
 
 }  // namespace
+
+Exposure shown_exposure(const LocalRun& run, const Camera& camera, const ShownView& view) {
+  if (view.exposure) return *view.exposure;
+  return exposure_of(white_balanced(run.scene(), view.shown()), sign_in(run, camera, view));
+}
 
 PngImage shown_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& view) {
   return image_of(human, run, camera, view, view.shown());

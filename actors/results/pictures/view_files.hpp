@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "actors/results/pictures/pictures.hpp"
 #include "scenes/formats/images/write_image.hpp"
@@ -26,7 +27,12 @@ struct ShownView {
   std::optional<FilteredView> filtered;  // empty if there are too few paths
   bool raw;
   HumanTone human;
+  std::optional<Exposure> exposure;  // of PNG files; nothing: the picture's own
 };
+
+/// "0.84,12,75": middle grey, white and the brightest sign [cd/m2], as `--exposure` takes them. The
+/// text "Exposure" of plain PNG files.
+std::string text_of(const Exposure& exposure);
 
 /// In the order of `view_endings`.
 enum class ViewFile : uint8_t { light, plain, human, luminance };
@@ -36,6 +42,9 @@ inline constexpr size_t view_file_count = 4;
 /// too large is omitted (is_mapped). Errors: as write_exr and write_png.
 Result<void> write_view_file(const std::filesystem::path& stem, ViewFile file, const LocalRun& run,
                              const Camera& camera, const ShownView& view);
+
+/// The exposure of the plain PNG file.
+Exposure shown_exposure(const LocalRun& run, const Camera& camera, const ShownView& view);
 
 /// The pixels of PNG files, as seen by a camera or by an eye.
 PngImage shown_image(bool human, const LocalRun& run, const Camera& camera, const ShownView& view);

@@ -67,23 +67,6 @@ double white_of(std::vector<double> values) {
   return values[rank];
 }
 
-CameraCurve curve_of(const XyzPicture& picture, const PlainTone& tone) {
-  if (tone.white_cd_m2 && *tone.white_cd_m2 > 0) return linear_to(*tone.white_cd_m2);
-  double log_sum = 0, shown_sum = 0;
-  std::vector<double> lit;
-  for (size_t i = 0; i < picture.pixels(); ++i) {
-    const Pixel p = pixel(picture, i);
-    if (p.luminance <= darkest_cd_m2) continue;
-    log_sum += std::log(p.luminance);
-    shown_sum += brightest_shown(p.xyz);
-    lit.push_back(p.luminance);
-  }
-  if (lit.empty()) return {};
-  const auto count = static_cast<double>(lit.size());
-  const double factor = tone.key * (shown_sum / count) / std::exp(log_sum / count);
-  return camera_curve(factor, white_of(std::move(lit)), tone.sign_cd_m2);
-}
-
 // ---- human --------------------------------------------------------------------------------------
 
 constexpr int histogram_bins = 100;       // Ward Larson et al. 1997
@@ -294,12 +277,6 @@ double CameraCurve::shown(double cd_m2) const {
   return begin + (1 - begin) * slope * t / (1 + (slope - 1) * t);
 }
 
-CameraCurve linear_to(double white_cd_m2) {
-  CameraCurve curve;
-  curve.factor = 1 / white_cd_m2;
-  return curve;
-}
-
 CameraCurve camera_curve(double factor, double white_cd_m2, double sign_cd_m2) {
   CameraCurve curve;
   curve.factor = factor;
@@ -316,8 +293,22 @@ CameraCurve camera_curve(double factor, double white_cd_m2, double sign_cd_m2) {
   return curve;
 }
 
-SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone) {
-  const CameraCurve curve = curve_of(picture, tone);
+Exposure exposure_of(const XyzPicture& picture, double sign_cd_m2) {
+  double log_sum = 0, shown_sum = 0;
+  std::vector<double> lit;
+  for (size_t i = 0; i < picture.pixels(); ++i) {
+    const Pixel p = pixel(picture, i);
+    if (p.luminance <= darkest_cd_m2) continue;
+    log_sum += std::log(p.luminance);
+    shown_sum += brightest_shown(p.xyz);
+    lit.push_back(p.luminance);
+  }
+  if (lit.empty()) return {};
+  const auto count = static_cast<double>(lit.size());
+  return {std::exp(log_sum / count) / (shown_sum / count), white_of(std::move(lit)), sign_cd_m2};
+}
+
+SrgbPicture tone_plain(const XyzPicture& picture, const CameraCurve& curve) {
   SrgbPicture out = empty_like(picture);
   for (size_t i = 0; i < picture.pixels(); ++i) {
     const Pixel p = pixel(picture, i);

@@ -15,22 +15,11 @@ namespace luxodus {
 
 // ---- plain --------------------------------------------------------------------------------------
 
-struct PlainTone {
-  /// Luminance that is shown as white [cd/m2]: the picture is linear below it and burns out above
-  /// it. Pictures with equal white can be compared. If absent, the picture's own log-average sets
-  /// the exposure.
-  std::optional<double> white_cd_m2;
-  /// Display value of the log-average luminance (middle grey), when no white is given and no sign
-  /// is much brighter.
-  double key = 0.18;
-  /// Luminance of the brightest face of a sign in the picture [cd/m2]; 0: none.
-  double sign_cd_m2 = 0;
-};
-
 /// The brightest face of a sign is shown no brighter than this, so that lamps stay brighter.
 inline constexpr double sign_level = 0.8;
 
-/// Display luminance (0 black, 1 white) of a luminance: monotone, with a continuous slope.
+/// Display luminance (0 black, 1 white) of a luminance: monotone, with a continuous slope. As it
+/// stands, a luminance of 1 is white, and all below is linear.
 struct CameraCurve {
   /// Least slope in logarithms up to the knee: a ratio r of luminances is shown as at least r to
   /// this power. Legends need 0.4; the rest is for rounding to bytes.
@@ -47,18 +36,33 @@ struct CameraCurve {
   double slope_at(double exposed) const;
 };
 
-/// Linear up to this luminance, which is white.
-CameraCurve linear_to(double white_cd_m2);
-
 /// Linear up to a knee, with a shoulder to `white_cd_m2`, if that shows a sign of this luminance at
 /// no more than sign_level. Otherwise all is compressed until it does, and the shoulder begins at
 /// the sign.
 CameraCurve camera_curve(double factor, double white_cd_m2, double sign_cd_m2);
 
+/// What a camera is set for [cd/m2]. Pictures of equal exposure can be compared.
+struct Exposure {
+  /// Display value of `grey_cd_m2` where no sign is much brighter.
+  static constexpr double middle_grey = 0.18;
+
+  double grey_cd_m2 = middle_grey;
+  double white_cd_m2 = 1;
+  double sign_cd_m2 = 0;  // brightest face of a sign; 0: none
+
+  CameraCurve curve() const {
+    return camera_curve(middle_grey / grey_cd_m2, white_cd_m2, sign_cd_m2);
+  }
+};
+
+/// The exposure for a picture whose brightest face of a sign has this luminance. Middle grey is the
+/// log-average luminance, over the largest luminance that a monitor shows of the colours in view.
+Exposure exposure_of(const XyzPicture& picture, double sign_cd_m2);
+
 /// Pixels that are not finite or not positive are black. Luminance alone decides how bright a pixel
 /// is; a colour that the monitor cannot show so bright loses saturation (display_colour).
 /// Requires: xyz.size() == 3 * width * height.
-SrgbPicture tone_plain(const XyzPicture& picture, const PlainTone& tone);
+SrgbPicture tone_plain(const XyzPicture& picture, const CameraCurve& curve);
 
 // ---- human --------------------------------------------------------------------------------------
 

@@ -137,3 +137,22 @@ albedo = 0.6
       CHECK(shown_luminance(plain, signs[0].white) < 0.85);
     }
 }
+
+TEST_CASE("pictures of equal exposure show equal luminances alike", "[display][signs]") {
+  const auto bright = traced(room_with_sign("exit_left.svg", 800, 500), 1 << 14);
+  const auto dark = traced(room_with_sign("exit_left.svg", 0.001, 500), 1 << 14);
+  const Camera& camera = bright->scene().description->cameras[0];
+  ShownView in_light = view_of(*bright, 8), in_dark = view_of(*dark, 8);
+  const auto signs = signs_in_view(bright->scene(), camera, in_light.traced.noisy);
+  const auto shown = [&](const LocalRun& run, const ShownView& view) {
+    return shown_luminance(shown_image(false, run, camera, view), signs.front().white);
+  };
+  const Exposure own = shown_exposure(*bright, camera, in_light);
+  CHECK(own.sign_cd_m2 == Approx(500).epsilon(0.4));
+  const double lit = shown(*bright, in_light);
+  in_light.exposure = in_dark.exposure = own;
+  CHECK(shown(*bright, in_light) == lit);
+  // The lamp adds a part of the sign's light in the bright room alone.
+  CHECK(shown(*dark, in_dark) < lit);
+  CHECK(shown(*dark, in_dark) > 0.8 * lit);
+}

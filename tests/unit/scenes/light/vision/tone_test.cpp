@@ -70,10 +70,16 @@ Oklab oklab_of(const std::array<double, 3>& rgb) {
           0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
 }
 
-PlainTone white_at(double cd_m2) {
-  PlainTone t;
-  t.white_cd_m2 = cd_m2;
-  return t;
+/// Linear up to this luminance, which is white.
+CameraCurve white_at(double cd_m2) {
+  CameraCurve curve;
+  curve.factor = 1 / cd_m2;
+  return curve;
+}
+
+/// The picture by its own exposure.
+SrgbPicture exposed(const XyzPicture& picture, double sign_cd_m2 = 0) {
+  return tone_plain(picture, exposure_of(picture, sign_cd_m2).curve());
 }
 
 // Luminances evenly spaced in the logarithm.
@@ -106,7 +112,7 @@ TEST_CASE("with a fixed white the picture is linear up to it and white above", "
 TEST_CASE("without a white, the log-average becomes middle grey at any light level",
           "[vision][tone]") {
   for (const double level : {1e-3, 1.0, 1e4}) {
-    const SrgbPicture p = tone_plain(row({level / 2, level, level * 2}), {});
+    const SrgbPicture p = exposed(row({level / 2, level, level * 2}));
     CHECK(luminance(at(p, 1)) == Approx(0.18).margin(0.003));
   }
 }
@@ -203,7 +209,7 @@ TEST_CASE("a flame is brighter than the wall that it lights, in the hue of fire"
   p.width = 1000;
   HumanTone eye;
   eye.glare = false;  // a row of pixels has no surroundings
-  for (const SrgbPicture& out : {tone_plain(p, {}), tone_human(p, eye)}) {
+  for (const SrgbPicture& out : {exposed(p), tone_human(p, eye)}) {
     const Rgb8 room = at(out, 0), wall = at(out, 960), flame = at(out, 990);
     CHECK(luminance(flame) > luminance(wall) + 0.02);
     CHECK(luminance(wall) > luminance(room) + 0.05);
@@ -259,9 +265,7 @@ TEST_CASE("no colour is shown brighter than one of more luminance", "[vision][to
   for (const uint64_t seed : {1u, 2u, 3u}) {
     const XyzPicture p = random_lights(1e-3, seed);
     for (const double sign : {0.0, 1.0, 500.0, 5e4}) {
-      PlainTone tone;
-      tone.sign_cd_m2 = sign;
-      CHECK(largest_inversion(tone_plain(p, tone), photopic(p)) <= 1);
+      CHECK(largest_inversion(exposed(p, sign), photopic(p)) <= 1);
     }
     CHECK(largest_inversion(tone_plain(p, white_at(100)), photopic(p)) <= 1);
   }
@@ -303,9 +307,7 @@ TEST_CASE("a legend shows at least the 0.4th power of its ratio to its ground", 
                                          row(std::vector<double>(80, level / ratio), ground)})
             p.xyz.insert(p.xyz.end(), face.xyz.begin(), face.xyz.end());
           p.width = 1000;
-          PlainTone tone;
-          tone.sign_cd_m2 = level;
-          const SrgbPicture out = tone_plain(p, tone);
+          const SrgbPicture out = exposed(p, level);
           const double shown = luminance(at(out, 910)), behind = luminance(at(out, 950));
           if (behind < 0.002) continue;  // a few code values, and bytes are rounded
           INFO("room " << room << ", legend " << level << ", ratio " << ratio << ": " << shown
@@ -322,10 +324,9 @@ TEST_CASE("the white legend of an overexposed sign is readable on its green", "[
   p.xyz.insert(p.xyz.end(), white.xyz.begin(), white.xyz.end());
   p.xyz.insert(p.xyz.end(), green.xyz.begin(), green.xyz.end());
   p.width = 1000;
-  PlainTone camera;
   HumanTone eye;
-  camera.sign_cd_m2 = eye.sign_cd_m2 = 75;
-  for (const SrgbPicture& out : {tone_plain(p, camera), tone_human(p, eye)}) {
+  eye.sign_cd_m2 = 75;
+  for (const SrgbPicture& out : {exposed(p, 75), tone_human(p, eye)}) {
     const Rgb8 legend = at(out, 910), background = at(out, 950);
     CHECK(spread(legend) <= 2);
     CHECK(spread(background) > 100);
@@ -338,14 +339,14 @@ TEST_CASE("invalid pixels are black and do not affect others", "[vision][tone]")
   p.xyz[0] = std::nanf("");
   p.xyz[4] = -1.0f;
   p.xyz[8] = INFINITY;
-  for (const SrgbPicture& out : {tone_plain(p, {}), tone_human(p, {})}) {
+  for (const SrgbPicture& out : {exposed(p), tone_human(p, {})}) {
     REQUIRE(out.rgb.size() == 12);
     CHECK(at(out, 0) == Rgb8{0, 0, 0});
     CHECK(at(out, 1) == Rgb8{0, 0, 0});
     CHECK(at(out, 2) == Rgb8{0, 0, 0});
   }
-  CHECK(luminance(at(tone_plain(p, {}), 3)) == Approx(0.18).margin(0.003));
-  CHECK(tone_plain(XyzPicture{}, {}).rgb.empty());
+  CHECK(luminance(at(exposed(p), 3)) == Approx(0.18).margin(0.003));
+  CHECK(exposed(XyzPicture{}).rgb.empty());
   CHECK(tone_human(XyzPicture{}, {}).rgb.empty());
   CHECK(at(tone_human(row({0, 0}), {}), 0) == Rgb8{0, 0, 0});
 }
