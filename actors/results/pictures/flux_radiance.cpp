@@ -28,6 +28,9 @@ constexpr double max_unknown = 0.2;
 /// Edge of a block, in voxels, whose errors are taken as fully correlated.
 constexpr uint32_t err_alike = 2;
 
+/// Relative error of a band of a patch at which its colour is half its own, half its surface's.
+constexpr double settled_band_error = 0.2;
+
 class FluxRadiance final : public RadianceCache {
  public:
   explicit FluxRadiance(const LocalRun& run)
@@ -49,6 +52,11 @@ class FluxRadiance final : public RadianceCache {
       parallel_for((count + per_row - 1) / per_row, run.threads(), [&] { return fill_row; });
     });
     if (!read) throw std::runtime_error(read.problem().text());
+    const auto settle = [&](int64_t surface) {
+      settle_colours(scene_.surfaces[static_cast<size_t>(surface)]);
+    };
+    parallel_for(static_cast<int64_t>(scene_.surfaces.size()), run.threads(),
+                 [&] { return settle; });
     for (const PhaseFunction& phase : scene_.phases)
       largest_g_ = std::max(largest_g_, static_cast<double>(std::abs(phase.mean_cosine())));
     find_cached_voxels();
@@ -356,6 +364,33 @@ class FluxRadiance final : public RadianceCache {
       }
       const Estimate out = lumens(scene_.blocks.patches, patch, 1);
       patch_errors_[patch] = out.value > 0 ? static_cast<float>(out.relative_error()) : 0.0f;
+    }
+  }
+
+  /// Gives patches with few counts the colour of their surface, at their own luminance: a particle
+  /// has one band, so the light of such a patch has a colour by chance.
+  void settle_colours(const CompiledSurface& surface) {
+    const auto luminance = [&](const auto* by_band) {
+      double sum = 0;
+      for (size_t b = 0; b < bands_; ++b)
+        sum += static_cast<double>(by_band[b]) * scene_.bands[static_cast<int>(b)].lm_per_w;
+      return sum;
+    };
+    float* const first = &table_[size_t{surface.first_patch} * bands_];
+    std::vector<double> whole(bands_);
+    for (size_t i = 0; i < surface.patches * bands_; ++i)
+      whole[i % bands_] += static_cast<double>(first[i]);
+    const double of_whole = luminance(whole.data());
+    if (!(of_whole > 0)) return;
+    for (size_t patch = 0; patch < surface.patches; ++patch) {
+      const auto relative = static_cast<double>(patch_errors_[surface.first_patch + patch]);
+      const double known =
+          1 / (1 + static_cast<double>(bands_) * std::pow(relative / settled_band_error, 2));
+      float* const of_patch = first + patch * bands_;
+      const double share = (1 - known) * luminance(of_patch) / of_whole;
+      for (size_t b = 0; b < bands_; ++b)
+        of_patch[b] =
+            static_cast<float>(known * static_cast<double>(of_patch[b]) + share * whole[b]);
     }
   }
 
