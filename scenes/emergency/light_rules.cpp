@@ -42,8 +42,11 @@ Spread spread_of(const std::vector<LitPoint>& points, const std::vector<double>&
   return spread;
 }
 
-std::vector<double> all_lit(const std::vector<LitPoint>& points) {
-  return std::vector<double>(points.empty() ? 0 : points.front().lux.size(), 1.0);
+/// Factors of the light at the judged time: 0 for a luminaire whose supply is exhausted.
+std::vector<double> lit_now(const std::vector<LitPoint>& points, const FedLuminaires& fed) {
+  std::vector<double> out(points.empty() ? 0 : points.front().lux.size(), 1.0);
+  for (size_t i = 0; i < std::min(out.size(), fed.size()); ++i) out[i] = fed[i] ? 1 : 0;
+  return out;
 }
 
 /// Factors from the flux at the end of the rated duration to that of a new luminaire.
@@ -69,11 +72,12 @@ struct LampFailure {
 };
 
 std::optional<LampFailure> worst_failure(const SceneDescription& scene,
-                                         const std::vector<LitPoint>& points) {
+                                         const std::vector<LitPoint>& points,
+                                         const FedLuminaires& fed) {
   const auto luminaires = emergency_luminaires(scene);
   std::optional<LampFailure> worst;
   for (size_t i = 0; i < luminaires.size(); ++i) {
-    std::vector<double> factors = all_lit(points);
+    std::vector<double> factors = lit_now(points, fed);
     if (i < factors.size()) factors[i] = 0;
     const Spread spread = spread_of(points, factors);
     if (!worst || spread.least < worst->spread.least)
@@ -84,8 +88,9 @@ std::optional<LampFailure> worst_failure(const SceneDescription& scene,
 
 /// Hospitals (N4, IBC group I-2): illuminance with one luminaire failed.
 Check enough_with_one_failed(const Rule& rule, const SceneDescription& scene,
-                             const Subject& subject, const std::vector<LitPoint>& points) {
-  const auto worst = worst_failure(scene, points);
+                             const Subject& subject, const std::vector<LitPoint>& points,
+                             const FedLuminaires& fed) {
+  const auto worst = worst_failure(scene, points, fed);
   if (!worst) {
     Check check = judged(rule, subject, 0);
     check.reasons = {remark(RemarkId::no_emergency_luminaire)};
@@ -98,7 +103,7 @@ Check enough_with_one_failed(const Rule& rule, const SceneDescription& scene,
 
 std::vector<Check> american_checks(const SceneDescription& scene, const Subject& subject,
                                    const Spread& centre, const std::vector<LitPoint>& points,
-                                   const CodeChoice& codes) {
+                                   const CodeChoice& codes, const FedLuminaires& fed) {
   const bool ibc = codes.has(Deviation::us_ibc);
   const auto rule = [&](RuleId nfpa, RuleId other) { return rule_of(ibc ? other : nfpa, codes); };
   const Spread first = spread_of(points, as_new(scene));
@@ -108,7 +113,7 @@ std::vector<Check> american_checks(const SceneDescription& scene, const Subject&
                          darkest_of(rule(RuleId::N2m, RuleId::I2m), subject, centre),
                          even(rule_of(RuleId::N3, codes), subject, centre)};
   if (codes.has(Deviation::us_ibc_i2))
-    out.push_back(enough_with_one_failed(rule_of(RuleId::N4, codes), scene, subject, points));
+    out.push_back(enough_with_one_failed(rule_of(RuleId::N4, codes), scene, subject, points, fed));
   return out;
 }
 
@@ -122,13 +127,13 @@ std::vector<uint32_t> emergency_luminaires(const SceneDescription& scene) {
 }
 
 Check check_of_failure(const SceneDescription& scene, const Subject& subject,
-                       const std::vector<LitPoint>& points) {
+                       const std::vector<LitPoint>& points, const FedLuminaires& fed) {
   Check check;
   check.rule = own_rule(RuleId::F1);
   check.subject = subject;
   check.unit = "lx";
   check.verdict = CheckVerdict::information;
-  const auto worst = worst_failure(scene, points);
+  const auto worst = worst_failure(scene, points, fed);
   if (!worst || points.empty()) {
     check.reasons = {
         remark(worst ? RemarkId::nowhere_to_assess : RemarkId::no_emergency_luminaire)};
@@ -160,37 +165,39 @@ RoutePoints points_of(const EscapeRoute& route) {
 }
 
 std::vector<Check> checks_of_route(const SceneDescription& scene, const EscapeRoute& route,
-                                   const RouteLight& light, const CodeChoice& codes) {
+                                   const RouteLight& light, const CodeChoice& codes,
+                                   const FedLuminaires& fed) {
   const Subject subject = subject_of(route);
-  const Spread centre = spread_of(light.centre, all_lit(light.centre));
+  const Spread centre = spread_of(light.centre, lit_now(light.centre, fed));
   std::vector<Check> out;
   const auto rule = [&](RuleId id) { return rule_of(id, codes); };
   if (codes.set == RuleSet::en1838_2013) {
     out.push_back(darkest_of(rule(RuleId::E1), subject, centre));
     out.push_back(
-        darkest_of(rule(RuleId::E2), subject, spread_of(light.band, all_lit(light.band))));
+        darkest_of(rule(RuleId::E2), subject, spread_of(light.band, lit_now(light.band, fed))));
   }
   if (codes.set == RuleSet::en1838_2024)
     out.push_back(
-        darkest_of(rule(RuleId::E5), subject, spread_of(light.inner, all_lit(light.inner))));
+        darkest_of(rule(RuleId::E5), subject, spread_of(light.inner, lit_now(light.inner, fed))));
   if (codes.european())
     out.push_back(even(rule(RuleId::E4), subject, centre));
   else
-    out = american_checks(scene, subject, centre, light.centre, codes);
+    out = american_checks(scene, subject, centre, light.centre, codes, fed);
   for (Check& check : checks_of_onset(scene, subject, light.centre, limit_of(RuleId::E1), codes))
     out.push_back(std::move(check));
   return out;
 }
 
 std::vector<Check> checks_of_open_area(const SceneDescription& scene, const AssessedArea& area,
-                                       const std::vector<LitPoint>& core, const CodeChoice& codes) {
+                                       const std::vector<LitPoint>& core, const CodeChoice& codes,
+                                       const FedLuminaires& fed) {
   const Subject subject{SubjectKind::open_area, area.name};
   if (!codes.european())
     return {
         not_assessed(rule_of(RuleId::N1, codes), subject, remark(RemarkId::routes_alone_judged))};
   const auto rule = [&](RuleId id) { return rule_of(id, codes); };
   if (core.empty()) return {not_assessed(rule(RuleId::E6), subject, remark(RemarkId::no_core))};
-  const Spread spread = spread_of(core, all_lit(core));
+  const Spread spread = spread_of(core, lit_now(core, fed));
   std::vector<Check> out{darkest_of(rule(RuleId::E6), subject, spread),
                          even(rule(RuleId::E6d), subject, spread)};
   if (codes.has(Deviation::uk_bs_5266))
@@ -201,13 +208,13 @@ std::vector<Check> checks_of_open_area(const SceneDescription& scene, const Asse
 }
 
 std::vector<Check> checks_of_task_area(const SceneDescription& scene, const AssessedArea& area,
-                                       const std::vector<LitPoint>& plane,
-                                       const CodeChoice& codes) {
+                                       const std::vector<LitPoint>& plane, const CodeChoice& codes,
+                                       const FedLuminaires& fed) {
   const Subject subject{SubjectKind::task_area, area.name};
   if (!codes.european())
     return {
         not_assessed(rule_of(RuleId::N1, codes), subject, remark(RemarkId::routes_alone_judged))};
-  const Spread spread = spread_of(plane, all_lit(plane));
+  const Spread spread = spread_of(plane, lit_now(plane, fed));
   const double limit = std::max(limit_of(RuleId::E7), task_share * area.mains_lx);
   std::vector<Check> out{
       judged(rule_of(RuleId::E7, codes), subject, spread.least, Limit{limit}, spread.darkest),

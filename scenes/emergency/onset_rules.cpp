@@ -16,12 +16,13 @@ using namespace rule_limit;
 
 namespace {
 
-/// Share of its flux that each luminaire gives after this time; 0 without a stated onset.
+/// Share of its flux that each luminaire gives after this time: 0 without a stated onset, and once
+/// its supply is exhausted.
 std::vector<double> shares_after(const SceneDescription& scene, double seconds) {
   std::vector<double> out;
   for (const uint32_t number : emergency_luminaires(scene)) {
-    const auto& onset = scene.emitters[number].onset;
-    out.push_back(onset.empty() ? 0 : onset_share(onset, seconds));
+    const Emitter& e = scene.emitters[number];
+    out.push_back(e.onset.empty() ? 0 : emergency_share(e, seconds));
   }
   return out;
 }
@@ -98,25 +99,45 @@ namespace {
 struct SupplyHours {
   size_t said = 0, unsaid = 0;
   double shortest = std::numeric_limits<double>::infinity();
+  std::string name;  // whose supply is the shortest
 
-  void take(const std::optional<double>& duration_s) {
+  void take(const std::optional<double>& duration_s, const std::string& whose) {
     constexpr double hour_s = 3600;
     ++(duration_s ? said : unsaid);
-    if (duration_s) shortest = std::min(shortest, *duration_s / hour_s);
+    if (!duration_s || *duration_s / hour_s >= shortest) return;
+    shortest = *duration_s / hour_s;
+    name = whose;
   }
 };
 
 SupplyHours supply_of(const SceneDescription& scene) {
   SupplyHours out;
   for (const Emitter& e : scene.emitters)
-    if (e.emergency_flux > 0) out.take(e.duration_s);
+    if (e.emergency_flux > 0) out.take(e.duration_s, e.name);
   for (const Sign& sign : scene.signs)
     if (sign.lighting == SignLighting::internal && sign.emergency.white_cd_m2 > 0)
-      out.take(sign.duration_s);
+      out.take(sign.duration_s, sign.name);
   return out;
 }
 
 }  // namespace
+
+Check check_of_duration(const SceneDescription& scene, const CodeChoice& codes) {
+  const RuleId id = duration_rule(codes);
+  const Subject all{SubjectKind::all_luminaires_and_signs};
+  const SupplyHours supply = supply_of(scene);
+  if (supply.said > 0 && (supply.unsaid == 0 || supply.shortest < limit_of(id))) {
+    Check check = judged(rule_of(id, codes), all, supply.shortest);
+    check.reasons.push_back(remark(RemarkId::shortest_supply, supply.name));
+    return check;
+  }
+  Check check = not_assessed(
+      rule_of(id, codes), all,
+      remark(supply.said == 0 ? RemarkId::no_duration : RemarkId::some_durations_unsaid));
+  check.limit = limit_of(id);
+  check.unit = row_of(id).unit;
+  return check;
+}
 
 std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice& codes) {
   std::vector<Check> out;
@@ -124,16 +145,6 @@ std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice
     out.push_back(not_assessed(rule_of(id, codes), {subject}, remark(reason)));
   };
   constexpr SubjectKind all = SubjectKind::all_luminaires_and_signs;
-  const auto add_duration = [&](RuleId id) {
-    const SupplyHours supply = supply_of(scene);
-    if (supply.said > 0 && supply.unsaid == 0) {
-      out.push_back(judged(rule_of(id, codes), {all}, supply.shortest));
-      return;
-    }
-    add(id, all, supply.said == 0 ? RemarkId::no_duration : RemarkId::some_durations_unsaid);
-    out.back().limit = limit_of(id);
-    out.back().unit = row_of(id).unit;
-  };
   if (scene.routes.empty())
     add(codes.european() ? (codes.set == RuleSet::en1838_2013 ? RuleId::E1 : RuleId::E5)
                          : RuleId::N1,
@@ -143,7 +154,6 @@ std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice
   const bool unsaid = none_states(scene);
   if (!codes.european()) {
     if (unsaid) add(RuleId::N5, SubjectKind::all_luminaires, RemarkId::no_onset);
-    add_duration(duration_rule(codes));
     return out;
   }
   add(RuleId::E9, all, RemarkId::spectrum_rough);
@@ -151,7 +161,6 @@ std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice
   if (unsaid && codes.has(Deviation::de_asr))
     add(RuleId::E10g, SubjectKind::all_luminaires, RemarkId::no_onset);
   add(RuleId::E10, SubjectKind::all_signs, RemarkId::sign_onset_unsaid);
-  add_duration(duration_rule(codes));
   add(RuleId::S8, all, RemarkId::colour_boxes_unknown);
   return out;
 }

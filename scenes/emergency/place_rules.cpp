@@ -228,12 +228,13 @@ std::vector<EmphasisPoint> emphasis_of(const SceneDescription& scene) {
 }
 
 Check luminaire_near(const Rule& rule, const SceneDescription& scene, const Subject& subject,
-                     const glm::dvec3& place, bool above, const LinesOfSight& seen) {
+                     const glm::dvec3& place, bool above, const LinesOfSight& seen,
+                     const FedLuminaires& fed) {
   constexpr double none = std::numeric_limits<double>::infinity();
   struct Near {
     double distance_m = none;
     std::string name;
-  } open, hidden, upstairs;
+  } open, hidden, upstairs, exhausted;
   const auto floor = floor_below(scene, place);
   const auto luminaires = emergency_luminaires(scene);
   for (size_t i = 0; i < luminaires.size(); ++i) {
@@ -241,19 +242,25 @@ Check luminaire_near(const Rule& rule, const SceneDescription& scene, const Subj
     const double distance = in_plan(e.frame.origin, place);
     const auto its_floor = floor_below(scene, e.frame.origin);
     const bool here = !floor || !its_floor || std::abs(*floor - *its_floor) < storey_m;
-    Near& nearest = !here ? upstairs : seen.empty() || seen[i] ? open : hidden;
+    Near& nearest = !here                        ? upstairs
+                    : !(fed.empty() || fed[i])   ? exhausted
+                    : !(seen.empty() || seen[i]) ? hidden
+                                                 : open;
     if ((!above || e.frame.origin.z >= place.z) && distance < nearest.distance_m)
       nearest = {distance, e.name};
   }
   Check check = judged(rule, subject, open.distance_m, place);
   if (!open.name.empty())
     check.reasons = {remark(RemarkId::nearest_luminaire, open.name)};
-  else if (hidden.name.empty() && upstairs.name.empty())
+  else if (hidden.name.empty() && upstairs.name.empty() && exhausted.name.empty())
     check.reasons = {remark(above ? RemarkId::none_above : RemarkId::none_there)};
   else
     check.reasons = {remark(above ? RemarkId::none_above_in_sight : RemarkId::none_in_sight)};
   if (hidden.distance_m < open.distance_m)
     check.reasons.push_back(remark(RemarkId::behind_something, hidden.name, hidden.distance_m));
+  if (exhausted.distance_m < open.distance_m)
+    check.reasons.push_back(
+        remark(RemarkId::supply_exhausted, exhausted.name, exhausted.distance_m));
   if (upstairs.distance_m < std::min(open.distance_m, limit_of(rule.id)))
     check.reasons.push_back(remark(RemarkId::other_storey, upstairs.name, upstairs.distance_m));
   return check;
@@ -261,11 +268,11 @@ Check luminaire_near(const Rule& rule, const SceneDescription& scene, const Subj
 
 std::vector<Check> checks_of_emphasis(const SceneDescription& scene, const EmphasisPoint& point,
                                       const LinesOfSight& seen, std::optional<double> vertical_lx,
-                                      const CodeChoice& codes) {
+                                      const CodeChoice& codes, const FedLuminaires& fed) {
   if (!codes.european()) return {};
   const Subject subject = subject_of(point);
   std::vector<Check> out = {
-      luminaire_near(rule_of(RuleId::E12, codes), scene, subject, point.position, true, seen)};
+      luminaire_near(rule_of(RuleId::E12, codes), scene, subject, point.position, true, seen, fed)};
   if (!is_equipment(point.kind)) return out;
   out.push_back(
       vertical_lx

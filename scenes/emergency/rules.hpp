@@ -33,6 +33,10 @@ std::vector<uint32_t> emergency_luminaires(const SceneDescription& scene);
 /// empty, all lines count as free.
 using LinesOfSight = std::vector<bool>;
 
+/// For each emergency luminaire, whether its supply still feeds it at the judged time. If empty,
+/// all are fed.
+using FedLuminaires = std::vector<bool>;
+
 /// Height of the floor below a thing [m]. If empty, the nearest route or area below counts as the
 /// floor.
 using FloorUnder = std::function<std::optional<double>(const glm::dvec3&)>;
@@ -52,15 +56,18 @@ struct RouteLight {
 };
 
 std::vector<Check> checks_of_route(const SceneDescription& scene, const EscapeRoute& route,
-                                   const RouteLight& light, const CodeChoice& codes);
+                                   const RouteLight& light, const CodeChoice& codes,
+                                   const FedLuminaires& fed = {});
 std::vector<Check> checks_of_open_area(const SceneDescription& scene, const AssessedArea& area,
-                                       const std::vector<LitPoint>& core, const CodeChoice& codes);
+                                       const std::vector<LitPoint>& core, const CodeChoice& codes,
+                                       const FedLuminaires& fed = {});
 std::vector<Check> checks_of_task_area(const SceneDescription& scene, const AssessedArea& area,
-                                       const std::vector<LitPoint>& plane, const CodeChoice& codes);
+                                       const std::vector<LitPoint>& plane, const CodeChoice& codes,
+                                       const FedLuminaires& fed = {});
 /// Smallest illuminance if one luminaire fails, for the worst such luminaire. Information: no code
 /// asks for it.
 Check check_of_failure(const SceneDescription& scene, const Subject& subject,
-                       const std::vector<LitPoint>& points);
+                       const std::vector<LitPoint>& points, const FedLuminaires& fed = {});
 /// Disability glare of luminaires by their intensity at the highest emergency flux.
 std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoice& codes,
                                    const FloorUnder& floor_under = {});
@@ -71,20 +78,22 @@ std::vector<Check> checks_of_height(const SceneDescription& scene, const CodeCho
 /// Points of emphasis that the scene names, and the bends of its routes.
 std::vector<EmphasisPoint> emphasis_of(const SceneDescription& scene);
 /// Distance in plan from a place to the nearest emergency luminaire that is on the same storey, in
-/// sight, shines there, and with `above` hangs higher than the place. A luminaire that is nearer
-/// but fails one of these is named in the check.
+/// sight, fed, shines there, and with `above` hangs higher than the place. A luminaire that is
+/// nearer but fails one of these is named in the check.
 Check luminaire_near(const Rule& rule, const SceneDescription& scene, const Subject& subject,
-                     const glm::dvec3& place, bool above, const LinesOfSight& seen);
+                     const glm::dvec3& place, bool above, const LinesOfSight& seen,
+                     const FedLuminaires& fed = {});
 /// `vertical_lx`: illuminance on the front of equipment; none if the scene states no facing.
 std::vector<Check> checks_of_emphasis(const SceneDescription& scene, const EmphasisPoint& point,
                                       const LinesOfSight& seen, std::optional<double> vertical_lx,
-                                      const CodeChoice& codes);
+                                      const CodeChoice& codes, const FedLuminaires& fed = {});
 
 /// Checks of one sign. `face_lx`: mean direct illuminance on an externally lit face in emergency
 /// operation. `seen`: lines of sight from its face.
 std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sign, double face_lx,
                                   const LinesOfSight& seen, const CodeChoice& codes,
-                                  const FloorUnder& floor_under = {});
+                                  const FloorUnder& floor_under = {},
+                                  const FedLuminaires& fed = {});
 
 /// A sign that a walker on a route can see along a free line.
 struct ClearSign {
@@ -100,9 +109,9 @@ std::vector<Check> checks_of_distance(const SceneDescription& scene, const Escap
                                       const CodeChoice& codes);
 
 /// Whether the required illuminance `demanded_lx` on a route or in an area is reached in time, by
-/// the onset of each luminaire. A luminaire without `onset` counts as dark: if the others give
-/// enough light the check passes, else it is not assessed. No checks if no luminaire states an
-/// onset.
+/// the onset of each luminaire, whose supply may be exhausted by then. A luminaire without `onset`
+/// counts as dark: if the others give enough light the check passes, else it is not assessed. No
+/// checks if no luminaire states an onset.
 std::vector<Check> checks_of_onset(const SceneDescription& scene, const Subject& subject,
                                    const std::vector<LitPoint>& points, double demanded_lx,
                                    const CodeChoice& codes);
@@ -110,6 +119,12 @@ std::vector<Check> checks_of_onset(const SceneDescription& scene, const Subject&
 std::vector<Check> checks_of_task_onset(const SceneDescription& scene, const Subject& subject,
                                         const std::vector<LitPoint>& plane, double demanded_lx,
                                         const CodeChoice& codes);
+
+/// Whether every stated duration of a supply is as long as the code requires. One that is shorter
+/// fails, whatever the others state; if none is shorter and some are not stated, it is not
+/// assessed. Requires: `scene` as stated, since a circuit that is switched off does not lengthen a
+/// supply.
+Check check_of_duration(const SceneDescription& scene, const CodeChoice& codes);
 
 /// Rules of the chosen codes for which the scene states too little, each once.
 std::vector<Check> checks_beyond(const SceneDescription& scene, const CodeChoice& codes);

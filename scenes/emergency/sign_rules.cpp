@@ -139,7 +139,8 @@ Check reflected_contrast(const Sign& sign, const Subject& subject, const CodeCho
 
 std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
                              const Subject& subject, double lux, const LinesOfSight& seen,
-                             const FloorUnder& floor_under, const CodeChoice& codes) {
+                             const FloorUnder& floor_under, const FedLuminaires& fed,
+                             const CodeChoice& codes) {
   std::vector<Check> out;
   if (sign.lighting == SignLighting::internal) {
     out.push_back(smallest_green(scene, sign, subject, codes));
@@ -159,7 +160,7 @@ std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
   }
   if (sign.lighting == SignLighting::external)
     out.push_back(luminaire_near(rule_of(RuleId::S6l, codes), scene, subject, sign.frame.origin,
-                                 false, seen));
+                                 false, seen, fed));
   for (Check& check : mounting(scene, sign, subject, floor_under, codes))
     out.push_back(std::move(check));
   return out;
@@ -169,10 +170,10 @@ std::vector<Check> en_checks(const SceneDescription& scene, const Sign& sign,
 
 std::vector<Check> checks_of_sign(const SceneDescription& scene, const Sign& sign, double lux,
                                   const LinesOfSight& seen, const CodeChoice& codes,
-                                  const FloorUnder& floor_under) {
+                                  const FloorUnder& floor_under, const FedLuminaires& fed) {
   const Subject subject = subject_of(sign);
   std::vector<Check> out;
-  if (codes.european()) return en_checks(scene, sign, subject, lux, seen, floor_under, codes);
+  if (codes.european()) return en_checks(scene, sign, subject, lux, seen, floor_under, fed, codes);
   if (sign.lighting == SignLighting::external)
     out.push_back(judged(rule_of(RuleId::N6, codes), subject, lux, sign.frame.origin));
   if (sign.letters) {

@@ -1,9 +1,11 @@
 #include "actors/judge/assess/code_light.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "actors/judge/inspect/site.hpp"
+#include "scenes/light/signs/onset.hpp"
 #include "scenes/light/transport/compile_light.hpp"
 #include "scenes/light/transport/surroundings.hpp"
 #include "scenes/light/world/design.hpp"
@@ -45,26 +47,50 @@ DirectOptions clear_air() {
   return options;
 }
 
+/// Changes the emergency light of every luminaire and sign, and of the types of a design.
+void change_emergency_light(SceneDescription& scene, const std::function<void(Emitter&)>& luminaire,
+                            const std::function<void(Sign&)>& sign) {
+  const auto change_sign = [&](Sign& one) {
+    if (one.lighting == SignLighting::internal) sign(one);
+  };
+  for (Emitter& e : scene.emitters) luminaire(e);
+  for (Sign& one : scene.signs) change_sign(one);
+  if (!scene.design) return;
+  DesignSettings design = *scene.design;
+  for (DesignType& type : design.types) luminaire(type.emitter);
+  for (DesignSignType& type : design.sign_types) change_sign(type.sign);
+  scene.design = std::make_shared<const DesignSettings>(std::move(design));
+}
+
 }  // namespace
 
-SceneDescription as_switched(const SceneDescription& scene, const Scenario& state) {
+SceneDescription after_circuits(const SceneDescription& scene, const Scenario& state) {
   SceneDescription out = scene;
   if (state.operation == Operation::mains) return out;
   const auto factor = [&](const std::string& circuit) {
     return std::min(1.0, factor_of(state.circuits, circuit, 1));
   };
-  const auto switch_sign = [&](Sign& sign) {
-    if (sign.lighting != SignLighting::internal) return;
-    sign.emergency.white_cd_m2 *= factor(sign.circuit);
-    sign.emergency.green_cd_m2 *= factor(sign.circuit);
-  };
-  for (Emitter& e : out.emitters) e.emergency_flux *= factor(e.circuit);
-  for (Sign& sign : out.signs) switch_sign(sign);
-  if (!scene.design) return out;
-  DesignSettings design = *scene.design;
-  for (DesignType& type : design.types) type.emitter.emergency_flux *= factor(type.emitter.circuit);
-  for (DesignSignType& type : design.sign_types) switch_sign(type.sign);
-  out.design = std::make_shared<const DesignSettings>(std::move(design));
+  change_emergency_light(
+      out, [&](Emitter& e) { e.emergency_flux *= factor(e.circuit); },
+      [&](Sign& sign) {
+        sign.emergency.white_cd_m2 *= factor(sign.circuit);
+        sign.emergency.green_cd_m2 *= factor(sign.circuit);
+      });
+  return out;
+}
+
+SceneDescription as_switched(const SceneDescription& scene, const Scenario& state) {
+  SceneDescription out = after_circuits(scene, state);
+  if (state.operation == Operation::mains || !state.says_seconds) return out;
+  const double seconds = state.seconds_after_failure;
+  change_emergency_light(
+      out,
+      [&](Emitter& e) {
+        if (is_exhausted(e.duration_s, seconds)) e.emergency_flux = 0;
+      },
+      [&](Sign& sign) {
+        if (is_exhausted(sign.duration_s, seconds)) sign.emergency = {};
+      });
   return out;
 }
 

@@ -15,7 +15,11 @@
 namespace luxodus {
 
 /// The scene with emergency fluxes and luminances of signs after the circuits of the judged state,
-/// never above the stated values: a luminaire that the state switches off lights no check.
+/// never above the stated values: a luminaire that the state switches off lights no check. Supplies
+/// last for ever.
+SceneDescription after_circuits(const SceneDescription& scene, const Scenario& state);
+
+/// The same at the judged time: what its supply no longer feeds is dark, too.
 SceneDescription as_switched(const SceneDescription& scene, const Scenario& state);
 
 /// The building for the codes: no media, emergency luminaires only.

@@ -1,7 +1,6 @@
 #include "actors/judge/assess/code_mode.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "actors/judge/assess/clear_signs.hpp"
 #include "actors/judge/assess/code_light.hpp"
@@ -22,9 +21,14 @@ void add_condition(std::vector<Check>& checks, const Remark& condition) {
 
 class CodeMode {
  public:
-  CodeMode(const SceneDescription& scene, const Building& building,
+  /// `scene`: after the circuits of the judged state; `now`: at its time, too. Requires: all
+  /// outlive this.
+  CodeMode(const SceneDescription& scene, const SceneDescription& now, const Building& building,
            const std::vector<CodeChoice>& codes)
-      : scene_(scene), building_(building), codes_(codes), light_(scene, building) {}
+      : scene_(scene), now_(now), building_(building), codes_(codes), light_(scene, building) {
+    for (const uint32_t number : emergency_luminaires(scene))
+      fed_.push_back(now.emitters[number].emergency_flux > 0);
+  }
 
   /// Checks that furniture may change.
   std::vector<Check> checks_by_light() const;
@@ -40,15 +44,21 @@ class CodeMode {
       const std::function<std::vector<Check>(const std::vector<LitPoint>&, const CodeChoice&)>&
           checks) const;
 
+  /// Illuminance at the judged time.
+  double sum_of(const std::vector<double>& lux) const {
+    double sum = 0;
+    for (size_t i = 0; i < lux.size(); ++i) sum += fed_[i] ? lux[i] : 0;
+    return sum;
+  }
+
+  // Light is that of luminaires whose supplies last; rules heed the time for which they do.
   const SceneDescription& scene_;
+  const SceneDescription& now_;
   const Building& building_;
   const std::vector<CodeChoice>& codes_;
   CodeLight light_;
+  FedLuminaires fed_;
 };
-
-double sum_of(const std::vector<double>& lux) {
-  return std::accumulate(lux.begin(), lux.end(), 0.0);
-}
 
 std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
   const RoutePoints points = points_of(route);
@@ -58,13 +68,13 @@ std::vector<Check> CodeMode::of_route(const EscapeRoute& route) const {
   light.band = light_.lit(points.band, up, floor_plane_m);
   light.inner = light_.lit(points.inner, up, floor_plane_m);
   const auto people = walkers(route, scene_.assessment.spacing_m);
-  const auto clear = clear_signs(scene_, building_, people);
+  const auto clear = clear_signs(now_, building_, people);
   std::vector<Check> out;
   for (const CodeChoice& codes : codes_) {
-    append(out, checks_of_route(scene_, route, light, codes));
-    append(out, checks_of_distance(scene_, route, people, clear, codes));
+    append(out, checks_of_route(scene_, route, light, codes, fed_));
+    append(out, checks_of_distance(now_, route, people, clear, codes));
   }
-  out.push_back(check_of_failure(scene_, subject_of(route), light.centre));
+  out.push_back(check_of_failure(scene_, subject_of(route), light.centre, fed_));
   return out;
 }
 
@@ -92,23 +102,23 @@ std::vector<Check> CodeMode::checks_by_light() const {
   };
   for (const EscapeRoute& route : scene_.routes) append(out, of_route(route));
   for (const AssessedArea& area : scene_.open_areas)
-    append(
-        out, of_area(area, 0.5, [&](const auto& core, const CodeChoice& codes) {
-          auto checks = checks_of_open_area(scene_, area, core, codes);
-          if (&codes == &codes_.front())
-            checks.push_back(check_of_failure(scene_, {SubjectKind::open_area, area.name}, core));
-          return checks;
-        }));
+    append(out, of_area(area, 0.5, [&](const auto& core, const CodeChoice& codes) {
+             auto checks = checks_of_open_area(scene_, area, core, codes, fed_);
+             if (&codes == &codes_.front())
+               checks.push_back(
+                   check_of_failure(scene_, {SubjectKind::open_area, area.name}, core, fed_));
+             return checks;
+           }));
   for (const AssessedArea& area : scene_.task_areas)
     append(out, of_area(area, 0, [&](const auto& plane, const CodeChoice& codes) {
-             return checks_of_task_area(scene_, area, plane, codes);
+             return checks_of_task_area(scene_, area, plane, codes, fed_);
            }));
   for (const EmphasisPoint& point : emphasis_of(scene_)) {
     const LinesOfSight seen = light_.seen_from(beside(point));
     const auto parts = light_.vertical_lux(point);
     const auto lux = parts ? std::optional(sum_of(*parts)) : std::nullopt;
     add([&](const CodeChoice& codes) {
-      return checks_of_emphasis(scene_, point, seen, lux, codes);
+      return checks_of_emphasis(scene_, point, seen, lux, codes, fed_);
     });
   }
   return out;
@@ -117,11 +127,11 @@ std::vector<Check> CodeMode::checks_by_light() const {
 std::vector<Check> CodeMode::checks_of_parts() const {
   std::vector<Check> out;
   const FloorUnder floor = [this](const glm::dvec3& place) { return light_.floor_under(place); };
-  for (const Sign& sign : scene_.signs) {
+  for (const Sign& sign : now_.signs) {
     const double lux = sum_of(light_.lux_on_face(sign));
     const LinesOfSight seen = light_.seen_from({before_face(sign)});
     for (const CodeChoice& codes : codes_)
-      append(out, checks_of_sign(scene_, sign, lux, seen, codes, floor));
+      append(out, checks_of_sign(scene_, sign, lux, seen, codes, floor, fed_));
   }
   for (const CodeChoice& codes : codes_) {
     append(out, checks_of_glare(scene_, codes, floor));
@@ -159,7 +169,8 @@ void CodeMode::fill_plan(std::vector<PlanLevel>& levels) const {
 Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scenario,
                              const AssessOptions& options, const AssessProgress& progress,
                              Assessment& out) {
-  const SceneDescription switched = as_switched(scene, scenario);
+  const SceneDescription switched = after_circuits(scene, scenario);
+  const SceneDescription now = as_switched(scene, scenario);
   const bool has_furniture = std::any_of(scene.objects.begin(), scene.objects.end(), is_furniture);
   for (const bool furnished : {false, true}) {
     if (furnished && !has_furniture) break;
@@ -167,14 +178,17 @@ Result<void> assess_by_codes(const SceneDescription& scene, const Scenario& scen
     auto building = Building::make(code_scene(switched, furnished),
                                    code_scenario(switched, scenario), options.threads);
     if (!building) return building.problem();
-    const CodeMode mode(switched, *building.value(), out.state.codes);
+    const CodeMode mode(switched, now, *building.value(), out.state.codes);
     if (!furnished) mode.fill_plan(out.levels);
     auto checks = mode.checks_by_light();
     if (has_furniture)
       add_condition(checks,
                     remark(furnished ? RemarkId::with_furniture : RemarkId::without_furniture));
     append(out.checks, checks);
-    if (!furnished) append(out.checks, mode.checks_of_parts());
+    if (furnished) continue;
+    append(out.checks, mode.checks_of_parts());
+    for (const CodeChoice& codes : out.state.codes)
+      out.checks.push_back(check_of_duration(scene, codes));
   }
   progress("codes", 1);
   return {};

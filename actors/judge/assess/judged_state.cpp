@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "actors/judge/assess/aged_light.hpp"
 #include "scenes/emergency/rule_limits.hpp"
@@ -150,6 +151,21 @@ void add_switched(const SceneDescription& scene, const Scenario& scenario, Remar
   if (signs > 0) remarks.push_back(remark(RemarkId::circuits_switch_off_signs, signs));
 }
 
+/// A warning that signs which are lit from within are dark in this state; none if none is.
+std::optional<Remark> dark_signs(const SceneDescription& scene, const Scenario& scenario) {
+  std::string first;
+  int more = -1;
+  for (const Sign& sign : scene.signs) {
+    if (sign.lighting != SignLighting::internal || !(sign.emergency.white_cd_m2 > 0) ||
+        scenario_luminance(sign, SignColour::white, scenario) > 0)
+      continue;
+    if (++more == 0) first = sign.name;
+  }
+  if (more < 0) return std::nullopt;
+  return more == 0 ? remark(RemarkId::sign_unlit, first)
+                   : remark(RemarkId::signs_unlit, first, more);
+}
+
 /// Remarks on smoke that this state thins, and on luminaires without a measured web.
 void add_thinned(const SceneDescription& scene, const Scenario& scenario, Remarks& remarks) {
   for (const Medium& m : scene.media) {
@@ -234,6 +250,8 @@ void add_remarks(const SceneDescription& scene, const Scenario& scenario, Assess
       }));
   if (state.operation == Operation::emergency && dark > 0)
     warn(remark(dark == 1 ? RemarkId::luminaire_unlit : RemarkId::luminaires_unlit, dark));
+  if (state.operation == Operation::emergency)
+    if (const auto signs = dark_signs(scene, scenario)) warn(*signs);
   for (const Medium& m : scene.media)
     if (m.simulation && !m.simulation->glows && extinction_factor(scenario, m.name) > 0)
       warn(remark(RemarkId::flame_glare_missing, m.name));

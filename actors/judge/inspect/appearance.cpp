@@ -5,6 +5,7 @@
 
 #include "actors/judge/inspect/site.hpp"
 #include "scenes/light/geometry/mesh_tools.hpp"
+#include "scenes/light/signs/legend_size.hpp"
 #include "scenes/light/signs/sign_light.hpp"
 
 namespace luxodus {
@@ -23,6 +24,8 @@ constexpr double max_lit_cd_m2 = 5000;
 constexpr double min_mains_contrast = 2, max_mains_contrast = 50;
 /// Share of a sign's shorter side; the details of pictograms are a tenth of it.
 constexpr double large_detail = 0.34;
+/// Share of a drawing's parts that may be finer than its smallest detail: their ends and corners.
+constexpr double max_finer_share = 0.25;
 /// Luminance ~ cos^n: with a larger exponent little is visible from the side.
 constexpr double max_exponent = 2;
 /// Texels across the longer side of a drawn face, whose details are a tenth of the shorter one.
@@ -110,6 +113,38 @@ void inspect_glow(const Sign& sign, Findings& out) {
             out);
 }
 
+/// Holds the stated detail against the face and its drawing. A stroke that makes the legend is
+/// measured already.
+void inspect_detail(const Sign& sign, Findings& out) {
+  const double shorter = std::min(sign.width_m, sign.height_m);
+  if (sign.smallest_detail_m > large_detail * shorter)
+    return tell_of(
+        sign, Severity::warning,
+        fmt::format("has a smallest_detail of {:.3g} m, more than a third of its shorter side "
+                    "of {:.3g} m: details of pictograms are about a tenth of it, and verdicts "
+                    "follow from the detail",
+                    sign.smallest_detail_m, shorter),
+        out);
+  if (sign.face.colour.empty() ||
+      (sign.letters && sign.smallest_detail_m <= sign.letters->stroke_m))
+    return;
+  const auto drawn = legend_size(sign, sign.smallest_detail_m);
+  if (!drawn) return;
+  if (drawn->widest_m < sign.smallest_detail_m)
+    return tell_of(sign, Severity::warning,
+                   fmt::format("has a smallest_detail of {:.3g} m, and nothing in its drawing is "
+                               "so large: its widest part is {:.2g} m wide; verdicts follow from "
+                               "the detail",
+                               sign.smallest_detail_m, drawn->widest_m),
+                   out);
+  if (drawn->finer_share > max_finer_share)
+    tell_of(sign, Severity::warning,
+            fmt::format("has a smallest_detail of {:.3g} m, and {} of its drawing is finer: state "
+                        "the width of the finest part that must be seen; verdicts follow from it",
+                        sign.smallest_detail_m, percent_text(drawn->finer_share)),
+            out);
+}
+
 void inspect_face(const Sign& sign, Findings& out) {
   const double white = luminous(sign.white_reflectance), green = luminous(sign.green_reflectance);
   if (white <= green)
@@ -132,14 +167,7 @@ void inspect_face(const Sign& sign, Findings& out) {
                         "texels = 96 or more",
                         sign.face.width, sign.face.height, sign.file),
             out);
-  const double shorter = std::min(sign.width_m, sign.height_m);
-  if (sign.smallest_detail_m > large_detail * shorter)
-    tell_of(sign, Severity::warning,
-            fmt::format("has a smallest_detail of {:.3g} m, more than a third of its shorter side "
-                        "of {:.3g} m: details of pictograms are about a tenth of it, and verdicts "
-                        "follow from the detail",
-                        sign.smallest_detail_m, shorter),
-            out);
+  inspect_detail(sign, out);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "actors/judge/inspect/site.hpp"
+#include "scenes/light/signs/onset.hpp"
 #include "scenes/light/transport/compile_light.hpp"
 
 namespace luxodus {
@@ -68,6 +69,39 @@ void tell_switched_off(const SceneDescription& scene, const Scenario& s, Finding
                out);
 }
 
+/// Reports luminaires and signs whose supply is exhausted at the time of an emergency state.
+void tell_exhausted(const SceneDescription& scene, const Scenario& s, Findings& out) {
+  const Emitter* luminaire = nullptr;
+  const Sign* sign = nullptr;
+  size_t luminaires = 0, signs = 0;
+  for (const Emitter& e : scene.emitters)
+    if (e.emergency_flux > 0 && is_exhausted(e.duration_s, s.seconds_after_failure) &&
+        luminaires++ == 0)
+      luminaire = &e;
+  for (const Sign& one : scene.signs)
+    if (one.lighting == SignLighting::internal && one.emergency.white_cd_m2 > 0 &&
+        is_exhausted(one.duration_s, s.seconds_after_failure) && signs++ == 0)
+      sign = &one;
+  const auto tell = [&](const char* kind, const std::string& name, size_t number,
+                        double duration_s) {
+    tell_state(s, Severity::warning,
+               fmt::format("is {:g} s after the failure of the mains, and the supply of {} "
+                           "\"{}\"{} lasts {:g} s (duration_h): {} dark in this state",
+                           s.seconds_after_failure, kind, name,
+                           number > 1 ? fmt::format(" (and of {} more)", number - 1) : "",
+                           duration_s, number > 1 ? "they are" : "it is"),
+               out);
+  };
+  if (luminaire != nullptr) tell("luminaire", luminaire->name, luminaires, *luminaire->duration_s);
+  if (sign != nullptr) tell("sign", sign->name, signs, *sign->duration_s);
+}
+
+/// Whether some emergency luminaire does not say how long its supply lasts.
+bool some_last_unsaid(const SceneDescription& scene) {
+  return std::any_of(scene.emitters.begin(), scene.emitters.end(),
+                     [](const Emitter& e) { return e.emergency_flux > 0 && !e.duration_s; });
+}
+
 /// Glows are brightest at the failure, and people see them minutes later.
 void tell_fresh_glow(const SceneDescription& scene, const Scenario& s, Findings& out) {
   if (!judges_people(scene)) return;
@@ -117,14 +151,15 @@ void tell_time(const SceneDescription& scene, const Scenario& s, Findings& out) 
   if (s.operation != Operation::mains && !s.says_seconds) tell_fresh_glow(scene, s, out);
   if (s.operation == Operation::mains || !s.says_seconds) return;
   const double seconds = s.seconds_after_failure;
+  if (s.operation == Operation::emergency) tell_exhausted(scene, s, out);
   if (seconds > max_hours * hour_s)
-    tell_state(s, Severity::warning,
-               fmt::format("is {:.3g} h after the failure of the mains: the rated duration of "
-                           "emergency luminaires is 1 to 3 h, and they are taken as lit; "
-                           "seconds_after_failure is in seconds",
-                           seconds / hour_s),
-               out);
-  else if (seconds > hour_s && s.operation == Operation::emergency)
+    tell_state(
+        s, Severity::warning,
+        fmt::format("is {:.3g} h after the failure of the mains: the rated duration of "
+                    "emergency luminaires is 1 to 3 h{}; seconds_after_failure is in seconds",
+                    seconds / hour_s, some_last_unsaid(scene) ? ", and they are taken as lit" : ""),
+        out);
+  else if (seconds > hour_s && s.operation == Operation::emergency && some_last_unsaid(scene))
     tell_state(
         s, Severity::note,
         fmt::format("is {:.3g} h after the failure of the mains: batteries rated for 1 h are "

@@ -1,5 +1,7 @@
 #include "actors/results/formats/csv.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
@@ -7,7 +9,40 @@
 
 namespace luxodus {
 
+namespace {
+
+/// Whether a text is numbers, separated by spaces or semicolons, such as coordinates.
+bool is_numbers(std::string_view text) {
+  while (!text.empty()) {
+    const size_t end = std::min(text.find_first_of(" ;"), text.size());
+    std::string_view word = text.substr(0, end);
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double number = 0;
+    const auto [behind, failed] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (!word.empty() && (failed != std::errc() || behind != word.data() + word.size()))
+      return false;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return true;
+}
+
+/// Whether a spreadsheet that opens the file would compute this text: one that begins, after white
+/// space, with a sign of a formula. The signs of full width do so in Japanese versions.
+bool would_be_computed(std::string_view text) {
+  const size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return false;
+  const std::string_view begin = text.substr(first);
+  if (begin.size() > 1 && std::string_view("=+-@").find(begin.front()) != std::string_view::npos)
+    return !is_numbers(begin);
+  for (const std::string_view wide : {"\uff1d", "\uff0b", "\uff0d", "\uff20"})
+    if (begin.starts_with(wide)) return true;
+  return false;
+}
+
+}  // namespace
+
 std::string csv_cell(std::string_view text) {
+  if (would_be_computed(text)) return csv_cell("'" + std::string(text));
   const bool plain = !text.empty() && text.find_first_of(",\"\r\n") == std::string_view::npos &&
                      text.front() != ' ' && text.back() != ' ';
   if (plain) return std::string(text);

@@ -16,7 +16,7 @@
 namespace luxodus {
 
 /// A text as one CSV cell: quoted if it is empty, or holds a comma, a quote, a line break, or a
-/// space at an end.
+/// space at an end. An apostrophe precedes a text that a spreadsheet would compute as a formula.
 std::string csv_cell(std::string_view text);
 
 class CsvTable {

@@ -39,6 +39,16 @@ Result<SignFace> drawn_face(const std::filesystem::path& path, const Sign& sign,
   return problem("a pictogram is an .svg or a .png file, not '" + path.filename().string() + "'");
 }
 
+/// Warns of what a drawing lacks, once for each file.
+void tell_gaps(const std::filesystem::path& path, KeyReader& keys) {
+  if (lower_extension(path) != ".svg" ||
+      !keys.reading().cache.try_emplace("drawing " + path.string()).second)
+    return;
+  for (const std::string& gap : gaps_of_svg(path))
+    keys.reading().warning(keys.place("file"),
+                           "the drawing \"" + path.filename().string() + "\": " + gap);
+}
+
 /// Smallest number that is probably a length of a sign in millimetres.
 constexpr double min_slip = 1;
 
@@ -112,6 +122,7 @@ void read_face(KeyReader& keys, Sign& sign) {
     return take_problem(face.problem(), at, keys.reading());
   }
   sign.face = std::move(face).value();
+  if (path) tell_gaps(*path, keys);
   if (given == "file" && keys.has("legend")) sign.face.legend = legend;
   if (!map) return;
   const auto image = read_image(*map, keys.place("luminance_map"), keys.reading());

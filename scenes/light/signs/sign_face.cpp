@@ -16,6 +16,7 @@
 
 #include "runtime/core/regular_file.hpp"
 #include "scenes/light/signs/draw_svg.hpp"
+#include "scenes/light/signs/drawing_gaps.hpp"
 #include "scenes/light/signs/surface_pixels.hpp"
 
 namespace luxodus {
@@ -276,6 +277,11 @@ Result<SignFace> face_from_svg(const std::filesystem::path& file, double width_m
   vote(face.value(), svg->pixels);
   if (auto ok = check_colours(face.value()); !ok) return problem_in(file, ok.problem());
   return face;
+}
+
+std::vector<std::string> gaps_of_svg(const std::filesystem::path& file) {
+  const Result<std::string> bytes = read_drawing(file);
+  return bytes ? drawing_gaps(bytes.value()) : std::vector<std::string>();
 }
 
 Result<SignFace> face_from_png(const std::filesystem::path& file, double width_m, double height_m,

@@ -9,7 +9,9 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "runtime/core/result.hpp"
 #include "scenes/light/signs/letters.hpp"
@@ -45,6 +47,10 @@ std::array<double, 3> lab_from_srgb(uint8_t r, uint8_t g, uint8_t b);
 /// another aspect than the face, no white or no green in it.
 Result<SignFace> face_from_svg(const std::filesystem::path& file, double width_m, double height_m,
                                int texels_across);
+
+/// What the drawing names and is not drawn, or not everywhere alike (drawing_gaps.hpp); nothing if
+/// it cannot be read.
+std::vector<std::string> gaps_of_svg(const std::filesystem::path& file);
 
 /// Reads an 8 or 16 bit PNG picture of any colour type. Errors: as for a drawing.
 Result<SignFace> face_from_png(const std::filesystem::path& file, double width_m, double height_m,

@@ -85,6 +85,7 @@ std::vector<Check> report(const CodeChoice& codes) {
   add(checks_of_sign(scene, scene.signs[0], 0, {}, codes));
   add(checks_of_glare(scene, codes));
   add(checks_beyond(scene, codes));
+  add({check_of_duration(scene, codes)});
   return out;
 }
 

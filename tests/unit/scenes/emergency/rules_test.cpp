@@ -394,9 +394,68 @@ TEST_CASE("the onset of light is judged where luminaires state it", "[emergency]
   CHECK(*of(task, "E10t").value == 40);
 }
 
+TEST_CASE("a luminaire whose supply is exhausted lights no check", "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  const EscapeRoute& route = scene.routes.front();
+  RouteLight light;
+  light.centre = light.band = light.inner = {at(0, 3, 0.9), at(10, 3, 2)};
+  const FedLuminaires fed{false, true};
+  const auto checks = of_all_codes(
+      [&](const CodeChoice& codes) { return checks_of_route(scene, route, light, codes, fed); });
+  for (const char* id : {"E1", "E2", "E5", "N2m"}) CHECK(*of(checks, id).value == Approx(0.9));
+  CHECK(*of(checks, "N1m").value == Approx(2 * 3.9));  // of new luminaires, at the failure
+  CHECK(*check_of_failure(scene, subject_of(route), light.centre, fed).value == 0);
+  AssessedArea bench;
+  bench.mains_lx = 100;
+  CHECK(*of(checks_of_task_area(scene, bench, light.centre, {}, fed), "E7").value == Approx(0.9));
+  CHECK(*of(checks_of_open_area(scene, bench, light.centre, {}, fed), "E6").value == Approx(0.9));
+
+  EmphasisPoint door;
+  door.position = scene.emitters[0].frame.origin - glm::dvec3(0, 0, 1);
+  const auto nearest = checks_of_emphasis(scene, door, {}, {}, en13, fed);
+  CHECK(of(nearest, "E12").verdict == CheckVerdict::fail);
+  CHECK(of(nearest, "E12").reasons.back() == remark(RemarkId::supply_exhausted, "a", 0.0));
+  const auto alone = checks_of_emphasis(scene, door, {}, {}, en13, {false, false});
+  CHECK(of(alone, "E12").reasons.front() == remark(RemarkId::none_above_in_sight));
+
+  // 36 s: there after 5 s, and not after 60 s.
+  for (Emitter& e : scene.emitters) {
+    e.onset = {{0, 0}, {5, 1}};
+    e.duration_s = 36;
+  }
+  const auto timed = checks_of_route(scene, route, light, en13);
+  CHECK(*of(timed, "E10h").value == Approx(3.9));
+  CHECK(*of(timed, "E10f").value == 0);
+  CHECK(of(timed, "E10f").verdict == CheckVerdict::fail);
+}
+
+TEST_CASE("one supply that is too short fails, whatever others state", "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  CHECK(check_of_duration(scene, en13).verdict == CheckVerdict::not_assessed);
+  scene.emitters[1].duration_s = 36;
+  Check check = check_of_duration(scene, en13);
+  CHECK(check.verdict == CheckVerdict::fail);
+  CHECK(*check.value == Approx(0.01));
+  CHECK(check.reasons == Remarks{remark(RemarkId::shortest_supply, "b")});
+  scene.emitters[1].duration_s = 3600;
+  check = check_of_duration(scene, en13);
+  CHECK(check.verdict == CheckVerdict::not_assessed);
+  CHECK(check.reasons == Remarks{remark(RemarkId::some_durations_unsaid)});
+  scene.emitters[0].duration_s = 7200;
+  CHECK(check_of_duration(scene, en13).verdict == CheckVerdict::pass);
+  scene.signs = {sign_of(100, 10)};
+  scene.signs.front().duration_s = 1800;
+  CHECK(check_of_duration(scene, en13).verdict == CheckVerdict::fail);
+  CHECK(check_of_duration(scene, en13).reasons ==
+        Remarks{remark(RemarkId::shortest_supply, "exit")});
+}
+
 TEST_CASE("a rule for which the scene states too little never passes", "[emergency][rules]") {
-  const auto checks =
-      of_all_codes([](const CodeChoice& codes) { return checks_beyond(corridor(), codes); });
+  const auto checks = of_all_codes([](const CodeChoice& codes) {
+    auto out = checks_beyond(corridor(), codes);
+    out.push_back(check_of_duration(corridor(), codes));
+    return out;
+  });
   CHECK_FALSE(checks.empty());
   for (const Check& check : checks) {
     CHECK(check.verdict == CheckVerdict::not_assessed);

@@ -63,6 +63,52 @@ TEST_CASE("luminaires that the judged state switches off do not light any check"
   CHECK(remarks(raised, "raise the flux of 1 emergency luminaires"));
 }
 
+TEST_CASE("an exhausted supply makes every check dark, without a clock", "[assess][slips]") {
+  const auto lasting = [](const std::string& hours) {
+    return replaced(
+        in_state("seconds_after_failure = 60\n"), "end_of_duration_factor = 0.75\n",
+        "end_of_duration_factor = 0.75\nonset = [[0, 1], [1, 1]]\nduration_h = " + hours +
+            "\n[[emphasis]]\nname = \"door\"\nkind = \"final_exit\"\n"
+            "position = [6.5, 0, 0]\n");
+  };
+  const Assessment lit = assessed(lasting("1"), by_codes());
+  for (const char* id : {"E1", "E10h", "E10f"}) CHECK(*first_of(lit, id).value > 0);
+  CHECK(first_of(lit, "E12").verdict == CheckVerdict::pass);
+  CHECK(first_of(lit, "E11").verdict == CheckVerdict::not_assessed);  // the sign states none
+  const Assessment dark = assessed(lasting("0.01"), by_codes());
+  for (const char* id : {"E1", "E10f", "E11", "E12"})
+    CHECK(first_of(dark, id).verdict == CheckVerdict::fail);
+  for (const char* id : {"E1", "E10f"}) CHECK(*first_of(dark, id).value == 0);
+  CHECK(*first_of(dark, "E11").value == Approx(0.01));
+  CHECK(*first_of(dark, "E10h").value == *first_of(lit, "E10h").value);  // lit after 5 s
+  // What dazzles before the supply ends is judged all the same.
+  CHECK(*first_of(dark, "E8").value == *first_of(lit, "E8").value);
+  for (const PlanLevel& level : dark.levels)
+    for (const PlanPoint& point : level.points) CHECK(point.lux == 0);
+}
+
+TEST_CASE("a sign whose supply is exhausted passes no check, and is named", "[assess][slips]") {
+  const auto lasting = [](const std::string& hours) {
+    return replaced(in_state("seconds_after_failure = 60\n"), "emergency_green = 10\n",
+                    "emergency_green = 10\nduration_h = " + hours + "\n");
+  };
+  const auto named_dark = [](const Assessment& a) {
+    return std::count(a.state.warnings.begin(), a.state.warnings.end(),
+                      remark(RemarkId::sign_unlit, "exit"));
+  };
+  const Assessment lit = assessed(lasting("3"), by_codes());
+  CHECK(first_of(lit, "S3").verdict == CheckVerdict::pass);
+  CHECK(first_of(lit, "S4").verdict == CheckVerdict::pass);
+  CHECK(named_dark(lit) == 0);
+  const Assessment dark = assessed(lasting("0.01"), by_codes());
+  CHECK(*first_of(dark, "S1").value == 0);
+  CHECK(first_of(dark, "S1").verdict == CheckVerdict::fail);
+  CHECK(first_of(dark, "S3").verdict == CheckVerdict::not_assessed);
+  CHECK(first_of(dark, "S4").verdict == CheckVerdict::fail);
+  CHECK(first_of(dark, "E11").verdict == CheckVerdict::fail);
+  CHECK(named_dark(dark) == 1);
+}
+
 TEST_CASE("a remark names times at which light or adaptation is only assumed", "[assess][slips]") {
   CHECK(remarks(in_state("seconds_after_failure = 7200\n"), "rated duration of 1 h"));
   CHECK_FALSE(remarks(in_state("seconds_after_failure = 3600\n"), "rated duration of"));

@@ -220,3 +220,28 @@ TEST_CASE("externally lit faces with swapped colours, and large details, are rep
   check_found(with_exit_sign("letter_height = 0.15", "letter_height = 0.15\nsmallest_detail = 0.1"),
               Severity::warning, "more than a third of its shorter side of 0.2 m");
 }
+
+TEST_CASE("a smallest detail that the drawing does not have is reported", "[inspect][light]") {
+  const auto drawn = [](const std::string& body, const std::string& detail) {
+    const std::string sign = replaced(exit_sign, "text = \"EXIT\"\nletter_height = 0.15\n",
+                                      "file = \"sign.svg\"\nsmallest_detail = " + detail + "\n");
+    return found_in(closed_room + lamp + sign + long_way,
+                    {{"sign.svg",
+                      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 400 200'>"
+                      "<rect width='400' height='200' fill='#237F52'/><g fill='#ECECE7'>" +
+                          body + "</g></svg>"}});
+  };
+  const std::string block = "<rect x='100' y='50' width='100' height='100'/>";
+  check_no_alarm(drawn(block, "0.03"));
+  check_found(drawn("<rect width='3' height='3'/>", "0.016"), Severity::warning,
+              "nothing in its drawing is so large: its widest part is 0.0031 m wide");
+  std::string lines;
+  for (int i = 0; i < 9; ++i)
+    lines += "<rect x='220' y='" + std::to_string(20 + 18 * i) + "' width='150' height='6'/>";
+  check_found(drawn(block + lines, "0.016"), Severity::warning, "of its drawing is finer");
+  check_no_alarm(drawn(block + lines, "0.006"));
+  // The stroke of a text is its detail.
+  check_found(
+      with_exit_sign("letter_height = 0.15", "letter_height = 0.15\nsmallest_detail = 0.05"),
+      Severity::warning, "smallest_detail of 0.05 m");
+}

@@ -168,6 +168,19 @@ TEST_CASE("scenarios with percentages, dark luminaires and late hours are report
   CHECK(found_in(judged_room + state("seconds_after_failure = 600\n")).empty());
 }
 
+TEST_CASE("supplies that are exhausted in a state are reported", "[inspect][state]") {
+  const auto lasting = [](const std::string& hours) {
+    return replaced(replaced(judged_room, "end_of_duration_factor = 0.75\n",
+                             "end_of_duration_factor = 0.75\nduration_h = " + hours + "\n"),
+                    "emergency_green = 10\n", "emergency_green = 10\nduration_h = " + hours + "\n");
+  };
+  const auto brief = found_in(lasting("0.01") + state("seconds_after_failure = 36\n"));
+  check_found(brief, Severity::warning, "the supply of luminaire \"lamp\" lasts 36 s");
+  check_found(brief, Severity::warning, "the supply of sign \"exit\" lasts 36 s");
+  CHECK(found_in(lasting("0.01") + state("seconds_after_failure = 35\n")).empty());
+  CHECK(found_in(lasting("2.5") + state("seconds_after_failure = 7200\n")).empty());
+}
+
 TEST_CASE("smoke scaled down to clear air is reported", "[inspect][state][smoke]") {
   const auto found = [](const std::string& keys) {
     return found_in(judged_room + even("extinction = 0.5\nalbedo = 0.3") + state(keys));

@@ -62,6 +62,20 @@ TEST_CASE("only cells that need quotes have them", "[format][csv]") {
   CHECK(csv_cell("space ") == "\"space \"");
 }
 
+TEST_CASE("a text that a spreadsheet would compute is told to be a text", "[format][csv]") {
+  CHECK(csv_cell("=1+1") == "'=1+1");
+  CHECK(csv_cell("@SUM(1+1)") == "'@SUM(1+1)");
+  CHECK(csv_cell("+1-1") == "'+1-1");
+  CHECK(csv_cell("-2+3 <i>") == "'-2+3 <i>");
+  CHECK(csv_cell("=HYPERLINK(\"a\",1)") == "\"'=HYPERLINK(\"\"a\"\",1)\"");
+  CHECK(csv_cell("\t=1") == "'\t=1");
+  CHECK(csv_cell(" =1") == "' =1");
+  CHECK(csv_cell("\r=1") == "\"'\r=1\"");
+  CHECK(csv_cell("\uff1d1+1") == "'\uff1d1+1");
+  for (const char* plain : {"a=1", "-", "+", "-1", "+2.5", "-3.000 1.200 2.970; -1.5e3 0 2", "1+1"})
+    CHECK(csv_cell(plain) == plain);
+}
+
 TEST_CASE("texts of any kind are read back from a table", "[format][csv]") {
   const std::vector<std::string> texts = {"a,b;c", "\"", "\"\"", ",",  "\n\n", "\r\n",
                                           "ä€😀",   " ",  "",     "-1", "x\ty"};

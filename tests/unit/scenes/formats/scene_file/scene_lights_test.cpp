@@ -182,4 +182,26 @@ circuits = { signs = 0.5 }
   CHECK(named(s.signs, "board").white_reflectance.at(500) == 0.8);
 }
 
+TEST_CASE("what a sign's drawing leaves out is warned of, once for each file", "[format][scene]") {
+  const test::TemporaryFolder folder;
+  folder.write("sign.svg",
+               "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 400 200'>"
+               "<rect width='400' height='200' fill='#237F52'/><image href='door.png'/>"
+               "<rect x='100' y='50' width='100' height='100' fill='#ECECE7'/></svg>");
+  std::string text;
+  for (const char* name : {"east", "west"})
+    text += "[[sign]]\nname = \"" + std::string(name) +
+            "\"\nposition = [5, 1, 2]\nfacing = [1, 0, 0]\nwidth = 0.4\nheight = 0.2\n"
+            "file = \"sign.svg\"\nsmallest_detail = 0.05\nmains_white = 500\nmains_green = 60\n"
+            "emergency_white = 50\nemergency_green = 6\n";
+  const ReadScene read = read_scene(folder.write("scene.toml", text));
+  REQUIRE(read.scene);
+  std::vector<std::string> told;
+  for (const Problem& warning : read.scene->warnings)
+    if (warning.what.find("sign.svg") != std::string::npos) told.push_back(warning.text());
+  REQUIRE(told.size() == 1);
+  CHECK(told.front().find("scene.toml:7") != std::string::npos);
+  CHECK(told.front().find("its image \"door.png\" is left out") != std::string::npos);
+}
+
 }  // namespace luxodus
