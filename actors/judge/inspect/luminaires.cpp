@@ -70,7 +70,9 @@ Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, i
     }
     const auto end =
         first_stop(scene, access, origin, direction, light_reach_m, [&](const FacedSurface& f) {
-          return lets_light_through(f.kind) || scene.surfaces[f.surface].body_emitter == emitter;
+          const CompiledSurface& surface = scene.surfaces[f.surface];
+          return lets_light_through(f.kind) || surface.body_emitter == emitter ||
+                 (e.body != 0 && surface.body == e.body);
         });
     if (!end) continue;
     near += end->distance_m <= near_m ? 1 : 0;
@@ -243,10 +245,11 @@ bool lights(const Site& site, const GeometryAccess& access, uint32_t emitter,
     const double watt_to_lm = site.scene.emitters[emitter].radiometric ? 100 : 1;
     if (lumens * watt_to_lm * density / (distance * distance) < min_lx) return false;
     const Vec3 before = middle + direction * std::min(0.01_r, static_cast<Real>(distance) / 2);
-    if (furnished) return clear_share(scene, access, site.building.local(place), before) > 0;
+    if (furnished)
+      return clear_share(scene, access, site.building.local(place), before, e.body) > 0;
     return !solid_ahead(site, access, place, glm::dvec3(-direction),
                         static_cast<double>(glm::length(before - site.building.local(place))),
-                        false);
+                        false, e.body);
   });
 }
 
@@ -386,9 +389,9 @@ void inspect_judged_places(const Site& site, Findings& out) {
 void inspect_near_field(const Site& site, const Scenario& scenario, Findings& out) {
   std::vector<NearPlace> places;
   site.building.each(1, [&](const GeometryAccess& access, size_t) {
-    const auto sees = [&](const glm::dvec3& from, const glm::dvec3& to) {
-      return clear_share(site.building.scene(), access, site.building.local(from),
-                         site.building.local(to)) > 0;
+    const auto sees = [&](const Emitter& luminaire, const glm::dvec3& place) {
+      return clear_share(site.building.scene(), access, site.building.local(place),
+                         site.building.local(luminaire.frame.origin), luminaire.body) > 0;
     };
     places = near_field_places(site.scene, scenario, sees);
   });

@@ -156,6 +156,7 @@ class L3dReader {
     L3dPart part;
     part.name = open.geometry.attribute("partName").value();
     part.place = open.above * placed(open.geometry);
+    part.measured = is_measured(open.geometry);
     part.shape = shape(open.geometry.child("GeometryReference").attribute("geometryId").value());
     for (const auto node :
          open.geometry.child("LightEmittingObjects").children("LightEmittingObject"))
@@ -167,6 +168,18 @@ class L3dReader {
       add_geometries(joint.child("Geometries"), below, open.depth + 1);
     }
     model_.parts.push_back(std::move(part));
+  }
+
+  /// Since version 0.9.2; where it is not stated, the part was measured with the light, as readers
+  /// of the format take it.
+  bool is_measured(pugi::xml_node geometry) {
+    const auto stated = geometry.attribute("includedInMeasurement");
+    const std::string_view word = bare(stated.value());
+    if (!stated || word == "true" || word == "1") return true;
+    if (word != "false" && word != "0")
+      fail(named(geometry) + " in 'structure.xml' has includedInMeasurement = \"" + excerpt(word) +
+           "\"; it is true or false");
+    return false;
   }
 
   std::string named(pugi::xml_node node) const {

@@ -23,7 +23,8 @@ std::vector<Finding> with_luminaire(const std::string& keys,
 
 std::string emergency(const std::string& keys, const std::string& mode = "non-maintained") {
   return "emergency = \"" + mode + "\"\n" + keys +
-         "\nmaintenance_factor = 0.8\nend_of_duration_factor = 0.7\n";
+         "\nmaintenance_factor = 0.8\nemergency_flux_is = \"initial\"\nend_of_duration_factor = "
+         "0.7\n";
 }
 
 std::vector<Finding> with_lamp(const std::string& from, const std::string& to) {
@@ -76,6 +77,11 @@ TEST_CASE("factors that state a loss, a percentage or no ageing are reported", "
               "as if it never aged");
   check_found(with_lamp("end_of_duration_factor = 0.75", "end_of_duration_factor = 1"),
               Severity::note, "does not fall until the battery is empty");
+  check_found(with_lamp("emergency_flux_is = \"initial\"\n", ""), Severity::warning,
+              "does not say what its emergency flux is");
+  check_found(with_lamp("emergency_flux_is = \"initial\"\nend_of_duration_factor = 0.75",
+                        "emergency_flux_is = \"rated\""),
+              Severity::note, "has a rated emergency flux and no initial_flux");
   check_found(with_luminaire("mains_factor = 50\n", "office_panel.ldt"), Severity::warning,
               "gives 50 times the 4000 lm of its file in mains operation");
   check_no_alarm(with_luminaire("mains_factor = 0.5\nmaintenance_factor = 0.8\n"));
