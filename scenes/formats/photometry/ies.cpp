@@ -530,6 +530,7 @@ class IesReader {
     check_verticals(0, 180);
     const PhotometricTable listed{horizontals_, verticals_, candela_};
     if (auto odd = odd_pole(listed)) warn(horizontal_line_, std::move(*odd));
+    if (auto odd = odd_step(horizontals_)) warn(horizontal_line_, std::move(*odd));
     const WebSymmetry symmetry = type_c_symmetry();
     if (in_.fault()) return listed;
     return pole_to_pole(around(listed, symmetry));

@@ -356,6 +356,7 @@ class LdtReader {
 
   void finish() {
     if (auto odd = odd_pole(table_)) warn(c_line_, std::move(*odd));
+    if (auto odd = odd_step(table_.azimuth_deg)) warn(c_line_, std::move(*odd));
     auto web = web_of(pole_to_pole(around(table_, web_symmetry())), type_c_axes(), {file_, line_});
     if (!web) {
       numbers_.fail(web.problem());

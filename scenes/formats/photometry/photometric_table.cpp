@@ -175,6 +175,23 @@ std::optional<double> missing_deg(const std::vector<double>& azimuth_deg) {
   return gap > widest + rounding_deg ? std::optional(gap) : std::nullopt;
 }
 
+std::optional<std::string> odd_step(const std::vector<double>& azimuth_deg) {
+  constexpr double wide_deg = 45, times_usual = 3;
+  if (azimuth_deg.size() < 4) return std::nullopt;
+  std::vector<double> steps;
+  for (size_t a = 1; a < azimuth_deg.size(); ++a)
+    steps.push_back(azimuth_deg[a] - azimuth_deg[a - 1]);
+  const auto widest = std::max_element(steps.begin(), steps.end());
+  const auto at = static_cast<size_t>(widest - steps.begin());
+  const double wide = *widest;
+  std::nth_element(steps.begin(), steps.begin() + static_cast<ptrdiff_t>(steps.size() / 2),
+                   steps.end());
+  if (wide < wide_deg || wide < times_usual * steps[steps.size() / 2]) return std::nullopt;
+  return "between the planes " + shown(azimuth_deg[at]) + " and " + shown(azimuth_deg[at + 1]) +
+         " degrees, a step far wider than the others, the intensities are made up from these two: "
+         "are planes missing?";
+}
+
 double down_share_of(const PhotometricWeb& web) {
   constexpr int polar_steps = 360;
   constexpr int azimuth_steps = 360;

@@ -50,6 +50,10 @@ std::optional<std::string> odd_pole(const PhotometricTable& table);
 /// them: planes are missing. Requires: azimuths ascend.
 std::optional<double> missing_deg(const std::vector<double>& azimuth_deg);
 
+/// Describes a step between two planes that is far wider than the others: planes may be missing
+/// there. None where all are alike. Requires: azimuths ascend.
+std::optional<std::string> odd_step(const std::vector<double>& azimuth_deg);
+
 /// Share of the web's flux below the horizontal plane of the luminaire, to the accuracy of a
 /// 0.5 degree midpoint rule (about 1e-4).
 double down_share_of(const PhotometricWeb& web);

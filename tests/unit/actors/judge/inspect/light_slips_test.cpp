@@ -87,6 +87,22 @@ TEST_CASE("factors that state a loss, a percentage or no ageing are reported", "
   check_no_alarm(with_luminaire("mains_factor = 0.5\nmaintenance_factor = 0.8\n"));
 }
 
+TEST_CASE("an object that hides a luminaire's light, and may be its body, is reported",
+          "[inspect][light]") {
+  const auto housing = [](const std::string& more, const std::string& high = "[3.2, 0.2, 2.99]") {
+    return with_luminaire(
+        "[[object]]\nname = \"housing\"\nshape = \"box\"\n"
+        "low = [2.8, -0.2, 2.975]\nhigh = " +
+            high + "\nmaterial = \"grey50\"\n" + more,
+        "bulkhead.ldt");
+  };
+  const std::string words = "the body needs body_of = [\"light\"]";
+  check_found(housing(""), Severity::warning, words.c_str());
+  CHECK(that_say(housing("body_of = [\"light\"]\n"), words).empty());
+  // What is larger than any luminaire is none.
+  CHECK(that_say(housing("", "[7.2, 0.2, 2.99]"), words).empty());
+}
+
 TEST_CASE("a finding shared by luminaires is reported once, with their number",
           "[inspect][light]") {
   const auto twice = found_in(

@@ -325,6 +325,20 @@ TEST_CASE("planes that disagree at the nadir are told, and a missing quarter is 
         std::string::npos);
 }
 
+TEST_CASE("planes that leave out a part of the circle between them are told", "[format][ies]") {
+  Ies ies;
+  ies.lamps = "1 -1 1";
+  ies.horizontals = "0 15 30 45 60 75 90 180 195 210 225 240 255 270 285 300 315 330 345 360";
+  ies.horizontal_count = "20";
+  ies.candela.clear();
+  for (int i = 0; i < 20; ++i) ies.candela += "1 1 1 ";
+  CHECK(warns(read(ies), "between the planes 90 and 180 degrees, a step far wider"));
+  ies.horizontals = "0 45 90 180 270 360";
+  ies.horizontal_count = "6";
+  ies.candela = "1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1";
+  CHECK_FALSE(warns(read(ies), "far wider"));
+}
+
 TEST_CASE("values may wrap over lines and be separated by commas", "[format][ies]") {
   Ies ies;
   ies.verticals = "0,\n90\n180";
