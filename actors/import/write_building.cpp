@@ -109,7 +109,7 @@ std::string luminaire_type_text(const BuildingFixture& fixture, size_t count,
   if (fixture.says.empty()) return out;
   return out +
          "# emergency = \"non-maintained\"\n# emergency_factor =        # or emergency_flux, or a "
-         "GLDF container\n# emergency_flux_is = \"rated\"  # or \"initial\", with an "
+         "GLDF container\n# emergency_flux_is =       # \"rated\", or \"initial\" with an "
          "end_of_duration_factor\n# maintenance_factor = \n";
 }
 

@@ -211,10 +211,9 @@ std::string luminaire_text(const GldfVariant& variant, const GldfReference& refe
   if (only_normal || (!knows && light.behaviour != "EmergencyOnly" && variant.durations.empty()))
     return out;
   out += fmt::format(
-      "# On emergency supply: {}. State what flux that is, ageing and battery to have it lit "
-      "then:\n"
-      "# emergency = \"{}\"\n# emergency_flux_is = \"rated\"  # or \"initial\", with an "
-      "end_of_duration_factor\n# maintenance_factor = \n",
+      "# On emergency supply: {}. To have it lit then, state ageing, and what flux that is:\n"
+      "# \"rated\", the least of the duration, or \"initial\" with an end_of_duration_factor.\n"
+      "# emergency = \"{}\"\n# emergency_flux_is = \n# maintenance_factor = \n",
       emergency_words(light), light.behaviour == "EmergencyOnly" ? "non-maintained" : "maintained");
   if (!variant.durations.empty())
     out += "# duration_h = " + fmt::format("{:g}", variant.durations.front().hours) +

@@ -348,19 +348,22 @@ void read_photometric_light(KeyReader& keys, Emitter& e) {
 
 void resolve_bodies(SceneReading& reading) {
   auto& emitters = reading.scene.emitters;
+  // The copies of a luminaire are written in one table, and so stand at one place.
+  using Place = std::pair<std::string, int>;
+  std::map<std::string_view, Place> place_of;
+  std::map<Place, std::set<size_t>> written_at;
+  for (size_t i = 0; i < emitters.size(); ++i) {
+    const Place place{emitters[i].place.file, emitters[i].place.line};
+    place_of.try_emplace(emitters[i].name, place);
+    written_at[place].insert(i);
+  }
   std::map<std::set<size_t>, int> numbers;
   for (Object& object : reading.scene.objects) {
     std::set<size_t> lit;
     for (const std::string& name : object.body_of) {
       if (!reading.require("luminaire or emitter", name, object.place)) continue;
-      const auto named = std::find_if(emitters.begin(), emitters.end(),
-                                      [&](const Emitter& e) { return e.name == name; });
-      if (named == emitters.end()) continue;
-      // Its copies are written in the same table.
-      for (size_t i = 0; i < emitters.size(); ++i)
-        if (emitters[i].place.line == named->place.line &&
-            emitters[i].place.file == named->place.file)
-          lit.insert(i);
+      if (const auto at = place_of.find(name); at != place_of.end())
+        lit.insert(written_at[at->second].begin(), written_at[at->second].end());
     }
     if (lit.empty()) continue;
     const auto [it, fresh] = numbers.try_emplace(lit, static_cast<int>(numbers.size()) + 1);
@@ -368,11 +371,9 @@ void resolve_bodies(SceneReading& reading) {
     if (!fresh) continue;
     for (const size_t i : lit) {
       if (emitters[i].body != 0)
-        return reading.problem(object.place, "'" + object.name +
-                                                 "' is the body of other luminaires than another "
-                                                 "body of '" +
-                                                 emitters[i].name +
-                                                 "': name the same ones in 'body_of' of both");
+        return reading.problem(object.place,
+                               "another body of '" + emitters[i].name + "' than '" + object.name +
+                                   "' names other luminaires: name the same in 'body_of' of both");
       emitters[i].body = it->second;
     }
   }

@@ -151,7 +151,7 @@ TEST_CASE("a body and its luminaires share a number", "[format][scene]") {
   CHECK(named(s.emitters, "d").body == 0);
   CHECK(all_problems(f.read(lamp("a") + box("x", "\"e\""))).find("'e'") != std::string::npos);
   CHECK(all_problems(f.read(lamp("a") + lamp("b") + box("x", "\"a\"") + box("y", "\"a\", \"b\"")))
-            .find("name the same ones in 'body_of' of both") != std::string::npos);
+            .find("name the same in 'body_of' of both") != std::string::npos);
 }
 
 TEST_CASE("emitters of every shape have their size, distribution and flux", "[format][scene]") {
