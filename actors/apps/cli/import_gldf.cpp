@@ -62,9 +62,14 @@ std::string body_words(const GldfProduct& product, const GldfVariant& variant) {
   if (variant.model) {
     const GldfModel& model = product.models[*variant.model];
     const std::string who = "  body: model \"" + printable(model.file) + "\"";
-    if (model.fault.empty())
-      return who + fmt::format(" of {} part{}\n", model.shape.parts.size(),
-                               model.shape.parts.size() == 1 ? "" : "s");
+    if (model.fault.empty()) {
+      out = who + fmt::format(" of {} part{}\n", model.shape.parts.size(),
+                              model.shape.parts.size() == 1 ? "" : "s");
+      for (const L3dShape& shape : model.shape.shapes)
+        if (!shape.odd_colour.empty())
+          out += "  body: \"" + printable(shape.name) + "\": " + printable(shape.odd_colour) + "\n";
+      return out;
+    }
     out = who + " is not read: " + printable(model.fault) + "\n";
   }
   if (!variant.housing) return out;

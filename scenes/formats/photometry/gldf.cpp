@@ -234,6 +234,7 @@ void put(PlainWriter& out, const GldfModel& model) {
     out.put(shape.obj);
     out.put(shape.colours);
     out.put(shape.metres_per_unit);
+    out.put(shape.odd_colour);
   });
   put_list(out, model.shape.parts, [&](const L3dPart& part) {
     out.put(part.name);
@@ -251,7 +252,8 @@ void put(PlainWriter& out, const GldfModel& model) {
 bool get(PlainReader& in, GldfModel& model) {
   const auto get_shape = [&](L3dShape& shape) {
     return in.get(shape.name) && in.get(shape.obj) && in.get(shape.colours) &&
-           in.get(shape.metres_per_unit) && shape.metres_per_unit > 0 && shape.metres_per_unit <= 1;
+           in.get(shape.metres_per_unit) && in.get(shape.odd_colour) && shape.metres_per_unit > 0 &&
+           shape.metres_per_unit <= 1;
   };
   const auto get_part = [&](L3dPart& part) {
     uint64_t shape = 0;

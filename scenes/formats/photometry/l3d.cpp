@@ -95,8 +95,9 @@ bool is_colour(std::string_view text) {
 }
 
 /// Names and diffuse colours of a material library, without textures and all else. A material
-/// without a colour is grey. "" where none has one.
-std::string colours_in(std::string_view library) {
+/// without a colour is grey. "" where none has one. `odd`: describes the first colour that cannot
+/// be read.
+std::string colours_in(std::string_view library, std::string& odd) {
   constexpr std::string_view grey = "0.7 0.7 0.7";
   struct Paint {
     std::string_view name, colour;
@@ -104,7 +105,14 @@ std::string colours_in(std::string_view library) {
   std::vector<Paint> paints;
   for_lines(library, [&](std::string_view word, std::string_view rest) {
     if (word == "newmtl" && !rest.empty()) paints.push_back({rest, {}});
-    if (!paints.empty() && word == "Kd" && is_colour(rest)) paints.back().colour = rest;
+    if (word != "Kd" || paints.empty()) return;
+    if (is_colour(rest))
+      paints.back().colour = rest;
+    else if (odd.empty())
+      odd = fmt::format(
+          "the colour of its material \"{}\" is \"{}\", and not three numbers from 0 "
+          "to 1: it is not used",
+          excerpt(paints.back().name), excerpt(rest));
   });
   std::string out;
   bool coloured = false;
@@ -260,7 +268,7 @@ class L3dReader {
     if (!entry) return;
     const auto library = archive_.read(*entry, std::min(limits::l3d_library_bytes, left_bytes_));
     if (!library) return;
-    shape.colours = colours_in(library.value());
+    shape.colours = colours_in(library.value(), shape.odd_colour);
     if (shape.colours.empty()) return;
     left_bytes_ -= std::min<uint64_t>(left_bytes_, shape.colours.size());
     shape.obj.replace(static_cast<size_t>(name.data() - shape.obj.data()), name.size(),

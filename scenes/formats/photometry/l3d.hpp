@@ -42,6 +42,7 @@ struct L3dShape {
   /// G B"; "" where there is none.
   std::string colours;
   double metres_per_unit = 1;
+  std::string odd_colour;  // describes the first colour that cannot be read; "" for none
 };
 
 struct L3dPart {

@@ -251,6 +251,8 @@ TEST_CASE("only names and diffuse colours of a material library are kept", "[pho
   CHECK(model.shapes[0].colours ==
         "newmtl red\nKd 1 0.1 0.05\nnewmtl odd\nKd 0.7 0.7 0.7\nnewmtl late\nKd 0 0 1\n");
   CHECK(model.shapes[0].obj == coloured_box_obj(l3d_library));
+  CHECK_THAT(model.shapes[0].odd_colour,
+             Contains("material \"odd\" is \"2 0 0\", and not three numbers from 0 to 1"));
 }
 
 TEST_CASE("a library without a colour is dropped", "[photometry][l3d]") {
