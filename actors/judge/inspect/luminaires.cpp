@@ -86,7 +86,7 @@ Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, i
     if (end->distance_m <= near_m || site.is_back(*end)) ++by_surface[end->surface];
   }
   const double all = rays;
-  Ends out{near / all, back / all, close_back / all};
+  Ends out{near / all, back / all, close_back / all, none_index, {}};
   for (const auto& [surface, count] : all_by_surface) out.on[surface] = count / all;
   const auto most =
       std::max_element(by_surface.begin(), by_surface.end(),
