@@ -52,12 +52,8 @@ Result<LuminaireBody> shape_body(const L3dShape& shape, const fs::path& folder,
   return body;
 }
 
-/// The opening of this name, or the only one.
-const L3dOpening* opening_of(const L3dModel& model, const std::string& name) {
-  const auto it = std::find_if(model.openings.begin(), model.openings.end(),
-                               [&](const L3dOpening& o) { return o.name == name; });
-  if (it != model.openings.end()) return &*it;
-  return model.openings.size() == 1 ? &model.openings.front() : nullptr;
+bool is_of(const L3dPart& part, BodyParts which) {
+  return which == BodyParts::all || part.measured == (which == BodyParts::measured);
 }
 
 /// A colour as a line of a material library.
@@ -69,11 +65,24 @@ std::string paint_words(const std::optional<glm::dvec3>& colour) {
 
 }  // namespace
 
+const L3dOpening* opening_of(const L3dModel& model, const std::string& name) {
+  const auto it = std::find_if(model.openings.begin(), model.openings.end(),
+                               [&](const L3dOpening& o) { return o.name == name; });
+  if (it != model.openings.end()) return &*it;
+  return model.openings.size() == 1 ? &model.openings.front() : nullptr;
+}
+
+bool has_parts(const L3dModel& model, BodyParts which) {
+  return std::any_of(model.parts.begin(), model.parts.end(),
+                     [&](const L3dPart& part) { return is_of(part, which); });
+}
+
 void foresee_body(const L3dModel& model, ReadingShare& reading) {
   for (const L3dShape& shape : model.shapes) reading.foresee(shape.obj.size());
 }
 
-Result<LuminaireBody> luminaire_body(const L3dModel& model, ReadingShare* reading) {
+Result<LuminaireBody> luminaire_body(const L3dModel& model, ReadingShare* reading,
+                                     BodyParts which) {
   const AnswerFolder folder;
   if (folder.path().empty()) {
     std::error_code failed;
@@ -92,6 +101,7 @@ Result<LuminaireBody> luminaire_body(const L3dModel& model, ReadingShare* readin
   }
   LuminaireBody out;
   for (const L3dPart& part : model.parts) {
+    if (!is_of(part, which)) continue;
     const LuminaireBody& shape = shapes[part.shape];
     if (out.mesh.triangles.size() + shape.mesh.triangles.size() > limits::luminaire_body_triangles)
       return problem(

@@ -87,7 +87,7 @@ Result<void> says_one_luminaire(const fs::path& file) {
   }
   const auto product = read_gldf(file);
   if (!product) return product.problem();
-  const auto luminaire = luminaire_of(product.value(), "", "", std::nullopt);
+  const auto luminaire = luminaire_of(product.value(), {});
   return luminaire ? Result<void>() : luminaire.problem();
 }
 
@@ -109,7 +109,8 @@ std::string luminaire_type_text(const BuildingFixture& fixture, size_t count,
   if (fixture.says.empty()) return out;
   return out +
          "# emergency = \"non-maintained\"\n# emergency_factor =        # or emergency_flux, or a "
-         "GLDF container\n# maintenance_factor = \n# end_of_duration_factor = \n";
+         "GLDF container\n# emergency_flux_is =       # \"rated\", or \"initial\" with an "
+         "end_of_duration_factor\n# maintenance_factor = \n";
 }
 
 std::string sign_type_text(const BuildingFixture& fixture, size_t count) {

@@ -54,6 +54,10 @@ Check judged(Rule rule, Subject subject, double value, Limit limit,
     check.reasons = {remark(RemarkId::no_value)};
     return check;
   }
+  // A value that is its limit to rounding is the limit: 500.00000000000006 of 500 cd is no excess.
+  constexpr double rounding = 1e-9;
+  if (std::abs(value - limit.value) <= rounding * std::abs(limit.value))
+    check.value = value = limit.value;
   const bool holds = limit.at_least ? value >= limit.value : value <= limit.value;
   check.verdict = holds ? CheckVerdict::pass : CheckVerdict::fail;
   if (check.rule.recollected()) {

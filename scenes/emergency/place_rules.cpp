@@ -204,6 +204,11 @@ std::vector<Check> checks_of_glare(const SceneDescription& scene, const CodeChoi
       if (e.shape == EmitterShape::mesh && check.verdict == CheckVerdict::fail)
         check.reasons = {remark(RemarkId::mesh_unhidden)};
       check.conditions = {remark(zone_alone ? RemarkId::glare_zone : RemarkId::all_directions)};
+      // A new luminaire gives more than its rated flux: what glares with that glares, the rest is
+      // not known.
+      if (!e.initial_flux_known && check.verdict != CheckVerdict::fail)
+        check = not_assessed(rule_of(RuleId::E8, codes), subject,
+                             remark(RemarkId::initial_flux_unknown));
       out.push_back(std::move(check));
     }
   }

@@ -42,6 +42,7 @@ constexpr std::array kinds = std::to_array<RemarkKind>({
     {RemarkId::low_sign, "low_sign", ""},
     {RemarkId::no_sign_ahead, "no_sign_ahead", ""},
     {RemarkId::parallel_beam, "parallel_beam", ""},
+    {RemarkId::initial_flux_unknown, "initial_flux_unknown", ""},
     {RemarkId::mesh_unhidden, "mesh_unhidden", ""},
     {RemarkId::nearest_luminaire, "nearest_luminaire", "luminaire"},
     {RemarkId::none_in_sight, "none_in_sight", ""},

@@ -50,6 +50,7 @@ enum class RemarkId {
   low_sign,
   no_sign_ahead,
   parallel_beam,
+  initial_flux_unknown,
   mesh_unhidden,
   nearest_luminaire,
   none_in_sight,

@@ -30,6 +30,7 @@ flux_lm = 200
 emergency = "non-maintained"
 emergency_flux = 200
 maintenance_factor = 0.8
+emergency_flux_is = "initial"
 end_of_duration_factor = 0.7
 onset = [[0, 1]]
 

@@ -31,6 +31,7 @@ flux_lm = 3000
 emergency_flux = 300
 emergency = "maintained"
 maintenance_factor = 1
+emergency_flux_is = "initial"
 end_of_duration_factor = 1
 [[medium]]
 name = "thin smoke"

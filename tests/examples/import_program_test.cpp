@@ -145,7 +145,7 @@ TEST_CASE("light is traced in an imported model, and its results are by GlobalId
   REQUIRE(type != std::string::npos);
   fixtures.insert(type,
                   "emergency = \"maintained\"\nmaintenance_factor = 0.8\n"
-                  "end_of_duration_factor = 0.9\n");
+                  "emergency_flux_is = \"initial\"\nend_of_duration_factor = 0.9\n");
   folder.write("house/fixtures.toml", fixtures);
   folder.write("house/scene.toml",
                slurp(folder / "house/scene.toml") +

@@ -33,6 +33,7 @@ flux_lm = 1000
 emergency = "non-maintained"
 emergency_flux = 500
 maintenance_factor = 0.8
+emergency_flux_is = "initial"
 end_of_duration_factor = 0.75
 )";
 

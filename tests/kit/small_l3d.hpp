@@ -27,7 +27,8 @@ struct SmallL3d {
   std::string position = R"(<Position x="-0.1" y="-0.05" z="0.5"/>)";
   std::string rotation = R"(<Rotation x="0" y="0" z="0"/>)";
   std::string reference = "box";
-  std::string joints;  // below the part
+  std::string joints;    // below the part
+  std::string measured;  // its includedInMeasurement; "" for none
   std::string obj = box_obj;
   std::string library;  // material library, as paint box.mtl; "": none
   std::string before = R"(<?xml version="1.0" encoding="utf-8"?>)";
@@ -35,8 +36,10 @@ struct SmallL3d {
   std::string xml() const {
     return before + R"(<Luminaire><GeometryDefinitions><GeometryFileDefinition id="box" )" +
            R"(filename="box.obj" units=")" + units +
-           R"("/></GeometryDefinitions><Structure><Geometry partName="housing">)" + position +
-           rotation + R"(<GeometryReference geometryId=")" + reference + R"("/>)" + joints +
+           R"("/></GeometryDefinitions><Structure><Geometry partName="housing")" +
+           (measured.empty() ? "" : " includedInMeasurement=\"" + measured + "\"") + ">" +
+           position + rotation + R"(<GeometryReference geometryId=")" + reference + R"("/>)" +
+           joints +
            R"(<LightEmittingObjects><LightEmittingObject partName="leo">)"
            R"(<Position x="0.1" y="0.05" z="0"/><Rotation x="0" y="0" z="0"/>)"
            R"(<Rectangle sizeX="0.2" sizeY="0.1"/></LightEmittingObject></LightEmittingObjects>)"

@@ -76,6 +76,7 @@ file = "{LIBRARY / "luminaires" / "emergency_corridor.ldt"}"
 emergency = "non-maintained"
 emergency_factor = {factor}
 maintenance_factor = 0.8
+emergency_flux_is = "initial"
 end_of_duration_factor = 0.8
 cost = {cost}
 turns_deg = [0]
@@ -111,6 +112,7 @@ flux_lm = 200
 emergency = "non-maintained"
 emergency_flux = 200
 maintenance_factor = 0.8
+emergency_flux_is = "initial"
 end_of_duration_factor = 0.7
 '''
 

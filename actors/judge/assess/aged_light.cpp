@@ -34,6 +34,8 @@ Result<AgeingShares> group_by_ageing(SceneDescription& scene, Operation operatio
   AgeingShares ageing;
   for (Emitter& e : scene.emitters) {
     const double share = aged_share(e, operation);
+    if (operation == Operation::emergency && e.emergency_flux > 0 && !e.initial_flux_known)
+      ageing.new_light_known = false;
     auto at = std::find(ageing.shares.begin(), ageing.shares.end(), share);
     if (at == ageing.shares.end()) at = ageing.shares.insert(at, share);
     e.group = group_name(static_cast<size_t>(at - ageing.shares.begin()));

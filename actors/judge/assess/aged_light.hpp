@@ -11,6 +11,8 @@ namespace luxodus {
 /// Distinct remaining shares of new light in a scene. The first is 1, for sources that do not age.
 struct AgeingShares {
   std::vector<double> shares{1};
+  /// Whether the fluxes of all new luminaires are known; else new light is that or more.
+  bool new_light_known = true;
 
   /// The mixture that turns aged light into new light, in a scene grouped by group_by_ageing.
   GroupMixture renewal() const;

@@ -270,8 +270,8 @@ LinesOfSight CodeLight::seen_from(const std::vector<glm::dvec3>& places) const {
       const double distance = glm::length(place - lamp);
       if (!(distance > before_opening_m) || screens_.hide(place, {lamp, lamp})) continue;
       const glm::dvec3 before = lamp + (place - lamp) * (before_opening_m / distance);
-      if (clear_share(building_.scene(), access, building_.local(place), building_.local(before)) >
-              0 &&
+      if (clear_share(building_.scene(), access, building_.local(place), building_.local(before),
+                      scene_.emitters[luminaires_[i]].body) > 0 &&
           shines_at(access, i, place))
         seen[i] = 1;
     }

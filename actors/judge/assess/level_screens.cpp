@@ -83,7 +83,10 @@ std::map<int64_t, std::vector<LevelTriangle>> level_triangles(const CompiledScen
   };
   for (size_t o = 0; o < objects.size() && o < scene.surfaces.size(); ++o) {
     const CompiledSurface& surface = scene.surfaces[o];
-    if (objects[o].door || !opaque(surface.material[0]) || !opaque(surface.material[1])) continue;
+    // The body of a luminaire does not stop the luminaire's own light.
+    if (objects[o].door || surface.body != 0 || !opaque(surface.material[0]) ||
+        !opaque(surface.material[1]))
+      continue;
     const Mesh& mesh = objects[o].mesh;
     for (const glm::uvec3& corners : mesh.triangles) {
       const glm::dvec3 &a = mesh.positions[corners[0]], &b = mesh.positions[corners[1]],

@@ -283,8 +283,19 @@ void SightsInLights::judge_view(const Readout& readout, const CompiledScene& sce
   row.sight = judge_sight(sign, row.view, row.look, rules);
   row.in_new_light = false;
   row.other.reset();
-  if (!judged_.ageing.any()) return;
-  SightRow::Other as_new{look_in(judged_.new_mixture(light)), {}};
+  if (judged_.ageing.any())
+    judge_in_new_light(row, sign, look_in(judged_.new_mixture(light)), rules);
+  // Light of new luminaires only veils more.
+  if (!judged_.ageing.new_light_known && row.sight.verdict == SightVerdict::legible) {
+    row.sight.verdict = SightVerdict::not_assessed;
+    row.sight.reason = remark(RemarkId::initial_flux_unknown);
+  }
+}
+
+/// The worse of the verdicts in aged and in new light counts.
+void SightsInLights::judge_in_new_light(SightRow& row, const Sign& sign, SignLook look,
+                                        const SightRules& rules) {
+  SightRow::Other as_new{std::move(look), {}};
   as_new.sight = judge_sight(sign, row.view, as_new.look, rules);
   if (is_worse(as_new.sight, row.sight)) {
     std::swap(row.look, as_new.look);

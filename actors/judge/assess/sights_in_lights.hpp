@@ -53,6 +53,8 @@ class SightsInLights {
   void judge(const CompiledScene& scene, const Totals& totals, const std::vector<size_t>& views);
   void judge_view(const Readout& readout, const CompiledScene& scene, const EyeTarget& target,
                   const Faced& faced, size_t light);
+  static void judge_in_new_light(SightRow& row, const Sign& sign, SignLook look,
+                                 const SightRules& rules);
   void compare_with_first(const Readout& readout, const CompiledScene& scene,
                           const EyeTarget& target, const Faced& faced, size_t light);
 

@@ -118,6 +118,24 @@ void tell_emergency_flux(const Emitter& e, SharedSlips& slips) {
                           lumens));
 }
 
+/// What the emergency flux states: the rated flux of EN 60598-2-22 is the least over the duration
+/// already, so that a factor for its end counts that twice.
+void tell_flux_state(const Emitter& e, SharedSlips& slips) {
+  if (e.emergency_flux_is == EmergencyFluxIs::unstated)
+    slips.add(Severity::warning, "flux", e,
+              "does not say what its emergency flux is: with emergency_flux_is = \"rated\" (EN "
+              "60598-2-22: the least until the end of the duration) no end_of_duration_factor "
+              "belongs to it, which would count that twice; with \"initial\" the factor holds");
+  else if (e.emergency_flux_is == EmergencyFluxIs::initial && e.end_of_duration_factor == 1)
+    slips.add(Severity::note, "flux", e,
+              "has an end_of_duration_factor of 1: its light does not fall until the battery is "
+              "empty, as on a central supply");
+  else if (!e.initial_flux_known)
+    slips.add(Severity::note, "flux", e,
+              "has a rated emergency flux and no initial_flux: how far it glares (E8), and veils "
+              "signs, when it is new, is not assessed");
+}
+
 void tell_factors(const Emitter& e, SharedSlips& slips) {
   const bool emergency = e.emergency_flux > 0;
   if (e.maintenance_factor < low_maintenance)
@@ -134,10 +152,7 @@ void tell_factors(const Emitter& e, SharedSlips& slips) {
     slips.add(Severity::warning, "flux", e,
               "has a maintenance_factor of 1, as if it never aged nor got dirty: the codes' "
               "limits hold at the end of its life, 0.8 is usual");
-  if (emergency && e.end_of_duration_factor == 1)
-    slips.add(Severity::note, "flux", e,
-              "has an end_of_duration_factor of 1: its light does not fall until the battery is "
-              "empty; does its maker say so?");
+  if (emergency) tell_flux_state(e, slips);
   const double rated = e.web && !e.radiometric ? e.web->flux_lm() : 0;
   if (rated > 0 && e.mains_flux / e.maintenance_factor > rated * (1 + rounding_share))
     slips.add(Severity::warning, "flux", e,

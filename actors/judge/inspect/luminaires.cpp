@@ -24,6 +24,9 @@ constexpr Real near_m = 0.02_r;
 /// [m].
 constexpr Real recess_m = 0.5_r;
 constexpr Real light_reach_m = 1e5_r;
+/// An object that hides more of a luminaire's light, is no larger, and within whose bounds the
+/// luminaire is, may be its body.
+constexpr double body_share = 0.05, largest_body_m = 3, at_body_m = 0.02;
 /// Rays of a first test, which most luminaires pass, and of a second one.
 constexpr int few_rays = 64;
 constexpr int many_rays = 1024;
@@ -55,12 +58,13 @@ struct Ends {
   double back = 0;                // on backs: the inside of a body, or the outside of a room
   double close_back = 0;          // of these, within recess_m
   uint32_t surface = none_index;  // the surface that gets most of either
+  std::map<uint32_t, double> on;  // by surface
 };
 
 Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, int rays) {
   const CompiledScene& scene = site.building.scene();
   const CompiledEmitter& e = scene.emitters[emitter];
-  std::map<uint32_t, int> by_surface;
+  std::map<uint32_t, int> by_surface, all_by_surface;
   int near = 0, back = 0, close_back = 0;
   for (const auto& [point, direction] : emitted_rays(scene, access, emitter, ends_seed, rays)) {
     Vec3 origin = point.position;
@@ -70,16 +74,20 @@ Ends ends_of(const Site& site, const GeometryAccess& access, uint32_t emitter, i
     }
     const auto end =
         first_stop(scene, access, origin, direction, light_reach_m, [&](const FacedSurface& f) {
-          return lets_light_through(f.kind) || scene.surfaces[f.surface].body_emitter == emitter;
+          const CompiledSurface& surface = scene.surfaces[f.surface];
+          return lets_light_through(f.kind) || surface.body_emitter == emitter ||
+                 (e.body != 0 && surface.body == e.body);
         });
     if (!end) continue;
+    ++all_by_surface[end->surface];
     near += end->distance_m <= near_m ? 1 : 0;
     back += site.is_back(*end) ? 1 : 0;
     close_back += site.is_back(*end) && end->distance_m <= recess_m ? 1 : 0;
     if (end->distance_m <= near_m || site.is_back(*end)) ++by_surface[end->surface];
   }
   const double all = rays;
-  Ends out{near / all, back / all, close_back / all};
+  Ends out{near / all, back / all, close_back / all, none_index, {}};
+  for (const auto& [surface, count] : all_by_surface) out.on[surface] = count / all;
   const auto most =
       std::max_element(by_surface.begin(), by_surface.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -100,6 +108,23 @@ double building_length(const SceneDescription& scene) {
   if (all.empty()) return 0;
   const glm::dvec3 size = all.high - all.low;
   return std::max({size.x, size.y, size.z});
+}
+
+/// An object that hides light of a luminaire and may be its body, whose shadow the intensities lack
+/// already; none if there is none, or if it is said to be the body.
+const Object* unsaid_body(const Site& site, const Emitter& e, const Ends& ends) {
+  if (e.distribution != Distribution::web) return nullptr;
+  const glm::dvec3 margin(at_body_m), at = e.frame.origin;
+  for (const auto& [surface, share] : ends.on) {
+    if (share < body_share || surface >= site.scene.objects.size()) continue;
+    const Object& object = site.scene.objects[surface];
+    const Bounds bounds = bounds_of(object.mesh);
+    const glm::dvec3 size = bounds.high - bounds.low;
+    const bool around = glm::all(glm::lessThanEqual(bounds.low - margin, at)) &&
+                        glm::all(glm::lessThanEqual(at, bounds.high + margin));
+    if (around && std::max({size.x, size.y, size.z}) <= largest_body_m) return &object;
+  }
+  return nullptr;
 }
 
 /// What is wrong with one emitter's place; sets `stands_outside` if it is outside.
@@ -136,6 +161,18 @@ std::optional<Finding> wrong_emitter(const Site& site, const GeometryAccess& acc
                                          "move it out",
                                          emitter_text(e), surface_text(site, ends.surface),
                                          percent_text(ends.back))}};
+  if (const Object* body = unsaid_body(site, e, ends))
+    return Finding{
+        Severity::warning,
+        "body",
+        {e.place,
+         fmt::format(
+             "{} sends {} of its light onto {}, at which it is: if that is its body, the "
+             "intensities of its file lack that light already, and the body needs "
+             "body_of = [\"{}\"]",
+             emitter_text(e),
+             percent_text(ends.on.at(static_cast<uint32_t>(body - site.scene.objects.data()))),
+             object_text(*body), e.name)}};
   if (!site.is_outside(access, middle)) return std::nullopt;
   stands_outside = 1;
   if (ends.close_back > 0.5)
@@ -243,10 +280,11 @@ bool lights(const Site& site, const GeometryAccess& access, uint32_t emitter,
     const double watt_to_lm = site.scene.emitters[emitter].radiometric ? 100 : 1;
     if (lumens * watt_to_lm * density / (distance * distance) < min_lx) return false;
     const Vec3 before = middle + direction * std::min(0.01_r, static_cast<Real>(distance) / 2);
-    if (furnished) return clear_share(scene, access, site.building.local(place), before) > 0;
+    if (furnished)
+      return clear_share(scene, access, site.building.local(place), before, e.body) > 0;
     return !solid_ahead(site, access, place, glm::dvec3(-direction),
                         static_cast<double>(glm::length(before - site.building.local(place))),
-                        false);
+                        false, e.body);
   });
 }
 
@@ -386,9 +424,9 @@ void inspect_judged_places(const Site& site, Findings& out) {
 void inspect_near_field(const Site& site, const Scenario& scenario, Findings& out) {
   std::vector<NearPlace> places;
   site.building.each(1, [&](const GeometryAccess& access, size_t) {
-    const auto sees = [&](const glm::dvec3& from, const glm::dvec3& to) {
-      return clear_share(site.building.scene(), access, site.building.local(from),
-                         site.building.local(to)) > 0;
+    const auto sees = [&](const Emitter& luminaire, const glm::dvec3& place) {
+      return clear_share(site.building.scene(), access, site.building.local(place),
+                         site.building.local(luminaire.frame.origin), luminaire.body) > 0;
     };
     places = near_field_places(site.scene, scenario, sees);
   });

@@ -61,10 +61,11 @@ std::vector<char> furniture_of(const Site& site) {
 
 std::optional<FacedSurface> solid_ahead(const Site& site, const GeometryAccess& access,
                                         const glm::dvec3& from, const glm::dvec3& direction,
-                                        double length_m, bool furniture) {
+                                        double length_m, bool furniture, int own_body) {
   return first_stop(site.building.scene(), access, site.building.local(from), Vec3(direction),
                     static_cast<Real>(length_m), [&](const FacedSurface& f) {
                       return f.surface >= site.scene.objects.size() || lets_light_through(f.kind) ||
+                             (own_body != 0 && site.scene.objects[f.surface].body == own_body) ||
                              (!furniture && is_furniture(site.scene.objects[f.surface]));
                     });
 }

@@ -68,10 +68,10 @@ struct Site {
 /// Which surfaces are furniture.
 std::vector<char> furniture_of(const Site& site);
 /// The nearest wall, floor or body within `length_m`, ignoring signs, luminaires and transparent
-/// surfaces, and furniture unless `furniture`.
+/// surfaces, the body `own_body`, and furniture unless `furniture`.
 std::optional<FacedSurface> solid_ahead(const Site& site, const GeometryAccess& access,
                                         const glm::dvec3& from, const glm::dvec3& direction,
-                                        double length_m, bool furniture = true);
+                                        double length_m, bool furniture = true, int own_body = 0);
 
 // For one state of the doors. Sets `outside`: for each emitter, whether it is outside.
 void inspect_luminaires(const Site& site, Findings& out, std::vector<char>& outside);

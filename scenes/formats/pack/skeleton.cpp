@@ -65,7 +65,7 @@ void serialize(A& a, Emitter& x) {
   a(x.name, x.place, x.circuit, x.group, choice(x.shape, EmitterShape::mesh), x.frame, x.size,
     x.mesh, choice(x.distribution, Distribution::web), x.cosine_power, x.spot_inner_deg,
     x.spot_outer_deg, x.spectrum, x.radiometric, x.mains_flux, x.emergency_flux, x.emergency_ageing,
-    x.onset, x.duration_s, x.body_material);
+    x.onset, x.duration_s, x.body_material, x.body);
 }
 template <class A>
 void serialize(A& a, SignFace& x) {
@@ -225,7 +225,7 @@ void serialize(A& a, SceneDescription& x) {
 }
 template <class A>
 void serialize(A& a, CompiledSurface& x) {
-  a(x.name, x.material[0], x.material[1], x.sign, x.body_emitter, x.first_patch, x.patches,
+  a(x.name, x.material[0], x.material[1], x.sign, x.body_emitter, x.body, x.first_patch, x.patches,
     x.area_m2, x.one_patch);
 }
 template <class A>

@@ -1,12 +1,11 @@
-// The other process unpacks and parses. This one checks the plain values of its answer, and reads
-// the photometric files itself, like those beside a scene.
+// The other process unpacks and parses. This one checks the plain values of its answer.
 #include "scenes/formats/photometry/gldf.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <memory>
+#include <cmath>
 #include <stdexcept>
 
 #include "runtime/core/isolated_job.hpp"
@@ -15,7 +14,6 @@
 #include "runtime/core/regular_file.hpp"
 #include "scenes/formats/photometry/gldf_archive.hpp"
 #include "scenes/formats/photometry/gldf_product.hpp"
-#include "scenes/formats/photometry/photometric_text.hpp"
 
 namespace luxodus {
 namespace {
@@ -173,26 +171,33 @@ bool get_list(PlainReader& in, std::vector<T>& list, uint64_t most, const Get& g
 void put(PlainWriter& out, const GldfLight& light) {
   for (const auto* text : {&light.emitter, &light.behaviour, &light.photometry, &light.fault})
     out.put(*text);
-  for (const auto* number :
-       {&light.rated_lm, &light.lamp_lm, &light.emergency_lm, &light.ballast_factor})
+  for (const auto* number : {&light.rated_lm, &light.lamp_lm, &light.emergency_lm,
+                             &light.emergency_lamp_lm, &light.ballast_factor})
     put(out, *number);
   out.put(light.rotation_deg);
+  out.put(light.g0_deg);
+  out.put(light.alternative);
 }
 
 bool get(PlainReader& in, GldfLight& light) {
   for (auto* text : {&light.emitter, &light.behaviour, &light.photometry, &light.fault})
     if (!in.get(*text)) return false;
-  for (auto* number : {&light.rated_lm, &light.lamp_lm, &light.emergency_lm, &light.ballast_factor})
+  for (auto* number : {&light.rated_lm, &light.lamp_lm, &light.emergency_lm,
+                       &light.emergency_lamp_lm, &light.ballast_factor})
     if (!get(in, *number)) return false;
-  return in.get(light.rotation_deg);
+  return in.get(light.rotation_deg) && in.get(light.g0_deg) && in.get(light.alternative) &&
+         is_finite(light.rotation_deg) && std::isfinite(light.g0_deg);
 }
 
 void put(PlainWriter& out, const GldfVariant& variant) {
   out.put(variant.id);
   out.put(variant.name);
-  std::vector<uint64_t> lights(variant.lights.begin(), variant.lights.end());
-  out.put(lights);
-  for (const std::string& opening : variant.openings) out.put(opening);
+  put_list(out, variant.lights, [&](const GldfReference& reference) {
+    out.put(reference.name);
+    out.put(reference.light);
+    out.put(reference.number);
+    out.put(reference.opening);
+  });
   out.put(variant.durations);
   out.put(static_cast<uint64_t>(variant.model.value_or(limits::gldf_models)));
   const GldfHousing housing = variant.housing.value_or(GldfHousing{});
@@ -202,22 +207,23 @@ void put(PlainWriter& out, const GldfVariant& variant) {
 }
 
 bool get(PlainReader& in, GldfVariant& variant, size_t all_lights) {
-  std::vector<uint64_t> lights;
   uint64_t model = 0;
   uint8_t housed = 0, round = 0;
   GldfHousing housing;
-  if (!in.get(variant.id) || !in.get(variant.name) || !in.get(lights)) return false;
-  variant.openings.resize(lights.size());
-  for (std::string& opening : variant.openings)
-    if (!in.get(opening)) return false;
+  const auto get_reference = [&](GldfReference& reference) {
+    return in.get(reference.name) && in.get(reference.light) && in.get(reference.number) &&
+           in.get(reference.opening) && reference.light < all_lights;
+  };
+  if (!in.get(variant.id) || !in.get(variant.name) ||
+      !get_list(in, variant.lights, limits::gldf_references, get_reference))
+    return false;
   if (!in.get(variant.durations) || !in.get(model) || !in.get(housed) || !in.get(round) ||
       !in.get(housing.size_m))
     return false;
   if (model < limits::gldf_models) variant.model = model;
-  variant.lights.assign(lights.begin(), lights.end());
   housing.round = round == 1;
   if (housed == 1) variant.housing = housing;
-  return std::all_of(lights.begin(), lights.end(), [&](uint64_t l) { return l < all_lights; });
+  return true;
 }
 
 void put(PlainWriter& out, const GldfModel& model) {
@@ -228,11 +234,13 @@ void put(PlainWriter& out, const GldfModel& model) {
     out.put(shape.obj);
     out.put(shape.colours);
     out.put(shape.metres_per_unit);
+    out.put(shape.odd_colour);
   });
   put_list(out, model.shape.parts, [&](const L3dPart& part) {
     out.put(part.name);
     out.put(static_cast<uint64_t>(part.shape));
     out.put(part.place);
+    out.put(static_cast<uint8_t>(part.measured));
   });
   put_list(out, model.shape.openings, [&](const L3dOpening& opening) {
     out.put(opening.name);
@@ -244,12 +252,16 @@ void put(PlainWriter& out, const GldfModel& model) {
 bool get(PlainReader& in, GldfModel& model) {
   const auto get_shape = [&](L3dShape& shape) {
     return in.get(shape.name) && in.get(shape.obj) && in.get(shape.colours) &&
-           in.get(shape.metres_per_unit) && shape.metres_per_unit > 0 && shape.metres_per_unit <= 1;
+           in.get(shape.metres_per_unit) && in.get(shape.odd_colour) && shape.metres_per_unit > 0 &&
+           shape.metres_per_unit <= 1;
   };
   const auto get_part = [&](L3dPart& part) {
     uint64_t shape = 0;
-    if (!in.get(part.name) || !in.get(shape) || !in.get(part.place)) return false;
+    uint8_t measured = 0;
+    if (!in.get(part.name) || !in.get(shape) || !in.get(part.place) || !in.get(measured))
+      return false;
     part.shape = shape;
+    part.measured = measured == 1;
     return shape < model.shape.shapes.size() && part.place.usable();
   };
   const auto get_opening = [&](L3dOpening& opening) {
@@ -303,80 +315,6 @@ void gldf_answer(PlainReader& question, PlainWriter& out) {
 
 const IsolatedJob gldf_job("gldf", gldf_answer);
 
-// ---- a scene's choice ---------------------------------------------------------------------------
-
-std::string choices(const std::vector<std::string>& names) {
-  constexpr size_t most = 12;
-  std::string out;
-  for (size_t i = 0; i < names.size() && i < most; ++i)
-    out += (i == 0 ? "\"" : ", \"") + excerpt(names[i]) + "\"";
-  return names.size() > most ? out + ", ..." : out;
-}
-
-Result<const GldfVariant*> chosen_variant(const GldfProduct& product, const std::string& id) {
-  if (id.empty() && product.variants.size() == 1) return &product.variants.front();
-  std::vector<std::string> ids;
-  for (const GldfVariant& variant : product.variants) {
-    if (variant.id == id) return &variant;
-    ids.push_back(variant.id);
-  }
-  return problem_in(product.file,
-                    (id.empty() ? std::string("several variants; say 'variant'")
-                                : "no variant \"" + excerpt(id) + "\" in it; there are") +
-                        (id.empty() ? ": " : " ") + choices(ids));
-}
-
-Result<const GldfLight*> chosen_light(const GldfProduct& product, const GldfVariant& variant,
-                                      const std::string& emitter) {
-  std::vector<std::string> names;
-  for (const size_t at : variant.lights) {
-    const GldfLight& light = product.lights[at];
-    if (light.emitter == emitter || (emitter.empty() && variant.lights.size() == 1)) return &light;
-    names.push_back(light.emitter);
-  }
-  const std::string of = "variant \"" + excerpt(variant.id) + "\" ";
-  if (names.empty()) return problem_in(product.file, of + "has no light emitter");
-  return problem_in(
-      product.file,
-      of +
-          (emitter.empty() ? std::string("has several emitters; say 'emitter': ")
-                           : "has no emitter \"" + excerpt(emitter) + "\"; there are ") +
-          choices(names));
-}
-
-Result<double> emergency_flux(const GldfProduct& product, const GldfVariant& variant,
-                              const GldfLight& light, double rated_lm,
-                              std::optional<double> duration_h) {
-  if (duration_h && !variant.durations.empty()) {
-    std::vector<std::string> hours;
-    for (const GldfDuration& row : variant.durations) {
-      if (row.hours == *duration_h) return row.flux_lm;
-      hours.push_back(fmt::format("{:g}", row.hours));
-    }
-    return problem_in(product.file, "variant \"" + excerpt(variant.id) +
-                                        "\" has no emergency flux for " +
-                                        fmt::format("{:g} h; it has those for ", *duration_h) +
-                                        choices(hours) + " h");
-  }
-  if (light.emergency_lm) return *light.emergency_lm;
-  if (light.ballast_factor) return rated_lm * *light.ballast_factor;
-  if (light.behaviour == "EmergencyOnly") return rated_lm;
-  return problem_in(product.file, "emitter \"" + excerpt(light.emitter) +
-                                      "\" states no emergency flux and no ballast's factor: say "
-                                      "'emergency_flux' or 'emergency_factor'");
-}
-
-/// Scales a web to another flux.
-Result<std::shared_ptr<const PhotometricWeb>> with_flux(const PhotometricWeb& web, double flux_lm,
-                                                        const std::string& file) {
-  std::vector<double> candela = web.candela();
-  for (double& c : candela) c *= flux_lm / web.flux_lm();
-  auto scaled = PhotometricWeb::make(web.azimuth_deg(), web.polar_deg(), std::move(candela),
-                                     web.to_luminaire());
-  if (!scaled) return problem_in(file, scaled.problem());
-  return std::make_shared<const PhotometricWeb>(std::move(scaled).value());
-}
-
 }  // namespace
 
 Result<GldfProduct> gldf_of(std::string_view bytes, const std::string& file, GldfModels models,
@@ -420,44 +358,6 @@ Result<GldfProduct> read_gldf(const fs::path& path, GldfModels models, ReadingSh
   product.file = name;
   if (!get(in.value(), product)) return damaged;
   return product;
-}
-
-Result<GldfLuminaire> luminaire_of(const GldfProduct& product, const std::string& variant_id,
-                                   const std::string& emitter, std::optional<double> duration_h) {
-  const auto variant = chosen_variant(product, variant_id);
-  if (!variant) return variant.problem();
-  const auto light = chosen_light(product, *variant.value(), emitter);
-  if (!light) return light.problem();
-  const GldfLight& l = *light.value();
-  const std::string who = "emitter \"" + excerpt(l.emitter) + "\": ";
-  if (!l.fault.empty()) return problem_in(product.file, who + l.fault);
-  const auto file = std::find_if(product.photometry.begin(), product.photometry.end(),
-                                 [&](const GldfFile& f) { return f.name == l.photometry; });
-  if (file == product.photometry.end())
-    return problem_in(product.file, who + "its photometric file is not in the container");
-  // The folder is a file, so that no file named by TILT= is found.
-  auto photometry = photometric_file_of(
-      file->bytes, product.file + ":ldc/" + excerpt(file->name, 200), product.file);
-  if (!photometry) return photometry.problem();
-  GldfLuminaire out;
-  out.photometry = std::move(photometry).value();
-  out.photometry.manufacturer = product.manufacturer;
-  std::string& name = out.photometry.luminaire;
-  name = product.name.empty() ? name : product.name;
-  if (!product.number.empty() && name.find(product.number) == std::string::npos)
-    name += (name.empty() ? "" : ", ") + product.number;
-  const double of_lamps = l.lamp_lm.value_or(0) * out.photometry.light_output_ratio;
-  const double own = out.photometry.web->flux_lm();
-  out.rated_lm = l.rated_lm ? *l.rated_lm : of_lamps > 0 ? of_lamps : own;
-  if (out.rated_lm > 0) {
-    auto web = with_flux(*out.photometry.web, out.rated_lm, product.file);
-    if (!web) return web.problem();
-    out.photometry.web = std::move(web).value();
-    out.photometry.flux_lm = out.rated_lm;
-  }
-  out.emergency_only = l.behaviour == "EmergencyOnly";
-  out.emergency_lm = emergency_flux(product, *variant.value(), l, out.rated_lm, duration_h);
-  return out;
 }
 
 }  // namespace luxodus

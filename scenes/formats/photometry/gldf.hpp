@@ -34,20 +34,28 @@ inline constexpr uint64_t gldf_all_bytes = uint64_t{64} << 20;
 inline constexpr int64_t gldf_entries = 4096;
 inline constexpr size_t gldf_variants = 4096;
 inline constexpr size_t gldf_lights = 4096;
+/// References to lights in one variant.
+inline constexpr size_t gldf_references = 1024;
 inline constexpr size_t gldf_models = 1024;
 }  // namespace limits
 
-/// What a light emitter of a variant gives. Values that the container does not state are absent.
+/// What a light emitter gives. Values that the container does not state are absent.
 struct GldfLight {
-  std::string emitter;     // its id; "ID#2" for the second one with the same id
+  std::string emitter;     // its id; "ID#2" for the second of an emitter's alternatives; "ID:1" for
+                           // the first channel of a light source of several
+  int alternative = 1;     // of several lights of an emitter one is built in; channels share theirs
   std::string behaviour;   // "None", "Combined", "EmergencyOnly", as written; "" where not stated
   std::string photometry;  // name of its file in the container, or its address
   std::string fault;       // why its photometric file is not available; "" where it is
-  std::optional<double> rated_lm;      // of the luminaire, on mains
-  std::optional<double> lamp_lm;       // of all its changeable lamps, before the optics
-  std::optional<double> emergency_lm;  // on emergency supply
+  std::optional<double> rated_lm;           // of the luminaire, on mains
+  std::optional<double> lamp_lm;            // of all its changeable lamps, before the optics
+  std::optional<double> emergency_lm;       // on emergency supply, of the luminaire
+  std::optional<double> emergency_lamp_lm;  // on emergency supply, of its lamps
   std::optional<double> ballast_factor;
   glm::dvec3 rotation_deg{0};  // within the luminaire, about x, y, z
+  double g0_deg = 0;           // about its own gamma 0, before these
+
+  bool is_turned() const { return rotation_deg != glm::dvec3(0) || g0_deg != 0; }
 };
 
 /// A row of the table of emergency flux by duration.
@@ -69,11 +77,18 @@ struct GldfModel {
   L3dModel shape;
 };
 
+/// A light of a variant. An emitter that a variant refers to several times is several lights.
+struct GldfReference {
+  std::string name;     // of its emitter; "ID@2" for the second reference to it
+  uint64_t light = 0;   // index of the product's
+  uint64_t number = 0;  // of the reference: alternatives and channels of one emitter share it
+  std::string opening;  // luminous opening in the variant's model; "" where none is stated
+};
+
 struct GldfVariant {
   std::string id;
   std::string name;
-  std::vector<size_t> lights;         // indices of the product's
-  std::vector<std::string> openings;  // for each light: that of the model; "" where none is stated
+  std::vector<GldfReference> lights;
   std::vector<GldfDuration> durations;
   std::optional<GldfHousing> housing;
   std::optional<size_t> model;  // index of the product's
@@ -98,7 +113,8 @@ enum class GldfModels { left, read };
 
 /// Reads a container, in a process of its own. `reading`, where given, receives the progress.
 /// Errors: it cannot be read, is not a ZIP, has no `product.xml`, another version than 1.0, a
-/// document type (entities), names that lead out of it, or more than the limits. A model that
+/// document type (entities), a number that cannot be read, names that lead out of it, or more than
+/// the limits. A model that
 /// cannot be read is a fault of that model only.
 Result<GldfProduct> read_gldf(const std::filesystem::path& path,
                               GldfModels models = GldfModels::left,
@@ -115,16 +131,25 @@ struct GldfLuminaire {
   PhotometricFile photometry;  // its web gives the rated flux
   double rated_lm = 0;
   bool emergency_only = false;
+  bool normal_only = false;           // the container says that it is not for emergency lighting
   Result<double> emergency_lm = 0.0;  // or why it is unknown
+  glm::dmat3 turn{1};                 // within the luminaire: from the emitter's frame to its own
 };
 
-/// `variant`, `emitter`: "" where there is only one. `duration_h`: selects the flux of that row of
-/// the variant's table, where it has one. Otherwise the emergency flux is the emitter's rated
-/// emergency flux; else its rated flux times the ballast factor; else, for an emitter for emergency
-/// only, its rated flux; else unknown, and never guessed.
+/// What a scene chooses of a product. `variant`, `emitter`: "" where there is only one.
+struct GldfChoice {
+  std::string variant, emitter;
+  std::optional<double> duration_h;
+  std::optional<int> lamp_set;  // of an EULUMDAT file with several
+};
+
+/// `duration_h` selects the flux of that row of the variant's table, where it has one: the table is
+/// the product's, and its emitters that are lit in an emergency share it by their rated fluxes.
+/// Otherwise the emergency flux is the emitter's rated emergency flux (that of its lamps times the
+/// light output ratio); else its rated flux times the ballast factor; else, for an emitter for
+/// emergency only, its rated flux; else unknown, and never guessed.
 /// Errors: no such variant, emitter or duration, with a list of those that exist; a photometric
 /// file that is missing or cannot be read.
-Result<GldfLuminaire> luminaire_of(const GldfProduct& product, const std::string& variant,
-                                   const std::string& emitter, std::optional<double> duration_h);
+Result<GldfLuminaire> luminaire_of(const GldfProduct& product, const GldfChoice& choice);
 
 }  // namespace luxodus

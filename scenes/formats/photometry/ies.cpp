@@ -8,6 +8,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -115,12 +116,16 @@ struct Token {
   int line;
 };
 
-std::vector<Token> tokens_of(const std::vector<std::string>& lines, size_t first) {
+/// LM-63 allows commas between numbers.
+enum class Commas { between_numbers, decimal };
+
+std::vector<Token> tokens_of(const std::vector<std::string>& lines, size_t first, Commas commas) {
   std::vector<Token> tokens;
   for (size_t i = first; i < lines.size(); ++i) {
     const std::string_view line = lines[i];
-    const auto gap = [](char c) {
-      return c == ' ' || c == '\t' || c == ',' || c == '\v' || c == '\f';
+    const auto gap = [&](char c) {
+      return c == ' ' || c == '\t' || c == '\v' || c == '\f' ||
+             (c == ',' && commas == Commas::between_numbers);
     };
     for (size_t at = 0; at < line.size();) {
       if (gap(line[at])) {
@@ -138,8 +143,10 @@ std::vector<Token> tokens_of(const std::vector<std::string>& lines, size_t first
 /// Numbers of a text in order, with messages that name the line.
 class TokenReader {
  public:
-  TokenReader(std::vector<Token> tokens, std::string file, int last_line)
+  TokenReader(std::vector<Token> tokens, std::string file, int last_line,
+              Commas commas = Commas::between_numbers)
       : tokens_(std::move(tokens)),
+        commas_(commas),
         numbers_(std::move(file)),
         line_(last_line),
         last_line_(last_line) {}
@@ -152,8 +159,21 @@ class TokenReader {
     }
     const Token token = tokens_[next_++];
     line_ = token.line;
-    return numbers_.number(line_, token.text, false, what, low, high);
+    return numbers_.number(line_, token.text, commas_ == Commas::decimal, what, low, high);
   }
+
+  /// The numbers ahead, `skipped` of them left out; fewer where the next ones are no numbers.
+  std::vector<double> ahead(size_t skipped, size_t count) const {
+    std::vector<double> out;
+    for (size_t i = next_ + skipped; i < tokens_.size() && out.size() < count; ++i) {
+      const auto value = decimal(tokens_[i].text, commas_ == Commas::decimal);
+      if (!value) break;
+      out.push_back(*value);
+    }
+    return out;
+  }
+  /// The line of the next number.
+  int next_line() const { return next_ < tokens_.size() ? tokens_[next_].line : last_line_; }
 
   int whole(const std::string& what, double low, double high) {
     return numbers_.whole(line_, number(what, low, high), what);
@@ -180,6 +200,7 @@ class TokenReader {
 
  private:
   std::vector<Token> tokens_;
+  Commas commas_;
   PhotometricNumbers numbers_;
   size_t next_ = 0;
   int line_;
@@ -211,12 +232,12 @@ double level_factor(const LampTilt& tilt) {
 class IesReader {
  public:
   IesReader(const std::vector<std::string>& lines, size_t tilt_line, const std::string& file,
-            const std::filesystem::path& folder)
+            const std::filesystem::path& folder, Commas commas)
       : lines_(lines),
         tilt_line_(tilt_line),
         folder_(folder),
         file_(file),
-        in_(tokens_of(lines, tilt_line + 1), file, static_cast<int>(lines.size())) {
+        in_(tokens_of(lines, tilt_line + 1, commas), file, static_cast<int>(lines.size()), commas) {
     out_.file = file;
   }
 
@@ -230,6 +251,8 @@ class IesReader {
     if (in_.fault()) return *in_.fault();
     return std::move(out_);
   }
+  /// Whether numbers follow the last one.
+  bool numbers_are_left() const { return in_.rest() != nullptr; }
 
  private:
   void warn(int line, std::string what) {
@@ -348,7 +371,7 @@ class IesReader {
       return {};
     }
     out_.files_read.push_back(path);
-    TokenReader tokens(tokens_of(tilt_lines.value(), 0), path.string(),
+    TokenReader tokens(tokens_of(tilt_lines.value(), 0, Commas::between_numbers), path.string(),
                        std::max(1, static_cast<int>(tilt_lines.value().size())));
     LampTilt tilt = read_tilt_table(tokens);
     if (tokens.fault()) in_.fail(*tokens.fault());
@@ -377,6 +400,7 @@ class IesReader {
     const double length = in_.number("the length of the opening", -most, most);
     const double height = in_.number("the height of the opening", -most, most);
     out_.opening = opening_of(width * metres, length * metres, height * metres, edition_);
+    check_factors_are_there();
     const double ballast = in_.number("the ballast factor", 0, ies_limits::factor);
     const double lamp_factor = read_lamp_factor();
     out_.input_watts = lamp_.watts = in_.number("the input watts", 0, ies_limits::watts);
@@ -393,15 +417,39 @@ class IesReader {
     if (scale_ == 0) in_.fail(lumens_line, "the multiplier or the ballast factor is 0: no light");
   }
 
-  /// The number after the ballast factor: a factor up to 1995, unused in 2002, a code of the file's
-  /// origin in 2019.
+  /// Where the line of ballast factor, photometric factor and watts is missing, the vertical angles
+  /// stand in its place: they ascend from an angle that files begin with, and what stands in theirs
+  /// does not.
+  void check_factors_are_there() {
+    if (in_.fault()) return;
+    const auto count = static_cast<size_t>(vertical_count_);
+    const auto are_angles = [&](const std::vector<double>& list) {
+      const bool whole = list.size() == count && list.back() <= 180;
+      const bool begins =
+          whole && (near(list.front(), 0) || near(list.front(), 90) || near(list.front(), -90));
+      return begins &&
+             std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
+    };
+    if (!are_angles(in_.ahead(0, count)) || are_angles(in_.ahead(3, count))) return;
+    in_.fail(in_.next_line(),
+             "the line of ballast factor, photometric factor and input watts is missing: here the "
+             "vertical angles begin");
+  }
+
+  /// The number after the ballast factor: the ballast-lamp photometric factor up to 1991, unused
+  /// in 1995 and 2002, a code of the file's origin in 2019.
   double read_lamp_factor() {
     const double value = in_.number("the ballast-lamp photometric factor", 0, ies_limits::factor);
-    if (edition_ < Edition::y2002) return value;
-    if (edition_ == Edition::y2002 && value != 1 && !in_.fault()) {
-      warn(in_.line(), "the field after the ballast factor is " + shown(value) +
-                           "; LM-63-2002 gives it no meaning and it is not used");
+    if (in_.fault() || value == 1) return 1;
+    if (edition_ < Edition::y1995) {
+      warn(in_.line(), "the intensities are multiplied by the ballast-lamp photometric factor of " +
+                           shown(value) + ", as " + out_.format +
+                           " has it; later editions have none");
+      return value;
     }
+    if (edition_ < Edition::y2019)
+      warn(in_.line(), "the field after the ballast factor is " + shown(value) + "; " +
+                           out_.format + " gives it no meaning and it is not used");
     return 1;
   }
 
@@ -439,6 +487,12 @@ class IesReader {
       return WebSymmetry::none;
     }
     if (near(first, 0) && last > 180) {
+      if (const auto gap = missing_deg(horizontals_)) {
+        in_.fail(horizontal_line_, "planes are missing: the horizontal angles stop at " +
+                                       shown(last) + ", and the gap of " + shown(*gap) +
+                                       " degrees to 360 is wider than any step");
+        return WebSymmetry::none;
+      }
       warn(horizontal_line_, "the horizontal angles stop at " + shown(last) +
                                  " instead of 360; the first plane closes the circle");
       return WebSymmetry::none;
@@ -475,6 +529,8 @@ class IesReader {
   PhotometricTable type_c_table() {
     check_verticals(0, 180);
     const PhotometricTable listed{horizontals_, verticals_, candela_};
+    if (auto odd = odd_pole(listed)) warn(horizontal_line_, std::move(*odd));
+    if (auto odd = odd_step(horizontals_)) warn(horizontal_line_, std::move(*odd));
     const WebSymmetry symmetry = type_c_symmetry();
     if (in_.fault()) return listed;
     return pole_to_pole(around(listed, symmetry));
@@ -572,6 +628,18 @@ class IesReader {
   std::vector<std::vector<double>> candela_;
 };
 
+/// The first line with a comma between two digits.
+std::optional<int> line_of_comma_in_number(const std::vector<std::string>& lines, size_t first) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (size_t i = first; i < lines.size(); ++i) {
+    const std::string& line = lines[i];
+    for (size_t at = line.find(','); at != std::string::npos; at = line.find(',', at + 1))
+      if (at > 0 && at + 1 < line.size() && digit(line[at - 1]) && digit(line[at + 1]))
+        return static_cast<int>(i) + 1;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<PhotometricFile> read_ies(std::string_view bytes, const std::string& file,
@@ -580,7 +648,19 @@ Result<PhotometricFile> read_ies(std::string_view bytes, const std::string& file
   if (!lines) return lines.problem();
   for (size_t i = 0; i < lines.value().size(); ++i) {
     if (!upper(bare(lines.value()[i])).starts_with("TILT=")) continue;
-    return IesReader(lines.value(), i, file, folder).read();
+    IesReader reader(lines.value(), i, file, folder, Commas::between_numbers);
+    auto read = reader.read();
+    if (read && !reader.numbers_are_left()) return read;
+    // Decimal commas make two numbers of one, so that some are left, or one is out of place. With
+    // commas as decimal points such a file has just the numbers that its head promises.
+    const auto comma = line_of_comma_in_number(lines.value(), i + 1);
+    if (!comma) return read;
+    IesReader with_decimals(lines.value(), i, file, folder, Commas::decimal);
+    if (with_decimals.read() && !with_decimals.numbers_are_left())
+      return problem_in(file, *comma,
+                        "the numbers have decimal commas, and in LM-63 a comma parts two numbers: "
+                        "write points");
+    return read;
   }
   return problem_in(file, std::max(1, static_cast<int>(lines.value().size())),
                     "no line starts with TILT=; this is no IES LM-63 file, or it is cut off");

@@ -19,8 +19,9 @@
 namespace luxodus {
 
 /// Reads the bytes of an IES file. `file` names it in messages; `folder` is where TILT=<file> is
-/// looked for. Candela x multiplier x ballast factor (x ballast-lamp factor up to 1995) become the
-/// web's candela. Errors: one Problem with file and line.
+/// looked for. Candela x multiplier x ballast factor (x ballast-lamp factor up to 1991) become the
+/// web's candela. Errors: one Problem with file and line; decimal commas are one, since LM-63
+/// allows commas between numbers.
 Result<PhotometricFile> read_ies(std::string_view bytes, const std::string& file,
                                  const std::filesystem::path& folder);
 

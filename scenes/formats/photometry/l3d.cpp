@@ -95,8 +95,9 @@ bool is_colour(std::string_view text) {
 }
 
 /// Names and diffuse colours of a material library, without textures and all else. A material
-/// without a colour is grey. "" where none has one.
-std::string colours_in(std::string_view library) {
+/// without a colour is grey. "" where none has one. `odd`: describes the first colour that cannot
+/// be read.
+std::string colours_in(std::string_view library, std::string& odd) {
   constexpr std::string_view grey = "0.7 0.7 0.7";
   struct Paint {
     std::string_view name, colour;
@@ -104,7 +105,14 @@ std::string colours_in(std::string_view library) {
   std::vector<Paint> paints;
   for_lines(library, [&](std::string_view word, std::string_view rest) {
     if (word == "newmtl" && !rest.empty()) paints.push_back({rest, {}});
-    if (!paints.empty() && word == "Kd" && is_colour(rest)) paints.back().colour = rest;
+    if (word != "Kd" || paints.empty()) return;
+    if (is_colour(rest))
+      paints.back().colour = rest;
+    else if (odd.empty())
+      odd = fmt::format(
+          "the colour of its material \"{}\" is \"{}\", and not three numbers from 0 "
+          "to 1: it is not used",
+          excerpt(paints.back().name), excerpt(rest));
   });
   std::string out;
   bool coloured = false;
@@ -156,6 +164,7 @@ class L3dReader {
     L3dPart part;
     part.name = open.geometry.attribute("partName").value();
     part.place = open.above * placed(open.geometry);
+    part.measured = is_measured(open.geometry);
     part.shape = shape(open.geometry.child("GeometryReference").attribute("geometryId").value());
     for (const auto node :
          open.geometry.child("LightEmittingObjects").children("LightEmittingObject"))
@@ -167,6 +176,18 @@ class L3dReader {
       add_geometries(joint.child("Geometries"), below, open.depth + 1);
     }
     model_.parts.push_back(std::move(part));
+  }
+
+  /// Since version 0.9.2; where it is not stated, the part was measured with the light, as readers
+  /// of the format take it.
+  bool is_measured(pugi::xml_node geometry) {
+    const auto stated = geometry.attribute("includedInMeasurement");
+    const std::string_view word = bare(stated.value());
+    if (!stated || word == "true" || word == "1") return true;
+    if (word != "false" && word != "0")
+      fail(named(geometry) + " in 'structure.xml' has includedInMeasurement = \"" + excerpt(word) +
+           "\"; it is true or false");
+    return false;
   }
 
   std::string named(pugi::xml_node node) const {
@@ -247,7 +268,7 @@ class L3dReader {
     if (!entry) return;
     const auto library = archive_.read(*entry, std::min(limits::l3d_library_bytes, left_bytes_));
     if (!library) return;
-    shape.colours = colours_in(library.value());
+    shape.colours = colours_in(library.value(), shape.odd_colour);
     if (shape.colours.empty()) return;
     left_bytes_ -= std::min<uint64_t>(left_bytes_, shape.colours.size());
     shape.obj.replace(static_cast<size_t>(name.data() - shape.obj.data()), name.size(),

@@ -42,12 +42,14 @@ struct L3dShape {
   /// G B"; "" where there is none.
   std::string colours;
   double metres_per_unit = 1;
+  std::string odd_colour;  // describes the first colour that cannot be read; "" for none
 };
 
 struct L3dPart {
   std::string name;
   size_t shape = 0;
-  Transform place;  // from the shape's metres; the model's z is up
+  Transform place;       // from the shape's metres; the model's z is up
+  bool measured = true;  // it was there when the intensities were measured, which lack its shadow
 };
 
 /// A luminous opening, which shines along `down`.
@@ -65,7 +67,8 @@ struct L3dModel {
 
 /// `file` names the model in messages. Its shapes have at most `max_bytes` together.
 /// Errors: not a ZIP, names that lead out of it, no `structure.xml`, a document type (entities), a
-/// part without its shape, place or unit, more than the limits.
+/// part without its shape, place or unit, `includedInMeasurement` that is neither true nor false,
+/// more than the limits.
 Result<L3dModel> l3d_of(std::string_view bytes, const std::string& file, uint64_t max_bytes);
 
 }  // namespace luxodus

@@ -36,8 +36,8 @@ constexpr double few_lm_per_w = 30;
 
 class LdtReader {
  public:
-  LdtReader(std::vector<std::string> lines, const std::string& file)
-      : lines_(std::move(lines)), file_(file), numbers_(file) {
+  LdtReader(std::vector<std::string> lines, const std::string& file, std::optional<int> lamp_set)
+      : lines_(std::move(lines)), file_(file), numbers_(file), lamp_set_(lamp_set) {
     out_.file = file;
     out_.format = "EULUMDAT";
   }
@@ -64,8 +64,8 @@ class LdtReader {
   /// The next line; its number is line_.
   std::string_view text(const std::string& what) {
     if (static_cast<size_t>(line_) >= lines_.size()) {
-      numbers_.fail(std::max(1, line_),
-                    "the file ends where " + what + " should follow; it is cut off");
+      numbers_.fail(std::max(1, line_), "the file ends where " + what +
+                                            " should follow; it is cut off, or lines are missing");
       return {};
     }
     return bare(lines_[static_cast<size_t>(line_++)]);
@@ -80,6 +80,17 @@ class LdtReader {
 
   int whole(const std::string& what, double low, double high) {
     return numbers_.whole(line_, number(what, low, high), what);
+  }
+
+  /// A number on which the light does not depend: where it is odd, it is told and not used.
+  double advisory(const std::string& what, double low, double high) {
+    const std::string_view field = text(what);
+    if (numbers_.fault() || field.empty()) return 0;
+    const std::optional<double> value = decimal(field, true);
+    if (value && *value >= low && *value <= high) return *value;
+    warn(line_, what + " should lie between " + shown(low) + " and " + shown(high) + ", and is \"" +
+                    excerpt(field) + "\"; it is not used");
+    return 0;
   }
 
   void read_head() {
@@ -111,7 +122,7 @@ class LdtReader {
   /// With several lamps the file states their total flux; the flux of one lamp only would be half
   /// or less.
   void check_lamps(const LampSet& set) {
-    if (set.lamps >= 2 && !out_.absolute && set.watts > 0 && set.flux_lm > 0 &&
+    if (set.lamps >= 2 && absolute_.back() == 0 && set.watts > 0 && set.flux_lm > 0 &&
         set.flux_lm / set.watts < few_lm_per_w)
       warn(line_, shown(set.lamps) + " lamps give " + shown(set.flux_lm) + " lm with " +
                       shown(set.watts) +
@@ -157,7 +168,7 @@ class LdtReader {
                                  : (lit_height > 0 ? Shape::box : Shape::rectangle);
     }
     if (!numbers_.fault()) check_opening(line_);
-    down_percent_ = number("the downward flux fraction (DFF)", 0, 100.5, Blank::is_zero);
+    down_percent_ = advisory("the downward flux fraction (DFF)", 0, 100.5);
     down_line_ = line_;
     output_percent_ = number("the light output ratio (LORL)", 0, 1000, Blank::is_zero);
     output_line_ = line_;
@@ -180,30 +191,51 @@ class LdtReader {
       LampSet set;
       const int count = whole("the number of lamps", -ldt_limits::lamps, ldt_limits::lamps);
       // A negative count marks absolute photometry; the flux is then the luminaire's own.
-      if (count < 0) out_.absolute = true;
+      absolute_.push_back(count < 0);
       set.lamps = std::abs(count);
       set.type = text("the type of the lamps");
       set.flux_lm = number("the flux of the lamps", 0, ldt_limits::flux_lm);
       set.colour = text("the colour of the lamps");
       set.rendering = text("the colour rendering of the lamps");
-      set.watts = number("the wattage of the lamps", 0, ldt_limits::watts, Blank::is_zero);
-      out_.lamp_flux_lm += set.flux_lm;
-      out_.input_watts += set.watts;
-      if (!out_.cct_k) out_.cct_k = colour_temperature_k(set.colour);
-      if (!out_.cri) out_.cri = colour_rendering(set.rendering);
+      set.watts = advisory("the wattage of the lamps", 0, ldt_limits::watts);
       if (!numbers_.fault()) check_lamps(set);
       out_.lamp_sets.push_back(std::move(set));
     }
-    if (numbers_.fault()) return;
-    if (out_.lamp_flux_lm <= 0) {
-      numbers_.fail(line_,
-                    "no lamp set has a flux; without it intensities per 1000 lm mean nothing");
-    } else if (sets > 1) {
-      warn(sets_line, std::to_string(sets) + " lamp sets are taken as burning together, " +
-                          shown(out_.lamp_flux_lm) +
-                          " lm in all; if they are alternatives, state the flux in the scene");
-    }
+    if (!numbers_.fault()) choose_lamps(sets_line);
     for (int i = 0; i < 10; ++i) number("a direct ratio", -1000, 1000, Blank::is_zero);
+  }
+
+  /// Lamp sets are alternatives: of several, one burns.
+  void choose_lamps(int sets_line) {
+    const size_t sets = out_.lamp_sets.size();
+    if (!lamp_set_ && sets > 1)
+      return numbers_.fail(sets_line, std::to_string(sets) +
+                                          " lamp sets are alternatives: say which burns, lamp_set "
+                                          "= 1 to " +
+                                          std::to_string(sets) + ": " + lamp_choices());
+    const auto chosen = static_cast<size_t>(std::max(0, lamp_set_.value_or(1) - 1));
+    if (chosen >= sets)
+      return numbers_.fail(sets_line, "there is no lamp set " + std::to_string(chosen + 1) +
+                                          " in the file; there are: " + lamp_choices());
+    const LampSet& set = out_.lamp_sets[chosen];
+    out_.absolute = absolute_[chosen] != 0;
+    out_.lamp_flux_lm = set.flux_lm;
+    out_.input_watts = set.watts;
+    out_.cct_k = colour_temperature_k(set.colour);
+    out_.cri = colour_rendering(set.rendering);
+    if (set.flux_lm <= 0)
+      numbers_.fail(line_,
+                    "the lamp set has no flux; without it intensities per 1000 lm mean "
+                    "nothing");
+  }
+
+  /// "1: LED 350 mA, 1000 lm; 2: ..."
+  std::string lamp_choices() const {
+    std::string out;
+    for (size_t i = 0; i < out_.lamp_sets.size(); ++i)
+      out += (i == 0 ? "" : "; ") + std::to_string(i + 1) + ": " +
+             excerpt(out_.lamp_sets[i].type, 60) + ", " + shown(out_.lamp_sets[i].flux_lm) + " lm";
+    return out;
   }
 
   std::vector<double> angles(int count, const std::string& what, double high, double step) {
@@ -254,6 +286,10 @@ class LdtReader {
     }
     if (symmetry_ == 0) {
       table_.azimuth_deg = c_angles_;
+      if (const auto gap = missing_deg(c_angles_))
+        numbers_.fail(c_line_, "C planes are missing: between C" + shown(c_angles_.back()) +
+                                   " and C" + shown(c_angles_.front()) + " a gap of " +
+                                   shown(*gap) + " degrees is wider than any step");
       return;
     }
     const int parts = symmetry_ == 4 ? 4 : 2;
@@ -319,6 +355,8 @@ class LdtReader {
   }
 
   void finish() {
+    if (auto odd = odd_pole(table_)) warn(c_line_, std::move(*odd));
+    if (auto odd = odd_step(table_.azimuth_deg)) warn(c_line_, std::move(*odd));
     auto web = web_of(pole_to_pole(around(table_, web_symmetry())), type_c_axes(), {file_, line_});
     if (!web) {
       numbers_.fail(web.problem());
@@ -353,7 +391,9 @@ class LdtReader {
   std::vector<std::string> lines_;
   std::string file_;
   PhotometricNumbers numbers_;
-  int line_ = 0;  // lines read so far, which is the number of the last one
+  std::optional<int> lamp_set_;
+  std::vector<char> absolute_;  // of each lamp set
+  int line_ = 0;                // lines read so far, which is the number of the last one
   PhotometricFile out_;
 
   int symmetry_ = 0;
@@ -374,10 +414,11 @@ class LdtReader {
 
 }  // namespace
 
-Result<PhotometricFile> read_ldt(std::string_view bytes, const std::string& file) {
+Result<PhotometricFile> read_ldt(std::string_view bytes, const std::string& file,
+                                 std::optional<int> lamp_set) {
   Result<std::vector<std::string>> lines = photometric_lines(bytes, file);
   if (!lines) return lines.problem();
-  return LdtReader(std::move(lines).value(), file).read();
+  return LdtReader(std::move(lines).value(), file, lamp_set).read();
 }
 
 }  // namespace luxodus

@@ -25,24 +25,53 @@ bool has_tilt_line(std::string_view bytes) {
   }
 }
 
+/// The text without a byte order mark and blanks before it.
+std::string_view from_first_sign(std::string_view bytes) {
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  return bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
+}
+
+/// What a file is that is neither EULUMDAT nor LM-63, and what to do; none where it may be one.
+std::optional<std::string> other_format(std::string_view bytes) {
+  const std::string_view text = from_first_sign(bytes);
+  if (text.starts_with("PK\x03\x04"))
+    return "this is a ZIP archive; a GLDF container must have a name that ends with .gldf";
+  const auto closes = [&](const char* mark) { return text.find(mark) != std::string_view::npos; };
+  const bool xml = text.starts_with('<') && (closes("</") || closes("/>"));
+  const bool json = text.starts_with('{') && closes("}");
+  if (!xml && !json) return std::nullopt;
+  constexpr size_t head_bytes = 1 << 16;
+  const std::string_view head = text.substr(0, head_bytes);
+  const auto names = [&](const char* word) { return head.find(word) != std::string_view::npos; };
+  if (names("IESTM33") || names("IESTM-33") || names("TM-33") || names("LuminaireOpticalData"))
+    return "this is ANSI/IES TM-33 (or ATLA S001, UNI 11733), which is not read: ask the maker for "
+           "LM-63 (.ies) or EULUMDAT (.ldt)";
+  return std::string("this is ") + (xml ? "XML" : "JSON") +
+         ", and neither EULUMDAT nor IES LM-63: ask the maker for LM-63 (.ies) or EULUMDAT (.ldt)";
+}
+
 }  // namespace
 
-Result<PhotometricFile> read_photometric_file(const std::filesystem::path& path) {
+Result<PhotometricFile> read_photometric_file(const std::filesystem::path& path,
+                                              std::optional<int> lamp_set) {
   const Result<std::string> bytes = read_photometric_bytes(path);
   if (!bytes) return bytes.problem();
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   Result<PhotometricFile> file =
-      extension == ".ies" ? read_ies(bytes.value(), path.string(), path.parent_path())
-                          : photometric_file_of(bytes.value(), path.string(), path.parent_path());
+      extension == ".ies" && !other_format(bytes.value())
+          ? read_ies(bytes.value(), path.string(), path.parent_path())
+          : photometric_file_of(bytes.value(), path.string(), path.parent_path(), lamp_set);
   if (file) file->files_read.insert(file->files_read.begin(), path);
   return file;
 }
 
 Result<PhotometricFile> photometric_file_of(std::string_view bytes, const std::string& file,
-                                            const std::filesystem::path& folder) {
-  return has_tilt_line(bytes) ? read_ies(bytes, file, folder) : read_ldt(bytes, file);
+                                            const std::filesystem::path& folder,
+                                            std::optional<int> lamp_set) {
+  if (auto other = other_format(bytes)) return problem_in(file, 1, std::move(*other));
+  return has_tilt_line(bytes) ? read_ies(bytes, file, folder) : read_ldt(bytes, file, lamp_set);
 }
 
 std::optional<std::string> odd_efficacy(const PhotometricFile& file) {

@@ -42,7 +42,7 @@ struct LuminousOpening {
   glm::dvec3 size_m{0};
 };
 
-/// One lamp set of an EULUMDAT file, or the lamps of an IES file.
+/// One lamp set of an EULUMDAT file, of which one burns; or the lamps of an IES file.
 struct LampSet {
   double lamps = 1;    // count
   double flux_lm = 0;  // of the whole set
@@ -68,7 +68,7 @@ struct PhotometricFile {
   std::shared_ptr<const PhotometricWeb> web;  // [cd], at the flux the file states
   double flux_lm = 0;                         // integral of the web
   std::optional<double> header_flux_lm;       // EULUMDAT: lamp flux x LORL; an IES file states none
-  double lamp_flux_lm = 0;                    // all lamp sets; 0 for an absolute IES file
+  double lamp_flux_lm = 0;                    // of the lamp set; 0 for an absolute IES file
   bool absolute = false;          // luminaire measured as a whole, not relative to its lamps
   double light_output_ratio = 1;  // EULUMDAT LORL as a share; IES: flux / lamp flux
   std::optional<double> header_down_share;  // EULUMDAT DFF as a share
@@ -91,13 +91,15 @@ struct PhotometricFile {
 std::optional<std::string> odd_efficacy(const PhotometricFile& file);
 
 /// Reads a photometric file. A TILT= line in its contents tells IES from EULUMDAT, else its name
-/// does.
+/// does. `lamp_set`: which lamp set of an EULUMDAT file burns, from 1; needed where it has several.
 /// Errors: the file cannot be read, is neither, or breaks its format; one Problem with the line.
-Result<PhotometricFile> read_photometric_file(const std::filesystem::path& path);
+Result<PhotometricFile> read_photometric_file(const std::filesystem::path& path,
+                                              std::optional<int> lamp_set = {});
 
 /// Reads a photometric file from its bytes; only the contents decide the format. `file` names it in
 /// messages; `folder` is where an IES file's TILT=<file> is looked for.
 Result<PhotometricFile> photometric_file_of(std::string_view bytes, const std::string& file,
-                                            const std::filesystem::path& folder);
+                                            const std::filesystem::path& folder,
+                                            std::optional<int> lamp_set = {});
 
 }  // namespace luxodus

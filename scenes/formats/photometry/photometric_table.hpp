@@ -5,6 +5,8 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "runtime/core/result.hpp"
@@ -39,6 +41,18 @@ PhotometricTable pole_to_pole(PhotometricTable table);
 Result<std::shared_ptr<const PhotometricWeb>> web_of(const PhotometricTable& table,
                                                      const glm::dmat3& axes,
                                                      const SourcePlace& where);
+
+/// Describes planes that disagree at a pole, where all of them state the same direction; none where
+/// they agree to 2 %. For a listed table, of which each plane is one of its own.
+std::optional<std::string> odd_pole(const PhotometricTable& table);
+
+/// The gap that closes the circle of planes, where it is wider than the widest step between two of
+/// them: planes are missing. Requires: azimuths ascend.
+std::optional<double> missing_deg(const std::vector<double>& azimuth_deg);
+
+/// Describes a step between two planes that is far wider than the others: planes may be missing
+/// there. None where all are alike. Requires: azimuths ascend.
+std::optional<std::string> odd_step(const std::vector<double>& azimuth_deg);
 
 /// Share of the web's flux below the horizontal plane of the luminaire, to the accuracy of a
 /// 0.5 degree midpoint rule (about 1e-4).

@@ -18,7 +18,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+  return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\n' || c == '\r';
 }
 
 bool is_utf8(std::string_view text) {
@@ -111,7 +111,12 @@ Result<std::vector<std::string>> photometric_lines(std::string_view bytes,
     const std::string_view line = bytes.substr(start, i - start);
     if (!end || !line.empty()) lines.push_back(utf8 ? std::string(line) : from_latin1(line));
     if (end) break;
-    if (bytes[i] == '\r' && i + 1 < bytes.size() && bytes[i + 1] == '\n') ++i;
+    // Copying in text mode between systems turns CR LF into CR CR LF: one end, not an empty line.
+    const std::string_view rest = bytes.substr(i);
+    if (rest.starts_with("\r\r\n"))
+      i += 2;
+    else if (rest.starts_with("\r\n"))
+      ++i;
     start = i + 1;
   }
   return lines;

@@ -18,12 +18,12 @@ namespace luxodus {
 /// luminaire's (16 MiB).
 Result<std::string> read_photometric_bytes(const std::filesystem::path& path);
 
-/// The lines of a text as UTF-8, without line ends: CRLF, LF and CR end a line; a byte order mark
-/// and a DOS end-of-file character are dropped; bytes that are not UTF-8 are read as Latin-1.
-/// Errors: UTF-16, or a NUL byte: not a text.
+/// The lines of a text as UTF-8, without line ends: CRLF, LF, CR and CR CR LF end a line; a byte
+/// order mark and a DOS end-of-file character are dropped; bytes that are not UTF-8 are read as
+/// Latin-1. Errors: UTF-16, or a NUL byte: not a text.
 Result<std::vector<std::string>> photometric_lines(std::string_view bytes, const std::string& file);
 
-/// Strips blanks at both ends, and one pair of double quotes.
+/// Strips blanks and line ends at both ends, and one pair of double quotes.
 std::string_view bare(std::string_view text);
 
 /// A finite decimal number that fills the whole text. `comma`: "2,5" is read as 2.5.

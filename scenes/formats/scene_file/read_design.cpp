@@ -27,7 +27,8 @@ constexpr double generic_maintenance = 0.8, generic_end = 0.7;
 void put_to_origin(Emitter& e) {
   // A frame exists for the downward direction.
   e.frame = frame_aiming(glm::dvec3(0), {0, 0, -1}).value();
-  e.ifc_guid.clear();  // it belongs to the luminaire that was copied
+  e.ifc_guid.clear();  // it belongs to the luminaire that was copied, as its body does
+  e.body = 0;
 }
 
 DesignType generic_type(const SourcePlace& place) {
@@ -41,6 +42,7 @@ DesignType generic_type(const SourcePlace& place) {
   e.size = {generic_diameter_m, 0, 0};
   e.distribution = Distribution::lambertian;
   e.maintenance_factor = generic_maintenance;
+  e.emergency_flux_is = EmergencyFluxIs::initial;
   e.end_of_duration_factor = generic_end;
   e.emergency_ageing = generic_maintenance * generic_end;
   e.emergency_flux = generic_lm * e.emergency_ageing;
@@ -54,7 +56,7 @@ std::vector<DesignType> types_of_scene(const SceneDescription& scene) {
   std::vector<DesignType> out;
   std::set<std::string> taken;
   for (const Emitter& e : scene.emitters) {
-    if (!(e.emergency_flux > 0) || e.shape == EmitterShape::mesh) continue;
+    if (!(e.emergency_flux > 0) || e.shape == EmitterShape::mesh || e.turned_in_file) continue;
     if (e.frame.axes[2].z < down_cosine) continue;
     if (std::any_of(out.begin(), out.end(),
                     [&](const DesignType& type) { return same_light(type.emitter, e); }))
@@ -78,7 +80,8 @@ void take_light_of(KeyReader& keys, const std::string& like, Emitter& e) {
   for (const char* key :
        {"file", "variant", "emitter", "duration_h", "point_source", "circuit", "group",
         "mains_factor", "maintenance_factor", "emergency", "emergency_flux", "emergency_factor",
-        "end_of_duration_factor", "onset", "spectrum", "body_material"})
+        "emergency_flux_is", "initial_flux", "end_of_duration_factor", "lamp_set", "onset",
+        "spectrum", "body_material"})
     if (keys.has(key))
       return keys.problem(
           key, "'" + std::string(key) + "' and 'like' exclude each other: '" + like + "' says it");
@@ -112,6 +115,10 @@ void read_design_type(const toml::Table& table, SceneReading& reading, DesignSet
     take_light_of(keys, type.like = keys.text("like"), type.emitter);
   else if (from == "file")
     read_photometric_light(keys, type.emitter);
+  if (type.emitter.turned_in_file)
+    keys.problem(from,
+                 "the container turns this emitter within its luminaire, and a design places "
+                 "luminaires that are not turned: place it in the scene instead");
   type.emitter.name = type.name;
   put_to_origin(type.emitter);
   type.cost = keys.number("cost");

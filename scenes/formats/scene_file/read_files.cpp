@@ -61,13 +61,15 @@ std::shared_ptr<const Image> read_image(const std::filesystem::path& path, const
 }
 
 std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::path& path,
+                                                       std::optional<int> lamp_set,
                                                        const SourcePlace& place,
                                                        SceneReading& reading) {
-  const auto [it, fresh] = reading.cache.try_emplace("photometry " + path.string());
+  const auto [it, fresh] = reading.cache.try_emplace(
+      fmt::format("photometry {} {}", lamp_set.value_or(0), path.string()));
   auto& kept = it->second;  // null after an earlier failure, which is reported once
   if (fresh) {
     if (!take_hash(path, place, reading)) return nullptr;
-    auto file = read_photometric_file(path);
+    auto file = read_photometric_file(path, lamp_set);
     if (!file) {
       take_problem(file.problem(), place, reading);
       return nullptr;

@@ -17,8 +17,10 @@ namespace luxodus {
 /// Reads a PNG picture as linear values. `place`: where the scene names it.
 std::shared_ptr<const Image> read_image(const std::filesystem::path& path, const SourcePlace& place,
                                         SceneReading& reading);
-/// Reads an LDT or IES file. Its warnings become the scene's.
+/// Reads an LDT or IES file. Its warnings become the scene's. `lamp_set`: as of
+/// read_photometric_file.
 std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::path& path,
+                                                       std::optional<int> lamp_set,
                                                        const SourcePlace& place,
                                                        SceneReading& reading);
 /// Reads a GLDF container.

@@ -163,6 +163,7 @@ void add_part(ImportedPart& part, Object object, SurfaceWords words, std::vector
     if (!rule.object.group.empty()) object.group = rule.object.group;
     for (const auto& tag : rule.object.tags) object.tags.push_back(tag);
     if (rule.object.door) object.door = rule.object.door;
+    if (!rule.object.body_of.empty()) object.body_of = rule.object.body_of;
   }
   if (words.material.empty()) return materials.missing(part);
   object.tags.push_back(object.name);

@@ -5,7 +5,9 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "runtime/core/output_text.hpp"
 #include "scenes/formats/scene_file/read_files.hpp"
@@ -33,6 +35,40 @@ void read_onset(KeyReader& keys, Emitter& e) {
                  "falling and 1 at the end");
 }
 
+/// The emergency flux that counts, and its share of new light, from the flux that is stated and
+/// what that states.
+void read_ageing(KeyReader& keys, Emitter& e, double stated) {
+  const std::string is = keys.maybe_choice("emergency_flux_is").value_or("");
+  const auto left = keys.maybe_number("end_of_duration_factor");
+  const auto initial = keys.maybe_number("initial_flux");
+  e.emergency_flux_is = is == "rated"     ? EmergencyFluxIs::rated
+                        : is == "initial" ? EmergencyFluxIs::initial
+                                          : EmergencyFluxIs::unstated;
+  if (e.emergency_flux_is != EmergencyFluxIs::rated) {
+    if (initial)
+      keys.problem("initial_flux", "'initial_flux' belongs to emergency_flux_is = \"rated\"");
+    if (!keys.has("end_of_duration_factor"))
+      keys.problem(
+          "'end_of_duration_factor' is needed where 'emergency' is set and the flux is "
+          "not emergency_flux_is = \"rated\": no standard value is assumed");
+    e.end_of_duration_factor = left.value_or(1);
+    e.emergency_ageing = e.maintenance_factor * e.end_of_duration_factor;
+    e.emergency_flux = stated * e.emergency_ageing;
+    return;
+  }
+  if (left)
+    keys.problem("end_of_duration_factor",
+                 "'end_of_duration_factor' and emergency_flux_is = \"rated\" exclude each other: "
+                 "the rated flux is the least until the end of the duration");
+  if (initial && *initial < stated)
+    keys.problem("initial_flux", "'initial_flux' is below the rated flux of " +
+                                     shortest_number(stated) +
+                                     ", which is the least until the end of the duration");
+  e.emergency_flux = stated * e.maintenance_factor;
+  e.initial_flux_known = initial.has_value();
+  e.emergency_ageing = initial && *initial > 0 ? e.emergency_flux / *initial : e.maintenance_factor;
+}
+
 /// Fluxes of both operating states from the rated flux: E = rated x factors, each stated in the
 /// file, none guessed. `container`: the luminaire in a container, which may state the emergency
 /// flux; `flux_needed`: it does not.
@@ -47,15 +83,14 @@ void read_operation(KeyReader& keys, Emitter& e, double rated, bool flux_needed 
   const std::string emergency = keys.choice("emergency");
   const double dimming = keys.number("mains_factor");
   const auto maintenance = keys.maybe_number("maintenance_factor");
-  const auto end_of_duration = keys.maybe_number("end_of_duration_factor");
   const auto flux = keys.maybe_number("emergency_flux");
   const auto factor = keys.maybe_number("emergency_factor");
   const bool mains = emergency != "non-maintained";
   e.maintenance_factor = maintenance.value_or(1);
   e.mains_flux = mains ? rated * dimming * maintenance.value_or(1) : 0;
   if (emergency == "false") {
-    for (const char* key :
-         {"emergency_flux", "emergency_factor", "end_of_duration_factor", "onset", "duration_h"}) {
+    for (const char* key : {"emergency_flux", "emergency_factor", "emergency_flux_is",
+                            "initial_flux", "end_of_duration_factor", "onset", "duration_h"}) {
       if (keys.has(key)) {
         keys.problem(key, "'" + std::string(key) +
                               "' is given, but 'emergency' is not; say "
@@ -71,6 +106,10 @@ void read_operation(KeyReader& keys, Emitter& e, double rated, bool flux_needed 
     keys.problem("emergency",
                  "this emitter is for emergency operation only: say \"non-maintained\"");
   const bool contained = container != nullptr && !flux && !factor;
+  if (container != nullptr && container->normal_only && !contained)
+    keys.reading().warning(keys.place("emergency"),
+                           "the container says that this emitter is for normal lighting only; "
+                           "its emergency flux is that of the scene");
   if (contained && !container->emergency_lm)
     take_problem(container->emergency_lm.problem(), keys.place("file"), keys.reading());
   const double stated = contained && container->emergency_lm ? container->emergency_lm.value() : 0;
@@ -81,12 +120,8 @@ void read_operation(KeyReader& keys, Emitter& e, double rated, bool flux_needed 
             ": on emergency supply a luminaire gives no more than its rated flux; it is a share, "
             "0.15 for 15 %");
   if (!keys.has("maintenance_factor")) keys.problem("'maintenance_factor'" + why);
-  if (!keys.has("end_of_duration_factor")) keys.problem("'end_of_duration_factor'" + why);
-  e.end_of_duration_factor = end_of_duration.value_or(1);
   e.maintained = mains;
-  e.emergency_ageing = maintenance.value_or(1) * end_of_duration.value_or(1);
-  e.emergency_flux =
-      (contained ? stated : flux.value_or(rated * factor.value_or(0))) * e.emergency_ageing;
+  read_ageing(keys, e, contained ? stated : flux.value_or(rated * factor.value_or(0)));
   read_onset(keys, e);
   e.duration_s = duration_s(keys);
 }
@@ -247,26 +282,25 @@ bool ending_is_gldf(const std::filesystem::path& path) {
          });
 }
 
-/// Selects a luminaire of a container.
-struct ContainerKeys {
-  std::string variant, emitter;
-  std::optional<double> duration_h;
-};
-
-/// `other_file`: the luminaire's file is not a container, so that the keys have no meaning.
-ContainerKeys read_container_keys(KeyReader& keys, bool other_file) {
+/// Selects a luminaire of a container. `other_file`: the luminaire's file is none, so that its keys
+/// have no meaning.
+GldfChoice read_choice(KeyReader& keys, bool other_file) {
   for (const char* key : {"variant", "emitter"})
     if (other_file && keys.has(key))
       keys.problem(key, "'" + std::string(key) + "' belongs to a GLDF container (.gldf)");
-  return {keys.maybe_text("variant").value_or(""), keys.maybe_text("emitter").value_or(""),
-          keys.maybe_number("duration_h")};
+  GldfChoice choice{keys.maybe_text("variant").value_or(""),
+                    keys.maybe_text("emitter").value_or(""),
+                    keys.maybe_number("duration_h"),
+                    {}};
+  if (const auto set = keys.maybe_integer("lamp_set")) choice.lamp_set = static_cast<int>(*set);
+  return choice;
 }
 
 std::optional<GldfLuminaire> contained_luminaire(KeyReader& keys, const std::filesystem::path& path,
-                                                 const ContainerKeys& inside) {
+                                                 const GldfChoice& choice) {
   const auto product = read_container(path, keys.place("file"), keys.reading());
   if (!product) return std::nullopt;
-  auto chosen = luminaire_of(*product, inside.variant, inside.emitter, inside.duration_h);
+  auto chosen = luminaire_of(*product, choice);
   if (!chosen) {
     take_problem(chosen.problem(), keys.place("file"), keys.reading());
     return std::nullopt;
@@ -282,7 +316,7 @@ void read_photometric_light(KeyReader& keys, Emitter& e) {
   const bool point = keys.flag("point_source");
   const auto path = keys.file("file");
   const bool container = path && ending_is_gldf(*path);
-  const auto inside = read_container_keys(keys, path && !container);
+  const GldfChoice choice = read_choice(keys, path && !container);
   std::optional<GldfLuminaire> contained;
   double rated = 0;
   const auto take = [&](const PhotometricFile& file) {
@@ -294,16 +328,55 @@ void read_photometric_light(KeyReader& keys, Emitter& e) {
     if (!point) take_opening(file.opening, e);
   };
   if (container) {
-    contained = contained_luminaire(keys, *path, inside);
+    contained = contained_luminaire(keys, *path, choice);
     if (contained) {
       take(contained->photometry);
       rated = contained->rated_lm;
+      e.frame.axes = e.frame.axes * contained->turn;
+      e.turned_in_file = contained->turn != glm::dmat3(1);
     }
   } else if (path) {
-    if (const auto file = read_photometry(*path, keys.place("file"), keys.reading())) take(*file);
+    const auto file = read_photometry(*path, choice.lamp_set, keys.place("file"), keys.reading());
+    if (file && keys.has("lamp_set") && file->format != "EULUMDAT")
+      keys.problem("lamp_set",
+                   "'lamp_set' belongs to an EULUMDAT file (.ldt); this is " + file->format);
+    if (file) take(*file);
   }
   read_operation(keys, e, rated, !container, contained ? &*contained : nullptr);
   read_body(keys, e);
+}
+
+void resolve_bodies(SceneReading& reading) {
+  auto& emitters = reading.scene.emitters;
+  // The copies of a luminaire are written in one table, and so stand at one place.
+  using Place = std::pair<std::string, int>;
+  std::map<std::string_view, Place> place_of;
+  std::map<Place, std::set<size_t>> written_at;
+  for (size_t i = 0; i < emitters.size(); ++i) {
+    const Place place{emitters[i].place.file, emitters[i].place.line};
+    place_of.try_emplace(emitters[i].name, place);
+    written_at[place].insert(i);
+  }
+  std::map<std::set<size_t>, int> numbers;
+  for (Object& object : reading.scene.objects) {
+    std::set<size_t> lit;
+    for (const std::string& name : object.body_of) {
+      if (!reading.require("luminaire or emitter", name, object.place)) continue;
+      if (const auto at = place_of.find(name); at != place_of.end())
+        lit.insert(written_at[at->second].begin(), written_at[at->second].end());
+    }
+    if (lit.empty()) continue;
+    const auto [it, fresh] = numbers.try_emplace(lit, static_cast<int>(numbers.size()) + 1);
+    object.body = it->second;
+    if (!fresh) continue;
+    for (const size_t i : lit) {
+      if (emitters[i].body != 0)
+        return reading.problem(object.place,
+                               "another body of '" + emitters[i].name + "' than '" + object.name +
+                                   "' names other luminaires: name the same in 'body_of' of both");
+      emitters[i].body = it->second;
+    }
+  }
 }
 
 void read_luminaire(const toml::Table& stated, SceneReading& reading) {

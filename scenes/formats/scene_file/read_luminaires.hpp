@@ -9,4 +9,9 @@ namespace luxodus {
 /// already has a place and a name. Every mistake is reported.
 void read_photometric_light(KeyReader& keys, Emitter& e);
 
+/// Numbers the bodies that objects are parts of by `body_of`, in the objects and in the emitters.
+/// A problem where a name is no luminaire, or bodies of one luminaire name different others.
+/// Requires: objects and luminaires are read.
+void resolve_bodies(SceneReading& reading);
+
 }  // namespace luxodus

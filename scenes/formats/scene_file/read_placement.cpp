@@ -98,6 +98,7 @@ void read_surface(KeyReader& keys, Object& object, SurfaceWords& words) {
     keys.problem("patch_edge_m", "'patch_edge_m' and 'one_patch = true' exclude each other");
   for (auto& tag : keys.texts("tags")) object.tags.push_back(std::move(tag));
   if (const auto group = keys.maybe_text("group")) object.group = *group;
+  object.body_of = keys.texts("body_of");
 }
 
 void read_door(KeyReader& keys, Object& object) {

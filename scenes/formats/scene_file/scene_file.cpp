@@ -14,6 +14,7 @@
 #include "runtime/core/regular_file.hpp"
 #include "runtime/toml/document.hpp"
 #include "runtime/toml/text_scan.hpp"
+#include "scenes/formats/scene_file/read_luminaires.hpp"
 #include "scenes/formats/scene_file/scene_readers.hpp"
 #include "scenes/light/geometry/mesh_text.hpp"
 #include "scenes/light/world/design.hpp"
@@ -276,6 +277,7 @@ ReadScene read_scene(const std::filesystem::path& path, std::optional<double> at
   };
   for (const auto& [key, reader] : order) read_all(documents, key, reader, reading);
   for (const auto& route : reading.routes_named) reading.require("route", route.name, route.place);
+  resolve_bodies(reading);
   // Types of a design may use circuits of their own, which scenarios name.
   read_designs(documents, reading);
   read_all(documents, "scenario", read_scenario, reading);

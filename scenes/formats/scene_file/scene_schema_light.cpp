@@ -14,7 +14,12 @@ std::vector<KeySpec> photometric_file_keys(const char* whether) {
        "EULUMDAT (.ldt) or IES LM-63 (.ies) file, or a GLDF container (.gldf) of them"},
       {"variant", "text", "", "", "", "id of the variant in a GLDF container that has several"},
       {"emitter", "text", "", "", "",
-       "id of the light emitter, where the variant has several; `ID#2` for the second of an id"},
+       "name of the light emitter, where the variant has several: its id; `ID#2` for the second of "
+       "its alternatives, `ID:1` for its first channel, `ID@2` for the second reference to it"},
+      {"lamp_set", "integer", "", "", "[1, 20]",
+       "which lamp set of an EULUMDAT file burns: its sets are alternatives; mandatory where it "
+       "has "
+       "several and no GLDF container states the flux"},
       {"point_source", "flag", "", "false", "",
        "emit from a point instead of the luminous opening of the file"},
   };
@@ -37,10 +42,17 @@ std::vector<KeySpec> operation_keys() {
        "mandatory where `emergency` is not false and no GLDF container says it"},
       {"emergency_factor", "number", "", "", "[0, 1000]",
        "flux on emergency supply as a share of the rated flux (ballast lumen factor)"},
+      {"emergency_flux_is", "choice", "", "", "rated, initial",
+       "what the flux on emergency supply states: `\"rated\"` (EN 60598-2-22): the least from 60 s "
+       "to the end of the duration, so that no `end_of_duration_factor` belongs to it; "
+       "`\"initial\"`: that of a full battery. Not stated, it is taken as initial, and `check` "
+       "warns"},
+      {"initial_flux", "number", "lm or W", "", "[0, 1e9]",
+       "flux on emergency supply of a new luminaire with a full battery, beside a rated flux; "
+       "without it neither its glare (E8) nor its veil is assessed"},
       {"end_of_duration_factor", "number", "", "", "(0, 1]",
-       "share left at the end of the rated duration; no default: mandatory where `emergency` is "
-       "not "
-       "false"},
+       "share of the initial flux that is left at the end of the rated duration; no default: "
+       "mandatory where `emergency` is not false and the flux is not rated"},
       {"onset", "pairs", "", "", "[0, 1]",
        "rows [seconds after the mains have failed, share of the emergency flux], ascending in both "
        "from 0 s, the last share 1; linear between; without it the light is there at once, and "

@@ -26,6 +26,10 @@ Keys surface_keys() {
        "brightness nobody asks for; instead of `patch_edge_m`"},
       {"tags", "texts", "", "", "", "words that surface groups may name, such as \"furniture\""},
       {"group", "name", "", "", "", "surface group it belongs to"},
+      {"body_of", "texts", "", "", "",
+       "names of the luminaires whose measured body it is a part of: their own light passes it on "
+       "its way from them, since their intensities lack its shadow already; all other light meets "
+       "it"},
   };
 }
 

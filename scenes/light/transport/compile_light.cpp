@@ -242,6 +242,7 @@ CompiledEmitter compile_emitter(const ActiveSource& s, const CompiledScene& scen
     const Emitter& e = *s.emitter;
     place_frame(out, e.frame, scene);
     compile_shape(out, e, scene);
+    out.body = e.body;
     out.distribution = e.distribution;
     out.exponent = static_cast<Real>(e.cosine_power);
     if (e.distribution == Distribution::spot)

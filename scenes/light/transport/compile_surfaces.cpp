@@ -311,6 +311,7 @@ Result<void> add_surfaces(CompiledScene& scene, TriangleBuilder& builder) {
     s.material[0] = static_cast<uint32_t>(object.material);
     s.material[1] = static_cast<uint32_t>(object.back_material);
     s.one_patch = object.one_patch;
+    s.body = object.body;
     const Mesh mesh = mesh_in(object, scene.scenario);
     if (auto ok = builder.add(std::move(s), object.place, mesh, object.patch_edge_m); !ok)
       return ok.problem();

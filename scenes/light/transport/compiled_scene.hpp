@@ -33,6 +33,7 @@ struct CompiledSurface {
   uint32_t material[2] = {0, 0};       // front, back
   uint32_t sign = none_index;          // the object is a face of this sign
   uint32_t body_emitter = none_index;  // the object is the body of this emitter
+  int body = 0;                        // of Object and Emitter: light of that body passes
   uint32_t first_patch = 0;            // first of all its patches, both sides
   uint32_t patches = 0;
   double area_m2 = 0;  // one side
@@ -69,6 +70,7 @@ struct CompiledEmitter {
   uint32_t sign = none_index;
   uint32_t medium = none_index;  // volume
   int group = 0;
+  int body = 0;  // surfaces of this body do not stop its own light; 0: none
   double area_m2 = 0;
   double luminous_flux_lm = 0;
   double wanted = 1;              // factor on its light when paths choose an emitter

@@ -1,7 +1,7 @@
-// Shadow rays: the visibility and transmittance between two points. Thin panes and open surfaces
-// transmit; all other solids block, refracting ones too, because the light that they bend does not
-// arrive along this line. Functions without state; one thread or fiber
-// per resolver; suspends where the resolver does.
+// Shadow rays: the visibility and transmittance between two points. Thin panes, open surfaces and
+// the emitter's own body transmit; all other solids block, refracting ones too, because the light
+// that they bend does not arrive along this line. Functions without state; one thread or fiber per
+// resolver; suspends where the resolver does.
 #pragma once
 
 #include <cmath>
@@ -17,25 +17,40 @@ namespace luxodus {
 namespace limits {
 /// Panes that one line may cross; more count as opaque.
 inline constexpr int panes_per_line = 64;
+/// Surfaces of an emitter's own body that one line may cross, such as fins; more count as opaque.
+inline constexpr int own_surfaces_per_line = 4096;
 }  // namespace limits
+
+/// The body of the emitter at the end of a line, which does not stop its light.
+struct OwnBody {
+  int body = 0;  // 0: none
+  int surfaces_met = 0;
+};
 
 /// False if a solid within `length` of the ray blocks light. Calls pane(material, cosine) for every
 /// pane before it.
 template <class Resolver, class Pane>
 bool passes_solids(const CompiledScene& scene, Ray ray, Real length, Resolver& resolver,
-                   Pane&& pane_met) {
+                   OwnBody& own, Pane&& pane_met) {
   ray.length = length;
   if (!scene.features.surfaces) return !resolver.occluded(ray);
-  for (int pane = 0; pane < limits::panes_per_line; ++pane) {
+  for (int panes = 0;
+       panes < limits::panes_per_line && own.surfaces_met < limits::own_surfaces_per_line;) {
     const Hit hit = resolver.nearest(ray);
     if (!hit.found()) return true;
     const TriangleRecord& t = *hit.triangle;
     const Real cosine = glm::dot(t.unit_normal(), ray.direction);
     const size_t side = cosine < 0 ? 0 : 1;
-    const CompiledMaterial& material = scene.materials[scene.surfaces[t.surface].material[side]];
-    if (material.kind == MaterialKind::glass_pane) {
+    const CompiledSurface& surface = scene.surfaces[t.surface];
+    const CompiledMaterial& material = scene.materials[surface.material[side]];
+    if (own.body != 0 && surface.body == own.body) {
+      ++own.surfaces_met;
+    } else if (material.kind == MaterialKind::glass_pane) {
+      ++panes;
       pane_met(material, cosine);
-    } else if (material.kind != MaterialKind::open) {
+    } else if (material.kind == MaterialKind::open) {
+      ++panes;
+    } else {
       return false;
     }
     const Vec3 end = ray.origin + ray.direction * ray.length;
@@ -48,12 +63,14 @@ bool passes_solids(const CompiledScene& scene, Ray ray, Real length, Resolver& r
 }
 
 /// Product of the transmittances of all panes within `length` of the ray in a band; 0 if blocked.
+/// `body`: of the emitter at its end.
 template <class Resolver>
 double solid_transmittance(const CompiledScene& scene, const Ray& ray, Real length, int band,
-                           Resolver& resolver) {
+                           Resolver& resolver, int body = 0) {
   double share = 1;
+  OwnBody own{body};
   const bool passes = passes_solids(
-      scene, ray, length, resolver, [&](const CompiledMaterial& material, Real cosine) {
+      scene, ray, length, resolver, own, [&](const CompiledMaterial& material, Real cosine) {
         share *= static_cast<double>(
             pane_transmittance(material.by_band[static_cast<size_t>(band)], cosine));
       });

@@ -223,7 +223,7 @@ class DirectSum {
       if (known_clear)
         solid = 1;
       else if (solid < 0 || (scene_.features.surfaces && solid > 0))
-        solid = solid_transmittance(scene_, c.ray, c.ray.length, b, resolver_);
+        solid = solid_transmittance(scene_, c.ray, c.ray.length, b, resolver_, e.body);
       min_solid = std::min(min_solid, solid);
       const double passes = !in_media_ ? 1
                             : solid > 0
@@ -255,8 +255,8 @@ class DirectSum {
       const ShadowRay c = line_to(e, part);
       if (!(c.distance > 0) || glm::dot(normal_, c.ray.direction) <= 0) continue;
       if (directional_density(e, part.point, -c.ray.direction, resolver_) <= 0) continue;
-      const bool passes =
-          solid_transmittance(scene_, c.ray, c.ray.length, scene_.bands.count() / 2, resolver_) > 0;
+      const bool passes = solid_transmittance(scene_, c.ray, c.ray.length, scene_.bands.count() / 2,
+                                              resolver_, e.body) > 0;
       (passes ? seen : hidden) = true;
     }
   }
@@ -294,7 +294,7 @@ class DirectSum {
   bool sees(const CompiledEmitter& e, const EmitterPart& part) {
     const ShadowRay c = line_to(e, part);
     return c.distance > 0 && solid_transmittance(scene_, c.ray, c.ray.length,
-                                                 scene_.bands.count() / 2, resolver_) == 1;
+                                                 scene_.bands.count() / 2, resolver_, e.body) == 1;
   }
 
   /// The shadow's edge between a visible and a hidden point, by bisection.

@@ -186,7 +186,8 @@ class EmitterImages {
       return 0;
     const ShadowRay onward = connect(scene_, offset_ray(met, mirror.normal, scene_.min_offset_m),
                                      line.point.position, line.point.axis, true);
-    if (!passes_solids(scene_, onward.ray, onward.ray.length, resolver_,
+    OwnBody none;
+    if (!passes_solids(scene_, onward.ray, onward.ray.length, resolver_, none,
                        [](const CompiledMaterial&, Real) {}))
       return 0;
     return medium_transmittance(scene_, line.ray, distance, band_, resolver_) *

@@ -174,7 +174,8 @@ class EmitterSight {
       const double sent =
           density * medium_transmittance(scene_, c.ray, c.distance, band_, resolver);
       unseen += weight * sent * sent;
-      if (sent > 0 && passes(c, resolver)) squares += weight * sent * sent;
+      if (sent > 0 && passes(c, scene_.emitters[a.emitter].body, resolver))
+        squares += weight * sent * sent;
     });
     const double least = limits::unseen_share * limits::unseen_share * unseen;
     a.arriving = std::max(limits::unseen_share * limits::min_arriving,
@@ -189,7 +190,7 @@ class EmitterSight {
     double squares = 0;
     for (const SightPlace& place : from.places) {
       const ShadowRay c = connect(scene_, place.at, glow_place(a.emitter), Vec3(0), false);
-      if (!(c.distance > 0) || !place.faces(c.ray.direction) || !passes(c, resolver)) continue;
+      if (!(c.distance > 0) || !place.faces(c.ray.direction) || !passes(c, 0, resolver)) continue;
       const double seen = medium_transmittance(scene_, c.ray, c.distance, band_, resolver);
       squares += place.weight * seen * seen;
     }
@@ -197,8 +198,9 @@ class EmitterSight {
   }
 
   template <class Resolver>
-  bool passes(const ShadowRay& c, Resolver& resolver) const {
-    return passes_solids(scene_, c.ray, c.ray.length, resolver,
+  bool passes(const ShadowRay& c, int body, Resolver& resolver) const {
+    OwnBody own{body};
+    return passes_solids(scene_, c.ray, c.ray.length, resolver, own,
                          [](const CompiledMaterial&, Real) {});
   }
 

@@ -34,9 +34,11 @@ std::vector<Luminaire> lit_luminaires(const SceneDescription& scene, const Scena
   return out;
 }
 
-bool sends_light(const Emitter& e, const glm::dvec3& to) {
+/// A flat place at the luminaire's own height gets no light from it, only past it.
+bool sends_light(const Emitter& e, const glm::dvec3& to, bool flat) {
+  constexpr double same_place_m = 1e-6;
   const glm::dvec3 way = to - e.frame.origin;
-  if (!(glm::length(way) > 0)) return true;
+  if (glm::length(way) < same_place_m) return !flat;
   const glm::dvec3 local = glm::transpose(e.frame.axes) * glm::normalize(way);
   return e.web->intensity(local) > faint * e.web->peak_cd();
 }
@@ -111,7 +113,7 @@ class NearField {
   /// `nearest(p)`: the point of the place that is nearest to p.
   template <class Nearest>
   void look_at(const std::string& what, bool judged, const SourcePlace& place,
-               const Nearest& nearest) {
+               const Nearest& nearest, bool flat = false) {
     const Luminaire* worst = nullptr;
     double worst_m = 0;
     size_t near = 0;
@@ -119,8 +121,9 @@ class NearField {
       const glm::dvec3& from = l.emitter->frame.origin;
       const glm::dvec3 to = nearest(from);
       const double distance = glm::distance(from, to);
-      if (distance >= far_field_openings * l.opening_m || !sends_light(*l.emitter, to)) continue;
-      if (sees_ && !sees_(from, to)) continue;
+      if (distance >= far_field_openings * l.opening_m || !sends_light(*l.emitter, to, flat))
+        continue;
+      if (sees_ && !sees_(*l.emitter, to)) continue;
       ++near;
       if (worst != nullptr && distance / l.opening_m >= worst_m / worst->opening_m) continue;
       worst = &l;
@@ -164,8 +167,9 @@ std::vector<NearPlace> near_field_places(const SceneDescription& scene, const Sc
     return std::string(kind) + " \"" + name + "\"";
   };
   for (const PlaneMeasure& plane : scene.planes)
-    near.look_at(called("plane", plane.name), false, plane.place,
-                 [&](const glm::dvec3& p) { return nearest_in_plane(plane, p); });
+    near.look_at(
+        called("plane", plane.name), false, plane.place,
+        [&](const glm::dvec3& p) { return nearest_in_plane(plane, p); }, true);
   for (const ProbeMeasure& probe : scene.probes)
     near.look_at(called("probe", probe.name), false, probe.place,
                  [&](const glm::dvec3&) { return probe.position; });
@@ -174,8 +178,9 @@ std::vector<NearPlace> near_field_places(const SceneDescription& scene, const Sc
                  [&](const glm::dvec3& p) { return nearest_on_route(route, p); });
   for (const auto* areas : {&scene.open_areas, &scene.task_areas})
     for (const AssessedArea& area : *areas)
-      near.look_at(called("area", area.name), judged, area.place,
-                   [&](const glm::dvec3& p) { return nearest_in_area(area, p); });
+      near.look_at(
+          called("area", area.name), judged, area.place,
+          [&](const glm::dvec3& p) { return nearest_in_area(area, p); }, true);
   for (uint32_t i = 0; i < scene.signs.size(); ++i) {
     const Sign& sign = scene.signs[i];
     if (is_looked_at(scene, i))

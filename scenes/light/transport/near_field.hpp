@@ -13,8 +13,8 @@ namespace luxodus {
 /// Distance relative to the luminous opening from which a photometric file is valid.
 inline constexpr double far_field_openings = 5;
 
-/// Visibility between two places [scene coordinates]; empty: always visible.
-using SeesPlace = std::function<bool(const glm::dvec3&, const glm::dvec3&)>;
+/// Whether a luminaire's light reaches a place [scene coordinates]; empty: always.
+using SeesPlace = std::function<bool(const Emitter&, const glm::dvec3&)>;
 
 /// A place that is too near to a luminaire.
 struct NearPlace {

@@ -216,12 +216,14 @@ class NextEvent {
         static_cast<double>(directional_density(e, point, -c.ray.direction, resolver_));
     if (density <= 0) return false;
     std::fill_n(solid_.begin(), bands.count(), 1.0);
-    const bool passes = passes_solids(
-        scene_, c.ray, c.ray.length, resolver_, [&](const CompiledMaterial& pane, Real cosine) {
-          for (size_t i = 0; i < bands.count(); ++i)
-            solid_[i] *= static_cast<double>(
-                pane_transmittance(pane.by_band[static_cast<size_t>(bands.band(i))], cosine));
-        });
+    OwnBody own{e.body};
+    const bool passes =
+        passes_solids(scene_, c.ray, c.ray.length, resolver_, own,
+                      [&](const CompiledMaterial& pane, Real cosine) {
+                        for (size_t i = 0; i < bands.count(); ++i)
+                          solid_[i] *= static_cast<double>(pane_transmittance(
+                              pane.by_band[static_cast<size_t>(bands.band(i))], cosine));
+                      });
     if (!passes) return false;
     media_.transmittances(c.ray, c.distance, bands, through_, resolver_);
     const auto d = static_cast<double>(c.distance);
@@ -233,7 +235,10 @@ class NextEvent {
     }
     if (!any) return false;
     arriving_.direction = c.ray.direction;
-    arriving_.apparent_sr = apparent_solid_angle(e, point, -c.ray.direction, c.distance);
+    // Rays of paths stop at the body, so that none finds the emitter behind it: sampling it counts
+    // alone.
+    arriving_.apparent_sr =
+        own.surfaces_met > 0 ? 0 : apparent_solid_angle(e, point, -c.ray.direction, c.distance);
     return true;
   }
 

@@ -81,6 +81,7 @@ class ParticleTracer {
     bool direct = true;
     bool collided = false;
     bool scattered = false;  // its last event was a collision
+    int body = 0;            // its emitter's own, on its way from there: the light passes it
   };
 
   /// Random numbers for a new direction, and the cosine-weighted direction for a Lambertian
@@ -142,6 +143,7 @@ class ParticleTracer {
     }
     // Collimated light has no density of directions, so the deterministic direct part excludes it.
     p.direct = emitter.distribution != Distribution::collimated;
+    p.body = emitter.body;
     return p;
   }
 
@@ -248,6 +250,7 @@ class ParticleTracer {
         sample(scene_.phases[static_cast<size_t>(flight.phase)], incoming, drawn.u, drawn.v);
     if constexpr (flawed) Flaws::scattered(p.ray.direction, incoming);
     p.direct = false;
+    p.body = 0;
     p.collided = p.scattered = true;
     return true;
   }
@@ -262,6 +265,7 @@ class ParticleTracer {
     if constexpr (K::all_surfaces) {
       const uint32_t side = front ? 0 : 1;
       const CompiledSurface& surface = scene_.surfaces[triangle.surface];
+      if (p.body != 0 && surface.body == p.body) return pass_own_body(p, hit, front);
       const CompiledMaterial& material = scene_.materials[surface.material[side]];
       if (material.kind != MaterialKind::lambertian || material.image != none_index ||
           surface.sign != none_index) {
@@ -288,6 +292,15 @@ class ParticleTracer {
     p.ray.origin = offset_ray(triangle.at(hit.u, hit.v), normal, scene_.min_offset_m);
     if constexpr (flawed) Flaws::departure(p.ray.origin, triangle.at(hit.u, hit.v));
     p.direct = p.scattered = false;
+    p.body = 0;
+    return true;
+  }
+
+  /// Goes on behind the surface: the intensities of the emitter lack its body's shadow already.
+  bool pass_own_body(State& p, const Hit& hit, bool front) const {
+    const Vec3 outward = hit.triangle->unit_normal();
+    p.ray.origin =
+        offset_ray(hit.triangle->at(hit.u, hit.v), front ? -outward : outward, scene_.min_offset_m);
     return true;
   }
 
@@ -314,6 +327,7 @@ class ParticleTracer {
         sampled.transmitted && sampled.specular && model.kind != SurfaceKind::dielectric;
     p.direct = p.direct && straight;
     p.scattered = p.scattered && straight;
+    if (!straight) p.body = 0;
     p.ray.direction = sampled.direction;
     p.ray.origin = offset_ray(place, sampled.transmitted ? -normal : normal, scene_.min_offset_m);
     return true;

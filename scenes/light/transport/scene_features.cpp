@@ -106,6 +106,9 @@ SceneFeature surfaces(const CompiledScene& scene) {
     if (m.kind != MaterialKind::lambertian) names.push_back(m.name);
   }
   if (!scene.signs.empty()) names.push_back(counted(scene.signs.size(), "sign face"));
+  if (std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
+                  [](const CompiledSurface& s) { return s.body != 0; }))
+    names.emplace_back("bodies that their own luminaires' light passes");
   if (scene.features.surfaces && names.empty()) names.emplace_back("textures");
   return {
       "surfaces other than Lambertian", scene.features.surfaces,

@@ -32,10 +32,11 @@ std::vector<ArrivingLight> direct_arrivals(const CompiledScene& scene, const Geo
 }
 
 double clear_share(const CompiledScene& scene, const GeometryAccess& access, const Vec3& from,
-                   const Vec3& to) {
+                   const Vec3& to, int body) {
   return with_resolver(scene, access, [&](auto resolver) {
     const ShadowRay line = connect(scene, from, to, glm::normalize(from - to), true);
-    return solid_transmittance(scene, line.ray, line.ray.length, scene.bands.count() / 2, resolver);
+    return solid_transmittance(scene, line.ray, line.ray.length, scene.bands.count() / 2, resolver,
+                               body);
   });
 }
 

@@ -34,9 +34,10 @@ inline bool is_luminaire(const CompiledEmitter& e) {
   return e.kind != EmitterKind::sign_face && e.kind != EmitterKind::volume;
 }
 
-/// Transmittance of solids in the middle band between two points.
+/// Transmittance of solids in the middle band between two points. `body`: of the emitter at `to`,
+/// whose own body does not stop its light; 0 for none.
 double clear_share(const CompiledScene& scene, const GeometryAccess& access, const Vec3& from,
-                   const Vec3& to);
+                   const Vec3& to, int body = 0);
 
 /// Optical depth of the media on the line between two points at a wavelength [nm], interpolated
 /// from the bands around it; solids are ignored.

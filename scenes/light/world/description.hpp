@@ -70,12 +70,20 @@ struct Object {
   std::vector<std::string> tags;
   std::string group;  // surface group, "" for none
   std::optional<Door> door;
+  /// Luminaires that this is the measured body of; their own light passes it (see Emitter::body).
+  std::vector<std::string> body_of;
+  int body = 0;  // number of the body that it is a part of; 0: of none
 };
 
 // ---- emitters ---------------------------------------------------------------------------------
 
 enum class EmitterShape { point, rectangle, disc, sphere, tube, mesh };
 enum class Distribution { lambertian, isotropic, cosine_power, spot, collimated, web };
+
+/// What the stated flux on emergency supply is. `rated` (EN 60598-2-22): the least from 60 s after
+/// the failure to the end of the duration, so that the battery's fall is in it. `initial`: that of
+/// a full battery, which falls by the end of duration factor.
+enum class EmergencyFluxIs { unstated, rated, initial };
 
 /// One emitter, analytic or a luminaire of a photometric file. Surfaces emit along local -Z (the
 /// luminaire frame: -Z is down); rectangle and disc lie in the local xy plane; a tube's axis is
@@ -105,16 +113,25 @@ struct Emitter {
   double emergency_ageing = 1;        // maintenance x end of duration: included in emergency_flux
   double maintenance_factor = 1;      // included in both fluxes
   double end_of_duration_factor = 1;  // included in emergency_flux
-  bool maintained = false;            // an emergency luminaire that is also lit in mains operation
+  EmergencyFluxIs emergency_flux_is = EmergencyFluxIs::unstated;
+  /// Whether emergency_flux / emergency_ageing is the flux of a new luminaire. If not, that is
+  /// more, by an unknown factor.
+  bool initial_flux_known = true;
+  bool maintained = false;  // an emergency luminaire that is also lit in mains operation
   std::string file;         // the photometric file, as the scene names it; "" if there is none
   std::string product;      // the luminaire's name in that file
   std::string ifc_guid;     // GlobalId in the model it came from; "" if none
+  bool turned_in_file =
+      false;                // its container turns it within the luminaire; the frame includes that
   glm::dvec3 opening_m{0};  // luminous opening: length, width, height; 0 if not given
   /// Run-up after a failure of the mains: time [s], share of emergency_flux; ascending in both,
   /// linear between rows, constant after the last. Empty: not given.
   std::vector<glm::dvec2> onset;
   std::optional<double> duration_s;  // of the emergency supply; dark afterwards
   std::string body_material;         // "" if none: returning light passes
+  /// Its own body among the objects, 0 for none. Light on its way from the emitter passes it, since
+  /// the intensities were measured with the body and lack its shadow; all other light meets it.
+  int body = 0;
 };
 
 // ---- signs ------------------------------------------------------------------------------------

@@ -231,6 +231,30 @@ TEST_CASE("the intensity of tubes and meshes follows from their surfaces", "[eme
   CHECK(checks_of_glare(scene, {})[0].reasons == Remarks{remark(RemarkId::mesh_unhidden)});
 }
 
+TEST_CASE("glare at a rated flux alone is not assessed, unless that flux glares already",
+          "[emergency][rules]") {
+  SceneDescription scene = corridor();
+  Emitter& lamp = scene.emitters[0];
+  lamp.initial_flux_known = false;
+  const Check unknown = checks_of_glare(scene, {})[0];
+  CHECK(unknown.verdict == CheckVerdict::not_assessed);
+  CHECK(unknown.reasons == Remarks{remark(RemarkId::initial_flux_unknown)});
+  CHECK(checks_of_glare(scene, {})[1].verdict == CheckVerdict::pass);
+  lamp.emergency_flux = 1e5;
+  CHECK(checks_of_glare(scene, {})[0].verdict == CheckVerdict::fail);
+}
+
+TEST_CASE("a value that is its limit but for rounding keeps it", "[emergency][rules]") {
+  const auto verdict = [](double value, bool at_least) {
+    return judged(rule_of(RuleId::E8, {}), {}, value, Limit{500, at_least});
+  };
+  CHECK(verdict(500.00000000000006, false).verdict == CheckVerdict::pass);
+  CHECK(*verdict(500.00000000000006, false).value == 500);
+  CHECK(verdict(499.99999999999994, true).verdict == CheckVerdict::pass);
+  CHECK(verdict(500.001, false).verdict == CheckVerdict::fail);
+  CHECK(verdict(499.999, true).verdict == CheckVerdict::fail);
+}
+
 TEST_CASE("a luminaire behind a wall does not count as near, and the check names it",
           "[emergency][rules]") {
   const SceneDescription scene = corridor();

@@ -281,6 +281,22 @@ TEST_CASE("a sign that is hidden only by glare in new light is not legible", "[a
   CHECK(turned);
 }
 
+TEST_CASE("without the initial flux of a rated luminaire no sign is called legible",
+          "[assess][state]") {
+  const std::string rated =
+      replaced_all(room, "emergency_flux_is = \"initial\"\nend_of_duration_factor = 0.75",
+                   "emergency_flux_is = \"rated\"");
+  size_t unknown = 0;
+  for (const SightRow& row : assessed(rated, one_round()).sights) {
+    CHECK(row.sight.verdict != SightVerdict::legible);
+    if (row.sight.reason == remark(RemarkId::initial_flux_unknown)) ++unknown;
+  }
+  CHECK(unknown > 0);
+  const std::string stated = replaced_all(rated, "\"rated\"", "\"rated\"\ninitial_flux = 600");
+  for (const SightRow& row : assessed(stated, one_round()).sights)
+    CHECK(row.sight.reason != remark(RemarkId::initial_flux_unknown));
+}
+
 TEST_CASE("each luminaire is renewed by its own ageing factor", "[assess][state]") {
   const std::string second =
       "[[emitter]]\nname = \"old lamp\"\nshape = \"point\"\ndistribution = \"isotropic\"\n"

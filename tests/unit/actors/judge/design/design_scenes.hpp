@@ -59,6 +59,7 @@ flux_lm = 300
 emergency = "non-maintained"
 emergency_flux = 300
 maintenance_factor = 1
+emergency_flux_is = "initial"
 end_of_duration_factor = 1
 )";
 

@@ -23,7 +23,8 @@ std::vector<Finding> with_luminaire(const std::string& keys,
 
 std::string emergency(const std::string& keys, const std::string& mode = "non-maintained") {
   return "emergency = \"" + mode + "\"\n" + keys +
-         "\nmaintenance_factor = 0.8\nend_of_duration_factor = 0.7\n";
+         "\nmaintenance_factor = 0.8\nemergency_flux_is = \"initial\"\nend_of_duration_factor = "
+         "0.7\n";
 }
 
 std::vector<Finding> with_lamp(const std::string& from, const std::string& to) {
@@ -76,9 +77,30 @@ TEST_CASE("factors that state a loss, a percentage or no ageing are reported", "
               "as if it never aged");
   check_found(with_lamp("end_of_duration_factor = 0.75", "end_of_duration_factor = 1"),
               Severity::note, "does not fall until the battery is empty");
+  check_found(with_lamp("emergency_flux_is = \"initial\"\n", ""), Severity::warning,
+              "does not say what its emergency flux is");
+  check_found(with_lamp("emergency_flux_is = \"initial\"\nend_of_duration_factor = 0.75",
+                        "emergency_flux_is = \"rated\""),
+              Severity::note, "has a rated emergency flux and no initial_flux");
   check_found(with_luminaire("mains_factor = 50\n", "office_panel.ldt"), Severity::warning,
               "gives 50 times the 4000 lm of its file in mains operation");
   check_no_alarm(with_luminaire("mains_factor = 0.5\nmaintenance_factor = 0.8\n"));
+}
+
+TEST_CASE("an object that hides a luminaire's light, and may be its body, is reported",
+          "[inspect][light]") {
+  const auto housing = [](const std::string& more, const std::string& high = "[3.2, 0.2, 2.99]") {
+    return with_luminaire(
+        "[[object]]\nname = \"housing\"\nshape = \"box\"\n"
+        "low = [2.8, -0.2, 2.975]\nhigh = " +
+            high + "\nmaterial = \"grey50\"\n" + more,
+        "bulkhead.ldt");
+  };
+  const std::string words = "the body needs body_of = [\"light\"]";
+  check_found(housing(""), Severity::warning, words.c_str());
+  CHECK(that_say(housing("body_of = [\"light\"]\n"), words).empty());
+  // What is larger than any luminaire is none.
+  CHECK(that_say(housing("", "[7.2, 0.2, 2.99]"), words).empty());
 }
 
 TEST_CASE("a finding shared by luminaires is reported once, with their number",

@@ -155,7 +155,8 @@ TEST_CASE("luminaires nearer than five openings give a warning where codes judge
                         "[[luminaire]]\nname = \"low lamp\"\nfile = \"lamp.ies\"\n"
                         "position = [3, 0, 0.9]\ncircuit = \"low\"\n"
                         "emergency = \"maintained\"\nemergency_factor = 1\n"
-                        "maintenance_factor = 0.8\nend_of_duration_factor = 0.7\n" +
+                        "maintenance_factor = 0.8\nemergency_flux_is = "
+                        "\"initial\"\nend_of_duration_factor = 0.7\n" +
                         text,
                     {{"lamp.ies", ies}});
   };
@@ -218,7 +219,7 @@ material = "grey50"
 )";
   const std::string far =
       "emergency = \"non-maintained\"\nemergency_flux = 100\n"
-      "maintenance_factor = 1\nend_of_duration_factor = 1\n"
+      "maintenance_factor = 1\nemergency_flux_is = \"initial\"\nend_of_duration_factor = 1\n"
       "distribution = \"isotropic\"\n";
   const std::string rooms = furnished_room + wall + lamp_at("store", "[10, 0, 2.5]", far);
   const std::string route =
@@ -246,7 +247,7 @@ TEST_CASE(
   CHECK(that_say(dark, "fails with the mains: is its 'emergency' missing?").size() == 1);
   CHECK(that_say(found("distribution = \"isotropic\"\nemergency = \"maintained\"\n"
                        "emergency_flux = 90\nmaintenance_factor = 0.8\n"
-                       "end_of_duration_factor = 0.8\n"),
+                       "emergency_flux_is = \"initial\"\nend_of_duration_factor = 0.8\n"),
                  "gets no direct light")
             .empty());
 }

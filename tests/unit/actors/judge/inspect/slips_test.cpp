@@ -199,12 +199,14 @@ TEST_CASE("a percentage taken for a share of the flux is reported", "[inspect]")
     std::filesystem::copy_file(
         std::filesystem::path(LUX_SOURCE_DIR) / "scenes/library/luminaires/emergency_downlight.ldt",
         folder / "lamp.ldt");
-    return inspected(described(folder.write(
-        "scene.toml", furnished_room +
-                          "[[luminaire]]\nname = \"light\"\nfile = \"lamp.ldt\"\n"
-                          "position = [3, 0, 2.97]\nemergency = \"non-maintained\"\n"
-                          "emergency_factor = " +
-                          factor + "\nmaintenance_factor = 0.8\nend_of_duration_factor = 0.7\n")));
+    return inspected(described(
+        folder.write("scene.toml", furnished_room +
+                                       "[[luminaire]]\nname = \"light\"\nfile = \"lamp.ldt\"\n"
+                                       "position = [3, 0, 2.97]\nemergency = \"non-maintained\"\n"
+                                       "emergency_factor = " +
+                                       factor +
+                                       "\nmaintenance_factor = 0.8\nemergency_flux_is = "
+                                       "\"initial\"\nend_of_duration_factor = 0.7\n")));
   };
   check_found(lit("15"), Severity::warning, "luminaire \"light\" gives 15 times the 200 lm");
   const auto twice = lit("2");

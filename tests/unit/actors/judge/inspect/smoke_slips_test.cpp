@@ -157,7 +157,8 @@ TEST_CASE("scenarios with percentages, dark luminaires and late hours are report
               "has switched off luminaire \"lamp\" by its circuits");
   check_found(found_in(replaced(judged_room,
                                 "emergency = \"non-maintained\"\nemergency_flux = 500\n"
-                                "maintenance_factor = 0.8\nend_of_duration_factor = 0.75\n",
+                                "maintenance_factor = 0.8\nemergency_flux_is = "
+                                "\"initial\"\nend_of_duration_factor = 0.75\n",
                                 "") +
                        state("")),
               Severity::warning, "no luminaire of the scene is lit when the mains fail");

@@ -29,32 +29,37 @@ struct Product {
   std::string file = R"(<File id="f" contentType="ldc/ies" type="localFileName">lamp.ies</File>)";
   std::string light = R"(<RatedLuminousFlux>1000</RatedLuminousFlux>)";
   std::string behaviour = "Combined";
+  std::string kind = "FixedLightEmitter";
   std::string attributes;
+  std::string emitters, sources, equipment;  // more of them; of the equipment "q"
+  std::string geometry = R"(<SimpleGeometryReference geometryId="g" emitterId="e"/>)";
+  std::string width = "100";
+  std::string lamp = gldf_lamp;
   std::string before = R"(<?xml version="1.0" encoding="utf-8"?>)";
 
   std::string xml() const {
     return before + "<Root><Header><Manufacturer>Maker</Manufacturer>" + version +
            "</Header><GeneralDefinitions><Files>" + file +
            R"(</Files><Photometries><Photometry id="p"><PhotometryFileReference fileId="f"/>)"
-           R"(</Photometry></Photometries><Emitters><Emitter id="e"><FixedLightEmitter )"
-           "emergencyBehaviour=\"" +
-           behaviour + R"("><PhotometryReference photometryId="p"/>)" + light +
-           R"(</FixedLightEmitter></Emitter></Emitters><Geometries><SimpleGeometry id="g"><Cuboid>)"
-           "<Width>100</Width><Length>200</Length><Height>40</Height></Cuboid></SimpleGeometry>"
+           "</Photometry></Photometries><LightSources>" +
+           sources + R"(</LightSources><Equipments><Equipment id="q">)" + equipment +
+           R"(</Equipment></Equipments><Emitters><Emitter id="e"><)" + kind +
+           (behaviour.empty() ? "" : " emergencyBehaviour=\"" + behaviour + "\"") +
+           R"(><PhotometryReference photometryId="p"/>)" + light + "</" + kind + "></Emitter>" +
+           emitters + R"(</Emitters><Geometries><SimpleGeometry id="g"><Cuboid><Width>)" + width +
+           "</Width><Length>200</Length><Height>40</Height></Cuboid></SimpleGeometry>"
            "</Geometries></GeneralDefinitions><ProductDefinitions><ProductMetaData>"
            R"(<ProductNumber><Locale language="en">N-7</Locale></ProductNumber>)"
            R"(<Name><Locale language="de">Leuchte</Locale><Locale language="en">Lamp</Locale>)"
-           R"(</Name></ProductMetaData><Variants><Variant id="v"><Geometry>)"
-           R"(<SimpleGeometryReference geometryId="g" emitterId="e"/></Geometry>)" +
-           attributes + "</Variant></Variants></ProductDefinitions></Root>";
+           R"(</Name></ProductMetaData><Variants><Variant id="v"><Geometry>)" +
+           geometry + "</Geometry>" + attributes +
+           "</Variant></Variants></ProductDefinitions></Root>";
   }
-  std::string container() const {
-    return zip_of({{"product.xml", xml()}, {"ldc/lamp.ies", gldf_lamp}});
-  }
+  std::string container() const { return zip_of({{"product.xml", xml()}, {"ldc/lamp.ies", lamp}}); }
   GldfLuminaire luminaire(std::optional<double> duration_h = {}) const {
     const auto product = gldf_of(container(), "test.gldf");
     if (!product) FAIL(product.problem().text());
-    auto out = luminaire_of(product.value(), "", "", duration_h);
+    auto out = luminaire_of(product.value(), {"", "", duration_h, {}});
     if (!out) FAIL(out.problem().text());
     return std::move(out).value();
   }
@@ -83,7 +88,7 @@ std::string gldf_refusal(const std::string& bytes) {
 std::string missing(const Product& product) {
   const auto read = gldf_of(product.container(), "test.gldf");
   if (!read) return read.problem().what;
-  const auto luminaire = luminaire_of(read.value(), "", "", {});
+  const auto luminaire = luminaire_of(read.value(), {});
   return luminaire ? "there" : luminaire.problem().what;
 }
 
@@ -137,6 +142,29 @@ TEST_CASE(
   CHECK(product.luminaire().emergency_only);
 }
 
+TEST_CASE(
+    "an emitter for normal lighting has no emergency flux, and one that says nothing needs one",
+    "[photometry][gldf]") {
+  Product product;
+  product.attributes = durations;
+  product.behaviour = "None";
+  for (const std::optional<double> hours : {std::optional<double>(), std::optional(1.0)}) {
+    const GldfLuminaire normal = product.luminaire(hours);
+    CHECK(normal.normal_only);
+    REQUIRE_FALSE(normal.emergency_lm.ok());
+    says(normal.emergency_lm.problem().what,
+         "for normal lighting only (emergencyBehaviour \"None\")");
+  }
+  product.behaviour = "";
+  REQUIRE_FALSE(product.luminaire(1).emergency_lm.ok());
+  says(product.luminaire(1).emergency_lm.problem().what, "no emergencyBehaviour");
+  product.light += "<EmergencyBallastLumenFactor>0.25</EmergencyBallastLumenFactor>";
+  CHECK(product.luminaire().emergency_lm.value() == 250);
+  CHECK(product.luminaire(3).emergency_lm.value() == 150);
+  product.behaviour = "Emergency";
+  says(missing(product), "must be None, Combined or EmergencyOnly, not \"Emergency\"");
+}
+
 TEST_CASE("a stated duration selects its row of the table, and no other", "[photometry][gldf]") {
   Product product;
   product.attributes = durations;
@@ -147,31 +175,180 @@ TEST_CASE("a stated duration selects its row of the table, and no other", "[phot
   says(other.emergency_lm.problem().what, "\"1\", \"3\" h");
 }
 
+TEST_CASE("the lights of a product that are lit in an emergency share its flux by duration",
+          "[photometry][gldf]") {
+  // "e" of 1000 lm; "d" of 400 lm, or 600 lm in its stead; "n" for normal lighting; "c" of two
+  // channels, 100 and 200 lm.
+  const auto fixed = [](const std::string& behaviour, const std::string& lumens) {
+    return "<FixedLightEmitter emergencyBehaviour=\"" + behaviour +
+           "\"><PhotometryReference photometryId=\"p\"/><RatedLuminousFlux>" + lumens +
+           "</RatedLuminousFlux></FixedLightEmitter>";
+  };
+  Product product;
+  product.attributes = durations;
+  product.emitters = "<Emitter id=\"d\">" + fixed("Combined", "400") + fixed("Combined", "600") +
+                     "</Emitter><Emitter id=\"n\">" + fixed("None", "5000") +
+                     "</Emitter><Emitter id=\"c\"><MultiChannelLightEmitter "
+                     "emergencyBehaviour=\"EmergencyOnly\"><LightSourceReference "
+                     "multiChannelLightSourceId=\"m\"/></MultiChannelLightEmitter></Emitter>";
+  product.sources = "<MultiChannelLightSource id=\"m\"><Channels>";
+  for (const std::string lumens : {"100", "200"})
+    product.sources += "<Channel><PhotometryReference photometryId=\"p\"/><RatedLuminousFlux>" +
+                       lumens + "</RatedLuminousFlux></Channel>";
+  product.sources += "</Channels></MultiChannelLightSource>";
+  product.geometry =
+      "<EmitterReference emitterId=\"e\"/><EmitterReference emitterId=\"d\"/>"
+      "<EmitterReference emitterId=\"n\"/><EmitterReference emitterId=\"c\"/>";
+  const auto read = gldf_of(product.container(), "test.gldf");
+  if (!read) FAIL(read.problem().text());
+  std::vector<std::string> names;
+  for (const GldfReference& light : read->variants.at(0).lights) names.push_back(light.name);
+  CHECK(names == std::vector<std::string>{"e", "d", "d#2", "n", "c:1", "c:2"});
+  const auto lumens = [&](const char* emitter) {
+    const auto luminaire = luminaire_of(read.value(), {"v", emitter, 1.0, {}});
+    if (!luminaire) FAIL(luminaire.problem().text());
+    if (!luminaire->emergency_lm) FAIL(luminaire->emergency_lm.problem().text());
+    return luminaire->emergency_lm.value();
+  };
+  // 250 lm among 1000 + 600 + 300 lm: of the alternatives left open the brightest counts.
+  CHECK(lumens("e") == Approx(250 * 1000 / 1900.0));
+  CHECK(lumens("c:1") == Approx(250 * 100 / 1900.0));
+  CHECK(lumens("c:2") == Approx(250 * 200 / 1900.0));
+  CHECK(lumens("d#2") == Approx(250 * 600 / 1900.0));
+  CHECK(lumens("d") == Approx(250 * 400 / 1700.0));
+}
+
+TEST_CASE("an emitter that a variant refers to several times is several lights",
+          "[photometry][gldf]") {
+  Product product;
+  product.geometry =
+      "<GeometryReferences><SimpleGeometryReference geometryId=\"g\" emitterId=\"e\"/>"
+      "<ModelGeometryReference geometryId=\"m\">"
+      "<EmitterReference emitterId=\"e\"><EmitterObjectExternalName> left "
+      "</EmitterObjectExternalName>"
+      "</EmitterReference><EmitterReference emitterId=\"e\"><EmitterObjectExternalName>right"
+      "</EmitterObjectExternalName></EmitterReference>"
+      "<EmitterReference emitterId=\"e\" targetModelType=\"r3d\"><EmitterObjectExternalName>other"
+      "</EmitterObjectExternalName></EmitterReference>"
+      "</ModelGeometryReference></GeometryReferences>";
+  product.attributes = durations;
+  const auto read = gldf_of(product.container(), "test.gldf");
+  if (!read) FAIL(read.problem().text());
+  const auto& lights = read->variants.at(0).lights;
+  REQUIRE(lights.size() == 2);
+  CHECK((lights[0].name == "e" && lights[1].name == "e@2"));
+  CHECK((lights[0].opening == "left" && lights[1].opening == "right"));
+  CHECK(lights[0].light == lights[1].light);
+  says(luminaire_of(read.value(), {}).problem().what, "say 'emitter': \"e\", \"e@2\"");
+  // Both are lit, and the table is the product's.
+  CHECK(luminaire_of(read.value(), {"", "e@2", 1.0, {}})->emergency_lm.value() == Approx(125));
+  product.geometry = "<EmitterReference emitterId=\"unknown\"/>";
+  says(missing(product), "the container does not define this emitter");
+}
+
+TEST_CASE("blanks and line ends around values do not count, nor do comments within them",
+          "[photometry][gldf]") {
+  Product product;
+  product.file =
+      "<File id=\" f \" contentType=\" ldc/ies\" type=\"localFileName \">\n  lamp.ies\n</File>";
+  product.light =
+      "<RatedLuminousFlux>\n  4<!-- four hundred -->00\n</RatedLuminousFlux>"
+      "<EmergencyRatedLuminousFlux><![CDATA[ 40 ]]></EmergencyRatedLuminousFlux>";
+  CHECK(product.luminaire().rated_lm == 400);
+  CHECK(product.luminaire().emergency_lm.value() == 40);
+}
+
+TEST_CASE("a number that cannot be read is an error with its line", "[photometry][gldf]") {
+  const auto with = [](const std::string& light) {
+    Product product;
+    product.before += "\n\n";
+    product.light = "\n" + light;
+    return missing(product);
+  };
+  for (const char* number : {"100,0", "100 lm", "-250", "nan", "inf", "0x3E8", "1e99", ""}) {
+    INFO(number);
+    const std::string said =
+        with("<RatedLuminousFlux>" + std::string(number) + "</RatedLuminousFlux>");
+    says(said,
+         "line 4 of 'product.xml': RatedLuminousFlux must be a number from 0 to 1e+08, not \"" +
+             std::string(number) + "\"");
+  }
+  const std::string rated = "<RatedLuminousFlux>1000</RatedLuminousFlux>";
+  says(with(rated + "<EmergencyRatedLuminousFlux>a</EmergencyRatedLuminousFlux>"),
+       "EmergencyRatedLuminousFlux must be");
+  says(with(rated + "<EmergencyBallastLumenFactor>15</EmergencyBallastLumenFactor>"),
+       "EmergencyBallastLumenFactor must be a number from 0 to 1, not \"15\"");
+  says(with("<Rotation><X>up</X></Rotation>" + rated), "X must be a number from -360 to 360");
+  Product product;
+  product.attributes = replaced(durations, "hours=\"3\"", "hours=\"three\"");
+  says(missing(product), "hours of DurationTimeAndFlux must be a number");
+  product.attributes = replaced(durations, ">150<", "> <");
+  says(missing(product), "Flux of DurationTimeAndFlux must be a number");
+  product.attributes.clear();
+  product.width = "10 cm";
+  says(missing(product), "Width must be a number from 0 to 100000, not \"10 cm\"");
+}
+
+TEST_CASE("the turn of an emitter within its luminaire is applied", "[photometry][gldf]") {
+  const auto down = [](const std::string& turn, const glm::dvec3& direction = {0, 0, -1}) {
+    Product product;
+    product.light = "<Rotation>" + turn + "</Rotation>" + product.light;
+    const GldfLuminaire luminaire = product.luminaire();
+    CHECK(luminaire.photometry.warnings.empty() == (turn.find("<Y>") == std::string::npos));
+    return luminaire.turn * direction;
+  };
+  const auto check = [](const glm::dvec3& is, const glm::dvec3& wanted) {
+    INFO(is.x << " " << is.y << " " << is.z);
+    CHECK(glm::length(is - wanted) < 1e-12);
+  };
+  check(Product{}.luminaire().turn * glm::dvec3(1, 2, 3), {1, 2, 3});
+  check(down("<X>90</X>"), {0, 1, 0});
+  check(down("<Z>90</Z><G0>0</G0>", {1, 0, 0}), {0, 1, 0});
+  // About its own gamma 0 first, then with the luminaire's axes.
+  check(down("<X>90</X><G0>90</G0>", {1, 0, 0}), {0, 0, 1});
+  check(down("<X>90</X><G0>90</G0>"), {0, 1, 0});
+  // Several axes: z, then x, then y, about the part's own axes, and a warning.
+  check(down("<X>90</X><Y>90</Y>"), {-1, 0, 0});
+}
+
 TEST_CASE("the flux of a changeable lamp is multiplied by the luminaire's light output ratio",
           "[photometry][gldf]") {
-  std::string xml = Product{}.xml();
-  const auto swap = [&](const std::string& from, const std::string& to) {
-    const size_t at = xml.find(from);
-    REQUIRE(at != std::string::npos);
-    xml.replace(at, from.size(), to);
-  };
-  swap("<FixedLightEmitter", "<ChangeableLightEmitter");
-  swap("</FixedLightEmitter>", "</ChangeableLightEmitter>");
-  swap("<RatedLuminousFlux>1000</RatedLuminousFlux>", R"(<EquipmentReference equipmentId="q"/>)");
-  swap("<Emitters>",
-       R"(<LightSources><ChangeableLightSource id="l"><RatedLuminousFlux>700</RatedLuminousFlux>)"
-       R"(</ChangeableLightSource></LightSources><Equipments><Equipment id="q">)"
-       R"(<LightSourceReference changeableLightSourceId="l" lightSourceCount="2"/>)"
-       "<EmergencyBallastLumenFactor>0.1</EmergencyBallastLumenFactor></Equipment></Equipments>"
-       "<Emitters>");
-  const auto product =
-      gldf_of(zip_of({{"product.xml", xml}, {"ldc/lamp.ies", gldf_lamp}}), "test.gldf");
-  REQUIRE(product.ok());
-  CHECK(product->lights.at(0).lamp_lm == std::optional<double>(1400));
-  const auto luminaire = luminaire_of(product.value(), "v", "e", {});
-  REQUIRE(luminaire.ok());
-  CHECK(luminaire->rated_lm == Approx(1400 * luminaire->photometry.light_output_ratio));
-  CHECK(luminaire->emergency_lm.value() == Approx(luminaire->rated_lm / 10));
+  Product product;
+  product.kind = "ChangeableLightEmitter";
+  product.light = R"(<EquipmentReference equipmentId="q"/>)";
+  product.sources = R"(<ChangeableLightSource id="l"><RatedLuminousFlux>700</RatedLuminousFlux>)"
+                    "</ChangeableLightSource>";
+  product.equipment = R"(<LightSourceReference changeableLightSourceId="l" lightSourceCount="2"/>)"
+                      "<EmergencyBallastLumenFactor>0.1</EmergencyBallastLumenFactor>";
+  const auto read = gldf_of(product.container(), "test.gldf");
+  REQUIRE(read.ok());
+  CHECK(read->lights.at(0).lamp_lm == std::optional<double>(1400));
+  const GldfLuminaire luminaire = product.luminaire();
+  CHECK(luminaire.rated_lm == Approx(1400 * luminaire.photometry.light_output_ratio));
+  CHECK(luminaire.emergency_lm.value() == Approx(luminaire.rated_lm / 10));
+}
+
+TEST_CASE("the emergency flux of an equipment is that of its lamps", "[photometry][gldf]") {
+  Product product;
+  product.kind = "ChangeableLightEmitter";
+  product.light = "<EquipmentReference equipmentId=\"q\"/>";
+  product.sources =
+      "<ChangeableLightSource id=\"l\"><RatedLuminousFlux>1000</RatedLuminousFlux>"
+      "</ChangeableLightSource>";
+  product.equipment =
+      "<LightSourceReference changeableLightSourceId=\"l\"/>"
+      "<EmergencyRatedLuminousFlux>100</EmergencyRatedLuminousFlux>";
+  // 1000 lm per lamp, of which the intensities hold the share of the luminaire.
+  product.lamp = replaced(gldf_lamp, "1 -1 1 3", "1 1000 1 3");
+  const GldfLuminaire luminaire = product.luminaire();
+  const double ratio = luminaire.photometry.light_output_ratio;
+  CHECK((ratio > 0.5 && ratio < 0.9));
+  CHECK(luminaire.emergency_lm.value() == Approx(100 * ratio));
+  product.equipment = replaced(product.equipment, "</EmergencyRated", "x</EmergencyRated");
+  says(missing(product), "EmergencyRatedLuminousFlux must be a number");
+  product.equipment =
+      "<LightSourceReference changeableLightSourceId=\"l\" lightSourceCount=\"two\"/>";
+  says(missing(product), "lightSourceCount must be a number from 1 to 10000, not \"two\"");
 }
 
 TEST_CASE("what the container does not hold is reported, and nothing is downloaded",
@@ -206,10 +383,10 @@ TEST_CASE("a variant and an emitter must be named if there are several", "[photo
   const auto product =
       gldf_of(zip_of({{"product.xml", xml}, {"ldc/lamp.ies", gldf_lamp}}), "test.gldf");
   REQUIRE(product.ok());
-  says(luminaire_of(product.value(), "", "", {}).problem().what, "say 'variant': \"v\", \"w\"");
-  says(luminaire_of(product.value(), "x", "", {}).problem().what, "there are \"v\", \"w\"");
-  says(luminaire_of(product.value(), "w", "x", {}).problem().what, "no emitter \"x\"");
-  CHECK(luminaire_of(product.value(), "w", "", {}).ok());
+  says(luminaire_of(product.value(), {}).problem().what, "say 'variant': \"v\", \"w\"");
+  says(luminaire_of(product.value(), {"x", "", {}, {}}).problem().what, "there are \"v\", \"w\"");
+  says(luminaire_of(product.value(), {"w", "x", {}, {}}).problem().what, "no emitter \"x\"");
+  CHECK(luminaire_of(product.value(), {"w", "", {}, {}}).ok());
 }
 
 TEST_CASE("a file that is not a container, another version and hidden entities are rejected",
@@ -306,7 +483,7 @@ TEST_CASE("containers of other programs are read or rejected with a message",
   const auto own = read_gldf(folder / "emergency_own.gldf");
   REQUIRE(own.ok());
   const auto flux = [&](const char* variant, std::optional<double> hours = {}) {
-    const auto luminaire = luminaire_of(own.value(), variant, "", hours);
+    const auto luminaire = luminaire_of(own.value(), {variant, "", hours, {}});
     REQUIRE(luminaire.ok());
     return luminaire->emergency_lm.ok() ? luminaire->emergency_lm.value() : -1;
   };
@@ -315,7 +492,7 @@ TEST_CASE("containers of other programs are read or rejected with a message",
   CHECK(flux("v-flux", 3) == 150);
   CHECK(flux("v-only") == 250);
   CHECK(flux("v-unknown") == -1);
-  says(luminaire_of(own.value(), "v-remote", "", {}).problem().what, "nothing is fetched");
+  says(luminaire_of(own.value(), {"v-remote", "", {}, {}}).problem().what, "nothing is fetched");
   for (const char* name : {"GldfWithCodepage850", "GldfWithEncodingUtf8", "GldfWithFilesComplete",
                            "GldfWithMissingFiles", "GldfWithNoFiles", "GldfWithOrphanedFiles"}) {
     INFO(name);
@@ -357,11 +534,11 @@ TEST_CASE("mutated containers are read or rejected with one sentence", "[photome
     }
     ++read;
     for (const GldfVariant& variant : answer->variants)
-      for (const size_t light : variant.lights) {
-        if (!made.insert(words_of(answer.value(), variant, answer->lights.at(light))).second)
+      for (const GldfReference& reference : variant.lights) {
+        const GldfLight& light = answer->lights.at(reference.light);
+        if (!made.insert(reference.name + words_of(answer.value(), variant, light)).second)
           continue;
-        const auto luminaire =
-            luminaire_of(answer.value(), variant.id, answer->lights.at(light).emitter, {});
+        const auto luminaire = luminaire_of(answer.value(), {variant.id, reference.name, {}, {}});
         if (luminaire) REQUIRE(luminaire->photometry.web->flux_lm() > 0);
       }
   }

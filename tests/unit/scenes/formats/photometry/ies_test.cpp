@@ -124,7 +124,7 @@ TEST_CASE("our own wall light keeps its flux and is directed to the front", "[fo
   CHECK(file->web->intensity(toward(60, 45)) == Approx(file->web->intensity(toward(-60, 45))));
 }
 
-TEST_CASE("candela are scaled by multiplier and ballast, and by the lamp factor until 1995",
+TEST_CASE("candela are scaled by multiplier and ballast, and by the lamp factor until 1991",
           "[format][ies]") {
   Ies ies;
   ies.lamps = "2 1500 1.5";
@@ -133,8 +133,16 @@ TEST_CASE("candela are scaled by multiplier and ballast, and by the lamp factor 
   CHECK(modern.web->peak_cd() == Approx(120));
   CHECK(modern.lamp_flux_lm == 3000);
   CHECK(warns(modern, "after the ballast factor"));
+  for (const char* old : {"Some maker\n", "IESNA91\n[TEST] 1\n"}) {
+    ies.head = old;
+    const PhotometricFile file = read(ies);
+    CHECK(file.web->peak_cd() == Approx(60));
+    CHECK(warns(file, "multiplied by the ballast-lamp photometric factor of 0.5"));
+  }
+  // LM-63-1995 keeps the field for future use.
   ies.head = "IESNA:LM-63-1995\n[TEST] 1\n";
-  CHECK(read(ies).web->peak_cd() == Approx(60));
+  CHECK(read(ies).web->peak_cd() == Approx(120));
+  CHECK(warns(read(ies), "IES LM-63-1995 gives it no meaning"));
   ies.head = "IES:LM-63-2019\n[TEST] 1\n";
   ies.ballast = "0.8 1.10001 20";
   const PhotometricFile newest = read(ies);
@@ -265,6 +273,70 @@ TEST_CASE("a type B file of one quarter is mirrored into the lower hemisphere", 
     for (double v : {-60.0, 60.0}) CHECK(file.web->intensity(lateral(h, v)) == Approx(100));
   }
   CHECK(warns(file, "mirror image"));
+}
+
+TEST_CASE("decimal commas are rejected, and commas between numbers are read", "[format][ies]") {
+  Ies ies;
+  ies.lamps = "1,1500,1";
+  ies.size = "0.1,0.2,0";
+  ies.verticals = "0,90,180";
+  ies.candela = "100.5,100.5,100.5";
+  CHECK(read(ies).web->peak_cd() == Approx(100.5));
+  ies = {};
+  ies.candela = "100,5 100,5 100,5";
+  CHECK(refusal(ies.text()).starts_with("test.ies:10: the numbers have decimal commas"));
+  // In the head they shift all numbers after them.
+  ies = {};
+  ies.size = "0,1 0,2 0";
+  CHECK(refusal(ies.text()).starts_with("test.ies:6: the numbers have decimal commas"));
+  ies = {};
+  ies.ballast = "1,0 1,0 20,5";
+  CHECK(refusal(ies.text()).starts_with("test.ies:7: the numbers have decimal commas"));
+}
+
+TEST_CASE("a missing line of ballast factor and watts is told by its name", "[format][ies]") {
+  Ies ies;
+  ies.ballast = "";
+  ies.vertical_count = "5";
+  ies.verticals = "0 30 60 90 120";
+  ies.candela = "950 820 540 210 60";
+  const std::string said = refusal(ies.text());
+  INFO(said);
+  CHECK(said.starts_with("test.ies:8: the line of ballast factor, photometric factor and input"));
+  // Real files may have angles that look like factors, and factors that ascend.
+  ies.ballast = "0.9 1 20";
+  CHECK(read(ies).web->peak_cd() == Approx(950 * 0.9));
+}
+
+TEST_CASE("planes that disagree at the nadir are told, and a missing quarter is rejected",
+          "[format][ies]") {
+  Ies ies;
+  ies.lamps = "1 -1 1";
+  ies.horizontals = "0 90 180 270 360";
+  ies.horizontal_count = "5";
+  ies.candela = "500 1 1 750 1 1 1000 1 1 1250 1 1 500 1 1";
+  CHECK(warns(read(ies), "straight down (nadir) the planes state 500 to 1250 cd"));
+  ies.candela = "500 1 1 505 1 1 500 1 1 500 1 1 500 1 1";
+  CHECK_FALSE(warns(read(ies), "planes state"));
+  ies.horizontals = "0 45 90 135 180 225 270";
+  ies.horizontal_count = "7";
+  ies.candela = "1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1";
+  CHECK(refusal(ies.text()).find("the horizontal angles stop at 270, and the gap of 90 degrees") !=
+        std::string::npos);
+}
+
+TEST_CASE("planes that leave out a part of the circle between them are told", "[format][ies]") {
+  Ies ies;
+  ies.lamps = "1 -1 1";
+  ies.horizontals = "0 15 30 45 60 75 90 180 195 210 225 240 255 270 285 300 315 330 345 360";
+  ies.horizontal_count = "20";
+  ies.candela.clear();
+  for (int i = 0; i < 20; ++i) ies.candela += "1 1 1 ";
+  CHECK(warns(read(ies), "between the planes 90 and 180 degrees, a step far wider"));
+  ies.horizontals = "0 45 90 180 270 360";
+  ies.horizontal_count = "6";
+  ies.candela = "1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1";
+  CHECK_FALSE(warns(read(ies), "far wider"));
 }
 
 TEST_CASE("values may wrap over lines and be separated by commas", "[format][ies]") {

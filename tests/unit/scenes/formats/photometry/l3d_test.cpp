@@ -86,6 +86,22 @@ TEST_CASE("a part turns about its own axes, z first, then x, then y", "[photomet
   check_point(read_model(small).parts[0].place.point({0, 1, 0}), {0, rest, half});
 }
 
+TEST_CASE("parts were measured with the light unless the model denies it", "[photometry][l3d]") {
+  SmallL3d small;
+  CHECK(read_model(small).parts.at(0).measured);
+  for (const char* word : {"true", "1", " true "}) {
+    small.measured = word;
+    CHECK(read_model(small).parts.at(0).measured);
+  }
+  for (const char* word : {"false", "0"}) {
+    small.measured = word;
+    CHECK_FALSE(read_model(small).parts.at(0).measured);
+  }
+  small.measured = "maybe";
+  CHECK_THAT(l3d_refusal(small.bytes()),
+             Contains("includedInMeasurement = \"maybe\"; it is true or false"));
+}
+
 TEST_CASE("a part below a joint is placed as the joint is", "[photometry][l3d]") {
   SmallL3d small;
   small.joints = joint_with("");
@@ -164,7 +180,8 @@ TEST_CASE(
   REQUIRE(read.ok());
   const GldfVariant& variant = read->variants.at(0);
   REQUIRE(variant.model == std::optional<size_t>(0));
-  CHECK(variant.openings == std::vector<std::string>{"leo"});
+  REQUIRE(variant.lights.size() == 1);
+  CHECK(variant.lights[0].opening == "leo");
   CHECK(variant.housing.has_value());
   const GldfModel& model = read->models.at(0);
   CHECK(model.fault.empty());
@@ -234,6 +251,8 @@ TEST_CASE("only names and diffuse colours of a material library are kept", "[pho
   CHECK(model.shapes[0].colours ==
         "newmtl red\nKd 1 0.1 0.05\nnewmtl odd\nKd 0.7 0.7 0.7\nnewmtl late\nKd 0 0 1\n");
   CHECK(model.shapes[0].obj == coloured_box_obj(l3d_library));
+  CHECK_THAT(model.shapes[0].odd_colour,
+             Contains("material \"odd\" is \"2 0 0\", and not three numbers from 0 to 1"));
 }
 
 TEST_CASE("a library without a colour is dropped", "[photometry][l3d]") {

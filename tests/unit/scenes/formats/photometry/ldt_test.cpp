@@ -25,6 +25,7 @@ struct Ldt {
   std::vector<std::string> gamma = {"0", "90", "180"};
   std::string gamma_step = "90";
   std::vector<std::string> sizes = {"200", "100", "50", "180", "90", "0", "0", "0", "0"};
+  std::string down = "50";
   std::string lorl = "125.66";
   std::string factor = "1";
   std::string tilt = "0";
@@ -41,7 +42,7 @@ struct Ldt {
     all({manufacturer, type, std::to_string(symmetry), std::to_string(c.size()), c_step,
          std::to_string(gamma.size()), gamma_step, "report", name, "number", "file", "date"});
     all(sizes);
-    all({"50", lorl, factor, tilt, std::to_string(lamps.size())});
+    all({down, lorl, factor, tilt, std::to_string(lamps.size())});
     for (const auto& lamp : lamps) all(lamp);
     all(std::vector<std::string>(10, "0.5"));
     all(c);
@@ -51,14 +52,14 @@ struct Ldt {
   }
 };
 
-PhotometricFile read_ldt_text(const Ldt& ldt) {
-  auto file = read_ldt(ldt.text(), "test.ldt");
+PhotometricFile read_ldt_text(const Ldt& ldt, std::optional<int> lamp_set = {}) {
+  auto file = read_ldt(ldt.text(), "test.ldt", lamp_set);
   if (!file) FAIL(file.problem().text());
   return std::move(file).value();
 }
 
-std::string ldt_refusal(const std::string& text) {
-  const auto file = read_ldt(text, "test.ldt");
+std::string ldt_refusal(const std::string& text, std::optional<int> lamp_set = {}) {
+  const auto file = read_ldt(text, "test.ldt", lamp_set);
   return file ? "was read" : file.problem().text();
 }
 
@@ -70,14 +71,16 @@ TEST_CASE("measured EULUMDAT files add up to their stated flux", "[format][ldt]"
     const char* file;
     double lumens;
     double percent;
+    std::optional<int> lamp_set;
   };
-  for (const Expected& e : {Expected{"sample1.ldt", 4626, 100.014},
-                            {"sample3.ldt", 12800, 100.002},
-                            {"sample4.ldt", 5540, 100.070},
-                            {"sample5.ldt", 611.9, 100.005},
-                            {"sample10.ldt", 7000, 100.048}}) {
+  for (const Expected& e : {Expected{"sample1.ldt", 1983, 100.014, 1},
+                            {"sample1.ldt", 2643, 100.014, 2},
+                            {"sample3.ldt", 12800, 100.002, {}},
+                            {"sample4.ldt", 5540, 100.070, {}},
+                            {"sample5.ldt", 611.9, 100.005, {}},
+                            {"sample10.ldt", 7000, 100.048, {}}}) {
     INFO(e.file);
-    const auto file = read_photometric_file(shared_data / "ldt" / e.file);
+    const auto file = read_photometric_file(shared_data / "ldt" / e.file, e.lamp_set);
     REQUIRE(file.ok());
     CHECK(file->lamp_flux_lm == Approx(e.lumens));
     CHECK(file->header_flux_lm.value() == Approx(e.lumens));
@@ -215,16 +218,69 @@ TEST_CASE("a file that stops at the horizon is dark above it", "[format][ldt]") 
   CHECK(file.web->intensity(toward(0, 90.01)) == 0);
 }
 
-TEST_CASE("lamp sets are taken as burning together, with a warning", "[format][ldt]") {
+TEST_CASE("of several lamp sets one burns, and the scene says which", "[format][ldt]") {
   Ldt ldt;
-  ldt.lamps = {{"1", "direct", "1500", "3000", "90", "12"}, {"2", "indirect", "500", "", "", "4"}};
-  const PhotometricFile file = read_ldt_text(ldt);
-  CHECK(file.lamp_flux_lm == 2000);
-  CHECK(file.web->peak_cd() == Approx(200));
-  CHECK(file.input_watts == 16);
-  CHECK(file.lamp_sets.size() == 2);
-  CHECK(file.cct_k.value() == 3000);
-  CHECK(warns(file, "burning together"));
+  ldt.lamps = {{"1", "LED 350 mA", "1500", "3000", "90", "12"},
+               {"-2", "LED 500 mA", "2000", "840", "80", "16"}};
+  const std::string said = ldt_refusal(ldt.text());
+  INFO(said);
+  CHECK(said.starts_with("test.ldt:26: 2 lamp sets are alternatives"));
+  CHECK(said.find("lamp_set = 1 to 2: 1: LED 350 mA, 1500 lm; 2: LED 500 mA, 2000 lm") !=
+        std::string::npos);
+  CHECK(ldt_refusal(ldt.text(), 3).find("no lamp set 3 in the file; there are: 1: LED") !=
+        std::string::npos);
+  const PhotometricFile first = read_ldt_text(ldt, 1), second = read_ldt_text(ldt, 2);
+  CHECK(first.lamp_flux_lm == 1500);
+  CHECK(first.web->peak_cd() == Approx(150));
+  CHECK(first.input_watts == 12);
+  CHECK(first.cct_k.value() == 3000);
+  CHECK_FALSE(first.absolute);
+  CHECK(second.lamp_flux_lm == 2000);
+  CHECK(second.web->peak_cd() == Approx(200));
+  CHECK(second.input_watts == 16);
+  CHECK(second.cri.value() == 80);
+  CHECK(second.absolute);
+  CHECK(second.lamp_sets.size() == 2);
+  // A file with a single set needs no choice, and takes the one that there is.
+  CHECK(read_ldt_text(Ldt{}, 1).lamp_flux_lm == 1000);
+  CHECK(ldt_refusal(Ldt{}.text(), 2).find("no lamp set 2") != std::string::npos);
+}
+
+TEST_CASE("planes that disagree straight down or up are told beyond 2 percent", "[format][ldt]") {
+  Ldt ldt;
+  ldt.symmetry = 0;
+  ldt.c = {"0", "90", "180", "270"};
+  ldt.gamma = {"0", "90", "180"};
+  const auto with = [&](const std::string& down, const std::string& up) {
+    ldt.candela = {"100", "100", "100", "100", "100", "100", "100", "100", "100", down, "100", up};
+    return read_ldt_text(ldt);
+  };
+  CHECK_FALSE(warns(with("101.9", "98.1"), "planes state"));
+  CHECK(warns(with("103", "100"), "straight down (nadir) the planes state 100 to 103 cd"));
+  CHECK(warns(with("100", "90"), "straight up (zenith) the planes state 90 to 100 cd"));
+  // Noise in the dark is no light.
+  ldt.candela = {"1000", "1000", "0.1", "1000", "1000", "0.3",
+                 "1000", "1000", "0.2", "1000", "1000", "0.1"};
+  ldt.lorl = "";
+  CHECK_FALSE(warns(read_ldt_text(ldt), "planes state"));
+}
+
+TEST_CASE("a circle of planes with a quarter missing is rejected", "[format][ldt]") {
+  Ldt ldt;
+  ldt.symmetry = 0;
+  ldt.gamma = {"0", "180"};
+  ldt.gamma_step = "180";
+  const auto listed = [&](std::vector<std::string> c) {
+    ldt.c = std::move(c);
+    ldt.candela.assign(2 * ldt.c.size(), "100");
+    return ldt_refusal(ldt.text());
+  };
+  CHECK(listed({"0", "90", "180", "270"}) == "was read");
+  CHECK(listed({"0", "45", "180", "270"}) == "was read");
+  CHECK(listed({"0"}) == "was read");
+  CHECK(listed({"0", "45", "90", "135", "180", "225", "270"})
+            .find("between C270 and C0 a gap of 90 degrees is wider than any step") !=
+        std::string::npos);
 }
 
 TEST_CASE("fluxes of one lamp of several, openings in another unit and odd colours give warnings",
@@ -272,7 +328,7 @@ TEST_CASE("commas, quotes, encodings, line ends and padding do not change the lu
   ldt.manufacturer =
       "\"B\xFC"
       "ro\"";  // Latin-1
-  for (const char* end : {"\n", "\r\n", "\r"}) {
+  for (const char* end : {"\n", "\r\n", "\r", "\r\r\n"}) {
     ldt.end = end;
     ldt.tail = std::string("0") + end + end + "0.0" + end + "\x1A";
     const PhotometricFile file = read_ldt_text(ldt);
@@ -339,6 +395,18 @@ TEST_CASE("odd values are read with a warning and their line", "[format][ldt]") 
   CHECK(hostile.size() < 200);
   ldt.type = "3";
   CHECK(read_ldt_text(ldt).warnings.empty());
+  // Watts and the downward share do not change the light.
+  ldt.lamps[0][5] = "2x36";
+  CHECK(warns(read_ldt_text(ldt),
+              "wattage of the lamps should lie between 0 and 1e+06, and is "
+              "\"2x36\"; it is not used"));
+  ldt.lamps[0][5] = "10";
+  ldt.down = "101";
+  file = read_ldt_text(ldt);
+  CHECK(warns(file, "(DFF) should lie between 0 and 100.5, and is \"101\""));
+  CHECK(file.warnings.at(0).where.line == 22);
+  CHECK_FALSE(file.header_down_share.has_value());
+  ldt.down = "50";
   ldt.tail = "more\r\n";
   CHECK(warns(read_ldt_text(ldt), "not used"));
 }
@@ -363,7 +431,7 @@ TEST_CASE("a broken EULUMDAT file is one problem that names the line", "[format]
       {27, "whole number", [](Ldt& f) { f.lamps[0][0] = "1.5"; }},
       {29, "flux of the lamps must be a number", [](Ldt& f) { f.lamps[0][2] = ""; }},
       {29, "flux of the lamps must lie", [](Ldt& f) { f.lamps[0][2] = "1e12"; }},
-      {32, "no lamp set has a flux", [](Ldt& f) { f.lamps[0][2] = "0"; }},
+      {32, "the lamp set has no flux", [](Ldt& f) { f.lamps[0][2] = "0"; }},
       {46, "does not ascend",
        [](Ldt& f) {
          f.gamma = {"0", "90", "90"};
@@ -415,6 +483,27 @@ TEST_CASE("every truncated EULUMDAT file is rejected", "[format][ldt]") {
     INFO("first " << size << " bytes");
     REQUIRE_FALSE(file.ok());
   }
+}
+
+TEST_CASE("files of other formats are called by their names", "[format][ldt][ies]") {
+  const auto said = [](const std::string& bytes) {
+    const auto file = photometric_file_of(bytes, "test", ".");
+    return file ? "was read" : file.problem().text();
+  };
+  for (const char* text :
+       {"<?xml version=\"1.0\"?>\n<IESTM33-22><Version>1.1</Version></IESTM33-22>",
+        "\xEF\xBB\xBF <LuminaireOpticalData></LuminaireOpticalData>",
+        "{\"LuminaireOpticalData\": {}}", "\n{ \"IESTM33-18\": {\"Version\": 1} }"}) {
+    INFO(text);
+    CHECK(said(text).find("this is ANSI/IES TM-33 (or ATLA S001, UNI 11733), which is not read") !=
+          std::string::npos);
+  }
+  CHECK(said("<svg></svg>").find("this is XML, and neither") != std::string::npos);
+  CHECK(said("{\"a\": 1}").find("this is JSON, and neither") != std::string::npos);
+  CHECK(said("PK\x03\x04...").find("a GLDF container must have a name") != std::string::npos);
+  Ldt ldt;
+  ldt.manufacturer = "<Maker>";
+  CHECK(said(ldt.text()) == "was read");
 }
 
 TEST_CASE("a path to a missing file is a problem with that path", "[format][ldt]") {

@@ -1,4 +1,5 @@
 // Luminaires of GLDF containers in scenes.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/kit/zip_kit.hpp"
@@ -8,9 +9,10 @@ namespace luxodus {
 namespace {
 
 /// One variant; its emitter "e" is rated at 1000 lm, and at 200 lm or not at all for emergencies.
-std::string container(bool says_emergency) {
+std::string container(bool says_emergency, const std::string& more = "",
+                      const std::string& behaviour = "Combined") {
   const std::string emergency =
-      says_emergency ? "<EmergencyRatedLuminousFlux>200</EmergencyRatedLuminousFlux>" : "";
+      more + (says_emergency ? "<EmergencyRatedLuminousFlux>200</EmergencyRatedLuminousFlux>" : "");
   const std::string small_lamp =
       "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 -1 1 3 1 1 2 -0.2 -0.2 0\n1 1 10\n0 45 90\n0\n"
       "300 200 0\n";
@@ -18,7 +20,9 @@ std::string container(bool says_emergency) {
       R"(<Root><Header><FormatVersion major="1" minor="0"/></Header><GeneralDefinitions><Files>)"
       R"(<File id="f" contentType="ldc/ies" type="localFileName">lamp.ies</File></Files>)"
       R"(<Photometries><Photometry id="p"><PhotometryFileReference fileId="f"/></Photometry>)"
-      R"(</Photometries><Emitters><Emitter id="e"><FixedLightEmitter><PhotometryReference )"
+      R"(</Photometries><Emitters><Emitter id="e"><FixedLightEmitter emergencyBehaviour=")" +
+      behaviour +
+      R"("><PhotometryReference )"
       R"(photometryId="p"/><RatedLuminousFlux>1000</RatedLuminousFlux>)" +
       emergency +
       R"(</FixedLightEmitter></Emitter></Emitters></GeneralDefinitions><ProductDefinitions>)"
@@ -57,6 +61,34 @@ TEST_CASE("an emergency flux that a container does not state must be stated in t
   const auto stated = good(folder, contained + lit_in_emergencies + "emergency_factor = 0.2\n");
   CHECK(stated.emitters[0].emergency_flux == near(200 * 0.5 * 0.9));
   CHECK(good(folder, contained).emitters[0].mains_flux == near(1000));
+}
+
+TEST_CASE("an emitter for normal lighting is lit in an emergency by the scene's own flux alone",
+          "[format][gldf]") {
+  SceneFolder folder;
+  folder.put("a.gldf", container(true, "", "None"));
+  CHECK(
+      all_problems(folder.read(contained + lit_in_emergencies)).find("for normal lighting only") !=
+      std::string::npos);
+  const auto stated = good(folder, contained + lit_in_emergencies + "emergency_flux = 80\n");
+  CHECK(stated.emitters[0].emergency_flux == near(80 * 0.5 * 0.9));
+  CHECK(std::any_of(stated.warnings.begin(), stated.warnings.end(), [](const Problem& w) {
+    return w.what.find("for normal lighting only") != std::string::npos;
+  }));
+}
+
+TEST_CASE("the turn of a container's emitter turns the luminaire", "[format][gldf]") {
+  SceneFolder folder;
+  folder.put("a.gldf", container(true, "<Rotation><X>90</X></Rotation>"));
+  const Emitter level = good(folder, contained).emitters.at(0);
+  CHECK(same(level.frame.axes * glm::dvec3(0, 0, -1), {0, 1, 0}));
+  CHECK(same(level.frame.origin, {0, 0, 2}));
+  const Emitter turned = good(folder, contained + "rotation_deg = 90\n").emitters.at(0);
+  CHECK(same(turned.frame.axes * glm::dvec3(0, 0, -1), {-1, 0, 0}));
+  const std::string design =
+      "[design]\n[[design.type]]\nname = \"t\"\nfile = \"a.gldf\"\n" + lit_in_emergencies;
+  CHECK(all_problems(folder.read(contained + design)).find("turns this emitter") !=
+        std::string::npos);
 }
 
 TEST_CASE("keys for containers are rejected for other files", "[format][gldf]") {

@@ -70,6 +70,90 @@ maintenance_factor = 0.9
   CHECK(named(s.emitters, "plain").emergency_flux == 0);
 }
 
+TEST_CASE("a rated emergency flux already is the least over the duration", "[format][scene]") {
+  SceneFolder f;
+  const std::string lamp =
+      "[[luminaire]]\nname = \"l\"\nfile = \"lamp.ies\"\nposition = [0, 0, 0]\n"
+      "emergency = \"non-maintained\"\nemergency_flux = 100\nmaintenance_factor = 0.8\n";
+  const auto lit = [&](const std::string& more) { return good(f, lamp + more).emitters.at(0); };
+  const Emitter unstated = lit("end_of_duration_factor = 0.5\n");
+  CHECK(unstated.emergency_flux_is == EmergencyFluxIs::unstated);
+  CHECK(unstated.emergency_flux == near(40));
+  CHECK(unstated.emergency_ageing == near(0.4));
+  const Emitter initial = lit("emergency_flux_is = \"initial\"\nend_of_duration_factor = 0.5\n");
+  CHECK(initial.emergency_flux_is == EmergencyFluxIs::initial);
+  CHECK(initial.emergency_flux == near(40));
+  CHECK(initial.initial_flux_known);
+  const Emitter rated = lit("emergency_flux_is = \"rated\"\n");
+  CHECK(rated.emergency_flux_is == EmergencyFluxIs::rated);
+  CHECK(rated.emergency_flux == near(80));
+  CHECK(rated.end_of_duration_factor == 1);
+  CHECK_FALSE(rated.initial_flux_known);
+  const Emitter both = lit("emergency_flux_is = \"rated\"\ninitial_flux = 160\n");
+  CHECK(both.emergency_flux == near(80));
+  CHECK(both.emergency_flux / both.emergency_ageing == near(160));
+  CHECK(both.initial_flux_known);
+}
+
+TEST_CASE("of several lamp sets the scene names one", "[format][scene]") {
+  SceneFolder f;
+  f.put("two.ldt",
+        "M\n1\n1\n1\n0\n2\n180\nr\nn\nn\nf\nd\n9\n9\n9\n9\n9\n0\n0\n0\n0\n50\n125.66\n1\n0\n2\n"
+        "1\nA\n1000\n4000\n80\n10\n1\nB\n2000\n4000\n80\n20\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n18"
+        "0\n"
+        "100\n100\n");
+  const auto lamp = [](const std::string& file, const std::string& more) {
+    return "[[luminaire]]\nname = \"l\"\nfile = \"" + file + "\"\nposition = [0, 0, 0]\n" + more;
+  };
+  const auto flux = [&](const std::string& more) {
+    return good(f, lamp("two.ldt", more)).emitters.at(0).mains_flux;
+  };
+  CHECK(flux("lamp_set = 1\n") == Approx(4 * pi * 100));
+  CHECK(flux("lamp_set = 2\n") == Approx(4 * pi * 200));
+  const std::string unsaid = all_problems(f.read(lamp("two.ldt", "")));
+  INFO(unsaid);
+  CHECK(unsaid.find("lamp_set = 1 to 2: 1: A, 1000 lm; 2: B, 2000 lm") != std::string::npos);
+  CHECK(all_problems(f.read(lamp("lamp.ies", "lamp_set = 1\n")))
+            .find("'lamp_set' belongs to an EULUMDAT file") != std::string::npos);
+  // A type of luminaires says it for all of them.
+  const auto typed =
+      good(f,
+           "[[luminaire_type]]\nname = \"t\"\nfile = \"two.ldt\"\nlamp_set = 2\n[[luminaire]]\n"
+           "name = \"l\"\ntype = \"t\"\nposition = [0, 0, 0]\n");
+  CHECK(typed.emitters.at(0).mains_flux == Approx(4 * pi * 200));
+}
+
+TEST_CASE("a body and its luminaires share a number", "[format][scene]") {
+  SceneFolder f;
+  const auto lamp = [](const std::string& name, const std::string& more = "") {
+    return "[[luminaire]]\nname = \"" + name + "\"\nfile = \"lamp.ies\"\nposition = [0, 0, 0]\n" +
+           more;
+  };
+  const auto box = [](const std::string& name, const std::string& of) {
+    return "[[object]]\nname = \"" + name +
+           "\"\nshape = \"box\"\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\nmaterial = \"grey50\"\n" +
+           (of.empty() ? "" : "body_of = [" + of + "]\n");
+  };
+  const std::string import =
+      "[[import]]\nname = \"i\"\nfile = \"cube.obj\"\nunits = \"mm\"\nup = \"z\"\n"
+      "material = \"grey50\"\nbody_of = [\"a\", \"b\"]\n";
+  const auto s = good(
+      f, lamp("a") + lamp("b", "[[luminaire.repeat]]\ncount = 2\nstep = [1, 0, 0]\n") + lamp("c") +
+             lamp("d") + box("x", "\"a\", \"b\"") + box("y", "\"c\"") + box("z", "") + import);
+  const int shared = named(s.objects, "x").body, own = named(s.objects, "y").body;
+  CHECK((shared != 0 && own != 0 && shared != own));
+  CHECK(named(s.objects, "z").body == 0);
+  CHECK(named(s.objects, "i.leaf").body == shared);
+  CHECK(named(s.emitters, "a").body == shared);
+  CHECK(named(s.emitters, "b").body == shared);
+  CHECK(named(s.emitters, "b.2").body == shared);
+  CHECK(named(s.emitters, "c").body == own);
+  CHECK(named(s.emitters, "d").body == 0);
+  CHECK(all_problems(f.read(lamp("a") + box("x", "\"e\""))).find("'e'") != std::string::npos);
+  CHECK(all_problems(f.read(lamp("a") + lamp("b") + box("x", "\"a\"") + box("y", "\"a\", \"b\"")))
+            .find("name the same in 'body_of' of both") != std::string::npos);
+}
+
 TEST_CASE("emitters of every shape have their size, distribution and flux", "[format][scene]") {
   SceneFolder f;
   const std::string head = "position = [0, 0, 1]\n";

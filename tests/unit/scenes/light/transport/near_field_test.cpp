@@ -53,7 +53,7 @@ TEST_CASE("a plane nearer than five luminous openings is reported with luminaire
   CHECK(near[0].problem.what.find("(1 m)") != std::string::npos);
   CHECK(near[0].problem.where.line > 0);
   CHECK_FALSE(near[0].judged);
-  CHECK(near_in(plane, [](const glm::dvec3&, const glm::dvec3&) { return false; }).empty());
+  CHECK(near_in(plane, [](const Emitter&, const glm::dvec3&) { return false; }).empty());
 }
 
 TEST_CASE(
@@ -81,6 +81,17 @@ TEST_CASE(
   CHECK(near_in("[[probe]]\nname = \"p\"\nposition = [5, 5.2, 0.2]\n[[scenario]]\n"
                 "name = \"off\"\ncircuits = { a = 0 }\n")
             .empty());
+}
+
+TEST_CASE("a plane at a luminaire's own height is not told to be near it",
+          "[transport][near_field]") {
+  const auto plane_at = [](const std::string& z) {
+    return "[[plane]]\nname = \"ceiling\"\ncorner = [6, 6, " + z +
+           "]\nedge_u = [4, 0, 0]\nedge_v = [0, 4, 0]\ncells = [4, 4]\n";
+  };
+  CHECK(near_in(plane_at("2.9")).empty());
+  CHECK(near_in(plane_at("2.95")).empty());
+  CHECK(near_in(plane_at("2.85")).size() == 1);
 }
 
 TEST_CASE("a luminaire knows its file, its product and its opening", "[format][scene]") {

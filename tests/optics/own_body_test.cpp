@@ -1,0 +1,122 @@
+// A luminaire's own body: the intensities were measured with it, so that its own light passes it on
+// its way from the luminaire; all other light, and its own once scattered, meets it.
+#include <cmath>
+
+#include "tests/optics/light_kit.hpp"
+
+namespace luxodus::light {
+namespace {
+
+/// A lamp in the middle of a closed box, which hides all of it, in a room.
+std::string room_with(const std::string& reflectance, const std::string& body,
+                      const std::string& lamp) {
+  return "[run]\nvoxels = false\n[[material]]\nname = \"m\"\nreflectance = " + reflectance +
+         "\n[[object]]\nname = \"room\"\nshape = \"room\"\nlow = [-3, -3, 0]\nhigh = [3, 3, 3]\n"
+         "material = \"m\"\n" +
+         body + lamp +
+         "[[plane]]\nname = \"floor\"\ncorner = [-2, -2, 0.2]\nedge_u = [4, 0, 0]\n"
+         "edge_v = [0, 4, 0]\ncells = [1, 1]\n"
+         "[[plane]]\nname = \"ceiling\"\ncorner = [-2, -2, 2.8]\nedge_u = [0, 4, 0]\n"
+         "edge_v = [4, 0, 0]\ncells = [1, 1]\n";
+}
+
+std::string body_of(const std::string& names) {
+  return "[[object]]\nname = \"housing\"\nshape = \"box\"\nlow = [-0.3, -0.3, 1.9]\n"
+         "high = [0.3, 0.3, 2.1]\nmaterial = \"m\"\n" +
+         (names.empty() ? "" : "body_of = [" + names + "]\n");
+}
+
+std::string point(const std::string& name, const std::string& position) {
+  return "[[emitter]]\nname = \"" + name +
+         "\"\nshape = \"point\"\ndistribution = \"isotropic\"\nflux_w = 1\nspectrum = \"E\"\n"
+         "position = " +
+         position + "\n";
+}
+
+/// A face that shines up, within the box.
+const std::string upward =
+    "[[emitter]]\nname = \"lamp\"\nshape = \"rectangle\"\nsize = [0.4, 0.4]\nflux_w = 1\n"
+    "spectrum = \"E\"\nposition = [0, 0, 2]\ndirection = [0, 0, 1]\n";
+
+const std::string inside = point("lamp", "[0, 0, 2]"), other = point("other", "[1, 0, 2.9]");
+
+double direct_lx(const Run& run, const glm::dvec3& at, const glm::dvec3& normal) {
+  return direct_light_at(run.scene(), GeometryAccess::resident(run.local().index()),
+                         glm::vec3(at - run.scene().local_origin), glm::vec3(normal), {})
+      .total_lx();
+}
+
+Run run_of(const std::string& text, int64_t particles = 1 << 16) {
+  RunOptions options;
+  options.particles = particles;
+  return Run(scene_from_toml(text), options);
+}
+
+}  // namespace
+
+TEST_CASE("in a black room a lamp's own body changes nothing, and another's body hides it") {
+  for (const std::string& lamp : {inside, upward}) {
+    const Run bare = run_of(room_with("0", "", lamp), 1 << 18);
+    const Run own = run_of(room_with("0", body_of("\"lamp\""), lamp), 1 << 18);
+    const Run foreign = run_of(room_with("0", body_of(""), lamp));
+    for (const double z : {0.2, 2.8}) {
+      const glm::dvec3 at(0.7, -0.4, z), normal(0, 0, z < 2 ? 1 : -1);
+      const double free = direct_lx(bare, at, normal);
+      CHECK((free > 0 || (z < 2 && lamp == upward)));
+      CHECK(direct_lx(own, at, normal) == Approx(free).epsilon(1e-9).margin(1e-12));
+      CHECK(direct_lx(foreign, at, normal) == 0);
+    }
+    for (const char* side : {"room.floor", "room.ceiling", "room.x0"}) {
+      INFO(side);
+      if (bare.into(side).value > 0) check_agree(own.into(side), bare.into(side), half_percent);
+      CHECK(foreign.into(side).value == 0);
+    }
+    CHECK(own.into("housing").value == 0);
+    CHECK(foreign.into("housing").value == Approx(1));
+  }
+}
+
+TEST_CASE("a body hides the light of other lamps, and light that comes back to it") {
+  const std::string both = inside + other;
+  const Run own = run_of(room_with("0", body_of("\"lamp\""), both));
+  const Run none = run_of(room_with("0", "", both));
+  const Run alone = run_of(room_with("0", "", inside));
+  // In the shadow of the box as the other lamp casts it.
+  const glm::dvec3 shadow(-1.9, 0, 0.2), up(0, 0, 1);
+  CHECK(direct_lx(own, shadow, up) == Approx(direct_lx(alone, shadow, up)).epsilon(1e-6));
+  CHECK(direct_lx(none, shadow, up) > 1.05 * direct_lx(alone, shadow, up));
+  // Reflected light of its own lamp is absorbed by a body, too.
+  const Run grey = run_of(room_with("0.6", body_of("\"lamp\""), inside));
+  CHECK(grey.into("housing").value > 0.01);
+}
+
+TEST_CASE("paths from the eye find the light that passes a lamp's own body") {
+  SceneDescription scene = scene_from_toml(room_with("0.6", body_of("\"lamp\""), upward));
+  constexpr uint32_t per_side = 5, n = per_side * per_side;
+  std::vector<BinSum> probes_of_plane;
+  for (const PlaneMeasure& plane : scene.planes) {
+    probes_of_plane.push_back({&TallyBlocks::probes, {}});
+    for (uint32_t k = 0; k < n; ++k) {
+      ProbeMeasure p;
+      p.name = plane.name + " " + std::to_string(k);
+      p.position = plane.corner + plane.edge_u * ((k % per_side + 0.5) / per_side) +
+                   plane.edge_v * ((k / per_side + 0.5) / per_side);
+      p.normal = glm::normalize(glm::cross(plane.edge_u, plane.edge_v));
+      probes_of_plane.back().bins.push_back(static_cast<uint32_t>(scene.probes.size()));
+      scene.probes.push_back(p);
+    }
+  }
+  scene.run.eye_path_factor = 8;
+  const double lm_per_w = efficacy_lm_per_w(scene.emitters[0].spectrum);
+  RunOptions options;
+  options.particles = 1 << 21;
+  const Run run(std::move(scene), options, probes_of_plane);
+  constexpr double plane_area = 16;
+  for (uint32_t plane = 0; plane < 2; ++plane) {
+    INFO("plane " << plane);
+    check_agree(run.sum(plane) * (1 / (lm_per_w * n)),
+                run.watts(run.blocks().planes, plane, 1) * (1 / plane_area), 4 * half_percent);
+  }
+}
+
+}  // namespace luxodus::light
