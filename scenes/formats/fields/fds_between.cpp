@@ -5,6 +5,7 @@
 #include <new>
 #include <numeric>
 
+#include "scenes/formats/fields/fds_frames.hpp"
 #include "scenes/formats/fields/fds_heat.hpp"
 
 namespace luxodus {
@@ -92,7 +93,8 @@ Result<LoadedFire> read_between(const fds::Case& fire, const FireOptions& option
   if (!other_s) return nearest;
   FireOptions there = options;
   there.at_s = *other_s;
-  there.sources = {nearest.source};
+  there.sources.clear();
+  for (const FireSmoke& smoke : nearest.smokes) there.sources.push_back(smoke.source);
   auto other = fds::read_frame(fire, there);
   if (!other) return other.problem();
   LoadedFire& late = nearest.time_s < *other_s ? other.value() : nearest;
