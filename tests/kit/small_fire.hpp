@@ -152,9 +152,8 @@ inline DensityFiles density_files(const SmallMesh& mesh, const std::vector<Small
       bytes.push_back(static_cast<uint8_t>(one.values.back()));
     }
     char line[128];
-    std::snprintf(line, sizeof line, " %.9g %zu %zu %.9g    \n",
-                  static_cast<double>(frame.time_s), bytes.size(), run_lengths(bytes).size(),
-                  static_cast<double>(highest));
+    std::snprintf(line, sizeof line, " %.9g %zu %zu %.9g    \n", static_cast<double>(frame.time_s),
+                  bytes.size(), run_lengths(bytes).size(), static_cast<double>(highest));
     out.sizes += line;
   }
   out.smoke = smoke3d_file(mesh, shares, 1);

@@ -33,7 +33,8 @@ constexpr uint8_t highest_share = 254;
 /// Where it is not known, the greater: smoke is not thinner then.
 double optical_density_factor(const Case& fire) {
   const auto& release = fire.release;
-  const bool rounds = release && (release->major < 6 || (release->major == 6 && release->minor < 11));
+  const bool rounds =
+      release && (release->major < 6 || (release->major == 6 && release->minor < 11));
   return rounds ? rounded_ln_10 : ln_10;
 }
 
@@ -140,7 +141,7 @@ class FireReader {
     if (series.form == Form::smoke && format == SmokeFormat::opacity) return wanted / of_fds;
     if (series.output.quantity == Quantity::density) return wanted;
     return (series.output.quantity == Quantity::optical_density ? optical_density_factor(fire_)
-                                                                 : 1) *
+                                                                : 1) *
            wanted / of_fds;
   }
 
@@ -153,9 +154,10 @@ class FireReader {
       out.bytes = opacity ? SmokeBytes::opacity : SmokeBytes::density;
       out.formula =
           opacity ? "-ln(1 - byte/254) / the first cell's length along x (format 0, up to FDS 6.10)"
-                  : fmt::format("byte/254 x the highest density of the frame x {:g} m2/kg "
-                                "(format 1, from FDS 6.11 on)",
-                                wanted);
+                  : fmt::format(
+                        "byte/254 x the highest density of the frame x {:g} m2/kg "
+                        "(format 1, from FDS 6.11 on)",
+                        wanted);
       if (opacity && wanted != of_fds)
         out.formula += fmt::format(" x {:g}/{:g} m2/kg", wanted, of_fds);
       return out;
@@ -254,8 +256,8 @@ class FireReader {
         continue;
       }
       std::transform(sum.begin(), sum.end(), cells->begin(), sum.begin(), std::plus<>());
-      if (auto ok = checked(sum, mesh, series.meshes[mesh], frame,
-                            luxodus::limits::extinction_per_m);
+      if (auto ok =
+              checked(sum, mesh, series.meshes[mesh], frame, luxodus::limits::extinction_per_m);
           !ok)
         return ok.problem();
     }
@@ -291,8 +293,8 @@ class FireReader {
     const FrameFiles& files = series.meshes[mesh];
     const Frame& frame = heat_->frames.front()[mesh];
     const Mesh& m = fire_.meshes[mesh];
-    auto values = series.form == Form::smoke ? heat_nodes(m, files, frame)
-                                             : read_values(files, frame);
+    auto values =
+        series.form == Form::smoke ? heat_nodes(m, files, frame) : read_values(files, frame);
     if (!values) return values.problem();
     std::vector<float> cells = series.form == Form::cell_slice
                                    ? cells_of_slice(m, values.value(), gas_[mesh])
@@ -449,10 +451,9 @@ double depth_error(const FireSmoke& smoke) {
 
 /// The least accurate of the sources.
 const FireSmoke& worst_of(const LoadedFire& fire) {
-  return *std::max_element(fire.smokes.begin(), fire.smokes.end(),
-                           [](const FireSmoke& a, const FireSmoke& b) {
-                             return depth_error(a) < depth_error(b);
-                           });
+  return *std::max_element(
+      fire.smokes.begin(), fire.smokes.end(),
+      [](const FireSmoke& a, const FireSmoke& b) { return depth_error(a) < depth_error(b); });
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ struct FireSmoke {
 
 struct LoadedFire {
   std::vector<FireGrid> grids;
-  std::vector<FireSmoke> smokes;  // one or more
+  std::vector<FireSmoke> smokes;   // one or more
   double time_s = 0;               // of the frame, or between two
   double first_s = 0, last_s = 0;  // of the source's frames
   size_t frames = 0;               // that all meshes have
@@ -98,10 +98,14 @@ struct LoadedFire {
 
 /// Reads the frame nearest to the requested time, or interpolates between two.
 /// Errors, with the file and for the index the line: those of fds_case.hpp and fds_frames.hpp; no
-/// source that covers all meshes, for each species that absorbs light; a time beyond the results, or
-/// farther from all frames than these usually are from each other; negative or undefined values,
+/// source that covers all meshes, for each species that absorbs light; a time beyond the results,
+/// or farther from all frames than these usually are from each other; negative or undefined values,
 /// with their cell; smoke that is zero in all frames; flames without HRRPUV or _hrr.csv.
 Result<LoadedFire> read_fire(const std::filesystem::path& index, const FireOptions& options);
+
+/// A time within the frames of smoke of a case: `at_s`, or the first or last frame where these do
+/// not reach it; nothing where the case has no smoke that can be read.
+std::optional<double> fire_time_near(const std::filesystem::path& index, double at_s);
 
 /// Describes sources for users, and their deviation from cell-centred values.
 const char* source_words(FireSource source);

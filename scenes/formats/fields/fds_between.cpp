@@ -7,6 +7,7 @@
 
 #include "scenes/formats/fields/fds_frames.hpp"
 #include "scenes/formats/fields/fds_heat.hpp"
+#include "scenes/formats/fields/fds_sources.hpp"
 
 namespace luxodus {
 
@@ -119,6 +120,13 @@ Result<LoadedFire> read_fire(const std::filesystem::path& index, const FireOptio
     return problem_in(index.string(), "its cells take more memory than this process gets",
                       ProblemKind::no_room);
   }
+}
+
+std::optional<double> fire_time_near(const std::filesystem::path& index, double at_s) {
+  const auto fire = fds::read_case(index);
+  if (!fire) return std::nullopt;
+  const auto time = fds::smoke_time_near(fire.value(), at_s);
+  return time ? time.value() : std::nullopt;
 }
 
 }  // namespace luxodus

@@ -143,7 +143,7 @@ struct Case {
   std::optional<Release> release;
   std::vector<Mesh> meshes;
   std::vector<Surface> surfaces;
-  size_t default_surface = 0;     // used by faces of meshes
+  size_t default_surface = 0;  // used by faces of meshes
   /// By time; without those that a restart made void.
   std::vector<Change> changes;
   std::vector<Slice> slices;      // solid ones
@@ -155,8 +155,8 @@ struct Case {
   std::optional<std::filesystem::path> heat_release_file;  // CASE_hrr.csv
   /// By species: the mass extinction coefficients of Smoke3D [m2/kg], where above zero.
   std::map<std::string, double> mass_extinction_m2_per_kg;
-  /// Species whose extinction, optical density or visibility any file holds, and those whose density
-  /// one holds, in files that are read and in others.
+  /// Species whose extinction, optical density or visibility any file holds, and those whose
+  /// density one holds, in files that are read and in others.
   std::vector<std::string> absorbing, dense;
   /// HRRPUV of the highest byte of Smoke3D [kW/m3].
   double highest_heat_kw_m3 = 1200;

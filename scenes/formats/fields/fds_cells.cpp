@@ -173,9 +173,8 @@ std::vector<uint8_t> filled_around_nodes(const Case& fire, const GasMasks& gas, 
         for (cell[v] = 0; cell[v] < m.cells[v]; ++cell[v]) {
           before = cell;
           before[axis] = std::clamp(end, 0, m.cells[axis] - 1);
-          const bool from_wall =
-              format == SmokeFormat::density &&
-              gas[mesh][place_of(m.cells, before.x, before.y, before.z)] != 0;
+          const bool from_wall = format == SmokeFormat::density &&
+                                 gas[mesh][place_of(m.cells, before.x, before.y, before.z)] != 0;
           if (from_wall || behind.is_gas(cell)) add(cell);
         }
     }

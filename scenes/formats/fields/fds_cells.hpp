@@ -45,8 +45,8 @@ std::vector<float> cells_of_nodes(const Mesh& mesh, const std::vector<float>& no
 std::vector<float> cells_of_slice(const Mesh& mesh, const std::vector<float>& values,
                                   const std::vector<uint8_t>& gas);
 
-/// Extinction at nodes [1/m] of bytes of SmokeFormat::opacity: FDS writes 254 (1 - exp(-K d)), where
-/// d is the first cell's length along x of that mesh.
+/// Extinction at nodes [1/m] of bytes of SmokeFormat::opacity: FDS writes 254 (1 - exp(-K d)),
+/// where d is the first cell's length along x of that mesh.
 std::vector<float> extinction_of_opacities(const Mesh& mesh, const std::vector<uint8_t>& bytes);
 
 /// What a share of bytes stands for: `highest` for byte 254.

@@ -28,8 +28,8 @@ struct Frame {
   double time_s = 0;
   uint64_t offset = 0;  // of the payload
   uint32_t bytes = 0;
-  uint32_t file = 0;    // index in FrameFiles::files
-  double highest = 0;   // of Smoke3D by densities: the value of byte 254
+  uint32_t file = 0;   // index in FrameFiles::files
+  double highest = 0;  // of Smoke3D by densities: the value of byte 254
 };
 
 /// A place in a file where times go back or repeat [s].

@@ -49,8 +49,7 @@ Result<std::vector<SizeLine>> size_lines(const std::string& file, std::string_vi
 
 bool goes_with(const SizeLine& line, const Frame& frame) {
   return line.packed == static_cast<int64_t>(frame.bytes) &&
-         std::abs(line.time_s - frame.time_s) <=
-             time_share * std::max(1.0, std::abs(frame.time_s));
+         std::abs(line.time_s - frame.time_s) <= time_share * std::max(1.0, std::abs(frame.time_s));
 }
 
 }  // namespace
@@ -68,7 +67,8 @@ Result<void> add_highest_values(const Case& fire, FrameFiles& smoke) {
                       text.problem().kind);
   const auto lines = size_lines(file, text.value());
   if (!lines) return lines.problem();
-  // From the end: after a restart, lines of the part that was abandoned stand before those that hold.
+  // From the end: after a restart, lines of the part that was abandoned stand before those that
+  // hold.
   size_t end = lines->size();
   bool any = false;
   for (size_t i = smoke.frames.size(); i-- > 0;) {
@@ -86,8 +86,8 @@ Result<void> add_highest_values(const Case& fire, FrameFiles& smoke) {
     frame.highest = lines.value()[--end].highest;
     any = true;
     if (!(frame.highest >= 0))
-      return problem_in(
-          file, fmt::format("the highest value at {:.9g} s is negative", frame.time_s));
+      return problem_in(file,
+                        fmt::format("the highest value at {:.9g} s is negative", frame.time_s));
   }
   return {};
 }

@@ -184,6 +184,15 @@ class SmokeChooser {
       : fire_(fire), options_(options), smokes_(smokes_of(fire, options)), shelf_(fire) {}
 
   Result<Picked> choose() {
+    auto nearest = nearest_of_all();
+    if (!nearest) return nearest.problem();
+    if (!nearest.value()) return wrong(nothing_words());
+    if (auto ok = is_in_reach(*nearest.value()); !ok) return ok.problem();
+    return std::move(*nearest.value());
+  }
+
+  /// The best files, with the frame nearest to the time; none where there are none.
+  Result<std::optional<Picked>> nearest_of_all() {
     if (auto ok = can_scale(); !ok) return ok.problem();
     std::optional<Picked> nearest;
     for (const Candidate& c : candidates) {
@@ -199,9 +208,7 @@ class SmokeChooser {
       nearest = std::move(found);
       if (near) break;
     }
-    if (!nearest) return wrong(nothing_words());
-    if (auto ok = is_in_reach(*nearest); !ok) return ok.problem();
-    return std::move(*nearest);
+    return nearest;
   }
 
  private:
@@ -364,8 +371,7 @@ std::vector<std::string> smokes_of(const Case& fire, const FireOptions& options)
   if (holds(fire.dense, soot) || holds(fire.absorbing, soot)) take(soot);
   for (const std::string& species : fire.absorbing) take(species);
   for (const auto& [species, coefficient] : fire.mass_extinction_m2_per_kg) take(species);
-  if (out.empty() && options.mass_extinction_m2_per_kg && fire.dense.size() == 1)
-    out = fire.dense;
+  if (out.empty() && options.mass_extinction_m2_per_kg && fire.dense.size() == 1) out = fire.dense;
   return out;
 }
 
@@ -379,11 +385,19 @@ Result<Picked> choose_smoke(const Case& fire, const FireOptions& options) {
   return SmokeChooser(fire, options).choose();
 }
 
+Result<std::optional<double>> smoke_time_near(const Case& fire, double at_s) {
+  FireOptions options;
+  options.at_s = at_s;
+  const auto nearest = SmokeChooser(fire, options).nearest_of_all();
+  if (!nearest) return nearest.problem();
+  if (!nearest.value()) return std::optional<double>();
+  return std::optional(std::clamp(at_s, nearest.value()->first_s, nearest.value()->last_s));
+}
+
 Result<std::optional<Picked>> choose_heat(const Case& fire, double time_s) {
   SeriesShelf shelf(fire);
   for (const Form form : {Form::cell_slice, Form::node_slice, Form::plot, Form::smoke}) {
-    const auto series =
-        shelf.open({FireSource::cell_extinction, form, Quantity::heat_release}, "");
+    const auto series = shelf.open({FireSource::cell_extinction, form, Quantity::heat_release}, "");
     if (!series) return series.problem();
     if (series.value()->meshes.empty()) continue;
     auto found = picked({series.value()}, time_s);

@@ -48,6 +48,10 @@ std::optional<double> mass_extinction_of_fds(const Case& fire, const std::string
 /// Errors: see read_fire.
 Result<Picked> choose_smoke(const Case& fire, const FireOptions& options);
 
+/// A time, or the first or last frame of smoke where these do not reach it; nothing where there is
+/// no smoke. Errors: damaged files.
+Result<std::optional<double>> smoke_time_near(const Case& fire, double at_s);
+
 /// HRRPUV within fire_window_s of a time; nothing where there is none. Errors: damaged files.
 Result<std::optional<Picked>> choose_heat(const Case& fire, double time_s);
 

@@ -125,9 +125,9 @@ void warn_of_frames(KeyReader& keys, const LoadedFire& fire, double asked_s) {
                                     "their mean is no state that the simulation had",
                                     fire.time_s, *fire.next_s - *fire.previous_s));
   if (std::abs(fire.time_s - asked_s) > far_from_asked_s)
-    reading.warning(
-        at, fmt::format("the nearest frame lies {:.3g} s from the time that is asked for",
-                        std::abs(fire.time_s - asked_s)));
+    reading.warning(at,
+                    fmt::format("the nearest frame lies {:.3g} s from the time that is asked for",
+                                std::abs(fire.time_s - asked_s)));
 }
 
 /// Notes what was read, for readers of the results.

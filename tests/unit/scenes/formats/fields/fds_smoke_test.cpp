@@ -183,8 +183,11 @@ TEST_CASE("faces of obstructions are half gas in both formats", "[format][fds]")
   SmallMesh& mesh = c.meshes[0];
   mesh = even_mesh({0, 0, 0}, {0.5, 0.5, 0.5}, {4, 4, 4});
   mesh.obstructions = {{0, 4, 0, 4, 0, 1}};
-  mesh.openings = {{0, 0, 0, 2, 0.5, 2}, {2, 2, 0, 2, 0.5, 2}, {0, 2, 0, 0, 0.5, 2},
-                   {0, 2, 2, 2, 0.5, 2}, {0, 2, 0, 2, 2, 2}};
+  mesh.openings = {{0, 0, 0, 2, 0.5, 2},
+                   {2, 2, 0, 2, 0.5, 2},
+                   {0, 2, 0, 0, 0.5, 2},
+                   {0, 2, 2, 2, 0.5, 2},
+                   {0, 2, 0, 2, 2, 2}};
   c.index(smoke_entry(1, "a.s3d", "SOOT DENSITY"));
   // Cells behind two open faces at once are never filled.
   const auto share = [&](int i, int j, int k) {
@@ -308,8 +311,7 @@ TEST_CASE("smoke that is not named SOOT is read with the mass extinction of its 
   CHECK(largest_difference(smoke_of(c.read(5)), 0.7) < 1e-5);
 }
 
-TEST_CASE("after a restart the later records hold in every file, and it is said",
-          "[format][fds]") {
+TEST_CASE("after a restart the later records hold in every file, and it is said", "[format][fds]") {
   SmokeCase c;
   const SmallMesh& mesh = c.meshes[0];
   const auto frames = [&](const auto& values) {
@@ -319,9 +321,8 @@ TEST_CASE("after a restart the later records hold in every file, and it is said"
     for (size_t i = 0; i < std::size(times); ++i) out.push_back({times[i], values(k[i])});
     return out;
   };
-  c.folder.write("a.sf", slice_file(mesh, soot_extinction, frames([&](double k) {
-                                      return cell_values(mesh, even(k));
-                                    })));
+  c.folder.write("a.sf", slice_file(mesh, soot_extinction,
+                                    frames([&](double k) { return cell_values(mesh, even(k)); })));
   const DensityFiles smoke =
       density_files(mesh, frames([&](double k) { return node_values(mesh, even(k / 8700)); }));
   c.folder.write("a.s3d", smoke.smoke);
@@ -347,8 +348,8 @@ TEST_CASE("after a restart the later records hold in every file, and it is said"
   // A time that is written twice is one frame, the later one.
   c.options.sources.clear();
   const auto cells = [&](double k) { return cell_values(mesh, even(k)); };
-  c.folder.write("a.sf", slice_file(mesh, soot_extinction,
-                                    {{0, cells(0)}, {60, cells(1)}, {60, cells(2)}}));
+  c.folder.write(
+      "a.sf", slice_file(mesh, soot_extinction, {{0, cells(0)}, {60, cells(1)}, {60, cells(2)}}));
   c.index(slice_entry(1, true, mesh, "a.sf", soot_extinction));
   const LoadedFire twice = smoke_of(c.read(60));
   CHECK(largest_difference(twice, 2) < 1e-6);
@@ -467,11 +468,10 @@ TEST_CASE("a stretched mesh whose cells are wholes of even cells is read exactly
   CHECK(tells(accuracy_words(nested), "exactly"));
   REQUIRE(nested.grids[0].data.nz == 15);
   for (int k = 0; k < 15; ++k)
-    CHECK(nested.grids[0].data.extinction[static_cast<size_t>(4 * k)] ==
-          Approx(k < 4   ? 1
-                 : k < 9 ? 2
-                         : 3)
-              .epsilon(1e-5));
+    CHECK(nested.grids[0].data.extinction[static_cast<size_t>(4 * k)] == Approx(k < 4   ? 1
+                                                                                : k < 9 ? 2
+                                                                                        : 3)
+                                                                             .epsilon(1e-5));
   const LoadedFire blurred = fire_of({0, 0.17, 0.6, 2});
   CHECK(blurred.resampled_meshes == 1);
   CHECK(accuracy_words(blurred).find("exactly") == std::string::npos);

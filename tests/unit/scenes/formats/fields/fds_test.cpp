@@ -425,10 +425,10 @@ TEST_CASE("flames without HRRPUV, or at a time without heat release, are rejecte
     const char* table;
     const char* says;
   };
-  for (const Row& row : {Row{"s,kW\nTime,HRR\n 0.0,0.0\n 5.0,1\n", "ends at 5 s"},
-                         Row{"s,kW\nTime,Q\n 0.0,0.0\n", "no columns Time and HRR"},
-                         Row{"s,kW\nTime,HRR\n 0.0,0.0\n 20.0,abc\n", "small_hrr.csv:4"},
-                         Row{"", "ends at 0 s"}}) {
+  for (const Row& row :
+       {Row{"s,kW\nTime,HRR\n 0.0,0.0\n 5.0,1\n", "ends at 5 s"},
+        Row{"s,kW\nTime,Q\n 0.0,0.0\n", "no columns Time and HRR"},
+        Row{"s,kW\nTime,HRR\n 0.0,0.0\n 20.0,abc\n", "small_hrr.csv:4"}, Row{"", "ends at 0 s"}}) {
     small.folder.write("small_hrr.csv", row.table);
     CHECK(says(refusal(read_fire(small.folder / "case.smv", options)), row.says));
   }
