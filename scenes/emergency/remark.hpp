@@ -88,6 +88,7 @@ enum class RemarkId {
   luminaire_unlit,
   luminaires_unlit,
   flame_glare_missing,
+  flame_dimmed,
   circuits_switch_off,
   circuits_raise,
   circuits_switch_off_signs,

@@ -221,6 +221,7 @@ void read_fire_medium(KeyReader& keys, Medium m) {
   options.reading = reading.share;
   const auto path = keys.file("file");
   if (!path || !keys.clean()) return;
+  warn_of_mass_extinction(keys);
   if (!take_hash(*path, keys.place("file"), reading, FileLife::grows)) return;
   auto fire = read_fire(*path, options);
   if (!fire) return take_problem(fire.problem(), keys.place("file"), reading);
