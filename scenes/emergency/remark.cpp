@@ -83,6 +83,7 @@ constexpr std::array kinds = std::to_array<RemarkKind>({
     {RemarkId::sign_unlit, "sign_unlit", "sign"},
     {RemarkId::signs_unlit, "signs_unlit", "first sign; others"},
     {RemarkId::flame_glare_missing, "flame_glare_missing", "medium"},
+    {RemarkId::flame_dimmed, "flame_dimmed", "share of the stated light; medium"},
     {RemarkId::circuits_switch_off, "circuits_switch_off", "luminaires off; luminaires dimmed"},
     {RemarkId::circuits_raise, "circuits_raise", "luminaires"},
     {RemarkId::circuits_switch_off_signs, "circuits_switch_off_signs", "signs"},

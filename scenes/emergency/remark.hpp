@@ -93,6 +93,7 @@ enum class RemarkId {
   sign_unlit,
   signs_unlit,
   flame_glare_missing,
+  flame_dimmed,
   circuits_switch_off,
   circuits_raise,
   circuits_switch_off_signs,

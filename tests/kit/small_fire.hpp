@@ -2,7 +2,9 @@
 // Values are functions of (i, j, k) of cells or nodes. Any thread.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -116,9 +118,11 @@ inline std::string run_lengths(const std::vector<uint8_t>& bytes) {
   return out;
 }
 
-inline std::string smoke3d_file(const SmallMesh& mesh, const std::vector<SmallFrame>& frames) {
+/// `format`: 0 of bytes of opacity, 1 of shares of the highest density, as FDS 6.11 writes.
+inline std::string smoke3d_file(const SmallMesh& mesh, const std::vector<SmallFrame>& frames,
+                                int32_t format = 0) {
   std::string out = fortran_record(
-      bytes_of_values<int32_t>({1, 0, 0, mesh.cells(0), 0, mesh.cells(1), 0, mesh.cells(2)}));
+      bytes_of_values<int32_t>({1, format, 0, mesh.cells(0), 0, mesh.cells(1), 0, mesh.cells(2)}));
   for (const SmallFrame& frame : frames) {
     std::vector<uint8_t> bytes;
     for (const float v : frame.values) bytes.push_back(static_cast<uint8_t>(v));
@@ -128,6 +132,31 @@ inline std::string smoke3d_file(const SmallMesh& mesh, const std::vector<SmallFr
                {static_cast<int32_t>(bytes.size()), static_cast<int32_t>(packed.size())})) +
            fortran_record(packed);
   }
+  return out;
+}
+
+/// A file of Smoke3D as FDS 6.11 writes it, and its file of sizes: values are densities.
+struct DensityFiles {
+  std::string smoke, sizes;
+};
+inline DensityFiles density_files(const SmallMesh& mesh, const std::vector<SmallFrame>& frames) {
+  DensityFiles out;
+  out.sizes = "           1\n";
+  std::vector<SmallFrame> shares;
+  for (const SmallFrame& frame : frames) {
+    const float highest = *std::max_element(frame.values.begin(), frame.values.end());
+    SmallFrame& one = shares.emplace_back(SmallFrame{frame.time_s, {}});
+    std::vector<uint8_t> bytes;
+    for (const float v : frame.values) {
+      one.values.push_back(highest > 0 ? std::round(254 * v / highest) : 0);
+      bytes.push_back(static_cast<uint8_t>(one.values.back()));
+    }
+    char line[128];
+    std::snprintf(line, sizeof line, " %.9g %zu %zu %.9g    \n", static_cast<double>(frame.time_s),
+                  bytes.size(), run_lengths(bytes).size(), static_cast<double>(highest));
+    out.sizes += line;
+  }
+  out.smoke = smoke3d_file(mesh, shares, 1);
   return out;
 }
 
@@ -189,24 +218,37 @@ inline std::string index_of_meshes(const std::vector<SmallMesh>& meshes) {
   return out;
 }
 
+/// The unit of FDS for a label.
+inline std::string unit_of_label(const std::string& label) {
+  const auto ends = [&](const char* end) { return label.ends_with(end); };
+  return ends("COEFFICIENT") || ends("OPTICAL DENSITY") ? "1/m"
+         : ends("DENSITY")                              ? "kg/m3"
+         : ends("HRRPUV")                               ? "kW/m3"
+         : ends("VISIBILITY")                           ? "m"
+                                                        : "unit";
+}
+inline std::string label_lines(const std::string& label) {
+  return " " + label + "\n short\n " + unit_of_label(label) + "\n";
+}
+
 /// Entries of an index for result files.
 inline std::string slice_entry(size_t mesh, bool of_cells, const SmallMesh& of,
                                const std::string& file, const std::string& label) {
   return std::string(of_cells ? "SLCC " : "SLCF ") + std::to_string(mesh) + " # STRUCTURED & 0 " +
          std::to_string(of.cells(0)) + " 0 " + std::to_string(of.cells(1)) + " 0 " +
-         std::to_string(of.cells(2)) + " ! 1 0 0\n " + file + "\n " + label + "\n short\n unit\n";
+         std::to_string(of.cells(2)) + " ! 1 0 0\n " + file + "\n" + label_lines(label);
 }
 inline std::string part_slice_entry(size_t mesh, bool of_cells, const std::array<int32_t, 6>& nodes,
                                     const std::string& file, const std::string& label) {
   std::string out =
       std::string(of_cells ? "SLCC " : "SLCF ") + std::to_string(mesh) + " # STRUCTURED &";
   for (const int32_t node : nodes) out += " " + std::to_string(node);
-  return out + " ! 1 0 0\n " + file + "\n " + label + "\n short\n unit\n";
+  return out + " ! 1 0 0\n " + file + "\n" + label_lines(label);
 }
 inline std::string smoke_entry(size_t mesh, const std::string& file, const std::string& label,
                                const std::string& mass_extinction = "8700.000") {
-  return "SMOKF3D " + std::to_string(mesh) + " " + mass_extinction + "\n " + file + "\n " + label +
-         "\n short\n unit\n";
+  return "SMOKF3D " + std::to_string(mesh) + " " + mass_extinction + "\n " + file + "\n" +
+         label_lines(label);
 }
 
 }  // namespace luxodus::test

@@ -1,6 +1,7 @@
 // luxodus import: turns buildings of other programs into scenes that the user goes on with.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 
@@ -12,6 +13,7 @@
 #include "runtime/core/printable.hpp"
 #include "runtime/core/reading_share.hpp"
 #include "scenes/formats/fds_input/input_building.hpp"
+#include "scenes/formats/fields/fds.hpp"
 
 namespace luxodus::cli {
 
@@ -22,10 +24,13 @@ namespace fs = std::filesystem;
 struct ImportOptions {
   std::string file;
   std::string out;
-  std::string at = "60s";
+  std::string at;  // usual_time_s where empty, or what the run reaches
   bool snap = false;
   std::vector<std::string> without;
 };
+
+/// The time that is taken unless another is asked for [s].
+constexpr double usual_time_s = 60;
 
 /// The imported building and its source.
 struct FireImport {
@@ -33,13 +38,22 @@ struct FireImport {
   FireOrigin source;
 };
 
-FireOrigin source_of(const ImportOptions& options, const char* how) {
+/// The time that is asked for, else the usual one, or the last that the run reaches. `end_s`: that
+/// of an input file without results.
+double time_of(const ImportOptions& options, const std::optional<std::string>& index,
+               std::optional<double> end_s = {}) {
+  if (const auto asked = time_asked(options.at)) return *asked;
+  if (index) return fire_time_near(*index, usual_time_s).value_or(usual_time_s);
+  return std::clamp(end_s.value_or(usual_time_s), 0.0, usual_time_s);
+}
+
+FireOrigin source_of(const ImportOptions& options, const char* how, double at_s) {
   FireOrigin out;
   const fs::path file(options.file);
   out.title = file.stem().string() + " from FDS";
   out.made_of = fmt::format("The building of {} {}", file.filename().string(), how);
-  out.at_text = options.at;
-  out.at_s = time_asked(options.at).value_or(0);
+  out.at_text = options.at.empty() ? fmt::format("{:g}s", at_s) : options.at;
+  out.at_s = at_s;
   return out;
 }
 
@@ -49,7 +63,8 @@ Result<FireImport> of_results(const ImportOptions& options) {
                       "--without and --snap are for input files (.fds): results say by themselves "
                       "what is there at a time, and are snapped");
   FireImport out;
-  out.source = source_of(options, "as FDS computed it, snapped to its grid");
+  out.source =
+      source_of(options, "as FDS computed it, snapped to its grid", time_of(options, options.file));
   out.source.index = options.file;
   auto building = read_fire_building(options.file, out.source.at_s);
   if (!building) return building.problem();
@@ -78,9 +93,11 @@ Result<FireImport> of_input(const ImportOptions& options, ReadingShare& reading)
   const auto input = read_fds_input(options.file);
   if (!input) return input.problem();
   FireImport out;
+  const auto index = index_beside(options.file, input->case_name);
   out.source =
-      source_of(options, options.snap ? "snapped to the cells of its meshes" : "as written");
-  out.source.index = index_beside(options.file, input->case_name);
+      source_of(options, options.snap ? "snapped to the cells of its meshes" : "as written",
+                time_of(options, index, input->end_s));
+  out.source.index = index;
   FdsInputOptions wanted;
   wanted.at_s = out.source.at_s;
   wanted.without = {options.without.begin(), options.without.end()};
@@ -106,8 +123,8 @@ Result<ExitCode> import_fds(const ImportOptions& options) {
   std::printf(
       "boxes %zu, plates %zu, bodies %zu, rectangles of walls, floors and ceilings %zu; "
       "obstructions that are not there at %s: %zu\n",
-      building.solids, building.plates, building.bodies.size(), building.faces, options.at.c_str(),
-      building.absent.size());
+      building.solids, building.plates, building.bodies.size(), building.faces,
+      made->source.at_text.c_str(), building.absent.size());
   for (const std::string& note : building.notes) std::printf("note: %s\n", printable(note).c_str());
   if (is_input && !made->source.index)
     std::printf("note: there are no results of this case beside it, so the scene has no smoke\n");
@@ -129,13 +146,16 @@ Command import_command() {
             "Input file of the case (.fds), or index of its results (.smv)",
             {.form = Form::file, .required = true}},
            {"-o,--out", &o->out, "Folder of the scene", {.form = Form::folder, .required = true}},
-           {"--at", &o->at, "Time at which obstructions count, and of the smoke",
+           {"--at", &o->at,
+            "Time at which obstructions count, and of the smoke (60s, or the end of a shorter run)",
             at_option(o->at).traits},
            {"--snap", &o->snap,
             "Geometry of an input file on the cells of its meshes, as FDS computes it"},
            {"--without",
             &o->without,
-            "IDs of obstructions, holes and openings of an input file that are not there",
+            "IDs of obstructions, holes and openings of an input file that are not there; \"line "
+            "12\" "
+            "names one without an ID",
             {.form = Form::name}}},
       .notes =
           "Of results (.smv), obstructions become boxes as FDS has snapped them to its grid. Of an "

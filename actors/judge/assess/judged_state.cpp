@@ -28,8 +28,71 @@ double stated(const SmokeOptics& optics) {
   return optics.extinction.spectrum().at(stated_nm);
 }
 
-/// Smallest and largest extinction of a medium, as the scene states it.
-std::pair<double, double> range_of(const Medium& medium) {
+/// Where people look: the building between the lowest eye and the highest sign or eye; the whole
+/// building without eyes; nothing without a building.
+Bounds seen_part(const SceneDescription& scene) {
+  Bounds out;
+  for (const Object& object : scene.objects)
+    for (const glm::dvec3& p : object.mesh.positions) out.extend(p);
+  if (out.empty()) return out;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  const auto take = [&](double z) {
+    low = std::min(low, z);
+    high = std::max(high, z);
+  };
+  const auto stand = [&](double floor_m) {
+    for (const double height : scene.assessment.eye_heights_m) take(floor_m + height);
+  };
+  for (const EscapeRoute& route : scene.routes)
+    for (const glm::dvec3& p : route.path) stand(p.z);
+  for (const AssessedArea& area : scene.open_areas) stand(area.z_m);
+  for (const Observer& observer : scene.observers) take(observer.eye.z);
+  if (low > high) return out;
+  for (const Sign& sign : scene.signs) take(sign.frame.origin.z);
+  const Bounds building = out;
+  out.low.z = std::clamp(low, building.low.z, building.high.z);
+  out.high.z = std::clamp(high, building.low.z, building.high.z);
+  return out;
+}
+
+/// The cells of a data set that a part of the building touches, low to below high on each axis.
+std::pair<glm::ivec3, glm::ivec3> cells_in(const Medium& medium, const Bounds& part) {
+  const glm::ivec3 n(medium.data.nx, medium.data.ny, medium.data.nz);
+  if (part.empty()) return {glm::ivec3(0), n};
+  Bounds local;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 p((corner & 1) != 0 ? part.high.x : part.low.x,
+                       (corner & 2) != 0 ? part.high.y : part.low.y,
+                       (corner & 4) != 0 ? part.high.z : part.low.z);
+    local.extend((p - medium.frame.origin) * medium.frame.axes);
+  }
+  const glm::dvec3 cell = medium.data.extent / glm::dvec3(n), most(n);
+  return {glm::ivec3(glm::clamp(glm::floor(local.low / cell), glm::dvec3(0), most)),
+          glm::ivec3(glm::clamp(glm::ceil(local.high / cell), glm::dvec3(0), most))};
+}
+
+/// Smallest and largest extinction of cells; 0 where there are none.
+std::pair<double, double> range_in(const DataSet& data,
+                                   const std::pair<glm::ivec3, glm::ivec3>& cells) {
+  const auto& [from, to] = cells;
+  float low = std::numeric_limits<float>::infinity(), high = 0;
+  for (int z = from.z; z < to.z; ++z)
+    for (int y = from.y; y < to.y; ++y) {
+      const size_t row =
+          (static_cast<size_t>(z) * static_cast<size_t>(data.ny) + static_cast<size_t>(y)) *
+          static_cast<size_t>(data.nx);
+      for (int x = from.x; x < to.x; ++x) {
+        const float v = data.extinction[row + static_cast<size_t>(x)];
+        low = std::min(low, v);
+        high = std::max(high, v);
+      }
+    }
+  return {low <= high ? static_cast<double>(low) : 0, static_cast<double>(high)};
+}
+
+/// Smallest and largest extinction of a medium, as the scene states it; of a data set those of the
+/// cells that `part` touches, all where it is empty.
+std::pair<double, double> range_of(const Medium& medium, const Bounds& part = {}) {
   if (medium.kind == MediumKind::layered && !medium.layers.empty()) {
     double low = std::numeric_limits<double>::infinity(), high = 0;
     for (const Layer& layer : medium.layers) {
@@ -45,8 +108,8 @@ std::pair<double, double> range_of(const Medium& medium) {
   const Extinction& law = medium.optics.extinction;
   const double there = law.spectrum().at(law.wavelength_nm);
   const double shift = there > 0 ? constant / there : 1;
-  const auto [low, high] = std::minmax_element(cells.begin(), cells.end());
-  return {shift * static_cast<double>(*low), shift * static_cast<double>(*high)};
+  const auto [low, high] = range_in(medium.data, cells_in(medium, part));
+  return {shift * low, shift * high};
 }
 
 std::string place_of(const Medium& medium) {
@@ -225,6 +288,12 @@ void add_people(const SceneDescription& scene, const AssessedState& state, Remar
     remarks.push_back(remark(RemarkId::two_continents));
 }
 
+/// The share of the light of flames that a state leaves them.
+double flame_share(const Scenario& scenario, const Medium& m) {
+  if (!m.emission || factor_of(scenario.media, m.name, 1) <= 0) return 0;
+  return scenario.emission_factor * factor_of(scenario.circuits, m.emission->circuit, 1);
+}
+
 void add_remarks(const SceneDescription& scene, const Scenario& scenario, AssessedState& state) {
   auto& remarks = state.remarks;
   const auto warn = [&state](const Remark& one) {
@@ -255,6 +324,10 @@ void add_remarks(const SceneDescription& scene, const Scenario& scenario, Assess
   for (const Medium& m : scene.media)
     if (m.simulation && !m.simulation->glows && extinction_factor(scenario, m.name) > 0)
       warn(remark(RemarkId::flame_glare_missing, m.name));
+  // A fire burns with the light that was stated of it, unless it is in clear air.
+  for (const Medium& m : scene.media)
+    if (const double share = flame_share(scenario, m); state.smoke && m.emission && share < 1)
+      warn(remark(RemarkId::flame_dimmed, share, m.name));
   add_switched(scene, scenario, remarks);
   add_time(scene, state, remarks);
   add_thinned(scene, scenario, remarks);
@@ -364,10 +437,11 @@ AssessedState state_of(const SceneDescription& scene, const Scenario& scenario,
   state.luminaires = scene.emitters.size();
   for (const ActiveSource& source : active_sources(scene, scenario))
     if (source.emitter != nullptr) state.lit.push_back(source.emitter->name);
+  const Bounds part = seen_part(scene);
   for (const Medium& medium : scene.media) {
     const double factor = extinction_factor(scenario, medium.name);
     if (!(factor > 0)) continue;
-    const auto [low, high] = range_of(medium);
+    const auto [low, high] = range_of(medium, part);
     const bool flame = is_flame(medium);
     state.smoke = state.smoke || (!flame && high > 0);
     state.media.push_back(

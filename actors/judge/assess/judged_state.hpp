@@ -18,7 +18,8 @@ inline constexpr double adapted_after_s = 60;
 /// Wavelength of stated extinctions [nm], as in most measurements.
 inline constexpr double stated_nm = 633;
 
-/// Range of the extinction of a medium at stated_nm, with the factors of the scenario [1/m].
+/// Range of the extinction of a medium at stated_nm, with the factors of the scenario [1/m]; of a
+/// data set in the building, from the lowest eye to the highest sign or eye.
 struct StatedMedium {
   std::string name;
   std::string kind;   // "layered", "flame"

@@ -1,6 +1,8 @@
-// Finds places of people, and signs they look at, outside the meshes of fire simulations. The air
-// there is unknown, and assuming clear air would make verdicts too good.
+// Finds places of people, and signs they look at, outside the meshes of fire simulations, and grids
+// that begin above the floor. The air there is unknown, and assuming clear air would make verdicts
+// too good.
 #include <algorithm>
+#include <functional>
 
 #include "actors/judge/inspect/site.hpp"
 #include "scenes/emergency/way.hpp"
@@ -17,6 +19,9 @@ constexpr double farthest_sight_m = 60;
 constexpr size_t max_fire_sights = 100'000;
 /// Things on a wall or ceiling may lie slightly outside the gas [m].
 constexpr double on_wall_m = 0.1;
+/// Cells of a fire simulation have 0.1 to 0.25 m: a grid that begins so far above a floor was not
+/// made for it [m].
+constexpr double above_floor_m = 0.26;
 
 struct Tried {
   std::string of;  // route "corridor"
@@ -89,6 +94,42 @@ void tell_places(const Medium& m, const KnownAir& air, const std::vector<Tried>&
   }
 }
 
+/// Whether a grid of cells holds a place.
+bool holds(const Medium& m, const glm::dvec3& place) {
+  const glm::dvec3 p = (place - m.frame.origin) * m.frame.axes;
+  return glm::all(glm::greaterThanEqual(p, glm::dvec3(0))) &&
+         glm::all(glm::lessThanEqual(p, m.data.extent));
+}
+
+/// Reports grids whose lower face lies above the floor on which people stand: they were made for
+/// another floor, and clear air is below them.
+void tell_raised(const SceneDescription& scene, const Medium& m,
+                 const std::function<bool(const glm::dvec3&)>& known, Findings& out) {
+  const auto& heights = scene.assessment.eye_heights_m;
+  const glm::dvec3 lowest(0, 0, *std::min_element(heights.begin(), heights.end()));
+  const glm::dvec3 foot(0, 0, above_floor_m);
+  size_t all = 0, raised = 0;
+  std::string where;
+  const auto try_at = [&](const std::string& of, const glm::dvec3& p) {
+    if (!known(p + lowest)) return;
+    ++all;
+    if (known(p + foot)) return;
+    if (raised++ == 0) where = fmt::format("at {} (the {})", place_text(p), of);
+  };
+  for (const EscapeRoute& route : scene.routes)
+    for (const glm::dvec3& p : along(route, 0, fire_places_m))
+      try_at("route \"" + route.name + "\"", p);
+  for (const AssessedArea& area : scene.open_areas)
+    for (const glm::dvec3& p : within(area, 0.5, fire_places_m))
+      try_at("open area \"" + area.name + "\"", p);
+  if (raised == 0 || 2 * raised < all) return;
+  out.push_back({Severity::warning,
+                 "smoke",
+                 {m.place, fmt::format("the cells of \"{}\" begin more than {:g} m above the floor "
+                                       "{}: is their height that of the building's floors?",
+                                       m.name, above_floor_m, where)}});
+}
+
 /// Reports signs seen along a line that leaves the meshes, once each.
 void tell_sights(const SceneDescription& scene, const Building& smoky, const Medium& m,
                  const KnownAir& air, const std::vector<Tried>& eyes, Findings& out) {
@@ -133,11 +174,24 @@ void tell_sights(const SceneDescription& scene, const Building& smoky, const Med
 
 }  // namespace
 
+bool is_of_simulation(const SceneDescription& scene, const Medium& m) {
+  return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& other) {
+    return other.simulation && other.name == m.name && other.place.line == m.place.line;
+  });
+}
+
 void inspect_fire_meshes(const SceneDescription& scene, const Building& smoky, Findings& out) {
   const auto eyes = eyes_tried(scene);
+  for (const Medium& m : scene.media)
+    if (m.kind == MediumKind::data_set && m.data.nx > 0 && !is_of_simulation(scene, m) &&
+        factor_of_medium(smoky.scene().scenario, m) > 0)
+      tell_raised(
+          scene, m, [&](const glm::dvec3& p) { return holds(m, p); }, out);
   for (const Medium& m : scene.media) {
     if (!m.simulation || !(factor_of_medium(smoky.scene().scenario, m) > 0)) continue;
     const KnownAir air(*m.simulation);
+    tell_raised(
+        scene, m, [&](const glm::dvec3& p) { return air.holds(p, 0); }, out);
     tell_places(m, air, eyes, out);
     tell_sights(scene, smoky, m, air, eyes, out);
   }

@@ -201,6 +201,53 @@ void tell_layers(const Medium& m, const Bounds& building, Findings& out) {
   }
 }
 
+/// A grid that is this many times as large as the building along every axis is in another unit.
+constexpr double larger_than_built = 2.5, absurdly_larger = 80, smaller_than_built = 0.1;
+
+/// The unit of which a factor of sizes is a sign.
+std::string unit_words(double factor) {
+  struct Unit {
+    double factor;
+    const char* words;
+  };
+  for (const Unit& unit : {Unit{1000, "millimetres"}, Unit{100, "centimetres"},
+                           Unit{39.37, "inches"}, Unit{3.281, "feet"}, Unit{0.001, "kilometres"}})
+    if (factor > unit.factor / 1.3 && factor < unit.factor * 1.3)
+      return fmt::format(": are its cells in {}?", unit.words);
+  return ": are its cells in metres?";
+}
+
+/// Reports data sets far larger or smaller than the building along all axes. Simulations state
+/// metres.
+void tell_size(const SceneDescription& scene, const Medium& m, const Bounds& building,
+               Findings& out) {
+  if (m.kind != MediumKind::data_set || m.data.nx == 0 || is_of_simulation(scene, m)) return;
+  const glm::dvec3 size = building.high - building.low;
+  // Along its own axes the building is at most this large.
+  const glm::dmat3 axes = glm::transpose(m.frame.axes);
+  glm::dvec3 along(0);
+  for (int axis = 0; axis < 3; ++axis) along += glm::abs(axes[axis] * size[axis]);
+  if (glm::any(glm::lessThanEqual(along, glm::dvec3(0)))) return;
+  const glm::dvec3 ratio = m.data.extent / along;
+  const double least = std::min({ratio.x, ratio.y, ratio.z});
+  const double most = std::max({ratio.x, ratio.y, ratio.z});
+  if (least > larger_than_built)
+    out.push_back(
+        {least > absurdly_larger ? Severity::error : Severity::warning,
+         "media",
+         {m.place,
+          fmt::format("{} is {:.4g} times as large as the building of {:.3g} x "
+                      "{:.3g} x {:.3g} m, so that most of its smoke lies outside "
+                      "of it{}",
+                      medium_text(m), least, along.x, along.y, along.z, unit_words(least))}});
+  else if (most < smaller_than_built)
+    out.push_back({Severity::warning,
+                   "media",
+                   {m.place, fmt::format("{} has {:.2g} of the size of the building, so that the "
+                                         "air around it is clear{}",
+                                         medium_text(m), most, unit_words(most))}});
+}
+
 }  // namespace
 
 void inspect_reach(const SceneDescription& scene, Findings& out) {
@@ -208,6 +255,7 @@ void inspect_reach(const SceneDescription& scene, Findings& out) {
   if (building.empty()) return;
   const Remoteness remote(scene);
   for (const Medium& m : scene.media) {
+    tell_size(scene, m, building, out);
     const Medium* one = &m;
     const Bounds box = media_bounds({&one, 1}, everywhere);
     if (box.empty()) continue;

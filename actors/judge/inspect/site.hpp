@@ -44,6 +44,8 @@ class Remoteness {
 
 /// Whether people look for signs, or walk: then a cause of wrong verdicts is a warning.
 bool judges_people(const SceneDescription& scene);
+/// Whether a grid belongs to a fire simulation, whose first grid says so.
+bool is_of_simulation(const SceneDescription& scene, const Medium& m);
 /// Objects with the tag "furniture".
 bool is_furniture(const Object& object);
 

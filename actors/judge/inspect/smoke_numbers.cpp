@@ -42,8 +42,12 @@ class SmokePart {
   void inspect() {
     if (!(optics_.extinction.sigma_t > 0)) return;
     tell_extinction();
-    if (medium_.emission) return;
-    tell_albedo();
+    if (!medium_.emission) inspect_scattering();
+  }
+
+  /// What a data set states beside the extinctions of its cells.
+  void inspect_scattering() {
+    if (medium_.data.albedo.empty()) tell_albedo();
     tell_phase();
     tell_spectrum();
   }
@@ -210,6 +214,12 @@ void inspect_smoke_numbers(const SceneDescription& scene, Findings& out) {
     const std::string name = (m.emission ? "the flame \"" : "the medium \"") + m.name + "\"";
     if (m.kind == MediumKind::data_set) {
       inspect_cells(scene, m, out);
+      // All grids of a fire simulation have its optics; the first one stands for them.
+      const auto first =
+          std::find_if(scene.media.begin(), scene.media.end(), [&](const Medium& other) {
+            return other.name == m.name && other.place.line == m.place.line;
+          });
+      if (&*first == &m) SmokePart(scene, m, m.optics, name, out).inspect_scattering();
       continue;
     }
     const bool dense = std::any_of(m.layers.begin(), m.layers.end(), [](const Layer& layer) {

@@ -147,6 +147,25 @@ void tell_thinned(const SceneDescription& scene, const Scenario& s, Findings& ou
   }
 }
 
+/// Reports flames whose light a state takes away while it leaves their smoke.
+void tell_dimmed_flames(const SceneDescription& scene, const Scenario& s, Findings& out) {
+  if (!judges_people(scene)) return;
+  const bool smoky = std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& m) {
+    return (!m.emission || m.kind == MediumKind::data_set) && factor_of_medium(s, m) > 0;
+  });
+  for (const Medium& m : scene.media) {
+    if (!smoky || !m.emission || !(factor_of_medium(s, m) > 0)) continue;
+    const double share = s.emission_factor * factor_of(s.circuits, m.emission->circuit, 1);
+    if (share >= 1) continue;
+    return tell_state(s, Severity::warning,
+                      fmt::format("leaves {:g} of the light of the flames \"{}\" in smoke: their "
+                                  "glare is missing; emission_factor and the factors of circuits "
+                                  "are shares, 1 for all of the light",
+                                  share, m.name),
+                      out);
+  }
+}
+
 void tell_time(const SceneDescription& scene, const Scenario& s, Findings& out) {
   if (s.operation != Operation::mains && !s.says_seconds) tell_fresh_glow(scene, s, out);
   if (s.operation == Operation::mains || !s.says_seconds) return;
@@ -244,6 +263,7 @@ void inspect_states(const SceneDescription& scene, const std::vector<Scenario>& 
     tell_switched_off(scene, s, out);
     tell_time(scene, s, out);
     tell_thinned(scene, s, out);
+    tell_dimmed_flames(scene, s, out);
   }
   tell_people(scene, scenarios, out);
   tell_unused_smoke(scene, scenarios, out);

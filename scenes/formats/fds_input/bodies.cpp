@@ -94,7 +94,6 @@ void cylinder_of(GroupKeys& keys, Mesh& out) {
 Body body_of(GroupKeys& keys, size_t surfaces, size_t most) {
   for (const char* key : {"BINARY_FILE", "READ_BINARY", "ZVALS", "POLY", "EXTRUDE"})
     keys.refuse(key, instead);
-  keys.refuse("MOVE_ID", "give the body where it stands");
   Body out;
   out.meshes.resize(std::max<size_t>(surfaces, 1));
   if (keys.has("VERTS") || keys.has("FACES")) {

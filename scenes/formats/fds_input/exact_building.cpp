@@ -65,7 +65,7 @@ class ExactBuilding {
   Result<void> obstructions() {
     std::vector<Box> holes;
     for (const FdsHole& hole : input_.holes)
-      if (is_there(hole.name, hole.course, options_)) holes.push_back(hole.box);
+      if (is_there(hole.title, hole.course, options_)) holes.push_back(hole.box);
     ReadingPart done(options_.reading, input_.obstructions.size());
     uint64_t number = 0;
     for (const FdsObstruction& o : input_.obstructions) {
@@ -96,7 +96,7 @@ class ExactBuilding {
       across = axis;
     }
     if (flat > 1) return;
-    const std::string name = fds::scene_name(o.name, "obstruction");
+    const std::string name = fds::scene_name(o.title.name, "obstruction");
     const fds::FireLook look = input_look(input_, o.surface, o.rgb, o.opacity);
     if (flat == 0) {
       ++out_.solids;
@@ -121,7 +121,7 @@ class ExactBuilding {
       gaps.push_back(thickened(other.box, face, axis));
     }
     for (const FdsOpening& o : input_.openings) {
-      if (!is_there(o.name, o.course, options_)) continue;
+      if (!is_there(o.title, o.course, options_)) continue;
       if (o.mesh_face ? *o.mesh_face != number : !in_face(o.box, mesh, face, axis)) continue;
       const Box gap = o.mesh_face ? face : o.box;
       const bool exposed = is_exposed(gap, face, axis, gaps);

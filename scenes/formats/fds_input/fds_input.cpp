@@ -12,7 +12,9 @@
 #include "runtime/core/printable.hpp"
 #include "scenes/formats/fds_input/bodies.hpp"
 #include "scenes/formats/fds_input/colours.hpp"
+#include "scenes/formats/fds_input/drivers.hpp"
 #include "scenes/formats/fds_input/input_files.hpp"
+#include "scenes/formats/fds_input/moves.hpp"
 #include "scenes/formats/fds_input/multiplier.hpp"
 #include "scenes/formats/fields/fds_case.hpp"
 
@@ -25,9 +27,6 @@ using fds_input::GroupKeys;
 using fds_input::InputFiles;
 using fds_input::Multiplier;
 
-constexpr const char* not_stretched =
-    "the grid is stretched: import the .smv of its results, which has the nodes as computed";
-
 class InputReader {
  public:
   explicit InputReader(const InputFiles& files) : files_(files) { out_.file = files.main; }
@@ -35,18 +34,24 @@ class InputReader {
   Result<FdsInput> read() {
     for (const char* name : {"TRNX", "TRNY", "TRNZ"})
       each(name, [&](GroupKeys& keys) {
-        keys.fail("", fmt::format("&{} is not imported: {}", name, not_stretched));
+        if (!out_.stretched) out_.stretched = SourcePlace{keys.file(), keys.line()};
       });
+    each("TIME", [&](GroupKeys& keys) {
+      if (keys.has("T_END")) out_.end_s = keys.number("T_END", 0);
+    });
     each("HEAD", [&](GroupKeys& keys) { head(keys); });
     each("MISC", [&](GroupKeys& keys) { misc(keys); });
     each("MULT", [&](GroupKeys& keys) {
       Multiplier one = fds_input::multiplier_of(keys, limits::fds_input_boxes);
       multipliers_[one.id] = one;
     });
+    each("MOVE", [&](GroupKeys& keys) { moves_[keys.text("ID")] = fds_input::move_of(keys); });
     out_.surfaces.push_back({.name = "INERT"});
     each("SURF", [&](GroupKeys& keys) { surface(keys); });
     default_surface();
-    for (const char* name : {"DEVC", "CTRL"}) each(name, [&](GroupKeys& keys) { driver(keys); });
+    each("RAMP", [&](GroupKeys& keys) { drivers_.add_ramp(keys); });
+    each("DEVC", [&](GroupKeys& keys) { drivers_.add_device(keys); });
+    each("CTRL", [&](GroupKeys& keys) { drivers_.add_control(keys); });
     each("MESH", [&](GroupKeys& keys) { mesh(keys); });
     if (!problem_ && out_.meshes.empty())
       return problem_in(out_.file,
@@ -57,6 +62,7 @@ class InputReader {
     each("VENT", [&](GroupKeys& keys) { vent(keys); });
     each("GEOM", [&](GroupKeys& keys) { body(keys); });
     if (problem_) return *problem_;
+    note_left_out();
     return std::move(out_);
   }
 
@@ -168,37 +174,56 @@ class InputReader {
     });
   }
 
-  /// A clock changes a state when it passes its setpoint; any other driver is named in a note.
-  void driver(GroupKeys& keys) {
-    const std::string id = keys.text("ID");
-    FdsCourse course;
-    course.at_start = keys.flag("INITIAL_STATE", false);
-    const bool is_device = keys.name() == "DEVC";
-    const bool is_clock = is_device && keys.text("QUANTITY") == "TIME" && keys.has("SETPOINT") &&
-                          keys.number("TRIP_DIRECTION", 1) > 0;
-    if (is_clock)
-      course.turns_s = keys.number("SETPOINT", 0);
-    else
-      course.driven_by =
-          fmt::format("the {} \"{}\"", is_device ? "device" : "control", excerpt(id));
-    courses_[{is_device, id}] = course;
-  }
-
   FdsCourse course(GroupKeys& keys) {
     for (const bool is_device : {true, false}) {
       const char* key = is_device ? "DEVC_ID" : "CTRL_ID";
       if (!keys.has(key)) continue;
       const std::string id = keys.text(key);
-      const auto at = courses_.find({is_device, id});
-      if (at != courses_.end()) return at->second;
+      if (const auto one = drivers_.course(is_device, id)) return *one;
       keys.fail(key,
                 fmt::format("there is no &{} \"{}\"", is_device ? "DEVC" : "CTRL", excerpt(id)));
     }
     return {};
   }
 
+  /// The ID of an object, or where it stands.
+  FdsTitle title(GroupKeys& keys) {
+    FdsTitle out;
+    out.name = keys.text("ID");
+    const bool is_main = keys.file() == out_.file;
+    const std::string of_file =
+        is_main ? "" : std::filesystem::path(keys.file()).filename().string() + " ";
+    out.handle = out.name.empty() ? fmt::format("{}line {}", of_file, keys.line()) : out.name;
+    return out;
+  }
+
+  /// The &MOVE that a group names; nothing where it names none.
+  std::optional<fds_input::Move> move_named(GroupKeys& keys) {
+    if (!keys.has("MOVE_ID")) return std::nullopt;
+    const std::string id = keys.text("MOVE_ID");
+    const auto at = moves_.find(id);
+    if (at != moves_.end()) return at->second;
+    keys.fail("MOVE_ID", fmt::format("there is no &MOVE \"{}\"", excerpt(id)));
+    return std::nullopt;
+  }
+
+  /// Moves a box in place.
+  void move_box(GroupKeys& keys, Box& box) {
+    const auto move = move_named(keys);
+    if (!move) return;
+    const auto there = fds_input::moved(box, *move);
+    if (!there)
+      return keys.fail("MOVE_ID",
+                       fmt::format("MOVE_ID of &{} turns it off the axes, or beyond 1000 km: give "
+                                   "it as a &GEOM, or import the .smv of its results",
+                                   keys.name()));
+    box = *there;
+  }
+
   void mesh(GroupKeys& keys) {
-    for (const char* key : {"TRNX_ID", "TRNY_ID", "TRNZ_ID"}) keys.refuse(key, not_stretched);
+    for (const char* key : {"TRNX_ID", "TRNY_ID", "TRNZ_ID"})
+      if (keys.has(key) && !out_.stretched)
+        out_.stretched = SourcePlace{keys.file(), keys.line_of(key)};
     if (keys.flag("CYLINDRICAL", false))
       keys.fail("CYLINDRICAL", "CYLINDRICAL of &MESH is not imported: a building has no wedges");
     FdsInputMesh one;
@@ -234,7 +259,7 @@ class InputReader {
                 "FDS makes it of cells; write boxes, a &GEOM, or import the .smv of its "
                 "results");
     FdsObstruction one;
-    one.name = keys.text("ID", "obstruction");
+    one.title = title(keys);
     one.surface = surface_of_sides(keys);
     one.rgb = colour(keys);
     one.opacity = keys.has("TRANSPARENCY") ? opacity(keys) : out_.surfaces[one.surface].opacity;
@@ -251,12 +276,14 @@ class InputReader {
 
   std::optional<Box> required_box(GroupKeys& keys) {
     if (!keys.has("XB")) keys.fail("XB", fmt::format("this &{} has no XB", keys.name()));
-    return keys.box("XB");
+    auto box = keys.box("XB");
+    if (box) move_box(keys, *box);
+    return box;
   }
 
   void hole(GroupKeys& keys) {
     FdsHole one;
-    one.name = keys.text("ID", "hole");
+    one.title = title(keys);
     one.course = course(keys);
     const auto box = required_box(keys);
     if (!box) return;
@@ -268,9 +295,12 @@ class InputReader {
 
   /// Reads openings only: other surface patches have no geometry.
   void vent(GroupKeys& keys) {
-    if (keys.text("SURF_ID") != "OPEN" || keys.flag("GEOM", false)) return;
+    const std::string surface = keys.text("SURF_ID");
+    if ((surface == "MIRROR" || surface == "PERIODIC") && symmetric_faces_++ == 0)
+      first_symmetric_ = fmt::format("line {}: {}", keys.line(), surface);
+    if (surface != "OPEN" || keys.flag("GEOM", false)) return;
     FdsOpening one;
-    one.name = keys.text("ID", "opening");
+    one.title = title(keys);
     one.course = course(keys);
     Box around{glm::dvec3(1e300), glm::dvec3(-1e300)};
     for (const FdsInputMesh& m : out_.meshes) {
@@ -280,7 +310,7 @@ class InputReader {
     if (keys.has("RADIUS"))
       out_.notes.push_back(
           fmt::format("line {}: the round opening \"{}\" is taken as its rectangle", keys.line(),
-                      excerpt(one.name)));
+                      excerpt(one.title.handle)));
     const std::string by_mesh = keys.text("MB"), of_all = keys.text("DB");
     if (!by_mesh.empty()) {
       one.mesh_face = face_named(keys, "MB", by_mesh);
@@ -341,8 +371,10 @@ class InputReader {
     if (names.empty()) names = keys.texts("SURF_ID6");
     fds_input::Body made =
         fds_input::body_of(keys, names.size(), limits::fds_input_triangles - triangles_);
+    const auto move = move_named(keys);
     for (size_t i = 0; i < made.meshes.size() && !problem_; ++i) {
       if (made.meshes[i].triangles.empty()) continue;
+      if (move) fds_input::move_mesh(made.meshes[i], *move);
       triangles_ += made.meshes[i].triangles.size();
       one.surface =
           i < names.size() ? surface_named(keys, "SURF_ID", names[i]) : out_.default_surface;
@@ -355,11 +387,28 @@ class InputReader {
                 fmt::format("the bodies have more than {} triangles", limits::fds_input_triangles));
   }
 
+  void note_left_out() {
+    if (symmetric_faces_ > 0)
+      out_.notes.push_back(fmt::format(
+          "{}{}: planes of symmetry or of repetition, behind which the building goes on; they "
+          "become opaque walls",
+          first_symmetric_,
+          symmetric_faces_ > 1 ? fmt::format(", and {} more", symmetric_faces_ - 1) : ""));
+    if (out_.stretched)
+      out_.notes.push_back(
+          fmt::format("line {}: the grid is stretched: the building is as written, not on cells",
+                      out_.stretched->line));
+    out_.notes.insert(out_.notes.end(), files_.notes.begin(), files_.notes.end());
+  }
+
   const InputFiles& files_;
   FdsInput out_;
   std::map<std::string, Multiplier> multipliers_;
   std::map<std::string, size_t> surface_places_;
-  std::map<std::pair<bool, std::string>, FdsCourse> courses_;
+  std::map<std::string, fds_input::Move> moves_;
+  fds_input::Drivers drivers_;
+  size_t symmetric_faces_ = 0;
+  std::string first_symmetric_;
   bool thicken_ = false;
   std::string default_name_ = "INERT";
   size_t triangles_ = 0;

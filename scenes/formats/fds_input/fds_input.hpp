@@ -33,11 +33,21 @@ inline constexpr size_t fds_input_triangles = 4'000'000;
 /// Whether an object exists over time, driven by &DEVC and &CTRL.
 struct FdsCourse {
   bool at_start = true;
-  std::optional<double> turns_s;  // when the state changes
+  std::vector<double> turns_s;  // when the state changes, ascending
   /// The driver where it is no clock: "the device \"heat\"". The object then stays as at the start.
   std::string driven_by;
 
-  bool at(double time_s) const { return turns_s && time_s > *turns_s ? !at_start : at_start; }
+  bool at(double time_s) const {
+    bool there = at_start;
+    for (const double turn : turns_s) there = time_s > turn ? !there : there;
+    return there;
+  }
+};
+
+/// How users name an object.
+struct FdsTitle {
+  std::string name;    // its ID; "" without one
+  std::string handle;  // its ID, else "line 12"
 };
 
 struct FdsInputMesh {
@@ -54,7 +64,7 @@ struct FdsInputSurface {
 };
 
 struct FdsObstruction {
-  std::string name;
+  FdsTitle title;
   fds_input::Box box;
   size_t surface = 0;             // that of most of its sides
   std::optional<glm::dvec3> rgb;  // its own colour
@@ -64,14 +74,14 @@ struct FdsObstruction {
 };
 
 struct FdsHole {
+  FdsTitle title;
   fds_input::Box box;
   FdsCourse course;  // when the opening exists
-  std::string name;
 };
 
 /// An opening to the outside, in a face of a mesh: a plane.
 struct FdsOpening {
-  std::string name;
+  FdsTitle title;
   fds_input::Box box;
   /// The face, where &VENT names a whole face of each mesh (MB): 0 to 5, low x, high x, low y...
   std::optional<int> mesh_face;
@@ -89,6 +99,9 @@ struct FdsBody {
 
 struct FdsInput {
   std::string file, case_name;  // CHID: the prefix of the files of results
+  std::optional<double> end_s;  // T_END
+  /// The first line that stretches a grid; meshes then have other cells than their `cells`.
+  std::optional<SourcePlace> stretched;
   std::vector<FdsInputMesh> meshes;
   std::vector<FdsInputSurface> surfaces;
   size_t default_surface = 0;
@@ -99,11 +112,11 @@ struct FdsInput {
   std::vector<std::string> notes;  // what the user should know about it
 };
 
-/// Errors, with file and line: those of namelist.hpp; a value of the wrong type; a &MULT, &SURF,
-/// &DEVC or &CTRL that does not exist; a file of &CATF outside the folder of `file`, or named by
-/// another such file; stretched meshes (&TRNX...), cylindrical ones, bodies from binary files
-/// (BINARY_FILE), terrain (ZVALS), extruded polygons (POLY), bodies that are moved (MOVE_ID),
-/// obstructions with a SHAPE; no mesh; more than the limits.
+/// Errors, with file and line: those of namelist.hpp; a value of the wrong type; a &MULT, &MOVE,
+/// &SURF, &DEVC or &CTRL that does not exist; a file of &CATF outside the folder of `file`, unless
+/// it has nothing of a building, or one named by another such file; cylindrical meshes, bodies from
+/// binary files (BINARY_FILE), terrain (ZVALS), extruded polygons (POLY), obstructions with a SHAPE
+/// or turned off the axes; no mesh; more than the limits.
 Result<FdsInput> read_fds_input(const std::filesystem::path& file);
 
 }  // namespace luxodus

@@ -26,6 +26,10 @@ std::string plain(const Value& value) {
   return out;
 }
 
+bool is_null(const Value& value) {
+  return value.text.empty() && !value.quoted;
+}
+
 /// Reads "1.", ".5", "+2", "1.5D3".
 std::optional<double> fortran_number(std::string_view text) {
   std::string plain_text(text.substr(0, 64));
@@ -69,6 +73,7 @@ void GroupKeys::refuse(std::string_view key, const std::string& what_to_do) {
 std::string GroupKeys::text(std::string_view key, const std::string& otherwise) {
   const Parameter* parameter = last(key);
   if (parameter == nullptr) return otherwise;
+  if (!parameter->values.empty() && is_null(parameter->values.front())) return otherwise;
   if (parameter->values.empty() || !parameter->values.front().quoted) {
     fail(key, fmt::format("{} of &{} is no text in quotes", key, name()));
     return otherwise;
@@ -83,6 +88,7 @@ std::vector<std::string> GroupKeys::texts(std::string_view key) {
     if (parameter.name != key) continue;
     for (size_t i = 0; i < parameter.values.size(); ++i) {
       const auto place = static_cast<size_t>(std::max(parameter.first, 1)) - 1 + i;
+      if (is_null(parameter.values[i])) continue;
       if (!parameter.values[i].quoted || place >= most) {
         fail(key,
              fmt::format("{} of &{} is no list of at most {} texts in quotes", key, name(), most));
@@ -98,6 +104,7 @@ std::vector<std::string> GroupKeys::texts(std::string_view key) {
 bool GroupKeys::flag(std::string_view key, bool otherwise) {
   const Parameter* parameter = last(key);
   if (parameter == nullptr) return otherwise;
+  if (!parameter->values.empty() && is_null(parameter->values.front())) return otherwise;
   std::string_view word =
       parameter->values.empty() ? std::string_view() : parameter->values.front().text;
   if (!word.empty() && word.front() == '.') word.remove_prefix(1);
@@ -135,7 +142,10 @@ std::vector<double> GroupKeys::numbers(std::string_view key) {
   std::vector<double> out;
   if (parameter == nullptr) return out;
   out.reserve(parameter->values.size());
-  for (const Value& value : parameter->values) {
+  for (size_t i = 0; i < parameter->values.size(); ++i) {
+    const Value& value = parameter->values[i];
+    // A comma behind the last number.
+    if (is_null(value) && i + 1 == parameter->values.size()) break;
     const auto number = number_of(key, value);
     if (!number) return {};
     out.push_back(*number);
@@ -148,12 +158,12 @@ std::vector<double> GroupKeys::array(std::string_view key, std::vector<double> o
   for (const Parameter& parameter : group_.parameters) {
     if (parameter.name != key) continue;
     for (size_t i = 0; i < parameter.values.size(); ++i) {
+      if (is_null(parameter.values[i])) continue;
       const int64_t place = int64_t{parameter.first} - 1 + static_cast<int64_t>(i);
       if (place < 0 || place >= static_cast<int64_t>(out.size())) {
         fail(key, fmt::format("{} of &{} has more than {} numbers", key, name(), out.size()));
         return otherwise;
       }
-      if (parameter.values[i].text.empty()) continue;  // left out between two commas
       const auto number = number_of(key, parameter.values[i]);
       if (!number) return otherwise;
       out[static_cast<size_t>(place)] = *number;

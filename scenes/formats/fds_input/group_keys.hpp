@@ -1,5 +1,6 @@
 // Typed access to the keys of a group of an FDS input file. The first mistake is kept; after it all
-// keys have their defaults. One thread.
+// keys have their defaults. A null value, nothing between two commas, keeps the default, as in
+// Fortran. One thread.
 #pragma once
 
 #include <array>
@@ -26,6 +27,7 @@ class GroupKeys {
       : group_(group), file_(file), problem_(problem) {}
 
   const std::string& name() const { return group_.name; }
+  const std::string& file() const { return file_; }
   int line() const { return group_.line; }
   bool has(std::string_view key) const;
   /// Line of a key, or of the group if the key is absent.

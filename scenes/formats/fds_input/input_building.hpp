@@ -15,7 +15,7 @@ class ReadingShare;
 
 struct FdsInputOptions {
   double at_s = 0;
-  /// Names of obstructions, holes and openings to leave out, for those that no clock drives.
+  /// Handles of obstructions, holes and openings to leave out, for those that no clock drives.
   std::set<std::string> without;
   /// Receives how many obstructions are done, where given.
   ReadingShare* reading = nullptr;
@@ -30,13 +30,13 @@ Result<FireBuilding> exact_building(const FdsInput& input, const FdsInputOptions
 
 /// Snaps the building as FDS does: like `fire_building_of` of its results. Bodies of triangles stay
 /// as written.
-/// Errors: as exact_building.
+/// Errors: as snapped_case.
 Result<FireBuilding> snapped_building(const FdsInput& input, const FdsInputOptions& options);
 
 /// The meshes, obstructions and openings that FDS would have at one time. Obstructions are snapped
 /// to the nearest nodes; thin ones become plates, or get thickness by THICKEN. One that straddles
 /// the middle of a cell and is thinner than a quarter of it is snapped to the nearer node.
-/// Errors: as exact_building.
+/// Errors: as exact_building; a stretched grid.
 Result<fds::Case> snapped_case(const FdsInput& input, const FdsInputOptions& options);
 
 }  // namespace luxodus

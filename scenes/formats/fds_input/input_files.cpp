@@ -17,10 +17,40 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::set<std::string_view>& wanted_groups() {
-  static const std::set<std::string_view> names{"HEAD", "MISC", "MESH", "MULT", "SURF", "DEVC",
-                                                "CTRL", "OBST", "HOLE", "VENT", "GEOM", "CATF",
-                                                "TRNX", "TRNY", "TRNZ", "TAIL"};
+  static const std::set<std::string_view> names{
+      "HEAD", "MISC", "MESH", "MULT", "SURF", "DEVC", "CTRL", "OBST", "HOLE", "VENT",
+      "GEOM", "CATF", "TRNX", "TRNY", "TRNZ", "MOVE", "RAMP", "TIME", "TAIL"};
   return names;
+}
+
+/// Groups of chemistry, materials and outputs, which say nothing of a building.
+bool is_beside_building(std::string_view name) {
+  static const std::set<std::string_view> names{"SPEC", "REAC", "RAMP", "MATL", "PROP", "PART",
+                                                "RADI", "COMB", "CLIP", "TABL", "HEAD", "TAIL",
+                                                "DUMP", "SLCF", "BNDF", "ISOF", "PROF", "RADF"};
+  return names.contains(name);
+}
+
+/// Whether a file somewhere else has only groups that say nothing of a building. Its content is
+/// not told.
+bool has_no_building(const fs::path& path) {
+  const auto text = read_regular_file(path, luxodus::limits::fds_input_bytes);
+  if (!text) return false;
+  std::string_view rest = text.value();
+  bool any = false;
+  while (!rest.empty()) {
+    const size_t end = std::min(rest.find('\n'), rest.size());
+    std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (line.empty() || line.front() != '&') continue;
+    line.remove_prefix(1);
+    size_t length = 0;
+    while (length < line.size() && line[length] >= 'A' && line[length] <= 'Z') ++length;
+    if (!is_beside_building(line.substr(0, length))) return false;
+    any = true;
+  }
+  return any;
 }
 
 Result<InputFile> one_file(const fs::path& file) {
@@ -74,6 +104,14 @@ Result<InputFiles> read_input_files(const fs::path& file) {
   uint64_t bytes = out.files.front().text->size();
   for (const auto& [name, line] : named) {
     const auto path = inside(file.parent_path(), name);
+    if (!path && name.find('\0') == std::string::npos &&
+        has_no_building(file.parent_path() / name)) {
+      out.notes.push_back(
+          fmt::format("line {}: the file \"{}\" of &CATF lies outside the folder and has "
+                      "nothing of a building: it is passed over",
+                      line, excerpt(name)));
+      continue;
+    }
     if (!path)
       return problem_in(out.main, line,
                         fmt::format("\"{}\" is no file in the folder of this input: &CATF is read "

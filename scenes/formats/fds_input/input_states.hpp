@@ -8,12 +8,12 @@
 
 namespace luxodus::fds_input {
 
-/// Whether an object exists: by its clock, and not left out by its name.
-bool is_there(const std::string& name, const FdsCourse& course, const FdsInputOptions& options);
+/// Whether an object exists: by its clock, and not left out by its handle.
+bool is_there(const FdsTitle& title, const FdsCourse& course, const FdsInputOptions& options);
 
-/// Whether an obstruction exists at any time, and is not left out by its name.
+/// Whether an obstruction exists at any time, and is not left out by its handle.
 bool is_ever_there(const FdsObstruction& o, const FdsInputOptions& options);
-/// When a clock makes it appear or vanish.
+/// When clocks make it appear and vanish.
 fds::FireTimes times_of(const FdsCourse& course);
 
 /// Errors: a name in `without` that no object has.

@@ -34,8 +34,10 @@ struct Piece {
 class MeshSnapper {
  public:
   MeshSnapper(const std::vector<FdsInputMesh>& all, size_t which) : all_(all), mesh_(all[which]) {
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis) {
       cell_[axis] = (mesh_.box.high[axis] - mesh_.box.low[axis]) / mesh_.cells[axis];
+      inverse_[axis] = 1.0 / cell_[axis];
+    }
   }
 
   std::array<std::vector<double>, 3> nodes() const {
@@ -141,8 +143,9 @@ class MeshSnapper {
   }
 
  private:
+  /// FDS multiplies by the inverse of a cell: a place in the middle of a cell rounds as there.
   int node(double at, int axis) const {
-    const double n = std::round((at - mesh_.box.low[axis]) / cell_[axis]);
+    const double n = std::round((at - mesh_.box.low[axis]) * inverse_[axis]);
     return static_cast<int>(std::clamp(n, -1.0, mesh_.cells[axis] + 1.0));
   }
   double place(int node, int axis) const {
@@ -188,7 +191,7 @@ class MeshSnapper {
     low = std::clamp(node(from, axis), 0, mesh_.cells[axis]);
     high = std::clamp(node(to, axis), 0, mesh_.cells[axis]);
     if (thicken && low == high) {
-      const double middle = ((from + to) / 2 - mesh_.box.low[axis]) / cell_[axis];
+      const double middle = ((from + to) / 2 - mesh_.box.low[axis]) * inverse_[axis];
       low = std::clamp(static_cast<int>(middle), 0, mesh_.cells[axis]);
       high = std::min(low + 1, mesh_.cells[axis]);
       from = place(low, axis);
@@ -203,7 +206,7 @@ class MeshSnapper {
 
   const std::vector<FdsInputMesh>& all_;
   const FdsInputMesh& mesh_;
-  glm::dvec3 cell_{0};
+  glm::dvec3 cell_{0}, inverse_{0};
 };
 
 /// The open holes that extend into a mesh, on its nodes.
@@ -211,7 +214,7 @@ std::vector<Piece> holes_of(const FdsInput& input, const FdsInputOptions& option
                             const FdsInputMesh& mesh, const MeshSnapper& snapper) {
   std::vector<Piece> out;
   for (const FdsHole& hole : input.holes)
-    if (is_there(hole.name, hole.course, options) &&
+    if (is_there(hole.title, hole.course, options) &&
         glm::all(glm::lessThanEqual(hole.box.low, mesh.box.high)) &&
         glm::all(glm::greaterThanEqual(hole.box.high, mesh.box.low)))
       out.push_back(snapper.snap(hole.box));
@@ -245,11 +248,11 @@ Result<void> fill_mesh(const FdsInput& input, const FdsInputOptions& options,
       if (pieces.size() > limits::fire_objects) return too_many_objects(input);
     }
     for (const Piece& piece : pieces) {
-      if (o.course.turns_s)
-        out.changes.push_back(
-            {m, mesh.obstructions.size(), *o.course.turns_s, !o.course.at_start, 0});
+      bool there = o.course.at_start;
+      for (const double at_s : o.course.turns_s)
+        out.changes.push_back({m, mesh.obstructions.size(), at_s, there = !there, 0});
       mesh.obstructions.push_back(piece.nodes);
-      mesh.labels.push_back({o.name, o.surface, o.rgb, o.opacity});
+      mesh.labels.push_back({o.title.name, o.surface, o.rgb, o.opacity});
     }
     if (mesh.obstructions.size() > limits::fire_objects) return too_many_objects(input);
   }
@@ -260,6 +263,10 @@ Result<void> fill_mesh(const FdsInput& input, const FdsInputOptions& options,
 
 Result<fds::Case> snapped_case(const FdsInput& input, const FdsInputOptions& options) {
   if (auto ok = fds_input::names_known(input, options); !ok) return ok.problem();
+  if (input.stretched)
+    return problem_in(*input.stretched,
+                      "the grid is stretched: its cells are not computed here; import it as "
+                      "written, without --snap, or the .smv of its results, which has the nodes");
   const uint64_t boxes = input.obstructions.size() + input.holes.size() + input.openings.size();
   uint64_t pairs = input.meshes.size() * boxes;
   if (pairs > limits::fds_input_pairs) return too_much_to_compare(input);
@@ -280,7 +287,7 @@ Result<fds::Case> snapped_case(const FdsInput& input, const FdsInputOptions& opt
     if (auto ok = fill_mesh(input, options, snapper, holes, pairs, m, out, done); !ok)
       return ok.problem();
     for (const FdsOpening& o : input.openings)
-      if (is_there(o.name, o.course, options))
+      if (is_there(o.title, o.course, options))
         if (const auto opening = snapper.opening(o)) mesh.openings.push_back(*opening);
   }
   std::stable_sort(out.changes.begin(), out.changes.end(),

@@ -345,6 +345,12 @@ class NrrdReader {
       return problem_in(data_path_, fmt::format("{} bytes of samples are claimed, {} are there",
                                                 needed, size - first));
     }
+    // A byte or two may end a last line; a whole sample more is another grid.
+    if (*skip >= 0 && size - first - needed >= std::max<uint64_t>(bytes_of(type_), 4))
+      return problem_in(data_path_,
+                        fmt::format("{} bytes of samples are claimed, and {} are there: the sizes "
+                                    "are not those of the data",
+                                    needed, size - first));
     data_.seekg(static_cast<std::streamoff>(first));
     return {};
   }

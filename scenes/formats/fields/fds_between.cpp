@@ -5,7 +5,9 @@
 #include <new>
 #include <numeric>
 
+#include "scenes/formats/fields/fds_frames.hpp"
 #include "scenes/formats/fields/fds_heat.hpp"
+#include "scenes/formats/fields/fds_sources.hpp"
 
 namespace luxodus {
 
@@ -92,7 +94,8 @@ Result<LoadedFire> read_between(const fds::Case& fire, const FireOptions& option
   if (!other_s) return nearest;
   FireOptions there = options;
   there.at_s = *other_s;
-  there.sources = {nearest.source};
+  there.sources.clear();
+  for (const FireSmoke& smoke : nearest.smokes) there.sources.push_back(smoke.source);
   auto other = fds::read_frame(fire, there);
   if (!other) return other.problem();
   LoadedFire& late = nearest.time_s < *other_s ? other.value() : nearest;
@@ -117,6 +120,13 @@ Result<LoadedFire> read_fire(const std::filesystem::path& index, const FireOptio
     return problem_in(index.string(), "its cells take more memory than this process gets",
                       ProblemKind::no_room);
   }
+}
+
+std::optional<double> fire_time_near(const std::filesystem::path& index, double at_s) {
+  const auto fire = fds::read_case(index);
+  if (!fire) return std::nullopt;
+  const auto time = fds::smoke_time_near(fire.value(), at_s);
+  return time ? time.value() : std::nullopt;
 }
 
 }  // namespace luxodus

@@ -7,10 +7,6 @@
 
 namespace luxodus::fds {
 
-/// Frames of one tick of FDS have the same time in all files, except for the digits of PLOT3D's
-/// names [s]. A restart may write a tick twice.
-inline constexpr double same_tick_s = 0.006;
-
 /// Whether a time counts as that of the frame at `frame_s`, not as between it and the one at
 /// `other_s`: it is within a hundredth of the interval, or both frames are of one tick.
 bool is_of_frame(double at_s, double frame_s, double other_s);

@@ -69,6 +69,8 @@ class BuildingWriter {
   BuildingWriter(Case fire, double at_s) : fire_(std::move(fire)), at_s_(at_s) {}
 
   Result<FireBuilding> write() {
+    out_.notes = fire_.notes;
+    out_.notes.insert(out_.notes.end(), fire_.building_notes.begin(), fire_.building_notes.end());
     for (const Mesh& mesh : fire_.meshes) {
       out_.bounds.extend(mesh.low());
       out_.bounds.extend(mesh.high());

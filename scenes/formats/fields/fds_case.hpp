@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,10 @@ inline constexpr size_t meshes = 4096;
 /// Cells along one side of a mesh, and cells of a mesh: 1 GB of node values in a frame.
 inline constexpr int side_cells = 8192;
 inline constexpr int64_t mesh_cells = int64_t{1} << 28;
+/// Species in labels of files: a fire has a few that absorb light.
+inline constexpr size_t species = 100;
+/// Times that a run was restarted.
+inline constexpr size_t restarts = 1000;
 }  // namespace limits
 
 /// Cells low..high-1 of a mesh, by node number.
@@ -76,6 +81,11 @@ struct Mesh {
   }
 };
 
+/// A release of FDS, "6.11".
+struct Release {
+  int major = 0, minor = 0;
+};
+
 /// An obstruction that appears or vanishes.
 struct Change {
   size_t mesh = 0;
@@ -85,14 +95,25 @@ struct Change {
   int line = 0;
 };
 
-enum class Quantity { extinction, soot_density, optical_density, heat_release, visibility, other };
+enum class Quantity { extinction, density, optical_density, heat_release, visibility, other };
+
+/// What a file holds. FDS names a species before a quantity that is one's: "SOOT DENSITY".
+struct Output {
+  Quantity quantity = Quantity::other;
+  std::string species;  // of extinctions, densities and optical densities
+
+  friend bool operator==(const Output&, const Output&) = default;
+};
+
+/// The species of FDS that absorbs light without being told so.
+inline constexpr const char* soot = "SOOT";
 
 /// A slice; flat ones only of visibility. Values are of nodes, or of cells: value (i, j, k) is then
 /// that of the cell below the node (i, j, k) on every axis.
 struct Slice {
   size_t mesh = 0;
   bool of_cells = false;
-  Quantity quantity = Quantity::other;
+  Output output;
   NodeBox nodes;  // first and last
   std::filesystem::path file;
   int line = 0;
@@ -101,7 +122,7 @@ struct Slice {
 /// Bytes of nodes, run-length encoded.
 struct Smoke3d {
   size_t mesh = 0;
-  Quantity quantity = Quantity::other;
+  Output output;
   std::filesystem::path file;
   int line = 0;
 };
@@ -110,7 +131,7 @@ struct Smoke3d {
 struct Plot3d {
   size_t mesh = 0;
   double time_s = 0;
-  std::array<Quantity, 5> quantities{};
+  std::array<Output, 5> outputs;
   std::filesystem::path file;
   int line = 0;
 };
@@ -119,10 +140,12 @@ struct Case {
   std::string file;  // the index
   std::filesystem::path folder;
   std::string version;  // as stated in the index
+  std::optional<Release> release;
   std::vector<Mesh> meshes;
   std::vector<Surface> surfaces;
-  size_t default_surface = 0;     // used by faces of meshes
-  std::vector<Change> changes;    // by time
+  size_t default_surface = 0;  // used by faces of meshes
+  /// By time; without those that a restart made void.
+  std::vector<Change> changes;
   std::vector<Slice> slices;      // solid ones
   std::vector<Slice> visibility;  // solid and flat ones
   std::vector<Smoke3d> smoke;
@@ -130,13 +153,22 @@ struct Case {
   /// Describes what the case has that is not read; "" where nothing.
   std::string unread;
   std::optional<std::filesystem::path> heat_release_file;  // CASE_hrr.csv
-  /// Mass extinction coefficient by which FDS computed extinctions [m2/kg].
-  std::optional<double> mass_extinction_m2_per_kg;
+  /// By species: the mass extinction coefficients of Smoke3D [m2/kg], where above zero.
+  std::map<std::string, double> mass_extinction_m2_per_kg;
+  /// Species whose extinction, optical density or visibility any file holds, and those whose
+  /// density one holds, in files that are read and in others.
+  std::vector<std::string> absorbing, dense;
+  /// HRRPUV of the highest byte of Smoke3D [kW/m3].
+  double highest_heat_kw_m3 = 1200;
+  /// What the user should know about it: times that go back.
+  std::vector<std::string> notes;
+  /// What its building lacks: bodies that are left out, planes of symmetry.
+  std::vector<std::string> building_notes;
 };
 
 /// Errors, with their line: not an index of FDS; a mesh without its nodes, nodes that do not
 /// ascend; malformed numbers; a file of results outside the folder of the index; more than the
-/// limits.
+/// limits; a known quantity in another unit than that of FDS.
 Result<Case> read_case(const std::filesystem::path& index);
 
 }  // namespace luxodus::fds

@@ -146,7 +146,8 @@ int64_t cell_at(const Mesh& mesh, const glm::dvec3& place) {
   return static_cast<int64_t>(place_of(mesh.cells, cell.x, cell.y, cell.z));
 }
 
-std::vector<uint8_t> gas_around_nodes(const Case& fire, const GasMasks& gas, size_t mesh) {
+std::vector<uint8_t> filled_around_nodes(const Case& fire, const GasMasks& gas, size_t mesh,
+                                         SmokeFormat format) {
   const Mesh& m = fire.meshes[mesh];
   const glm::ivec3 n = m.node_counts();
   std::vector<uint8_t> count(m.node_count(), 0);
@@ -166,11 +167,16 @@ std::vector<uint8_t> gas_around_nodes(const Case& fire, const GasMasks& gas, siz
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     for (const int end : {-1, m.cells[axis]}) {
-      glm::ivec3 cell;
+      glm::ivec3 cell, before;
       cell[axis] = end;
       for (cell[u] = 0; cell[u] < m.cells[u]; ++cell[u])
-        for (cell[v] = 0; cell[v] < m.cells[v]; ++cell[v])
-          if (behind.is_gas(cell)) add(cell);
+        for (cell[v] = 0; cell[v] < m.cells[v]; ++cell[v]) {
+          before = cell;
+          before[axis] = std::clamp(end, 0, m.cells[axis] - 1);
+          const bool from_wall = format == SmokeFormat::density &&
+                                 gas[mesh][place_of(m.cells, before.x, before.y, before.z)] != 0;
+          if (from_wall || behind.is_gas(cell)) add(cell);
+        }
     }
   }
   return count;
@@ -250,7 +256,7 @@ std::vector<float> cells_of_slice(const Mesh& mesh, const std::vector<float>& va
   return out;
 }
 
-std::vector<float> extinction_of_bytes(const Mesh& mesh, const std::vector<uint8_t>& bytes) {
+std::vector<float> extinction_of_opacities(const Mesh& mesh, const std::vector<uint8_t>& bytes) {
   const double first_m = mesh.nodes[0][1] - mesh.nodes[0][0];
   std::array<float, 256> of_byte{};
   for (size_t b = 0; b < of_byte.size(); ++b)
@@ -261,10 +267,45 @@ std::vector<float> extinction_of_bytes(const Mesh& mesh, const std::vector<uint8
   return out;
 }
 
-void correct_at_walls(std::vector<float>& nodes, const std::vector<uint8_t>& gas_around) {
+std::vector<float> values_of_shares(const std::vector<uint8_t>& bytes, double highest) {
+  std::vector<float> out(bytes.size());
+  std::transform(bytes.begin(), bytes.end(), out.begin(), [&](uint8_t b) {
+    return static_cast<float>(highest * static_cast<double>(b) / byte_scale);
+  });
+  return out;
+}
+
+bool walls_hold_smoke(const Mesh& mesh, const std::vector<uint8_t>& bytes,
+                      const std::vector<float>& nodes, const std::vector<uint8_t>& filled_around,
+                      SmokeFormat format) {
+  // Below, a step of a byte is too coarse; above, opacities are cut off.
+  const uint8_t least = 8, most = format == SmokeFormat::opacity ? 240 : 255;
+  constexpr float same = 0.95F;
+  const glm::ivec3 n = mesh.node_counts();
+  size_t full = 0, fraction = 0, node = 0;
+  for (int z = 0; z < n.z; ++z)
+    for (int y = 0; y < n.y; ++y)
+      for (int x = 0; x < n.x; ++x, ++node) {
+        if (filled_around[node] == 0 || filled_around[node] == 8) continue;
+        for (int side = 0; side < 6; ++side) {
+          glm::ivec3 at(x, y, z);
+          at[side / 2] += side % 2 == 0 ? -1 : 1;
+          if (glm::any(glm::lessThan(at, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(at, n)))
+            continue;
+          const size_t inner = place_of(n, at.x, at.y, at.z);
+          if (filled_around[inner] != 8 || bytes[inner] < least || bytes[inner] > most) continue;
+          ++(nodes[node] >= same * nodes[inner] ? full : fraction);
+        }
+      }
+  return full > fraction;
+}
+
+void correct_at_walls(std::vector<float>& nodes, const std::vector<uint8_t>& filled_around,
+                      const std::vector<float>& at_start) {
   for (size_t i = 0; i < nodes.size(); ++i) {
-    const auto gas = static_cast<float>(gas_around[i]);
-    nodes[i] = gas > 0 ? nodes[i] * 8 / gas : 0;
+    const auto filled = static_cast<float>(filled_around[i]);
+    const float in_walls = at_start.empty() ? 0 : (8 - filled) * at_start[i];
+    nodes[i] = filled > 0 ? std::max(0.0F, 8 * nodes[i] - in_walls) / filled : 0;
   }
 }
 

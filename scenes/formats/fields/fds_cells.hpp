@@ -26,9 +26,13 @@ std::vector<uint8_t> gas_cells_ever(const Case& fire, size_t mesh);
 /// Gas cells of all meshes at one time.
 using GasMasks = std::vector<std::vector<uint8_t>>;
 
-/// For each node of a mesh: how many of the eight cells around it hold gas. Cells behind a face of
-/// the mesh count if they are gas of another mesh, or if the face is open.
-std::vector<uint8_t> gas_around_nodes(const Case& fire, const GasMasks& gas, size_t mesh);
+/// For each node of a mesh: how many of the eight cells around it have the smoke of the moment in
+/// Smoke3D: those that hold gas, and those behind a face of the mesh if they are gas of another
+/// mesh, or if the face is open. FDS 6.11 (SmokeFormat::density) fills those behind closed faces,
+/// too, where the cell before them is gas: with the mass fractions of that cell at the temperature
+/// of the wall, so that their density is 1 to 1.5 times that of the gas.
+std::vector<uint8_t> filled_around_nodes(const Case& fire, const GasMasks& gas, size_t mesh,
+                                         SmokeFormat format);
 
 /// Recovers cells from node values, which are means over the gas cells around a node. Solved by the
 /// iteration of van Cittert (1931), which starts from the means of nodes over cells; 0 in solids.
@@ -41,12 +45,24 @@ std::vector<float> cells_of_nodes(const Mesh& mesh, const std::vector<float>& no
 std::vector<float> cells_of_slice(const Mesh& mesh, const std::vector<float>& values,
                                   const std::vector<uint8_t>& gas);
 
-/// Extinction at nodes [1/m] of bytes of soot: FDS writes 254 (1 - exp(-K d)), where d is the first
-/// cell's length along x of that mesh.
-std::vector<float> extinction_of_bytes(const Mesh& mesh, const std::vector<uint8_t>& bytes);
+/// Extinction at nodes [1/m] of bytes of SmokeFormat::opacity: FDS writes 254 (1 - exp(-K d)),
+/// where d is the first cell's length along x of that mesh.
+std::vector<float> extinction_of_opacities(const Mesh& mesh, const std::vector<uint8_t>& bytes);
+
+/// What a share of bytes stands for: `highest` for byte 254.
+std::vector<float> values_of_shares(const std::vector<uint8_t>& bytes, double highest);
+
+/// Whether cells in walls held the smoke of the gas beside them when the run began: nodes at walls
+/// then have the values of their neighbours in the gas, and a fraction of them otherwise. `bytes`
+/// and `nodes`: of the first frame, as stored and as values.
+bool walls_hold_smoke(const Mesh& mesh, const std::vector<uint8_t>& bytes,
+                      const std::vector<float>& nodes, const std::vector<uint8_t>& filled_around,
+                      SmokeFormat format);
 
 /// Corrects Smoke3D: a node's value there is the mean over its eight cells, of which those in walls
-/// hold no soot. Multiplies by 8 / (gas cells); 0 where there are none.
-void correct_at_walls(std::vector<float>& nodes, const std::vector<uint8_t>& gas_around);
+/// keep what they had when the run began. `at_start`: the nodes then; empty where walls held
+/// nothing. Gives the mean of the filled cells; 0 where there are none.
+void correct_at_walls(std::vector<float>& nodes, const std::vector<uint8_t>& filled_around,
+                      const std::vector<float>& at_start);
 
 }  // namespace luxodus::fds

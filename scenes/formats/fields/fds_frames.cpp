@@ -11,6 +11,8 @@
 #include <cstring>
 #include <span>
 
+#include "scenes/formats/fields/fds_sizes.hpp"
+
 namespace luxodus::fds {
 
 namespace {
@@ -37,6 +39,7 @@ class RecordWalk {
     return RecordWalk(path, std::move(file.value()));
   }
 
+  const fs::path& path() const { return path_; }
   uint64_t left() const { return bytes_ - at_; }
   uint64_t at() const { return at_; }
   bool has(uint64_t payload) const { return left() >= payload + 2 * mark_bytes; }
@@ -86,7 +89,12 @@ class RecordWalk {
     return {};
   }
 
-  FrameFiles into(std::vector<Frame> frames) && { return {{path_}, std::move(frames)}; }
+  FrameFiles into(std::vector<Frame> frames) && {
+    FrameFiles out;
+    out.files = {path_};
+    out.frames = std::move(frames);
+    return out;
+  }
 
  private:
   RecordWalk(fs::path path, RegularFile file)
@@ -147,7 +155,33 @@ Result<std::vector<Frame>> even_frames(RecordWalk& walk, uint64_t payload) {
   return frames;
 }
 
+/// The format of a Smoke3D file, by its header.
+Result<SmokeFormat> format_of(const RecordWalk& walk, int32_t word) {
+  for (const SmokeFormat known : {SmokeFormat::opacity, SmokeFormat::density})
+    if (word == static_cast<int32_t>(known)) return known;
+  return problem_in(
+      walk.path().string(),
+      fmt::format("this is Smoke3D of format {}, and what its bytes mean is known of 0 and 1 only: "
+                  "take slices (&SLCF ... CELL_CENTERED=T), or write it by SMOKE3D_VERSION=1 of "
+                  "&DUMP",
+                  word));
+}
+
 }  // namespace
+
+void keep_later_frames(FrameFiles& files) {
+  std::vector<Frame> kept;
+  kept.reserve(files.frames.size());
+  for (const Frame& frame : files.frames) {
+    if (!kept.empty() && frame.time_s <= kept.back().time_s) {
+      if (!files.back) files.back = BackStep{kept.back().time_s, frame.time_s};
+      // The abandoned part may have written the same tick a little earlier.
+      while (!kept.empty() && kept.back().time_s >= frame.time_s - same_tick_s) kept.pop_back();
+    }
+    kept.push_back(frame);
+  }
+  files.frames = std::move(kept);
+}
 
 bool lies_within(const Case& fire, const fs::path& path) {
   std::error_code error;
@@ -177,7 +211,9 @@ Result<FrameFiles> open_slice(const Case& fire, const Slice& slice) {
       static_cast<uint64_t>(n.x) * static_cast<uint64_t>(n.y) * static_cast<uint64_t>(n.z);
   auto frames = even_frames(walk.value(), values * sizeof(float));
   if (!frames) return frames.problem();
-  return std::move(walk.value()).into(std::move(frames.value()));
+  FrameFiles out = std::move(walk.value()).into(std::move(frames.value()));
+  keep_later_frames(out);
+  return out;
 }
 
 Result<FrameFiles> open_smoke3d(const Case& fire, const Smoke3d& smoke) {
@@ -193,6 +229,8 @@ Result<FrameFiles> open_smoke3d(const Case& fire, const Smoke3d& smoke) {
         fmt::format("this file is of a mesh of {} x {} x {} cells, mesh {} has {} x "
                     "{} x {}",
                     h[3], h[5], h[7], smoke.mesh + 1, mesh.cells.x, mesh.cells.y, mesh.cells.z));
+  const auto format = format_of(walk.value(), h[1]);
+  if (!format) return format.problem();
   const size_t nodes = mesh.node_count();
   constexpr uint64_t frame_head = time_bytes + counts_bytes + 4 * mark_bytes;
   std::vector<Frame> frames;
@@ -211,7 +249,12 @@ Result<FrameFiles> open_smoke3d(const Case& fire, const Smoke3d& smoke) {
     frames.push_back({time.value(), walk->at() + mark_bytes, static_cast<uint32_t>(packed)});
     if (auto ok = walk->pass(static_cast<uint64_t>(packed)); !ok) return ok.problem();
   }
-  return std::move(walk.value()).into(std::move(frames));
+  FrameFiles out = std::move(walk.value()).into(std::move(frames));
+  out.format = format.value();
+  keep_later_frames(out);
+  if (out.format == SmokeFormat::density)
+    if (auto ok = add_highest_values(fire, out); !ok) return ok.problem();
+  return out;
 }
 
 Result<FrameFiles> open_plot3d(const Case& fire, const Plot3d& plot, size_t quantity) {

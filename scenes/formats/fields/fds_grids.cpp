@@ -20,6 +20,10 @@ constexpr double written_m = 2e-5, lattice_share = 1e-3;
 constexpr uint64_t spare_factor = 4, spare_cells = 100'000;
 /// Values for a cell while it is read: extinction, emission, masks, node values.
 constexpr uint64_t floats_per_cell = 5;
+/// Parts of the smallest cell that are tried as even cells: 0.2 and 0.3 m need 2, 0.4 and 0.5 m 4.
+/// Halves are always taken; more only where the grid has at most so many cells for one of the mesh.
+constexpr int most_parts = 5, halves = 2;
+constexpr uint64_t fine_factor = 64;
 
 double slack(double cell_m) {
   return std::max(written_m, lattice_share * cell_m);
@@ -34,24 +38,31 @@ bool is_even(const std::vector<double>& nodes) {
   return true;
 }
 
-/// Number of even cells along an axis such that all nodes fall on their faces; else halves of the
-/// smallest cell. 0: too many.
-int even_count(const std::vector<double>& nodes) {
-  if (is_even(nodes)) return static_cast<int>(nodes.size()) - 1;
+/// Even cells along an axis, and whether all nodes fall on their faces.
+struct EvenCells {
+  int count = 0;  // 0: too many
+  bool nested = false;
+};
+
+/// The fewest even cells on whose faces all nodes fall, where few parts of the smallest cell are
+/// enough; else halves of the smallest cell.
+EvenCells even_cells(const std::vector<double>& nodes, int finest) {
+  if (is_even(nodes)) return {static_cast<int>(nodes.size()) - 1, true};
   const double length = nodes.back() - nodes.front();
   double smallest = length;
   for (size_t i = 1; i < nodes.size(); ++i) smallest = std::min(smallest, nodes[i] - nodes[i - 1]);
-  for (const int parts : {1, 2}) {
-    const double count = std::round(length / smallest * parts);
-    if (!(count <= luxodus::limits::max_grid_side)) return 0;
-    const double step = length / count;
+  const auto count_of = [&](int parts) { return std::round(length / smallest * parts); };
+  for (int parts = 1; parts <= finest && count_of(parts) <= luxodus::limits::max_grid_side;
+       ++parts) {
+    const double count = count_of(parts), step = length / count;
     const bool fits = std::all_of(nodes.begin(), nodes.end(), [&](double x) {
       const double place = (x - nodes.front()) / step;
       return std::abs(place - std::round(place)) * step <= slack(step);
     });
-    if (fits || parts == 2) return static_cast<int>(count);
+    if (fits) return {static_cast<int>(count), true};
   }
-  return 0;
+  if (!(count_of(2) <= luxodus::limits::max_grid_side)) return {};
+  return {static_cast<int>(count_of(2)), false};
 }
 
 /// The mesh's first cell on the lattice of a grid; none where it is off the lattice.
@@ -127,6 +138,26 @@ void put_resampled(const Grid& grid, const Mesh& mesh, const std::vector<float>&
             cells[at(mesh.cells, x.from, y.from, z.from)];
 }
 
+/// A grid of its own for a mesh.
+Result<Grid> grid_of(const Case& fire, const Mesh& mesh, int parts) {
+  Grid grid;
+  grid.low = mesh.low();
+  grid.resampled = !std::all_of(mesh.nodes.begin(), mesh.nodes.end(), is_even);
+  grid.nested = grid.resampled;
+  for (int axis = 0; axis < 3; ++axis) {
+    const EvenCells along = even_cells(mesh.nodes[static_cast<size_t>(axis)], parts);
+    grid.cells[axis] = along.count;
+    grid.nested = grid.nested && along.nested;
+    if (along.count == 0)
+      return problem_in(fire.file, mesh.line,
+                        fmt::format("this mesh is stretched along {} by more than {} halves of its "
+                                    "smallest cells: even cells would be too many",
+                                    "xyz"[axis], luxodus::limits::max_grid_side));
+  }
+  grid.spacing = (mesh.high() - mesh.low()) / glm::dvec3(grid.cells);
+  return grid;
+}
+
 }  // namespace
 
 Result<std::vector<Grid>> plan_grids(const Case& fire) {
@@ -143,24 +174,16 @@ Result<std::vector<Grid>> plan_grids(const Case& fire) {
       joined = true;
     }
     if (joined) continue;
-    Grid grid;
-    grid.low = mesh.low();
-    grid.resampled = !even;
-    for (int axis = 0; axis < 3; ++axis) {
-      grid.cells[axis] = even_count(mesh.nodes[static_cast<size_t>(axis)]);
-      if (grid.cells[axis] == 0)
-        return problem_in(fire.file, mesh.line,
-                          fmt::format("this mesh is stretched along {} by more than {} of its "
-                                      "smallest cells: even cells would be too many",
-                                      "xyz"[axis], luxodus::limits::max_grid_side));
-    }
-    grid.spacing = (mesh.high() - mesh.low()) / glm::dvec3(grid.cells);
-    if (grid.cell_count() > static_cast<uint64_t>(luxodus::limits::max_grid_cells))
+    auto grid = grid_of(fire, mesh, most_parts);
+    if (grid && grid->cell_count() > fine_factor * mesh.cell_count())
+      grid = grid_of(fire, mesh, halves);
+    if (!grid) return grid.problem();
+    if (grid->cell_count() > static_cast<uint64_t>(luxodus::limits::max_grid_cells))
       return problem_in(fire.file, mesh.line,
                         fmt::format("this mesh would have {} even cells: it is stretched too much",
-                                    grid.cell_count()));
-    grid.meshes = {i};
-    grids.push_back(std::move(grid));
+                                    grid->cell_count()));
+    grid->meshes = {i};
+    grids.push_back(std::move(grid.value()));
     cells_of_meshes.push_back(mesh.cell_count());
   }
   uint64_t all = 0;

@@ -1,7 +1,8 @@
 // Lays meshes of a fire simulation out as grids of even cells, which rays walk through. Meshes on
 // one lattice share a grid; cells between them are clear. A stretched mesh is resampled to finer
-// even cells: the integral of every quantity is kept, and a face between two cells is displaced by
-// at most half such a fine cell. Plain values and pure functions; any thread.
+// even cells. Where its cells are wholes of such cells, nothing is lost. Else the integral of every
+// quantity is kept, and a face between two cells is displaced by at most half such a fine cell.
+// Plain values and pure functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,7 @@ struct Grid {
   glm::ivec3 cells{0};
   std::vector<size_t> meshes;
   bool resampled = false;
+  bool nested = false;  // resampled, with all faces of its mesh's cells on faces of its own
 
   uint64_t cell_count() const {
     return static_cast<uint64_t>(cells.x) * static_cast<uint64_t>(cells.y) *
@@ -28,7 +30,7 @@ struct Grid {
 };
 
 /// Grids for all meshes of a case, in the order of their first meshes.
-/// Errors: cells that exceed this machine's memory; a stretched mesh that would need more than 8192
+/// Errors: cells that exceed this machine's memory; a stretched mesh that would need too many
 /// halves of its smallest cell along an axis.
 Result<std::vector<Grid>> plan_grids(const Case& fire);
 

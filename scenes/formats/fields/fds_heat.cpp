@@ -17,17 +17,26 @@ namespace {
 /// A time after the last line by less than this counts as that line [s].
 constexpr double heat_window_s = 1;
 
-std::vector<std::string_view> comma_fields(std::string_view line) {
+/// Fields between commas, or between semicolons where DECIMAL_SPECIFIER of FDS is COMMA.
+std::vector<std::string_view> fields_of(std::string_view line, char between) {
   std::vector<std::string_view> fields;
   for (size_t from = 0; from <= line.size();) {
-    const size_t comma = std::min(line.find(',', from), line.size());
-    std::string_view field = data_set::trimmed(line.substr(from, comma - from));
+    const size_t end = std::min(line.find(between, from), line.size());
+    std::string_view field = data_set::trimmed(line.substr(from, end - from));
     if (field.size() > 1 && field.front() == '"' && field.back() == '"')
       field = field.substr(1, field.size() - 2);
     fields.push_back(field);
-    from = comma + 1;
+    from = end + 1;
   }
   return fields;
+}
+
+/// A number with a point, or with a comma where semicolons separate fields.
+std::optional<double> number_of(std::string_view field, char between) {
+  if (between == ',') return data_set::number_in<double>(field);
+  std::string with_point(field);
+  std::replace(with_point.begin(), with_point.end(), ',', '.');
+  return data_set::number_in<double>(with_point);
 }
 
 struct HeatLine {
@@ -43,13 +52,15 @@ struct HeatTable {
 Result<HeatTable> heat_table(const std::string& file, std::string_view text) {
   HeatTable out;
   size_t time_column = 0, heat_column = 0;
+  char between = ',';
   for (int number = 1; !text.empty(); ++number) {
     const size_t end = text.find('\n');
     if (end == std::string_view::npos && number > 2) break;  // cut off: the run is in progress
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     if (number == 1 || data_set::trimmed(line).empty()) continue;
-    const auto fields = comma_fields(line);
+    if (number == 2 && line.find(';') != std::string_view::npos) between = ';';
+    const auto fields = fields_of(line, between);
     if (number == 2) {
       const auto column = [&](std::string_view name) {
         return static_cast<size_t>(std::find(fields.begin(), fields.end(), name) - fields.begin());
@@ -61,13 +72,13 @@ Result<HeatTable> heat_table(const std::string& file, std::string_view text) {
       continue;
     }
     const auto at = [&](size_t column) {
-      return column < fields.size() ? data_set::number_in<double>(fields[column]) : std::nullopt;
+      return column < fields.size() ? number_of(fields[column], between) : std::nullopt;
     };
     const auto time = at(time_column), heat = at(heat_column);
     if (!time || !heat || !std::isfinite(*time) || !std::isfinite(*heat))
       return problem_in(file, number, "the time or the heat release is no number");
-    if (!out.lines.empty() && *time < out.lines.back().time_s)
-      return problem_in(file, number, "its time lies before that of the line above");
+    // A restarted run appends its lines behind those of the part that was abandoned.
+    while (!out.lines.empty() && *time < out.lines.back().time_s) out.lines.pop_back();
     out.lines.push_back({*time, *heat});
   }
   return out;

@@ -12,7 +12,8 @@ namespace limits {
 inline constexpr uint64_t heat_release_bytes = uint64_t{256} << 20;
 }  // namespace limits
 
-/// Heat release rate of the whole fire at a time [kW], linear between the lines of the table.
+/// Heat release rate of the whole fire at a time [kW], linear between the lines of the table. Where
+/// times go back, as after a restart, later lines hold.
 /// Errors, with file and line: no such file, no columns Time and HRR, malformed numbers, a time
 /// more than a second after the last line.
 Result<double> heat_release_kw(const Case& fire, double time_s);

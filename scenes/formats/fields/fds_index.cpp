@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "runtime/core/printable.hpp"
@@ -24,6 +25,8 @@ using data_set::words_of;
 constexpr double farthest_m = 1e6;
 /// The SURFACE type of a vent that is open.
 constexpr std::string_view open_surface = "OPEN";
+/// Events are written in the order of time, but for rounding and for steps of processes [s].
+constexpr double event_slack_s = 0.5;
 
 std::vector<std::string_view> lines_of(std::string_view text) {
   std::vector<std::string_view> lines;
@@ -41,13 +44,61 @@ bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
-Quantity quantity_of(std::string_view label) {
-  if (ends_with(label, "EXTINCTION COEFFICIENT")) return Quantity::extinction;
-  if (label == "SOOT DENSITY") return Quantity::soot_density;
-  if (ends_with(label, "OPTICAL DENSITY")) return Quantity::optical_density;
-  if (label == "HRRPUV") return Quantity::heat_release;
-  if (ends_with(label, "VISIBILITY")) return Quantity::visibility;
-  return Quantity::other;
+/// "SOOT EXTINCTION COEFFICIENT": the species before the quantity. FDS computes extinctions of soot
+/// unless a species is named.
+Output output_of(std::string_view label) {
+  struct Row {
+    std::string_view ending;
+    Quantity quantity;
+  };
+  // "OPTICAL DENSITY" before "DENSITY", which it ends with.
+  static constexpr Row rows[] = {{"EXTINCTION COEFFICIENT", Quantity::extinction},
+                                 {"OPTICAL DENSITY", Quantity::optical_density},
+                                 {"VISIBILITY", Quantity::visibility},
+                                 {"DENSITY", Quantity::density}};
+  if (label == "HRRPUV") return {Quantity::heat_release, {}};
+  for (const Row& row : rows) {
+    if (!ends_with(label, row.ending)) continue;
+    const std::string_view species = trimmed(label.substr(0, label.size() - row.ending.size()));
+    // The density of all gases has no species.
+    if (species.empty() && row.quantity == Quantity::density) return {};
+    return {row.quantity, species.empty() ? std::string(soot) : excerpt(species)};
+  }
+  return {};
+}
+
+/// The unit that FDS writes for a quantity; "" for others.
+std::string_view unit_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::extinction:
+    case Quantity::optical_density:
+      return "1/m";
+    case Quantity::density:
+      return "kg/m3";
+    case Quantity::heat_release:
+      return "kW/m3";
+    case Quantity::visibility:
+      return "m";
+    case Quantity::other:
+      break;
+  }
+  return "";
+}
+
+/// "FDS-6.11.1-138-ge06f10c-master" and "FDS6.7.6-1538-g1488ab9": 6.11 and 6.7.
+std::optional<Release> release_of(std::string_view version) {
+  constexpr std::string_view name = "FDS";
+  if (version.substr(0, name.size()) != name) return std::nullopt;
+  version.remove_prefix(name.size());
+  if (!version.empty() && (version.front() == '-' || version.front() == ' '))
+    version.remove_prefix(1);
+  const size_t dot = version.find('.');
+  if (dot == std::string_view::npos) return std::nullopt;
+  const size_t end = std::min(version.find_first_not_of("0123456789", dot + 1), version.size());
+  const auto major = number_in<int>(version.substr(0, dot));
+  const auto minor = number_in<int>(version.substr(dot + 1, end - dot - 1));
+  if (!major || !minor) return std::nullopt;
+  return Release{*major, *minor};
 }
 
 class IndexReader {
@@ -72,7 +123,9 @@ class IndexReader {
 
  private:
   void keyword(std::string_view word, std::string_view line) {
-    if (word == "FDSVERSION") return void(out_.version = excerpt(trimmed(next_line())));
+    if (word == "FDSVERSION") return version();
+    if (word == "HRRPUV_MINMAX") return heat_range();
+    if (word == "INPF") return void(input_file_ = excerpt(trimmed(next_line())));
     if (word == "CSVF") return csv_file();
     if (word == "SURFACE") return surface();
     if (word == "SURFDEF") return void(default_surface_ = trimmed(next_line()));
@@ -81,11 +134,13 @@ class IndexReader {
       return nodes(static_cast<size_t>(word.back() - 'X'));
     if (word == "OBST") return obstructions();
     if (word == "VENT") return vents();
+    if (word == "GEOM") return bodies(line);
     if (word == "SLCF" || word == "SLCC") return slice(line, word == "SLCC");
     if (word == "SLCT") return unread("terrain slices (SLCT)");
     if (word == "SMOKF3D" || word == "SMOKG3D" || word == "SMOKE3D") return smoke(line);
     if (word == "PL3D") return plot(line);
     if (word == "HIDE_OBST" || word == "SHOW_OBST") return change(line, word == "SHOW_OBST");
+    if (word == "DEVICE_ACT") return device_event();
   }
 
   // ---- lines and numbers
@@ -175,6 +230,25 @@ class IndexReader {
   }
 
   // ---- keywords
+
+  void version() {
+    out_.version = excerpt(trimmed(next_line()));
+    out_.release = release_of(out_.version);
+  }
+
+  void heat_range() {
+    const auto highest = number<double>(words_of(next_line()), 1, "the highest HRRPUV");
+    if (failed()) return;
+    if (!(highest > 0 && highest < 1e9)) return fail("the highest HRRPUV cannot be");
+    out_.highest_heat_kw_m3 = highest;
+  }
+
+  /// Bodies of triangles lie in files of their own, which are not read.
+  void bodies(std::string_view line) {
+    const auto words = words_of(line);
+    const auto said = words.size() > 1 ? number_in<int64_t>(words[1]) : std::nullopt;
+    bodies_ += std::clamp<int64_t>(said.value_or(1), 0, 1'000'000);
+  }
 
   void csv_file() {
     const bool is_heat = trimmed(next_line()) == "hrr";
@@ -296,11 +370,35 @@ class IndexReader {
       const auto surface = number<int64_t>(words, 7, "the surface of a vent");
       if (failed()) return;
       const auto& surfaces = out_.surfaces;
-      const bool known = surface >= 0 && surface < static_cast<int64_t>(surfaces.size());
-      if (known && surfaces[static_cast<size_t>(surface)].name == open_surface)
-        mesh->openings.push_back(opening);
+      if (surface < 0 || surface >= static_cast<int64_t>(surfaces.size())) continue;
+      const std::string& name = surfaces[static_cast<size_t>(surface)].name;
+      if (name == open_surface) mesh->openings.push_back(opening);
+      if (name == "MIRROR" || name.starts_with("PERIODIC")) ++symmetric_faces_;
     }
     for (size_t i = 0; i < n && !failed(); ++i) next_line();
+  }
+
+  /// Label, short label and unit of a file's values.
+  Output labelled_output() {
+    const Output output = output_of(trimmed(next_line()));
+    next_line();
+    const std::string_view unit = trimmed(next_line());
+    if (failed() || output.quantity == Quantity::other) return {};
+    if (const std::string_view known = unit_of(output.quantity); unit != known) {
+      fail(fmt::format("the unit is \"{}\", that of FDS is \"{}\"", excerpt(unit), known));
+      return {};
+    }
+    note_species(output);
+    return output;
+  }
+
+  void note_species(const Output& output) {
+    if (output.species.empty()) return;
+    auto& list = output.quantity == Quantity::density ? out_.dense : out_.absorbing;
+    if (std::find(list.begin(), list.end(), output.species) != list.end()) return;
+    if (list.size() == limits::species)
+      return fail(fmt::format("there are files of more than {} species", limits::species));
+    list.push_back(output.species);
   }
 
   /// "SLCF 1 # STRUCTURED %name & I1 I2 J1 J2 K1 K2 ! number ...", then file, label, short, unit.
@@ -324,14 +422,15 @@ class IndexReader {
     // Files of slices that are not read may lie anywhere, so only the others are checked.
     const size_t file_line = at_;
     next_line();
-    slice.quantity = quantity_of(trimmed(next_line()));
+    slice.output = labelled_output();
+    const Quantity quantity = slice.output.quantity;
     const bool wanted =
-        slice.quantity == Quantity::visibility || (flat == 0 && slice.quantity != Quantity::other);
+        quantity == Quantity::visibility || (flat == 0 && quantity != Quantity::other);
     if (failed() || !wanted) return;
     const size_t label_line = std::exchange(at_, file_line);
     slice.file = file_name();
     at_ = label_line;
-    auto& list = slice.quantity == Quantity::visibility ? out_.visibility : out_.slices;
+    auto& list = quantity == Quantity::visibility ? out_.visibility : out_.slices;
     if (!failed()) list.push_back(std::move(slice));
   }
 
@@ -344,11 +443,11 @@ class IndexReader {
         words.size() > 2 ? number<double>(words, 2, "mass extinction") : 0;
     smoke.file = file_name();
     if (smoke.file.extension() == ".s16") return unread("Smoke3D of 16 bits (.s16)");
-    smoke.quantity = quantity_of(trimmed(next_line()));
-    if (failed() || smoke.quantity == Quantity::other) return;
-    if (smoke.quantity == Quantity::soot_density && mass_extinction > 0) {
+    smoke.output = labelled_output();
+    if (failed() || smoke.output.quantity == Quantity::other) return;
+    if (smoke.output.quantity == Quantity::density && mass_extinction > 0) {
       if (!(mass_extinction < 1e6)) return fail("a mass extinction of over 1e6 m2/kg cannot be");
-      out_.mass_extinction_m2_per_kg = mass_extinction;
+      out_.mass_extinction_m2_per_kg[smoke.output.species] = mass_extinction;
     }
     out_.smoke.push_back(std::move(smoke));
   }
@@ -377,11 +476,7 @@ class IndexReader {
         std::abs(static_cast<double>(*whole)) > 1e9)
       return fail("the name of this PLOT3D file does not end in its time, as in CASE_1_45p02.q");
     plot.time_s = static_cast<double>(*whole) + static_cast<double>(*hundredths) / 100;
-    for (Quantity& quantity : plot.quantities) {
-      quantity = quantity_of(trimmed(next_line()));
-      next_line();
-      next_line();
-    }
+    for (Output& output : plot.outputs) output = labelled_output();
     if (!failed()) out_.plots.push_back(std::move(plot));
   }
 
@@ -398,7 +493,73 @@ class IndexReader {
     if (which < 1) return fail("obstructions count from 1");
     if (!std::isfinite(change.time_s)) return fail("a time is not finite");
     change.obstruction = static_cast<size_t>(which) - 1;
+    happens_at(change.time_s);
     out_.changes.push_back(change);
+  }
+
+  /// "number time state" of a device: says only how far the run was.
+  void device_event() {
+    const auto words = words_of(next_line());
+    const auto time = words.size() > 1 ? number_in<double>(words[1]) : std::nullopt;
+    if (time && std::isfinite(*time)) happens_at(*time);
+  }
+
+  /// A restarted run writes its events behind those of the part that was abandoned, which are void.
+  void happens_at(double time_s) {
+    if (time_s < latest_s_ - event_slack_s) {
+      if (++restarts_ > limits::restarts)
+        return fail(fmt::format("times of events go back more than {} times", limits::restarts));
+      std::erase_if(out_.changes, [&](const Change& c) { return c.time_s > time_s; });
+      if (restarts_ == 1)
+        out_.notes.push_back(
+            fmt::format("line {}: events go back from {:.6g} to {:.6g} s, as after a restart: the "
+                        "later records hold, here and wherever events go back",
+                        at_ + 1, latest_s_, time_s));
+      latest_s_ = time_s;
+    }
+    latest_s_ = std::max(latest_s_, time_s);
+  }
+
+  /// An obstruction that vanishes twice, or appears twice, did so once in a part of the run that a
+  /// restart made void.
+  void drop_void_changes() {
+    std::map<std::pair<size_t, size_t>, size_t> last;
+    std::vector<uint8_t> is_void(out_.changes.size(), 0);
+    size_t dropped = 0;
+    for (size_t i = 0; i < out_.changes.size(); ++i) {
+      const Change& change = out_.changes[i];
+      const auto [at, first] = last.try_emplace({change.mesh, change.obstruction}, i);
+      if (first) continue;
+      const Change& before = out_.changes[at->second];
+      if (before.appears == change.appears && before.time_s < change.time_s) {
+        is_void[at->second] = 1;
+        if (dropped++ == 0)
+          out_.notes.push_back(fmt::format(
+              "line {}: an obstruction {} at {:.6g} s that does so at {:.6g} s, too, as after a "
+              "restart: the later event holds, here and for others of this kind",
+              before.line, change.appears ? "appears" : "vanishes", before.time_s, change.time_s));
+      }
+      at->second = i;
+    }
+    size_t kept = 0;
+    for (size_t i = 0; i < out_.changes.size(); ++i)
+      if (is_void[i] == 0) out_.changes[kept++] = out_.changes[i];
+    out_.changes.resize(kept);
+  }
+
+  void note_what_is_left_out() {
+    if (bodies_ > 0)
+      out_.building_notes.push_back(fmt::format(
+          "{} bod{} of triangles (GEOM) {} left out: their files are not read. The input file {} "
+          "has them",
+          bodies_, bodies_ == 1 ? "y" : "ies", bodies_ == 1 ? "is" : "are",
+          input_file_.empty() ? "(.fds)" : input_file_));
+    if (symmetric_faces_ > 0)
+      out_.building_notes.push_back(fmt::format(
+          "{} face{} MIRROR or PERIODIC: the building goes on behind {}, and an opaque wall is put "
+          "there",
+          symmetric_faces_, symmetric_faces_ == 1 ? " is" : "s are",
+          symmetric_faces_ == 1 ? "it" : "them"));
   }
 
   /// Records what is not read, because its format is not documented.
@@ -447,13 +608,18 @@ class IndexReader {
     }
     std::stable_sort(out_.changes.begin(), out_.changes.end(),
                      [](const Change& a, const Change& b) { return a.time_s < b.time_s; });
+    drop_void_changes();
+    note_what_is_left_out();
   }
 
   const fs::path path_;
   const fs::path folder_;
   std::vector<std::string_view> lines_;
   size_t at_ = 0;  // the line being read
-  std::string default_surface_;
+  std::string default_surface_, input_file_;
+  int64_t bodies_ = 0;
+  size_t symmetric_faces_ = 0, restarts_ = 0;
+  double latest_s_ = -std::numeric_limits<double>::infinity();
   Case out_;
   std::optional<Problem> problem_;
 };

@@ -74,6 +74,7 @@ void read_data_set(KeyReader& keys, Medium& m) {
         "'mass_extinction' [m2/kg] is needed with soot; only smoke = \"flaming\" has a default "
         "(8700)");
   }
+  if (keys.clean()) warn_of_mass_extinction(keys);
   const bool interpolate = keys.flag("interpolate_emission");
   const auto path = keys.file("file");
   if (!path || !keys.clean() || !take_hash(*path, keys.place("file"), keys.reading())) return;

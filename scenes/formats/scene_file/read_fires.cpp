@@ -101,6 +101,35 @@ std::string frame_words(const LoadedFire& fire, double asked_s) {
                      *fire.next_s);
 }
 
+/// "SOOT from Smoke3D, -ln(1 - byte/254) / ...; FOG from ...".
+std::string smoke_words(const LoadedFire& fire) {
+  std::string out;
+  for (const FireSmoke& smoke : fire.smokes)
+    out += fmt::format("{}{} from {} ({})", out.empty() ? "" : "; ", smoke.species,
+                       source_words(smoke.source), smoke.formula);
+  return out;
+}
+
+/// Warns of what makes a state doubtful: frames that are far away, missing or written twice.
+void warn_of_frames(KeyReader& keys, const LoadedFire& fire, double asked_s) {
+  SceneReading& reading = keys.reading();
+  const SourcePlace at = keys.place(keys.has("at_s") ? "at_s" : "file");
+  for (const std::string& note : fire.notes) reading.warning(keys.place("file"), note);
+  if (fire.partial_frames > 0)
+    reading.warning(keys.place("file"),
+                    fmt::format("{} frames between {:.6g} and {:.6g} s are not in the files of all "
+                                "meshes and are passed over",
+                                fire.partial_frames, fire.first_s, fire.last_s));
+  if (fire.between_frames && *fire.next_s - *fire.previous_s > 2 * far_from_asked_s)
+    reading.warning(at, fmt::format("{:.6g} s lies between two frames that are {:.3g} s apart: "
+                                    "their mean is no state that the simulation had",
+                                    fire.time_s, *fire.next_s - *fire.previous_s));
+  if (std::abs(fire.time_s - asked_s) > far_from_asked_s)
+    reading.warning(at,
+                    fmt::format("the nearest frame lies {:.3g} s from the time that is asked for",
+                                std::abs(fire.time_s - asked_s)));
+}
+
 /// Notes what was read, for readers of the results.
 void tell_fire(KeyReader& keys, const std::string& name, const LoadedFire& fire,
                const std::optional<Flames>& flames, double asked_s) {
@@ -110,17 +139,9 @@ void tell_fire(KeyReader& keys, const std::string& name, const LoadedFire& fire,
       fmt::format("the smoke \"{}\" is the state at {:.6g} s ({}; {} frames from {:.6g} to "
                   "{:.6g} s), computed by {}: {}. Accuracy: {}. {}",
                   name, fire.time_s, frame_words(fire, asked_s), fire.frames, fire.first_s,
-                  fire.last_s, fire.version.empty() ? "FDS" : fire.version,
-                  source_words(fire.source), accuracy_words(fire.source), extent_words(fire)));
-  if (fire.between_frames && *fire.next_s - *fire.previous_s > 2 * far_from_asked_s)
-    reading.warning(keys.place(keys.has("at_s") ? "at_s" : "file"),
-                    fmt::format("{:.6g} s lies between two frames that are {:.3g} s apart: their "
-                                "mean is no state that the simulation had",
-                                fire.time_s, *fire.next_s - *fire.previous_s));
-  if (std::abs(fire.time_s - asked_s) > far_from_asked_s)
-    reading.warning(keys.place(keys.has("at_s") ? "at_s" : "file"),
-                    fmt::format("the nearest frame lies {:.3g} s from the time that is asked for",
-                                std::abs(fire.time_s - asked_s)));
+                  fire.last_s, fire.version.empty() ? "FDS" : fire.version, smoke_words(fire),
+                  accuracy_words(fire), extent_words(fire)));
+  warn_of_frames(keys, fire, asked_s);
   if (fire.overlapping)
     reading.warning(keys.place("file"),
                     "meshes of the simulation overlap: the first in the index is taken");
@@ -200,6 +221,7 @@ void read_fire_medium(KeyReader& keys, Medium m) {
   options.reading = reading.share;
   const auto path = keys.file("file");
   if (!path || !keys.clean()) return;
+  warn_of_mass_extinction(keys);
   if (!take_hash(*path, keys.place("file"), reading, FileLife::grows)) return;
   auto fire = read_fire(*path, options);
   if (!fire) return take_problem(fire.problem(), keys.place("file"), reading);
@@ -207,11 +229,11 @@ void read_fire_medium(KeyReader& keys, Medium m) {
   tell_fire(keys, m.name, fire.value(), flames, options.at_s);
   FireSimulation simulation{path->filename().string(),
                             fire->time_s,
-                            source_words(fire->source),
+                            sources_words(fire.value()),
                             false,
                             m.frame,
                             fire->meshes,
-                            largest_depth_error(fire->source),
+                            largest_depth_error(fire.value()),
                             path->string()};
   for (const FireGrid& grid : fire->grids) simulation.glows |= flames && grid.heat_kw > 0;
   for (size_t i = 0; i < fire->grids.size(); ++i) {

@@ -43,13 +43,7 @@ void warn_of_units(KeyReader& keys, const std::string& given) {
   if (given == "soot_density" && value > max_soot_kg_m3)
     warn("soot_density", shortest_number(value) +
                              " kg/m3, more than any fire makes: 1 g/m3 is 1e-3 and 1 mg/m3 1e-6");
-  const auto own = keys.maybe_number("mass_extinction");
-  if (!own) return;
-  if (*own < min_mass_extinction)
-    warn("mass_extinction",
-         shortest_number(*own) + " m2/kg: soot has 8700; 8.7 m2/g is 8700 m2/kg");
-  if (*own > max_mass_extinction)
-    warn("mass_extinction", shortest_number(*own) + " m2/kg: soot has 8700");
+  warn_of_mass_extinction(keys);
 }
 
 /// Extinction [1/m] of the key that was used, by the definitions T = exp(-K d) = 10^(-OD d).
@@ -228,6 +222,14 @@ void read_layers(KeyReader& keys, Medium& m) {
 }
 
 }  // namespace
+
+void warn_of_mass_extinction(KeyReader& keys) {
+  const auto own = keys.maybe_number("mass_extinction");
+  if (!own || (*own >= min_mass_extinction && *own <= max_mass_extinction)) return;
+  keys.reading().warning(keys.place("mass_extinction"),
+                         "'mass_extinction' is " + shortest_number(*own) + " m2/kg: soot has 8700" +
+                             (*own < min_mass_extinction ? "; 8.7 m2/g is 8700 m2/kg" : ""));
+}
 
 void read_placed(KeyReader& keys, Medium& m) {
   m.frame.origin = keys.point("position");

@@ -11,6 +11,8 @@ namespace luxodus {
 
 /// Specs of a [[medium]] of this kind and body; of all of them for "".
 std::vector<std::string> medium_specs(const std::string& kind, const std::string& body);
+/// Warns of a stated `mass_extinction` that no smoke has, and says which unit was probably meant.
+void warn_of_mass_extinction(KeyReader& keys);
 /// Reads `position`, `rotate_deg`, `emission` of a bounded medium or a data set.
 void read_placed(KeyReader& keys, Medium& medium);
 /// Reads the quadric and bounds of the body of this kind.

@@ -47,6 +47,9 @@ std::map<std::string, std::string> whole_case() {
     out["n" + of_mesh + ".sf"] = slice_file(mesh, "SOOT EXTINCTION COEFFICIENT", nodes);
     out["s" + of_mesh + ".s3d"] = smoke3d_file(mesh, smoke);
     out["h" + of_mesh + ".s3d"] = smoke3d_file(mesh, smoke);
+    const DensityFiles fog = density_files(mesh, smoke);
+    out["d" + of_mesh + ".s3d"] = fog.smoke;
+    out["d" + of_mesh + ".s3d.sz"] = fog.sizes;
     const auto one = node_values(mesh, at);
     out["p_" + of_mesh + "_5p00.q"] = plot3d_file(mesh, {one, one, one, one, one});
     const std::array<int32_t, 6> level{0, mesh.cells(0), 0, mesh.cells(1), 1, 1};
@@ -57,12 +60,13 @@ std::map<std::string, std::string> whole_case() {
              slice_entry(m, true, mesh, "c" + of_mesh + ".sf", "SOOT DENSITY") +
              slice_entry(m, false, mesh, "n" + of_mesh + ".sf", "SOOT EXTINCTION COEFFICIENT") +
              smoke_entry(m, "s" + of_mesh + ".s3d", "SOOT DENSITY") +
+             smoke_entry(m, "d" + of_mesh + ".s3d", "FOG DENSITY", "0.001") +
              smoke_entry(m, "h" + of_mesh + ".s3d", "HRRPUV", "0.000") + "PL3D 5.0 " + of_mesh +
              "\n p_" + of_mesh + "_5p00.q\n";
     for (const char* label : {"TEMPERATURE", "U", "V", "SOOT DENSITY", "HRRPUV"})
-      index += std::string(" ") + label + "\n short\n unit\n";
+      index += label_lines(label);
   }
-  index += "HIDE_OBST 1\n 1 2.5\n";
+  index += "HIDE_OBST 1\n 1 2.5\nDEVICE_ACT d\n 1 4.00 1\nHIDE_OBST 1\n 1 2.6\n";
   out["case.smv"] = index;
   out["small_hrr.csv"] = "s,kW\nTime,HRR\n 0.0,0.0\n 5.0,1.0E+002\n 10.0,50\n";
   return out;
@@ -91,7 +95,7 @@ std::string harmed_text(std::string text, Random& random) {
 
 std::string harmed(const std::string& name, const std::string& whole, const std::string& other,
                    Random& random) {
-  if (name.ends_with(".smv") || name.ends_with(".csv"))
+  if (name.ends_with(".smv") || name.ends_with(".csv") || name.ends_with(".sz"))
     if (random.uniform() < 0.8F) return harmed_text(whole, random);
   const auto bytes = [](const std::string& text) {
     Bytes out(text.size());
@@ -115,13 +119,17 @@ TEST_CASE("mutated results of FDS are read or rejected with one sentence", "[for
   Random random(said_number("LUXODUS_SEED", 1), RandomStream::test);
   random.start(0);
   INFO("seed " << said_number("LUXODUS_SEED", 1));
+  // Each with Smoke3D, which alone has one of the two species.
+  const auto with_smoke3d = [](FireSource source) {
+    return std::vector<FireSource>{source, FireSource::smoke3d};
+  };
   const std::vector<FireSource> sources[] = {{},
-                                             {FireSource::cell_soot},
-                                             {FireSource::node_extinction},
-                                             {FireSource::node_soot},
-                                             {FireSource::plot3d},
+                                             with_smoke3d(FireSource::cell_soot),
+                                             with_smoke3d(FireSource::node_extinction),
+                                             with_smoke3d(FireSource::node_soot),
+                                             with_smoke3d(FireSource::plot3d),
                                              {FireSource::smoke3d},
-                                             {FireSource::cell_extinction},
+                                             with_smoke3d(FireSource::cell_extinction),
                                              {FireSource::smoke3d}};
   uint64_t read = 0;
   const uint64_t tries = said_number("LUXODUS_MUTATIONS", 3000);

@@ -205,7 +205,7 @@ TEST_CASE("the best source near the time is used in a real case", "[format][fds]
     options.at_s = at_s;
     const auto fire = read_fire(index_of("corridor"), options);
     REQUIRE(fire.ok());
-    return std::pair(fire->source, fire->time_s);
+    return std::pair(fire->smokes.front().source, fire->time_s);
   };
   CHECK(taken(60) == std::pair(FireSource::cell_extinction, taken(60).second));
   CHECK(taken(60).second == Approx(60.0264).epsilon(1e-5));

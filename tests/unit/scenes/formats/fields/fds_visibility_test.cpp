@@ -113,7 +113,7 @@ TEST_CASE("FDS's slices of visibility are those of its extinction", "[fds][visib
   REQUIRE_FALSE(fire->visibility.empty());
   const auto extinction =
       std::find_if(fire->slices.begin(), fire->slices.end(), [](const fds::Slice& s) {
-        return s.mesh == 0 && !s.of_cells && s.quantity == fds::Quantity::extinction;
+        return s.mesh == 0 && !s.of_cells && s.output.quantity == fds::Quantity::extinction;
       });
   REQUIRE(extinction != fire->slices.end());
   const auto files = fds::open_slice(fire.value(), *extinction);

@@ -81,8 +81,8 @@ TEST_CASE("plates at one place are merged, unless their times differ", "[format]
   SmallMesh mesh = even_mesh({0, 0, 0}, {0.5, 0.5, 0.5}, {2, 2, 2});
   const std::array<int, 6> plate{0, 1, 1, 1, 0, 1};
   mesh.obstructions = {plate, plate, plate, plate};
-  folder.put("fire.smv", index_of_meshes({mesh}) + "HIDE_OBST 1\n 1 30.0\nSHOW_OBST 1\n 2 50.0\n" +
-                             "SHOW_OBST 1\n 3 50.0\nHIDE_OBST 1\n 4 30.0\n");
+  folder.put("fire.smv", index_of_meshes({mesh}) + "HIDE_OBST 1\n 1 30.0\nHIDE_OBST 1\n 4 30.0\n" +
+                             "SHOW_OBST 1\n 2 50.0\nSHOW_OBST 1\n 3 50.0\n");
   const auto building = read_fire_building(folder.path() / "fire.smv", 0);
   REQUIRE(building.ok());
   CHECK(building->plates == 2);
@@ -101,11 +101,11 @@ TEST_CASE("contradictory changes of a simulation are read by their effect",
   mesh.obstructions = {
       {0, 1, 0, 1, 0, 1}, {1, 2, 0, 1, 0, 1}, {0, 1, 1, 2, 0, 1}, {1, 2, 1, 2, 0, 1}};
   folder.put("fire.smv", index_of_meshes({mesh}) +
-                             "HIDE_OBST 1\n 1 1e10\n"                    // never vanishes
-                             "SHOW_OBST 1\n 2 1e10\n"                    // never appears
                              "SHOW_OBST 1\n 3 30\nHIDE_OBST 1\n 3 30\n"  // never appears
                              "HIDE_OBST 1\n 4 30\nSHOW_OBST 1\n 4 30\n"  // never vanishes
-                             "HIDE_OBST 1\n 4 50\n");                    // but at 50 s
+                             "HIDE_OBST 1\n 4 50\n"                      // but at 50 s
+                             "HIDE_OBST 1\n 1 1e10\n"                    // never vanishes
+                             "SHOW_OBST 1\n 2 1e10\n");                  // never appears
   const auto building = read_fire_building(folder.path() / "fire.smv", 0);
   REQUIRE(building.ok());
   CHECK(building->solids == 4);
