@@ -20,7 +20,7 @@ packages=(
   # compiler and build
   g++ cmake ninja-build pkg-config ccache
   # rays, meshes, threads
-  libembree-dev libtbb-dev libassimp-dev libglm-dev
+  libembree-dev libtbb-dev libglm-dev
   # text: scene files, options, logs, reports
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   # values as bytes

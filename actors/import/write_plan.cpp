@@ -10,6 +10,7 @@
 #include <set>
 
 #include "actors/import/import_files.hpp"
+#include "actors/import/join_lines.hpp"
 #include "actors/import/own_tables.hpp"
 #include "runtime/core/atomic_file.hpp"
 #include "runtime/toml/document.hpp"
@@ -22,8 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t max_plan_bytes = size_t{16} << 20;
-/// Shorter lines are joints of drawings, not walls [m].
-constexpr double shortest_wall_m = 0.02;
 /// Larger plans are in another unit [m].
 constexpr double largest_plan_m = 10'000;
 
@@ -161,11 +160,13 @@ std::string level_text(const char* name, const Bounds& bounds, double z, bool up
 std::string placed_text(const std::string& name, const DxfInsert& insert, const BlockRule& rule,
                         const glm::dvec2& at, double floor_m) {
   const double turn = insert.rotation_deg * std::numbers::pi / 180;
-  if (rule.as == "sign")  // faces along the block's own y axis
+  if (rule.as == "sign") {  // faces along the block's own y axis
+    const double side = insert.mirrored ? -1 : 1;
     return fmt::format(
         "\n[[sign]]\nname = {}\ntype = {}\nposition = {}\nfacing = [{:.6f}, {:.6f}, 0]\n",
         toml_text(name), toml_text(rule.type), at_text(at, floor_m + rule.height_m),
-        -std::sin(turn), std::cos(turn));
+        -side * std::sin(turn), side * std::cos(turn));
+  }
   return fmt::format(
       "\n[[luminaire]]\nname = {}\ntype = {}\nposition = {}\nrotation_deg = {:.6g}\n",
       toml_text(name), toml_text(rule.type), at_text(at, floor_m + rule.height_m),
@@ -179,18 +180,7 @@ class PlanText {
       : plan_(plan), unit_(metres_per_unit), rules_(rules), fixtures_(fixtures) {}
 
   std::string make() {
-    std::string text;
-    for (const DxfSegment& s : plan_.segments) {
-      const LayerRule& rule = rules_.layers.at(s.layer);
-      const glm::dvec2 from = s.from * unit_, to = s.to * unit_;
-      extent.extend(glm::dvec3(from, 0));
-      extent.extend(glm::dvec3(to, 0));
-      if (rule.as == "nothing" || glm::length(to - from) < shortest_wall_m) continue;
-      ++written.walls;
-      walls_.extend(glm::dvec3(from, 0));
-      walls_.extend(glm::dvec3(to, 0));
-      text += wall_text(numbered(s.layer), rule, from, to, rules_.floor_m);
-    }
+    std::string text = walls();
     for (const DxfInsert& i : plan_.inserts) {
       const BlockRule& rule = rules_.blocks.at(i.block);
       extent.extend(glm::dvec3(i.at * unit_, 0));
@@ -201,6 +191,7 @@ class PlanText {
         continue;
       }
       ++(rule.as == "sign" ? written.signs : written.luminaires);
+      mirrored_ += i.mirrored && rule.as == "luminaire" ? 1 : 0;
       text += placed_text(numbered(i.block), i, rule, i.at * unit_, rules_.floor_m);
     }
     const Bounds& around = walls_.empty() ? extent : walls_;
@@ -208,6 +199,10 @@ class PlanText {
     if (rules_.ceiling_m) text += level_text("ceiling", around, *rules_.ceiling_m, false);
     for (const std::string& type : missing_)
       written.asked.push_back("fixtures.toml has no " + type);
+    if (mirrored_ > 0)
+      written.notes.push_back(several(mirrored_, "luminaire") +
+                              " of mirrored blocks: turned as their blocks are, with light that is "
+                              "not mirrored");
     if (written.walls == 0) written.asked.push_back("plan.toml makes no layer a wall or a sheet");
     return text;
   }
@@ -216,6 +211,34 @@ class PlanText {
   Bounds extent;
 
  private:
+  /// The lines of each layer that is to be walls.
+  std::string walls() {
+    std::map<std::string, std::vector<PlanLine>> of_layer;
+    for (const DxfSegment& s : plan_.segments) {
+      const PlanLine line{s.from * unit_, s.to * unit_};
+      extent.extend(glm::dvec3(line.from, 0));
+      extent.extend(glm::dvec3(line.to, 0));
+      if (rules_.layers.at(s.layer).as != "nothing") of_layer[s.layer].push_back(line);
+    }
+    std::string text;
+    for (const auto& [layer, lines] : of_layer) {
+      const LayerRule& rule = rules_.layers.at(layer);
+      const JoinedLines joined = join_short_lines(lines);
+      for (const PlanLine& line : joined.lines) {
+        ++written.walls;
+        walls_.extend(glm::dvec3(line.from, 0));
+        walls_.extend(glm::dvec3(line.to, 0));
+        text += wall_text(numbered(layer), rule, line.from, line.to, rules_.floor_m);
+      }
+      if (joined.dropped > 0)
+        written.notes.push_back(
+            fmt::format("{} of the layer \"{}\" left out: joined to those that they meet, they "
+                        "span less than a millimetre",
+                        several(joined.dropped, "line"), layer));
+    }
+    return text;
+  }
+
   std::string numbered(const std::string& name) {
     return fmt::format("{} {}", name, ++numbers_[name]);
   }
@@ -225,6 +248,7 @@ class PlanText {
   const PlanRules& rules_;
   const OwnTables& fixtures_;
   Bounds walls_;
+  size_t mirrored_ = 0;
   std::map<std::string, size_t> numbers_;
   std::set<std::string> missing_;
 };
@@ -273,13 +297,29 @@ const toml::Schema& plan_schema() {
 
 namespace {
 
+/// Names that scenes accept for these names of a drawing; different ones stay different. In their
+/// alphabetical order, so that a drawing whose lines are in another order gives the same names.
+std::map<std::string, std::string> accepted_names(const std::set<std::string>& drawn,
+                                                  const char* otherwise) {
+  std::map<std::string, std::string> out;
+  std::set<std::string> taken;
+  for (const std::string& name : drawn) {
+    const std::string wish = as_name(name, otherwise);
+    std::string& accepted = out[name] = wish;
+    for (int i = 2; !taken.insert(accepted).second; ++i) accepted = fmt::format("{}#{}", wish, i);
+  }
+  return out;
+}
+
 /// Renames layers and blocks to names that scenes accept.
 DxfPlan named(DxfPlan plan) {
-  for (DxfSegment& s : plan.segments) s.layer = as_name(s.layer, "0");
-  for (DxfInsert& i : plan.inserts) {
-    i.block = as_name(i.block, "block");
-    i.layer = as_name(i.layer, "0");
-  }
+  std::set<std::string> layers, blocks;
+  for (const DxfSegment& s : plan.segments) layers.insert(s.layer);
+  for (const DxfInsert& i : plan.inserts) blocks.insert(i.block);
+  const auto layer_names = accepted_names(layers, "0"),
+             block_names = accepted_names(blocks, "block");
+  for (DxfSegment& s : plan.segments) s.layer = layer_names.at(s.layer);
+  for (DxfInsert& i : plan.inserts) i.block = block_names.at(i.block);
   return plan;
 }
 

@@ -19,6 +19,7 @@ struct WrittenPlan {
   size_t walls = 0, luminaires = 0, signs = 0;
   std::vector<std::string> asked;  // messages about layers, blocks and types that the user must
                                    // complete
+  std::vector<std::string> notes;  // what the scene does not say as the drawing does
   bool kept_scene = false;
 };
 

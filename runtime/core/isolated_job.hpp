@@ -1,4 +1,4 @@
-// Runs third-party code (Assimp, librsvg) on untrusted bytes in a process of its own, with limits
+// Runs work on untrusted bytes (librsvg, meshes) in a process of its own, with limits
 // on memory and time. Whatever such code does with a damaged file - a crash, an endless loop,
 // exhausted memory - becomes one Problem here. The process is this program again, or with
 // ask_program() another one. It is started anew (posix_spawn, not fork: other threads may hold

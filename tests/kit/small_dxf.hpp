@@ -25,6 +25,13 @@ inline std::string dxf_insert(const char* block, const char* x, const char* y, c
       {{0, "INSERT"}, {8, "LIGHTS"}, {2, block}, {10, x}, {20, y}, {30, "0"}, {50, turn}});
 }
 
+/// A drawing of these entities, with a header of these variables.
+inline std::string dxf_of(const std::string& entities, const std::string& header = "") {
+  return dxf_groups({{0, "SECTION"}, {2, "HEADER"}}) + header +
+         dxf_groups({{0, "ENDSEC"}, {0, "SECTION"}, {2, "ENTITIES"}}) + entities +
+         dxf_groups({{0, "ENDSEC"}, {0, "EOF"}});
+}
+
 /// A room of 5 m x 4 m in millimetres, as a closed polyline, with two blocks in it.
 inline std::string dxf_drawing(const std::string& more = "", const char* unit = "4") {
   return dxf_groups({{0, "SECTION"},

@@ -24,8 +24,7 @@ struct ImportDxfOptions {
 Result<double> unit_of(const ImportDxfOptions& options, const DxfPlan& plan) {
   if (!options.units.empty()) return metres_per_unit(options.units);
   if (plan.metres_per_unit > 0) return plan.metres_per_unit;
-  return problem_in(options.drawing,
-                    "the drawing states no unit of length ($INSUNITS): say it by --units");
+  return problem_in(options.drawing, plan.unit_problem + ": say it by --units");
 }
 
 Result<ExitCode> import_dxf(const ImportDxfOptions& options) {
@@ -42,6 +41,8 @@ Result<ExitCode> import_dxf(const ImportDxfOptions& options) {
   std::printf("lines %zu, blocks %zu; walls %zu, luminaires %zu, signs %zu\n",
               plan->segments.size(), plan->inserts.size(), written->walls, written->luminaires,
               written->signs);
+  for (const std::vector<std::string>* notes : {&plan->notes, &written->notes})
+    for (const std::string& what : *notes) std::printf("note: %s\n", printable(what).c_str());
   for (const std::string& what : written->asked)
     std::printf("asked for: %s\n", printable(what).c_str());
   std::printf("%s%s\n", (std::filesystem::path(options.out) / "building.toml").c_str(),

@@ -1,7 +1,5 @@
-// DXF of release 12 (AC1009), which every CAD program reads: no handles, layer and block names in
-// capitals, non-ASCII letters as \U+XXXX. One unit is one metre.
-#include <dxflib/dl_codes.h>
-#include <dxflib/dl_writer_ascii.h>
+// A plan as a DXF drawing: layers for walls, luminaires, signs, routes and lines of equal
+// illuminance, a block for each type of luminaire.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -10,9 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "actors/judge/report/dxf_drawing.hpp"
 #include "actors/judge/report/hand_over.hpp"
 #include "actors/judge/report/isolux.hpp"
-#include "runtime/core/output_text.hpp"
 #include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
@@ -22,13 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double letter_m = 0.25, lamp_m = 0.15;
+constexpr const char* sign_block = "SIGN";
 /// Largest file [bytes]; a plan with all lines that the limits of an assessment allow fits in.
 constexpr uint64_t dxf_bytes = uint64_t{256} << 20;
 
-struct DxfLayer {
-  const char* name;
-  int colour;  // AutoCAD colour index
-};
 constexpr std::array<DxfLayer, 12> layers{{{"WALLS", 7},
                                            {"FURNITURE", 8},
                                            {"LUMINAIRES", 3},
@@ -44,166 +39,6 @@ constexpr std::array<DxfLayer, 12> layers{{{"WALLS", 7},
 
 const char* isolux_layer(double lux) {
   return lux < 0.7 ? "ISOLUX_0_5" : lux < 2 ? "ISOLUX_1" : lux < 7 ? "ISOLUX_5" : "ISOLUX_10";
-}
-
-/// The text as one line of ASCII.
-std::string plain(const std::string& text) {
-  const std::string clean = clean_utf8(text);
-  std::string out;
-  for (size_t i = 0; i < clean.size();) {
-    const auto lead = static_cast<unsigned char>(clean[i]);
-    const size_t bytes = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-    uint32_t code = bytes == 1 ? lead : lead & (0xffu >> (bytes + 1));
-    for (size_t k = 1; k < bytes && i + k < clean.size(); ++k)
-      code = code << 6 | (static_cast<unsigned char>(clean[i + k]) & 0x3fu);
-    i += bytes;
-    if (code >= 0x20 && code < 0x7f)
-      out += static_cast<char>(code);
-    else if (code < 0x20)
-      out += ' ';
-    else
-      out += fmt::format("\\U+{:04X}", std::min(code, 0xffffu));
-  }
-  return out.substr(0, 255);  // longest string of release 12
-}
-
-/// Writes entities on layers, with dxflib's writer of group codes.
-class Drawing {
- public:
-  explicit Drawing(const fs::path& path) : out_(path.c_str(), DL_Codes::AC1009) {}
-  bool open() const { return !out_.openFailed(); }
-
-  void line(const char* layer, glm::dvec2 a, glm::dvec2 b) {
-    entity("LINE", layer);
-    at(a);
-    out_.dxfReal(11, b.x);
-    out_.dxfReal(21, b.y);
-    out_.dxfReal(31, 0);
-  }
-  void text(const char* layer, glm::dvec2 place, const std::string& words,
-            double height = letter_m) {
-    entity("TEXT", layer);
-    at(place);
-    out_.dxfReal(40, height);
-    out_.dxfString(1, plain(words));
-  }
-  void circle(const char* layer, glm::dvec2 place, double radius) {
-    entity("CIRCLE", layer);
-    at(place);
-    out_.dxfReal(40, radius);
-  }
-  void polyline(const char* layer, const std::vector<glm::dvec2>& points, bool closed) {
-    entity("POLYLINE", layer);
-    out_.dxfInt(66, 1);
-    at({0, 0});
-    out_.dxfInt(70, closed ? 1 : 0);
-    for (size_t i = 0; i < points.size() - (closed && points.front() == points.back() ? 1 : 0);
-         ++i) {
-      entity("VERTEX", layer);
-      at(points[i]);
-    }
-    entity("SEQEND", layer);
-  }
-  /// Inserts a rotated block with attributes that only data export shows.
-  void insert(const char* layer, const std::string& block, glm::dvec3 place, double turn_deg,
-              const std::vector<std::pair<const char*, std::string>>& attributes) {
-    entity("INSERT", layer);
-    out_.dxfInt(66, 1);
-    out_.dxfString(2, block);
-    at(glm::dvec2(place), place.z);
-    out_.dxfReal(50, turn_deg);
-    for (const auto& [tag, value] : attributes) {
-      entity("ATTRIB", layer);
-      at(glm::dvec2(place), place.z);
-      out_.dxfReal(40, letter_m / 2);
-      out_.dxfString(1, plain(value));
-      out_.dxfString(2, tag);
-      out_.dxfInt(70, 1);  // invisible: names are drawn on layer TEXT
-    }
-    entity("SEQEND", layer);
-  }
-  /// Defines an attribute within a block.
-  void define(const char* tag) {
-    entity("ATTDEF", "0");
-    at({0, 0});
-    out_.dxfReal(40, letter_m / 2);
-    out_.dxfString(1, "");
-    out_.dxfString(3, tag);
-    out_.dxfString(2, tag);
-    out_.dxfInt(70, 1);
-  }
-  void begin_block(const std::string& name) {
-    entity("BLOCK", "0");
-    out_.dxfString(2, name);
-    out_.dxfInt(70, 2);  // has attributes
-    at({0, 0});
-  }
-  void end_block() { entity("ENDBLK", "0"); }
-  void head(glm::dvec2 low, glm::dvec2 high);
-  void section(const char* name) {
-    out_.dxfString(0, "SECTION");
-    out_.dxfString(2, name);
-  }
-  void end_section() { out_.dxfString(0, "ENDSEC"); }
-  void end() {
-    out_.dxfString(0, "EOF");
-    out_.close();
-  }
-
- private:
-  void entity(const char* kind, const char* layer) {
-    out_.dxfString(0, kind);
-    out_.dxfString(8, layer);
-  }
-  void at(glm::dvec2 place, double z = 0) {
-    out_.dxfReal(10, place.x);
-    out_.dxfReal(20, place.y);
-    out_.dxfReal(30, z);
-  }
-  void corner(const char* variable, glm::dvec2 place) {
-    out_.dxfString(9, variable);
-    at(place);
-  }
-  void table(const char* name, size_t entries) {
-    out_.dxfString(0, "TABLE");
-    out_.dxfString(2, name);
-    out_.dxfInt(70, static_cast<int>(entries));
-  }
-  void layer(const DxfLayer& layer) {
-    out_.dxfString(0, "LAYER");
-    out_.dxfString(2, layer.name);
-    out_.dxfInt(70, 0);
-    out_.dxfInt(62, layer.colour);
-    out_.dxfString(6, "CONTINUOUS");
-  }
-
-  DL_WriterA out_;
-};
-
-void Drawing::head(glm::dvec2 low, glm::dvec2 high) {
-  out_.dxfString(999, "Luxodus; 1 unit = 1 m");
-  section("HEADER");
-  out_.dxfString(9, "$ACADVER");
-  out_.dxfString(1, "AC1009");
-  corner("$INSBASE", {0, 0});
-  corner("$EXTMIN", low);
-  corner("$EXTMAX", high);
-  end_section();
-  section("TABLES");
-  table("LTYPE", 1);
-  out_.dxfString(0, "LTYPE");
-  out_.dxfString(2, "CONTINUOUS");
-  out_.dxfInt(70, 0);
-  out_.dxfString(3, "Solid line");
-  out_.dxfInt(72, 65);
-  out_.dxfInt(73, 0);
-  out_.dxfReal(40, 0);
-  out_.dxfString(0, "ENDTAB");
-  table("LAYER", layers.size() + 1);
-  layer({"0", 7});
-  for (const DxfLayer& one : layers) layer(one);
-  out_.dxfString(0, "ENDTAB");
-  end_section();
 }
 
 glm::dvec2 point(const Json& p) {
@@ -222,8 +57,7 @@ std::string block_of(const LuminaireType& type) {
 
 /// A block for each luminaire type: a square, crossed for mains luminaires; for signs a bar with an
 /// arrow along x.
-void blocks(Drawing& out, const Schedule& schedule) {
-  out.section("BLOCKS");
+void blocks(DxfDrawing& out, const Schedule& schedule) {
   for (const LuminaireType& type : schedule.types()) {
     out.begin_block(block_of(type));
     const double d = lamp_m;
@@ -236,17 +70,22 @@ void blocks(Drawing& out, const Schedule& schedule) {
     out.define("TYPE");
     out.end_block();
   }
-  out.begin_block("SIGN");
+  out.begin_block(sign_block);
   out.line("0", {0, -0.2}, {0, 0.2});
   out.line("0", {0, 0}, {0.4, 0});
   out.line("0", {0.4, 0}, {0.3, 0.07});
   out.line("0", {0.4, 0}, {0.3, -0.07});
   for (const char* tag : {"NAME", "TYPE", "NUMBER", "FACE"}) out.define(tag);
   out.end_block();
-  out.end_section();
 }
 
-void draw_luminaires(Drawing& out, const Json& a, const Schedule& schedule, size_t level) {
+std::vector<std::string> block_names(const Schedule& schedule) {
+  std::vector<std::string> out{sign_block};
+  for (const LuminaireType& type : schedule.types()) out.push_back(block_of(type));
+  return out;
+}
+
+void draw_luminaires(DxfDrawing& out, const Json& a, const Schedule& schedule, size_t level) {
   for (size_t i = 0; i < a["luminaires"].size(); ++i) {
     const Json &one = a["luminaires"][i], &p = one["position"];
     const double z = p[2].get<double>();
@@ -255,27 +94,27 @@ void draw_luminaires(Drawing& out, const Json& a, const Schedule& schedule, size
     out.insert("LUMINAIRES", block_of(type), {point(p), z}, 0,
                {{"NAME", one["name"].get<std::string>()}, {"TYPE", type.letter}});
     out.text("TEXT", point(p) + glm::dvec2(lamp_m + 0.05, -letter_m / 2),
-             fmt::format("{} {:.2f}", type.letter, schedule.above_floor(z)));
+             fmt::format("{} {:.2f}", type.letter, schedule.above_floor(z)), letter_m);
   }
 }
 
-void draw_signs(Drawing& out, const Json& a, const Schedule& schedule, size_t level) {
+void draw_signs(DxfDrawing& out, const Json& a, const Schedule& schedule, size_t level) {
   for (size_t i = 0; i < a["signs"].size(); ++i) {
     const Json &one = a["signs"][i], &p = one["position"], &f = one["facing"];
     const double z = p[2].get<double>();
     if (schedule.level_of(z) != level) continue;
     const double turn = std::atan2(f[1].get<double>(), f[0].get<double>()) * 180 / std::numbers::pi;
     const auto file = one["file"].get<std::string>();
-    out.insert("SIGNS", "SIGN", {point(p), z}, turn,
+    out.insert("SIGNS", sign_block, {point(p), z}, turn,
                {{"NAME", one["name"].get<std::string>()},
                 {"TYPE", one["lighting"].get<std::string>()},
                 {"NUMBER", std::to_string(i + 1)},
                 {"FACE", file.empty() ? one["text"].get<std::string>() : file}});
-    out.text("TEXT", point(p) - 0.45 * point(f), std::to_string(i + 1));
+    out.text("TEXT", point(p) - 0.45 * point(f), std::to_string(i + 1), letter_m);
   }
 }
 
-void draw_places(Drawing& out, const Json& a, const Schedule& schedule, size_t level) {
+void draw_places(DxfDrawing& out, const Json& a, const Schedule& schedule, size_t level) {
   for (const Json& route : a["places"]["routes"]) {
     const bool here = std::any_of(route["path"].begin(), route["path"].end(), [&](const Json& p) {
       return schedule.level_of(p[2].get<double>()) == level;
@@ -287,23 +126,23 @@ void draw_places(Drawing& out, const Json& a, const Schedule& schedule, size_t l
     const glm::dvec2 aside(-way.y, way.x);
     for (const double side : {-0.15, 0.15})
       out.line("ROUTES", path.back(), path.back() - 0.4 * way + side * aside);
-    out.text("TEXT", path.front() + glm::dvec2(0, 0.1), route["name"]);
+    out.text("TEXT", path.front() + glm::dvec2(0, 0.1), route["name"], letter_m);
   }
   for (const Json& area : a["places"]["areas"]) {
     if (schedule.level_of(area["z"].get<double>()) != level) continue;
     const auto outline = points(area["outline"]);
     out.polyline("AREAS", outline, true);
-    out.text("TEXT", outline.front() + glm::dvec2(0.1, 0.1), area["name"]);
+    out.text("TEXT", outline.front() + glm::dvec2(0.1, 0.1), area["name"], letter_m);
   }
 }
 
-void scale(Drawing& out, glm::dvec2 low) {
+void scale(DxfDrawing& out, glm::dvec2 low) {
   const glm::dvec2 at = low - glm::dvec2(0, 1.5);
   for (int i = 0; i <= 5; ++i)
     out.line("SCALE", at + glm::dvec2(i, 0), at + glm::dvec2(i, i % 5 == 0 ? 0.3 : 0.15));
   out.line("SCALE", at, at + glm::dvec2(5, 0));
-  out.text("SCALE", at + glm::dvec2(0, -0.4), "0");
-  out.text("SCALE", at + glm::dvec2(5, -0.4), "5 m (1 unit = 1 m)");
+  out.text("SCALE", at + glm::dvec2(0, -0.4), "0", letter_m);
+  out.text("SCALE", at + glm::dvec2(5, -0.4), "5 m (1 unit = 1 m)", letter_m);
 }
 
 }  // namespace
@@ -326,13 +165,13 @@ Result<void> write_plan_dxf(const fs::path& path, const Json& a, const Schedule&
   const fs::path draft = path.string() + fmt::format(".{}.tmp", ::getpid());
   std::error_code ignored;
   {
-    Drawing out(draft);
+    DxfDrawing out(draft);
     if (!out.open())
       return problem_in(path, "cannot be written: is the folder there and writable?",
                         ProblemKind::system);
-    out.head(low, high);
+    out.begin(low, high, layers, block_names(schedule));
     blocks(out, schedule);
-    out.section("ENTITIES");
+    out.begin_entities();
     for (const auto& [kind, layer] :
          {std::pair{"walls", "WALLS"}, std::pair{"furniture", "FURNITURE"}})
       for (const Json& l : level[kind])
@@ -347,7 +186,6 @@ Result<void> write_plan_dxf(const fs::path& path, const Json& a, const Schedule&
                fmt::format("{:g} lx", one.lux), 0.15);
     }
     scale(out, low);
-    out.end_section();
     out.end();
   }
   const auto bytes = read_whole_file(draft, dxf_bytes);

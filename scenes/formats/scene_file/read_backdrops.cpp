@@ -77,9 +77,7 @@ void read_drawing(KeyReader& keys, const std::filesystem::path& path, Backdrop& 
     if (!said) return keys.problem("units", said.problem().what);
     metres = said.value();
   }
-  if (!(metres > 0))
-    return keys.problem("file",
-                        "the drawing states no unit of length ($INSUNITS): say it by 'units'");
+  if (!(metres > 0)) return keys.problem("file", plan->unit_problem + ": say it by 'units'");
   const DrawingPlacement placement = placement_of(keys, metres);
   for (const DxfSegment& s : plan->segments) {
     const glm::dvec2 from = placement.at(s.from), to = placement.at(s.to);

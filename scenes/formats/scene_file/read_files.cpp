@@ -13,11 +13,6 @@ namespace {
 /// building is placed once.
 constexpr size_t kept_vertices = 100'000;
 
-struct ReadMesh {
-  std::vector<ImportedPart> parts;
-  std::vector<std::string> files;
-};
-
 bool is_small(const std::vector<ImportedPart>& parts) {
   size_t vertices = 0;
   for (const ImportedPart& part : parts) vertices += part.mesh.positions.size();
@@ -97,10 +92,8 @@ std::shared_ptr<const GldfProduct> read_container(const std::filesystem::path& p
   return std::static_pointer_cast<const GldfProduct>(kept);
 }
 
-std::optional<std::vector<ImportedPart>> read_mesh(const std::filesystem::path& path,
-                                                   double metres_per_unit, UpAxis up,
-                                                   const SourcePlace& place,
-                                                   SceneReading& reading) {
+std::optional<ReadMesh> read_mesh(const std::filesystem::path& path, double metres_per_unit,
+                                  UpAxis up, const SourcePlace& place, SceneReading& reading) {
   if (!take_hash(path, place, reading)) return std::nullopt;
   const std::string name =
       fmt::format("mesh {} {} {}", metres_per_unit, static_cast<int>(up), path.string());
@@ -109,20 +102,21 @@ std::optional<std::vector<ImportedPart>> read_mesh(const std::filesystem::path& 
     std::error_code gone;
     const uint64_t bytes = std::filesystem::file_size(path, gone);
     const ReadingPart foreseen(reading.share, gone ? 0 : bytes);
-    for (const auto& file : kept->files) take_hash(file, place, reading);
-    return kept->parts;
+    for (const auto& file : kept->extras.files) take_hash(file, place, reading);
+    return *kept;
   }
-  std::vector<std::string> files;
-  auto parts = import_mesh(path.string(), metres_per_unit, up, &files, reading.share);
-  for (const auto& file : files) take_hash(file, place, reading);
+  ReadMesh mesh;
+  auto parts = import_mesh(path.string(), metres_per_unit, up, &mesh.extras, reading.share);
+  for (const auto& file : mesh.extras.files) take_hash(file, place, reading);
   if (!parts) {
     take_problem(parts.problem(), place, reading);
     return std::nullopt;
   }
-  if (is_small(parts.value()))
-    reading.cache[name] =
-        std::make_shared<const ReadMesh>(ReadMesh{parts.value(), std::move(files)});
-  return std::move(parts).value();
+  for (const std::string& note : mesh.extras.notes)
+    reading.warning(place, path.filename().string() + ": " + note);
+  mesh.parts = std::move(parts).value();
+  if (is_small(mesh.parts)) reading.cache[name] = std::make_shared<const ReadMesh>(mesh);
+  return mesh;
 }
 
 }  // namespace luxodus

@@ -26,11 +26,15 @@ std::shared_ptr<const PhotometricFile> read_photometry(const std::filesystem::pa
 /// Reads a GLDF container.
 std::shared_ptr<const GldfProduct> read_container(const std::filesystem::path& path,
                                                   const SourcePlace& place, SceneReading& reading);
-/// Reads the parts of an OBJ or glTF file. A small one is read once, however often the scene places
-/// it.
-std::optional<std::vector<ImportedPart>> read_mesh(const std::filesystem::path& path,
-                                                   double metres_per_unit, UpAxis up,
-                                                   const SourcePlace& place, SceneReading& reading);
+/// The parts of an OBJ or glTF file, and its lamps.
+struct ReadMesh {
+  std::vector<ImportedPart> parts;
+  MeshExtras extras;
+};
+/// Reads an OBJ or glTF file. A small one is read once, however often the scene places it. What it
+/// says and is not read becomes warnings.
+std::optional<ReadMesh> read_mesh(const std::filesystem::path& path, double metres_per_unit,
+                                  UpAxis up, const SourcePlace& place, SceneReading& reading);
 /// Hashes a file before it is read; false and a problem where it cannot be read.
 bool take_hash(const std::filesystem::path& path, const SourcePlace& place, SceneReading& reading,
                FileLife life = FileLife::settled);

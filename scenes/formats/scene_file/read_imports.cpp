@@ -1,12 +1,19 @@
 // Reads OBJ and glTF files: their parts become objects, their materials those of the scene.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <map>
+#include <numbers>
 #include <set>
+#include <span>
 
 #include "runtime/core/printable.hpp"
 #include "runtime/toml/words.hpp"
 #include "scenes/formats/scene_file/read_files.hpp"
 #include "scenes/formats/scene_file/read_placement.hpp"
 #include "scenes/formats/scene_file/scene_readers.hpp"
+#include "scenes/light/optics/sampling.hpp"
+#include "scenes/light/optics/spectrum.hpp"
 
 namespace luxodus {
 
@@ -174,6 +181,43 @@ void add_part(ImportedPart& part, Object object, SurfaceWords words, std::vector
   add_object(std::move(object), words, reading);
 }
 
+/// Places the lamps of a file that holds nothing else, as emitters NAME.LAMP lit by the mains.
+void place_lamps(KeyReader& keys, const std::vector<ImportedLamp>& lamps, const std::string& import,
+                 const Transform& transform, std::span<const glm::dvec3> copies) {
+  SceneReading& reading = keys.reading();
+  std::map<std::string, int> times_used;
+  for (const ImportedLamp& lamp : lamps) {
+    const double peak = std::max({lamp.colour.x, lamp.colour.y, lamp.colour.z});
+    if (!(lamp.candela * peak > 0)) continue;
+    Emitter e;
+    e.place = keys.place("file");
+    e.distribution = lamp.is_spot ? Distribution::spot : Distribution::isotropic;
+    e.spot_inner_deg = lamp.is_spot ? lamp.inner_deg : 0;
+    e.spot_outer_deg = lamp.is_spot ? lamp.outer_deg : 0;
+    e.spectrum = emission_shape_from_linear_srgb(lamp.colour.x, lamp.colour.y, lamp.colour.z);
+    // Luminance of linear sRGB (IEC 61966-2-1); the solid angle of the whole sphere or of the cone.
+    const double luminance = glm::dot(lamp.colour, glm::dvec3(0.2126, 0.7152, 0.0722));
+    constexpr double sphere_sr = 4 * std::numbers::pi;
+    const double solid_angle =
+        lamp.is_spot ? static_cast<double>(SpotLobe::from_half_angles(glm::radians(lamp.inner_deg),
+                                                                      glm::radians(lamp.outer_deg))
+                                               .solid_angle())
+                     : sphere_sr;
+    e.mains_flux = lamp.candela * luminance * solid_angle;
+    const auto frame = frame_aiming(transform.point(lamp.at), transform.vector(lamp.direction));
+    if (!frame) return keys.problem("file", frame.problem().what);
+    for (const glm::dvec3& offset : copies) {
+      const std::string wish = import + "." + lamp.name;
+      const int times = ++times_used[wish];
+      e.name = times == 1 ? wish : fmt::format("{}#{}", wish, times);
+      e.frame = frame.value();
+      e.frame.origin += offset;
+      reading.declare("luminaire or emitter", e.name, e.place);
+      reading.scene.emitters.push_back(e);
+    }
+  }
+}
+
 }  // namespace
 
 void read_import(const toml::Table& table, SceneReading& reading) {
@@ -197,13 +241,22 @@ void read_import(const toml::Table& table, SceneReading& reading) {
     reading.incomplete = true;
     return;
   }
-  auto parts = read_mesh(*path, scale.value(), up.value(), keys.place("file"), reading);
-  if (!parts) {
+  auto read = read_mesh(*path, scale.value(), up.value(), keys.place("file"), reading);
+  if (!read) {
     reading.incomplete = true;
     return;
   }
+  if (read->parts.empty()) {
+    place_lamps(keys, read->extras.lamps, common.name, transform, copies);
+  } else if (const size_t lamps = read->extras.lamps.size(); lamps > 0) {
+    reading.warning(keys.place("file"),
+                    fmt::format("{} of this file {} not placed, because it holds surfaces, too: "
+                                "state luminaires, or import a file of the lamps alone",
+                                lamps == 1 ? "1 lamp" : fmt::format("{} lamps", lamps),
+                                lamps == 1 ? "is" : "are"));
+  }
   reading.note("object or tag", common.name, common.place);
-  for (ImportedPart& part : *parts) {
+  for (ImportedPart& part : read->parts) {
     apply(transform, part.mesh);
     repeat_mesh(keys, copies, part.mesh);
     add_part(part, common, words, rules, materials, reading);

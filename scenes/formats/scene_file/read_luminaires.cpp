@@ -196,10 +196,11 @@ void read_mesh_shape(KeyReader& keys, Emitter& e) {
   const auto up = up_axis_named(keys.choice("up"));
   const Transform transform = read_transform(keys);
   if (!path || !keys.clean()) return;
-  const auto parts =
-      read_mesh(*path, scale.value(), up.value(), keys.place("file"), keys.reading());
-  if (!parts) return;
-  for (const ImportedPart& part : *parts) {
+  const auto read = read_mesh(*path, scale.value(), up.value(), keys.place("file"), keys.reading());
+  if (!read) return;
+  if (read->parts.empty())
+    return keys.problem("file", "this file holds lamps and no triangles that could emit");
+  for (const ImportedPart& part : read->parts) {
     keys.reading().scene.degenerate_triangles += part.degenerate_triangles;
     append(e.mesh, part.mesh);
   }

@@ -16,7 +16,7 @@
 #include "runtime/toml/text_scan.hpp"
 #include "scenes/formats/scene_file/read_luminaires.hpp"
 #include "scenes/formats/scene_file/scene_readers.hpp"
-#include "scenes/light/geometry/mesh_text.hpp"
+#include "scenes/light/geometry/import.hpp"
 #include "scenes/light/world/design.hpp"
 
 namespace luxodus {

@@ -194,7 +194,9 @@ std::vector<TableSpec> object_schema() {
        joined(
            joined(
                {{"name", "name", "", "required", "", "name, which opens the names of its parts"},
-                {"file", "path", "", "required", "", "the .obj, .gltf or .glb file"},
+                {"file", "path", "", "required", "",
+                 "the .obj, .gltf or .glb file; the lamps of a glTF that holds nothing else become "
+                 "emitters NAME.LAMP, lit by the mains"},
                 {"units", "choice", "", "required", "m, cm, mm, km, in, ft",
                  "unit of length of the file (glTF: m)"},
                 {"up", "choice", "", "required", "y, z",

@@ -6,16 +6,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <exception>
 #include <filesystem>
-#include <new>
+#include <stdexcept>
 
 #include "runtime/core/isolated_job.hpp"
-#include "runtime/core/printable.hpp"
 #include "runtime/core/reading_share.hpp"
-#include "scenes/light/geometry/assimp_import.hpp"
-#include "scenes/light/geometry/mesh_text.hpp"
+#include "scenes/light/geometry/gltf_import.hpp"
+#include "scenes/light/geometry/obj_import.hpp"
 
 namespace luxodus {
 namespace {
@@ -40,17 +39,24 @@ void put(PlainWriter& out, const ImportedPart& part) {
   out.put(part.degenerate_triangles);
 }
 
-Result<std::vector<ImportedPart>> imported(const std::string& path, double metres_per_unit,
-                                           UpAxis up, std::vector<std::string>& files_read) {
-  try {
-    return import_by_assimp(path, metres_per_unit, up, files_read);
-  } catch (const std::bad_alloc&) {
-    throw;  // reported together with the limit
-  } catch (const std::exception& e) {
-    return problem_in(path, "cannot be read: " + excerpt(e.what(), 200));
-  } catch (...) {
-    return problem_in(path, "cannot be read: the importer failed without a reason");
+void put(PlainWriter& out, const ImportedLamp& lamp) {
+  out.put(lamp.name);
+  out.put(lamp.at);
+  out.put(lamp.direction);
+  out.put(static_cast<uint8_t>(lamp.is_spot ? 1 : 0));
+  out.put(lamp.candela);
+  out.put(lamp.inner_deg);
+  out.put(lamp.outer_deg);
+  out.put(lamp.colour);
+}
+
+void put(PlainWriter& out, const MeshExtras& extras) {
+  for (const std::vector<std::string>* texts : {&extras.files, &extras.notes}) {
+    out.put(static_cast<uint64_t>(texts->size()));
+    for (const std::string& text : *texts) out.put(text);
   }
+  out.put(static_cast<uint64_t>(extras.lamps.size()));
+  for (const ImportedLamp& lamp : extras.lamps) put(out, lamp);
 }
 
 void answer(PlainReader& question, PlainWriter& out) {
@@ -59,10 +65,10 @@ void answer(PlainReader& question, PlainWriter& out) {
   UpAxis up = UpAxis::z;
   if (!question.get(path) || !question.get(metres_per_unit) || !question.get(up))
     throw std::runtime_error("no question");
-  std::vector<std::string> files;
-  const auto parts = imported(path, metres_per_unit, up, files);
-  out.put(static_cast<uint64_t>(files.size()));
-  for (const std::string& file : files) out.put(file);
+  MeshExtras extras;
+  const auto read = mesh_ending(path) == ".obj" ? import_obj : import_gltf;
+  const auto parts = read(path, metres_per_unit, up, extras);
+  put(out, extras);
   out.put(static_cast<uint8_t>(parts ? 1 : 0));
   if (!parts) return out.put(parts.problem());
   out.put(static_cast<uint64_t>(parts->size()));
@@ -105,20 +111,40 @@ bool get(PlainReader& in, ImportedPart& part) {
   return lacks_colour + has_colour <= 1 && part.degenerate_triangles >= 0 && sound(part.mesh);
 }
 
-Result<std::vector<ImportedPart>> parts_of(PlainReader& in, const std::string& path,
-                                           std::vector<std::string>* files_read) {
-  const Problem damaged = problem_in(path, "cannot be read: the importer gave no sound answer");
-  uint64_t files = 0, count = 0;
-  if (!in.get(files)) return damaged;
-  for (; files > 0; --files) {
-    std::string file;
-    if (!in.get(file)) return damaged;
-    if (files_read != nullptr) files_read->push_back(std::move(file));
+bool get(PlainReader& in, ImportedLamp& lamp) {
+  uint8_t is_spot = 0;
+  if (!in.get(lamp.name) || !in.get(lamp.at) || !in.get(lamp.direction) || !in.get(is_spot) ||
+      !in.get(lamp.candela) || !in.get(lamp.inner_deg) || !in.get(lamp.outer_deg) ||
+      !in.get(lamp.colour))
+    return false;
+  lamp.is_spot = is_spot == 1;
+  return is_finite(lamp.at) && is_finite(lamp.direction) && is_finite(lamp.colour) &&
+         std::isfinite(lamp.candela) && lamp.inner_deg >= 0 && lamp.inner_deg < lamp.outer_deg &&
+         lamp.outer_deg <= 90;
+}
+
+bool get(PlainReader& in, MeshExtras& extras) {
+  uint64_t count = 0;
+  for (std::vector<std::string>* texts : {&extras.files, &extras.notes}) {
+    if (!in.get(count) || count > in.left()) return false;
+    for (; count > 0; --count)
+      if (!in.get(texts->emplace_back())) return false;
   }
+  if (!in.get(count) || count > limits::mesh_parts) return false;
+  for (; count > 0; --count)
+    if (!get(in, extras.lamps.emplace_back())) return false;
+  return true;
+}
+
+Result<std::vector<ImportedPart>> parts_of(PlainReader& in, const std::string& path,
+                                           MeshExtras& extras) {
+  const Problem damaged = problem_in(path, "cannot be read: the importer gave no sound answer");
+  uint64_t count = 0;
+  if (!get(in, extras)) return damaged;
   uint8_t good = 0;
   if (!in.get(good)) return damaged;
   if (Problem why; good != 1) return in.get(why) ? why : damaged;
-  if (!in.get(count) || count == 0 || count > limits::mesh_parts) return damaged;
+  if (!in.get(count) || count > limits::mesh_parts) return damaged;
   std::vector<ImportedPart> parts;
   uint64_t vertices = 0, triangles = 0;
   for (uint64_t i = 0; i < count; ++i) {
@@ -132,8 +158,15 @@ Result<std::vector<ImportedPart>> parts_of(PlainReader& in, const std::string& p
 
 }  // namespace
 
+std::string mesh_ending(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
 Result<std::vector<ImportedPart>> import_mesh(const std::string& path, double metres_per_unit,
-                                              UpAxis up, std::vector<std::string>* files_read,
+                                              UpAxis up, MeshExtras* extras,
                                               ReadingShare* reading) {
   if (!(metres_per_unit > 0) || !std::isfinite(metres_per_unit)) {
     return problem_in(path, fmt::format("a unit of {} m: give a length above 0", metres_per_unit));
@@ -160,7 +193,11 @@ Result<std::vector<ImportedPart>> import_mesh(const std::string& path, double me
       {for_all.memory_bytes + more.memory_bytes, for_all.processor_s + more.processor_s},
       [&](double share) { part.at_share(share); });
   if (!in) return problem_in(path, in.problem());
-  return parts_of(in.value(), path, files_read);
+  MeshExtras unwanted;
+  auto parts = parts_of(in.value(), path, extras != nullptr ? *extras : unwanted);
+  if (parts && parts->empty() && extras == nullptr)
+    return problem_in(path, "the file holds lamps and no triangles");
+  return parts;
 }
 
 }  // namespace luxodus

@@ -2,10 +2,13 @@
 #include "actors/import/write_plan.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 
+#include "actors/import/join_lines.hpp"
 #include "scenes/formats/dxf/dxf_plan.hpp"
 #include "scenes/formats/scene_file/scene_file.hpp"
+#include "scenes/light/geometry/mesh_tools.hpp"
 #include "tests/kit/small_dxf.hpp"
 #include "tests/kit/temporary_folder.hpp"
 
@@ -86,4 +89,80 @@ TEST_CASE("a table's mistakes are reported with their line, also metres taken fo
   const auto large = write_plan(plan, 1000, "office.dxf", (folder / "other").string());
   REQUIRE_FALSE(large.ok());
   CHECK(large.problem().what.find("is its unit right?") != std::string::npos);
+}
+
+TEST_CASE("a curve of pieces shorter than a wall is a wall, and marks are told", "[import][dxf]") {
+  const TemporaryFolder folder;
+  DxfPlan plan;
+  const auto at = [](int i) {
+    const double turn = i * 0.009 / 3;  // pieces of 9 mm on a radius of 3 m
+    return glm::dvec2(3 * std::cos(turn), 3 * std::sin(turn));
+  };
+  // Pieces in any order and direction.
+  for (int i = 0; i < 999; ++i) {
+    const int k = i * 7 % 999;
+    plan.segments.push_back({"W", at(i % 2 == 0 ? k : k + 1), at(i % 2 == 0 ? k + 1 : k)});
+  }
+  plan.segments.push_back({"W", {8, 8}, {8.0005, 8}});
+  std::filesystem::create_directories(folder / "o");
+  folder.write("o/plan.toml", "[[layer]]\nname = \"W\"\nas = \"sheet\"\nheight_m = 3\n");
+  const auto written = write_plan(plan, 1, "plan.dxf", (folder / "o").string());
+  REQUIRE(written.ok());
+  CHECK(written->walls > 300);
+  REQUIRE(written->notes.size() == 1);
+  CHECK(written->notes[0].find("1 line") == 0);
+  const ReadScene scene = read_scene(folder / "o/scene.toml");
+  for (const Problem& p : scene.problems.list()) UNSCOPED_INFO(p.text());
+  REQUIRE(scene.scene.has_value());
+  double area = 0;
+  for (const Object& object : scene.scene->objects)
+    if (object.name.starts_with("W ")) area += area_of(object.mesh);
+  CHECK(area == Approx(999 * 0.009 * 3).epsilon(1e-3));
+}
+
+TEST_CASE("lines that are long stay as they are, and short ones join where they meet",
+          "[import][dxf]") {
+  const PlanLine lines[] = {{{0, 0}, {1, 0}},       {{1, 0}, {1.01, 0}}, {{1.02, 0}, {1.01, 0}},
+                            {{1.03, 0}, {1.02, 0}}, {{1.03, 0}, {2, 0}}, {{5, 5}, {5.01, 5}},
+                            {{6, 6}, {6.0001, 6}}};
+  const JoinedLines joined = join_short_lines(lines);
+  REQUIRE(joined.lines.size() == 4);
+  CHECK(joined.lines[0].to.x == 1);
+  CHECK(glm::length(joined.lines[1].to - joined.lines[1].from) == Approx(0.03));
+  CHECK(joined.lines[2].to.x == 2);
+  CHECK(joined.lines[3].to.x == 5.01);
+  CHECK(joined.dropped == 1);
+}
+
+TEST_CASE("layers whose names a scene cannot bear stay apart", "[import][dxf]") {
+  const TemporaryFolder folder;
+  const DxfPlan plan = plan_of(dxf_drawing(dxf_line("A/B", "0", "0", "9", "9") +
+                                           dxf_line("A\"B", "0", "0", "9", "9") +
+                                           dxf_line("WÄNDE", "0", "0", "9", "9")));
+  REQUIRE(write_plan(plan, 1e-3, "office.dxf", (folder / "o").string()).ok());
+  std::ifstream in(folder / "o/plan.toml");
+  const std::string table((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  for (const char* name : {"name = \"A-B\"", "name = \"A-B#2\"", "name = \"WÄNDE\""})
+    CHECK(table.find(name) != std::string::npos);
+}
+
+TEST_CASE("a sign of a mirrored block looks along the block's own y axis", "[import][dxf]") {
+  const TemporaryFolder folder;
+  DxfPlan plan;
+  plan.segments.push_back({"W", {0, 0}, {5, 0}});
+  plan.inserts.push_back({"EXIT", "S", {4, 3}, 150, true});
+  plan.inserts.push_back({"LAMP", "S", {4, 3}, 150, true});
+  std::filesystem::create_directories(folder / "o");
+  folder.write("o/plan.toml",
+               "[[block]]\nname = \"EXIT\"\nas = \"sign\"\n[[block]]\nname = \"LAMP\"\n"
+               "as = \"luminaire\"\n");
+  folder.write("o/fixtures.toml",
+               "[[luminaire_type]]\nname = \"LAMP\"\n[[sign_type]]\nname = \"EXIT\"\n");
+  const auto written = write_plan(plan, 1, "plan.dxf", (folder / "o").string());
+  REQUIRE(written.ok());
+  REQUIRE(written->notes.size() == 1);
+  CHECK(written->notes[0].find("1 luminaire of mirrored blocks") == 0);
+  std::ifstream in(folder / "o/building.toml");
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  CHECK(text.find("facing = [0.500000, 0.866025, 0]") != std::string::npos);
 }

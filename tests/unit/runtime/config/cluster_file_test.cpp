@@ -111,7 +111,7 @@ TEST_CASE("a wrong key is reported once, with its line", "[runtime][config]") {
   const std::string hosts = two_hosts("10.0.0.1", "10.0.0.2");
   const std::string insecure = "[keys]\ninsecure = true\n";
   std::string deep_key = "a";
-  for (int i = 0; i < 50'000; ++i) deep_key += ".a";
+  for (int i = 0; i < 40; ++i) deep_key += ".a";
   const std::vector<Row> rows{
       {"a = ", 1, "this is not TOML"},
       {small_cluster + deep_key + " = 1\n", 11, "do not nest so deep"},

@@ -80,6 +80,8 @@ class Read : public DL_CreationAdapter {
   std::vector<DL_InsertData> inserts;
   std::map<std::string, std::string> attributes;
   std::vector<std::string> texts;
+  std::map<std::string, int> variables;
+  std::string release;
 
   void addLayer(const DL_LayerData& data) override { on_layer.try_emplace(data.name, 0); }
   void addLine(const DL_LineData&) override { ++on_layer[attributes_layer()]; }
@@ -87,6 +89,10 @@ class Read : public DL_CreationAdapter {
   void addInsert(const DL_InsertData& data) override { inserts.push_back(data); }
   void addAttribute(const DL_AttributeData& data) override { attributes[data.tag] += data.text; }
   void addText(const DL_TextData& data) override { texts.push_back(data.text); }
+  void setVariableInt(const std::string& key, int value, int) override { variables[key] = value; }
+  void setVariableString(const std::string& key, const std::string& value, int) override {
+    if (key == "$ACADVER") release = value;
+  }
 
  private:
   std::string attributes_layer() { return getAttributes().getLayer(); }
@@ -383,6 +389,8 @@ TEST_CASE("a plan in DXF is read back with its layers, luminaires and lines", "[
   Read read;
   DL_Dxf dxf;
   REQUIRE(dxf.in(path.string(), &read));
+  CHECK(read.release == "AC1015");  // release 2000, the first that has units
+  CHECK(read.variables["$INSUNITS"] == 6);
   for (const char* layer : {"WALLS", "LUMINAIRES", "SIGNS", "ROUTES", "AREAS", "ISOLUX_0_5",
                             "ISOLUX_1", "ISOLUX_5", "ISOLUX_10", "TEXT", "SCALE"}) {
     INFO(layer);
@@ -405,6 +413,32 @@ TEST_CASE("a plan in DXF is read back with its layers, luminaires and lines", "[
   CHECK(read.attributes["NAME"] == "lampexit");
   CHECK(has(read.attributes["TYPE"], "A"));
   CHECK(std::count(read.texts.begin(), read.texts.end(), "A 2.50") == 1);
+}
+
+TEST_CASE("every record of a plan in DXF has a handle of its own and an owner that is there",
+          "[report]") {
+  const TemporaryFolder folder;
+  const Json& a = assessed_json();
+  REQUIRE(write_plan_dxf(folder / "plan.dxf", a, Schedule(a), 0).ok());
+  const auto text = read_regular_file(folder / "plan.dxf", 1 << 24);
+  REQUIRE(text.ok());
+  std::istringstream lines(text.value());
+  std::set<std::string> handles{"0"}, owners;
+  std::string code, value, kind, section;
+  for (; std::getline(lines, code) && std::getline(lines, value);) {
+    const int number = std::stoi(code);
+    if (number == 0) kind = value;
+    if (number == 2 && kind == "SECTION") section = value;
+    if (section == "HEADER") continue;
+    if (number == 330) owners.insert(value);
+    if ((number == 5 || (number == 105 && kind == "DIMSTYLE"))) CHECK(handles.insert(value).second);
+  }
+  CHECK(kind == "EOF");
+  CHECK(handles.size() > 40);
+  for (const std::string& owner : owners) {
+    INFO(owner);
+    CHECK(handles.contains(owner));
+  }
 }
 
 TEST_CASE("plans are valid SVG drawings with a scale and a north arrow", "[report]") {

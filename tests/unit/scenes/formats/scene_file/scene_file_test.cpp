@@ -275,6 +275,35 @@ TEST_CASE(
   CHECK_FALSE(fire.all_known());
 }
 
+TEST_CASE("the lamps of a glTF that holds nothing else become emitters", "[format][scene]") {
+  SceneFolder f;
+  f.put("lamps.gltf",
+        R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0,1]}],"nodes":[)"
+        R"({"name":"bulb","translation":[1,2,3],)"
+        R"("extensions":{"KHR_lights_punctual":{"light":0}}},)"
+        R"({"name":"bulb","rotation":[-0.70710678118654757,0,0,0.70710678118654757],)"
+        R"("extensions":{"KHR_lights_punctual":{"light":1}}}],)"
+        R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":100},)"
+        R"({"type":"spot","intensity":100,"color":[1,0,0],)"
+        R"("spot":{"innerConeAngle":0,"outerConeAngle":1.0471975511965976}}]}}})");
+  const auto s = good(f,
+                      "[[import]]\nname = \"ceiling\"\nfile = \"lamps.gltf\"\nunits = \"m\"\n"
+                      "up = \"y\"\ntranslate = [10, 0, 0]\n");
+  CHECK(s.objects.empty());
+  REQUIRE(s.emitters.size() == 2);
+  const Emitter& bulb = named(s.emitters, "ceiling.bulb");
+  CHECK(same(bulb.frame.origin, {11, -3, 2}));
+  CHECK(bulb.distribution == Distribution::isotropic);
+  CHECK(bulb.mains_flux == near(400 * pi));
+  CHECK(bulb.emergency_flux == 0);
+  // The file's -z, turned to its -y, is down; smooth to 60 degrees: pi (1 - cos 60) sr for 1 cd;
+  // red has 0.2126 of the luminance of white.
+  const Emitter& spot = named(s.emitters, "ceiling.bulb#2");
+  CHECK(spot.frame.axes[2].z == Approx(1));
+  CHECK(spot.distribution == Distribution::spot);
+  CHECK(spot.mains_flux == Approx(100 * 0.2126 * pi * 0.5));
+}
+
 TEST_CASE("an imported file becomes objects by part, with materials from the table",
           "[format][scene]") {
   SceneFolder f;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/toml/text_scan.hpp"
 #include "scenes/formats/scene_file/scene_reading.hpp"
 #include "tests/unit/scenes/formats/scene_file/scene_fixture.hpp"
 
@@ -57,8 +58,8 @@ void check(const std::vector<Mistake>& mistakes) {
 
 TEST_CASE("a scene file with excessive nesting is one problem, not a crash", "[format][scene]") {
   std::string key;
-  for (int i = 0; i < 100'000; ++i) key += "a.";
-  const std::string list(100'000, '[');
+  for (size_t i = 0; i <= limits::toml_nesting; ++i) key += "a.";
+  const std::string list(limits::toml_nesting + 1, '[');
   check({
       {"\n" + key + "a = 1\n", 2, "do not nest so deep"},
       {"[" + key + "a]\n", 1, "do not nest so deep"},

@@ -1,0 +1,13 @@
+// Reads the parts of a glTF 2.0 file. Internal to import.cpp, which calls it in a process of its
+// own: JSON takes many times its size in memory. Keeps no state between calls; one thread.
+#pragma once
+
+#include "scenes/light/geometry/import.hpp"
+
+namespace luxodus {
+
+/// Same contract as import_mesh; `extras` gets what was found even where reading fails.
+Result<std::vector<ImportedPart>> import_gltf(const std::string& path, double metres_per_unit,
+                                              UpAxis up, MeshExtras& extras);
+
+}  // namespace luxodus
