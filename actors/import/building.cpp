@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <numbers>
@@ -26,8 +27,35 @@ std::string small(std::string_view text) {
   return out;
 }
 
+/// Whether the words of a name call it a light: "Lighting Fixture 3", "Notleuchte", "Table lamp".
+bool is_called_light(const std::string& name) {
+  static const std::array<std::string_view, 13> words{
+      "light fixture",  "lighting fixture", "light-fixture", "lightfixture",
+      "luminaire",      "leuchte",          "lampe",         "downlight",
+      "spotlight",      "exit sign",        "exit light",    "emergency light",
+      "rettungszeichen"};
+  const std::string lower = small(name);
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const size_t lamp = lower.find("lamp");  // no clamp
+  if (lamp != std::string::npos && (lamp == 0 || !is_letter(lower[lamp - 1])) &&
+      (lamp + 4 == lower.size() || !is_letter(lower[lamp + 4])))
+    return true;
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return lower.find(word) != std::string::npos; });
+}
+
+/// Lamps count as luminaires where they are parts of none. Kinds that may be anything count by
+/// their names.
 bool is_fixture(const IfcProduct& p) {
-  return p.kind == "LIGHTFIXTURE" || p.kind == "SIGN" || p.type_class == "IFCLIGHTFIXTURETYPE";
+  static const std::set<std::string, std::less<>> by_name{
+      "BUILDINGELEMENTPROXY",    "FLOWTERMINAL",      "DISTRIBUTIONELEMENT",
+      "DISTRIBUTIONFLOWELEMENT", "ELECTRICAPPLIANCE", "PROXY"};
+  if (p.kind == "LIGHTFIXTURE" || p.kind == "SIGN" || p.kind == "LAMP" ||
+      p.type_class == "IFCLIGHTFIXTURETYPE" || p.type_class == "IFCLAMPTYPE")
+    return true;
+  return by_name.contains(p.kind) &&
+         (p.light || is_called_light(p.name) || is_called_light(p.type_name) ||
+          is_called_light(p.object_type));
 }
 
 bool is_furniture(const IfcProduct& p) {
@@ -48,17 +76,6 @@ std::string part_name(const IfcProduct& p, std::string_view word) {
   std::string name = as_name(p.name, "");
   if (name.size() > 60) name = as_name(name.substr(0, 60), "");
   return std::string(word) + (name.empty() ? "" : " " + name) + " " + p.guid;
-}
-
-/// Whether a point lies within an outline (crossings of a ray to +x).
-bool within(const std::vector<glm::dvec2>& outline, const glm::dvec2& p) {
-  bool inside = false;
-  for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const glm::dvec2 a = outline[i], b = outline[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
-      inside = !inside;
-  }
-  return inside;
 }
 
 /// Relative luminance of a display colour (IEC 61966-2-1 primaries), limited to what paints reach.
@@ -82,6 +99,10 @@ class Assembly {
           fmt::format("{} more faults of the model, which are not listed", model_.more_faults));
     for (const std::string& note : shapes_.notes) out_.unread.push_back(note);
     make_storeys();
+    leave_out_strays();
+    for (const IfcProduct& product : model_.products) by_id_.emplace(product.id, &product);
+    for (const IfcProduct& product : model_.products)
+      if (const IfcProduct* whole = fixture_of(product)) parts_of_[whole->id].push_back(&product);
     for (size_t i = 0; i < shapes_.parts.size(); ++i) {
       const std::string& name = shapes_.parts[i].name;
       shapes_of_[name.substr(0, name.find('#'))].push_back(i);
@@ -106,11 +127,9 @@ class Assembly {
  private:
   void make_storeys() {
     for (const IfcStorey& storey : model_.storeys)
-      if (!storey_at_.contains(storey.name)) {
-        storey_at_[storey.name] = out_.storeys.size();
+      if (storey_at_.try_emplace(storey.id, out_.storeys.size()).second)
         out_.storeys.push_back({as_name(storey.name, "storey"), storey.elevation_m, {}});
-      }
-    storey_at_[""] = out_.storeys.size();
+    storey_at_[0] = out_.storeys.size();
     out_.storeys.push_back({"no storey", 0, {}});
     std::set<std::string> taken;
     for (BuildingStorey& storey : out_.storeys) {
@@ -121,8 +140,56 @@ class Assembly {
   }
 
   BuildingStorey& storey_of(const IfcProduct& p) {
-    const auto it = storey_at_.find(p.storey);
-    return out_.storeys[it == storey_at_.end() ? storey_at_[""] : it->second];
+    const auto it = storey_at_.find(p.storey_id);
+    return out_.storeys[it == storey_at_.end() ? storey_at_[0] : it->second];
+  }
+
+  /// Products far from the middle of all: the median, which some strays do not move.
+  void leave_out_strays() {
+    std::array<std::vector<double>, 3> middles;
+    std::vector<glm::dvec3> middle;
+    for (const ImportedPart& part : shapes_.parts) {
+      const Bounds box = bounds_of(part.mesh);
+      middle.push_back((box.low + box.high) / 2.0);
+      for (glm::length_t i = 0; i < 3; ++i)
+        middles[static_cast<size_t>(i)].push_back(middle.back()[i]);
+    }
+    if (middle.empty()) return;
+    glm::dvec3 centre(0);
+    for (glm::length_t i = 0; i < 3; ++i) {
+      auto& all = middles[static_cast<size_t>(i)];
+      const auto half = all.begin() + static_cast<std::ptrdiff_t>((all.size() - 1) / 2);
+      std::nth_element(all.begin(), half, all.end());
+      centre[i] = *half;
+    }
+    for (size_t i = 0; i < shapes_.parts.size(); ++i) {
+      const std::string& name = shapes_.parts[i].name;
+      const double far = glm::length(middle[i] - centre);
+      if (far > limits::stray_m) strays_.emplace(name.substr(0, name.find('#')), far);
+    }
+    std::erase_if(shapes_.parts, [&](const ImportedPart& part) {
+      return strays_.contains(part.name.substr(0, part.name.find('#')));
+    });
+  }
+
+  /// The luminaire that a product is a part of; null where it is of none.
+  const IfcProduct* fixture_of(const IfcProduct& p) const {
+    const IfcProduct* at = &p;
+    for (int depth = 0; at->part_of != 0 && depth < max_parts_depth; ++depth) {
+      const auto whole = by_id_.find(at->part_of);
+      if (whole == by_id_.end()) return nullptr;
+      at = whole->second;
+      if (is_fixture(*at)) return at;
+    }
+    return nullptr;
+  }
+
+  /// A product, and if it is a luminaire its parts.
+  std::vector<const IfcProduct*> with_parts(const IfcProduct& p) const {
+    std::vector<const IfcProduct*> out{&p};
+    if (const auto it = parts_of_.find(p.id); it != parts_of_.end())
+      out.insert(out.end(), it->second.begin(), it->second.end());
+    return out;
   }
 
   /// Chosen by the product's material, else its layer, else its kind. Of several materials, a clear
@@ -145,7 +212,7 @@ class Assembly {
   /// The shapes of a product, joined by material.
   std::vector<BuildingPart> bodies_of(const IfcProduct& p, std::string_view word) {
     std::vector<BuildingPart> bodies;
-    for (const size_t i : shapes_of_[p.guid]) {
+    for (const size_t i : shapes_with_parts(p)) {
       const ImportedPart& part = shapes_.parts[i];
       const std::string material = material_of(p, part);
       const auto at = std::find_if(bodies.begin(), bodies.end(),
@@ -159,6 +226,7 @@ class Assembly {
       if (!bodies.empty()) body.name += fmt::format(" {}", bodies.size() + 1);
       body.material = material;
       body.mesh = part.mesh;
+      body.open = shapes_.open.contains(p.guid);
       bodies.push_back(std::move(body));
     }
     return bodies;
@@ -166,31 +234,58 @@ class Assembly {
 
   Mesh whole_mesh(const IfcProduct& p) {
     Mesh mesh;
-    for (const size_t i : shapes_of_[p.guid]) append(mesh, shapes_.parts[i].mesh);
+    for (const size_t i : shapes_with_parts(p)) append(mesh, shapes_.parts[i].mesh);
     join_identical_vertices(mesh);
     return mesh;
   }
 
+  std::vector<size_t> shapes_with_parts(const IfcProduct& p) const {
+    std::vector<size_t> out;
+    for (const IfcProduct* one : with_parts(p))
+      if (const auto it = shapes_of_.find(one->guid); it != shapes_of_.end())
+        out.insert(out.end(), it->second.begin(), it->second.end());
+    return out;
+  }
+
   void take(const IfcProduct& p) {
+    if (const auto stray = strays_.find(p.guid); stray != strays_.end()) {
+      out_.unread.push_back(
+          fmt::format("#{} ({}, \"{}\", {}) stands {:.0f} km from the others, and was "
+                      "left out: move it in the model",
+                      p.id, small(p.kind), as_name(p.name, ""), p.guid, stray->second / 1000));
+      return;
+    }
     const bool has_shape = shapes_of_.contains(p.guid);
     // Spaces state their own volumes; many are in other units.
     if (has_shape && !is_no_body(p)) compare_volume(p);
     if (p.kind == "SPACE") return take_room(p, has_shape);
     if (is_no_body(p)) return;
-    if (!has_shape) {
-      if (p.has_shape)
-        out_.unread.push_back(fmt::format("#{} ({}, \"{}\", {}) has a shape that gave no triangles",
-                                          p.id, small(p.kind), as_name(p.name, ""), p.guid));
-      if (is_fixture(p) && p.has_shape) take_fixture(p);
-      return;
-    }
+    tell_of_shape(p, has_shape);
+    if (fixture_of(p) != nullptr) return;  // taken with its luminaire
     if (is_fixture(p)) return take_fixture(p);
+    if (!has_shape) return;
     if (p.kind == "DOOR") return take_door(p);
     for (BuildingPart& body : bodies_of(p, small(p.kind))) {
       body.furniture = is_furniture(p);
       if (body.furniture) body.name = "furniture" + body.name.substr(p.kind.size());
       storey_of(p).parts.push_back(std::move(body));
     }
+  }
+
+  /// Lists a product whose shape is missing, open, or not the body that the schema asks for.
+  void tell_of_shape(const IfcProduct& p, bool has_shape) {
+    const std::string who =
+        fmt::format("#{} ({}, \"{}\", {})", p.id, small(p.kind), as_name(p.name, ""), p.guid);
+    if (!has_shape && p.has_shape)
+      out_.unread.push_back(who + " has a shape that gave no triangles");
+    if (!p.has_shape && !p.other_shapes.empty())
+      out_.unread.push_back(who + " has no body, only: " + as_name(p.other_shapes, ""));
+    if (has_shape && !p.taken_as.empty())
+      out_.notes.push_back(who + " has no representation \"Body\"; its \"" +
+                           as_name(p.taken_as, "") + "\" was taken");
+    if (const auto open = shapes_.open.find(p.guid); open != shapes_.open.end())
+      out_.open_solids.push_back(
+          {p.guid, small(p.kind) + " " + as_name(p.name, ""), p.id, open->second});
   }
 
   void compare_volume(const IfcProduct& p) {
@@ -215,6 +310,7 @@ class Assembly {
       for (BuildingPart& part :
            joined_by_material(std::move(leaf.pieces), part_name(p, "door"), number)) {
         part.hinge = leaf.hinge;
+        part.open = shapes_.open.contains(p.guid);
         storey.parts.push_back(std::move(part));
       }
     number = 0;
@@ -264,7 +360,8 @@ class Assembly {
                                  glm::dvec2(0, step_m), glm::dvec2(0, -step_m)}) {
       const glm::dvec2 at = glm::dvec2(exit.position) + way;
       for (const BuildingRoom& room : out_.rooms) {
-        if (std::abs(room.z_m - exit.position.z) > level_m || !within(room.outline, at)) continue;
+        if (std::abs(room.z_m - exit.position.z) > level_m || !is_within(room.outline, at))
+          continue;
         exit.position = glm::dvec3(at, room.z_m);
         return;
       }
@@ -275,26 +372,31 @@ class Assembly {
   void take_room(const IfcProduct& p, bool has_shape) {
     const std::string title = as_name(
         p.long_name.empty() || p.long_name == p.name ? p.name : p.name + " " + p.long_name, "room");
-    BuildingRoom room;
-    room.name = title;
-    room.guid = p.guid;
     const Mesh mesh = has_shape ? whole_mesh(p) : Mesh{};
-    room.outline = floor_outline(mesh);
-    if (room.outline.size() < 3) {
+    const auto floors = floor_outlines(mesh);
+    if (floors.empty()) {
       out_.unread.push_back(fmt::format("#{} (space \"{}\", {}) has no floor that can be outlined",
                                         p.id, title, p.guid));
       return;
     }
-    const Bounds bounds = bounds_of(mesh);
-    room.z_m = bounds.low.z;
-    room.height_m = bounds.high.z - bounds.low.z;
-    out_.rooms.push_back(std::move(room));
+    const double top = bounds_of(mesh).high.z;
+    for (size_t i = 0; i < floors.size(); ++i) {
+      BuildingRoom room;
+      room.name = floors.size() == 1 ? title : fmt::format("{}, floor {}", title, i + 1);
+      room.guid = p.guid;
+      room.outline = floors[i].outline;
+      room.z_m = floors[i].z_m;
+      room.height_m = top - floors[i].z_m;
+      out_.rooms.push_back(std::move(room));
+    }
   }
 
   void take_fixture(const IfcProduct& p);
+  void take_light(const IfcProduct& p, BuildingFixture& fixture);
   void place_sign(const IfcProduct& p, const Mesh& mesh, BuildingFixture& fixture);
 
   void finish() {
+    set_rooms_on_floors();
     for (BuildingExit& exit : out_.exits) step_into_room(exit);
     for (const std::string& guid : out_of_rooms_)
       out_.notes.push_back("fire exit " + guid + " leads to no room; its point lies in the door");
@@ -307,12 +409,6 @@ class Assembly {
         told_("looking for openings of rooms",
               static_cast<double>(i + 1) / static_cast<double>(out_.rooms.size()));
     }
-    std::erase_if(out_.rooms, [&](const BuildingRoom& room) {
-      if (room.has_floor) return false;
-      out_.notes.push_back("room \"" + room.name + "\" " + room.guid +
-                           " has no floor under its middle: it became no open area");
-      return true;
-    });
     std::erase_if(out_.storeys, [&](const BuildingStorey& s) {
       return s.parts.empty() &&
              std::none_of(out_.fixtures.begin(), out_.fixtures.end(),
@@ -323,7 +419,31 @@ class Assembly {
                 return std::abs(a.mesh_m3 / a.authored_m3 - 1) >
                        std::abs(b.mesh_m3 / b.authored_m3 - 1);
               });
+    std::sort(out_.open_solids.begin(), out_.open_solids.end(),
+              [](const OpenSolid& a, const OpenSolid& b) { return a.area_m2 > b.area_m2; });
     unique_names();
+  }
+
+  void set_rooms_on_floors() {
+    constexpr double most = 0.95;
+    const PartRays floors(out_.storeys, PartRays::Hit::no_furniture);
+    for (BuildingRoom& room : out_.rooms) set_on_floor(floors, room);
+    std::erase_if(out_.rooms, [&](const BuildingRoom& room) {
+      const std::string who = "room \"" + room.name + "\" " + room.guid;
+      if (!(room.floor_share > 0)) {
+        out_.notes.push_back(who + " has no floor under it: it became no open area");
+        return true;
+      }
+      if (room.floor_share < most)
+        out_.notes.push_back(
+            fmt::format("{} has a floor under {:.0f} % of it only", who, 100 * room.floor_share));
+      if (room.level_share < most)
+        out_.notes.push_back(
+            fmt::format("{}: {:.0f} % of its floor lie at another level than {:.3f} m, "
+                        "at which the open area is",
+                        who, 100 * (1 - room.level_share), room.z_m));
+      return false;
+    });
   }
 
   /// Rooms and fixtures with repeated names get their GlobalId appended.
@@ -333,6 +453,12 @@ class Assembly {
       for (const auto& thing : things) ++count[thing.name];
       for (auto& thing : things)
         if (count[thing.name] > 1) thing.name += " " + thing.guid;
+      std::set<std::string> taken;
+      for (auto& thing : things) {
+        const std::string wish = thing.name;
+        for (int i = 2; !taken.insert(thing.name).second; ++i)
+          thing.name = fmt::format("{} {}", wish, i);
+      }
     };
     tell_apart(out_.rooms);
     tell_apart(out_.fixtures);
@@ -341,11 +467,16 @@ class Assembly {
 
   static void turn_sign(const PartRays& rays, BuildingFixture& fixture);
 
+  static constexpr int max_parts_depth = 8;
+
   const IfcModel& model_;
   IfcShapes shapes_;
   const ImportProgress& told_;
   std::map<std::string, std::vector<size_t>> shapes_of_;
-  std::map<std::string, size_t> storey_at_;
+  std::map<uint64_t, size_t> storey_at_;
+  std::map<std::string, double> strays_;  // distance from the others [m]
+  std::unordered_map<uint64_t, const IfcProduct*> by_id_;
+  std::map<uint64_t, std::vector<const IfcProduct*>> parts_of_;  // of luminaires
   std::vector<std::string> out_of_rooms_;
   Building out_;
 };
@@ -395,7 +526,7 @@ void Assembly::take_fixture(const IfcProduct& p) {
   fixture.is_sign = is_sign(p);
   fixture.says = fixture_words(p);
   fixture.storey = storey_of(p).name;
-  const Mesh mesh = shapes_of_.contains(p.guid) ? whole_mesh(p) : Mesh{};
+  const Mesh mesh = whole_mesh(p);
   const Bounds bounds = bounds_of(mesh);
   // Without a shape and a light source it hangs at its placement.
   constexpr double below_m = 2e-3;
@@ -403,17 +534,34 @@ void Assembly::take_fixture(const IfcProduct& p) {
   if (!bounds.empty())
     fixture.position = {(bounds.low.x + bounds.high.x) / 2, (bounds.low.y + bounds.high.y) / 2,
                         bounds.low.z - below_m};
-  if (p.light) {
-    fixture.document = as_name(p.light->document, "");
-    fixture.position = p.light->position;
-    fixture.direction = p.light->axis;
-  }
-  const glm::dvec3 x = p.placement.linear[0];
+  if (p.light) take_light(p, fixture);
+  const glm::dvec3 x =
+      p.light && p.light->zero_plane ? *p.light->zero_plane : p.placement.linear[0];
   if (std::hypot(x.x, x.y) > 0.1)
     fixture.rotation_deg = std::atan2(x.y, x.x) * 180 / std::numbers::pi;
   if (fixture.is_sign) place_sign(p, mesh, fixture);
   if (!bounds.empty()) fixture.body = bodies_of(p, "fixture");
   out_.fixtures.push_back(std::move(fixture));
+}
+
+/// The place and direction of a light source of the model, and its intensities.
+void Assembly::take_light(const IfcProduct& p, BuildingFixture& fixture) {
+  const IfcLightSource& light = *p.light;
+  fixture.document = as_name(light.document, "");
+  if (light.kind == "directional") return;  // has no place
+  fixture.position = light.position;
+  fixture.direction = light.axis;
+  if (light.kind != "goniometric") {
+    fixture.says.push_back("light source " + light.kind + ", without intensities in candela");
+    return;
+  }
+  if (light.planes.empty()) return;
+  auto text = ies_text_of(light, fixture.type);
+  if (text)
+    fixture.photometry = std::move(text).value();
+  else
+    out_.unread.push_back(fmt::format("the intensities of #{} (\"{}\", {}): {}", p.id, fixture.name,
+                                      p.guid, text.problem().what));
 }
 
 /// A sign's face is perpendicular to the thinnest of its three extents, in the axes of its

@@ -20,6 +20,11 @@ namespace luxodus {
 namespace limits {
 /// Relative difference of a shape's volume from its authored one that is reported.
 inline constexpr double volume_difference = 0.02;
+/// Products farther than this from the middle of the others are left out [m]: they would cost all
+/// others their precision.
+inline constexpr double stray_m = 10'000;
+/// Smallest floor of a room that becomes an area [m2].
+inline constexpr double smallest_floor_m2 = 0.25;
 }  // namespace limits
 
 /// A hinge, and the angle by which the leaf turns about the vertical through it.
@@ -34,6 +39,7 @@ struct BuildingPart {
   std::string material;
   Mesh mesh;
   bool furniture = false;
+  bool open = false;  // of a solid that is not closed
   std::optional<DoorHinge> hinge;
 };
 
@@ -52,18 +58,20 @@ struct BuildingMaterial {
 struct BuildingRoom {
   std::string name, guid;
   std::vector<glm::dvec2> outline;
-  double z_m = 0, height_m = 0;
+  double z_m = 0, height_m = 0;  // z: of the floor that rays find
   /// Share of rays from its middle that hit nothing, and the direction of most of them; 0: it is
   /// closed.
   double open_share = 0;
   std::string open_towards;
-  bool has_floor = false;  // whether there is a floor under its middle, at its level
+  double floor_share = 0;  // share of the outline with a floor under it, at any level
+  double level_share = 0;  // share of it at this level
 };
 
 struct BuildingFixture {
   std::string name, guid, type;
   bool is_sign = false;
   std::string document;            // photometric file that the model names; "" if none
+  std::string photometry;          // IES file of the intensities that the model states; "" if none
   std::vector<std::string> says;   // "SecurityLightingType SAFETYLIGHT": shown to the user
   glm::dvec3 position{0};          // of the light, or the centre of the sign
   glm::dvec3 direction{0, 0, -1};  // direction of the light, or of the sign's face
@@ -80,6 +88,13 @@ struct BuildingExit {
   bool final_exit = false;  // leads outside
 };
 
+/// A solid whose shape is not closed.
+struct OpenSolid {
+  std::string guid, name;
+  uint64_t id = 0;
+  double area_m2 = 0;  // of the missing faces
+};
+
 struct VolumeDifference {
   std::string guid, name;
   uint64_t id = 0;
@@ -94,6 +109,7 @@ struct Building {
   std::vector<BuildingFixture> fixtures;
   std::vector<BuildingExit> exits;
   std::vector<VolumeDifference> differences;  // largest first
+  std::vector<OpenSolid> open_solids;         // largest first
   size_t volumes_compared = 0;
   std::vector<std::string> unread;  // what could not be read, with its instance number
   std::vector<std::string> notes;   // other notes for the user
@@ -128,15 +144,25 @@ struct DoorPieces {
 DoorPieces door_pieces(const std::vector<DoorPiece>& parts, const Transform& place,
                        const std::string& operation);
 
-/// The floor of a closed body: the boundary of its lowest plane, counter-clockwise, without points
-/// on straight lines. Empty if there is none.
-std::vector<glm::dvec2> floor_outline(const Mesh& mesh);
+/// A level floor of a closed body: an outline, counter-clockwise, without points on straight lines.
+struct FloorOutline {
+  std::vector<glm::dvec2> outline;
+  double z_m = 0;
+};
+
+/// The floors of a closed body, upwards: the outer boundaries of its faces that look down. Faces
+/// below limits::smallest_floor_m2 are left out.
+std::vector<FloorOutline> floor_outlines(const Mesh& mesh);
+
+/// Whether a point lies within an outline (crossings of a ray to +x).
+bool is_within(const std::vector<glm::dvec2>& outline, const glm::dvec2& p);
 
 /// Casts rays at the parts of storeys, which outlive it. A tree of their boxes in double precision
 /// finds parts: a model may be far from its origin.
 class PartRays {
  public:
-  explicit PartRays(const std::vector<BuildingStorey>& storeys);
+  enum class Hit { all, no_furniture };
+  explicit PartRays(const std::vector<BuildingStorey>& storeys, Hit hit = Hit::all);
 
   /// Distance to the first part that a ray hits; nothing if it hits none.
   std::optional<double> first(const glm::dvec3& from, const glm::dvec3& direction) const;
@@ -160,8 +186,11 @@ class PartRays {
   std::vector<Node> nodes_;
 };
 
-/// The share of rays from the middle of a room that hit no part, the direction of most of them, and
-/// whether it has a floor.
+/// The share of rays from the middle of a room that hit no part, and the direction of most of them.
 void look_for_openings(const PartRays& rays, BuildingRoom& room);
+
+/// Sets the room on the floor that most rays down from its outline find, above screed and finish,
+/// and shortens it by as much. `solids`: without furniture.
+void set_on_floor(const PartRays& solids, BuildingRoom& room);
 
 }  // namespace luxodus

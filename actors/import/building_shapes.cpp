@@ -241,16 +241,14 @@ DoorPieces door_pieces(const std::vector<DoorPiece>& parts, const Transform& pla
   return out;
 }
 
-std::vector<glm::dvec2> floor_outline(const Mesh& mesh) {
-  if (mesh.triangles.empty()) return {};
-  constexpr double level_m = 1e-2;
-  const double floor = bounds_of(mesh).low.z;
-  const std::vector<uint32_t> place = places_of(mesh);
-  const auto low = [&](uint32_t i) { return mesh.positions[i].z < floor + level_m; };
+namespace {
+
+/// Outer boundaries of the triangles that look down at one height.
+void add_floors(const Mesh& mesh, const std::vector<uint32_t>& place,
+                const std::vector<glm::uvec3>& triangles, double z, std::vector<FloorOutline>& to) {
   // Edges shared by two triangles run both ways and cancel; the boundary remains.
   std::map<std::pair<uint32_t, uint32_t>, int> count;
-  for (const glm::uvec3& t : mesh.triangles) {
-    if (!low(t.x) || !low(t.y) || !low(t.z)) continue;
+  for (const glm::uvec3& t : triangles) {
     const uint32_t corner[3] = {place[t.x], place[t.y], place[t.z]};
     for (int i = 0; i < 3; ++i) {
       const uint32_t a = corner[i], b = corner[(i + 1) % 3];
@@ -264,26 +262,50 @@ std::vector<glm::dvec2> floor_outline(const Mesh& mesh) {
   std::multimap<uint32_t, uint32_t> edges;
   for (const auto& [edge, n] : count)
     for (int i = 0; i < n; ++i) edges.emplace(edge.first, edge.second);
-  std::vector<glm::dvec2> largest;
-  double largest_area = 0;
   for (const auto& loop : loops_of(std::move(edges))) {
     std::vector<glm::dvec2> points;
     for (const uint32_t i : loop) points.emplace_back(mesh.positions[i].x, mesh.positions[i].y);
     points = without_straight_points(points);
-    const double area = std::abs(signed_area(points));
-    if (area > largest_area) {
-      largest = std::move(points);
-      largest_area = area;
-    }
+    // Seen from above, the outer boundary of a face that looks down runs clockwise, and holes the
+    // other way.
+    if (signed_area(points) > -limits::smallest_floor_m2) continue;
+    const auto checked = checked_outline(points);
+    if (checked) to.push_back({checked.value(), z});
   }
-  const auto checked = checked_outline(largest);
-  return checked ? checked.value() : std::vector<glm::dvec2>();
 }
 
-PartRays::PartRays(const std::vector<BuildingStorey>& storeys) {
+}  // namespace
+
+std::vector<FloorOutline> floor_outlines(const Mesh& mesh) {
+  constexpr double level_m = 1e-2, level_cosine = 0.99;
+  std::vector<FloorOutline> out;
+  const std::vector<uint32_t> place = places_of(mesh);
+  const double outward = signed_volume_of(mesh) < 0 ? -1 : 1;
+  std::map<int64_t, std::vector<glm::uvec3>> levels;
+  for (glm::uvec3 t : mesh.triangles) {
+    const glm::dvec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+    const glm::dvec3 normal = outward * glm::cross(b - a, c - a);
+    if (!(normal.z < -level_cosine * glm::length(normal))) continue;
+    if (outward < 0) std::swap(t.y, t.z);
+    // Levels a centimetre apart are one; neighbouring bins are joined.
+    int64_t level = std::llround((a.z + b.z + c.z) / 3 / level_m);
+    for (const int64_t near : {level - 1, level + 1})
+      if (!levels.contains(level) && levels.contains(near)) level = near;
+    levels[level].push_back(t);
+  }
+  for (const auto& [level, triangles] : levels) {
+    double z = 0;
+    for (const glm::uvec3& t : triangles) z += mesh.positions[t.x].z;
+    add_floors(mesh, place, triangles, z / static_cast<double>(triangles.size()), out);
+  }
+  return out;
+}
+
+PartRays::PartRays(const std::vector<BuildingStorey>& storeys, Hit hit) {
   for (const BuildingStorey& storey : storeys)
     for (const BuildingPart& part : storey.parts)
-      if (!part.mesh.triangles.empty()) parts_.push_back({&part.mesh, bounds_of(part.mesh)});
+      if (!part.mesh.triangles.empty() && (hit == Hit::all || !part.furniture))
+        parts_.push_back({&part.mesh, bounds_of(part.mesh)});
   if (!parts_.empty()) grow(0, parts_.size());
 }
 
@@ -343,24 +365,83 @@ std::optional<double> PartRays::first(const glm::dvec3& from, const glm::dvec3& 
   return nearest < endless ? std::optional(nearest) : std::nullopt;
 }
 
-void look_for_openings(const PartRays& solids, BuildingRoom& room) {
-  const auto triangles = triangulate(room.outline);
-  if (!triangles) return;
-  // The centre of the floor's largest triangle is within the room, whatever its shape.
+namespace {
+
+/// The centre of the floor's largest triangle: within the room, whatever its shape.
+std::optional<glm::dvec2> middle_of(const std::vector<glm::dvec2>& outline) {
+  const auto triangles = triangulate(outline);
+  if (!triangles) return std::nullopt;
   glm::dvec2 middle(0);
   double largest = -1;
   for (const glm::uvec3& t : triangles.value()) {
-    const std::array<glm::dvec2, 3> corners{room.outline[t.x], room.outline[t.y],
-                                            room.outline[t.z]};
+    const std::array<glm::dvec2, 3> corners{outline[t.x], outline[t.y], outline[t.z]};
     if (const double area = std::abs(signed_area(corners)); area > largest) {
       largest = area;
       middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     }
   }
-  const glm::dvec3 from(middle, room.z_m + room.height_m / 2);
-  constexpr double under_m = 0.5;
-  const auto floor = solids.first(from, {0, 0, -1});
-  room.has_floor = floor && *floor < room.height_m / 2 + under_m;
+  return middle;
+}
+
+/// Points spread evenly over an outline: of a grid those within, and its middle.
+std::vector<glm::dvec2> points_within(const std::vector<glm::dvec2>& outline) {
+  constexpr int steps = 16;
+  Bounds box;
+  for (const glm::dvec2& p : outline) box.extend(glm::dvec3(p, 0));
+  std::vector<glm::dvec2> out;
+  if (const auto middle = middle_of(outline)) out.push_back(*middle);
+  const glm::dvec2 low(box.low), size(box.high - box.low);
+  for (int i = 0; i < steps * steps; ++i) {
+    const glm::dvec2 p =
+        low + size * glm::dvec2((i % steps + 0.5) / steps, (i / steps + 0.5) / steps);
+    if (is_within(outline, p)) out.push_back(p);
+  }
+  return out;
+}
+
+}  // namespace
+
+bool is_within(const std::vector<glm::dvec2>& outline, const glm::dvec2& p) {
+  bool inside = false;
+  for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const glm::dvec2 a = outline[i], b = outline[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
+      inside = !inside;
+  }
+  return inside;
+}
+
+void set_on_floor(const PartRays& solids, BuildingRoom& room) {
+  // Raised floors end below a metre, and a slab may lie half a metre below the space.
+  constexpr double from_m = 1, under_m = 0.5, level_m = 0.01;
+  const double up = std::min(room.height_m / 2, from_m);
+  const auto points = points_within(room.outline);
+  std::map<int64_t, std::pair<int, double>> levels;  // rays, and the highest of their floors
+  int found = 0;
+  for (const glm::dvec2& p : points) {
+    const double from = room.z_m + up;
+    const auto way = solids.first(glm::dvec3(p, from), {0, 0, -1});
+    if (!way || *way > up + under_m) continue;
+    ++found;
+    auto& [rays, highest] =
+        levels.try_emplace(std::llround((from - *way) / level_m), 0, -1e300).first->second;
+    ++rays;
+    highest = std::max(highest, from - *way);
+  }
+  if (points.empty() || found == 0) return;
+  const auto most = std::max_element(
+      levels.begin(), levels.end(),
+      [](const auto& a, const auto& b) { return a.second.first < b.second.first; });
+  room.floor_share = static_cast<double>(found) / static_cast<double>(points.size());
+  room.level_share = static_cast<double>(most->second.first) / found;
+  room.height_m -= most->second.second - room.z_m;
+  room.z_m = most->second.second;
+}
+
+void look_for_openings(const PartRays& solids, BuildingRoom& room) {
+  const auto middle = middle_of(room.outline);
+  if (!middle) return;
+  const glm::dvec3 from(*middle, room.z_m + room.height_m / 2);
   constexpr int rays = 500;
   std::map<std::string, int> ways;
   int open = 0;

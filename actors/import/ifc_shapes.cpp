@@ -15,8 +15,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <map>
 
 #include "actors/import/answer_folder.hpp"
+#include "runtime/core/atomic_file.hpp"
 #include "runtime/core/file_descriptor.hpp"
 #include "runtime/core/printable.hpp"
 #include "runtime/core/reading_share.hpp"
@@ -27,8 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Size of the process' output: a line for each thing that it could not compute.
-constexpr uint64_t max_said_bytes = uint64_t{4} << 20;
+/// Size of the process' output: a line for each mesh, and for each thing that it could not compute.
+constexpr uint64_t max_said_bytes = uint64_t{256} << 20;
 constexpr size_t max_notes = 200;
 /// Exit codes of ifc_shapes.mjs.
 constexpr int no_package = 3, no_shapes = 4;
@@ -77,7 +79,8 @@ Result<std::optional<int>> run_process(const std::vector<std::string>& words, co
 }
 
 struct Said {
-  std::optional<glm::dvec3> offset;  // glTF axes; none if the process did not state it
+  std::map<uint64_t, glm::dvec3> places;  // of nodes by their number, glTF axes
+  std::map<uint64_t, uint64_t> uncut;
   std::vector<std::string> notes;
 };
 
@@ -91,6 +94,22 @@ std::optional<glm::dvec3> numbers_of(std::string_view line) {
     line.remove_prefix(static_cast<size_t>(stop - line.data()));
   }
   return line.empty() && is_finite(out) ? std::optional(out) : std::nullopt;
+}
+
+void add_place(std::string_view line, Said& said) {
+  uint64_t number = 0;
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
+  if (error != std::errc()) return;
+  const auto place = numbers_of(line.substr(static_cast<size_t>(end - line.data())));
+  if (place) said.places.emplace(number, *place);
+}
+
+void add_uncut(std::string_view line, Said& said) {
+  uint64_t product = 0, count = 0;
+  const char* end = line.data() + line.size();
+  const auto first = std::from_chars(line.data(), end, product);
+  if (first.ec != std::errc() || first.ptr == end) return;
+  if (std::from_chars(first.ptr + 1, end, count).ec == std::errc()) said.uncut[product] += count;
 }
 
 Said said_by(const fs::path& file) {
@@ -107,8 +126,10 @@ Said said_by(const fs::path& file) {
       said.notes.push_back(excerpt(line.substr(5), 200));
     else if (line.starts_with("note "))
       ++left_out;
-    else if (line.starts_with("offset "))
-      said.offset = numbers_of(line.substr(7));
+    else if (line.starts_with("at "))
+      add_place(line.substr(3), said);
+    else if (line.starts_with("uncut "))
+      add_uncut(line.substr(6), said);
   }
   if (left_out > 0)
     said.notes.push_back(fmt::format("{} more of the shapes, which are not listed", left_out));
@@ -128,6 +149,15 @@ double share_said_in(const fs::path& file) {
   double share = 0;
   (void)std::from_chars(all.data() + begin + word.size(), all.data() + all.size(), share);
   return share >= 0 && share <= 1 ? share : 0;
+}
+
+/// The number after the first '#' of a node's name; one that no node has if there is none.
+uint64_t number_of_node(std::string_view name) {
+  uint64_t number = UINT64_MAX;
+  const size_t at = name.find('#');
+  if (at != std::string_view::npos)
+    (void)std::from_chars(name.data() + at + 1, name.data() + name.size(), number);
+  return number;
 }
 
 /// The first line of the process' error output.
@@ -155,7 +185,7 @@ double opacity_of(const ImportedPart& part) {
 }
 
 Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, double seconds,
-                             ReadingShare* reading) {
+                             ReadingShare* reading, const std::vector<uint64_t>& only) {
   const std::string file = model.string();
   std::error_code failed;
   if (!fs::is_regular_file(script, failed))
@@ -169,9 +199,16 @@ Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, doub
                  err = folder.path() / "err";
   const uint64_t bytes = fs::file_size(model, failed);
   ReadingPart computed(reading, failed ? 0 : bytes);
+  std::vector<std::string> words{"node", script.string(), fs::absolute(model).string(),
+                                 glb.string()};
+  if (!only.empty()) {
+    words.push_back((folder.path() / "numbers").string());
+    const std::string numbers = fmt::format("{}", fmt::join(only, "\n"));
+    if (auto ok = write_file_atomically(words.back(), std::string_view(numbers)); !ok)
+      return ok.problem();
+  }
   const auto code =
-      run_process({"node", script.string(), fs::absolute(model).string(), glb.string()}, out, err,
-                  seconds, [&] { computed.at_share(share_said_in(out)); });
+      run_process(words, out, err, seconds, [&] { computed.at_share(share_said_in(out)); });
   if (!code) return code.problem();
   if (!code.value())
     return problem_in(file, fmt::format("its shapes take longer than {:g} s to compute: give more "
@@ -188,23 +225,26 @@ Result<IfcShapes> ifc_shapes(const fs::path& model, const fs::path& script, doub
                       "not installed beside " +
                           script.string() + ": run ./setup.sh, or 'npm ci' in that folder");
   if (code.value() == no_shapes)
-    return problem_in(file, "the model has no shapes: export it with geometry" +
+    return problem_in(file, std::string(no_shapes_words) + ": export it with geometry" +
                                 (said.notes.empty() ? "" : " (" + said.notes.front() + ")"));
   if (code.value() != 0)
     return problem_in(file, "its shapes cannot be computed: " + complaint(err));
-  if (!said.offset)
-    return problem_in(file, "its shapes come without their place (the line \"offset X Y Z\" of " +
-                                script.filename().string() +
-                                "), and the building would stand elsewhere: import it again, and "
-                                "install the program anew if that does not help");
   auto parts = import_mesh(glb.string(), 1, UpAxis::y);
   if (!parts)
     return problem_in(file, "its shapes cannot be read: " + parts.problem().what,
                       parts.problem().kind);
-  const glm::dvec3 offset = to_z_up(UpAxis::y).vector(*said.offset);
-  for (ImportedPart& part : parts.value())
+  for (ImportedPart& part : parts.value()) {
+    const auto place = said.places.find(number_of_node(part.name));
+    if (place == said.places.end())
+      return problem_in(file,
+                        "its shapes come without their place (a line \"at NUMBER X Y Z\" of " +
+                            script.filename().string() +
+                            "), and the building would stand elsewhere: import it again, and "
+                            "install the program anew if that does not help");
+    const glm::dvec3 offset = to_z_up(UpAxis::y).vector(place->second);
     for (glm::dvec3& p : part.mesh.positions) p += offset;
-  return IfcShapes{std::move(parts).value(), said.notes};
+  }
+  return IfcShapes{std::move(parts).value(), said.notes, said.uncut, {}};
 }
 
 }  // namespace luxodus

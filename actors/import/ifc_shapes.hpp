@@ -4,10 +4,13 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "scenes/formats/ifc/ifc_model.hpp"
 #include "scenes/light/geometry/import.hpp"
 
 namespace luxodus {
@@ -18,18 +21,32 @@ struct IfcShapes {
   /// One part or several for each product: `name` begins with its GlobalId, up to a '#'. Scene axes
   /// [m], in double.
   std::vector<ImportedPart> parts;
-  std::vector<std::string> notes;  // messages about what could not be computed
+  std::vector<std::string> notes;      // messages about what could not be computed
+  std::map<uint64_t, uint64_t> uncut;  // number of a product, of its openings that were not cut
+  std::map<std::string, double> open;  // solids that are not closed: GlobalId, missing area [m2]
 };
+
+/// The beginning of the problem that a model without shapes is.
+inline constexpr std::string_view no_shapes_words = "the model has no shapes";
 
 /// Opacity of a part, from the name of its material; 1 if that states none.
 double opacity_of(const ImportedPart& part);
 
 /// `script`: ifc_shapes.mjs, with node_modules beside it. `seconds`: time limit of the process.
 /// `reading`, where given, receives twice a second the share of the model's products that are done.
+/// `only`: numbers of the products whose shapes are wanted; empty for all.
 /// Errors: no Node.js, no package, time limit exceeded, a model without shapes, an answer that is
-/// malformed or lacks the position of the shapes.
+/// malformed or lacks the position of a shape.
 Result<IfcShapes> ifc_shapes(const std::filesystem::path& model,
                              const std::filesystem::path& script, double seconds,
-                             ReadingShare* reading = nullptr);
+                             ReadingShare* reading = nullptr,
+                             const std::vector<uint64_t>& only = {});
+
+/// Shapes of a model from its exchange file, made ready for the library. Solids that come back open
+/// or lost are cut by half spaces here and computed again; those that remain open are in `open`.
+/// Errors: as ifc_shapes.
+Result<IfcShapes> shapes_of_model(const StepFile& step, const IfcModel& model,
+                                  const std::filesystem::path& script, double seconds,
+                                  ReadingShare* reading = nullptr);
 
 }  // namespace luxodus

@@ -7,10 +7,13 @@
 #include <cmath>
 #include <set>
 
+#include "actors/import/hand_changes.hpp"
 #include "actors/import/import_files.hpp"
 #include "actors/import/own_tables.hpp"
 #include "actors/results/formats/write_glb.hpp"
 #include "runtime/core/atomic_file.hpp"
+#include "runtime/core/printable.hpp"
+#include "runtime/core/regular_file.hpp"
 #include "scenes/formats/photometry/gldf.hpp"
 #include "scenes/light/geometry/mesh_tools.hpp"
 
@@ -18,6 +21,9 @@ namespace luxodus {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The limit of every scene file.
+constexpr uint64_t max_building_bytes = uint64_t{16} << 20;
 
 /// Rounds to a tenth of a millimetre, the precision of shapes.
 double rounded(double metres) {
@@ -125,6 +131,30 @@ std::string sign_type_text(const BuildingFixture& fixture, size_t count) {
 
 using FixtureTypes = std::map<std::pair<bool, std::string>, std::vector<const BuildingFixture*>>;
 
+/// The file of the intensities that the model states for a type: the same name in every import.
+fs::path own_photometry_file(const std::string& type) {
+  uint32_t hash = 2166136261u;  // FNV-1a
+  for (const char c : type) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  return fs::path("building") /
+         fmt::format("light-{}-{:08x}.ies", letters_and_digits(type).substr(0, 40), hash);
+}
+
+/// Writes the intensities of a type that the model states; "" where it states none.
+Result<std::string> own_photometry(const std::string& type,
+                                   const std::vector<const BuildingFixture*>& of_type,
+                                   const fs::path& folder) {
+  for (const BuildingFixture* f : of_type) {
+    if (f->is_sign || f->photometry.empty()) continue;
+    const fs::path file = own_photometry_file(type);
+    std::error_code failed;
+    fs::create_directories(folder / "building", failed);
+    if (auto ok = write_file_atomically(folder / file, std::string_view(f->photometry)); !ok)
+      return ok.problem();
+    return file.generic_string();
+  }
+  return std::string();
+}
+
 /// The kind of a type's table: a sign and a luminaire may have types with the same name.
 const char* table_of(bool is_sign) {
   return is_sign ? "sign_type" : "luminaire_type";
@@ -141,6 +171,8 @@ Result<void> add_types(const FixtureTypes& types, const std::map<std::string, fs
   for (const auto& [kind, fixtures] : types) {
     const auto& [is_sign, type] = kind;
     const std::string table = table_of(is_sign);
+    const auto own = own_photometry(type, fixtures, folder);
+    if (!own) return own.problem();
     if (tables.has(table, type)) continue;
     const BuildingFixture& one = *fixtures.front();
     auto found = is_sign ? std::nullopt : photometry_of(files, fixtures);
@@ -150,6 +182,7 @@ Result<void> add_types(const FixtureTypes& types, const std::map<std::string, fs
         why = ": " + ok.problem().text();
         found.reset();
       }
+    if (!found && !own->empty()) found = folder / own.value();
     if (!found)
       written.asked.push_back(fmt::format("{} \"{}\" ({}){}", is_sign ? "sign" : "luminaire", type,
                                           fixtures.size(), why));
@@ -209,8 +242,12 @@ std::string storey_text(const BuildingStorey& storey, const std::string& file,
   if (std::any_of(storey.parts.begin(), storey.parts.end(),
                   [](const BuildingPart& p) { return p.furniture; }))
     out += "\n[[import.part]]\nmatch = \"furniture *\"\ntags = [\"furniture\"]\n";
-  for (const BuildingPart& part : storey.parts)
+  for (const BuildingPart& part : storey.parts) {
+    if (part.open)
+      out += fmt::format("\n[[import.part]]\nmatch = {}\ntags = [\"open solid\"]\n",
+                         toml_text(part.name));
     if (part.hinge) out += door_text(part);
+  }
   return out;
 }
 
@@ -224,9 +261,9 @@ std::string room_text(const BuildingRoom& room) {
 }
 
 std::string exit_text(const BuildingExit& exit) {
-  return fmt::format("\n[[emphasis]]\nname = {}\nkind = \"{}\"\nposition = {}\n",
+  return fmt::format("\n[[emphasis]]\nname = {}\nkind = \"{}\"\nposition = {}\n# ifc_guid = {}\n",
                      toml_text(exit.name), exit.final_exit ? "final_exit" : "exit_door",
-                     point_text(exit.position));
+                     point_text(exit.position), toml_text(exit.guid));
 }
 
 /// The point, of a grid over the first room or the building, that is farthest from all surfaces.
@@ -312,8 +349,10 @@ std::string report_text(const Building& building, const WrittenBuilding& written
          lines_of(fmt::format("Volumes that differ by more than {:g} %, of {} that are authored",
                               100 * limits::volume_difference, building.volumes_compared),
                   volumes) +
+         lines_of("Solids that are not closed", written.open_solids) +
          lines_of("Rooms that are not closed", written.open_rooms) +
          lines_of("Types of fixtures that fixtures.toml asks for", written.asked) +
+         lines_of("Changed by hand in building.toml", written.by_hand) +
          lines_of("Also", building.notes);
 }
 
@@ -395,6 +434,33 @@ Result<std::string> write_storeys(const std::vector<BuildingStorey>& storeys,
   return tables;
 }
 
+/// The text of building.toml with what a person has changed in it, and the copy against which the
+/// next import finds such changes.
+Result<std::string> with_changes_kept(const std::string& fresh, const fs::path& folder,
+                                      WrittenBuilding& written) {
+  const fs::path file = folder / "building.toml", copy = folder / "building/as-written.toml";
+  std::error_code failed;
+  HandChanges changes{fresh, {}};
+  if (fs::exists(file, failed) && fs::exists(copy, failed)) {
+    const auto now = read_regular_file(file, max_building_bytes);
+    if (!now) return now.problem();
+    const auto before = read_regular_file(copy, max_building_bytes);
+    if (!before) return before.problem();
+    changes = with_hand_changes(fresh, now.value(), before.value());
+  }
+  // The copy has the tables of the model, so that a change is one in the next import, too.
+  if (auto ok = write_file_atomically(copy, std::string_view(fresh)); !ok) return ok.problem();
+  written.by_hand = changes.notes;
+  return changes.text;
+}
+
+void note_solids(const Building& building, WrittenBuilding& written) {
+  for (const OpenSolid& solid : building.open_solids)
+    written.open_solids.push_back(
+        fmt::format("#{} {} {}: faces of {:.3g} m2 are missing; light passes there", solid.id,
+                    solid.name, solid.guid, solid.area_m2));
+}
+
 void note_rooms(const Building& building, WrittenBuilding& written) {
   constexpr double crack = 0.002;  // one ray of 500
   for (const BuildingRoom& room : building.rooms)
@@ -428,8 +494,9 @@ Result<WrittenBuilding> write_building(const Building& building, const std::stri
   if (!tables) return tables.problem();
   std::string text = fmt::format(
       "# The building of {}.\n# Made by `luxodus import ifc`, which writes this file anew: change "
-      "scene.toml, materials.toml\n# and fixtures.toml instead. Names of parts end in their "
-      "GlobalId.\ninclude = [\"materials.toml\", \"fixtures.toml\"]\n",
+      "scene.toml, materials.toml\n# and fixtures.toml instead. Only tables with an ifc_guid that "
+      "you change or remove stay so.\n# Names of parts end in their GlobalId.\ninclude = "
+      "[\"materials.toml\", \"fixtures.toml\"]\n",
       as_name(fs::path(building.file).filename().string(), "an IFC model"));
   text += tables.value();
   for (const BuildingStorey& storey : storeys) {
@@ -445,9 +512,13 @@ Result<WrittenBuilding> write_building(const Building& building, const std::stri
   }
   written.rooms = building.rooms.size();
   note_rooms(building, written);
+  note_solids(building, written);
   if (auto ok = save(materials.value(), materials_head); !ok) return ok.problem();
   if (auto ok = save(fixtures.value(), fixtures_head); !ok) return ok.problem();
-  if (auto ok = write_file_atomically(folder.value() / "building.toml", std::string_view(text));
+  const auto kept_text = with_changes_kept(text, folder.value(), written);
+  if (!kept_text) return kept_text.problem();
+  if (auto ok = write_file_atomically(folder.value() / "building.toml",
+                                      std::string_view(kept_text.value()));
       !ok)
     return ok.problem();
   const std::string report = report_text(building, written);

@@ -1,5 +1,7 @@
 // Writes an imported building as a scene that the user goes on with.
-//   building/*.glb, building.toml, import.txt   overwritten by every import
+//   building/*, building.toml, import.txt       overwritten by every import; tables of
+//                                               building.toml with a GlobalId that the user has
+//                                               changed or removed stay so
 //   materials.toml, fixtures.toml, scene.toml   the user's: made if missing; what is new in a
 //                                               model is added at the end of the first two
 // Files are written atomically. Any thread; one import at a time writes to a folder.
@@ -23,8 +25,9 @@ inline constexpr size_t photometric_files = 10'000;
 struct WrittenBuilding {
   size_t parts = 0, doors = 0, rooms = 0, luminaires = 0, signs = 0;
   std::vector<std::string> asked;  // messages about types of fixtures that the user must complete
-  std::vector<std::string> open_rooms;
-  bool kept_scene = false;  // scene.toml existed
+  std::vector<std::string> open_rooms, open_solids;
+  std::vector<std::string> by_hand;  // tables of building.toml that a person has changed
+  bool kept_scene = false;           // scene.toml existed
 };
 
 /// `photometry`: folder of photometric files; "" for none.

@@ -167,6 +167,33 @@ TEST_CASE("light is traced in an imported model, and its results are by GlobalId
   CHECK_THAT(table, Contains(small.lamp_guid + ",luminaire,Lamp 1,") &&
                         Contains("emergency flux,,144") &&
                         Contains(small.space_guid + ",space,1 Hall,en1838-2024,E6"));
+  CHECK_THAT(slurp(folder / "assessed/property_sets.csv"),
+             Contains(small.lamp_guid + ",Luxodus_EmergencyLighting,EmergencyFlux,144,"));
+  CHECK_THAT(table, Contains(",fail,"));  // a sign is missing, so that an issue is written
+  CHECK_THAT(slurp(folder / "assessed/issues.bcf"),
+             Contains("<Version VersionId=\"2.1\">") && Contains("<PerspectiveCamera>"));
+}
+
+TEST_CASE("an area that a person has renamed in building.toml keeps its name",
+          "[program][import]") {
+  if (!shapes_can_be_computed()) return;
+  const TemporaryFolder folder;
+  SmallIfc small;
+  folder.write("house.ifc", small.text());
+  const std::string import =
+      "import ifc " + within(folder, "house.ifc") + " --out " + within(folder, "house");
+  REQUIRE(run_luxodus(folder, import).code == 0);
+  std::string building = slurp(folder / "house/building.toml");
+  const size_t name = building.find("name = \"1 Hall\"");
+  REQUIRE(name != std::string::npos);
+  folder.write("house/building.toml", building.replace(name, 15, "name = \"Foyer\""));
+  for (int again = 0; again < 2; ++again) {
+    const Outcome second = run_luxodus(folder, import);
+    INFO(second.err);
+    REQUIRE(second.code == 0);
+    CHECK_THAT(second.out, Contains("\"Foyer\" was kept"));
+    CHECK_THAT(slurp(folder / "house/building.toml"), Contains("name = \"Foyer\""));
+  }
 }
 
 TEST_CASE("a plan without a unit requires one, and its layers wait for the user",

@@ -172,7 +172,7 @@ AssessedStates assessed_states(const std::string& file, std::vector<double> time
 
 Result<ExitCode> assess_into(const AssessmentJob& job) {
   const OutputPlan plan{{"report.html", "report.pdf", "assessment.json", "checks.csv", "sights.csv",
-                         "guided.csv", "by_guid.csv"},
+                         "guided.csv", "by_guid.csv", "property_sets.csv", "issues.bcf"},
                         {"plans", "schedules"}};
   const auto out = OutputFolder::claim(job.folder, plan);
   if (!out) return out.problem();
@@ -259,8 +259,9 @@ Command assess_command() {
             "Exit code 1 where anything fails, is undecided, not assessed or not verified"}},
       .notes =
           "Needs routes, areas or observers in the scene. Writes report.html, assessment.json, "
-          "checks.csv, sights.csv, guided.csv (over time), by_guid.csv (of what came from IFC), "
-          "plans/ (SVG, DXF), schedules/ (CSV). Over several times routes are followed; all else "
+          "checks.csv, sights.csv, guided.csv (over time), plans/ (SVG, DXF), schedules/ (CSV); of "
+          "what came from IFC by_guid.csv, property_sets.csv, issues.bcf (failed checks). Over "
+          "several times routes are followed; all else "
           "is of the last of them.\n"
           "  luxodus assess scenes/library/office_floor.toml --out out/office\n"
           "  luxodus assess office.toml --scenario fire --rules en1838-2013 \\\n"

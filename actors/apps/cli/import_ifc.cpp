@@ -60,8 +60,10 @@ void tell(const Building& building, const WrittenBuilding& written, const std::s
                                       d.name, d.guid, d.authored_m3, d.mesh_m3));
   print_list("volumes that differ", differences);
   print_list("not read", building.unread);
+  print_list("solids that are not closed", written.open_solids);
   print_list("rooms that are not closed", written.open_rooms);
   print_list("fixtures that fixtures.toml asks for", written.asked);
+  print_list("changed by hand in building.toml", written.by_hand);
   print_list("also", building.notes);
   std::printf("%s%s\n", (fs::path(out) / "building.toml").c_str(),
               written.kept_scene ? ", and scene.toml as it was" : " and scene.toml");
@@ -70,16 +72,18 @@ void tell(const Building& building, const WrittenBuilding& written, const std::s
 Result<ExitCode> import_ifc(const ImportIfcOptions& options) {
   auto bytes = read_regular_file(options.model, limits::step_bytes);
   if (!bytes) return bytes.problem();
-  const auto model = [&] {
+  const auto step = [&] {
     ReadingShare share;
     const WaitingLine waiting("reading " + options.model, &share);
-    return ifc_model_of(std::move(bytes).value(), options.model, &share);
+    return StepFile::of(std::move(bytes).value(), options.model, &share);
   }();
+  if (!step) return step.problem();
+  const auto model = ifc_model_of(step.value(), options.model);
   if (!model) return model.problem();
   auto shapes = [&] {
     ReadingShare share;
     const WaitingLine waiting("computing the shapes of " + options.model, &share);
-    return ifc_shapes(options.model, shapes_script(), options.seconds, &share);
+    return shapes_of_model(step.value(), model.value(), shapes_script(), options.seconds, &share);
   }();
   if (!shapes) return shapes.problem();
   ProgressLine line("import");

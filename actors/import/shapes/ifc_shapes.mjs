@@ -1,12 +1,14 @@
 // Computes the shapes of an IFC model as a binary glTF with @ifc-lite/wasm. `luxodus import ifc`
 // (actors/import/ifc_shapes.cpp) calls it, limits its time and does not trust its answer.
-//   node ifc_shapes.mjs MODEL.ifc OUT.glb
-// Products are computed in batches, so that progress can be reported. Nodes are named by the
-// GlobalId of their product, materials by opacity. The offset of the whole model is removed, since
-// glTF has single precision, and printed as text with all digits.
+//   node ifc_shapes.mjs MODEL.ifc OUT.glb [NUMBERS]
+// Products are computed in batches, so that progress can be reported; with a file of numbers of
+// instances, those alone. Nodes are named by the GlobalId of their product and their own number,
+// materials by opacity. Where a node stands is printed as text with all digits, since glTF has
+// single precision.
 // Lines on standard output:
 //   done SHARE            of the products, from 0 to 1
-//   offset X Y Z          of the model [m], axes of glTF (y up)
+//   at NUMBER X Y Z       of a node [m], axes of glTF (y up)
+//   uncut NUMBER COUNT    of a product, of whose openings COUNT were not cut
 //   note TEXT             what could not be computed, for the user
 // Exit codes: 0 done; 3 the package is not installed; 4 the model has no shapes; 1 anything else.
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -14,15 +16,15 @@ import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 
 const glb_magic = 0x46546c67;
-const json_chunk = 0x4e4f534a;
+const json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
+/** Component types of glTF. */
+const floats = 5126, unsigned_ints = 5125;
 /** A job has the number of its product, and the begin and end of its statement [bytes]. */
 const job_words = 3;
 /** Class of a mesh: the shape of a type, which its products already have. */
 const of_used_type = 2;
 /** Limit on batches of a model. Products share work within a batch. */
 const most_batches = 100;
-/** Limit on products named for openings that were not cut; each batch names some. */
-const most_hosts = 16;
 
 /** The package, with its module of WebAssembly compiled from the disk. */
 async function load_api() {
@@ -43,16 +45,16 @@ async function load_api() {
 /** Collects what could not be computed, over all batches. */
 class Faults {
   constructor() {
-    this.uncut = new Map();
-    this.hosts = new Set();
+    this.reasons = new Map();
+    this.hosts = new Map();
     this.shapeless = new Map();
   }
 
   add(found) {
     const grow = (counts, what, by) => counts.set(what, (counts.get(what) ?? 0) + by);
-    for (const { reason, count } of found?.failuresByReason ?? []) grow(this.uncut, reason, count);
+    for (const { reason, count } of found?.failuresByReason ?? []) grow(this.reasons, reason, count);
     for (const host of found?.worstHosts ?? [])
-      this.hosts.add(host.productId ?? host.expressId ?? '?');
+      if (host.csgFailures > 0) grow(this.hosts, host.productId, host.csgFailures);
     for (const item of found?.unsupportedItemsByType ?? [])
       grow(this.shapeless, item.reason ?? '?', item.count ?? 1);
   }
@@ -60,10 +62,11 @@ class Faults {
   tell() {
     for (const [type, count] of this.shapeless)
       console.log(`note ${count} items of ${type} have no shape`);
-    for (const [reason, count] of this.uncut)
-      console.log(`note ${count} openings were not cut: ${reason}`);
-    for (const host of [...this.hosts].slice(0, most_hosts))
-      console.log(`note #${host} has openings that were not cut`);
+    for (const [host, count] of this.hosts) console.log(`uncut ${host} ${count}`);
+    const sum = (counts) => [...counts.values()].reduce((all, count) => all + count, 0);
+    const rest = sum(this.reasons) - sum(this.hosts);
+    if (rest > 0)
+      console.log(`note ${rest} cuts of solids were not made: ${[...this.reasons.keys()].join(', ')}`);
   }
 }
 
@@ -80,9 +83,9 @@ function computed_meshes(api, bytes, plan, faults) {
       plan.materialColors);
     for (let i = 0; i < batch.length; ++i) {
       const mesh = batch.takeMesh(i);
-      const { positions, normals, indices, color, origin, expressId } = mesh;
+      const { positions, indices, color, origin, expressId } = mesh;
       if (indices.length > 0 && mesh.geometryClass !== of_used_type)
-        meshes.push({ positions, normals, indices, color, origin, expressId });
+        meshes.push({ positions, indices, color, origin, expressId });
       mesh.free();
     }
     faults.add(batch.diagnostics);
@@ -92,61 +95,61 @@ function computed_meshes(api, bytes, plan, faults) {
   return meshes;
 }
 
-/** Concatenates the numbers that `of` returns for each mesh. */
-function joined(Numbers, meshes, of) {
-  const out = new Numbers(meshes.reduce((sum, mesh) => sum + of(mesh).length, 0));
-  let at = 0;
-  for (const mesh of meshes) {
-    out.set(of(mesh), at);
-    at += of(mesh).length;
-  }
-  return out;
+/** The meshes as a binary glTF, each in a node without a translation. */
+function glb_of(meshes, ids) {
+  const accessors = [], bufferViews = [], materials = new Map(), parts = [], nodes = [];
+  let byteOffset = 0;
+  const add = (numbers, accessor) => {
+    const bytes = Buffer.from(numbers.buffer, numbers.byteOffset, numbers.byteLength);
+    bufferViews.push({ buffer: 0, byteOffset, byteLength: bytes.length });
+    byteOffset += bytes.length;
+    parts.push(bytes);
+    accessors.push({ bufferView: bufferViews.length - 1, ...accessor });
+    return accessors.length - 1;
+  };
+  const material_of = (color) => {
+    const key = [...color].join(' ');
+    if (!materials.has(key)) materials.set(key, materials.size);
+    return materials.get(key);
+  };
+  const shapes = meshes.map((mesh, i) => {
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+    mesh.positions.forEach((x, k) => {
+      low[k % 3] = Math.min(low[k % 3], x);
+      high[k % 3] = Math.max(high[k % 3], x);
+    });
+    const count = mesh.positions.length / 3;
+    nodes.push({ name: `${ids.get(mesh.expressId) ?? ''}#${i}`, mesh: i });
+    const position = { componentType: floats, count, type: 'VEC3', min: low, max: high };
+    const index = { componentType: unsigned_ints, count: mesh.indices.length, type: 'SCALAR' };
+    return { primitives: [{ attributes: { POSITION: add(mesh.positions, position) },
+                            indices: add(mesh.indices, index),
+                            material: material_of(mesh.color) }] };
+  });
+  const bin = Buffer.concat(parts);
+  const json = {
+    asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: nodes.map((_, i) => i) }], nodes,
+    meshes: shapes, accessors, bufferViews, buffers: [{ byteLength: bin.length }],
+    materials: [...materials.keys()].map((key) => {
+      const color = key.split(' ').map(Number);
+      return { name: `opacity ${color[3] ?? 1}`,
+               pbrMetallicRoughness: { baseColorFactor: color } };
+    }) };
+  return put_together(json, bin);
 }
 
-function glb_of(api, meshes) {
-  return api.exportGlbFromMeshes(
-    joined(Float32Array, meshes, (mesh) => mesh.positions),
-    joined(Float32Array, meshes, (mesh) => mesh.normals),
-    joined(Uint32Array, meshes, (mesh) => mesh.indices),
-    Uint32Array.from(meshes, (mesh) => mesh.positions.length / 3),
-    Uint32Array.from(meshes, (mesh) => mesh.indices.length),
-    joined(Float32Array, meshes, (mesh) => mesh.color),
-    joined(Float64Array, meshes, (mesh) => mesh.origin),
-    Uint32Array.from(meshes, (mesh) => mesh.expressId),
-    true, true, false);
-}
-
-/** The JSON and the binary chunk of a binary glTF. */
-function taken_apart(glb) {
-  const view = new DataView(glb.buffer, glb.byteOffset, glb.byteLength);
-  if (view.getUint32(0, true) !== glb_magic || view.getUint32(16, true) !== json_chunk)
-    throw new Error('the package gave no binary glTF');
-  const length = view.getUint32(12, true);
-  const json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + length)));
-  return { json, rest: glb.subarray(20 + length) };
-}
-
-function put_together(json, rest) {
+function put_together(json, bin) {
   const text = Buffer.from(JSON.stringify(json));
   const padding = Buffer.alloc((4 - (text.length % 4)) % 4, 0x20);
-  const head = Buffer.alloc(20);
+  const head = Buffer.alloc(20), middle = Buffer.alloc(8);
   head.writeUInt32LE(glb_magic, 0);
   head.writeUInt32LE(2, 4);
-  head.writeUInt32LE(20 + text.length + padding.length + rest.length, 8);
+  head.writeUInt32LE(28 + text.length + padding.length + bin.length, 8);
   head.writeUInt32LE(text.length + padding.length, 12);
   head.writeUInt32LE(json_chunk, 16);
-  return Buffer.concat([head, text, padding, rest]);
-}
-
-/** Removes the translation of the single root; returns it plus that of the plan, which is z up. */
-function take_offset(json, plan) {
-  const [x, y, z] = plan.needsShift ? plan.rtcOffset : [0, 0, 0];
-  const roots = json.scenes?.[json.scene ?? 0]?.nodes ?? [];
-  const root = roots.length === 1 ? json.nodes[roots[0]] : undefined;
-  if (!root?.translation || root.mesh !== undefined) return [x, z, -y];
-  const [root_x, root_y, root_z] = root.translation;
-  delete root.translation;
-  return [x + root_x, z + root_y, root_z - y];
+  middle.writeUInt32LE(bin.length, 0);
+  middle.writeUInt32LE(binary_chunk, 4);
+  return Buffer.concat([head, text, padding, middle, bin]);
 }
 
 /** The GlobalId of each product: the first text of its statement. */
@@ -162,27 +165,31 @@ function global_ids(bytes, plan) {
   return ids;
 }
 
-function name_parts(json, ids) {
-  for (const node of json.nodes) {
-    const number = node.extras?.expressId;
-    if (number !== undefined) node.name = ids.get(number) ?? `#${number}`;
-  }
-  for (const material of json.materials ?? [])
-    material.name = `opacity ${material.pbrMetallicRoughness?.baseColorFactor?.[3] ?? 1}`;
+/** Prints where each mesh stands; the offset of the plan is z up. */
+function tell_places(meshes, plan) {
+  const [x, y, z] = plan.needsShift ? plan.rtcOffset : [0, 0, 0];
+  meshes.forEach(({ origin }, i) =>
+    console.log(`at ${i} ${origin[0] + x} ${origin[1] + z} ${origin[2] - y}`));
 }
 
-const [model, out] = process.argv.slice(2);
+/** The jobs of the products whose numbers the file lists. */
+function chosen_jobs(jobs, file) {
+  const numbers = new Set(readFileSync(file, 'utf8').split(/\s+/).filter(Boolean).map(Number));
+  return jobs.filter((_, i) => numbers.has(jobs[i - (i % job_words)]));
+}
+
+const [model, out, numbers] = process.argv.slice(2);
 const api = await load_api();
 const bytes = new Uint8Array(readFileSync(model));
 const plan = api.buildPrePassOnce(bytes);
+const ids = global_ids(bytes, plan);
+if (numbers) plan.jobs = chosen_jobs(plan.jobs, numbers);
 const faults = new Faults();
 const meshes = computed_meshes(api, bytes, plan, faults);
 if (meshes.length === 0) {
   faults.tell();
   process.exit(4);
 }
-const { json, rest } = taken_apart(glb_of(api, meshes));
-console.log(`offset ${take_offset(json, plan).join(' ')}`);
-name_parts(json, global_ids(bytes, plan));
-writeFileSync(out, put_together(json, rest));
+tell_places(meshes, plan);
+writeFileSync(out, glb_of(meshes, ids));
 faults.tell();

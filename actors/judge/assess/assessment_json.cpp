@@ -7,11 +7,13 @@
 
 #include "actors/judge/assess/assessment_check.hpp"
 #include "actors/judge/assess/assessment_inputs.hpp"
+#include "actors/judge/assess/bcf_issues.hpp"
 #include "actors/judge/assess/guid_results.hpp"
 #include "actors/judge/assess/over_time_json.hpp"
 #include "actors/judge/assess/state_words.hpp"
 #include "actors/judge/texts/remark_json.hpp"
 #include "actors/results/formats/csv.hpp"
+#include "runtime/core/atomic_file.hpp"
 #include "runtime/core/regular_file.hpp"
 
 namespace luxodus {
@@ -195,6 +197,16 @@ CsvTable csv_of(const Json& rows, const std::vector<std::string>& columns) {
   return table;
 }
 
+/// Without issues, those of an earlier assessment are removed.
+Result<void> write_issues(const fs::path& file, const std::optional<std::string>& issues) {
+  if (issues) return write_file_atomically(file, std::string_view(*issues));
+  std::error_code failed;
+  fs::remove(file, failed);
+  if (failed)
+    return system_problem(file, "cannot remove what an earlier run has left", failed.value());
+  return {};
+}
+
 }  // namespace
 
 Json assessment_json(const SceneDescription& scene, const Assessment& assessment,
@@ -297,6 +309,11 @@ Result<void> write_assessment(const fs::path& folder, const Json& assessment) {
                                                     "viewing_distance.within"});
   if (auto ok = write_csv(folder / "sights.csv", sights); !ok) return ok.problem();
   if (auto ok = write_or_remove(folder / "by_guid.csv", results_by_guid(assessment)); !ok)
+    return ok.problem();
+  if (auto ok = write_or_remove(folder / "property_sets.csv", property_sets_by_guid(assessment));
+      !ok)
+    return ok.problem();
+  if (auto ok = write_issues(folder / "issues.bcf", bcf_issues(assessment)); !ok)
     return ok.problem();
   const auto over = assessment.find("over_time");
   return write_or_remove(folder / "guided.csv", over == assessment.end()

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -105,6 +106,51 @@ void put_views(CsvTable& table, const ModelThing& thing, const Json& sights) {
                   verdicts[name_of(SightVerdict::legible)], fmt::format("of {}", views), words);
 }
 
+// ---- property sets
+
+/// The measure of IFC for a unit, where the unit is that of the measure in every model.
+const char* measure_of(const std::string& unit) {
+  if (unit == "lx") return "IfcIlluminanceMeasure";
+  if (unit == "lm") return "IfcLuminousFluxMeasure";
+  if (unit == "cd") return "IfcLuminousIntensityMeasure";
+  return "IfcReal";
+}
+
+/// Properties of one thing; names are unique within a set.
+class PropertyRows {
+ public:
+  PropertyRows(CsvTable& table, const ModelThing& thing) : table_(table), thing_(thing) {}
+
+  void add(const std::string& set, const std::string& property, const Json& value,
+           const std::string& unit) {
+    std::string name = property;
+    for (int i = 2; !taken_.insert(set + "\n" + name).second; ++i)
+      name = fmt::format("{} ({})", property, i);
+    table_.cell(thing_.guid).cell(set).cell(name);
+    if (value.is_number())
+      table_.cell(value.get<double>()).cell(measure_of(unit)).cell(unit);
+    else
+      table_.cell(value.get<std::string>()).cell("IfcLabel").cell("");
+    table_.end_row();
+  }
+
+  void add_check(const Json& check) {
+    const std::string set = "Luxodus_" + text_in(check, "rule_set");
+    const std::string conditions = english_in(check, "conditions");
+    const std::string name = text_in(check, "rule") + " " + text_in(check, "title") +
+                             (conditions.empty() ? "" : ", " + conditions);
+    for (const char* key : {"value", "limit"})
+      if (const Json number = check.value(key, Json()); number.is_number())
+        add(set, name + ": " + key, number, text_in(check, "unit"));
+    add(set, name + ": verdict", text_in(check, "verdict"), "");
+  }
+
+ private:
+  CsvTable& table_;
+  const ModelThing& thing_;
+  std::set<std::string> taken_;
+};
+
 }  // namespace
 
 std::optional<CsvTable> results_by_guid(const Json& assessment) {
@@ -117,6 +163,24 @@ std::optional<CsvTable> results_by_guid(const Json& assessment) {
         put_check(table, thing, check);
     if (thing.kind == "luminaire") put_flux(table, thing, assessment["luminaires"]);
     if (thing.kind == "sign") put_views(table, thing, assessment["sights"]);
+  }
+  return table;
+}
+
+std::optional<CsvTable> property_sets_by_guid(const Json& assessment) {
+  const auto things = things_by_subject(assessment);
+  if (things.empty()) return std::nullopt;
+  CsvTable table({"GlobalId", "PropertySet", "Property", "Value", "ValueType", "Unit"});
+  for (const auto& [subject, thing] : things) {
+    PropertyRows rows(table, thing);
+    for (const Json& check : assessment["checks"])
+      if (check["subject"]["kind"] == subject.first && check["subject"]["name"] == subject.second)
+        rows.add_check(check);
+    if (thing.kind != "luminaire") continue;
+    for (const Json& luminaire : assessment["luminaires"])
+      if (guid_of(luminaire) == thing.guid && luminaire["name"] == thing.name)
+        rows.add("Luxodus_EmergencyLighting", "EmergencyFlux", luminaire["emergency_flux"]["value"],
+                 text_in(luminaire["emergency_flux"], "unit"));
   }
   return table;
 }

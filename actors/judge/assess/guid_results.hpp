@@ -14,4 +14,8 @@ namespace luxodus {
 /// each such luminaire, and for the views of each such sign. None if nothing has a GlobalId.
 std::optional<CsvTable> results_by_guid(const Json& assessment);
 
+/// The same as properties of property sets, one a row: a set for each rule set, in it value, limit
+/// and verdict of each check, with the IFC type of the value. None if nothing has a GlobalId.
+std::optional<CsvTable> property_sets_by_guid(const Json& assessment);
+
 }  // namespace luxodus

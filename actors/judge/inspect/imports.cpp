@@ -8,6 +8,7 @@
 #include <map>
 
 #include "actors/judge/inspect/site.hpp"
+#include "scenes/light/geometry/closed_mesh.hpp"
 
 namespace luxodus {
 
@@ -241,6 +242,23 @@ void inspect_imports(const SceneDescription& scene, Findings& out) {
                                 "its unit right{} An import says units = \"m\", \"cm\", \"mm\", "
                                 "\"in\" or \"ft\"",
                                 name, length_text(*clear), unit_guess(*clear))}});
+  }
+}
+
+void inspect_open_solids(const SceneDescription& scene, Findings& out) {
+  for (const Object& object : scene.objects) {
+    if (std::find(object.tags.begin(), object.tags.end(), "open solid") == object.tags.end())
+      continue;
+    const double area = open_edges(object.mesh).area_m2;
+    out.push_back(
+        {Severity::warning,
+         "open solid",
+         {object.place,
+          fmt::format("\"{}\" is a solid in its model, but its shape is not closed{}: light "
+                      "passes where a face is missing; draw the body in another way in "
+                      "the model, or the missing face in the scene",
+                      object.name,
+                      area > 0 ? fmt::format(" ({:.3g} m2 are missing)", area) : "")}});
   }
 }
 

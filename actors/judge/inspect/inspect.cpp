@@ -245,6 +245,7 @@ Result<std::vector<Finding>> inspect(const std::shared_ptr<const SceneDescriptio
   inspect_sizes(*scene, of_scene);
   inspect_imports(*scene, of_scene);
   inspect_feet(*scene, of_scene);
+  inspect_open_solids(*scene, of_scene);
   inspect_doubled_objects(*scene, of_scene);
   inspect_doors(*scene, of_scene);
   inspect_reach(*scene, of_scene);

@@ -103,6 +103,8 @@ void inspect_sizes(const SceneDescription& scene, Findings& out);
 void inspect_imports(const SceneDescription& scene, Findings& out);
 /// Doors of any building that are as high as if feet had been read as metres.
 void inspect_feet(const SceneDescription& scene, Findings& out);
+/// Parts that an import has marked as solids that are not closed.
+void inspect_open_solids(const SceneDescription& scene, Findings& out);
 void inspect_doubled_objects(const SceneDescription& scene, Findings& out);
 void inspect_doors(const SceneDescription& scene, Findings& out);
 void inspect_reach(const SceneDescription& scene, Findings& out);

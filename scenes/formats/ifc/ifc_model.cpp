@@ -12,6 +12,8 @@
 #include <set>
 
 #include "runtime/core/printable.hpp"
+#include "scenes/formats/ifc/placements.hpp"
+#include "scenes/formats/ifc/representations.hpp"
 #include "scenes/formats/ifc/step_graph.hpp"
 
 namespace luxodus {
@@ -88,55 +90,6 @@ Units units_of(StepGraph& graph, const StepNode& project) {
   return out;
 }
 
-// ---- placements --------------------------------------------------------------------------------
-
-glm::dvec3 vector_of(const StepNode& node, const glm::dvec3& otherwise) {
-  const std::vector<double> n = node.numbers(0);
-  return n.size() < 2 ? otherwise : glm::dvec3(n[0], n[1], n.size() > 2 ? n[2] : 0);
-}
-
-/// Avoids overflow for numbers near 1e308; nothing where the vector has no direction.
-std::optional<glm::dvec3> unit_vector(glm::dvec3 v) {
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
-  v /= largest;
-  return v / glm::length(v);
-}
-
-/// IfcAxis2Placement3D and 2D, in the model's unit.
-Transform axis_placement(StepGraph& graph, const StepNode& node) {
-  Transform out;
-  out.offset = vector_of(graph.follow(node, 0), glm::dvec3(0));
-  const bool flat = node.is("IFCAXIS2PLACEMENT2D");
-  const glm::dvec3 z =
-      flat ? glm::dvec3(0, 0, 1)
-           : unit_vector(vector_of(graph.follow(node, 1), {0, 0, 1})).value_or(glm::dvec3(0, 0, 1));
-  glm::dvec3 x = vector_of(graph.follow(node, flat ? 1 : 2), {1, 0, 0});
-  x = unit_vector(x).value_or(glm::dvec3(1, 0, 0));
-  x -= glm::dot(x, z) * z;
-  // Parallel to the axis: any perpendicular direction, since the schema's default would not do
-  // either.
-  if (glm::length(x) < 1e-9)
-    x = glm::cross(std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z);
-  x = glm::normalize(x);
-  out.linear = glm::dmat3(x, glm::cross(z, x), z);
-  return out;
-}
-
-/// A product's placement in metres; nothing where the chain is broken, circular or not finite.
-std::optional<Transform> placement_of(StepGraph& graph, StepNode node, double metres_per_unit) {
-  Transform out;
-  for (int depth = 0; node; ++depth) {
-    if (depth >= limits::ifc_chain || !node.is("IFCLOCALPLACEMENT")) return std::nullopt;
-    out = axis_placement(graph, graph.follow(node, 1)) * out;
-    const uint64_t above = node.reference(0);
-    if (above != 0 && !graph.node(above)) return std::nullopt;
-    node = graph.node(above);
-  }
-  out.offset *= metres_per_unit;
-  return is_finite(out.offset) ? std::optional(out) : std::nullopt;
-}
-
 // ---- materials, properties, quantities ---------------------------------------------------------
 
 /// Names of the materials that IfcRelAssociatesMaterial relates to.
@@ -187,6 +140,12 @@ void add_properties(StepGraph& graph, const StepNode& set, double volume_factor,
 
 // ---- the model ---------------------------------------------------------------------------------
 
+/// References anywhere within a value: a definition set may be a typed list of them.
+void add_references(const StepValue& value, Ids& to) {
+  if (value.kind == StepValue::Kind::reference) to.push_back(value.id);
+  for (const StepValue& item : value.items) add_references(item, to);
+}
+
 /// Relations, from the relating to the related instance.
 struct Relations {
   std::map<uint64_t, uint64_t> inside_of, part_of, type_of, fills, voids;
@@ -217,6 +176,7 @@ class ModelReader {
         read_relation(graph_.node(instance));
       else if (is_product(graph_.node(instance)))
         products.push_back(instance.id);
+      grids_.add(graph_.node(instance));
     }
     const StepNode root = graph_.node(project);
     model_.project = root.text(2);
@@ -240,11 +200,12 @@ class ModelReader {
       ++model_.more_faults;
   }
 
-  /// Whether an instance has a placement (or says that it has none) and a shape at the attributes
-  /// of IfcProduct.
+  /// Whether an instance has a placement or a shape at the attributes of IfcProduct. A luminaire is
+  /// one in any case, so that it is not lost.
   bool is_product(const StepNode& node) {
-    const StepNode place = graph_.follow(node, 5);
-    return place.is("IFCLOCALPLACEMENT") || graph_.follow(node, 6).is("IFCPRODUCTDEFINITIONSHAPE");
+    const StepNode place = graph_.follow(node, 5), shape = graph_.follow(node, 6);
+    return place.type().ends_with("PLACEMENT") || shape.is("IFCPRODUCTDEFINITIONSHAPE") ||
+           shape.is("IFCPRODUCTREPRESENTATION") || node.is("IFCLIGHTFIXTURE") || node.is("IFCLAMP");
   }
 
   void read_layer(const StepNode& node) {
@@ -255,7 +216,7 @@ class ModelReader {
     const auto all_to_one = [&](std::map<uint64_t, uint64_t>& to, size_t many, size_t one) {
       for (const uint64_t id : node.references(many)) to.emplace(id, node.reference(one));
     };
-    if (node.is("IFCRELAGGREGATES")) all_to_one(relations_.part_of, 5, 4);
+    if (node.is("IFCRELAGGREGATES") || node.is("IFCRELNESTS")) all_to_one(relations_.part_of, 5, 4);
     if (node.is("IFCRELCONTAINEDINSPATIALSTRUCTURE")) all_to_one(relations_.inside_of, 4, 5);
     if (node.is("IFCRELDEFINESBYTYPE")) all_to_one(relations_.type_of, 4, 5);
     if (node.is("IFCRELFILLSELEMENT")) all_to_one(relations_.fills, 5, 4);
@@ -265,7 +226,7 @@ class ModelReader {
       all_to_one(relations_.voids, 5, 4);
     }
     if (node.is("IFCRELDEFINESBYPROPERTIES"))
-      for (const uint64_t id : node.references(4)) relations_.sets[id].push_back(node.reference(5));
+      for (const uint64_t id : node.references(4)) add_references(node.at(5), relations_.sets[id]);
     if (node.is("IFCRELASSOCIATESMATERIAL"))
       for (const uint64_t id : node.references(4))
         relations_.materials[id].push_back(node.reference(5));
@@ -276,17 +237,17 @@ class ModelReader {
     return it == relation.end() ? 0 : it->second;
   }
 
-  std::string storey_of(uint64_t id) {
+  uint64_t storey_of(uint64_t id) {
     for (int depth = 0; id != 0 && depth < limits::ifc_chain; ++depth) {
       const StepNode node = graph_.node(id);
-      if (node.is("IFCBUILDINGSTOREY")) return storey_name(node);
+      if (node.is("IFCBUILDINGSTOREY")) return id;
       const uint64_t inside = related(relations_.inside_of, id);
       const uint64_t filled = related(relations_.voids, related(relations_.fills, id));
       id = inside != 0                            ? inside
            : related(relations_.part_of, id) != 0 ? related(relations_.part_of, id)
                                                   : filled;
     }
-    return {};
+    return 0;
   }
 
   static std::string storey_name(const StepNode& node) {
@@ -301,7 +262,7 @@ class ModelReader {
     p.kind = kind_of(node.type());
     p.name = node.text(2);
     p.object_type = node.text(4);
-    const auto placement = placement_of(graph_, graph_.follow(node, 5), *units_.length);
+    const auto placement = placement_of(graph_, grids_, graph_.follow(node, 5), *units_.length);
     if (!placement) {
       fault(p.id, "(" + std::string(node.type()) + ", \"" + excerpt(p.name) +
                       "\") has a placement that leads nowhere");
@@ -309,12 +270,14 @@ class ModelReader {
     }
     p.placement = *placement;
     if (node.is("IFCBUILDINGSTOREY"))
-      model_.storeys.push_back({storey_name(node), p.placement.offset.z});
+      model_.storeys.push_back({p.id, storey_name(node), p.placement.offset.z});
     if (node.is("IFCSPACE"))
       p.long_name = node.text(7);
     else
       p.tag = node.text(7);
-    p.storey = storey_of(p.id);
+    p.storey_id = storey_of(p.id);
+    if (p.storey_id != 0) p.storey = storey_name(graph_.node(p.storey_id));
+    p.part_of = related(relations_.part_of, p.id);
     p.fills = related(relations_.fills, p.id);
     p.voids = related(relations_.voids, p.id);
     if (p.kind == "DOOR") p.operation = node.word(11);
@@ -361,33 +324,22 @@ class ModelReader {
   }
 
   void read_representations(const StepNode& shape, IfcProduct& p) {
-    p.has_shape = !shape.references(2).empty();
-    for (const uint64_t id : shape.references(2)) {
+    const IfcBody body = ifc_body(graph_, shape);
+    p.has_shape = !body.representations.empty();
+    p.is_solid = is_solid_body(graph_, body);
+    p.other_shapes = body.left_out;
+    p.taken_as = body.taken_as;
+    for (const uint64_t id : shape.references(2))
       if (const auto it = relations_.layers.find(id); it != relations_.layers.end())
         p.layer = it->second;
-      for (const uint64_t item : graph_.node(id).references(3)) {
-        const StepNode light = graph_.node(item);
-        if (light.is("IFCLIGHTSOURCEGONIOMETRIC") && !p.light) p.light = light_of(light, p);
-      }
-    }
-  }
-
-  IfcLightSource light_of(const StepNode& node, const IfcProduct& p) {
-    IfcLightSource out;
-    Transform place = axis_placement(graph_, graph_.follow(node, 4));
-    place.offset *= *units_.length;
-    const Transform whole = p.placement * place;
-    out.position = whole.offset;
-    out.axis = whole.linear[2];
-    const StepNode document = graph_.follow(node, 9);
-    out.document = document.text(0).empty() ? document.text(2) : document.text(0);
-    return out;
+    p.light = ifc_light_of(graph_, shape, p.placement, *units_.length);
   }
 
   const StepFile& step_;
   StepGraph graph_;
   Units units_;
   Relations relations_;
+  IfcGrids grids_;
   IfcModel model_;
 };
 
@@ -401,7 +353,11 @@ std::string IfcProduct::property(const std::string& path) const {
 Result<IfcModel> ifc_model_of(std::string bytes, const std::string& file, ReadingShare* reading) {
   const auto step = StepFile::of(std::move(bytes), file, reading);
   if (!step) return step.problem();
-  return ModelReader(step.value(), file).read();
+  return ifc_model_of(step.value(), file);
+}
+
+Result<IfcModel> ifc_model_of(const StepFile& step, const std::string& file) {
+  return ModelReader(step, file).read();
 }
 
 }  // namespace luxodus

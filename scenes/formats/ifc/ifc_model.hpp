@@ -12,24 +12,16 @@
 #include <vector>
 
 #include "runtime/core/result.hpp"
+#include "scenes/formats/ifc/light_sources.hpp"
 #include "scenes/formats/ifc/step_file.hpp"
 #include "scenes/light/geometry/transform.hpp"
 
 namespace luxodus {
 
 namespace limits {
-/// Depth of chains of relative placements, and of spatial structure.
-inline constexpr int ifc_chain = 64;
 /// Faults of instances that are kept; step_faults limits those of the text.
 inline constexpr size_t ifc_faults = 10'000;
 }  // namespace limits
-
-/// A photometric light source of a product (IfcLightSourceGoniometric).
-struct IfcLightSource {
-  glm::dvec3 position{0};  // in scene coordinates [m]
-  glm::dvec3 axis{0, 0, -1};
-  std::string document;  // name of the photometric file that it names; "" where none
-};
 
 struct IfcProduct {
   uint64_t id = 0;   // of the instance: "#38"
@@ -41,10 +33,15 @@ struct IfcProduct {
   std::string predefined;              // SECURITYLIGHTING; the product's, else its type's
   std::string operation;               // SINGLE_SWING_LEFT, of doors
   std::string storey;                  // name of the storey that contains it; "" where none does
+  uint64_t storey_id = 0;              // several storeys may have one name
+  uint64_t part_of = 0;                // id of the element that it is a part of; 0 where none is
   std::vector<std::string> materials;  // layers from the outside in, or all that are named
   std::string layer;                   // of the presentation (CAD)
   Transform placement;
-  bool has_shape = false;           // or should have one
+  bool has_shape = false;           // a body, or should have one
+  bool is_solid = false;            // its body is made of solids, which must be closed
+  std::string other_shapes;         // representations that are no body: "Clearance"
+  std::string taken_as;             // representation that was taken as the body for want of one
   std::optional<double> volume_m3;  // as authored; net where both are given
   uint64_t fills = 0, voids = 0;    // id of the opening it fills, of the element it voids
   std::map<std::string, std::string> properties;  // "Pset_DoorCommon.FireExit" -> "T"
@@ -55,6 +52,7 @@ struct IfcProduct {
 };
 
 struct IfcStorey {
+  uint64_t id = 0;
   std::string name;
   double elevation_m = 0;
 };
@@ -72,5 +70,7 @@ struct IfcModel {
 /// Errors: not a STEP file, no unit of length, more than the limits.
 Result<IfcModel> ifc_model_of(std::string bytes, const std::string& file,
                               ReadingShare* reading = nullptr);
+/// The same from an exchange file. Errors: no unit of length.
+Result<IfcModel> ifc_model_of(const StepFile& step, const std::string& file);
 
 }  // namespace luxodus

@@ -58,6 +58,7 @@ class StepFile {
   /// The parameters of an instance; fewer if they are damaged.
   std::vector<StepValue> parameters(const Instance& instance) const;
 
+  const std::string& text() const { return *text_; }
   /// "IFC2X3", "IFC4", ... in capitals; "" where the file states none.
   const std::string& schema() const { return schema_; }
   const std::vector<Problem>& faults() const { return faults_; }

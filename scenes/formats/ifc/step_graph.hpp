@@ -23,6 +23,8 @@ class StepNode {
   uint64_t id() const { return instance_ == nullptr ? 0 : instance_->id; }
   std::string_view type() const { return instance_ == nullptr ? "" : instance_->type; }
   bool is(std::string_view type) const { return this->type() == type; }
+  /// Number of parameters.
+  size_t size() const { return parameters_ == nullptr ? 0 : parameters_->size(); }
   /// A parameter by its place, from 0; an omitted one beyond the last.
   const StepValue& at(size_t place) const;
   std::string text(size_t place) const;

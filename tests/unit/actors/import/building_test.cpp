@@ -8,15 +8,17 @@
 #include <fstream>
 #include <sstream>
 
+#include "actors/import/hand_changes.hpp"
 #include "actors/import/ifc_shapes.hpp"
 #include "actors/import/import_files.hpp"
 #include "actors/import/write_building.hpp"
 #include "runtime/core/random.hpp"
 #include "scenes/formats/scene_file/scene_file.hpp"
 #include "scenes/light/geometry/mesh_tools.hpp"
-#include "scenes/light/geometry/primitives.hpp"
 #include "tests/kit/small_ifc.hpp"
+#include "tests/kit/step_text.hpp"
 #include "tests/kit/temporary_folder.hpp"
+#include "tests/unit/actors/import/building_kit.hpp"
 
 using namespace luxodus;
 using namespace luxodus::test;
@@ -25,13 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Mesh block(const glm::dvec3& low, const glm::dvec3& high) {
-  auto shape = shapes::box(high - low);
-  REQUIRE(shape.ok());
-  for (glm::dvec3& p : shape->mesh.positions) p += (low + high) / 2.0;
-  return std::move(shape).value().mesh;
-}
-
 std::string text_of(const fs::path& file) {
   std::ifstream in(file);
   std::stringstream text;
@@ -39,33 +34,10 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-const fs::path script = fs::path(LUX_SOURCE_DIR) / "actors/import/shapes/ifc_shapes.mjs";
-
-/// Whether shapes can be computed here.
-bool can_compute() {
-  if (fs::is_directory(script.parent_path() / "node_modules/@ifc-lite/wasm") &&
-      std::system("node --version > /dev/null 2>&1") == 0)
-    return true;
-  WARN("skipped: Node.js or the package @ifc-lite/wasm is not there (./setup.sh)");
-  return false;
-}
-
 Building building_from(const TemporaryFolder& folder, SmallIfc& small) {
   const std::string text = small.text();
   const fs::path file = folder.write("small.ifc", text);
-  auto model = ifc_model_of(text, file.string());
-  REQUIRE(model.ok());
-  auto shapes = ifc_shapes(file, script, 120);
-  if (!shapes) FAIL(shapes.problem().text());
-  return building_of(model.value(), std::move(shapes).value());
-}
-
-const BuildingPart& part_with(const Building& building, const std::string& word) {
-  for (const BuildingStorey& storey : building.storeys)
-    for (const BuildingPart& part : storey.parts)
-      if (part.name.find(word) != std::string::npos) return part;
-  FAIL("no part " << word);
-  return building.storeys.front().parts.front();
+  return building_of_text(text, file);
 }
 
 const std::string lamp =
@@ -152,14 +124,145 @@ TEST_CASE("leaves of a double door turn about their outer edges", "[import]") {
   CHECK(door.leaves[1].hinge.open_angle_deg == -90);
 }
 
-TEST_CASE("a floor's outline is that of the body's lowest faces", "[import]") {
-  const auto outline = floor_outline(block({1, 2, 0.5}, {4, 3, 3}));
-  REQUIRE(outline.size() == 4);
-  Bounds bounds;
-  for (const glm::dvec2& p : outline) bounds.extend(glm::dvec3(p, 0));
-  CHECK((bounds.low.x == Approx(1) && bounds.high.x == Approx(4)));
-  CHECK((bounds.low.y == Approx(2) && bounds.high.y == Approx(3)));
-  CHECK(floor_outline(Mesh{}).empty());
+TEST_CASE("a product far from all others is left out and named", "[import]") {
+  SmallIfc small;
+  const auto model = ifc_model_of(small.text(), "small.ifc");
+  REQUIRE(model.ok());
+  IfcShapes shapes;
+  const auto add = [&](const std::string& guid, const glm::dvec3& at) {
+    ImportedPart part;
+    part.name = guid + "#0";
+    part.mesh = block(at, at + glm::dvec3(1, 0.2, 3));
+    shapes.parts.push_back(part);
+  };
+  add(small.north_guid, {0, 0, 0});
+  add(small.door_guid, {5, 0, 0});
+  add(small.lamp_guid, {500'000, 5'000'000, 0});
+  const Building building = building_of(model.value(), shapes);
+  size_t parts = 0;
+  for (const BuildingStorey& storey : building.storeys) parts += storey.parts.size();
+  CHECK(parts == 2);
+  REQUIRE(building.unread.size() > 0);
+  const bool named =
+      std::any_of(building.unread.begin(), building.unread.end(), [&](const std::string& line) {
+        return line.find(small.lamp_guid) != std::string::npos &&
+               line.find("5025 km from the others") != std::string::npos;
+      });
+  CHECK(named);
+}
+
+TEST_CASE("an open solid is listed, and its part is marked in the scene", "[import]") {
+  const TemporaryFolder folder;
+  SmallIfc small;
+  const auto model = ifc_model_of(small.text(), "small.ifc");
+  REQUIRE(model.ok());
+  IfcShapes shapes;
+  ImportedPart part;
+  part.name = small.north_guid + "#0";
+  part.mesh = block({0, 0, 0}, {4, 0.2, 3});
+  part.mesh.triangles.resize(10);
+  shapes.parts.push_back(part);
+  shapes.open[small.north_guid] = 2.5;
+  const Building building = building_of(model.value(), shapes);
+  REQUIRE(building.open_solids.size() == 1);
+  CHECK(building.open_solids[0].guid == small.north_guid);
+  const auto written = write_building(building, (folder / "house").string(), "");
+  REQUIRE(written.ok());
+  REQUIRE(written->open_solids.size() == 1);
+  CHECK(written->open_solids[0].find("2.5 m2") != std::string::npos);
+  const SceneDescription scene = read(folder / "house/scene.toml");
+  const bool marked =
+      std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
+        return std::find(object.tags.begin(), object.tags.end(), "open solid") != object.tags.end();
+      });
+  CHECK(marked);
+}
+
+TEST_CASE("luminaires without a shape, lamps and things called lights are offered", "[import]") {
+  StepText text;
+  const std::string item = text.box({0, 0, -50}, {600, 200, 50});
+  const auto place = [&](double x) { return text.local(text.storey_place, {x, 1000, 3000}); };
+  const auto shape = [&] { return text.shape(text.representation(text.body, "Body", item)); };
+  text.product("IFCLIGHTFIXTURE", "bare", place(1000), "$");
+  text.product("IFCLAMP", "lamp", place(2000), shape());
+  text.product("IFCBUILDINGELEMENTPROXY", "Lighting Fixture 7", place(3000), shape());
+  text.product("IFCBUILDINGELEMENTPROXY", "Skylight", place(4000), shape());
+  const std::string whole = text.product("IFCLIGHTFIXTURE", "tubes", place(5000), "$");
+  const std::string one = text.product("IFCLAMP", "tube 1", place(5000), shape());
+  const std::string two = text.product("IFCLAMP", "tube 2", place(6000), shape());
+  text.add("IFCRELAGGREGATES(" + text.guid() + ",$,$,$," + whole + ",(" + one + "," + two + "))");
+  const auto model = ifc_model_of(text.text(), "t.ifc");
+  REQUIRE(model.ok());
+  IfcShapes shapes;
+  for (const auto& [id, x] : {std::pair(one, 5.0), std::pair(two, 6.0)}) {
+    ImportedPart part;
+    part.name = StepText::guid_of(id) + "#" + std::to_string(shapes.parts.size());
+    part.mesh = block({x, 1, 2.95}, {x + 0.6, 1.2, 3});
+    shapes.parts.push_back(part);
+  }
+  const Building building = building_of(model.value(), shapes);
+  std::vector<std::string> names;
+  for (const BuildingFixture& fixture : building.fixtures) names.push_back(fixture.name);
+  CHECK(names == std::vector<std::string>{"bare", "lamp", "Lighting Fixture 7", "tubes"});
+  CHECK(glm::length(building.fixtures[0].position - glm::dvec3(1, 1, 3)) < 1e-9);
+  // The assembly is where its lamps are, and they are its body.
+  CHECK(building.fixtures[3].position.x == Approx(5.8));
+  CHECK(building.fixtures[3].body.size() == 1);
+}
+
+TEST_CASE("intensities within a model are the photometry of their type", "[import]") {
+  const TemporaryFolder folder;
+  StepText text;
+  const std::string data =
+      text.add("IFCLIGHTDISTRIBUTIONDATA(0.,(0.,30.,60.,90.),(318.31,275.66,159.155,0.))");
+  const std::string distribution =
+      text.add("IFCLIGHTINTENSITYDISTRIBUTION(.TYPE_C.,(" + data + "))");
+  const std::string source =
+      text.add("IFCLIGHTSOURCEGONIOMETRIC('g',$,$,$," + text.axes({0, 0, -50}, {0, 0, -1}) +
+               ",$,3000.,1500.," + ".LIGHTEMITTINGDIODE.," + distribution + ")");
+  const std::string shape = text.shape(text.representation(text.body, "LightSource", source));
+  text.product("IFCLIGHTFIXTURE", "own", text.local(text.storey_place, {0, 0, 3000}), shape);
+  const auto model = ifc_model_of(text.text(), "t.ifc");
+  REQUIRE(model.ok());
+  const auto written =
+      write_building(building_of(model.value(), IfcShapes{}), (folder / "house").string(), "");
+  REQUIRE(written.ok());
+  CHECK(written->luminaires == 1);
+  CHECK(written->asked.empty());
+  const SceneDescription scene = read(folder / "house/scene.toml");
+  REQUIRE(scene.emitters.size() == 1);
+  // The trapezoidal rule over four angles of Lambert's law.
+  CHECK(scene.emitters[0].mains_flux == Approx(1500).epsilon(0.03));
+  CHECK(scene.emitters[0].frame.origin.z == Approx(2.95));
+}
+
+TEST_CASE("tables of the building that a person has changed or removed stay so", "[import]") {
+  const std::string head = "include = []\n\n[[import]]\nname = \"a\"\n";
+  const auto area = [](const std::string& name, const std::string& guid, int z) {
+    return "\n[[open_area]]\nname = \"" + name + "\"\nz = " + std::to_string(z) +
+           "\nifc_guid = \"" + guid + "\"\n";
+  };
+  const auto exit = [](const std::string& name) {
+    return "\n[[emphasis]]\nname = \"" + name + "\"\n# ifc_guid = \"D\"\n";
+  };
+  const std::string first = head + area("Hall", "A", 0) + area("Hall", "A", 1) +
+                            area("Office", "B", 0) + area("Store", "C", 0) + exit("Exit");
+  const std::string by_hand = head + area("Hall", "A", 0) + area("Gallery", "A", 1) +
+                              area("Store", "C", 0) + exit("Main exit");
+  const std::string second = head + area("Hall", "A", 2) + area("Hall", "A", 3) +
+                             area("Office", "B", 2) + area("Store", "C", 2) + area("New", "E", 2) +
+                             exit("Exit");
+  const HandChanges kept = with_hand_changes(second, by_hand, first);
+  CHECK(kept.text.find(area("Hall", "A", 2)) != std::string::npos);
+  CHECK(kept.text.find(area("Gallery", "A", 1)) != std::string::npos);
+  CHECK(kept.text.find("Office") == std::string::npos);
+  CHECK(kept.text.find(area("Store", "C", 2)) != std::string::npos);
+  CHECK(kept.text.find(area("New", "E", 2)) != std::string::npos);
+  CHECK(kept.text.find("name = \"Main exit\"") != std::string::npos);
+  CHECK(kept.notes.size() == 3);
+  // In the next import they still differ from the copy, which is that of the model.
+  CHECK(with_hand_changes(second, kept.text, second).text == kept.text);
+  CHECK(with_hand_changes(second, first, first).text == second);
 }
 
 TEST_CASE("a written binary glTF reads back with its names, materials and places", "[import]") {

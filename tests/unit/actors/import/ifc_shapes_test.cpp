@@ -60,7 +60,7 @@ std::string script_that_says(const std::string& said) {
          "const bin = Buffer.alloc(36);\n"
          "[0, 0, 0, 1, 0, 0, 0, 1, 0].forEach((x, i) => bin.writeFloatLE(x, 4 * i));\n"
          "const text = JSON.stringify({ asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] "
-         "}],\n  nodes: [{ name: 'part', mesh: 0 }],\n"
+         "}],\n  nodes: [{ name: 'part#3', mesh: 0 }],\n"
          "  meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }],\n"
          "  accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: 'VEC3',\n"
          "    min: [0, 0, 0], max: [1, 1, 0] }],\n"
@@ -129,13 +129,13 @@ TEST_CASE("shapes without their position are rejected, and nothing is moved sile
   const auto shapes_of = [&](const std::string& said) {
     return ifc_shapes(model, folder.write("shapes.mjs", script_that_says(said)), 60);
   };
-  const auto whole = shapes_of("console.log('offset 10 20 -30');\n");
+  const auto whole = shapes_of("console.log('at 3 10 20 -30');\n");
   if (!whole) FAIL(whole.problem().text());
   REQUIRE(whole->parts.size() == 1);
   CHECK(glm::length(whole->parts[0].mesh.positions.at(0) - glm::dvec3(10, 30, 20)) < 1e-9);
-  for (const char* said :
-       {"", "console.log('offset 1 2');\n", "console.log('offset 1 2 nan');\n",
-        "console.log('offset 1 2 3 4');\n", "console.log('rtcOffset 1 2 3');\n"}) {
+  for (const char* said : {"", "console.log('at 3 1 2');\n", "console.log('at 3 1 2 nan');\n",
+                           "console.log('at 3 1 2 3 4');\n", "console.log('at 2 1 2 3');\n",
+                           "console.log('offset 1 2 3');\n"}) {
     INFO(said);
     const auto lost = shapes_of(said);
     REQUIRE_FALSE(lost.ok());
@@ -150,7 +150,7 @@ TEST_CASE("notes beyond the limit are counted", "[import]") {
   const auto shapes = ifc_shapes(
       model,
       folder.write("shapes.mjs",
-                   script_that_says("console.log('offset 0 0 0');\n"
+                   script_that_says("console.log('at 3 0 0 0');\n"
                                     "for (let i = 0; i < 207; ++i) console.log(`note ${i}`);\n")),
       60);
   if (!shapes) FAIL(shapes.problem().text());

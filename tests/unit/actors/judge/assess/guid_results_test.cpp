@@ -56,3 +56,16 @@ TEST_CASE("without GlobalIds there is no table of results by GlobalId", "[assess
   assessment["places"]["areas"][0].erase("ifc_guid");
   CHECK_FALSE(results_by_guid(assessment));
 }
+
+TEST_CASE("checks by GlobalId are properties with the measures of IFC", "[assess]") {
+  Json assessment = small_assessment();
+  assessment["checks"][0]["rule_set"] = "en1838-2024";
+  const auto table = property_sets_by_guid(assessment);
+  REQUIRE(table);
+  CHECK(table->text() ==
+        "GlobalId,PropertySet,Property,Value,ValueType,Unit\n"
+        "L1,Luxodus_EmergencyLighting,EmergencyFlux,120,IfcLuminousFluxMeasure,lm\n"
+        "R1,Luxodus_en1838-2024,E6 core: value,0.75,IfcIlluminanceMeasure,lx\n"
+        "R1,Luxodus_en1838-2024,E6 core: limit,0.5,IfcIlluminanceMeasure,lx\n"
+        "R1,Luxodus_en1838-2024,E6 core: verdict,pass,IfcLabel,\"\"\n");
+}

@@ -311,3 +311,19 @@ TEST_CASE("the tower that ships raises no false alarm", "[.long][inspect]") {
   REQUIRE(tower->signs.size() > 0);
   check_no_alarm(inspected(tower));
 }
+
+TEST_CASE("a part that its import has found open is reported", "[inspect]") {
+  // A tetrahedron, with and without its lowest face of half a square metre.
+  const std::string shape =
+      "v 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\no wall\nusemtl m\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  const std::string import =
+      furnished_room +
+      "[[import]]\nname = \"house\"\nfile = \"wall.obj\"\nunits = \"m\"\nup = \"z\"\n"
+      "material = \"grey50\"\n[[import.part]]\nmatch = \"wall\"\ntags = [\"open solid\"]\n";
+  const auto open = found_in(import, {{"wall.obj", shape}});
+  check_found(open, Severity::warning, "\"house.wall\" is a solid in its model");
+  CHECK(that_say(open, "0.5 m2 are missing").size() == 1);
+  std::string unmarked = import;
+  unmarked.replace(unmarked.find("open solid"), 10, "wall");
+  CHECK(that_say(found_in(unmarked, {{"wall.obj", shape}}), "is a solid").empty());
+}

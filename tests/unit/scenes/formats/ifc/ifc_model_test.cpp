@@ -6,6 +6,7 @@
 
 #include "runtime/core/regular_file.hpp"
 #include "tests/kit/small_ifc.hpp"
+#include "tests/kit/step_text.hpp"
 
 using namespace luxodus;
 using namespace luxodus::test;
@@ -150,4 +151,123 @@ TEST_CASE("models of other programs have the content that their authors meant", 
   CHECK(fixtures == 5);  // and one receptacle of another type class
   const IfcModel hostile = read("room_hostile_own.ifc");
   CHECK(hostile.faults.size() >= 2);
+}
+
+namespace {
+
+const IfcProduct& product_called(const IfcModel& model, const std::string& name) {
+  for (const IfcProduct& product : model.products)
+    if (product.name == name) return product;
+  FAIL("no product " << name);
+  return model.products.front();
+}
+
+}  // namespace
+
+TEST_CASE("property sets in a definition set are read", "[ifc]") {
+  StepText text;
+  const std::string door =
+      text.product("IFCDOOR", "D", text.local(text.storey_place, {0, 0, 0}), "$", ",$,$,$,$,$");
+  const std::string fire = text.add("IFCPROPERTYSINGLEVALUE('FireExit',$,IFCBOOLEAN(.T.),$)");
+  const std::string out = text.add("IFCPROPERTYSINGLEVALUE('IsExternal',$,IFCBOOLEAN(.T.),$)");
+  const std::string one =
+      text.add("IFCPROPERTYSET(" + text.guid() + ",$,'Pset_DoorCommon',$,(" + fire + "))");
+  const std::string two =
+      text.add("IFCPROPERTYSET(" + text.guid() + ",$,'Pset_Own',$,(" + out + "))");
+  text.add("IFCRELDEFINESBYPROPERTIES(" + text.guid() + ",$,$,$,(" + door +
+           "),IFCPROPERTYSETDEFINITIONSET((" + one + "," + two + ")))");
+  const IfcModel model = model_of(text.text());
+  CHECK(product_called(model, "D").property("Pset_DoorCommon.FireExit") == "T");
+  CHECK(product_called(model, "D").property("Pset_Own.IsExternal") == "T");
+}
+
+TEST_CASE("storeys of one name are two, and nested parts are in that of their whole", "[ifc]") {
+  StepText text;
+  const std::string above = text.local(text.site_place, {0, 0, 3200});
+  const std::string upper = text.add_storey("Level 1", above);
+  const std::string place = text.local(above, {0, 0, 0});
+  const std::string whole =
+      text.add("IFCFURNITURE(" + text.guid() + ",$,'whole',$,$," + place + ",$,$,$)");
+  const std::string part =
+      text.add("IFCFURNITURE(" + text.guid() + ",$,'part',$,$," + place + ",$,$,$)");
+  text.add("IFCRELNESTS(" + text.guid() + ",$,$,$," + whole + ",(" + part + "))");
+  text.add("IFCRELCONTAINEDINSPATIALSTRUCTURE(" + text.guid() + ",$,$,$,(" + whole + ")," + upper +
+           ")");
+  text.wall(text.box({0, 0, 0}, {4000, 200, 3000}));
+  const IfcModel model = model_of(text.text());
+  REQUIRE(model.storeys.size() == 2);
+  CHECK(model.storeys[0].id != model.storeys[1].id);
+  CHECK(product_called(model, "W").storey_id == model.storeys[0].id);
+  CHECK(product_called(model, "whole").storey_id == model.storeys[1].id);
+  CHECK(product_called(model, "part").storey_id == model.storeys[1].id);
+  CHECK(product_called(model, "part").part_of == product_called(model, "whole").id);
+}
+
+TEST_CASE("a product at the intersection of grid axes has its place", "[ifc]") {
+  StepText text;
+  const auto axis = [&](const std::string& tag, const glm::dvec2& from, const glm::dvec2& to) {
+    const std::string line =
+        text.add("IFCPOLYLINE((" + text.point(from) + "," + text.point(to) + "))");
+    return text.add("IFCGRIDAXIS('" + tag + "'," + line + ",.T.)");
+  };
+  const std::string a = axis("A", {0, 5000}, {9000, 5000}), b = axis("1", {3000, 0}, {3000, 9000});
+  const std::string at = text.local(text.storey_place, {10000, 0, 2000});
+  text.add("IFCGRID(" + text.guid() + ",$,'grid',$,$," + at + ",$,(" + a + "),(" + b + "),$,$)");
+  const std::string where =
+      text.add("IFCVIRTUALGRIDINTERSECTION((" + a + "," + b + "),(100.,200.,300.))");
+  const std::string place = text.add("IFCGRIDPLACEMENT(" + where + ",$)");
+  text.product("IFCCOLUMN", "C", place, "$");
+  const std::string newer = text.add("IFCGRIDPLACEMENT($," + where + ",$)");  // as in IFC4x3
+  text.product("IFCCOLUMN", "D", newer, "$");
+  const std::string nowhere =
+      text.add("IFCGRIDPLACEMENT(" +
+               text.add("IFCVIRTUALGRIDINTERSECTION((" + a + "," + a + "),(0.,0.))") + ",$)");
+  text.product("IFCCOLUMN", "E", nowhere, "$");
+  const IfcModel model = model_of(text.text());
+  // Offsets count to the left of an axis: up from A, to the west of 1.
+  for (const char* name : {"C", "D"})
+    CHECK(glm::length(product_called(model, name).placement.offset - glm::dvec3(12.8, 5.1, 2.3)) <
+          1e-9);
+  REQUIRE(model.faults.size() == 1);
+  CHECK(model.faults[0].what.find("leads nowhere") != std::string::npos);
+}
+
+TEST_CASE("light sources within a model give place, direction and intensities", "[ifc]") {
+  StepText text;
+  const auto fixture = [&](const std::string& name, const std::string& source) {
+    const std::string shape = text.shape(text.representation(text.body, "LightSource", source));
+    text.product("IFCLIGHTFIXTURE", name, text.local(text.storey_place, {1000, 2000, 3000}), shape);
+  };
+  const auto gonio = [&](const std::string& data, const std::string& flux) {
+    const std::string distribution =
+        text.add("IFCLIGHTINTENSITYDISTRIBUTION(.TYPE_C.,(" + data + "))");
+    const std::string place = text.axes({0, 0, -50}, {0, 0, -1});
+    return text.add("IFCLIGHTSOURCEGONIOMETRIC('g',$,$,$," + place + ",$,3000.," + flux +
+                    ",.LIGHTEMITTINGDIODE.," + distribution + ")");
+  };
+  // Lambert's law: 1000 lm / pi = 318.31 cd/klm on the axis.
+  const std::string lambert =
+      text.add("IFCLIGHTDISTRIBUTIONDATA(0.,(0.,30.,60.,90.),(318.31,275.66,159.155,0.))");
+  const std::string loud = text.add("IFCLIGHTDISTRIBUTIONDATA(0.,(0.,45.,90.),(9000.,9000.,0.))");
+  fixture("lambert", gonio(lambert, "1500."));
+  fixture("no flux", gonio(lambert, "0."));
+  fixture("loud", gonio(loud, "1500."));
+  fixture("spot", text.add("IFCLIGHTSOURCESPOT('s',$,$,$," + text.point({0, 0, -50}) +
+                           ",10.,0.,0.,0.," + text.direction({1, 0, 0}) + ",1.,30.,20.)"));
+  const IfcModel model = model_of(text.text());
+  const auto light = product_called(model, "lambert").light;
+  REQUIRE(light);
+  CHECK(glm::length(light->position - glm::dvec3(1, 2, 2.95)) < 1e-12);
+  CHECK(glm::length(light->axis - glm::dvec3(0, 0, -1)) < 1e-12);
+  const auto ies = ies_text_of(*light, "lambert");
+  REQUIRE(ies.ok());
+  CHECK(ies->find("\n477.465 413.49 238.7325 0\n") != std::string::npos);
+  CHECK_FALSE(ies_text_of(*product_called(model, "no flux").light, "x").ok());
+  const auto refused = ies_text_of(*product_called(model, "loud").light, "x");
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.problem().what.find("neither can be") != std::string::npos);
+  const auto spot = product_called(model, "spot").light;
+  REQUIRE(spot);
+  CHECK(spot->kind == "spot");
+  CHECK(spot->axis == glm::dvec3(1, 0, 0));
 }

@@ -1,0 +1,48 @@
+// An IFC model as the library that computes shapes is to read it: the bodies of products and no
+// other representation, and in place of profiles, solids, indices and placements that the library
+// does not read, equal ones that it does. Points far from the origin of their product, which it
+// would round to single precision, are moved near it, and the product's placement back. Pure
+// function; any thread.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scenes/formats/ifc/ifc_model.hpp"
+
+namespace luxodus {
+
+namespace limits {
+/// Points of a shape beyond this distance from the origin of its product are moved [m]: single
+/// precision then has a step of 0.06 mm.
+inline constexpr double ifc_far_m = 1000;
+/// Notes about items without a shape.
+inline constexpr size_t ifc_shape_notes = 200;
+}  // namespace limits
+
+struct IfcShapeInput {
+  StepFile file;
+  std::vector<std::string> notes;  // what has no shape, or a simplified one
+};
+
+/// Errors: as StepFile::of.
+Result<IfcShapeInput> ifc_shape_input(const StepFile& file, const IfcModel& model);
+
+/// Volumes [m3] of products whose solids are known here, by their numbers; of none with openings.
+/// `prepared`: the file of ifc_shape_input.
+std::map<uint64_t, double> ifc_solid_volumes(const StepFile& prepared, const IfcModel& model);
+
+struct IfcMendedInput {
+  StepFile file;
+  std::set<uint64_t> products;  // those whose bodies were changed
+};
+
+/// The file with the bodies of these products, where they are known here, as breps.
+/// Nothing if none is. `prepared`: the file of ifc_shape_input.
+std::optional<IfcMendedInput> ifc_mended_input(const StepFile& prepared, const IfcModel& model,
+                                               const std::set<uint64_t>& products);
+
+}  // namespace luxodus
